@@ -1,0 +1,107 @@
+# Functions that make this project's targets: one library a layer, one test program a suite, one shader library a folder.
+
+add_library(gloam_options INTERFACE)
+target_compile_features(gloam_options INTERFACE cxx_std_20)
+target_compile_options(gloam_options INTERFACE
+  $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wno-missing-field-initializers>
+  $<BUILD_INTERFACE:$<$<BOOL:${GLOAM_WARNINGS_AS_ERRORS}>:-Werror>>)
+target_compile_definitions(gloam_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE)
+# No contraction: a CPU twin and the same code in another translation unit must agree bit for bit.
+target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
+if(GLOAM_SANITIZE)
+  target_compile_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE})
+endif()
+
+# gloam_add_layer(<name> SOURCES … [PUBLIC targets…] [PRIVATE targets…])
+# Static library gloam_<name>, exported as gloam::<name>. Included by full path from the root.
+function(gloam_add_layer name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(gloam_${name} STATIC ${ARG_SOURCES})
+  add_library(gloam::${name} ALIAS gloam_${name})
+  set_target_properties(gloam_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(gloam_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+    $<INSTALL_INTERFACE:include>)
+  target_link_libraries(gloam_${name} PUBLIC gloam_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_${name})
+endfunction()
+
+# gloam_add_shaders(<folder> <file.comp.glsl>…)
+# Compiles shaders/<folder>/<file> and embeds the words: library gloam_shaders_<folder>, header shaders/<folder>/shaders.h in the build
+# tree, which declares gloam::shaders::<folder>::<file with _ for .>.
+function(gloam_add_shaders folder)
+  set(out_dir ${PROJECT_BINARY_DIR}/generated/shaders/${folder})
+  file(MAKE_DIRECTORY ${out_dir})
+  set(declarations "")
+  set(definitions "")
+  set(includes "")
+  set(outputs "")
+  foreach(source IN LISTS ARGN)
+    string(REGEX REPLACE "\\.glsl$" "" stem ${source})
+    string(REPLACE "." "_" symbol ${stem})
+    string(REGEX REPLACE ".*\\.(comp|vert|frag)$" "\\1" stage ${stem})
+    set(output ${out_dir}/${stem}.spv.h)
+    add_custom_command(OUTPUT ${output}
+      COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.3 -S ${stage} -I${PROJECT_SOURCE_DIR} -g0 --vn ${symbol}_words
+        --depfile ${output}.d -o ${output} ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
+      DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
+      DEPFILE ${output}.d
+      COMMENT "Shader ${folder}/${source}" VERBATIM)
+    list(APPEND outputs ${output})
+    string(APPEND declarations "extern const gpu::ShaderCode ${symbol};\n")
+    string(APPEND includes "#include \"shaders/${folder}/${stem}.spv.h\"\n")
+    string(APPEND definitions "const gpu::ShaderCode ${symbol}{\"${folder}/${stem}\", ${symbol}_words};\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${out_dir}/shaders.h CONTENT
+"#pragma once
+#include \"engine/gpu/types.h\"
+namespace gloam::shaders::${folder} {
+${declarations}}
+")
+  file(CONFIGURE OUTPUT ${out_dir}/shaders.cpp CONTENT
+"#include \"shaders/${folder}/shaders.h\"
+#include <cstdint>
+namespace {
+${includes}}
+namespace gloam::shaders::${folder} {
+${definitions}}
+")
+  add_custom_target(gloam_shaders_${folder}_words DEPENDS ${outputs})
+  add_library(gloam_shaders_${folder} STATIC ${out_dir}/shaders.cpp ${outputs})
+  add_library(gloam::shaders_${folder} ALIAS gloam_shaders_${folder})
+  set_target_properties(gloam_shaders_${folder} PROPERTIES EXPORT_NAME shaders_${folder} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(gloam_shaders_${folder} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+    $<INSTALL_INTERFACE:include>)
+  target_link_libraries(gloam_shaders_${folder} PUBLIC gloam_options)
+  set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_shaders_${folder})
+endfunction()
+
+# gloam_add_test(<suite> SOURCES … [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])
+# GoogleTest program <suite>; one CTest entry, or one a subgroup width (in bits of a lavapipe vector) when WIDTHS are given.
+function(gloam_add_test suite)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;WIDTHS;ENVIRONMENT" ${ARGN})
+  add_executable(${suite} ${ARG_SOURCES})
+  target_link_libraries(${suite} PRIVATE ${ARG_LIBRARIES} gloam_options GTest::gmock GTest::gtest_main)
+  target_include_directories(${suite} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+  target_compile_definitions(${suite} PRIVATE GLOAM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    GLOAM_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared" GLOAM_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(NOT ARG_WIDTHS)
+    add_test(NAME ${suite} COMMAND ${suite})
+    set_tests_properties(${suite} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${GLOAM_TEST_TIMEOUT}
+      ENVIRONMENT "${ARG_ENVIRONMENT}")
+  endif()
+  foreach(bits IN LISTS ARG_WIDTHS)
+    math(EXPR lanes "${bits} / 32")
+    add_test(NAME ${suite}.width${lanes} COMMAND ${suite})
+    set_tests_properties(${suite}.width${lanes} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${GLOAM_TEST_TIMEOUT}
+      ENVIRONMENT "${ARG_ENVIRONMENT};LP_NATIVE_VECTOR_WIDTH=${bits}")
+  endforeach()
+endfunction()
+
+# gloam_add_properties(<suite> …): as gloam_add_test, with RapidCheck linked.
+function(gloam_add_properties suite)
+  gloam_add_test(${suite} ${ARGN})
+  target_link_libraries(${suite} PRIVATE rapidcheck)
+endfunction()

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+
+namespace gloam {
+
+/// A stretch of a mapped upload buffer, valid until the frame it was taken in has ended on the GPU.
+struct UploadSlice {
+  gpu::BufferHandle buffer;
+  std::uint64_t offset = 0;
+  std::span<std::byte> bytes;
+};
+
+/// Per-frame scratch memory the CPU writes and the GPU reads: one growing ring a frame in flight. Alignment 256 bytes.
+class UploadRing {
+ public:
+  UploadRing(gpu::Device& device, std::string module, gpu::BufferUsage usage, std::uint64_t first_bytes = 1 << 20);
+  ~UploadRing();
+  UploadRing(const UploadRing&) = delete;
+  UploadRing& operator=(const UploadRing&) = delete;
+
+  /// After Device::begin_frame: forgets what this frame's slot held.
+  void begin_frame();
+  [[nodiscard]] Result<UploadSlice> allocate(std::uint64_t bytes);
+  /// Allocates and copies; gives the binding for it.
+  [[nodiscard]] Result<gpu::Binding::BufferRange> write(std::span<const std::byte> data);
+  template <class T>
+  [[nodiscard]] Result<gpu::Binding::BufferRange> write_value(const T& value) {
+    return write(std::as_bytes(std::span(&value, 1)));
+  }
+
+ private:
+  struct Slot {
+    std::vector<gpu::BufferHandle> blocks;
+    std::vector<std::uint64_t> sizes;
+    std::size_t block = 0;
+    std::uint64_t used = 0;
+  };
+  gpu::Device& device_;
+  std::string module_;
+  gpu::BufferUsage usage_;
+  std::uint64_t first_bytes_;
+  std::vector<Slot> slots_;
+};
+
+/// Fills device buffers and images once (meshes, textures): stages, submits frames of its own and waits. Not for per-frame use.
+class Uploader {
+ public:
+  explicit Uploader(gpu::Device& device) : device_(device) {}
+  void buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after);
+  /// All mips of all layers, tightly packed, layer by layer and inside a layer mip by mip.
+  void image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after);
+  /// Does all that was asked for since the last call.
+  [[nodiscard]] Status flush();
+
+ private:
+  struct Job {
+    gpu::BufferHandle buffer;
+    gpu::ImageHandle image;
+    std::vector<std::byte> bytes;
+    gpu::Access after = gpu::Access::none;
+  };
+  gpu::Device& device_;
+  std::vector<Job> jobs_;
+};
+
+}  // namespace gloam

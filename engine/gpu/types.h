@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+/// Plain descriptions of GPU objects, free of any graphics API's headers.
+namespace gloam::gpu {
+
+/// A name for a GPU object. Zero is "none"; generations make a stale handle detectable.
+template <class Tag>
+struct Handle {
+  std::uint32_t index = 0;
+  std::uint32_t generation = 0;
+  [[nodiscard]] explicit operator bool() const { return generation != 0; }
+  auto operator<=>(const Handle&) const = default;
+};
+using BufferHandle = Handle<struct BufferTag>;
+using ImageHandle = Handle<struct ImageTag>;
+using SamplerHandle = Handle<struct SamplerTag>;
+using PipelineHandle = Handle<struct PipelineTag>;
+using ResourceSetHandle = Handle<struct ResourceSetTag>;
+
+enum class Format : std::uint8_t {
+  undefined,
+  r8_unorm,
+  rgba8_unorm,
+  rgba8_srgb,
+  bgra8_unorm,
+  bgra8_srgb,
+  rgb10a2_unorm,
+  rg11b10_float,
+  r16_uint,
+  r16_float,
+  rg16_unorm,
+  rg16_snorm,
+  rg16_float,
+  rgba16_float,
+  r32_uint,
+  rg32_uint,
+  rgba32_uint,
+  r32_float,
+  rg32_float,
+  rgb32_float,  ///< vertex attributes only
+  rgba32_float,
+  rgba8_uint,   ///< vertex attributes and images
+  rgba16_uint,  ///< vertex attributes only
+  d32_float,
+};
+
+[[nodiscard]] std::uint32_t bytes_per_texel(Format format);
+[[nodiscard]] bool is_depth(Format format);
+[[nodiscard]] std::string_view name_of(Format format);
+
+template <class E>
+constexpr bool kIsFlags = false;
+template <class E>
+  requires(kIsFlags<E>)
+constexpr E operator|(E a, E b) {
+  return static_cast<E>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+template <class E>
+  requires(kIsFlags<E>)
+constexpr bool has(E set, E flag) {
+  return (static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(flag)) != 0;
+}
+
+enum class BufferUsage : std::uint32_t {
+  none = 0,
+  transfer_source = 1,
+  transfer_target = 2,
+  uniform = 4,
+  storage = 8,
+  index = 16,
+  vertex = 32,
+  indirect = 64,
+};
+template <>
+inline constexpr bool kIsFlags<BufferUsage> = true;
+
+enum class ImageUsage : std::uint32_t {
+  none = 0,
+  transfer_source = 1,
+  transfer_target = 2,
+  sampled = 4,
+  storage = 8,
+  color_target = 16,
+  depth_target = 32,
+};
+template <>
+inline constexpr bool kIsFlags<ImageUsage> = true;
+
+enum class MemoryKind : std::uint8_t {
+  device,    ///< fastest for the GPU; not mapped
+  upload,    ///< mapped, written by the CPU front to back, read by the GPU
+  readback,  ///< mapped, written by the GPU, read by the CPU
+};
+
+/// `module` is the name memory is accounted under ("engine" or a module's name).
+struct BufferDesc {
+  std::string name;
+  std::string module;
+  std::uint64_t size = 0;  ///< bytes, > 0
+  BufferUsage usage = BufferUsage::none;
+  MemoryKind memory = MemoryKind::device;
+};
+
+enum class ImageShape : std::uint8_t { plain, array, cube };
+
+struct ImageDesc {
+  std::string name;
+  std::string module;
+  Format format = Format::undefined;
+  std::uint32_t width = 1;
+  std::uint32_t height = 1;
+  std::uint32_t layers = 1;
+  std::uint32_t mips = 1;
+  ImageUsage usage = ImageUsage::none;
+  ImageShape shape = ImageShape::plain;
+};
+
+enum class Filter : std::uint8_t { nearest, linear };
+enum class AddressMode : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
+enum class CompareOp : std::uint8_t { never, less, less_equal, equal, greater, greater_equal, always };
+
+struct SamplerDesc {
+  Filter min_filter = Filter::linear;
+  Filter mag_filter = Filter::linear;
+  Filter mip_filter = Filter::linear;
+  AddressMode address_u = AddressMode::repeat;
+  AddressMode address_v = AddressMode::repeat;
+  float max_anisotropy = 1.0f;
+  bool compare = false;
+  CompareOp compare_op = CompareOp::greater_equal;
+  bool operator==(const SamplerDesc&) const = default;
+};
+
+/// Part of an image, as a pass or a binding sees it. Counts of 0 mean "all the rest".
+struct ImageView {
+  ImageHandle image;
+  std::uint32_t first_mip = 0;
+  std::uint32_t mip_count = 0;
+  std::uint32_t first_layer = 0;
+  std::uint32_t layer_count = 0;
+  bool as_array = false;  ///< view one layer or many as an array; implied when layer_count is above 1
+  bool operator==(const ImageView&) const = default;
+};
+
+/// One resource bound to a shader. `size` 0 means "to the end of the buffer".
+struct Binding {
+  struct BufferRange {
+    BufferHandle buffer;
+    std::uint64_t offset = 0;
+    std::uint64_t size = 0;
+  };
+  struct Sampled {
+    ImageView view;
+    SamplerHandle sampler;
+  };
+  struct Storage {
+    ImageView view;
+  };
+  std::uint32_t binding = 0;
+  std::variant<BufferRange, Sampled, Storage> resource;
+};
+
+/// SPIR-V with entry point "main". The words must outlive the device's use of them (embedded shaders do).
+struct ShaderCode {
+  std::string_view name;
+  std::span<const std::uint32_t> words;
+};
+
+struct SpecConstant {
+  std::uint32_t id = 0;
+  std::uint32_t value = 0;
+};
+
+struct ComputePipelineDesc {
+  std::string name;
+  std::string module;
+  ShaderCode shader;
+  std::vector<SpecConstant> constants;
+};
+
+enum class CullMode : std::uint8_t { none, front, back };
+enum class BlendMode : std::uint8_t { opaque, alpha, premultiplied, additive };
+
+struct VertexAttribute {
+  std::uint32_t location = 0;
+  std::uint32_t stream = 0;
+  Format format = Format::undefined;
+  std::uint32_t offset = 0;
+};
+
+struct GraphicsPipelineDesc {
+  std::string name;
+  std::string module;
+  ShaderCode vertex;
+  ShaderCode fragment;  ///< no words: depth only
+  std::vector<SpecConstant> constants;
+  std::vector<VertexAttribute> attributes;
+  std::vector<std::uint32_t> stream_strides;  ///< bytes, one a vertex stream
+  std::vector<Format> color_formats;
+  Format depth_format = Format::undefined;
+  CullMode cull = CullMode::back;  ///< front faces are counter-clockwise in the picture
+  BlendMode blend = BlendMode::opaque;
+  CompareOp depth_compare = CompareOp::greater_equal;
+  bool depth_write = true;
+  bool depth_bias = false;  ///< values come from CommandList::set_depth_bias
+};
+
+/// What an access does, for barriers. Each names its stage, access and image layout.
+enum class Access : std::uint8_t {
+  none,
+  transfer_read,
+  transfer_write,
+  host_read,
+  vertex_input,   ///< vertex and index buffers
+  indirect_read,
+  uniform_read,   ///< any shader stage
+  vertex_read,    ///< storage or sampled, vertex stage
+  fragment_read,  ///< storage buffer or sampled image, fragment stage
+  compute_read,   ///< storage buffer or sampled image, compute stage
+  compute_storage_read,  ///< storage image read in compute (general layout)
+  compute_write,         ///< storage write, or read and write, compute
+  fragment_write,        ///< storage write, fragment
+  color_target,          ///< written, possibly loaded and blended
+  depth_target,          ///< tested and written
+  depth_test,            ///< tested only; may be sampled by fragments of the same pass
+  present,
+};
+[[nodiscard]] bool is_write(Access access);
+[[nodiscard]] std::string_view name_of(Access access);
+
+struct BufferBarrier {
+  BufferHandle buffer;
+  Access before = Access::none;
+  Access after = Access::none;
+};
+struct ImageBarrier {
+  ImageHandle image;
+  Access before = Access::none;  ///< none: contents may be thrown away
+  Access after = Access::none;
+};
+
+enum class LoadOp : std::uint8_t { load, clear, discard };
+struct ColorTarget {
+  ImageView view;
+  LoadOp load = LoadOp::clear;
+  std::array<float, 4> clear = {0.0f, 0.0f, 0.0f, 0.0f};
+};
+struct DepthTarget {
+  ImageView view;
+  LoadOp load = LoadOp::clear;
+  float clear = 0.0f;
+  bool read_only = false;
+};
+struct RenderingDesc {
+  std::vector<ColorTarget> colors;
+  DepthTarget depth;  ///< view.image none: no depth
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+};
+
+enum class DeviceType : std::uint8_t { discrete, integrated, cpu, other };
+[[nodiscard]] std::string_view name_of(DeviceType type);
+
+struct DeviceInfo {
+  std::string name;
+  std::string driver;
+  DeviceType type = DeviceType::other;
+  std::uint32_t subgroup_size = 0;
+  std::uint64_t max_storage_range = 0;  ///< bytes of one storage binding
+};
+
+struct ModuleMemory {
+  std::string module;
+  std::uint64_t bytes = 0;
+};
+
+}  // namespace gloam::gpu

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/math/types.h"
+
+namespace gloam {
+
+/// Octahedral code of a unit vector in [−1, 1]²; the zero vector codes as +Z.
+[[nodiscard]] vec2 octahedral_encode(vec3 unit);
+[[nodiscard]] vec3 octahedral_decode(vec2 code);
+
+/// 2 × 16-bit signed normalised octahedral normal; angle error < 0.01°.
+[[nodiscard]] std::uint32_t pack_normal_snorm16(vec3 unit);
+[[nodiscard]] vec3 unpack_normal_snorm16(std::uint32_t packed);
+
+/// IEEE half precision, round to nearest even, overflow to infinity, NaN kept.
+[[nodiscard]] std::uint16_t float_to_half(float value);
+[[nodiscard]] float half_to_float(std::uint16_t half);
+
+/// sRGB transfer function, exact piecewise form, for one channel in [0, 1].
+[[nodiscard]] float srgb_to_linear(float srgb);
+[[nodiscard]] float linear_to_srgb(float linear);
+
+}  // namespace gloam
