@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/ecs/world.h"
+#include "engine/render/knobs.h"
+#include "engine/render/view.h"
+#include "engine/scene/key_registry.h"
+#include "engine/schedule/schedule.h"
+
+namespace gloam {
+
+class FrameBuilder;
+
+/// Whether a world and view call for an effect, and why (or why not), in a few words for people.
+struct Demand {
+  bool needed = false;
+  std::string reason;
+};
+
+/// Where in the frame a module adds passes; inside a phase, modules come in the order of their list.
+enum class PassPhase {
+  lists,        ///< after geometry and depth bounds: light lists, shadows
+  shading,      ///< opaque surfaces and sky into linear light
+  translucent,  ///< forward-lit things over them
+  post,         ///< on linear light: depth of field, bloom
+  output,       ///< linear light → picture
+};
+inline constexpr PassPhase kAllPhases[] = {PassPhase::lists, PassPhase::shading, PassPhase::translucent, PassPhase::post,
+                                           PassPhase::output};
+
+/// A picture a module can show instead of the lit one.
+struct VisualizerInfo {
+  std::string name;  ///< "light_list"; takes an argument after ':' when `argument` is not empty
+  std::string module;
+  std::string argument;  ///< "LIGHT"
+  std::string legend;    ///< what colours mean, one line
+  bool built = true;     ///< false: known, not built yet
+};
+
+/// Named numbers of a frame ("lights.visible").
+class CounterSink {
+ public:
+  virtual ~CounterSink() = default;
+  virtual void count(std::string_view name, double value) = 0;
+};
+
+/// One effect. Made once a renderer; its state of a world lives in the world, its GPU state in itself. What a world does not demand
+/// adds no systems to run, passes, pipelines or bytes.
+class Module {
+ public:
+  virtual ~Module() = default;
+
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  /// False while only its components and keys exist: what calls for it is told, nothing is drawn.
+  [[nodiscard]] virtual bool built() const { return true; }
+
+  virtual void register_components(World& world) const = 0;
+  virtual void scene_keys(KeyRegistry& registry) const = 0;
+  virtual void knobs(KnobRegistry& registry) const { static_cast<void>(registry); }
+  virtual void add_systems(Schedule& schedule) { static_cast<void>(schedule); }
+  [[nodiscard]] virtual std::vector<VisualizerInfo> visualizers() const { return {}; }
+
+  /// Asked every frame and view, and by `inspect` (without a view). Cheap: looks at counts, never at pixels.
+  [[nodiscard]] virtual Demand demand(const World& world, const View* view) const = 0;
+
+  /// Only called when demanded. Pipelines are made on first use.
+  [[nodiscard]] virtual Status add_passes(FrameBuilder& frame, PassPhase phase) {
+    static_cast<void>(frame);
+    static_cast<void>(phase);
+    return {};
+  }
+  /// Only called when demanded, after the frame was submitted.
+  virtual void counters(const World& world, const View& view, CounterSink& sink) const {
+    static_cast<void>(world);
+    static_cast<void>(view);
+    static_cast<void>(sink);
+  }
+  /// Gives back GPU objects; the next demand makes them anew.
+  virtual void release() {}
+};
+
+using ModuleList = std::vector<std::unique_ptr<Module>>;
+
+}  // namespace gloam

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/log.h"
+#include "engine/core/result.h"
+#include "engine/core/zones.h"
+#include "engine/frame/frame_graph.h"
+#include "engine/gpu/device.h"
+#include "engine/jobs/executor.h"
+#include "engine/render/module.h"
+
+namespace gloam {
+
+struct RendererOptions {
+  gpu::Device* device = nullptr;
+  JobExecutor* executor = nullptr;
+  LogSink* log = nullptr;
+  ZoneRecorder* zones = nullptr;  ///< may be null
+  ModuleList modules;             ///< in the order of the module graph
+};
+
+/// Where a view's picture goes. An image of the caller (swapchain, host) must be sRGB or UNORM colour of the view's size; it is taken
+/// with contents thrown away and left ready for `after`. No image: the renderer keeps one, see read_picture.
+struct ViewTarget {
+  gpu::ImageHandle image;
+  gpu::Access after = gpu::Access::color_target;
+};
+
+struct ViewRequest {
+  ViewSettings settings;
+  ViewTarget target;
+};
+
+struct ModuleState {
+  std::string name;
+  bool built = true;
+  bool demanded = false;
+  std::string reason;
+  std::uint32_t pipelines = 0;
+  std::uint64_t gpu_bytes = 0;
+  std::uint64_t cpu_bytes = 0;
+};
+
+/// What the last call of `render` cost; GPU figures are of the newest completed frame (after `wait`: of the last one).
+struct FrameReport {
+  double cpu_ms = 0.0;  ///< systems, declaration and recording
+  double gpu_ms = 0.0;
+  std::vector<PassTime> passes;
+  std::vector<ModuleState> modules;          ///< "engine" first, then the list's order
+  std::map<std::string, double> counters;    ///< of the last view
+};
+
+struct Picture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint8_t> rgba;  ///< sRGB-encoded, rows from the top
+};
+struct LinearPicture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<float> rgba;  ///< linear light before exposure, cd/m²
+};
+
+/// Draws worlds. Owns modules, knobs, the schedule and all GPU state; one thread at a time.
+class Renderer {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(RendererOptions options);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  [[nodiscard]] KnobRegistry& knobs();
+  [[nodiscard]] const ModuleList& modules() const;
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const;
+  /// Usage error listing what is valid; checks the argument too where the module can.
+  [[nodiscard]] Status check_visualizer(const World& world, std::string_view name) const;
+
+  /// Registers every module's components and resources; once a world, before it is filled.
+  void prepare_world(World& world) const;
+
+  /// One frame: world systems, then for every view its systems and passes, then submission. Does not wait for the GPU.
+  [[nodiscard]] Status render(World& world, std::span<const ViewRequest> views);
+  /// Until everything submitted has ended on the GPU.
+  [[nodiscard]] Status wait();
+
+  [[nodiscard]] FrameReport report();
+  /// The picture of a view that had no target image, from its last frame; waits.
+  [[nodiscard]] Result<Picture> read_picture(ViewId view);
+  /// The same frame's linear light.
+  [[nodiscard]] Result<LinearPicture> read_linear(ViewId view);
+  /// Lines of text: what the engine and the modules know about a pixel of the last frame.
+  [[nodiscard]] Result<std::vector<std::string>> pick(const World& world, ViewId view, std::uint32_t x, std::uint32_t y);
+  /// Systems and passes as text, for people and for tests.
+  [[nodiscard]] std::string describe() const;
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gloam

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/ecs/entity.h"
+#include "engine/ecs/world.h"
+#include "engine/math/frustum.h"
+#include "engine/math/types.h"
+#include "engine/scene/components.h"
+
+namespace gloam {
+
+/// What a caller asks to see.
+struct ViewSettings {
+  ViewId id{0};
+  std::uint32_t width = 1280;   ///< pixels, > 0
+  std::uint32_t height = 720;
+  dmat4 world_from_camera = dmat4(1.0);  ///< rigid; the camera looks along −Z
+  Camera camera;
+  std::string visualizer = "none";  ///< a name of Renderer::visualizers()
+};
+
+/// One view of one frame as systems and passes see it. A view resource. Positions on the GPU are relative to `position`.
+struct View {
+  ViewId id{0};
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint64_t frame = 0;          ///< counted per renderer, from 0
+  dvec3 position = dvec3(0.0);      ///< of the camera, world
+  mat4 view_from_relative = mat4(1.0);  ///< rotation only
+  mat4 clip_from_view = mat4(1.0);      ///< reversed Z
+  mat4 clip_from_relative = mat4(1.0);
+  Camera camera;
+  float near_m = 0.1f;
+  Frustum frustum;                  ///< in camera-relative space
+
+  /// Camera-relative float position of a world position.
+  [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }
+};
+
+[[nodiscard]] View make_view(const ViewSettings& settings, std::uint64_t frame);
+
+/// Settings for a camera entity (its Camera and WorldTransform), or for one fitted to the bounds of everything drawn when
+/// `camera` is kNoEntity.
+[[nodiscard]] ViewSettings settings_for_camera(const World& world, Entity camera, std::uint32_t width, std::uint32_t height);
+
+}  // namespace gloam

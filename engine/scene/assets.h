@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/math/bounds.h"
+#include "engine/math/types.h"
+
+namespace gloam {
+
+inline constexpr std::uint32_t kNone = ~0u;
+
+/// Vertex data of one triangle list, one array an attribute; optional ones are empty or as long as `positions`.
+struct Primitive {
+  std::uint32_t material = kNone;  ///< index into SceneAssets::materials; kNone: the default material
+  std::vector<vec3> positions;
+  std::vector<vec3> normals;   ///< unit length, always present after import
+  std::vector<vec4> tangents;  ///< xyz unit tangent, w = ±1 handedness; present when the material has a normal texture
+  std::vector<vec2> uv0;
+  std::vector<vec2> uv1;
+  std::vector<vec4> colors;
+  std::vector<std::array<std::uint16_t, 4>> joints;
+  std::vector<vec4> weights;  ///< sum 1
+  std::vector<std::uint32_t> indices;
+  struct MorphTarget {
+    std::vector<vec3> positions;  ///< offsets
+    std::vector<vec3> normals;    ///< offsets, may be empty
+  };
+  std::vector<MorphTarget> morph_targets;
+  Aabb bounds;  ///< of the rest positions
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+  std::vector<float> morph_weights;  ///< default weights, one a target
+  Aabb bounds;
+};
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+/// Which texture, which coordinates, and KHR_texture_transform as a 2×3 matrix: uv' = (row0·(u,v,1), row1·(u,v,1)).
+struct TextureSlot {
+  std::uint32_t texture = kNone;  ///< index into SceneAssets::textures
+  std::uint32_t uv_set = 0;       ///< 0 or 1
+  vec3 transform_row0 = vec3(1.0f, 0.0f, 0.0f);
+  vec3 transform_row1 = vec3(0.0f, 1.0f, 0.0f);
+};
+
+struct Material {
+  std::string name;
+  vec4 base_color = vec4(1.0f);
+  vec3 emissive = vec3(0.0f);  ///< linear, strength included, cd/m²
+  float metallic = 1.0f;
+  float roughness = 1.0f;
+  float normal_scale = 1.0f;
+  float occlusion_strength = 1.0f;
+  float alpha_cutoff = 0.5f;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  bool double_sided = false;
+  TextureSlot base_color_texture;
+  TextureSlot metallic_roughness_texture;
+  TextureSlot normal_texture;
+  TextureSlot occlusion_texture;
+  TextureSlot emissive_texture;
+  // Set by scene keys:
+  bool subsurface = false;
+  float reflectivity = -1.0f;  ///< < 0: from metallic and roughness
+};
+
+enum class WrapMode : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
+
+/// An 8-bit RGBA image and how it is sampled. `srgb` when colours are read from it.
+struct Texture {
+  std::string name;
+  std::uint32_t image = kNone;
+  bool srgb = false;
+  bool nearest = false;
+  WrapMode wrap_u = WrapMode::repeat;
+  WrapMode wrap_v = WrapMode::repeat;
+};
+
+struct Image {
+  std::string name;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint8_t> rgba;  ///< width · height · 4, rows from the top
+};
+
+struct Skin {
+  std::string name;
+  std::vector<std::uint32_t> joint_nodes;  ///< glTF node indices, see SceneInfo::node_entities
+  std::vector<mat4> inverse_bind;          ///< as many as joints
+};
+
+enum class AnimationPath : std::uint8_t { translation, rotation, scale, weights };
+enum class Interpolation : std::uint8_t { step, linear, cubic };
+
+/// Key frames of one property of one node. `values` holds components, `width` a key (3, 4, or the number of morph targets),
+/// three times as many for cubic (in-tangent, value, out-tangent).
+struct AnimationChannel {
+  std::uint32_t node = kNone;  ///< glTF node index
+  AnimationPath path = AnimationPath::translation;
+  Interpolation interpolation = Interpolation::linear;
+  std::uint32_t width = 3;
+  std::vector<float> times;  ///< seconds, strictly increasing, at least one
+  std::vector<float> values;
+};
+
+struct AnimationClip {
+  std::string name;
+  float duration_s = 0.0f;
+  std::vector<AnimationChannel> channels;
+};
+
+/// Everything a scene shares between entities. A resource of the world; built by the importer or by code. `version` must grow when
+/// meshes, materials, images or textures change after the first frame.
+struct SceneAssets {
+  std::vector<Mesh> meshes;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<Image> images;
+  std::vector<Skin> skins;
+  std::vector<AnimationClip> clips;
+  std::uint64_t version = 1;
+};
+
+}  // namespace gloam

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/ecs/entity.h"
+#include "engine/math/types.h"
+
+namespace gloam {
+
+/// Simulated time of the frame.
+struct SceneClock {
+  double time_s = 0.0;
+  double dt_s = 1.0 / 60.0;
+};
+
+/// Joint matrices of all skinned instances in use, for the GPU: `origin_relative` maps skin-space rest positions to the space of the
+/// entity in `origins` (its world position subtracted), so that floats stay small far from the world's origin.
+struct JointMatrices {
+  struct Range {
+    Entity instance;           ///< entity with the MeshInstance
+    std::uint32_t first = 0;   ///< index into matrices
+    std::uint32_t count = 0;
+    dvec3 origin = dvec3(0.0); ///< world position that positions after skinning are relative to
+    bool mirrored = false;     ///< the skinned surface is mirrored: front faces swap
+  };
+  std::vector<Range> ranges;  ///< ordered by instance index
+  std::vector<mat4> matrices;
+};
+
+/// Morph weights of all instances with targets.
+struct MorphWeights {
+  std::vector<float> values;
+};
+
+/// Which entities carry which name, by kind ("light", "camera", "mesh", "node", …).
+class SceneNames {
+ public:
+  void add(std::string_view kind, std::string_view name, Entity entity);
+  /// Usage error when absent (listing the valid names), input error when two share the name.
+  [[nodiscard]] Result<Entity> find(std::string_view kind, std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> names(std::string_view kind) const;  ///< in order of adding
+  [[nodiscard]] std::string_view name_of(Entity entity) const;                ///< empty when it has none
+
+ private:
+  std::map<std::string, std::vector<std::pair<std::string, Entity>>, std::less<>> kinds_;
+};
+
+/// Strings that components refer to by number; number 0 is the empty string.
+class SceneStrings {
+ public:
+  [[nodiscard]] std::uint32_t intern(std::string_view text);
+  [[nodiscard]] const std::string& text(std::uint32_t id) const;
+
+ private:
+  std::vector<std::string> texts_ = {std::string()};
+};
+
+/// Sky, exposure and other facts of a whole scene; set by `gloam.sky.*` and `gloam.exposure`.
+struct SceneEnvironment {
+  vec3 sky_zenith = vec3(0.0f);   ///< cd/m²
+  vec3 sky_horizon = vec3(0.0f);
+  vec3 sky_ground = vec3(0.0f);
+  bool has_exposure = false;
+  float exposure_ev100 = 0.0f;
+};
+
+}  // namespace gloam

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/render/module.h"
+
+namespace gloam {
+
+/// Every module of this build in the order of the module graph; modules that are not built yet carry their components and keys.
+[[nodiscard]] ModuleList make_all_modules();
+
+}  // namespace gloam
