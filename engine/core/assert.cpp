@@ -14,7 +14,8 @@ void print_and_abort(const char* condition, std::string_view sentence, const cha
   std::abort();
 }
 
-std::atomic<AssertHandler> g_handler = &print_and_abort;  // the one process-wide hook: asserts have no object to carry it
+std::atomic<AssertHandler> g_handler =
+    &print_and_abort;  // the one process-wide hook: asserts have no object to carry it
 
 }  // namespace
 

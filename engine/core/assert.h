@@ -9,7 +9,8 @@ namespace gloam {
 /// Called when an assertion fails; must not return normally (it may throw, which is what tests do).
 using AssertHandler = void (*)(const char* condition, std::string_view sentence, const char* file, int line);
 
-/// Replaces the handler of failed assertions; returns the previous one. The default prints one line to standard error and aborts.
+/// Replaces the handler of failed assertions; returns the previous one. The default prints one line to standard error
+/// and aborts.
 AssertHandler set_assert_handler(AssertHandler handler);
 
 [[noreturn]] void assert_failed(const char* condition, std::string_view sentence, const char* file, int line);

@@ -23,8 +23,7 @@ class Hasher {
   }
   /// Integers and enumerations only: structs may carry padding.
   template <class T>
-    requires(std::is_integral_v<T> || std::is_enum_v<T>)
-  Hasher& value(T v) {
+  requires(std::is_integral_v<T> || std::is_enum_v<T>) Hasher& value(T v) {
     auto x = static_cast<std::uint64_t>(v);
     x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdull;
     state_ = (state_ ^ x ^ (x >> 29)) * kPrime;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -65,8 +66,7 @@ using Status = Result<>;
 }  // namespace gloam
 
 /// Leaves the enclosing function with the error of `expression`, if it has one.
-#define GLOAM_TRY(expression)                                                  \
-  do {                                                                         \
-    if (auto gloam_try_result = (expression); !gloam_try_result.ok())          \
-      return gloam_try_result.error();                                         \
+#define GLOAM_TRY(expression)                                                                          \
+  do {                                                                                                 \
+    if (auto gloam_try_result = (expression); !gloam_try_result.ok()) return gloam_try_result.error(); \
   } while (false)

@@ -15,13 +15,14 @@ std::uint64_t ZoneRecorder::now_ns() const {
   return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(elapsed).count());
 }
 
-void ZoneRecorder::record(std::string_view name, std::string_view module, std::uint64_t begin_ns, std::uint64_t end_ns) {
+void ZoneRecorder::record(std::string_view name, std::string_view module, std::uint64_t begin_ns,
+                          std::uint64_t end_ns) {
   const std::uint64_t id = std::hash<std::thread::id>{}(std::this_thread::get_id());
   const std::lock_guard lock(mutex_);
   auto known = std::find(threads_.begin(), threads_.end(), id);
   if (known == threads_.end()) known = threads_.insert(threads_.end(), id);
-  zones_.push_back({std::string(name), std::string(module), begin_ns, end_ns,
-                    static_cast<std::uint32_t>(known - threads_.begin())});
+  zones_.push_back(
+      {std::string(name), std::string(module), begin_ns, end_ns, static_cast<std::uint32_t>(known - threads_.begin())});
 }
 
 std::vector<Zone> ZoneRecorder::take() {
