@@ -240,15 +240,27 @@ enum class Access : std::uint8_t {
 [[nodiscard]] bool is_write(Access access);
 [[nodiscard]] std::string_view name_of(Access access);
 
+/// Several accesses at once: bit (1 << access) for each.
+using AccessMask = std::uint32_t;
+[[nodiscard]] constexpr AccessMask mask_of(Access access) {
+  return access == Access::none ? 0u : 1u << static_cast<std::uint32_t>(access);
+}
+
+/// What comes later waits for `before` and for all of `also_before`; when those are none and empty, for all earlier work.
+/// `also_after` are further reads (for images: of the same layout as `after`) that see what was written.
 struct BufferBarrier {
   BufferHandle buffer;
   Access before = Access::none;
   Access after = Access::none;
+  AccessMask also_before = 0;
+  AccessMask also_after = 0;
 };
 struct ImageBarrier {
   ImageHandle image;
   Access before = Access::none;  ///< none: contents may be thrown away
   Access after = Access::none;
+  AccessMask also_before = 0;  ///< with `before` none: accesses of this image, or of one that shares its memory
+  AccessMask also_after = 0;
 };
 
 enum class LoadOp : std::uint8_t { load, clear, discard };
