@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "engine/scene/key_registry.h"
+#include "engine/scene/resources.h"
+
+namespace gloam {
+
+/// The component of the target's entity, added with defaults when absent.
+template <class C>
+C& component_of(KeyTarget& target) {
+  if (C* there = target.world.try_get<C>(target.entity)) return *there;
+  return target.world.add<C>(target.entity, C{});
+}
+
+/// Input error when a file holds more than one of what a scene can have one of.
+[[nodiscard]] inline Status at_most_one(std::size_t count, const std::string& what) {
+  if (count <= 1) return {};
+  return Error{ErrorKind::input, what + " may stand on one node a scene, but stands on " + std::to_string(count)};
+}
+
+/// A key without its setter, for the functions below.
+[[nodiscard]] inline SceneKey key_line(std::string module, KeyElement on, std::string name, std::string default_text,
+                                       std::string unit, std::string meaning) {
+  SceneKey key;
+  key.module = std::move(module);
+  key.on = on;
+  key.name = std::move(name);
+  key.default_text = std::move(default_text);
+  key.unit = std::move(unit);
+  key.meaning = std::move(meaning);
+  return key;
+}
+
+/// Stores a number in a float member of a component, times `factor` (units of the file → units of the code).
+template <class C>
+[[nodiscard]] SceneKey number_key(SceneKey key, double min, double max, float C::*member, double factor = 1.0) {
+  key.type = KeyType::number;
+  key.min = min;
+  key.max = max;
+  key.set = [member, factor](KeyTarget& target, const KeyValue& value) -> Status {
+    component_of<C>(target).*member = static_cast<float>(std::get<double>(value) * factor);
+    return {};
+  };
+  return key;
+}
+
+template <class C>
+[[nodiscard]] SceneKey integer_key(SceneKey key, double min, double max, std::uint32_t C::*member) {
+  key.type = KeyType::integer;
+  key.min = min;
+  key.max = max;
+  key.set = [member](KeyTarget& target, const KeyValue& value) -> Status {
+    component_of<C>(target).*member = static_cast<std::uint32_t>(std::get<long long>(value));
+    return {};
+  };
+  return key;
+}
+
+template <class C>
+[[nodiscard]] SceneKey boolean_key(SceneKey key, bool C::*member) {
+  key.type = KeyType::boolean;
+  key.set = [member](KeyTarget& target, const KeyValue& value) -> Status {
+    component_of<C>(target).*member = std::get<bool>(value);
+    return {};
+  };
+  return key;
+}
+
+template <class C>
+[[nodiscard]] SceneKey vec2_key(SceneKey key, double min, double max, vec2 C::*member) {
+  key.type = KeyType::vec2;
+  key.min = min;
+  key.max = max;
+  key.set = [member](KeyTarget& target, const KeyValue& value) -> Status {
+    component_of<C>(target).*member = std::get<vec2>(value);
+    return {};
+  };
+  return key;
+}
+
+template <class C>
+[[nodiscard]] SceneKey vec3_key(SceneKey key, double min, double max, vec3 C::*member) {
+  key.type = KeyType::vec3;
+  key.min = min;
+  key.max = max;
+  key.set = [member](KeyTarget& target, const KeyValue& value) -> Status {
+    component_of<C>(target).*member = std::get<vec3>(value);
+    return {};
+  };
+  return key;
+}
+
+/// Stores the index of the chosen word in an enumeration member; `first` is the enumerator of choices[0].
+template <class C, class Enum>
+[[nodiscard]] SceneKey choice_key(SceneKey key, std::vector<std::string> choices, Enum first, Enum C::*member) {
+  key.type = KeyType::choice;
+  key.choices = choices;
+  key.set = [choices = std::move(choices), first, member](KeyTarget& target, const KeyValue& value) -> Status {
+    const std::string& word = std::get<std::string>(value);
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      if (choices[i] == word) component_of<C>(target).*member = static_cast<Enum>(static_cast<std::size_t>(first) + i);
+    return {};
+  };
+  return key;
+}
+
+/// Stores a string's number in SceneStrings.
+template <class C>
+[[nodiscard]] SceneKey text_key(SceneKey key, std::uint32_t C::*member) {
+  key.type = KeyType::text;
+  key.set = [member](KeyTarget& target, const KeyValue& value) -> Status {
+    const std::uint32_t id = target.world.resource<SceneStrings>().intern(std::get<std::string>(value));
+    component_of<C>(target).*member = id;
+    return {};
+  };
+  return key;
+}
+
+}  // namespace gloam

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/reflections/module.h"
+
+#include "engine/scene/key_table.h"
+#include "modules/lights/components.h"
+#include "modules/reflections/components.h"
+
+namespace gloam {
+namespace {
+
+Status check_light_names(World& world) {
+  Status status;
+  world.view<const IbrProxy>().each([&](const IbrProxy& proxy) {
+    const std::string& names = world.resource<SceneStrings>().text(proxy.lights);
+    if (auto lights = resolve_light_names(world, names, "gloam.ibr_proxy.lights"); status.ok() && !lights.ok())
+      status = lights.error();
+  });
+  return status;
+}
+
+class ReflectionsModule final : public Module {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "reflections"; }
+  [[nodiscard]] bool built() const override { return false; }
+  void register_components(World& world) const override {
+    world.register_component<IbrProxy>("ibr_proxy");
+    world.register_component<IbrRoom>("ibr_room");
+    world.register_component<CubeProbe>("cube_probe");
+  }
+  void scene_keys(KeyRegistry& registry) const override {
+    const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
+      return key_line("reflections", KeyElement::node, std::move(key), std::move(fallback), std::move(unit), std::move(meaning));
+    };
+    registry.add(vec2_key(line("gloam.ibr_proxy.size", "", "m", "a reflection proxy in the local XY plane, facing +Z, centred"),
+                          1e-6, 1e6, &IbrProxy::size_m));
+    registry.add(choice_key(line("gloam.ibr_proxy.kind", "scene", "", "captured from the scene, or emissive image"),
+                            {"scene", "fire"}, IbrProxyKind::scene, &IbrProxy::kind));
+    registry.add(text_key(line("gloam.ibr_proxy.texture", "", "", "image instead of a capture"), &IbrProxy::texture));
+    registry.add(text_key(line("gloam.ibr_proxy.lights", "", "", "comma-separated lights that dim it"), &IbrProxy::lights));
+    registry.add(vec3_key(line("gloam.ibr_room.size", "", "m", "box around the node"), 1e-6, 1e6, &IbrRoom::size_m));
+    registry.add(vec3_key(line("gloam.cube_probe.size", "", "m", "influence box around the node"), 1e-6, 1e6, &CubeProbe::size_m));
+    registry.add(integer_key(line("gloam.cube_probe.resolution", "128", "texels", "face size"), 1, 4096, &CubeProbe::resolution));
+    registry.add(boolean_key(line("gloam.cube_probe.global", "false", "", "the global probe"), &CubeProbe::global));
+    registry.add_finish("reflections", &check_light_names);
+  }
+  [[nodiscard]] Demand demand(const World& world, const View*) const override {
+    const std::size_t proxies = world.view<const IbrProxy>().size();
+    const std::size_t probes = world.view<const CubeProbe>().size();
+    if (proxies + probes == 0) return {false, "no proxy and no probe"};
+    return {true, std::to_string(proxies) + " proxies, " + std::to_string(probes) + " probes"};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Module> make_reflections_module() { return std::make_unique<ReflectionsModule>(); }
+
+}  // namespace gloam
