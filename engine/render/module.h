@@ -69,7 +69,7 @@ class Module {
   [[nodiscard]] virtual std::vector<VisualizerInfo> visualizers() const { return {}; }
 
   /// Asked every frame and view, and by `inspect` (without a view). Cheap: looks at counts, never at pixels.
-  [[nodiscard]] virtual Demand demand(const World& world, const View* view) const = 0;
+  [[nodiscard]] virtual Demand demand(const World& world, const RenderView* view) const = 0;
 
   /// Only called when demanded. Pipelines are made on first use.
   [[nodiscard]] virtual Status add_passes(FrameBuilder& frame, PassPhase phase) {
@@ -78,7 +78,7 @@ class Module {
     return {};
   }
   /// Only called when demanded, after the frame was submitted.
-  virtual void counters(const World& world, const View& view, CounterSink& sink) const {
+  virtual void counters(const World& world, const RenderView& view, CounterSink& sink) const {
     static_cast<void>(world);
     static_cast<void>(view);
     static_cast<void>(sink);

@@ -24,7 +24,7 @@ struct ViewSettings {
 };
 
 /// One view of one frame as systems and passes see it. A view resource. Positions on the GPU are relative to `position`.
-struct View {
+struct RenderView {
   ViewId id{0};
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -41,7 +41,7 @@ struct View {
   [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }
 };
 
-[[nodiscard]] View make_view(const ViewSettings& settings, std::uint64_t frame);
+[[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame);
 
 /// Settings for a camera entity (its Camera and WorldTransform), or for one fitted to the bounds of everything drawn when
 /// `camera` is kNoEntity.

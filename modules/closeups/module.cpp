@@ -39,7 +39,7 @@ class CloseupsModule final : public Module {
                             -1e6, 1e6, &CloseupSubject::priority));
     registry.add_finish("closeups", &check_light_names);
   }
-  [[nodiscard]] Demand demand(const World& world, const View*) const override {
+  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
     std::size_t subjects = 0;
     world.view<const CloseupSubject>().each([&](const CloseupSubject& s) { subjects += s.enabled ? 1 : 0; });
     if (subjects == 0) return {false, "no close-up subject"};

@@ -26,7 +26,7 @@ class DepthOfFieldModule final : public Module {
     registry.add(choice_key(line("gloam.dof.bokeh", "round", "", "shape of the aperture"), {"round", "hexagonal"}, Bokeh::round,
                             &DepthOfField::bokeh));
   }
-  [[nodiscard]] Demand demand(const World& world, const View*) const override {
+  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
     std::size_t cameras = 0;
     world.view<const DepthOfField>().each([&](const DepthOfField& d) { cameras += d.focus_m > 0.0f ? 1 : 0; });
     if (cameras == 0) return {false, "no camera has a focus"};

@@ -41,7 +41,7 @@ class GrassModule final : public Module {
     registry.add(number_key(node("gloam.wind.gust", "0.3", "", "strength of gusts, 0…1"), 0, 1, &Wind::gust));
     registry.add_finish("grass", [](World& world) { return at_most_one(world.view<const Wind>().size(), "gloam.wind"); });
   }
-  [[nodiscard]] Demand demand(const World& world, const View*) const override {
+  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
     const std::size_t surfaces = world.view<const GrassSurface>().size();
     if (surfaces == 0) return {false, "no surface grows grass"};
     return {true, std::to_string(surfaces) + (surfaces == 1 ? " surface grows grass" : " surfaces grow grass")};

@@ -29,7 +29,7 @@ class ParticlesModule final : public Module {
                             &ParticleEmitter::spread, kPi / 180.0));
     registry.add(vec3_key(line("gloam.particles.box", "[1, 1, 1]", "m", "where particles are born"), 0, 1e6, &ParticleEmitter::box_m));
   }
-  [[nodiscard]] Demand demand(const World& world, const View*) const override {
+  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
     std::size_t emitters = 0;
     world.view<const ParticleEmitter>().each(
         [&](const ParticleEmitter& e) { emitters += e.kind != EmitterKind::none ? 1 : 0; });

@@ -44,7 +44,7 @@ class ReflectionsModule final : public Module {
     registry.add(boolean_key(line("gloam.cube_probe.global", "false", "", "the global probe"), &CubeProbe::global));
     registry.add_finish("reflections", &check_light_names);
   }
-  [[nodiscard]] Demand demand(const World& world, const View*) const override {
+  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
     const std::size_t proxies = world.view<const IbrProxy>().size();
     const std::size_t probes = world.view<const CubeProbe>().size();
     if (proxies + probes == 0) return {false, "no proxy and no probe"};

@@ -23,7 +23,7 @@ class ShadowsModule final : public Module {
                                       "of one face; 0 = from screen coverage"),
                              0, 8192, &ShadowCaster::resolution));
   }
-  [[nodiscard]] Demand demand(const World& world, const View*) const override {
+  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
     std::size_t casters = 0;
     world.view<const Light, Maybe<const ShadowCaster>>().each(
         [&](const Light&, const ShadowCaster* caster) { casters += caster == nullptr || caster->enabled ? 1 : 0; });
