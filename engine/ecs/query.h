@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/ecs/archetype.h"
+#include "engine/ecs/component.h"
+
+namespace gloam {
+
+/// What a view asks for.
+struct QueryTerms {
+  std::vector<ComponentId>
+      columns;  ///< columns handed to the view's functions, in order; some may be absent from a match
+  std::vector<ComponentId> required;  ///< every match has these
+  std::vector<ComponentId> excluded;  ///< no match has one of these
+};
+
+/// The archetypes that answer a view, found once and extended when archetypes were added. Archetypes and columns never
+/// move, so a match keeps plain pointers.
+class Query {
+ public:
+  explicit Query(QueryTerms terms) : terms_(std::move(terms)) {}
+
+  [[nodiscard]] const QueryTerms& terms() const { return terms_; }
+  [[nodiscard]] bool accepts(const Archetype& archetype) const;
+
+  [[nodiscard]] std::size_t match_count() const { return matches_.size(); }
+  [[nodiscard]] Archetype& match(std::size_t i) const { return *matches_[i]; }
+  /// One pointer a term of `columns`; null where the match lacks it.
+  [[nodiscard]] std::byte* const* match_columns(std::size_t i) const {
+    return match_columns_.data() + i * terms_.columns.size();
+  }
+  [[nodiscard]] std::size_t row_count() const;
+
+  /// Archetypes looked at so far.
+  [[nodiscard]] std::size_t seen() const { return seen_.load(std::memory_order_acquire); }
+  void extend(std::span<const std::unique_ptr<Archetype>> archetypes);
+
+ private:
+  QueryTerms terms_;
+  std::vector<Archetype*> matches_;
+  std::vector<std::byte*> match_columns_;
+  std::atomic<std::size_t> seen_ = 0;
+};
+
+/// Rows [first, first + count) of one match.
+struct ViewChunk {
+  std::uint32_t match = 0;
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// The rows of a query cut for parallel work. Depends on the world and the grain only.
+struct ChunkPlan {
+  std::vector<ViewChunk> chunks;
+  /// Jobs: job i runs chunks [job_ends[i - 1], job_ends[i]), about a grain of rows, so that many small archetypes are
+  /// few jobs.
+  std::vector<std::uint32_t> job_ends;
+};
+
+/// grain_rows ≥ 1: rows a chunk at most.
+[[nodiscard]] ChunkPlan plan_chunks(const Query& query, std::size_t grain_rows);
+[[nodiscard]] std::size_t count_chunks(const Query& query, std::size_t grain_rows);
+
+}  // namespace gloam

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+namespace gloam {
+
+template <class... Ts>
+struct TypeList {};
+
+namespace detail {
+
+/// One byte a type, only for its address. Not const: linkers may fold equal constants into one.
+template <class T>
+struct TypeTag {
+  static inline char byte = 0;
+};
+
+template <class T>
+constexpr const char* raw_type_name() {
+#if defined(_MSC_VER) && !defined(__clang__)
+  return __FUNCSIG__;
+#else
+  return __PRETTY_FUNCTION__;
+#endif
+}
+
+}  // namespace detail
+
+/// Tells types apart within one program run. Carries no order and no meaning for two worlds: each maps keys to ids of
+/// its own.
+template <class T>
+[[nodiscard]] const void* type_key() {
+  return &detail::TypeTag<T>::byte;
+}
+
+/// The type's name as the compiler writes it, for messages only.
+template <class T>
+[[nodiscard]] constexpr std::string_view type_name() {
+  std::string_view name = detail::raw_type_name<T>();
+#if defined(_MSC_VER) && !defined(__clang__)
+  name.remove_prefix(name.find("raw_type_name<") + 14);
+  name.remove_suffix(name.size() - name.rfind(">("));
+#else
+  name.remove_prefix(name.find("T = ") + 4);
+  name.remove_suffix(1);
+#endif
+  return name;
+}
+
+}  // namespace gloam

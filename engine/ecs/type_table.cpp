@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/ecs/type_table.h"
+
+#include <bit>
+
+#include "engine/core/assert.h"
+
+namespace gloam {
+
+TypeTable::TypeTable() : slots_(32), shift_(64 - 5) {}
+
+void TypeTable::insert(const void* key, std::uint32_t value) {
+  GLOAM_ASSERT(find(key) == kAbsent, "a type is entered into a table once");
+  if ((used_ + 1) * 2 > slots_.size()) {
+    std::vector<Slot> old(slots_.size() * 2);
+    old.swap(slots_);
+    shift_ = 64 - std::countr_zero(slots_.size());
+    used_ = 0;
+    for (const Slot& slot : old) {
+      if (slot.key != nullptr) insert(slot.key, slot.value);
+    }
+  }
+  std::size_t i = home(key);
+  while (slots_[i].key != nullptr) i = (i + 1) & (slots_.size() - 1);
+  slots_[i] = {key, value};
+  ++used_;
+}
+
+}  // namespace gloam

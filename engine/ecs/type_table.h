@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gloam {
+
+/// Maps type keys to small numbers: open addressing, at most half full. Lookups are safe from many threads while nobody
+/// inserts.
+class TypeTable {
+ public:
+  static constexpr std::uint32_t kAbsent = ~0u;
+
+  TypeTable();
+
+  [[nodiscard]] std::uint32_t find(const void* key) const {
+    for (std::size_t i = home(key);; i = (i + 1) & (slots_.size() - 1)) {
+      if (slots_[i].key == key) return slots_[i].value;
+      if (slots_[i].key == nullptr) return kAbsent;
+    }
+  }
+
+  /// `key` must not be there yet.
+  void insert(const void* key, std::uint32_t value);
+
+ private:
+  struct Slot {
+    const void* key = nullptr;
+    std::uint32_t value = kAbsent;
+  };
+
+  [[nodiscard]] std::size_t home(const void* key) const {
+    return static_cast<std::size_t>((reinterpret_cast<std::uintptr_t>(key) * 0x9e3779b97f4a7c15ull) >> shift_);
+  }
+
+  std::vector<Slot> slots_;
+  std::size_t used_ = 0;
+  int shift_ = 0;  ///< 64 - log2(slots_.size())
+};
+
+}  // namespace gloam

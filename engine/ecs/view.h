@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "engine/core/assert.h"
+#include "engine/ecs/query.h"
+#include "engine/ecs/view_terms.h"
+#include "engine/ecs/world.h"
+#include "engine/jobs/executor.h"
+
+namespace gloam {
+
+/// The entities that have certain components: `View<const Velocity, Position, Without<Frozen>>`. Const means read. A
+/// view is two pointers: copy it freely, take it from any thread; it stays valid as long as its world and sees later
+/// entities.
+///
+/// Within a call of each, each_chunk, parallel_…, changed_since: structural changes assert; spans are valid until the
+/// next structural change; every row is visited once; archetypes come in order of their making, rows in order.
+template <class... Args>
+class View {
+ public:
+  static constexpr bool kReadsOnly = !(detail::ViewTerm<Args>::kWrites || ...);
+
+  explicit View(World& world) : View(world, 0) {}
+  explicit View(const World& world) requires(kReadsOnly) : View(world, 0) {}
+
+  /// f([Entity,] A&, const B&, …), one argument a column; a pointer for Maybe.
+  template <class F>
+  void each(F&& f) const {
+    const Iteration iteration(*this);
+    for (std::size_t m = 0; m < query_->match_count(); ++m) rows(f, m, 0, query_->match(m).row_count(), kColumns);
+  }
+
+  /// f([span<const Entity>,] span<A>, span<const B>, …), one call an archetype that has rows; an absent Maybe is an
+  /// empty span.
+  template <class F>
+  void each_chunk(F&& f) const {
+    const Iteration iteration(*this);
+    for (std::size_t m = 0; m < query_->match_count(); ++m) {
+      const std::uint32_t count = query_->match(m).row_count();
+      if (count > 0) chunk(f, m, 0, count, kColumns);
+    }
+  }
+
+  /// As each, from many threads at once, about grain_rows (≥ 1) a job. Each row once.
+  template <class F>
+  void parallel_each(JobExecutor& executor, std::size_t grain_rows, F&& f) const {
+    parallel(executor, grain_rows,
+             [&](std::size_t, const ViewChunk& c) { rows(f, c.match, c.first, c.first + c.count, kColumns); });
+  }
+
+  /// f(ordinal, [span<const Entity>,] spans…) for contiguous ranges of at most grain_rows (≥ 1) rows, from many threads
+  /// at once. Ordinals count the ranges from 0 to chunk_count(grain_rows) - 1 in the order in which each() would visit
+  /// them.
+  template <class F>
+  void parallel_chunks(JobExecutor& executor, std::size_t grain_rows, F&& f) const {
+    parallel(executor, grain_rows,
+             [&](std::size_t ordinal, const ViewChunk& c) { numbered_chunk(f, ordinal, c, kColumns); });
+  }
+
+  /// Calls that parallel_chunks will make: room for one result a range.
+  [[nodiscard]] std::size_t chunk_count(std::size_t grain_rows) const {
+    world_->refresh(*query_);
+    return count_chunks(*query_, grain_rows);
+  }
+
+  /// Rows of all matches.
+  [[nodiscard]] std::size_t size() const {
+    world_->refresh(*query_);
+    return query_->row_count();
+  }
+  [[nodiscard]] bool empty() const { return size() == 0; }
+
+  /// Whether `e` is alive and answers the view.
+  [[nodiscard]] bool contains(Entity e) const {
+    return world_->alive(e) && query_->accepts(*world_->records_[e.index].archetype);
+  }
+
+  /// The T of `e`, const as the view has it; null unless `e` is alive, answers the view and has a T.
+  template <class T>
+  [[nodiscard]] auto try_get(Entity e) const {
+    using Component = std::remove_const_t<T>;
+    using Find = detail::FindColumn<Component, Columns>;
+    using Pointer = decltype(Find::value_pointer());
+    const ComponentId id = query_->terms().columns[Find::index()];
+    world_->check_component(id, kWrites<Component>);
+    if (!contains(e)) return Pointer(nullptr);
+    return Pointer(world_->template cell_at<Component>(world_->records_[e.index], id));
+  }
+
+  /// Stamps all blocks of a column the view writes.
+  template <class T>
+  void mark_changed() const {
+    const ComponentId id = writable_column<T>();
+    world_->refresh(*query_);
+    for (std::size_t m = 0; m < query_->match_count(); ++m) {
+      Archetype& archetype = query_->match(m);
+      if (archetype.has(id)) archetype.mark_changed(id, 0, archetype.row_count(), world_->tick());
+    }
+  }
+  /// Stamps the blocks of a range as a chunk function was handed it, or of a part of it. Safe from many threads at
+  /// once.
+  template <class T>
+  void mark_changed(std::span<const Entity> range) const {
+    const ComponentId id = writable_column<T>();
+    if (range.empty()) return;
+    const World::Record& record = world_->living(range.front());
+    GLOAM_ASSERT(&record.archetype->entities()[record.row] == range.data(),
+                 "changes are marked on a range of a view's own entities");
+    record.archetype->mark_changed(id, record.row, static_cast<std::uint32_t>(range.size()), world_->tick());
+  }
+  /// Stamps the block that holds `e`, which must be alive and have a T.
+  template <class T>
+  void mark_changed(Entity e) const {
+    const ComponentId id = writable_column<T>();
+    const World::Record& record = world_->living(e);
+    GLOAM_ASSERT(record.archetype->has(id), "changes are marked on entities that have the component");
+    record.archetype->mark_changed(id, record.row, 1, world_->tick());
+  }
+
+  /// Calls f as each_chunk does, but only on runs of blocks (4,096 rows) in which rows came or moved, or T was marked,
+  /// behind tick `since`. Returns the tick to pass next time; 0 reports everything. Rows that went are not reported.
+  template <class T, class F>
+  Tick changed_since(Tick since, F&& f) const {
+    const Iteration iteration(*this);
+    const Tick seen = world_->advance_tick();
+    const ComponentId id = query_->terms().columns[detail::FindColumn<std::remove_const_t<T>, Columns>::index()];
+    for (std::size_t m = 0; m < query_->match_count(); ++m) {
+      const Archetype& archetype = query_->match(m);
+      if (!archetype.has(id)) continue;
+      for (std::uint32_t block = 0; block < archetype.block_count(); ++block) {
+        if (!archetype.changed(id, block, since)) continue;
+        const std::uint32_t first = block * kTickBlockRows;
+        while (block + 1 < archetype.block_count() && archetype.changed(id, block + 1, since)) ++block;
+        const std::uint32_t last = std::min((block + 1) * kTickBlockRows, archetype.row_count());
+        chunk(f, m, first, last - first, kColumns);
+      }
+    }
+    return seen;
+  }
+
+ private:
+  using Columns = detail::ColumnArguments<Args...>;
+  static constexpr Columns kColumns{};
+  template <class T>
+  static constexpr bool kWrites =
+      !std::is_const_v<std::remove_pointer_t<decltype(detail::FindColumn<T, Columns>::value_pointer())>>;
+
+  /// While one lives, structural changes assert.
+  class Iteration {
+   public:
+    explicit Iteration(const View& view) : world_(*view.world_) {
+      view.check_access(kColumns);
+      world_.refresh(*view.query_);
+      world_.iterations_.fetch_add(1, std::memory_order_relaxed);
+    }
+    ~Iteration() { world_.iterations_.fetch_sub(1, std::memory_order_relaxed); }
+    Iteration(const Iteration&) = delete;
+    Iteration& operator=(const Iteration&) = delete;
+
+   private:
+    const World& world_;
+  };
+
+  View(const World& world, int) : world_(&world), query_(world.find_query(type_key<View>())) {
+    if (query_ != nullptr) return;
+    QueryTerms terms;
+    (detail::ViewTerm<Args>::describe(world, terms), ...);
+    query_ = world.add_query(type_key<View>(), std::move(terms));
+  }
+
+  template <class... Cs>
+  void check_access(TypeList<Cs...>) const {
+    std::size_t column = 0;
+    (world_->check_component(query_->terms().columns[column++], detail::ViewTerm<Cs>::kWrites), ...);
+    static_cast<void>(column);
+  }
+  template <class T>
+  [[nodiscard]] ComponentId writable_column() const {
+    static_assert(kWrites<T>, "only what a view may write can be marked as changed");
+    const ComponentId id = query_->terms().columns[detail::FindColumn<T, Columns>::index()];
+    world_->check_component(id, true);
+    return id;
+  }
+
+  /// Hands use(cursor of each column …) the columns of a match.
+  template <class Use, class... Cs>
+  void with_cursors(std::size_t m, Use&& use, TypeList<Cs...>) const {
+    std::byte* const* columns = query_->match_columns(m);
+    [&]<std::size_t... I>(std::index_sequence<I...>) { use(detail::ViewTerm<Cs>::cursor(columns[I])...); }
+    (std::index_sequence_for<Cs...>{});
+    static_cast<void>(columns);
+  }
+  template <class F>
+  void rows(F& f, std::size_t m, std::size_t first, std::size_t last, Columns list) const {
+    const Entity* entities = query_->match(m).entities();
+    with_cursors(
+        m, [&](auto... cursors) { detail::call_rows(f, entities, first, last, cursors...); }, list);
+  }
+  template <class F>
+  void chunk(F& f, std::size_t m, std::size_t first, std::size_t count, Columns list) const {
+    const std::span<const Entity> entities(query_->match(m).entities() + first, count);
+    with_cursors(
+        m, [&](auto... cursors) { detail::call_chunk(f, entities, detail::chunk_span(cursors, first, count)...); },
+        list);
+  }
+  template <class F>
+  void numbered_chunk(F& f, std::size_t ordinal, const ViewChunk& c, Columns list) const {
+    const std::span<const Entity> entities(query_->match(c.match).entities() + c.first, c.count);
+    with_cursors(
+        c.match,
+        [&](auto... cursors) {
+          detail::call_numbered_chunk(f, ordinal, entities, detail::chunk_span(cursors, c.first, c.count)...);
+        },
+        list);
+  }
+  template <class Body>
+  void parallel(JobExecutor& executor, std::size_t grain_rows, const Body& body) const {
+    const Iteration iteration(*this);
+    const ChunkPlan plan = plan_chunks(*query_, grain_rows);
+    executor.parallel_for(plan.job_ends.size(), 1, [&](JobRange range) {
+      for (std::size_t job = range.begin; job < range.end; ++job) {
+        const std::size_t begin = job == 0 ? 0 : plan.job_ends[job - 1];
+        for (std::size_t c = begin; c < plan.job_ends[job]; ++c) body(c, plan.chunks[c]);
+      }
+    });
+  }
+
+  const World* world_;
+  Query* query_;
+};
+
+}  // namespace gloam

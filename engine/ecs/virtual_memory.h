@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "engine/core/assert.h"
+
+namespace gloam {
+
+/// A stretch of address space that holds no memory until pages of it are committed, and never moves. Move-only.
+/// The only file that calls the operating system's memory functions is virtual_memory.cpp.
+class ReservedMemory {
+ public:
+  ReservedMemory() = default;
+  /// Reserves at least `bytes`, from a page border. Throws std::bad_alloc when the address space is used up.
+  explicit ReservedMemory(std::size_t bytes);
+  ~ReservedMemory();
+  ReservedMemory(ReservedMemory&& other) noexcept
+      : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
+  ReservedMemory& operator=(ReservedMemory&& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+
+  [[nodiscard]] std::byte* data() const { return data_; }
+  [[nodiscard]] std::size_t size() const { return bytes_; }
+
+  /// Makes [begin, end) readable, writable and zero. Both are multiples of page_size() within the reservation, not yet
+  /// committed. Throws std::bad_alloc when memory is used up.
+  void commit(std::size_t begin, std::size_t end);
+
+  [[nodiscard]] static std::size_t page_size();
+
+ private:
+  std::byte* data_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+[[nodiscard]] constexpr std::size_t round_up(std::size_t value, std::size_t multiple) {
+  return (value + multiple - 1) / multiple * multiple;
+}
+
+/// An array that grows up to a fixed limit without moving its items. Items are trivially copyable.
+template <class T>
+class VirtualArray {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  explicit VirtualArray(std::size_t max_items) : memory_(max_items * sizeof(T)), max_items_(max_items) {}
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] T& operator[](std::size_t i) { return items()[i]; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return items()[i]; }
+
+  /// Room for `count` items altogether; at most the limit.
+  void reserve(std::size_t count) {
+    if (count > capacity_) grow(count);
+  }
+  void push_back(const T& item) {
+    if (size_ == capacity_) grow(size_ + 1);
+    items()[size_++] = item;
+  }
+
+ private:
+  [[nodiscard]] T* items() const { return reinterpret_cast<T*>(memory_.data()); }
+
+  void grow(std::size_t count) {
+    GLOAM_ASSERT(count <= max_items_, "an array of fixed reservation is full: raise its limit");
+    const std::size_t bytes = (count > capacity_ * 2 ? count : capacity_ * 2) * sizeof(T);
+    const std::size_t page = ReservedMemory::page_size();
+    const std::size_t end = bytes < memory_.size() ? round_up(bytes, page) : memory_.size();
+    memory_.commit(committed_, end);
+    committed_ = end;
+    capacity_ = end / sizeof(T) < max_items_ ? end / sizeof(T) : max_items_;
+  }
+
+  ReservedMemory memory_;
+  std::size_t max_items_ = 0;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;   ///< items that fit what is committed
+  std::size_t committed_ = 0;  ///< bytes
+};
+
+}  // namespace gloam

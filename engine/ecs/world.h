@@ -1,0 +1,371 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "engine/core/assert.h"
+#include "engine/ecs/access_checker.h"
+#include "engine/ecs/archetype.h"
+#include "engine/ecs/component.h"
+#include "engine/ecs/entity.h"
+#include "engine/ecs/query.h"
+#include "engine/ecs/resources.h"
+#include "engine/ecs/type_key.h"
+#include "engine/ecs/type_table.h"
+#include "engine/ecs/virtual_memory.h"
+
+namespace gloam {
+
+template <class... Args>
+class View;
+
+/// Address space to reserve; only what is used takes memory.
+struct WorldLimits {
+  std::uint32_t max_rows_per_archetype = 1u << 23;
+  std::uint32_t max_entities = 1u << 26;
+};
+
+/// Entities, their components, and resources. Two worlds share nothing.
+///
+/// Rules:
+/// - A component type is registered before it is named anywhere else; ids follow the order of registration.
+/// - A *structural change* is create, destroy, add or remove. While a view iterates it asserts: record it in a
+/// CommandBuffer.
+///   No other thread may touch the world during one.
+/// - References to components, and spans, stay valid while entities come: columns grow in place. They end when their
+/// entity is
+///   destroyed or gains or loses a component, and when another entity of the same set of components does (its row is
+///   filled with the last one).
+/// - References to resources stay valid until the resource is removed; setting it again assigns in place.
+/// - Between structural changes any number of threads may read, take and iterate views, and write different values.
+/// - Rows have no order that may be relied on, but the same calls give the same order.
+class World {
+ public:
+  explicit World(const WorldLimits& limits = {});
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Idempotent. T: trivially copyable, alignment ≤ 64; an empty struct is a tag and takes no bytes. Names are unique.
+  template <class T>
+  ComponentId register_component(std::string_view name = type_name<T>()) {
+    require_component<T>();
+    return register_type(type_key<T>(), name, kComponentSize<T>);
+  }
+  template <class T>
+  [[nodiscard]] bool is_registered() const {
+    return types_.find(type_key<T>()) != TypeTable::kAbsent;
+  }
+  template <class T>
+  [[nodiscard]] ComponentId component_id() const {
+    require_component<T>();
+    const std::uint32_t id = types_.find(type_key<T>());
+    GLOAM_ASSERT(id != TypeTable::kAbsent, unregistered_sentence(type_name<T>()));
+    return static_cast<ComponentId>(id);
+  }
+  /// Every registered component, by id.
+  [[nodiscard]] std::span<const ComponentInfo> components() const { return infos_; }
+
+  /// One entity with these components. Each type once.
+  template <class... Ts>
+  Entity create(const Ts&... values) {
+    const Bundle& bundle = bundle_of<Ts...>();
+    const NewRows rows = create_one(*bundle.archetype);
+    fill_columns(bundle, rows.first, 1, std::index_sequence_for<Ts...>{}, values...);
+    return rows.entity;
+  }
+  /// out.size() entities with the same values, as one contiguous range of rows in the order of `out`.
+  template <class... Ts>
+  void create_bulk(std::span<Entity> out, const Ts&... values) {
+    const Bundle& bundle = bundle_of<Ts...>();
+    const std::uint32_t first = create_many(*bundle.archetype, out);
+    fill_columns(bundle, first, out.size(), std::index_sequence_for<Ts...>{}, values...);
+  }
+  /// `e` must be alive.
+  void destroy(Entity e);
+  [[nodiscard]] bool alive(Entity e) const {
+    if (e.index >= records_.size()) return false;
+    const Record& record = records_[e.index];
+    return record.generation == e.generation && record.archetype != nullptr;
+  }
+  [[nodiscard]] std::size_t entity_count() const { return alive_count_; }
+
+  /// Overwrites the value if `e` has one already. `e` must be alive.
+  template <class T>
+  T& add(Entity e, T value = T{}) {
+    T* cell = reinterpret_cast<T*>(add_cell(e, component_id<T>()));
+    if constexpr (!std::is_empty_v<T>) ::new (static_cast<void*>(cell)) T(value);
+    return *cell;
+  }
+  /// Whether there was one to remove. `e` must be alive.
+  template <class T>
+  bool remove(Entity e) {
+    return remove_component(e, component_id<T>());
+  }
+  /// `e` must be alive.
+  template <class T>
+  [[nodiscard]] bool has(Entity e) const {
+    return living(e).archetype->has(component_id<T>());
+  }
+  /// `e` must be alive and have a T. Writing does not stamp a change: mark_changed does.
+  template <class T>
+  [[nodiscard]] T& get(Entity e) {
+    return *get_cell<T>(e, true);
+  }
+  template <class T>
+  [[nodiscard]] const T& get(Entity e) const {
+    return *get_cell<T>(e, false);
+  }
+  /// Null if `e` is dead or has no T.
+  template <class T>
+  [[nodiscard]] T* try_get(Entity e) {
+    return try_cell<T>(e, true);
+  }
+  template <class T>
+  [[nodiscard]] const T* try_get(Entity e) const {
+    return try_cell<T>(e, false);
+  }
+
+  /// See view.h, which the caller includes. A const world gives views that only read.
+  template <class... Args>
+  [[nodiscard]] View<Args...> view() {
+    return View<Args...>(*this);
+  }
+  template <class... Args>
+  [[nodiscard]] View<Args...> view() const {
+    static_assert(View<Args...>::kReadsOnly, "a const world gives const components");
+    return View<Args...>(*this);
+  }
+
+  /// R is any movable type. The first set of a type must have the world to itself.
+  template <class R>
+  R& set_resource(R value) {
+    check_resource<R>(true);
+    return resources_.set<R>(std::move(value));
+  }
+  /// The resource must be there.
+  template <class R>
+  [[nodiscard]] R& resource() {
+    return require_resource<R>(resources_.find<R>(), true);
+  }
+  template <class R>
+  [[nodiscard]] const R& resource() const {
+    return require_resource<R>(resources_.find<R>(), false);
+  }
+  /// Null when absent.
+  template <class R>
+  [[nodiscard]] R* try_resource() {
+    check_resource<R>(true);
+    return resources_.find<R>();
+  }
+  template <class R>
+  [[nodiscard]] const R* try_resource() const {
+    check_resource<R>(false);
+    return resources_.find<R>();
+  }
+  /// Nothing happens when it is absent.
+  template <class R>
+  void remove_resource() {
+    check_resource<R>(true);
+    resources_.remove<R>();
+  }
+
+  /// As the functions on resources, one value a view and type.
+  template <class R>
+  R& set_view_resource(ViewId view, R value) {
+    check_resource<R>(true);
+    return view_resources_[view.value].set<R>(std::move(value));
+  }
+  template <class R>
+  [[nodiscard]] R& view_resource(ViewId view) {
+    return require_resource<R>(find_view_resource<R>(view), true);
+  }
+  template <class R>
+  [[nodiscard]] const R& view_resource(ViewId view) const {
+    return require_resource<R>(find_view_resource<R>(view), false);
+  }
+  template <class R>
+  [[nodiscard]] R* try_view_resource(ViewId view) {
+    check_resource<R>(true);
+    return find_view_resource<R>(view);
+  }
+  template <class R>
+  [[nodiscard]] const R* try_view_resource(ViewId view) const {
+    check_resource<R>(false);
+    return find_view_resource<R>(view);
+  }
+  /// Drops all resources of a view.
+  void remove_view(ViewId view) { view_resources_.erase(view.value); }
+
+  /// Changes with every structural change, and with nothing else.
+  [[nodiscard]] std::uint64_t structure_version() const { return structure_version_; }
+
+  /// Changes are stamped with this.
+  [[nodiscard]] Tick tick() const { return tick_.load(std::memory_order_relaxed); }
+  /// Returns the tick that ended: what changed so far is stamped with it or an earlier one, what changes later is not.
+  /// Safe from many threads.
+  Tick advance_tick() const { return tick_.fetch_add(1, std::memory_order_relaxed); }
+  /// Stamps the block that holds the T of `e`, which must be alive and have one.
+  template <class T>
+  void mark_changed(Entity e) {
+    const ComponentId id = component_id<T>();
+    static_cast<void>(get_cell<T>(e, true));
+    records_[e.index].archetype->mark_changed(id, records_[e.index].row, 1, tick());
+  }
+
+  /// Null: no checks. The checker must outlive its time here. Not while another thread uses the world.
+  void set_access_checker(AccessChecker* checker) { checker_ = checker; }
+
+  /// For statistics.
+  [[nodiscard]] std::span<const std::unique_ptr<Archetype>> archetypes() const { return archetypes_; }
+
+ private:
+  template <class... Args>
+  friend class View;
+
+  /// Where an entity lives. In a free slot: no archetype, and `row` is the next free slot.
+  struct Record {
+    Archetype* archetype = nullptr;
+    std::uint32_t row = 0;
+    std::uint32_t generation = 1;
+  };
+  /// The archetype of a list of types, with its columns in the order of the list.
+  struct Bundle {
+    Archetype* archetype = nullptr;
+    std::vector<std::byte*> columns;
+  };
+  struct NewRows {
+    Entity entity;
+    std::uint32_t first = 0;
+  };
+  struct ComponentsHash {
+    std::size_t operator()(const std::vector<ComponentId>& ids) const;
+  };
+
+  static std::string unregistered_sentence(std::string_view type);
+  static std::string absent_sentence(std::string_view type, std::string_view where);
+
+  ComponentId register_type(const void* key, std::string_view name, std::uint32_t size);
+  Archetype& archetype_of(std::vector<ComponentId> sorted);
+  Archetype& neighbour(Archetype& from, ComponentId id);
+  const Bundle& add_bundle(const void* key, std::span<const ComponentId> ids);
+
+  void begin_structural_change();
+  Entity take_entity(Archetype& archetype, std::uint32_t row);
+  NewRows create_one(Archetype& archetype);
+  std::uint32_t create_many(Archetype& archetype, std::span<Entity> out);
+  void close_row(Archetype& archetype, std::uint32_t row);
+  void move_entity(Record& record, Archetype& to);
+  std::byte* add_cell(Entity e, ComponentId id);
+  bool remove_component(Entity e, ComponentId id);
+
+  [[nodiscard]] const Record& living(Entity e) const {
+    GLOAM_ASSERT(alive(e), "the entity is not alive");
+    return records_[e.index];
+  }
+  template <class T>
+  [[nodiscard]] T* cell_at(const Record& record, ComponentId id) const {
+    std::byte* column = record.archetype->data(id);
+    if constexpr (std::is_empty_v<T>) {
+      return reinterpret_cast<T*>(column);
+    } else {
+      return column == nullptr ? nullptr : reinterpret_cast<T*>(column) + record.row;
+    }
+  }
+  template <class T>
+  [[nodiscard]] T* get_cell(Entity e, bool write) const {
+    const ComponentId id = component_id<T>();
+    check_component(id, write);
+    T* cell = cell_at<T>(living(e), id);
+    GLOAM_ASSERT(cell != nullptr, absent_sentence(type_name<T>(), "the entity has no component "));
+    return cell;
+  }
+  template <class T>
+  [[nodiscard]] T* try_cell(Entity e, bool write) const {
+    const ComponentId id = component_id<T>();
+    check_component(id, write);
+    return alive(e) ? cell_at<T>(records_[e.index], id) : nullptr;
+  }
+
+  template <class... Ts>
+  const Bundle& bundle_of() {
+    const void* key = type_key<TypeList<Ts...>>();
+    const std::uint32_t found = bundle_table_.find(key);
+    if (found != TypeTable::kAbsent) return bundles_[found];
+    const ComponentId ids[] = {component_id<Ts>()..., kNoComponent};
+    return add_bundle(key, std::span(ids, sizeof...(Ts)));
+  }
+  template <class T>
+  static void fill_column(std::byte* column, std::uint32_t first, std::size_t count, const T& value) {
+    if constexpr (!std::is_empty_v<T>) {
+      std::uninitialized_fill_n(reinterpret_cast<T*>(column) + first, count, value);
+    }
+  }
+  template <std::size_t... I, class... Ts>
+  static void fill_columns([[maybe_unused]] const Bundle& bundle, [[maybe_unused]] std::uint32_t first,
+                           [[maybe_unused]] std::size_t count, std::index_sequence<I...>, const Ts&... values) {
+    (fill_column(bundle.columns[I], first, count, values), ...);
+  }
+
+  template <class R>
+  [[nodiscard]] R* find_view_resource(ViewId view) const {
+    const auto found = view_resources_.find(view.value);
+    return found == view_resources_.end() ? nullptr : found->second.template find<R>();
+  }
+  template <class R>
+  [[nodiscard]] R& require_resource(R* value, bool write) const {
+    check_resource<R>(write);
+    GLOAM_ASSERT(value != nullptr, absent_sentence(type_name<R>(), "the world has no resource "));
+    return *value;
+  }
+  void check_component(ComponentId id, bool write) const {
+    if (checker_ != nullptr) checker_->component(id, write);
+  }
+  template <class R>
+  void check_resource(bool write) const {
+    if (checker_ != nullptr) checker_->resource(type_name<R>(), write);
+  }
+
+  /// For views; safe from many threads between structural changes.
+  [[nodiscard]] Query* find_query(const void* key) const;
+  [[nodiscard]] Query* add_query(const void* key, QueryTerms terms) const;
+  void refresh(Query& query) const;
+
+  WorldLimits limits_;
+  VirtualArray<Record> records_;
+  std::uint32_t free_head_ = kNoEntity.index;
+  std::size_t alive_count_ = 0;
+  std::uint64_t structure_version_ = 0;
+  mutable std::atomic<Tick> tick_ = 1;
+  mutable std::atomic<int> iterations_ = 0;  ///< views at work
+  AccessChecker* checker_ = nullptr;
+
+  TypeTable types_;
+  std::vector<ComponentInfo> infos_;
+  std::vector<std::unique_ptr<Archetype>> archetypes_;
+  std::unordered_map<std::vector<ComponentId>, Archetype*, ComponentsHash> archetype_by_components_;
+  TypeTable bundle_table_;
+  std::vector<Bundle> bundles_;
+
+  mutable std::mutex query_mutex_;
+  mutable TypeTable query_table_;
+  mutable std::vector<std::unique_ptr<Query>> queries_;
+
+  ResourceStore resources_;
+  std::unordered_map<std::uint32_t, ResourceStore> view_resources_;
+};
+
+}  // namespace gloam
