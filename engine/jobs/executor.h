@@ -10,8 +10,8 @@
 
 namespace gloam {
 
-/// A half-open range of indices handed to one call of a parallel_for body. `ordinal` counts ranges from the front, so that a body
-/// can write a slice of its own and a later merge by ordinal does not depend on the order of execution.
+/// A half-open range of indices handed to one call of a parallel_for body. `ordinal` counts ranges from the front, so
+/// that a body can write a slice of its own and a later merge by ordinal does not depend on the order of execution.
 struct JobRange {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -25,8 +25,9 @@ struct JobNode {
   std::uint32_t predecessor_count = 0;
 };
 
-/// Runs jobs. All calls block until their work is done, may be nested from inside jobs, and rethrow the first exception of a job
-/// (in order of job index) after every started job has ended. Results must not depend on which thread runs what.
+/// Runs jobs. All calls block until their work is done, may be nested from inside jobs, and rethrow the first exception
+/// of a job (in order of job index) after every started job has ended. Results must not depend on which thread runs
+/// what.
 class JobExecutor {
  public:
   virtual ~JobExecutor() = default;

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/jobs/crew.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <thread>
+
+namespace gloam {
+namespace {
+
+constexpr std::chrono::microseconds kSpinTime{25};
+constexpr int kPausesBeforeYield = 128;
+
+thread_local std::uint32_t t_depth = 0;  // a property of the thread's stack, whichever executors its frames belong to
+
+void pause_core() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#else
+  std::this_thread::yield();
+#endif
+}
+
+/// oneTBB has one worker less than cores unless asked for more, and of several wishes it grants the smallest. So the
+/// process holds one wish, the largest of all crews that have more threads than cores: its setting is process-wide too.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(std::uint32_t threads) : threads_(threads) {
+    if (threads_ <= Crew::core_count()) return;
+    Shared& all = shared();
+    const std::lock_guard lock(all.mutex);
+    all.wishes.insert(threads_);
+    all.grant_largest();
+  }
+  ~ThreadLimit() {
+    if (threads_ <= Crew::core_count()) return;
+    Shared& all = shared();
+    const std::lock_guard lock(all.mutex);
+    all.wishes.erase(all.wishes.find(threads_));
+    all.grant_largest();
+  }
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Shared {
+    void grant_largest() {
+      control.reset();
+      if (!wishes.empty()) control.emplace(tbb::global_control::max_allowed_parallelism, *wishes.rbegin());
+    }
+    std::mutex mutex;
+    std::multiset<std::uint32_t> wishes;
+    std::optional<tbb::global_control> control;
+  };
+  static Shared& shared() {
+    static Shared shared;
+    return shared;
+  }
+  const std::uint32_t threads_;
+};
+
+}  // namespace
+
+Region::Region() : depth_(t_depth + 1) {}
+
+InsideRegion::InsideRegion(const Region& region) : outer_depth_(t_depth) { t_depth = region.depth(); }
+InsideRegion::~InsideRegion() { t_depth = outer_depth_; }
+
+CrewState::CrewState(std::uint32_t threads) : crowded(threads > Crew::core_count()) {}
+
+void CrewState::release() {
+  if (holders.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+}
+
+void CrewState::announce() {
+  // Sequentially consistent with the sleeper's order (count yourself, then wait for the epoch to move): either we see
+  // the sleeper, or the sleeper sees the new epoch.
+  epoch.fetch_add(1, std::memory_order_seq_cst);
+  if (sleepers.load(std::memory_order_seq_cst) > 0) epoch.notify_all();
+}
+
+bool CrewState::help_deeper_than(std::uint32_t depth, bool was_idle) {
+  Region* region = nullptr;
+  {
+    const std::lock_guard lock(mutex);
+    region = first;
+    while (region != nullptr && (region->depth_ <= depth || !region->has_work())) region = region->next_;
+    if (region == nullptr) return false;
+    region->helpers_.fetch_add(1, std::memory_order_relaxed);
+  }
+  if (was_idle) idle.fetch_sub(1, std::memory_order_relaxed);
+  {
+    const InsideRegion inside(*region);
+    region->help();
+  }
+  if (was_idle) idle.fetch_add(1, std::memory_order_relaxed);
+  region->helpers_.fetch_sub(1, std::memory_order_release);  // the region may end from here on
+  announce();
+  return true;
+}
+
+bool CrewState::spin(std::uint32_t seen) const {
+  const auto deadline = Clock::now() + kSpinTime;
+  for (int i = 0; epoch.load(std::memory_order_acquire) == seen; ++i) {
+    if (i < kPausesBeforeYield && !crowded) {
+      pause_core();
+      continue;
+    }
+    std::this_thread::yield();
+    if (Clock::now() >= deadline) return false;
+  }
+  return true;
+}
+
+void CrewState::visit() {
+  while (!closing.load(std::memory_order_relaxed)) {
+    const std::uint32_t seen = epoch.load(std::memory_order_seq_cst);
+    if (help_deeper_than(0, true) || spin(seen)) continue;
+    // An offer that still counted on this helper has moved the epoch before it read `idle`.
+    idle.fetch_sub(1, std::memory_order_seq_cst);
+    if (epoch.load(std::memory_order_seq_cst) == seen) return;
+    idle.fetch_add(1, std::memory_order_relaxed);
+  }
+  idle.fetch_sub(1, std::memory_order_relaxed);
+}
+
+struct Crew::Workers {
+  explicit Workers(std::uint32_t threads) : limit(threads), arena(static_cast<int>(threads), 1) {}
+  ThreadLimit limit;
+  tbb::task_arena arena;
+};
+
+std::uint32_t Crew::core_count() { return static_cast<std::uint32_t>(tbb::info::default_concurrency()); }
+
+Crew::Crew(std::uint32_t threads)
+    : threads_(threads),
+      state_(new CrewState(threads)),
+      workers_(threads > 1 ? std::make_unique<Workers>(threads) : nullptr) {}
+
+Crew::~Crew() {
+  state_->closing.store(true, std::memory_order_relaxed);
+  state_->announce();
+  workers_.reset();
+  state_->release();
+}
+
+void Crew::call_helpers(std::uint32_t wanted) {
+  wanted = std::min(wanted, threads_ - 1);
+  std::uint32_t holders = state_->holders.load(std::memory_order_relaxed);
+  while (state_->idle.load(std::memory_order_seq_cst) < wanted && holders < threads_) {
+    if (!state_->holders.compare_exchange_weak(holders, holders + 1, std::memory_order_release,
+                                               std::memory_order_relaxed)) {
+      continue;
+    }
+    ++holders;
+    state_->idle.fetch_add(1, std::memory_order_relaxed);
+    workers_->arena.enqueue([state = state_] {
+      (void)state->holders.load(
+          std::memory_order_acquire);  // pairs with the increment above: oneTBB is not instrumented
+      state->visit();
+      state->release();
+    });
+  }
+}
+
+void Crew::offer(Region& region, std::uint32_t wanted) {
+  if (!region.open_) {
+    region.open_ = true;
+    const std::lock_guard lock(state_->mutex);
+    region.next_ = state_->first;
+    state_->first = &region;
+  }
+  state_->announce();
+  call_helpers(wanted);
+}
+
+void Crew::wait(const Region& region, const std::function<bool()>& done) {
+  while (true) {
+    const std::uint32_t seen = state_->epoch.load(std::memory_order_seq_cst);
+    if (done()) return;
+    if (state_->help_deeper_than(region.depth_, false) || state_->spin(seen)) continue;
+    state_->sleepers.fetch_add(1, std::memory_order_seq_cst);
+    state_->epoch.wait(seen, std::memory_order_seq_cst);
+    state_->sleepers.fetch_sub(1, std::memory_order_relaxed);
+  }
+}
+
+void Crew::close(Region& region) {
+  if (!region.open_) return;
+  {
+    const std::lock_guard lock(state_->mutex);
+    Region** link = &state_->first;
+    while (*link != &region) link = &(*link)->next_;
+    *link = region.next_;
+  }
+  region.open_ = false;
+  wait(region, [&] { return region.helpers_.load(std::memory_order_acquire) == 0; });
+}
+
+}  // namespace gloam
