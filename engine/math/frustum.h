@@ -20,8 +20,8 @@ struct Frustum {
   std::array<Plane, 6> planes;
 };
 
-/// Reversed-Z, zero-to-one depth, infinite far plane: depth = near / view depth. Y up in clip space (negative viewport height).
-/// fov_y in radians (0, π), aspect = width / height > 0, near_m > 0.
+/// Reversed-Z, zero-to-one depth, infinite far plane: depth = near / view depth. Y up in clip space (negative viewport
+/// height). fov_y in radians (0, π), aspect = width / height > 0, near_m > 0.
 [[nodiscard]] mat4 reversed_perspective(float fov_y, float aspect, float near_m);
 
 /// Reversed-Z orthographic: depth 1 at near_m, 0 at far_m.

@@ -19,8 +19,9 @@ struct PerspectiveScale {
   float near_m = 0.1f;
 };
 
-/// Tight rectangle of what a sphere (view space) covers on screen, clipped at the near plane and to the screen. Contains
-/// every projected point of the sphere in front of the near plane; widened by a few ulps. NaN gives the whole screen.
+/// Tight rectangle of what a sphere (view space) covers on screen, clipped at the near plane and to the screen.
+/// Contains every projected point of the sphere in front of the near plane; widened by a few ulps. NaN gives the whole
+/// screen.
 [[nodiscard]] NdcRect screen_bounds(const Sphere& view_sphere, const PerspectiveScale& projection);
 
 /// The same for a solid spherical sector (view space); never larger than the rectangle of its bounding sphere.

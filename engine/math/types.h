@@ -7,6 +7,7 @@
 #endif
 
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/ext/matrix_double4x4.hpp>
 #include <glm/ext/matrix_float3x3.hpp>
 #include <glm/ext/matrix_float4x4.hpp>

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/core/hash.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace gloam {
+namespace {
+
+std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+// Pinned: files and golden reports hold digests, so a change of these numbers is a change of a format.
+TEST(Hash, digests_keep_their_pinned_values) {
+  EXPECT_EQ(Hasher().digest(), 0xcbf29ce44fd0bfc1ull);
+  EXPECT_EQ(hash_bytes(bytes_of("gloam")), 0x78c9dcd5ac82fea4ull);
+  EXPECT_EQ(Hasher().text("gloam").digest(), 0x3ab0425d4e0d57ceull);
+  EXPECT_EQ(Hasher().value(42u).digest(), 0x11e412b9de05ed19ull);
+  EXPECT_EQ(Hasher().value(-1).digest(), 0x4ece1cec3906b407ull);
+  EXPECT_EQ(Hasher().value(1).value(2).digest(), 0x734414ea5d4fbda9ull);
+}
+
+TEST(Hash, order_matters) { EXPECT_NE(Hasher().value(1).value(2).digest(), Hasher().value(2).value(1).digest()); }
+
+TEST(Hash, the_width_of_an_integer_does_not_matter) {
+  EXPECT_EQ(Hasher().value(std::uint8_t{200}).digest(), Hasher().value(std::uint64_t{200}).digest());
+  EXPECT_EQ(Hasher().value(std::int8_t{-3}).digest(), Hasher().value(std::int64_t{-3}).digest());
+}
+
+TEST(Hash, enumerations_hash_as_their_number) {
+  enum class Colour : std::uint8_t { red = 1 };
+  EXPECT_EQ(Hasher().value(Colour::red).digest(), Hasher().value(1).digest());
+}
+
+TEST(Hash, texts_of_different_cuts_differ) {
+  EXPECT_NE(Hasher().text("ab").text("c").digest(), Hasher().text("a").text("bc").digest());
+  EXPECT_NE(Hasher().text("").digest(), Hasher().digest());
+}
+
+TEST(Hash, bytes_in_pieces_equal_bytes_at_once) {
+  EXPECT_EQ(Hasher().bytes(bytes_of("glo")).bytes(bytes_of("am")).digest(), hash_bytes(bytes_of("gloam")));
+}
+
+TEST(Hash, small_integers_do_not_collide) {
+  std::vector<std::uint64_t> digests;
+  for (int i = -5000; i < 5000; ++i) digests.push_back(Hasher().value(i).digest());
+  std::sort(digests.begin(), digests.end());
+  EXPECT_EQ(std::adjacent_find(digests.begin(), digests.end()), digests.end());
+}
+
+}  // namespace
+}  // namespace gloam
