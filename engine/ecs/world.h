@@ -59,7 +59,8 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Idempotent. T: trivially copyable, alignment ≤ 64; an empty struct is a tag and takes no bytes. Names are unique.
+  /// Idempotent: a type keeps its first id and name. T: trivially copyable, alignment ≤ 64; an empty struct is a tag
+  /// and takes no bytes. Names are unique.
   template <class T>
   ComponentId register_component(std::string_view name = type_name<T>()) {
     require_component<T>();
@@ -82,6 +83,7 @@ class World {
   /// One entity with these components. Each type once.
   template <class... Ts>
   Entity create(const Ts&... values) {
+    begin_structural_change();
     const Bundle& bundle = bundle_of<Ts...>();
     const NewRows rows = create_one(*bundle.archetype);
     fill_columns(bundle, rows.first, 1, std::index_sequence_for<Ts...>{}, values...);
@@ -90,6 +92,7 @@ class World {
   /// out.size() entities with the same values, as one contiguous range of rows in the order of `out`.
   template <class... Ts>
   void create_bulk(std::span<Entity> out, const Ts&... values) {
+    begin_structural_change();
     const Bundle& bundle = bundle_of<Ts...>();
     const std::uint32_t first = create_many(*bundle.archetype, out);
     fill_columns(bundle, first, out.size(), std::index_sequence_for<Ts...>{}, values...);

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/ecs/world.h"
+
+#include <algorithm>
+
+#include "engine/core/hash.h"
+
+namespace gloam {
+
+World::World(const WorldLimits& limits) : limits_(limits), records_(limits.max_entities) {}
+
+World::~World() = default;
+
+std::string World::unregistered_sentence(std::string_view type) {
+  return "component " + std::string(type) + " is not registered in this world";
+}
+
+std::string World::absent_sentence(std::string_view type, std::string_view where) {
+  return std::string(where) + std::string(type);
+}
+
+std::size_t World::ComponentsHash::operator()(const std::vector<ComponentId>& ids) const {
+  Hasher hasher;
+  for (const ComponentId id : ids) hasher.value(id);
+  return static_cast<std::size_t>(hasher.digest());
+}
+
+ComponentId World::register_type(const void* key, std::string_view name, std::uint32_t size) {
+  const std::uint32_t known = types_.find(key);
+  if (known != TypeTable::kAbsent) return static_cast<ComponentId>(known);
+  GLOAM_ASSERT(iterations_.load(std::memory_order_relaxed) == 0, "components are registered while no view iterates");
+  GLOAM_ASSERT(infos_.size() < kNoComponent, "a world has at most 65,535 component types");
+  GLOAM_ASSERT(std::ranges::find(infos_, name, &ComponentInfo::name) == infos_.end(),
+               "component name \"" + std::string(name) + "\" is taken by another type");
+  const auto id = static_cast<ComponentId>(infos_.size());
+  infos_.push_back({std::string(name), key, size});
+  types_.insert(key, id);
+  return id;
+}
+
+Archetype& World::archetype_of(std::vector<ComponentId> sorted) {
+  const auto known = archetype_by_components_.find(sorted);
+  if (known != archetype_by_components_.end()) return *known->second;
+  archetypes_.push_back(std::make_unique<Archetype>(static_cast<std::uint32_t>(archetypes_.size()), sorted, infos_,
+                                                    limits_.max_rows_per_archetype));
+  Archetype& archetype = *archetypes_.back();
+  archetype_by_components_.emplace(std::move(sorted), &archetype);
+  return archetype;
+}
+
+Archetype& World::neighbour(Archetype& from, ComponentId id) {
+  if (Archetype* known = from.edge(id)) return *known;
+  std::vector<ComponentId> ids(from.components().begin(), from.components().end());
+  const auto place = std::ranges::lower_bound(ids, id);
+  if (place != ids.end() && *place == id) {
+    ids.erase(place);
+  } else {
+    ids.insert(place, id);
+  }
+  Archetype& to = archetype_of(std::move(ids));
+  from.set_edge(id, &to);
+  to.set_edge(id, &from);
+  return to;
+}
+
+const World::Bundle& World::add_bundle(const void* key, std::span<const ComponentId> ids) {
+  std::vector<ComponentId> sorted(ids.begin(), ids.end());
+  std::ranges::sort(sorted);
+  GLOAM_ASSERT(std::ranges::adjacent_find(sorted) == sorted.end(), "an entity has each component once");
+  Bundle bundle{&archetype_of(std::move(sorted)), {}};
+  for (const ComponentId id : ids) bundle.columns.push_back(bundle.archetype->data(id));
+  bundle_table_.insert(key, static_cast<std::uint32_t>(bundles_.size()));
+  bundles_.push_back(std::move(bundle));
+  return bundles_.back();
+}
+
+void World::begin_structural_change() {
+  if (checker_ != nullptr) checker_->structure();
+  GLOAM_ASSERT(iterations_.load(std::memory_order_relaxed) == 0,
+               "structural change while a view iterates: record it in a CommandBuffer");
+}
+
+Entity World::take_entity(Archetype& archetype, std::uint32_t row) {
+  std::uint32_t index = free_head_;
+  if (index == kNoEntity.index) {
+    index = static_cast<std::uint32_t>(records_.size());
+    records_.push_back({});
+  } else {
+    free_head_ = records_[index].row;
+  }
+  Record& record = records_[index];
+  record.archetype = &archetype;
+  record.row = row;
+  const Entity e{index, record.generation};
+  archetype.set_entity(row, e);
+  return e;
+}
+
+World::NewRows World::create_one(Archetype& archetype) {
+  GLOAM_ASSERT(alive_count_ < limits_.max_entities, "a world is full: raise WorldLimits::max_entities");
+  if (free_head_ == kNoEntity.index) records_.reserve(records_.size() + 1);
+  const std::uint32_t row = archetype.push_rows(1, tick());
+  ++alive_count_;
+  ++structure_version_;
+  return {take_entity(archetype, row), row};
+}
+
+std::uint32_t World::create_many(Archetype& archetype, std::span<Entity> out) {
+  GLOAM_ASSERT(out.size() <= limits_.max_entities - alive_count_, "a world is full: raise WorldLimits::max_entities");
+  if (out.empty()) return 0;
+  records_.reserve(std::max(records_.size(), alive_count_ + out.size()));
+  const std::uint32_t first = archetype.push_rows(static_cast<std::uint32_t>(out.size()), tick());
+  std::uint32_t row = first;
+  for (Entity& e : out) e = take_entity(archetype, row++);
+  alive_count_ += out.size();
+  ++structure_version_;
+  return first;
+}
+
+void World::close_row(Archetype& archetype, std::uint32_t row) {
+  const Entity moved = archetype.remove_row(row, tick());
+  if (moved != kNoEntity) records_[moved.index].row = row;
+}
+
+void World::destroy(Entity e) {
+  begin_structural_change();
+  static_cast<void>(living(e));
+  Record& record = records_[e.index];
+  close_row(*record.archetype, record.row);
+  record.archetype = nullptr;
+  record.row = free_head_;
+  if (++record.generation == 0) record.generation = 1;
+  free_head_ = e.index;
+  --alive_count_;
+  ++structure_version_;
+}
+
+void World::move_entity(Record& record, Archetype& to) {
+  Archetype& from = *record.archetype;
+  const std::uint32_t row = to.push_rows(1, tick());
+  to.set_entity(row, from.entities()[record.row]);
+  from.copy_row_to(record.row, to, row);
+  close_row(from, record.row);
+  record.archetype = &to;
+  record.row = row;
+  ++structure_version_;
+}
+
+std::byte* World::add_cell(Entity e, ComponentId id) {
+  begin_structural_change();
+  static_cast<void>(living(e));
+  Record& record = records_[e.index];
+  if (record.archetype->has(id)) {
+    record.archetype->mark_changed(id, record.row, 1, tick());
+  } else {
+    move_entity(record, neighbour(*record.archetype, id));
+  }
+  return record.archetype->data(id) + std::size_t{infos_[id].size} * record.row;
+}
+
+bool World::remove_component(Entity e, ComponentId id) {
+  begin_structural_change();
+  static_cast<void>(living(e));
+  Record& record = records_[e.index];
+  if (!record.archetype->has(id)) return false;
+  move_entity(record, neighbour(*record.archetype, id));
+  return true;
+}
+
+Query* World::find_query(const void* key) const {
+  const std::lock_guard lock(query_mutex_);
+  const std::uint32_t known = query_table_.find(key);
+  return known == TypeTable::kAbsent ? nullptr : queries_[known].get();
+}
+
+Query* World::add_query(const void* key, QueryTerms terms) const {
+  const std::lock_guard lock(query_mutex_);
+  const std::uint32_t known = query_table_.find(key);
+  if (known != TypeTable::kAbsent) return queries_[known].get();  // another thread was first
+  query_table_.insert(key, static_cast<std::uint32_t>(queries_.size()));
+  queries_.push_back(std::make_unique<Query>(std::move(terms)));
+  return queries_.back().get();
+}
+
+void World::refresh(Query& query) const {
+  if (query.seen() == archetypes_.size()) return;
+  const std::lock_guard lock(query_mutex_);
+  query.extend(archetypes_);
+}
+
+}  // namespace gloam

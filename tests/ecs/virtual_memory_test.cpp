@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/ecs/virtual_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <new>
+#include <utility>
+
+#include "tests/support/expect_assert.h"
+
+namespace gloam {
+namespace {
+
+TEST(ReservedMemory, committed_pages_are_zero_and_writable) {
+  const std::size_t page = ReservedMemory::page_size();
+  ReservedMemory memory(page * 1000);
+  memory.commit(0, page);
+  memory.commit(page * 7, page * 9);
+  EXPECT_EQ(memory.data()[0], std::byte{0});
+  EXPECT_EQ(memory.data()[page * 9 - 1], std::byte{0});
+  memory.data()[page - 1] = std::byte{1};
+  memory.data()[page * 7] = std::byte{2};
+  EXPECT_EQ(memory.data()[page - 1], std::byte{1});
+}
+
+TEST(ReservedMemory, takes_address_space_and_no_memory) {
+  const ReservedMemory memory(std::size_t{1} << 38);
+  EXPECT_NE(memory.data(), nullptr);
+  EXPECT_EQ(memory.size(), std::size_t{1} << 38);
+}
+
+TEST(ReservedMemory, throws_when_address_space_is_used_up) {
+  EXPECT_THROW(ReservedMemory(std::size_t{1} << 62), std::bad_alloc);
+}
+
+TEST(ReservedMemory, moves_with_its_pages) {
+  ReservedMemory first(1);
+  first.commit(0, ReservedMemory::page_size());
+  std::byte* data = first.data();
+  ReservedMemory second(std::move(first));
+  EXPECT_EQ(second.data(), data);
+  ReservedMemory third;
+  third = std::move(second);
+  EXPECT_EQ(third.data(), data);
+}
+
+TEST(ReservedMemory, commits_whole_pages_within_the_reservation) {
+  const std::size_t page = ReservedMemory::page_size();
+  ReservedMemory memory(page * 2);
+  EXPECT_ASSERT(memory.commit(0, page * 3), "within their reservation");
+  EXPECT_ASSERT(memory.commit(1, page), "by whole pages");
+}
+
+TEST(VirtualArray, grows_without_moving) {
+  VirtualArray<int> array(1'000'000);
+  array.push_back(0);
+  const int* first = &array[0];
+  for (int i = 1; i < 1'000'000; ++i) array.push_back(i);
+  EXPECT_EQ(&array[0], first);
+  for (int i = 0; i < 1'000'000; ++i) ASSERT_EQ(array[static_cast<std::size_t>(i)], i);
+  EXPECT_ASSERT(array.push_back(0), "is full");
+}
+
+TEST(VirtualArray, reserves_up_to_its_limit) {
+  VirtualArray<std::uint64_t> array(10'000);
+  array.reserve(10'000);
+  EXPECT_EQ(array.size(), 0u);
+  EXPECT_ASSERT(array.reserve(10'001), "is full");
+}
+
+}  // namespace
+}  // namespace gloam
