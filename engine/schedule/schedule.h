@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/zones.h"
+#include "engine/ecs/world.h"
+#include "engine/jobs/executor.h"
+#include "engine/schedule/system.h"
+
+namespace gloam {
+
+/// Systems and the order that their signatures ask for. Per stage: systems that conflict (one writes what the other
+/// reads or writes) run in order of registration, others in any order or at once; when all have ended, their commands
+/// are applied in order of registration. Results do not depend on the executor, as long as systems touch only what they
+/// declare.
+///
+/// One thread at a time. The graph is built on the first run after systems or enabling changed.
+class Schedule {
+ public:
+  /// Refers to the system just added, to say more about it.
+  class Added {
+   public:
+    /// Runs behind the system `name` too, in stages they share; that one must have been added before.
+    Added& after(std::string_view name);
+
+   private:
+    friend class Schedule;
+    Added(Schedule& schedule, System& system) : schedule_(schedule), system_(system) {}
+    Schedule& schedule_;
+    System& system_;
+  };
+
+  Schedule();
+  ~Schedule();
+  Schedule(const Schedule&) = delete;
+  Schedule& operator=(const Schedule&) = delete;
+
+  /// Names are unique. A system that takes a ViewResource or ViewId must be in Stage::view alone.
+  template <class... Parameters>
+  Added add_system(std::string_view name, std::string_view module, Stage stages, void (*function)(Parameters...)) {
+    return add(name, module, stages, access_of(function), bind_system(function));
+  }
+
+  /// Modules are enabled unless said otherwise; systems of disabled ones do not run.
+  void set_enabled(std::string_view module, bool enabled);
+  [[nodiscard]] bool is_enabled(std::string_view module) const;
+
+  /// Asserts on accesses that a system did not declare (see CheckedWorld). Slower; for tests and debugging.
+  void set_checked(bool checked) { checked_ = checked; }
+
+  /// Runs the systems of Stage::world (the only stage allowed here). Zones: one a system; null records none.
+  /// Rethrows what the earliest-registered failing system threw; then systems that wait for a failed one did not run,
+  /// all others did, and the commands of the stage are dropped.
+  void run(Stage stage, World& world, JobExecutor& executor, ZoneRecorder* zones = nullptr);
+  /// As run(), the systems of Stage::view, for this view.
+  void run_view(ViewId view, World& world, JobExecutor& executor, ZoneRecorder* zones = nullptr);
+
+  /// One line a system and stage: stage, name, module, what it reads, writes, records and waits for.
+  [[nodiscard]] std::string describe() const;
+
+ private:
+  struct Graph;
+  struct Run;
+
+  Added add(std::string_view name, std::string_view module, Stage stages, SystemAccess access,
+            std::function<void(const SystemContext&)> run);
+  void run_stage(Stage stage, Run run);
+  Graph& graph(Stage stage);
+  void forget_graphs();
+  static void run_system(System& system, const Run& run);
+
+  std::vector<std::unique_ptr<System>> systems_;
+  std::set<std::string, std::less<>> disabled_;
+  bool checked_ = false;
+  bool running_ = false;
+  std::array<std::unique_ptr<Graph>, 2> graphs_;  ///< of Stage::world and Stage::view; null until needed
+};
+
+}  // namespace gloam
