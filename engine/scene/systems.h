@@ -2,11 +2,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/ecs/view.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/components.h"
+#include "engine/scene/resources.h"
+#include "engine/scene/system_state.h"
 #include "engine/schedule/schedule.h"
 
 namespace gloam {
 
 /// Adds animation, transform, joint-matrix and morph systems (module "engine", world stage), in that order.
 void add_scene_systems(Schedule& schedule);
+
+/// Poses of SceneClock's time into LocalTransform, all clips at once, each looped by its own duration.
+void animation_system(View<const SourceNode> sources, View<LocalTransform> poses, Resource<const SceneAssets> assets,
+                      Resource<const SceneClock> clock, Resource<SceneNodes> nodes,
+                      Resource<AnimationBindings> bindings, JobExecutor& jobs);
+
+/// WorldTransform of every node. A node with neither LocalTransform nor LocalMatrix stands at its parent's origin; without a parent
+/// as well, its WorldTransform is the host's and stays. A node whose parent is dead or has no WorldTransform is a root.
+using TransformView = View<WorldTransform, Maybe<const LocalTransform>, Maybe<const LocalMatrix>, Maybe<const Parent>>;
+void transform_system(TransformView nodes, Resource<TransformTree> tree, JobExecutor& jobs);
+
+/// JointMatrices of all skinned instances. A joint that is not in the world stands where the instance stands.
+void joint_system(View<const MeshInstance> instances, View<const WorldTransform> worlds,
+                  Resource<const SceneAssets> assets, Resource<const SceneNodes> nodes, Resource<JointMatrices> joints,
+                  JobExecutor& jobs);
+
+/// Lays MorphWeights out for all entities with a MorphInstance and samples the clips that move them.
+void morph_system(View<const MeshInstance, MorphInstance> instances, Resource<const SceneAssets> assets,
+                  Resource<const SceneClock> clock, Resource<const AnimationBindings> bindings,
+                  Resource<MorphWeights> weights);
 
 }  // namespace gloam
