@@ -24,6 +24,8 @@ Plane plane_from(dvec4 equation) {
   return {vec3(dvec3(equation) / length), static_cast<float>(equation.w / length)};
 }
 
+bool has_nan(vec3 v) { return std::isnan(v.x) || std::isnan(v.y) || std::isnan(v.z); }
+
 double distance_rounding(const Plane& plane, dvec3 reach) {
   return kRounding * (glm::dot(glm::abs(dvec3(plane.normal)), reach) + std::abs(static_cast<double>(plane.distance)));
 }
@@ -77,6 +79,7 @@ bool may_intersect(const Frustum& frustum, const Sphere& sphere) {
 }
 
 bool may_intersect(const Frustum& frustum, const Aabb& box) {
+  if (has_nan(box.min) || has_nan(box.max)) return true;
   if (box.min.x > box.max.x || box.min.y > box.max.y || box.min.z > box.max.z) return false;
   const dvec3 low(box.min);
   const dvec3 high(box.max);

@@ -31,6 +31,9 @@ constexpr double kWidening = 0x1p-22;
 constexpr double kSupportRounding = 8 * std::numeric_limits<double>::epsilon();
 /// How far a tangent's inclination is moved to the side where it stays a bound through the camera itself.
 constexpr double kTangentStep = 1e-13;
+/// Where a body only touches the near plane, the best inclination is endless and its bound all rounding. Taken as this
+/// share (of a squared radius) deeper instead.
+constexpr double kTouch = 1e-14;
 
 const NdcRect kWholeScreen{};
 const NdcRect kNothing{vec2(0.0f), vec2(0.0f), true};
@@ -114,8 +117,11 @@ double slope_bound(const Sector& s, double mu, double near) {
   const double length = std::sqrt(1.0 + mu * mu);
   const bool cap = across * s.cosine <= along * s.sine;
   const double outward = cap ? length : along * s.cosine + across * s.sine;
-  const double terms = std::abs(s.apex.x) + std::abs(mu * s.apex.z) + s.range * length;
-  const double support = s.apex.x + mu * s.apex.z + s.range * std::max(outward, 0.0) + kSupportRounding * terms;
+  // What is clearly turned away adds nothing, not even rounding.
+  const double margin = kSupportRounding * length;
+  const double beyond_apex = outward > -margin ? s.range * (std::max(outward, 0.0) + margin) : 0.0;
+  const double apex_rounding = kSupportRounding * (std::abs(s.apex.x) + std::abs(mu * s.apex.z));
+  const double support = s.apex.x + mu * s.apex.z + beyond_apex + apex_rounding;
   return std::max(support, 0.0) / near - mu;
 }
 
@@ -152,7 +158,7 @@ double greatest_slope(const Sector& s, double near) {
   tangent(-greatest_slope(apex.x, apex.z, s.range, near));
   // The cap's highest point on the near plane.
   const double lean = (near - apex.z) / s.range;
-  crossing(lean / std::sqrt(1.0 - lean * lean));
+  crossing(lean / std::sqrt(std::max((1.0 - lean) * (1.0 + lean), kTouch)));
   // The flank's two generators whose tangent planes stand on the screen axis.
   const double ss = s.sine * s.sine;
   const double flat = square(axis.x) + square(axis.z);
@@ -166,7 +172,8 @@ double greatest_slope(const Sector& s, double near) {
   const double facing = square(axis.y) * (square(rim.x) + square(rim.z) - rr) + square(rim.x * axis.x + rim.z * axis.z);
   least.roots(square(rim.z) - rr * q2, rim.x * rim.z - rr * q1, square(rim.x) - rr * q0, rr * facing, tangent);
   const double above = near - rim.z;
-  const double w = above * std::abs(axis.y) / std::sqrt(rr * q2 - above * above);
+  const double room = std::max(rr * q2 - above * above, kTouch * rr * q2);
+  const double w = above * std::abs(axis.y) / std::sqrt(room);
   crossing((w - q1) / q2);
   return least.slope;
 }
