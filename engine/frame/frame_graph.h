@@ -14,8 +14,8 @@
 
 namespace gloam {
 
-/// A version of a resource in this frame's graph. Writing gives a new version; using an old one to write, or a handle of another
-/// frame, asserts.
+/// A version of a resource in this frame's graph. Writing gives a new version; using an old one in a later pass, or a handle of
+/// another frame, asserts.
 template <class Kind>
 struct FrameRef {
   std::uint32_t resource = ~0u;
@@ -43,7 +43,8 @@ class PassContext {
 
 using PassFunction = std::function<void(PassContext&)>;
 
-/// Declares one pass: what it reads and writes, then what it records.
+/// Declares one pass: what it reads and writes, then what it records. Reads and writes come before the next pass is added. A pass may
+/// name one resource several times where one layout and one barrier serve: several reads, or a write that includes the read.
 class PassBuilder {
  public:
   PassBuilder(FrameGraph& graph, std::uint32_t pass) : graph_(graph), pass_(pass) {}
@@ -86,7 +87,8 @@ class FrameGraph {
   [[nodiscard]] BufferRef create_buffer(gpu::BufferDesc desc);
   /// Owned elsewhere. `before`: its last access outside the graph (none: contents may be thrown away). `after`: the access it is left
   /// ready for when the frame ends (none: whatever came last). Passes that write an import are never culled.
-  [[nodiscard]] ImageRef import_image(std::string_view name, gpu::ImageHandle image, gpu::Access before, gpu::Access after);
+  [[nodiscard]] ImageRef import_image(std::string_view name, gpu::ImageHandle image, gpu::Access before,
+                                      gpu::Access after);
   [[nodiscard]] BufferRef import_buffer(std::string_view name, gpu::BufferHandle buffer, gpu::Access before,
                                         gpu::Access after);
 
@@ -111,6 +113,8 @@ class FrameGraph {
   /// Bytes of transient memory in the current plan, and what it would be without sharing.
   [[nodiscard]] std::uint64_t transient_bytes() const;
   [[nodiscard]] std::uint64_t unshared_bytes() const;
+  /// Gives back the transient memory of all cached plans but the current one's. Happens by itself to plans that rest for 60 frames.
+  void free_idle_memory();
 
  private:
   friend class PassBuilder;

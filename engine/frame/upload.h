@@ -59,7 +59,8 @@ class Uploader {
   void buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after);
   /// All mips of all layers, tightly packed, layer by layer and inside a layer mip by mip.
   void image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after);
-  /// Does all that was asked for since the last call.
+  /// Does all that was asked for since the last call; not between begin_frame and submit_frame. One upload a target and call.
+  /// After a fault nothing of it is tried again.
   [[nodiscard]] Status flush();
 
  private:
@@ -69,6 +70,9 @@ class Uploader {
     std::vector<std::byte> bytes;
     gpu::Access after = gpu::Access::none;
   };
+  [[nodiscard]] Status submit(std::span<const Job> jobs, std::uint64_t staging_bytes);
+  void record(gpu::CommandList& commands, std::span<const Job> jobs, gpu::BufferHandle staging);
+
   gpu::Device& device_;
   std::vector<Job> jobs_;
 };

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/core/assert.h"
+#include "engine/frame/counting_commands.h"
+#include "engine/frame/frame_graph.h"
+#include "engine/frame/frame_graph_state.h"
+
+namespace gloam {
+
+using frame::DeclaredResource;
+using frame::DeclaredUse;
+using frame::PlannedBarrier;
+using frame::PlannedPass;
+
+Status FrameGraph::compile() {
+  State& s = *state_;
+  s.check_declaring();
+  s.hash = frame::structural_hash(s.declaration);
+  Result<frame::CachedPlan*> plan = s.cache.get(s.declaration, s.hash);
+  if (!plan.ok()) return plan.error();
+  s.plan = *plan;
+  s.stage = State::Stage::compiled;
+  return {};
+}
+
+gpu::ImageHandle FrameGraph::State::image_of(std::uint32_t resource_index) const {
+  const DeclaredResource& r = declaration.resources[resource_index];
+  return r.imported ? r.image : plan->images[resource_index];
+}
+gpu::BufferHandle FrameGraph::State::buffer_of(std::uint32_t resource_index) const {
+  const DeclaredResource& r = declaration.resources[resource_index];
+  return r.imported ? r.buffer : plan->buffers[resource_index];
+}
+
+void FrameGraph::State::record_barriers(gpu::CommandList& commands, std::uint32_t first, std::uint32_t end) {
+  if (first == end) return;
+  buffer_barriers.clear();
+  image_barriers.clear();
+  for (std::uint32_t i = first; i < end; ++i) {
+    const PlannedBarrier& b = plan->plan.barriers[i];
+    if (declaration.resources[b.resource].is_image) {
+      image_barriers.push_back({image_of(b.resource), b.before, b.after, b.also_before, b.also_after});
+    } else {
+      buffer_barriers.push_back({buffer_of(b.resource), b.before, b.after, b.also_before, b.also_after});
+    }
+  }
+  commands.barrier(buffer_barriers, image_barriers);
+}
+
+void FrameGraph::execute(gpu::CommandList& commands) {
+  State& s = *state_;
+  GLOAM_ASSERT(s.stage == State::Stage::compiled, "execute needs a successful compile before it, once a frame");
+  s.stage = State::Stage::executed;
+  s.timer.begin_frame(s.device.frame_number());
+  frame::CountingCommands counting(commands);
+  PassContext context(*this, counting);
+  const frame::Plan& plan = s.plan->plan;
+  for (std::uint32_t i = 0; i < plan.passes.size(); ++i) {
+    const PlannedPass& planned = plan.passes[i];
+    frame::DeclaredPass& pass = s.declaration.passes[planned.pass];
+    const bool timed = i < frame::PassTimer::kPassesTimed;
+    commands.begin_label(pass.name);
+    if (timed) commands.write_timestamp(2 * i);
+    s.record_barriers(commands, planned.first_barrier, planned.first_barrier + planned.barrier_count);
+    counting.reset();
+    s.recording_pass = planned.pass;
+    if (pass.function) pass.function(context);
+    s.recording_pass = frame::kNone;
+    if (timed) commands.write_timestamp(2 * i + 1);
+    commands.end_label();
+    s.timer.add(pass, counting.dispatches(), counting.draws());
+  }
+  s.record_barriers(commands, plan.first_final_barrier, static_cast<std::uint32_t>(plan.barriers.size()));
+}
+
+template <class Kind>
+const DeclaredUse& FrameGraph::State::declared_use(FrameRef<Kind> ref) {
+  const DeclaredResource& wanted = resource(ref);
+  GLOAM_ASSERT(recording_pass != frame::kNone, "a pass asks for its resources while it records");
+  const frame::DeclaredPass& pass = declaration.passes[recording_pass];
+  const DeclaredUse* found = nullptr;
+  for (const DeclaredUse& use : declaration.uses_of(pass)) {
+    if (use.resource == ref.resource) found = &use;
+  }
+  GLOAM_ASSERT(found != nullptr,
+               "pass '" + pass.name + "' uses resource '" + wanted.name() + "' that it did not declare");
+  GLOAM_ASSERT(ref.version >= found->first_version && ref.version <= found->last_version,
+               "pass '" + pass.name + "' uses another version of resource '" + wanted.name() + "' than it declared");
+  return *found;
+}
+
+gpu::ImageHandle PassContext::image(ImageRef ref) const {
+  return graph_.state_->image_of(graph_.state_->declared_use(ref).resource);
+}
+gpu::BufferHandle PassContext::buffer(BufferRef ref) const {
+  return graph_.state_->buffer_of(graph_.state_->declared_use(ref).resource);
+}
+
+std::vector<PassTime> FrameGraph::pass_times() {
+  state_->timer.refresh(state_->device);
+  return state_->timer.times();
+}
+double FrameGraph::gpu_ms() const {
+  state_->timer.refresh(state_->device);
+  return state_->timer.gpu_ms();
+}
+
+void FrameGraph::free_idle_memory() { state_->cache.free_memory_except(state_->plan); }
+std::uint64_t FrameGraph::plans_compiled() const { return state_->cache.plans_compiled(); }
+std::uint64_t FrameGraph::plan_hash() const { return state_->hash; }
+std::uint64_t FrameGraph::transient_bytes() const {
+  return state_->plan == nullptr ? 0 : state_->plan->plan.transient_bytes;
+}
+std::uint64_t FrameGraph::unshared_bytes() const {
+  return state_->plan == nullptr ? 0 : state_->plan->plan.unshared_bytes;
+}
+
+}  // namespace gloam

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/frame/frame_graph.h"
+
+#include "engine/core/assert.h"
+#include "engine/frame/frame_graph_state.h"
+#include "engine/gpu/access.h"
+
+namespace gloam {
+
+namespace {
+
+using frame::DeclaredPass;
+using frame::DeclaredResource;
+using frame::DeclaredUse;
+
+std::string in_pass(const DeclaredPass& pass, const DeclaredResource& resource) {
+  return "pass '" + pass.name + "', resource '" + resource.name() + "': ";
+}
+
+}  // namespace
+
+template <class Kind>
+std::uint32_t FrameGraph::State::add_use(std::uint32_t pass_index, FrameRef<Kind> ref, gpu::Access access, bool write) {
+  check_declaring();
+  GLOAM_ASSERT(pass_index + 1 == declaration.passes.size(),
+               "a pass declares its reads and writes before the next pass is added");
+  DeclaredPass& pass = declaration.passes[pass_index];
+  DeclaredResource& target = resource(ref);
+  GLOAM_ASSERT(gpu::is_write(access) == write,
+               in_pass(pass, target) + std::string(name_of(access)) + (write ? " writes nothing" : " is no read"));
+  GLOAM_ASSERT(target.is_image ? gpu::fits_image(access) : gpu::fits_buffer(access),
+               in_pass(pass, target) + "this kind of resource has no access " + std::string(name_of(access)));
+  DeclaredUse* use = nullptr;
+  for (std::uint32_t i = pass.first_use; i < declaration.uses.size() && use == nullptr; ++i) {
+    if (declaration.uses[i].resource == ref.resource) use = &declaration.uses[i];
+  }
+  // A pass may read the version it replaces, in either order of declaration.
+  const bool replaced_here = use != nullptr && !write && ref.version >= use->first_version;
+  GLOAM_ASSERT(ref.version == target.version || replaced_here,
+               in_pass(pass, target) + "this handle is stale; a pass has written a newer version since");
+  GLOAM_ASSERT(write || target.imported || target.version > 0,
+               in_pass(pass, target) + "a transient is read that no pass has written");
+  if (use == nullptr) {
+    use = &declaration.uses.emplace_back(
+        DeclaredUse{.resource = ref.resource, .first_version = ref.version, .last_version = ref.version});
+    ++pass.use_count;
+  }
+  const gpu::AccessMask combined = frame::combine_accesses(use->accesses, access, target.is_image);
+  GLOAM_ASSERT(combined != 0, in_pass(pass, target) + std::string(name_of(access)) + " and " +
+                                  std::string(name_of(gpu::first_of(use->accesses))) + " cannot be had in one pass");
+  use->accesses = combined;
+  use->reads = use->reads || !write;
+  use->writes = use->writes || write;
+  if (write) use->last_version = ++target.version;
+  return target.version;
+}
+
+void PassBuilder::read(ImageRef image, gpu::Access access) { graph_.state_->add_use(pass_, image, access, false); }
+void PassBuilder::read(BufferRef buffer, gpu::Access access) { graph_.state_->add_use(pass_, buffer, access, false); }
+
+ImageRef PassBuilder::write(ImageRef image, gpu::Access access) {
+  return {image.resource, graph_.state_->add_use(pass_, image, access, true), image.frame};
+}
+BufferRef PassBuilder::write(BufferRef buffer, gpu::Access access) {
+  return {buffer.resource, graph_.state_->add_use(pass_, buffer, access, true), buffer.frame};
+}
+
+void PassBuilder::keep() {
+  graph_.state_->check_declaring();
+  graph_.state_->declaration.passes[pass_].keep = true;
+}
+
+void PassBuilder::execute(PassFunction function) {
+  graph_.state_->check_declaring();
+  graph_.state_->declaration.passes[pass_].function = std::move(function);
+}
+
+FrameGraph::FrameGraph(gpu::Device& device) : state_(std::make_unique<State>(device)) {}
+FrameGraph::~FrameGraph() = default;
+
+void FrameGraph::begin() {
+  State& s = *state_;
+  // Captures of the last frame must not outlive it.
+  for (DeclaredPass& pass : s.declaration.passes.all()) pass.function = nullptr;
+  s.declaration.passes.forget();
+  s.declaration.resources.forget();
+  s.declaration.uses.clear();
+  s.stage = State::Stage::declaring;
+  s.plan = nullptr;
+  s.recording_pass = frame::kNone;
+  ++s.frame_number;
+}
+
+namespace {
+
+/// A slot is reused, so every field that matters for its kind is set.
+DeclaredResource& add_resource(frame::Declaration& declaration, bool is_image, bool imported) {
+  DeclaredResource& resource = declaration.resources.add();
+  resource.is_image = is_image;
+  resource.imported = imported;
+  resource.image = {};
+  resource.buffer = {};
+  resource.before = gpu::Access::none;
+  resource.after = gpu::Access::none;
+  resource.version = 0;
+  return resource;
+}
+
+}  // namespace
+
+ImageRef FrameGraph::create_image(gpu::ImageDesc desc) {
+  state_->check_declaring();
+  GLOAM_ASSERT(desc.format != gpu::Format::undefined, "a transient image has a format: '" + desc.name + "'");
+  GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.mips > 0,
+               "a transient image has a width, a height, a layer and a mip: '" + desc.name + "'");
+  add_resource(state_->declaration, true, false).image_desc = std::move(desc);
+  return {state_->declaration.resources.size() - 1, 0, state_->frame_number};
+}
+
+BufferRef FrameGraph::create_buffer(gpu::BufferDesc desc) {
+  state_->check_declaring();
+  GLOAM_ASSERT(desc.size > 0, "a transient buffer has at least one byte: '" + desc.name + "'");
+  GLOAM_ASSERT(desc.memory == gpu::MemoryKind::device, "a transient buffer is in device memory: '" + desc.name + "'");
+  add_resource(state_->declaration, false, false).buffer_desc = std::move(desc);
+  return {state_->declaration.resources.size() - 1, 0, state_->frame_number};
+}
+
+ImageRef FrameGraph::import_image(std::string_view name, gpu::ImageHandle image, gpu::Access before,
+                                  gpu::Access after) {
+  state_->check_declaring();
+  GLOAM_ASSERT(image, "an import needs a living image: '" + std::string(name) + "'");
+  for (const DeclaredResource& other : state_->declaration.resources.all()) {
+    GLOAM_ASSERT(other.image != image, "an image is imported once a frame: '" + std::string(name) + "'");
+  }
+  DeclaredResource& resource = add_resource(state_->declaration, true, true);
+  resource.image_desc.name = name;
+  resource.image = image;
+  resource.before = before;
+  resource.after = after;
+  return {state_->declaration.resources.size() - 1, 0, state_->frame_number};
+}
+
+BufferRef FrameGraph::import_buffer(std::string_view name, gpu::BufferHandle buffer, gpu::Access before,
+                                    gpu::Access after) {
+  state_->check_declaring();
+  GLOAM_ASSERT(buffer, "an import needs a living buffer: '" + std::string(name) + "'");
+  for (const DeclaredResource& other : state_->declaration.resources.all()) {
+    GLOAM_ASSERT(other.buffer != buffer, "a buffer is imported once a frame: '" + std::string(name) + "'");
+  }
+  DeclaredResource& resource = add_resource(state_->declaration, false, true);
+  resource.buffer_desc.name = name;
+  resource.buffer = buffer;
+  resource.before = before;
+  resource.after = after;
+  return {state_->declaration.resources.size() - 1, 0, state_->frame_number};
+}
+
+PassBuilder FrameGraph::add_pass(std::string_view name, std::string_view module) {
+  state_->check_declaring();
+  DeclaredPass& pass = state_->declaration.passes.add();
+  pass.name = name;
+  pass.module = module;
+  pass.first_use = static_cast<std::uint32_t>(state_->declaration.uses.size());
+  pass.use_count = 0;
+  pass.keep = false;
+  pass.function = nullptr;
+  return {*this, state_->declaration.passes.size() - 1};
+}
+
+const gpu::ImageDesc& FrameGraph::desc(ImageRef image) const {
+  const DeclaredResource& resource = state_->resource(image);
+  return resource.imported ? state_->device.desc(resource.image) : resource.image_desc;
+}
+const gpu::BufferDesc& FrameGraph::desc(BufferRef buffer) const {
+  const DeclaredResource& resource = state_->resource(buffer);
+  return resource.imported ? state_->device.desc(resource.buffer) : resource.buffer_desc;
+}
+
+}  // namespace gloam

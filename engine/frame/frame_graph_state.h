@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/frame/declaration.h"
+#include "engine/frame/frame_graph.h"
+#include "engine/frame/pass_timer.h"
+#include "engine/frame/plan_cache.h"
+
+namespace gloam {
+
+struct FrameGraph::State {
+  enum class Stage { declaring, compiled, executed };
+
+  explicit State(gpu::Device& d) : device(d), cache(d) {}
+
+  /// The resource of a handle of this frame; asserts for any other.
+  template <class Kind>
+  [[nodiscard]] frame::DeclaredResource& resource(FrameRef<Kind> ref) {
+    GLOAM_ASSERT(ref, "this handle names no resource");
+    GLOAM_ASSERT(ref.frame == frame_number && ref.resource < declaration.resources.size(),
+                 "this handle is of another frame; handles are made anew every frame");
+    return declaration.resources[ref.resource];
+  }
+  /// Adds what a pass does to a resource; gives the resource's version after it.
+  template <class Kind>
+  std::uint32_t add_use(std::uint32_t pass, FrameRef<Kind> ref, gpu::Access access, bool write);
+  /// The use of a resource by the pass that is recording; asserts when it has declared none.
+  template <class Kind>
+  const frame::DeclaredUse& declared_use(FrameRef<Kind> ref);
+
+  void check_declaring() const {
+    GLOAM_ASSERT(stage == Stage::declaring, "declarations come between FrameGraph::begin and FrameGraph::compile");
+  }
+  void record_barriers(gpu::CommandList& commands, std::uint32_t first, std::uint32_t end);
+  [[nodiscard]] gpu::ImageHandle image_of(std::uint32_t resource_index) const;
+  [[nodiscard]] gpu::BufferHandle buffer_of(std::uint32_t resource_index) const;
+
+  gpu::Device& device;
+  frame::Declaration declaration;
+  frame::PlanCache cache;
+  frame::PassTimer timer;
+  Stage stage = Stage::declaring;
+  std::uint32_t frame_number = 1;
+  std::uint64_t hash = 0;
+  frame::CachedPlan* plan = nullptr;  ///< of this frame, once compiled
+  std::uint32_t recording_pass = frame::kNone;
+  std::vector<gpu::BufferBarrier> buffer_barriers;
+  std::vector<gpu::ImageBarrier> image_barriers;
+};
+
+}  // namespace gloam

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/frame/upload.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/core/assert.h"
+
+namespace gloam {
+
+namespace {
+
+constexpr std::uint64_t kAlignment = 256;
+constexpr std::uint64_t kStagingBytes = std::uint64_t{64}
+                                        << 20;  ///< of one submission of the Uploader, unless one job is larger
+
+constexpr std::uint64_t align_up(std::uint64_t bytes, std::uint64_t alignment) {
+  return (bytes + alignment - 1) / alignment * alignment;
+}
+
+std::uint64_t mip_bytes(const gpu::ImageDesc& desc, std::uint32_t mip) {
+  return std::uint64_t{std::max(desc.width >> mip, 1u)} * std::max(desc.height >> mip, 1u) *
+         gpu::bytes_per_texel(desc.format);
+}
+std::uint64_t layer_bytes(const gpu::ImageDesc& desc) {
+  std::uint64_t bytes = 0;
+  for (std::uint32_t mip = 0; mip < desc.mips; ++mip) bytes += mip_bytes(desc, mip);
+  return bytes;
+}
+
+}  // namespace
+
+UploadRing::UploadRing(gpu::Device& device, std::string module, gpu::BufferUsage usage, std::uint64_t first_bytes)
+    : device_(device),
+      module_(std::move(module)),
+      usage_(usage),
+      first_bytes_(align_up(std::max<std::uint64_t>(first_bytes, 1), kAlignment)),
+      slots_(gpu::Device::kFramesInFlight) {}
+
+UploadRing::~UploadRing() {
+  for (const Slot& slot : slots_) {
+    for (gpu::BufferHandle block : slot.blocks) device_.destroy(block);
+  }
+}
+
+void UploadRing::begin_frame() {
+  Slot& slot = slots_[device_.frame_number() % slots_.size()];
+  slot.block = 0;
+  slot.used = 0;
+  if (slot.blocks.size() < 2) return;
+  // What one frame needed several blocks for, the next one gets in one piece.
+  std::uint64_t total = 0;
+  for (std::uint64_t size : slot.sizes) total += size;
+  Result<gpu::BufferHandle> merged = device_.create_buffer(
+      {.name = "upload ring", .module = module_, .size = total, .usage = usage_, .memory = gpu::MemoryKind::upload});
+  if (!merged.ok()) return;  // the blocks still serve
+  for (gpu::BufferHandle block : slot.blocks) device_.destroy(block);
+  slot.blocks.assign(1, *merged);
+  slot.sizes.assign(1, total);
+}
+
+Result<UploadSlice> UploadRing::allocate(std::uint64_t bytes) {
+  GLOAM_ASSERT(bytes > 0, "an upload has at least one byte");
+  Slot& slot = slots_[device_.frame_number() % slots_.size()];
+  while (slot.block < slot.blocks.size() && slot.used + bytes > slot.sizes[slot.block]) {
+    ++slot.block;
+    slot.used = 0;
+  }
+  if (slot.block == slot.blocks.size()) {
+    const std::uint64_t grown = slot.sizes.empty() ? first_bytes_ : 2 * slot.sizes.back();
+    const std::uint64_t size = std::max(grown, align_up(bytes, kAlignment));
+    Result<gpu::BufferHandle> block = device_.create_buffer(
+        {.name = "upload ring", .module = module_, .size = size, .usage = usage_, .memory = gpu::MemoryKind::upload});
+    if (!block.ok()) return block.error();
+    slot.blocks.push_back(*block);
+    slot.sizes.push_back(size);
+  }
+  const gpu::BufferHandle buffer = slot.blocks[slot.block];
+  const UploadSlice slice{
+      .buffer = buffer, .offset = slot.used, .bytes = device_.mapped(buffer).subspan(slot.used, bytes)};
+  slot.used = align_up(slot.used + bytes, kAlignment);
+  return slice;
+}
+
+Result<gpu::Binding::BufferRange> UploadRing::write(std::span<const std::byte> data) {
+  Result<UploadSlice> slice = allocate(data.size());
+  if (!slice.ok()) return slice.error();
+  std::ranges::copy(data, slice->bytes.begin());
+  return gpu::Binding::BufferRange{.buffer = slice->buffer, .offset = slice->offset, .size = data.size()};
+}
+
+void Uploader::buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after) {
+  GLOAM_ASSERT(!bytes.empty() && bytes.size() <= device_.desc(target).size,
+               "an upload fits its buffer '" + device_.desc(target).name + "' and has at least one byte");
+  jobs_.push_back({.buffer = target, .image = {}, .bytes = std::move(bytes), .after = after});
+}
+
+void Uploader::image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after) {
+  const gpu::ImageDesc& desc = device_.desc(target);
+  GLOAM_ASSERT(texels.size() == layer_bytes(desc) * desc.layers,
+               "an upload gives all mips of all layers of its image '" + desc.name + "'");
+  jobs_.push_back({.buffer = {}, .image = target, .bytes = std::move(texels), .after = after});
+}
+
+Status Uploader::flush() {
+  const std::vector<Job> jobs = std::exchange(jobs_, {});
+  for (std::size_t first = 0; first < jobs.size();) {
+    std::uint64_t bytes = align_up(jobs[first].bytes.size(), kAlignment);
+    std::size_t end = first + 1;
+    while (end < jobs.size() && bytes + align_up(jobs[end].bytes.size(), kAlignment) <= kStagingBytes) {
+      bytes += align_up(jobs[end++].bytes.size(), kAlignment);
+    }
+    GLOAM_TRY(submit(std::span(jobs).subspan(first, end - first), bytes));
+    first = end;
+  }
+  return {};
+}
+
+Status Uploader::submit(std::span<const Job> jobs, std::uint64_t staging_bytes) {
+  Result<gpu::BufferHandle> staging = device_.create_buffer({.name = "upload staging",
+                                                             .module = "engine",
+                                                             .size = staging_bytes,
+                                                             .usage = gpu::BufferUsage::transfer_source,
+                                                             .memory = gpu::MemoryKind::upload});
+  if (!staging.ok()) return staging.error();
+  const std::span<std::byte> mapped = device_.mapped(*staging);
+  std::uint64_t offset = 0;
+  for (const Job& job : jobs) {
+    std::ranges::copy(job.bytes, mapped.begin() + static_cast<std::ptrdiff_t>(offset));
+    offset += align_up(job.bytes.size(), kAlignment);
+  }
+  Result<gpu::CommandList*> commands = device_.begin_frame();
+  Status done = commands.ok() ? Status() : Status(commands.error());
+  if (done.ok()) {
+    record(**commands, jobs, *staging);
+    done = device_.submit_frame();
+  }
+  if (done.ok()) done = device_.wait_idle();
+  device_.destroy(*staging);
+  return done;
+}
+
+void Uploader::record(gpu::CommandList& commands, std::span<const Job> jobs, gpu::BufferHandle staging) {
+  std::vector<gpu::BufferBarrier> buffers;
+  std::vector<gpu::ImageBarrier> images;
+  const auto barriers = [&](bool before_copies) {
+    buffers.clear();
+    images.clear();
+    for (const Job& job : jobs) {
+      const gpu::Access before = before_copies ? gpu::Access::none : gpu::Access::transfer_write;
+      const gpu::Access after = before_copies ? gpu::Access::transfer_write : job.after;
+      if (job.buffer) buffers.push_back({.buffer = job.buffer, .before = before, .after = after});
+      if (job.image) images.push_back({.image = job.image, .before = before, .after = after});
+    }
+    commands.barrier(buffers, images);
+  };
+  barriers(true);
+  std::uint64_t job_offset = 0;
+  for (const Job& job : jobs) {
+    if (job.buffer) {
+      commands.copy_buffer(staging, job_offset, job.buffer, 0, job.bytes.size());
+    } else {
+      const gpu::ImageDesc& desc = device_.desc(job.image);
+      std::uint64_t offset = job_offset;
+      for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
+        for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
+          commands.copy_buffer_to_image(staging, offset, job.image, mip, layer, 1);
+          offset += mip_bytes(desc, mip);
+        }
+      }
+    }
+    job_offset += align_up(job.bytes.size(), kAlignment);
+  }
+  barriers(false);
+}
+
+}  // namespace gloam

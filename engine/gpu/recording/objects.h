@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/gpu/types.h"
+
+/// What the recording device keeps instead of GPU objects.
+namespace gloam::gpu::recording {
+
+/// What barriers and uses did to a piece of memory.
+struct SyncState {
+  AccessMask ready = 0;             ///< what the last barrier made it ready for; 0: no barrier yet
+  AccessMask pending = 0;           ///< accesses since that barrier
+  std::uint64_t pending_frame = 0;  ///< frame of the newest of them
+  std::uint32_t writer = 0;         ///< outermost label that wrote since that barrier; 0: none
+};
+
+struct Buffer {
+  BufferDesc desc;
+  bool alive = true;
+  std::vector<std::byte> bytes;  ///< made when first needed
+  SyncState sync;
+};
+
+/// Memory of one image, or of several that take turns.
+struct ImageMemory {
+  static constexpr std::uint32_t kNobody = ~0u;
+  std::string module;
+  std::uint64_t bytes = 0;
+  std::uint32_t owner = kNobody;  ///< index of the image whose contents it holds
+  SyncState sync;
+};
+
+struct Image {
+  ImageDesc desc;
+  bool alive = true;
+  std::shared_ptr<ImageMemory> memory;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::byte>> texels;  ///< by mip and layer, as copied in
+};
+
+struct Pipeline {
+  std::string name;
+  std::string module;
+  bool compute = false;
+  std::uint32_t vertex_streams = 0;
+  bool alive = true;
+};
+
+struct ResourceSet {
+  std::uint32_t set = 0;
+  std::vector<Binding> bindings;
+  bool alive = true;
+};
+
+/// Objects by handle. Adding and looking up is safe from any thread; an object never moves and its index is never
+/// used again, so a stale handle finds a dead object.
+template <class Object>
+class Table {
+ public:
+  std::uint32_t add(Object object) {
+    const std::lock_guard lock(mutex_);
+    objects_.push_back(std::move(object));
+    return static_cast<std::uint32_t>(objects_.size() - 1);
+  }
+  /// The living object of this handle, or null.
+  template <class Tag>
+  [[nodiscard]] Object* find(Handle<Tag> handle) const {
+    const std::lock_guard lock(mutex_);
+    if (handle.generation != 1 || handle.index >= objects_.size()) return nullptr;
+    Object& object = objects_[handle.index];
+    return object.alive ? &object : nullptr;
+  }
+  template <class Function>
+  void for_each_alive(Function&& function) const {
+    const std::lock_guard lock(mutex_);
+    for (Object& object : objects_) {
+      if (object.alive) function(object);
+    }
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::deque<Object> objects_;
+};
+
+struct Objects {
+  Table<Buffer> buffers;
+  Table<Image> images;
+  Table<Pipeline> pipelines;
+  Table<ResourceSet> resource_sets;
+
+  void fault(std::string text) {
+    const std::lock_guard lock(fault_mutex);
+    faults.push_back(std::move(text));
+  }
+  std::mutex fault_mutex;
+  std::vector<std::string> faults;
+};
+
+[[nodiscard]] inline std::uint32_t mip_extent(std::uint32_t extent, std::uint32_t mip) {
+  return extent >> mip == 0 ? 1 : extent >> mip;
+}
+/// Bytes of one layer of one mip, tightly packed.
+[[nodiscard]] inline std::uint64_t mip_bytes(const ImageDesc& desc, std::uint32_t mip) {
+  return std::uint64_t{mip_extent(desc.width, mip)} * mip_extent(desc.height, mip) * bytes_per_texel(desc.format);
+}
+[[nodiscard]] inline std::uint64_t image_bytes(const ImageDesc& desc) {
+  std::uint64_t bytes = 0;
+  for (std::uint32_t mip = 0; mip < desc.mips; ++mip) bytes += mip_bytes(desc, mip);
+  return bytes * desc.layers;
+}
+
+}  // namespace gloam::gpu::recording

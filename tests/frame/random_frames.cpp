@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "tests/frame/random_frames.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "engine/core/assert.h"
+
+namespace gloam::test {
+
+namespace {
+
+using gpu::Access;
+
+constexpr std::array kImageAccesses = {Access::compute_write, Access::compute_read,  Access::compute_storage_read,
+                                       Access::color_target,  Access::fragment_read, Access::transfer_write,
+                                       Access::transfer_read};
+constexpr std::array kBufferAccesses = {Access::compute_write, Access::compute_read,  Access::uniform_read,
+                                        Access::indirect_read, Access::vertex_input,  Access::transfer_write,
+                                        Access::transfer_read, Access::fragment_read, Access::fragment_write};
+constexpr std::uint32_t kBufferUnit = 16;
+constexpr Access kRest = Access::compute_read;
+constexpr auto kAllImageUsage = static_cast<gpu::ImageUsage>(0x1f);  // all but depth_target
+constexpr auto kAllBufferUsage = static_cast<gpu::BufferUsage>(0x7f);
+
+/// Endless numbers from a finite list.
+class Numbers {
+ public:
+  explicit Numbers(const std::vector<std::uint32_t>& numbers) : numbers_(numbers) {}
+  std::uint32_t below(std::uint32_t bound) {
+    const std::uint32_t n = numbers_.empty() ? 0 : numbers_[at_ % numbers_.size()];
+    const auto turn = static_cast<std::uint32_t>(at_++ * 2654435761u);
+    return ((n ^ turn) >> 8) % bound;
+  }
+
+ private:
+  const std::vector<std::uint32_t>& numbers_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+RandomFrame RandomFrame::from(const std::vector<std::uint32_t>& numbers) {
+  Numbers next(numbers);
+  RandomFrame frame;
+  const std::uint32_t resource_count = 2 + next.below(10);
+  for (std::uint32_t r = 0; r < resource_count; ++r) {
+    frame.resources.push_back({.is_image = next.below(2) == 0,
+                               .imported = next.below(4) == 0,
+                               .content_kept = next.below(2) == 0,
+                               .size = 4 + 4 * next.below(3)});
+  }
+  std::vector<bool> written(resource_count, false);
+  for (std::size_t p = 0; p < numbers.size() / 2 + 1; ++p) {
+    Pass& pass = frame.passes.emplace_back();
+    pass.keep = next.below(8) == 0;
+    const std::uint32_t use_count = 1 + next.below(3);
+    for (std::uint32_t u = 0; u < use_count; ++u) {
+      const std::uint32_t r = next.below(resource_count);
+      if (std::ranges::find(pass.uses, r, &Use::resource) != pass.uses.end()) continue;
+      const Resource& resource = frame.resources[r];
+      Access access = resource.is_image ? kImageAccesses[next.below(kImageAccesses.size())]
+                                        : kBufferAccesses[next.below(kBufferAccesses.size())];
+      if (!resource.imported && !written[r] && !gpu::is_write(access)) access = Access::transfer_write;
+      written[r] = written[r] || gpu::is_write(access);
+      pass.uses.push_back({r, access});
+    }
+  }
+  return frame;
+}
+
+std::vector<bool> RandomFrame::reachable() const {
+  const auto count = passes.size();
+  std::vector<std::size_t> open;
+  std::vector<bool> reached(count, false);
+  for (std::size_t p = 0; p < count; ++p) {
+    bool root = passes[p].keep;
+    for (const Use& use : passes[p].uses)
+      root = root || (gpu::is_write(use.access) && resources[use.resource].imported);
+    if (root) open.push_back(p);
+  }
+  while (!open.empty()) {
+    const std::size_t p = open.back();
+    open.pop_back();
+    if (reached[p]) continue;
+    reached[p] = true;
+    for (std::size_t earlier = 0; earlier < p; ++earlier) {
+      for (const Use& use : passes[earlier].uses) {
+        const bool feeds = gpu::is_write(use.access) &&
+                           std::ranges::find(passes[p].uses, use.resource, &Use::resource) != passes[p].uses.end();
+        if (feeds) open.push_back(earlier);
+      }
+    }
+  }
+  return reached;
+}
+
+frame::Declaration RandomFrame::declaration() const {
+  frame::Declaration declaration;
+  for (const Resource& resource : resources) {
+    frame::DeclaredResource& r = declaration.resources.add();
+    r.is_image = resource.is_image;
+    r.imported = resource.imported;
+    r.image_desc = {.format = gpu::Format::rgba8_unorm, .width = resource.size, .height = resource.size};
+    r.buffer_desc = {.size = std::uint64_t{resource.size} * kBufferUnit};
+  }
+  for (const Pass& pass : passes) {
+    frame::DeclaredPass& p = declaration.passes.add();
+    p.keep = pass.keep;
+    p.first_use = static_cast<std::uint32_t>(declaration.uses.size());
+    p.use_count = static_cast<std::uint32_t>(pass.uses.size());
+    for (const Use& use : pass.uses) {
+      const bool write = gpu::is_write(use.access);
+      declaration.uses.push_back(
+          {.resource = use.resource, .accesses = gpu::mask_of(use.access), .reads = !write, .writes = write});
+    }
+  }
+  return declaration;
+}
+
+RandomFrameRunner::RandomFrameRunner(const RandomFrame& frame) : frame_(frame) {
+  compute_ = device_->create_pipeline(gpu::ComputePipelineDesc{.name = "kernel"}).value();
+  paint_ = device_->create_pipeline(gpu::GraphicsPipelineDesc{.name = "paint"}).value();
+  paint_stream_ =
+      device_->create_pipeline(gpu::GraphicsPipelineDesc{.name = "paint stream", .stream_strides = {4}}).value();
+  scratch_ =
+      device_->create_buffer({.name = "scratch", .size = 4096, .usage = gpu::BufferUsage::transfer_target}).value();
+  make_imports();
+}
+
+void RandomFrameRunner::make_imports() {
+  for (std::size_t r = 0; r < frame_.resources.size(); ++r) {
+    const RandomFrame::Resource& resource = frame_.resources[r];
+    Imported& imported = imports_.emplace_back();
+    if (!resource.imported) continue;
+    const std::string name = "import " + std::to_string(r);
+    if (resource.is_image) {
+      imported.image = device_
+                           ->create_image({.name = name,
+                                           .format = gpu::Format::rgba8_unorm,
+                                           .width = resource.size,
+                                           .height = resource.size,
+                                           .usage = kAllImageUsage})
+                           .value();
+    } else {
+      imported.buffer =
+          device_
+              ->create_buffer(
+                  {.name = name, .size = std::uint64_t{resource.size} * kBufferUnit, .usage = kAllBufferUsage})
+              .value();
+    }
+  }
+}
+
+void RandomFrameRunner::declare_resources(std::vector<ImageRef>& images, std::vector<BufferRef>& buffers) {
+  images.resize(frame_.resources.size());
+  buffers.resize(frame_.resources.size());
+  for (std::size_t r = 0; r < frame_.resources.size(); ++r) {
+    const RandomFrame::Resource& resource = frame_.resources[r];
+    const std::string name = "resource " + std::to_string(r);
+    const Access before = resource.content_kept && imports_[r].used ? kRest : Access::none;
+    const Access after = resource.content_kept ? kRest : Access::none;
+    if (resource.imported && resource.is_image) {
+      images[r] = graph_.import_image(name, imports_[r].image, before, after);
+    } else if (resource.imported) {
+      buffers[r] = graph_.import_buffer(name, imports_[r].buffer, before, after);
+    } else if (resource.is_image) {
+      images[r] = graph_.create_image(
+          {.name = name, .format = gpu::Format::rgba8_unorm, .width = resource.size, .height = resource.size});
+    } else {
+      buffers[r] = graph_.create_buffer({.name = name, .size = std::uint64_t{resource.size} * kBufferUnit});
+    }
+    imports_[r].used = true;
+  }
+}
+
+std::vector<std::string> RandomFrameRunner::run(std::uint32_t pass_count) {
+  device_->forget_commands();
+  gpu::CommandList* commands = device_->begin_frame().value();
+  graph_.begin();
+  std::vector<ImageRef> images;
+  std::vector<BufferRef> buffers;
+  declare_resources(images, buffers);
+  for (std::uint32_t p = 0; p < pass_count; ++p) {
+    const RandomFrame::Pass& pass = frame_.passes[p];
+    PassBuilder builder = graph_.add_pass("p" + std::to_string(p), "test");
+    if (pass.keep) builder.keep();
+    for (const RandomFrame::Use& use : pass.uses) {
+      const bool write = gpu::is_write(use.access);
+      const bool is_image = frame_.resources[use.resource].is_image;
+      if (write && is_image) images[use.resource] = builder.write(images[use.resource], use.access);
+      if (write && !is_image) buffers[use.resource] = builder.write(buffers[use.resource], use.access);
+      if (!write && is_image) builder.read(images[use.resource], use.access);
+      if (!write && !is_image) builder.read(buffers[use.resource], use.access);
+    }
+    // The versions as this pass has them, for when it records.
+    builder.execute([this, &pass, images, buffers](PassContext& context) {
+      for (const RandomFrame::Use& use : pass.uses) {
+        if (frame_.resources[use.resource].is_image) {
+          touch_image(context.commands(), context.image(images[use.resource]), use.access);
+        } else {
+          touch_buffer(context.commands(), context.buffer(buffers[use.resource]), use.access);
+        }
+      }
+    });
+  }
+  GLOAM_ASSERT(graph_.compile().ok(), "the recording device does not run out of memory");
+  graph_.execute(*commands);
+  GLOAM_ASSERT(device_->submit_frame().ok(), "the recording device does not fail");
+  std::vector<std::string> ran;
+  for (const gpu::RecordedCommand& command : device_->commands()) {
+    if (command.name == "begin_label") ran.push_back(command.text.substr(command.name.size() + 1));
+  }
+  return ran;
+}
+
+void RandomFrameRunner::dispatch(gpu::CommandList& commands, const gpu::Binding& binding) {
+  commands.bind_pipeline(compute_);
+  commands.bind({&binding, 1});
+  commands.dispatch(1, 1, 1);
+}
+
+void RandomFrameRunner::draw(gpu::CommandList& commands, const gpu::Binding& binding) {
+  commands.begin_rendering({.width = 4, .height = 4});
+  commands.bind_pipeline(paint_);
+  commands.bind({&binding, 1});
+  commands.draw(3, 1, 0, 0);
+  commands.end_rendering();
+}
+
+void RandomFrameRunner::touch_image(gpu::CommandList& commands, gpu::ImageHandle image, Access access) {
+  const gpu::BufferBarrier fresh_scratch{.buffer = scratch_, .after = Access::transfer_write};
+  switch (access) {
+    case Access::compute_write:
+    case Access::compute_storage_read:
+      return dispatch(commands, {0, gpu::Binding::Storage{.view = {.image = image}}});
+    case Access::compute_read:
+      return dispatch(commands, {0, gpu::Binding::Sampled{.view = {.image = image}}});
+    case Access::fragment_read:
+      return draw(commands, {0, gpu::Binding::Sampled{.view = {.image = image}}});
+    case Access::color_target:
+      commands.begin_rendering({.colors = {{.view = {.image = image}}}, .width = 4, .height = 4});
+      return commands.end_rendering();
+    case Access::transfer_write:
+      return commands.clear_color_image(image, {});
+    default:
+      commands.barrier({&fresh_scratch, 1}, {});
+      return commands.copy_image_to_buffer(image, 0, 0, scratch_, 0);
+  }
+}
+
+void RandomFrameRunner::touch_buffer(gpu::CommandList& commands, gpu::BufferHandle buffer, Access access) {
+  const gpu::BufferBarrier fresh_scratch{.buffer = scratch_, .after = Access::transfer_write};
+  switch (access) {
+    case Access::compute_write:
+    case Access::compute_read:
+    case Access::uniform_read:
+      return dispatch(commands, {0, gpu::Binding::BufferRange{.buffer = buffer}});
+    case Access::fragment_read:
+    case Access::fragment_write:
+      return draw(commands, {0, gpu::Binding::BufferRange{.buffer = buffer}});
+    case Access::indirect_read:
+      commands.bind_pipeline(compute_);
+      return commands.dispatch_indirect(buffer, 0);
+    case Access::vertex_input:
+      commands.begin_rendering({.width = 4, .height = 4});
+      commands.bind_pipeline(paint_stream_);
+      commands.bind_vertex_stream(0, buffer, 0);
+      commands.draw(3, 1, 0, 0);
+      return commands.end_rendering();
+    case Access::transfer_write:
+      return commands.fill_buffer(buffer, 0, kBufferUnit, 1);
+    default:
+      commands.barrier({&fresh_scratch, 1}, {});
+      return commands.copy_buffer(buffer, 0, scratch_, 0, kBufferUnit);
+  }
+}
+
+}  // namespace gloam::test
