@@ -71,6 +71,11 @@ class Module {
   /// Asked every frame and view, and by `inspect` (without a view). Cheap: looks at counts, never at pixels.
   [[nodiscard]] virtual Demand demand(const World& world, const RenderView* view) const = 0;
 
+  /// Before the systems of a view run, when the world demands the module: puts missing view resources in place.
+  virtual void prepare_view(World& world, ViewId view) const {
+    static_cast<void>(world);
+    static_cast<void>(view);
+  }
   /// Only called when demanded. Pipelines are made on first use.
   [[nodiscard]] virtual Status add_passes(FrameBuilder& frame, PassPhase phase) {
     static_cast<void>(frame);

@@ -98,7 +98,7 @@ class Renderer {
   /// The same frame's linear light.
   [[nodiscard]] Result<LinearPicture> read_linear(ViewId view);
   /// Lines of text: what the engine and the modules know about a pixel of the last frame.
-  [[nodiscard]] Result<std::vector<std::string>> pick(const World& world, ViewId view, std::uint32_t x, std::uint32_t y);
+  [[nodiscard]] Result<std::vector<std::string>> pick(World& world, ViewId view, std::uint32_t x, std::uint32_t y);
   /// Systems and passes as text, for people and for tests.
   [[nodiscard]] std::string describe() const;
 

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/draw_pipelines.h"
+
+#include "engine/render/mesh_packing.h"
+#include "shaders/render/shaders.h"
+
+namespace gloam {
+
+Result<gpu::PipelineHandle> surface_pipeline(Pipelines& pipelines, const SurfacePass& pass, SurfaceVariant variant) {
+  static constexpr const char* kCullNames[] = {"/two-sided", "/front-culled", "/back-culled"};
+  std::string name = pass.name + "/" + std::to_string(variant.features) + kCullNames[static_cast<std::size_t>(variant.cull)];
+  if (const gpu::PipelineHandle found = pipelines.find(name)) return found;
+
+  gpu::GraphicsPipelineDesc desc;
+  desc.name = std::move(name);
+  desc.module = pass.module;
+  desc.vertex = shaders::render::surface_vert;
+  desc.fragment = pass.fragment;
+  desc.constants = {{0, variant.features}};
+  desc.attributes = {{0, 0, gpu::Format::rgb32_float, 0},
+                     {1, 1, gpu::Format::rg32_uint, 0},
+                     {2, 2, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)},
+                     {3, 2, gpu::Format::rgba8_unorm, offsetof(PackedSurface, color)}};
+  desc.stream_strides = {sizeof(vec3), sizeof(PackedFrame), sizeof(PackedSurface)};
+  desc.color_formats = pass.color_formats;
+  desc.depth_format = gpu::Format::d32_float;
+  desc.cull = variant.cull;
+  desc.blend = pass.blend;
+  desc.depth_compare = gpu::CompareOp::greater_equal;
+  desc.depth_write = pass.depth_write;
+  return pipelines.get(desc);
+}
+
+}  // namespace gloam

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/frame_builder.h"
+
+#include <glm/ext/matrix_double4x4.hpp>
+
+#include "shaders/render/shaders.h"
+#include "shaders/render/view_shared.h"
+
+namespace gloam {
+
+Status FrameBuilder::upload_view_constants(std::uint32_t visualizer_code) {
+  shaders::ViewConstants constants{};
+  constants.clip_from_relative = view_.clip_from_relative;
+  constants.relative_from_clip = mat4(glm::inverse(dmat4(view_.clip_from_relative)));
+  const mat4 rows = glm::transpose(view_.view_from_relative);
+  constants.view_row_z = rows[2];
+  constants.size = {view_.width, view_.height};
+  constants.inverse_size = 1.0f / vec2(static_cast<float>(view_.width), static_cast<float>(view_.height));
+  constants.near_m = view_.near_m;
+  constants.orthographic = view_.camera.orthographic ? 1 : 0;
+  constants.frame = static_cast<std::uint32_t>(view_.frame);
+  constants.visualizer = visualizer_code;
+  auto range = services_.uniforms.write_value(constants);
+  if (!range.ok()) return range.error();
+  view_range_ = *range;
+  return {};
+}
+
+Status FrameBuilder::prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass) {
+  for (const Draw& draw : draws)
+    if (auto pipeline = surface_pipeline(services_.pipelines, pass, draw.variant); !pipeline.ok()) return pipeline.error();
+  return {};
+}
+
+Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
+                                   std::span<const gpu::Binding> bindings) {
+  gpu::CommandList& commands = context.commands();
+  const Deformed* deformed = find<Deformed>();
+  commands.bind_indices(scene_.indices(), 0);
+  const SurfaceVariant* bound_variant = nullptr;
+  std::uint32_t bound_material = kNone;
+  for (const Draw& draw : draws) {
+    if (bound_variant == nullptr || *bound_variant != draw.variant) {
+      auto pipeline = surface_pipeline(services_.pipelines, pass, draw.variant);
+      if (!pipeline.ok()) return pipeline.error();
+      commands.bind_pipeline(*pipeline);
+      commands.bind(bindings);
+      bound_variant = &draw.variant;
+      bound_material = kNone;
+    }
+    const GpuPrimitive& primitive = *draw.primitive;
+    if (bound_material != primitive.material) commands.bind_set(1, scene_.materials()[primitive.material].set);
+    bound_material = primitive.material;
+    const std::uint64_t first = primitive.first_vertex;
+    if (draw.deform == kNone) {
+      commands.bind_vertex_stream(0, scene_.positions(), first * sizeof(vec3));
+      commands.bind_vertex_stream(1, scene_.frames(), first * sizeof(PackedFrame));
+    } else {
+      const std::uint64_t moved = draws_.deforms[draw.deform].first_vertex;
+      commands.bind_vertex_stream(0, context.buffer(deformed->positions), moved * sizeof(vec3));
+      commands.bind_vertex_stream(1, context.buffer(deformed->frames), moved * sizeof(PackedFrame));
+    }
+    commands.bind_vertex_stream(2, scene_.surfaces(), first * sizeof(PackedSurface));
+    commands.push(draw.constants);
+    commands.draw_indexed(draw.index_count, 1, draw.first_index, 0, 0);
+  }
+  return {};
+}
+
+void FrameBuilder::read_vertices(PassBuilder& pass) {
+  if (const Deformed* deformed = find<Deformed>()) {
+    pass.read(deformed->positions, gpu::Access::vertex_input);
+    pass.read(deformed->frames, gpu::Access::vertex_input);
+  }
+}
+
+Result<gpu::SamplerHandle> FrameBuilder::nearest_sampler() const {
+  gpu::SamplerDesc desc;
+  desc.min_filter = desc.mag_filter = desc.mip_filter = gpu::Filter::nearest;
+  desc.address_u = desc.address_v = gpu::AddressMode::clamp_to_edge;
+  return services_.device.create_sampler(desc);
+}
+
+Result<gpu::SamplerHandle> FrameBuilder::linear_sampler() const {
+  gpu::SamplerDesc desc;
+  desc.address_u = desc.address_v = gpu::AddressMode::clamp_to_edge;
+  return services_.device.create_sampler(desc);
+}
+
+ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string module, gpu::Format format, std::uint32_t divisor) {
+  gpu::ImageDesc desc;
+  desc.name = std::move(name);
+  desc.module = std::move(module);
+  desc.format = format;
+  desc.width = (frame.view().width + divisor - 1) / divisor;
+  desc.height = (frame.view().height + divisor - 1) / divisor;
+  return frame.graph().create_image(std::move(desc));
+}
+
+void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass) {
+  gpu::RenderingDesc rendering;
+  rendering.colors.push_back({.view = {.image = pass.target}, .load = gpu::LoadOp::discard});
+  rendering.width = pass.width;
+  rendering.height = pass.height;
+  commands.begin_rendering(rendering);
+  commands.set_viewport(0.0f, 0.0f, static_cast<float>(pass.width), static_cast<float>(pass.height));
+  commands.set_scissor(0, 0, pass.width, pass.height);
+  commands.bind_pipeline(pass.pipeline);
+  commands.bind(pass.bindings);
+  commands.draw(3, 1, 0, 0);
+  commands.end_rendering();
+}
+
+gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module, gpu::ShaderCode fragment, gpu::Format format) {
+  gpu::GraphicsPipelineDesc desc;
+  desc.name = std::move(name);
+  desc.module = std::move(module);
+  desc.vertex = shaders::render::fullscreen_vert;
+  desc.fragment = fragment;
+  desc.color_formats = {format};
+  desc.cull = gpu::CullMode::none;
+  desc.depth_write = false;
+  return desc;
+}
+
+}  // namespace gloam

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <any>
+#include <span>
+#include <typeindex>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/core/log.h"
+#include "engine/frame/frame_graph.h"
+#include "engine/frame/upload.h"
+#include "engine/jobs/executor.h"
+#include "engine/render/draw_lists.h"
+#include "engine/render/knobs.h"
+#include "engine/render/outputs.h"
+#include "engine/render/pipelines.h"
+#include "engine/render/view.h"
+
+namespace gloam {
+
+/// What lives as long as the renderer and passes need.
+struct FrameServices {
+  gpu::Device& device;
+  JobExecutor& executor;
+  LogSink& log;
+  const KnobRegistry& knobs;
+  Pipelines& pipelines;
+  UploadRing& uniforms;
+  UploadRing& storage;
+};
+
+/// One view of one frame while its passes are declared: handed to the modules in turn. References are valid until the frame is
+/// submitted, which is when pass functions run: they may capture the builder.
+class FrameBuilder {
+ public:
+  FrameBuilder(const FrameServices& services, FrameGraph& graph, const World& world, const RenderView& view, const GpuScene& scene,
+               DrawLists draws)
+      : services_(services), graph_(graph), world_(world), view_(view), scene_(scene), draws_(std::move(draws)) {}
+  FrameBuilder(const FrameBuilder&) = delete;
+  FrameBuilder& operator=(const FrameBuilder&) = delete;
+
+  [[nodiscard]] const FrameServices& services() const { return services_; }
+  [[nodiscard]] FrameGraph& graph() { return graph_; }
+  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] const RenderView& view() const { return view_; }
+  [[nodiscard]] const GpuScene& scene() const { return scene_; }
+  [[nodiscard]] const DrawLists& draws() const { return draws_; }
+  [[nodiscard]] const KnobRegistry& knobs() const { return services_.knobs; }
+  [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
+  void set_visualizer(std::string_view name) { visualizer_ = name; }
+
+  /// Puts what later passes look for: GeometryOutputs, LitOutput, and each module's outputs. One of a type.
+  template <class T>
+  T& put(T value) {
+    return std::any_cast<T&>(board_.insert_or_assign(std::type_index(typeid(T)), std::move(value)).first->second);
+  }
+  /// Null when nobody put one.
+  template <class T>
+  [[nodiscard]] T* find() {
+    const auto found = board_.find(std::type_index(typeid(T)));
+    return found == board_.end() ? nullptr : &std::any_cast<T&>(found->second);
+  }
+  template <class T>
+  [[nodiscard]] T& get() {
+    T* found = find<T>();
+    GLOAM_ASSERT(found != nullptr, "a pass needs an output that no earlier pass has put");
+    return *found;
+  }
+
+  /// The view's constants (ViewConstants) as binding 0 of set 0.
+  [[nodiscard]] gpu::Binding view_binding() const { return {0, view_range_}; }
+  [[nodiscard]] Status upload_view_constants(std::uint32_t visualizer_code);
+
+  /// Draws a list with one surface pass inside a pass that is rendering. `bindings` are those of set 0.
+  [[nodiscard]] Status draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
+                                     std::span<const gpu::Binding> bindings);
+  /// Pipelines of a list, made before recording so that errors surface in declaration.
+  [[nodiscard]] Status prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
+  /// Declares that a pass draws meshes: reads deformed vertices.
+  void read_vertices(PassBuilder& pass);
+
+  /// Nearest and linear clamped samplers for full-screen passes.
+  [[nodiscard]] Result<gpu::SamplerHandle> nearest_sampler() const;
+  [[nodiscard]] Result<gpu::SamplerHandle> linear_sampler() const;
+
+  /// Deformed vertex streams of this view; set by the deform pass.
+  struct Deformed {
+    BufferRef positions;
+    BufferRef frames;
+  };
+
+ private:
+  FrameServices services_;
+  FrameGraph& graph_;
+  const World& world_;
+  const RenderView& view_;
+  const GpuScene& scene_;
+  DrawLists draws_;
+  std::string_view visualizer_ = "none";
+  gpu::Binding::BufferRange view_range_;
+  std::unordered_map<std::type_index, std::any> board_;
+};
+
+/// A colour image of the view's size (divided by `divisor`, rounded up), transient.
+[[nodiscard]] ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string module, gpu::Format format,
+                                         std::uint32_t divisor = 1);
+
+/// Records one full-screen triangle into `target` with a pipeline of `fullscreen.vert`. Bindings are those of set 0.
+struct FullscreenPass {
+  gpu::PipelineHandle pipeline;
+  std::vector<gpu::Binding> bindings;
+  gpu::ImageHandle target;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+};
+void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass);
+[[nodiscard]] gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module, gpu::ShaderCode fragment,
+                                                            gpu::Format format);
+
+}  // namespace gloam

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/gpu_scene.h"
+
+#include <algorithm>
+#include <map>
+
+#include "engine/render/material_packing.h"
+#include "engine/render/mip_chain.h"
+#include "shaders/render/shaders.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::size_t kVertexAlign = 64;
+
+std::size_t aligned(std::size_t count) { return (count + kVertexAlign - 1) / kVertexAlign * kVertexAlign; }
+
+template <class T>
+void append(std::vector<std::byte>& stream, const std::vector<T>& values) {
+  const std::size_t at = stream.size();
+  const auto bytes = std::as_bytes(std::span(values));
+  stream.resize(at + aligned(values.size()) * sizeof(T));
+  std::copy(bytes.begin(), bytes.end(), stream.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primitive) {
+  std::map<std::uint32_t, Aabb> bounds;
+  for (std::size_t v = 0; v < primitive.joints.size() && v < primitive.weights.size(); ++v)
+    for (int k = 0; k < 4; ++k)
+      if (primitive.weights[v][k] > 0.0f) bounds[primitive.joints[v][static_cast<std::size_t>(k)]].grow(primitive.positions[v]);
+  return {bounds.begin(), bounds.end()};
+}
+
+}  // namespace
+
+/// One primitive, packed by a job of its own.
+struct GpuScene::Streams {
+  GpuPrimitive primitive;
+  std::vector<PackedFrame> frames;
+  std::vector<PackedSurface> surfaces;
+  std::vector<std::uint32_t> indices;
+  std::vector<PackedInfluence> influences;
+  std::vector<float> morph_offsets;
+
+  void pack(const Primitive& source, std::uint32_t default_material) {
+    frames = pack_frames(source);
+    surfaces = pack_surfaces(source);
+    influences = pack_influences(source);
+    morph_offsets = pack_morph_offsets(source, primitive.morph_has_normals);
+    primitive.clusters = build_clusters(source, indices);
+    primitive.material = source.material == kNone ? default_material : source.material;
+    primitive.vertex_count = static_cast<std::uint32_t>(source.positions.size());
+    primitive.index_count = static_cast<std::uint32_t>(indices.size());
+    primitive.morph_targets = static_cast<std::uint32_t>(source.morph_targets.size());
+    primitive.skinned = !influences.empty();
+    primitive.colored = !source.colors.empty();
+    primitive.bounds = source.bounds;
+    primitive.joint_bounds = joint_bounds(source);
+  }
+};
+
+void GpuScene::release() {
+  for (const GpuMaterial& material : materials_) device_.destroy(material.set);
+  for (const gpu::ImageHandle texture : textures_) device_.destroy(texture);
+  for (const gpu::BufferHandle buffer : buffers_)
+    if (buffer) device_.destroy(buffer);
+  if (material_constants_) device_.destroy(material_constants_);
+  materials_.clear();
+  textures_.clear();
+  meshes_.clear();
+  buffers_ = {};
+  material_constants_ = {};
+  version_ = 0;
+}
+
+Status GpuScene::sync(const SceneAssets& assets, JobExecutor& executor) {
+  if (version_ == assets.version) return {};
+  release();
+  Uploader uploader(device_);
+  GLOAM_TRY(upload_meshes(assets, executor, uploader));
+  GLOAM_TRY(upload_textures(assets, executor, uploader));
+  GLOAM_TRY(upload_materials(assets, uploader));
+  GLOAM_TRY(uploader.flush());
+  version_ = assets.version;
+  return {};
+}
+
+Status GpuScene::upload_meshes(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader) {
+  std::vector<const Primitive*> sources;
+  for (const Mesh& mesh : assets.meshes)
+    for (const Primitive& primitive : mesh.primitives) sources.push_back(&primitive);
+  std::vector<Streams> packed(sources.size());
+  const auto default_material = static_cast<std::uint32_t>(assets.materials.size());
+  executor.parallel_for(sources.size(), 1, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) packed[i].pack(*sources[i], default_material);
+  });
+
+  std::array<std::vector<std::byte>, 6> streams;
+  std::size_t next = 0;
+  for (const Mesh& mesh : assets.meshes) {
+    std::vector<GpuPrimitive>& primitives = meshes_.emplace_back();
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p, ++next) {
+      Streams& s = packed[next];
+      s.primitive.first_vertex = static_cast<std::uint32_t>(streams[0].size() / sizeof(vec3));
+      s.primitive.first_index = static_cast<std::uint32_t>(streams[3].size() / sizeof(std::uint32_t));
+      s.primitive.first_influence = static_cast<std::uint32_t>(streams[4].size() / sizeof(PackedInfluence));
+      s.primitive.first_morph = static_cast<std::uint32_t>(streams[5].size() / sizeof(float));
+      append(streams[0], mesh.primitives[p].positions);
+      append(streams[1], s.frames);
+      append(streams[2], s.surfaces);
+      append(streams[3], s.indices);
+      append(streams[4], s.influences);
+      append(streams[5], s.morph_offsets);
+      primitives.push_back(std::move(s.primitive));
+    }
+  }
+
+  static constexpr const char* kNames[] = {"positions", "frames", "surfaces", "indices", "influences", "morph_offsets"};
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (streams[i].empty()) streams[i].resize(256);
+    gpu::BufferDesc desc{.name = std::string("scene.") + kNames[i], .module = "engine", .size = streams[i].size()};
+    desc.usage = gpu::BufferUsage::transfer_target | gpu::BufferUsage::storage |
+                 (i == 3 ? gpu::BufferUsage::index : gpu::BufferUsage::vertex);
+    auto buffer = device_.create_buffer(desc);
+    if (!buffer.ok()) return buffer.error();
+    buffers_[i] = *buffer;
+    uploader.buffer(buffers_[i], std::move(streams[i]), i == 3 || i == 2 ? gpu::Access::vertex_input : gpu::Access::compute_read);
+  }
+  return {};
+}
+
+Status GpuScene::upload_textures(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader) {
+  std::vector<std::vector<std::byte>> chains(assets.textures.size());
+  executor.parallel_for(chains.size(), 1, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const Texture& texture = assets.textures[i];
+      if (texture.image == kNone) continue;
+      const Image& image = assets.images[texture.image];
+      chains[i] = build_mip_chain(image.rgba, image.width, image.height, texture.srgb);
+    }
+  });
+  for (std::size_t i = 0; i <= chains.size(); ++i) {
+    gpu::ImageDesc desc{.name = "white", .module = "engine", .format = gpu::Format::rgba8_unorm};
+    desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
+    std::vector<std::byte> texels(4, std::byte{255});
+    if (i < chains.size() && !chains[i].empty()) {
+      const Image& image = assets.images[assets.textures[i].image];
+      desc.name = "texture." + image.name;
+      desc.format = assets.textures[i].srgb ? gpu::Format::rgba8_srgb : gpu::Format::rgba8_unorm;
+      desc.width = image.width;
+      desc.height = image.height;
+      desc.mips = mip_count(image.width, image.height);
+      texels = std::move(chains[i]);
+    }
+    auto image = device_.create_image(desc);
+    if (!image.ok()) return image.error();
+    textures_.push_back(*image);
+    uploader.image(*image, std::move(texels), gpu::Access::fragment_read);
+  }
+  return {};
+}
+
+Status GpuScene::upload_materials(const SceneAssets& assets, Uploader& uploader) {
+  std::vector<Material> sources = assets.materials;
+  sources.push_back(Material{});  // for primitives that name none
+  std::vector<std::byte> constants;
+  for (const Material& material : sources) {
+    const shaders::MaterialConstants packed = pack_material(material);
+    const auto bytes = std::as_bytes(std::span(&packed, 1));
+    constants.insert(constants.end(), bytes.begin(), bytes.end());
+    constants.resize((constants.size() + kMaterialStride - 1) / kMaterialStride * kMaterialStride);
+  }
+  gpu::BufferDesc desc{.name = "scene.materials", .module = "engine", .size = constants.size()};
+  desc.usage = gpu::BufferUsage::uniform | gpu::BufferUsage::transfer_target;
+  auto buffer = device_.create_buffer(desc);
+  if (!buffer.ok()) return buffer.error();
+  material_constants_ = *buffer;
+  uploader.buffer(material_constants_, std::move(constants), gpu::Access::uniform_read);
+
+  for (std::uint32_t i = 0; i < sources.size(); ++i) {
+    GpuMaterial material;
+    material.features = surface_features(sources[i]);
+    material.alpha_mode = sources[i].alpha_mode;
+    material.double_sided = sources[i].double_sided;
+    auto set = material_set(assets, sources[i], i, material.features);
+    if (!set.ok()) return set.error();
+    material.set = *set;
+    materials_.push_back(material);
+  }
+  return {};
+}
+
+Result<gpu::ResourceSetHandle> GpuScene::material_set(const SceneAssets& assets, const Material& material, std::uint32_t index,
+                                                      std::uint32_t features) {
+  // Any pipeline of the surface shaders has the layout of set 1; one that is drawn with anyway costs nothing.
+  const SurfaceVariant variant{features, material.double_sided ? gpu::CullMode::none : gpu::CullMode::back};
+  auto like = surface_pipeline(pipelines_, geometry_surface_pass(), variant);
+  if (!like.ok()) return like.error();
+  std::vector<gpu::Binding> bindings;
+  bindings.push_back({0, gpu::Binding::BufferRange{material_constants_, std::uint64_t{index} * kMaterialStride,
+                                                   sizeof(shaders::MaterialConstants)}});
+  const TextureSlot* slots[] = {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
+                                &material.occlusion_texture, &material.emissive_texture};
+  for (std::uint32_t s = 0; s < 5; ++s) {
+    const bool used = slots[s]->texture != kNone;
+    auto sampler = device_.create_sampler(used ? sampler_desc(assets.textures[slots[s]->texture]) : gpu::SamplerDesc{});
+    if (!sampler.ok()) return sampler.error();
+    const gpu::ImageHandle image = used ? textures_[slots[s]->texture] : textures_.back();
+    bindings.push_back({s + 1, gpu::Binding::Sampled{{.image = image}, *sampler}});
+  }
+  return device_.create_resource_set(*like, 1, bindings);
+}
+
+}  // namespace gloam

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/frame/upload.h"
+#include "engine/gpu/device.h"
+#include "engine/jobs/executor.h"
+#include "engine/render/draw_pipelines.h"
+#include "engine/render/mesh_packing.h"
+#include "engine/scene/assets.h"
+
+namespace gloam {
+
+/// Where a primitive lies in the scene's buffers, and what the CPU needs to cull and deform it.
+struct GpuPrimitive {
+  std::uint32_t material = 0;  ///< index into GpuScene::materials()
+  std::uint32_t vertex_count = 0;
+  std::uint32_t first_vertex = 0;     ///< a multiple of 64, so that every stream's byte offset may be bound
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+  std::uint32_t first_influence = 0;  ///< a multiple of 64
+  std::uint32_t first_morph = 0;      ///< floats, a multiple of 64
+  std::uint32_t morph_targets = 0;
+  bool morph_has_normals = false;
+  bool skinned = false;
+  bool colored = false;  ///< has vertex colours
+  Aabb bounds;
+  std::vector<Cluster> clusters;
+  /// Rest bounds of the vertices that follow each joint; their posed union bounds the posed surface.
+  std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds;
+};
+
+struct GpuMaterial {
+  gpu::ResourceSetHandle set;
+  std::uint32_t features = 0;  ///< GLOAM_SURFACE_…
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  bool double_sided = false;
+};
+
+/// Meshes, textures and materials of a world's SceneAssets on the GPU.
+class GpuScene {
+ public:
+  GpuScene(gpu::Device& device, Pipelines& pipelines) : device_(device), pipelines_(pipelines) {}
+  ~GpuScene() { release(); }
+  GpuScene(const GpuScene&) = delete;
+  GpuScene& operator=(const GpuScene&) = delete;
+
+  /// Uploads everything when assets.version is not the one uploaded last. Waits for the GPU then.
+  [[nodiscard]] Status sync(const SceneAssets& assets, JobExecutor& executor);
+
+  [[nodiscard]] const std::vector<std::vector<GpuPrimitive>>& meshes() const { return meshes_; }
+  [[nodiscard]] const std::vector<GpuMaterial>& materials() const { return materials_; }
+
+  [[nodiscard]] gpu::BufferHandle positions() const { return buffers_[0]; }
+  [[nodiscard]] gpu::BufferHandle frames() const { return buffers_[1]; }
+  [[nodiscard]] gpu::BufferHandle surfaces() const { return buffers_[2]; }
+  [[nodiscard]] gpu::BufferHandle indices() const { return buffers_[3]; }
+  [[nodiscard]] gpu::BufferHandle influences() const { return buffers_[4]; }
+  [[nodiscard]] gpu::BufferHandle morph_offsets() const { return buffers_[5]; }
+
+ private:
+  struct Streams;
+  void release();
+  [[nodiscard]] Status upload_meshes(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader);
+  [[nodiscard]] Status upload_textures(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader);
+  [[nodiscard]] Status upload_materials(const SceneAssets& assets, Uploader& uploader);
+  [[nodiscard]] Result<gpu::ResourceSetHandle> material_set(const SceneAssets& assets, const Material& material,
+                                                            std::uint32_t index, std::uint32_t features);
+
+  gpu::Device& device_;
+  Pipelines& pipelines_;
+  std::uint64_t version_ = 0;
+  std::vector<std::vector<GpuPrimitive>> meshes_;
+  std::vector<GpuMaterial> materials_;
+  std::array<gpu::BufferHandle, 6> buffers_{};
+  gpu::BufferHandle material_constants_;
+  std::vector<gpu::ImageHandle> textures_;  ///< by texture index; one more at the end: a white texel
+};
+
+}  // namespace gloam

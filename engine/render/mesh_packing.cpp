@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/mesh_packing.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/math/packing.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kHandednessBit = 0x10000u;
+
+std::uint32_t unorm(float value, float scale) {
+  return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * scale));
+}
+
+}  // namespace
+
+std::vector<PackedFrame> pack_frames(const Primitive& primitive) {
+  std::vector<PackedFrame> frames(primitive.positions.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].normal = pack_normal_snorm16(primitive.normals[i]);
+    const vec4 tangent = primitive.tangents.empty() ? vec4(1.0f, 0.0f, 0.0f, 1.0f) : primitive.tangents[i];
+    frames[i].tangent = pack_normal_snorm16(vec3(tangent)) & ~kHandednessBit;
+    if (tangent.w < 0.0f) frames[i].tangent |= kHandednessBit;
+  }
+  return frames;
+}
+
+std::vector<PackedSurface> pack_surfaces(const Primitive& primitive) {
+  std::vector<PackedSurface> surfaces(primitive.positions.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (!primitive.uv0.empty()) surfaces[i].uv0 = primitive.uv0[i];
+    if (!primitive.uv1.empty()) surfaces[i].uv1 = primitive.uv1[i];
+    if (primitive.colors.empty()) continue;
+    const vec4 c = primitive.colors[i];
+    surfaces[i].color = unorm(c.r, 255.0f) | unorm(c.g, 255.0f) << 8 | unorm(c.b, 255.0f) << 16 | unorm(c.a, 255.0f) << 24;
+  }
+  return surfaces;
+}
+
+std::vector<PackedInfluence> pack_influences(const Primitive& primitive) {
+  if (primitive.joints.empty() || primitive.weights.empty()) return {};
+  std::vector<PackedInfluence> packed(primitive.positions.size());
+  for (std::size_t i = 0; i < packed.size(); ++i) {
+    const auto& joints = primitive.joints[i];
+    const vec4 weights = primitive.weights[i];
+    std::uint32_t w[4];
+    std::uint32_t sum = 0;
+    int heaviest = 0;
+    for (int k = 0; k < 4; ++k) {
+      w[k] = unorm(weights[k], 65535.0f);
+      sum += w[k];
+      if (w[k] > w[heaviest]) heaviest = k;
+    }
+    // Rounding leaves the sum a few units off; the heaviest influence takes the difference.
+    const std::int64_t mended = static_cast<std::int64_t>(w[heaviest]) + 65535 - static_cast<std::int64_t>(sum);
+    w[heaviest] = static_cast<std::uint32_t>(std::clamp<std::int64_t>(mended, 0, 65535));
+    packed[i] = {joints[0] | static_cast<std::uint32_t>(joints[1]) << 16, joints[2] | static_cast<std::uint32_t>(joints[3]) << 16,
+                 w[0] | w[1] << 16, w[2] | w[3] << 16};
+  }
+  return packed;
+}
+
+std::vector<float> pack_morph_offsets(const Primitive& primitive, bool& has_normals) {
+  has_normals = !primitive.morph_targets.empty() &&
+                std::all_of(primitive.morph_targets.begin(), primitive.morph_targets.end(),
+                            [](const Primitive::MorphTarget& target) { return !target.normals.empty(); });
+  std::vector<float> offsets;
+  const auto append = [&](const std::vector<vec3>& plane) {
+    for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+      const vec3 offset = i < plane.size() ? plane[i] : vec3(0.0f);
+      offsets.insert(offsets.end(), {offset.x, offset.y, offset.z});
+    }
+  };
+  for (const Primitive::MorphTarget& target : primitive.morph_targets) {
+    append(target.positions);
+    if (has_normals) append(target.normals);
+  }
+  return offsets;
+}
+
+std::vector<Cluster> build_clusters(const Primitive& primitive, std::vector<std::uint32_t>& indices) {
+  indices = primitive.indices;
+  if (indices.size() > 3 * kClusterTriangles) {
+    std::vector<std::uint32_t> sorted(indices.size());
+    meshopt_spatialSortTriangles(sorted.data(), indices.data(), indices.size(), &primitive.positions[0].x,
+                                 primitive.positions.size(), sizeof(vec3));
+    indices = std::move(sorted);
+  }
+  std::vector<Cluster> clusters;
+  for (std::size_t first = 0; first < indices.size(); first += 3 * kClusterTriangles) {
+    Cluster cluster;
+    cluster.first_index = static_cast<std::uint32_t>(first);
+    cluster.index_count = static_cast<std::uint32_t>(std::min(3 * kClusterTriangles, indices.size() - first));
+    for (std::size_t i = 0; i < cluster.index_count; ++i) cluster.bounds.grow(primitive.positions[indices[first + i]]);
+    clusters.push_back(cluster);
+  }
+  return clusters;
+}
+
+}  // namespace gloam

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/renderer.h"
+
+#include "engine/ecs/view.h"
+#include "engine/render/passes.h"
+#include "engine/render/renderer_state.h"
+#include "engine/scene/gltf_import.h"
+#include "engine/scene/resources.h"
+#include "engine/scene/systems.h"
+
+namespace gloam {
+namespace {
+
+/// The renderer's own pictures of its geometry buffer; position + 1 is the code of debug_view.frag.
+constexpr const char* kEngineVisualizers[] = {"albedo", "normal", "depth"};
+
+std::uint32_t engine_visualizer_code(std::string_view name) {
+  for (std::uint32_t i = 0; i < std::size(kEngineVisualizers); ++i)
+    if (name == kEngineVisualizers[i]) return i + 1;
+  return 0;
+}
+
+}  // namespace
+
+Renderer::State::State(RendererOptions given)
+    : options(std::move(given)),
+      pipelines(*options.device),
+      uniforms(*options.device, "engine", gpu::BufferUsage::uniform),
+      storage(*options.device, "engine", gpu::BufferUsage::storage),
+      graph(*options.device),
+      demands(options.modules.size()) {
+  add_scene_systems(schedule);
+  for (const auto& module : options.modules) {
+    module->knobs(knobs);
+    module->add_systems(schedule);
+  }
+}
+
+Renderer::State::~State() {
+  static_cast<void>(options.device->wait_idle());
+  for (const auto& module : options.modules) module->release();
+  for (auto& [id, view] : images) {
+    if (view.lit) options.device->destroy(view.lit);
+    if (view.picture) options.device->destroy(view.picture);
+  }
+}
+
+FrameServices Renderer::State::services() {
+  return {*options.device, *options.executor, *options.log, knobs, pipelines, uniforms, storage};
+}
+
+GpuScene& Renderer::State::scene_of(const World& world) {
+  const RenderSlot* slot = world.try_resource<RenderSlot>();
+  GLOAM_ASSERT(slot != nullptr, "a world must be prepared by the renderer that draws it (Renderer::prepare_world)");
+  std::unique_ptr<GpuScene>& scene = scenes[slot->value];
+  if (scene == nullptr) scene = std::make_unique<GpuScene>(*options.device, pipelines);
+  return *scene;
+}
+
+Status Renderer::State::prepare_images(const ViewRequest& request) {
+  const ViewSettings& settings = request.settings;
+  ViewImages& view = images[settings.id.value];
+  gpu::Device& device = *options.device;
+  if (view.width != settings.width || view.height != settings.height) {
+    for (gpu::ImageHandle* image : {&view.lit, &view.picture}) {
+      if (*image) device.destroy(*image);
+      *image = {};
+    }
+    view.width = settings.width;
+    view.height = settings.height;
+  }
+  const auto make = [&](gpu::ImageHandle& image, const char* name, gpu::Format format) -> Status {
+    if (image) return {};
+    gpu::ImageDesc desc;
+    desc.name = name;
+    desc.module = "engine";
+    desc.format = format;
+    desc.width = view.width;
+    desc.height = view.height;
+    desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::sampled | gpu::ImageUsage::storage | gpu::ImageUsage::transfer_source;
+    if (format == gpu::Format::rgba8_srgb)
+      desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::transfer_source;
+    auto made = device.create_image(desc);
+    if (!made.ok()) return made.error();
+    image = *made;
+    return {};
+  };
+  GLOAM_TRY(make(view.lit, "lit", gpu::Format::rgba16_float));
+  if (!request.target.image) GLOAM_TRY(make(view.picture, "picture", gpu::Format::rgba8_srgb));
+  return {};
+}
+
+void Renderer::State::update_demand(const World& world) {
+  for (std::size_t i = 0; i < options.modules.size(); ++i) {
+    const Module& module = *options.modules[i];
+    demands[i] = module.demand(world, nullptr);
+    schedule.set_enabled(module.name(), module.built() && demands[i].needed);
+  }
+}
+
+Status Renderer::State::add_module_passes(FrameBuilder& builder) {
+  for (const PassPhase phase : kAllPhases) {
+    for (const auto& module : options.modules) {
+      if (!module->built() || !module->demand(builder.world(), &builder.view()).needed) continue;
+      GLOAM_TRY(module->add_passes(builder, phase));
+    }
+  }
+  return {};
+}
+
+Status Renderer::State::add_view(World& world, const ViewRequest& request, const RenderView& view) {
+  GpuScene& scene = scene_of(world);
+  const ViewImages& own = images.at(view.id.value);
+  builders.push_back(std::make_unique<FrameBuilder>(services(), graph, world, view, scene,
+                                                    build_draw_lists(world, view, scene, *options.executor)));
+  FrameBuilder& frame = *builders.back();
+  frame.set_visualizer(request.settings.visualizer);
+  const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
+  GLOAM_TRY(frame.upload_view_constants(code));
+  GLOAM_TRY(add_deform_pass(frame));
+  GLOAM_TRY(add_geometry_pass(frame));
+  GLOAM_TRY(add_depth_bounds_pass(frame));
+
+  const bool external = static_cast<bool>(request.target.image);
+  const gpu::ImageHandle picture = external ? request.target.image : own.picture;
+  const gpu::Access after = external ? request.target.after : gpu::Access::transfer_read;
+  frame.put(TargetOutput{graph.import_image("picture", picture, gpu::Access::none, after), options.device->desc(picture).format});
+  if (code == 0) {
+    frame.put(LitOutput{graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read)});
+    GLOAM_TRY(add_module_passes(frame));
+  } else {
+    GLOAM_TRY(add_debug_view_pass(frame, code));
+  }
+  if (pick && pick->view == view.id) {
+    const GeometryOutputs& g = frame.get<GeometryOutputs>();
+    for (const ImageRef ref : {g.base_color, g.normals, g.material, g.depth}) {
+      auto capture = capture_image(graph, *options.device, ref);
+      if (!capture.ok()) return capture.error();
+      captures.push_back(*capture);
+    }
+  }
+  return {};
+}
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::~Renderer() = default;
+
+Result<std::unique_ptr<Renderer>> Renderer::create(RendererOptions options) {
+  GLOAM_ASSERT(options.device != nullptr && options.executor != nullptr, "a renderer needs a device and an executor");
+  if (options.log == nullptr) options.log = &null_log();
+  return std::unique_ptr<Renderer>(new Renderer(std::make_unique<State>(std::move(options))));
+}
+
+KnobRegistry& Renderer::knobs() { return state_->knobs; }
+const ModuleList& Renderer::modules() const { return state_->options.modules; }
+
+std::vector<VisualizerInfo> Renderer::visualizers() const {
+  std::vector<VisualizerInfo> all = {{"none", "engine", "", "the lit picture"},
+                                     {"albedo", "engine", "", "base colour without light"},
+                                     {"normal", "engine", "", "shading normal, −1…1 as 0…1 of red, green, blue = x, y, z"},
+                                     {"depth", "engine", "", "distance: white near, grey far, black sky"}};
+  for (const auto& module : state_->options.modules)
+    for (VisualizerInfo& info : module->visualizers()) all.push_back(std::move(info));
+  return all;
+}
+
+Status Renderer::check_visualizer(const World& world, std::string_view name) const {
+  const std::string_view stem = name.substr(0, name.find(':'));
+  std::string list;
+  for (const VisualizerInfo& info : visualizers()) {
+    list += (list.empty() ? "" : ", ") + info.name + (info.argument.empty() ? "" : ":" + info.argument);
+    if (info.name != stem) continue;
+    if (!info.built) return Error{ErrorKind::usage, "view " + info.name + " is not built yet"};
+    if (info.argument.empty() != (stem.size() == name.size()))
+      return Error{ErrorKind::usage, "view " + info.name + (info.argument.empty() ? " takes no argument" : " needs :" + info.argument)};
+    if (info.argument == "LIGHT") {
+      auto light = world.resource<SceneNames>().find("light", name.substr(stem.size() + 1));
+      if (!light.ok()) return Error{ErrorKind::usage, light.error().message};
+    }
+    return {};
+  }
+  return Error{ErrorKind::usage, "unknown view " + std::string(name) + "; there are " + list};
+}
+
+void Renderer::prepare_world(World& world) const {
+  prepare_scene_world(world);
+  for (const auto& module : state_->options.modules) module->register_components(world);
+  world.set_resource(RenderSlot{state_->next_slot++});
+}
+
+Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
+  State& s = *state_;
+  const auto start = std::chrono::steady_clock::now();
+  s.update_demand(world);
+  s.schedule.run(Stage::world, world, *s.options.executor, s.options.zones);
+  GLOAM_TRY(s.scene_of(world).sync(world.resource<SceneAssets>(), *s.options.executor));
+
+  auto commands = s.options.device->begin_frame();
+  if (!commands.ok()) return commands.error();
+  s.uniforms.begin_frame();
+  s.storage.begin_frame();
+  s.graph.begin();
+  s.builders.clear();
+  s.views.clear();
+  for (const ViewRequest& request : requests) {
+    ViewSettings settings = request.settings;
+    follow_camera(world, settings);
+    GLOAM_TRY(s.prepare_images(request));
+    s.views.push_back(std::make_unique<RenderView>(make_view(settings, s.frame_count)));
+    world.set_view_resource(settings.id, *s.views.back());
+    for (std::size_t i = 0; i < s.options.modules.size(); ++i)
+      if (s.demands[i].needed) s.options.modules[i]->prepare_view(world, settings.id);
+    s.schedule.run_view(settings.id, world, *s.options.executor, s.options.zones);
+    GLOAM_TRY(s.add_view(world, request, *s.views.back()));
+  }
+  {
+    const ScopedZone zone(s.options.zones, "compile_frame_graph", "engine");
+    GLOAM_TRY(s.graph.compile());
+  }
+  {
+    const ScopedZone zone(s.options.zones, "record_passes", "engine");
+    s.graph.execute(**commands);
+  }
+  s.last_requests.assign(requests.begin(), requests.end());
+  s.collect_counters(world);
+  ++s.frame_count;
+  const Status submitted = s.options.device->submit_frame();
+  s.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return submitted;
+}
+
+Status Renderer::wait() { return state_->options.device->wait_idle(); }
+
+}  // namespace gloam

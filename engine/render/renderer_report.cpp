@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "engine/math/packing.h"
+#include "engine/render/renderer_state.h"
+
+namespace gloam {
+namespace {
+
+class MapSink final : public CounterSink {
+ public:
+  explicit MapSink(std::map<std::string, double>& map) : map_(map) {}
+  void count(std::string_view name, double value) override { map_[std::string(name)] = value; }
+
+ private:
+  std::map<std::string, double>& map_;
+};
+
+template <class T>
+T texel(std::span<const std::byte> bytes, std::size_t index) {
+  T value;
+  std::memcpy(&value, bytes.data() + index * sizeof(T), sizeof(T));
+  return value;
+}
+
+std::string vector_text(const vec3& v) {
+  char line[96];
+  std::snprintf(line, sizeof(line), "%.4f %.4f %.4f", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  return line;
+}
+
+}  // namespace
+
+void Renderer::State::collect_counters(const World& world) {
+  counters.clear();
+  if (builders.empty()) return;
+  const FrameBuilder& last = *builders.back();
+  MapSink sink(counters);
+  sink.count("engine.draws", static_cast<double>(last.draws().solid.size() + last.draws().blended.size()));
+  sink.count("engine.culled_primitives", last.draws().culled_instances);
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (options.modules[i]->built() && demands[i].needed) options.modules[i]->counters(world, last.view(), sink);
+}
+
+FrameReport Renderer::report() {
+  State& s = *state_;
+  FrameReport report;
+  report.cpu_ms = s.cpu_ms;
+  report.passes = s.graph.pass_times();
+  report.gpu_ms = s.graph.gpu_ms();
+  report.counters = s.counters;
+  const std::vector<gpu::ModuleMemory> memory = s.options.device->memory();
+  const auto state_of = [&](std::string_view name) {
+    ModuleState state;
+    state.name = name;
+    state.pipelines = s.options.device->pipeline_count(name);
+    for (const gpu::ModuleMemory& m : memory)
+      if (m.module == name) state.gpu_bytes = m.bytes;
+    return state;
+  };
+  ModuleState engine = state_of("engine");
+  engine.demanded = true;
+  engine.reason = "always";
+  report.modules.push_back(engine);
+  for (std::size_t i = 0; i < s.options.modules.size(); ++i) {
+    ModuleState state = state_of(s.options.modules[i]->name());
+    state.built = s.options.modules[i]->built();
+    state.demanded = s.demands[i].needed;
+    state.reason = s.demands[i].reason + (state.demanded && !state.built ? "; not built yet" : "");
+    report.modules.push_back(state);
+  }
+  return report;
+}
+
+Result<Picture> Renderer::read_picture(ViewId view) {
+  State& s = *state_;
+  const auto found = s.images.find(view.value);
+  GLOAM_ASSERT(found != s.images.end() && found->second.picture, "read_picture needs a view that was rendered without a target");
+  GLOAM_TRY(wait());
+  auto bytes = read_image_now(*s.options.device, found->second.picture);
+  if (!bytes.ok()) return bytes.error();
+  Picture picture{found->second.width, found->second.height, {}};
+  picture.rgba.resize(bytes->size());
+  std::memcpy(picture.rgba.data(), bytes->data(), bytes->size());
+  return picture;
+}
+
+Result<LinearPicture> Renderer::read_linear(ViewId view) {
+  State& s = *state_;
+  const auto found = s.images.find(view.value);
+  GLOAM_ASSERT(found != s.images.end() && found->second.lit, "read_linear needs a view that was rendered");
+  GLOAM_TRY(wait());
+  auto bytes = read_image_now(*s.options.device, found->second.lit);
+  if (!bytes.ok()) return bytes.error();
+  LinearPicture picture{found->second.width, found->second.height, {}};
+  picture.rgba.resize(bytes->size() / sizeof(std::uint16_t));
+  for (std::size_t i = 0; i < picture.rgba.size(); ++i) picture.rgba[i] = half_to_float(texel<std::uint16_t>(*bytes, i));
+  return picture;
+}
+
+Result<std::vector<std::string>> Renderer::pick(World& world, ViewId view, std::uint32_t x, std::uint32_t y) {
+  State& s = *state_;
+  const auto request = std::find_if(s.last_requests.begin(), s.last_requests.end(),
+                                    [&](const ViewRequest& r) { return r.settings.id == view; });
+  GLOAM_ASSERT(request != s.last_requests.end(), "pick needs a view of the last frame");
+  const std::uint32_t width = request->settings.width;
+  if (x >= width || y >= request->settings.height) return Error{ErrorKind::usage, "the picked pixel lies outside the picture"};
+  // The same frame once more, with its geometry copied out.
+  s.pick = PickRequest{view, x, y};
+  const std::vector<ViewRequest> again = {*request};
+  const Status drawn = render(world, again);
+  s.pick.reset();
+  GLOAM_TRY(drawn);
+  GLOAM_TRY(wait());
+  std::vector<std::vector<std::byte>> bytes;
+  for (const Capture& capture : s.captures) bytes.push_back(take_capture(*s.options.device, capture));
+  s.captures.clear();
+
+  const std::size_t at = std::size_t{y} * width + x;
+  std::vector<std::string> lines = {"pixel " + std::to_string(x) + "," + std::to_string(y) + " of tile " +
+                                    std::to_string(x / kTileSize) + "," + std::to_string(y / kTileSize)};
+  const float depth = texel<float>(bytes[3], at);
+  if (depth <= 0.0f) {
+    lines.push_back("sky");
+    return lines;
+  }
+  const GeometryTexel g =
+      decode_geometry(texel<std::uint32_t>(bytes[0], at), texel<glm::uvec2>(bytes[1], at), texel<std::uint32_t>(bytes[2], at));
+  lines.push_back("view depth " + std::to_string(request->settings.camera.near_m / depth) + " m");
+  lines.push_back("base colour " + vector_text(g.base_color) + (g.subsurface ? ", subsurface" : ""));
+  lines.push_back("normal " + vector_text(g.normal) + ", face normal " + vector_text(g.face_normal));
+  lines.push_back("roughness, metallic, occlusion " + vector_text({g.roughness, g.metallic, g.occlusion}));
+  return lines;
+}
+
+std::string Renderer::describe() const { return state_->schedule.describe() + state_->graph.describe(); }
+
+}  // namespace gloam

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/frame/upload.h"
+#include "engine/render/capture.h"
+#include "engine/render/frame_builder.h"
+#include "engine/render/gpu_scene.h"
+#include "engine/render/renderer.h"
+
+namespace gloam {
+
+/// Which of a renderer's GPU scenes belongs to a world; a resource of the world.
+struct RenderSlot {
+  std::uint64_t value = 0;
+};
+
+/// Images a renderer keeps for one view between frames.
+struct ViewImages {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  gpu::ImageHandle lit;      ///< rgba16f, cd/m²
+  gpu::ImageHandle picture;  ///< rgba8 sRGB; none while the caller brings a target
+};
+
+/// A pixel whose geometry texels the next frame shall read back.
+struct PickRequest {
+  ViewId view;
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+};
+
+struct Renderer::State {
+  explicit State(RendererOptions given);
+  ~State();
+
+  [[nodiscard]] FrameServices services();
+  [[nodiscard]] GpuScene& scene_of(const World& world);
+  /// Makes the view's images when missing or of another size.
+  [[nodiscard]] Status prepare_images(const ViewRequest& request);
+  void update_demand(const World& world);
+  /// Declares one view's passes.
+  [[nodiscard]] Status add_view(World& world, const ViewRequest& request, const RenderView& view);
+  [[nodiscard]] Status add_module_passes(FrameBuilder& builder);
+  void collect_counters(const World& world);
+
+  RendererOptions options;
+  KnobRegistry knobs;
+  Schedule schedule;
+  Pipelines pipelines;
+  UploadRing uniforms;
+  UploadRing storage;
+  FrameGraph graph;
+  std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
+  std::uint64_t next_slot = 1;
+  std::map<std::uint32_t, ViewImages> images;
+  std::vector<std::unique_ptr<FrameBuilder>> builders;  ///< of the frame in the making; pass functions refer to them
+  std::vector<std::unique_ptr<RenderView>> views;
+  std::vector<Demand> demands;  ///< by module: of the world or any view of the last frame
+  std::vector<ViewRequest> last_requests;
+  std::map<std::string, double> counters;
+  std::optional<PickRequest> pick;
+  std::vector<Capture> captures;
+  std::uint64_t frame_count = 0;
+  double cpu_ms = 0.0;
+};
+
+}  // namespace gloam

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lighting/environment.h"
+
+#include <memory>
+
+#include "engine/scene/resources.h"
+#include "shaders/lighting/lighting_shared.h"
+#include "shaders/lights/lights_shared.h"
+
+namespace gloam {
+
+Result<ShadingInputs> shading_inputs(FrameBuilder& frame) {
+  if (const ShadingInputs* there = frame.find<ShadingInputs>()) return *there;
+  ShadingInputs inputs;
+  const auto& sky = frame.world().resource<SceneEnvironment>();
+  const shaders::EnvironmentConstants constants{vec4(sky.sky_zenith, 0.0f), vec4(sky.sky_horizon, 0.0f), vec4(sky.sky_ground, 0.0f)};
+  auto environment = frame.services().uniforms.write_value(constants);
+  if (!environment.ok()) return environment.error();
+  inputs.environment = *environment;
+  if (const LightsOutputs* lights = frame.find<LightsOutputs>()) {
+    inputs.lights = lights->lights;
+    inputs.tiled = static_cast<bool>(lights->tile_masks);
+  } else {
+    const auto dark = std::make_unique<shaders::LightBlock>();
+    auto range = frame.services().uniforms.write_value(*dark);
+    if (!range.ok()) return range.error();
+    inputs.lights = *range;
+  }
+  return frame.put(inputs);
+}
+
+}  // namespace gloam

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lighting/exposure.h"
+
+#include <cmath>
+
+namespace gloam {
+
+float exposure_from_ev100(float ev100) { return 1.0f / (1.2f * std::exp2(ev100)); }
+
+Status ExposureSlots::prepare(gpu::Device& device) {
+  if (buffer_) return {};
+  gpu::BufferDesc desc;
+  desc.name = "exposures";
+  desc.module = "lighting";
+  desc.size = kCapacity * sizeof(float);
+  desc.usage = gpu::BufferUsage::storage;
+  auto made = device.create_buffer(desc);
+  if (!made.ok()) return made.error();
+  device_ = &device;
+  buffer_ = *made;
+  return {};
+}
+
+void ExposureSlots::release() {
+  if (buffer_) device_->destroy(buffer_);
+  buffer_ = {};
+  slots_.clear();
+  next_ = 0;
+}
+
+ExposureSlots::Slot ExposureSlots::slot_of(const World& world, const RenderView& view) {
+  const auto [found, fresh] = slots_.try_emplace({&world, view.id.value, view.camera_entity.index}, next_ % kCapacity);
+  if (!fresh) return {found->second, false};
+  const std::uint32_t index = found->second;
+  ++next_;
+  if (next_ > kCapacity)
+    std::erase_if(slots_, [&](const auto& entry) { return entry.second == index && &entry.first != &found->first; });
+  return {index, true};
+}
+
+}  // namespace gloam

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/render/view.h"
+
+namespace gloam {
+
+/// Factor from cd/m² to 1 = white before the curve, for an exposure value at ISO 100.
+[[nodiscard]] float exposure_from_ev100(float ev100);
+
+/// Metered exposures on the GPU, one slot a world and camera: metered in the camera's first frame, then fixed.
+class ExposureSlots {
+ public:
+  static constexpr std::uint32_t kCapacity = 1024;
+
+  struct Slot {
+    std::uint32_t index = 0;
+    bool fresh = false;  ///< must be metered in this frame
+  };
+
+  [[nodiscard]] Status prepare(gpu::Device& device);
+  void release();
+  [[nodiscard]] gpu::BufferHandle buffer() const { return buffer_; }
+  /// The slot of a camera of a world; when all are taken, the oldest camera's is metered anew.
+  [[nodiscard]] Slot slot_of(const World& world, const RenderView& view);
+
+ private:
+  gpu::Device* device_ = nullptr;
+  gpu::BufferHandle buffer_;
+  std::map<std::tuple<const World*, std::uint32_t, std::uint32_t>, std::uint32_t> slots_;
+  std::uint32_t next_ = 0;
+};
+
+}  // namespace gloam

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lighting/module.h"
+
+#include "engine/ecs/view.h"
+#include "engine/scene/key_table.h"
+#include "modules/lighting/components.h"
+#include "modules/lighting/passes.h"
+
+namespace gloam {
+namespace {
+
+class LightingModule final : public Module {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "lighting"; }
+
+  void register_components(World& world) const override { world.register_component<Fog>("fog"); }
+
+  void scene_keys(KeyRegistry& registry) const override {
+    registry.add(number_key(key_line("lighting", KeyElement::node, "gloam.fog.density", "0", "1/m", "homogeneous fog, one a scene"), 0,
+                            1e3, &Fog::density));
+    registry.add(vec3_key(key_line("lighting", KeyElement::node, "gloam.fog.color", "[0, 0, 0]", "cd/m²", "in-scattered radiance"), 0,
+                          1e6, &Fog::color));
+    registry.add_finish("lighting", [](World& world) { return at_most_one(world.view<const Fog>().size(), "gloam.fog"); });
+  }
+
+  void knobs(KnobRegistry& registry) const override {
+    Knob curve;
+    curve.name = "lighting.tone_map";
+    curve.module = "lighting";
+    curve.meaning = "curve from exposed linear light to the picture";
+    curve.choices = {"filmic", "reinhard", "linear"};
+    registry.add(curve);
+  }
+
+  [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "every picture is lit"}; }
+
+  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+    switch (phase) {
+      case PassPhase::shading: return add_deferred_pass(frame);
+      case PassPhase::translucent: return add_forward_pass(frame);
+      case PassPhase::output: return add_tone_map_passes(frame, exposures_);
+      case PassPhase::lists:
+      case PassPhase::post: break;
+    }
+    return {};
+  }
+
+  void release() override { exposures_.release(); }
+
+ private:
+  ExposureSlots exposures_;
+};
+
+}  // namespace
+
+std::unique_ptr<Module> make_lighting_module() { return std::make_unique<LightingModule>(); }
+
+}  // namespace gloam

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/render/frame_builder.h"
+#include "modules/lighting/exposure.h"
+
+namespace gloam {
+
+/// Lights the geometry buffer and fills the sky; writes LitOutput.
+[[nodiscard]] Status add_deferred_pass(FrameBuilder& frame);
+
+/// Draws blended surfaces over LitOutput, back to front. Nothing when there are none.
+[[nodiscard]] Status add_forward_pass(FrameBuilder& frame);
+
+/// LitOutput → TargetOutput, metering first in the first frame of a camera without a set exposure.
+[[nodiscard]] Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures);
+
+}  // namespace gloam

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lights/module.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "engine/ecs/view.h"
+#include "engine/render/frame_builder.h"
+#include "modules/lights/light_keys.h"
+#include "modules/lights/light_list.h"
+#include "modules/lights/outputs.h"
+#include "modules/lights/tile_masks_pass.h"
+
+namespace gloam {
+namespace {
+
+void gather_lights_system(View<const Light, const WorldTransform> lights, Resource<LightSet> set) {
+  set->lights.clear();
+  lights.each([&](Entity entity, const Light& light, const WorldTransform& transform) {
+    set->lights.push_back(place_light(entity, light, transform.matrix));
+  });
+  std::sort(set->lights.begin(), set->lights.end(),
+            [](const PlacedLight& a, const PlacedLight& b) { return a.entity.index < b.entity.index; });
+}
+
+void select_lights_system(Resource<const LightSet> set, ViewResource<const RenderView> view, ViewResource<VisibleLights> visible) {
+  select_lights(set->lights, *view, *visible);
+}
+
+class LightsModule final : public Module {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "lights"; }
+
+  void register_components(World& world) const override {
+    world.register_component<Light>("light");
+    world.set_resource(LightSet{});
+  }
+  void scene_keys(KeyRegistry& registry) const override { add_light_keys(registry); }
+
+  void knobs(KnobRegistry& registry) const override {
+    Knob culling;
+    culling.name = "lights.culling";
+    culling.module = "lights";
+    culling.meaning = "lights a pixel looks at: those of its tile, or all of them";
+    culling.choices = {"brute", "tiled"};
+    culling.default_number = 1;
+    registry.add(culling);
+  }
+
+  void add_systems(Schedule& schedule) override {
+    schedule.add_system("gather_lights", "lights", Stage::world, &gather_lights_system);
+    schedule.add_system("select_lights", "lights", Stage::view, &select_lights_system);
+  }
+
+  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
+    const std::size_t count = world.view<const Light>().size();
+    if (count == 0) return {false, "no light"};
+    return {true, std::to_string(count) + (count == 1 ? " light" : " lights")};
+  }
+
+  void prepare_view(World& world, ViewId view) const override {
+    if (world.try_view_resource<VisibleLights>(view) == nullptr) world.set_view_resource(view, VisibleLights{});
+  }
+
+  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::lists) return {};
+    const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
+    if (visible.dropped > 0 && !warned_.exchange(true)) {
+      frame.services().log.warning("more lights are visible than fit (" + std::to_string(GLOAM_MAX_LOCAL_LIGHTS) + " local, " +
+                                   std::to_string(GLOAM_MAX_DIRECTIONAL_LIGHTS) + " directional): the " +
+                                   std::to_string(visible.dropped) + " least important are left out (counter lights.dropped)");
+    }
+    return add_tile_masks_pass(frame, visible);
+  }
+
+  void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
+    const auto& visible = world.view_resource<VisibleLights>(view.id);
+    sink.count("lights.total", visible.total);
+    sink.count("lights.visible", visible.block.local_count + visible.block.directional_count);
+    sink.count("lights.dropped", visible.dropped);
+  }
+
+ private:
+  std::atomic<bool> warned_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Module> make_lights_module() { return std::make_unique<LightsModule>(); }
+
+}  // namespace gloam

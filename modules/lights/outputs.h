@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/frame/frame_graph.h"
+#include "engine/gpu/types.h"
+
+namespace gloam {
+
+/// What the lights module leaves for a view.
+struct LightsOutputs {
+  gpu::Binding::BufferRange lights;  ///< a LightBlock (shaders/lights/lights_shared.h), uniform
+  ImageRef tile_masks;               ///< r32ui, 33 layers, one texel an 8×8 tile; none when lights.culling = brute
+  std::uint32_t local_count = 0;
+};
+
+/// Indices of the lights in one tile's mask. `layers`: the 33 words of one texel; words whose group bit is 0 are not looked at.
+[[nodiscard]] std::vector<std::uint32_t> decode_tile_mask(std::span<const std::uint32_t> layers);
+
+}  // namespace gloam

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/render/frame_builder.h"
+#include "modules/lights/light_list.h"
+
+namespace gloam {
+
+/// Uploads the view's lights and, when lights.culling = tiled, finds which may touch each tile; puts LightsOutputs.
+[[nodiscard]] Status add_tile_masks_pass(FrameBuilder& frame, const VisibleLights& visible);
+
+}  // namespace gloam

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_COMMON_MATH_GLSL
+#define GLOAM_SHADERS_COMMON_MATH_GLSL
+
+const float kPi = 3.14159265358979323846;
+
+// Octahedral code of a unit vector in [-1, 1]^2, as engine/math/packing.h has it.
+vec2 octahedral_encode(vec3 n) {
+  n /= abs(n.x) + abs(n.y) + abs(n.z);
+  vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+  return n.z >= 0.0 ? n.xy : folded;
+}
+
+vec3 octahedral_decode(vec2 code) {
+  vec3 n = vec3(code, 1.0 - abs(code.x) - abs(code.y));
+  float fold = max(-n.z, 0.0);
+  n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
+  return normalize(n);
+}
+
+uint pack_normal(vec3 n) { return packSnorm2x16(octahedral_encode(n)); }
+vec3 unpack_normal(uint packed) { return octahedral_decode(unpackSnorm2x16(packed)); }
+
+vec3 linear_to_srgb(vec3 c) {
+  c = clamp(c, vec3(0.0), vec3(1.0));
+  return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));
+}
+
+#endif

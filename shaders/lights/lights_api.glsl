@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_LIGHTS_LIGHTS_API_GLSL
+#define GLOAM_SHADERS_LIGHTS_LIGHTS_API_GLSL
+
+#include "shaders/lights/lights_shared.h"
+
+// Illuminance a local light gives at a camera-relative point on a plane that faces it, in lux; `to_light` gets the unit direction.
+// Inverse square, windowed so that it ends at the range: (1 - (d/range)^4)^2, as KHR_lights_punctual recommends.
+vec3 local_illuminance(LocalLight light, vec3 point, out vec3 to_light) {
+  vec3 offset = light.position - point;
+  float d2 = max(dot(offset, offset), 1e-6);
+  to_light = offset * inversesqrt(d2);
+  float ratio = d2 * light.inverse_range_squared;
+  float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+  float cone = clamp(dot(-to_light, light.direction) * light.spot_scale + light.spot_offset, 0.0, 1.0);
+  return light.color * (window * window * cone * cone / d2);
+}
+
+#endif

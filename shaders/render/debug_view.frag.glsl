@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/render/gbuffer_api.glsl"
+#include "shaders/render/view_api.glsl"
+
+// Shows one channel of the geometry buffer. view.visualizer: 1 albedo, 2 normal, 3 depth.
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 1) uniform sampler2D base_color_image;
+layout(set = 0, binding = 2) uniform usampler2D normal_image;
+layout(set = 0, binding = 3) uniform sampler2D depth_image;
+
+layout(location = 0) out vec4 out_color;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = texelFetch(depth_image, pixel, 0).r;
+  vec3 shown = vec3(0.0);
+  if (depth > 0.0) {
+    if (view.visualizer == 1u) shown = texelFetch(base_color_image, pixel, 0).rgb;
+    if (view.visualizer == 2u) {
+      vec3 coded = unpack_normal(texelFetch(normal_image, pixel, 0).x) * 0.5 + 0.5;
+      shown = coded * coded;  // so that the encoded picture looks even
+    }
+    if (view.visualizer == 3u) {
+      float metres = view_depth(view, relative_position(view, gl_FragCoord.xy - 0.5, depth));
+      shown = vec3(1.0 / (1.0 + 0.1 * metres));
+    }
+  }
+  out_color = vec4(shown, 1.0);
+}

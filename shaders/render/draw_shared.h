@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_RENDER_DRAW_SHARED_H
+#define GLOAM_SHADERS_RENDER_DRAW_SHARED_H
+
+#include "shaders/common/prelude.h"
+
+GLOAM_SHARED_BEGIN
+
+/// Push constants of one draw: rows of the affine matrix from the mesh's space to camera-relative space.
+struct DrawConstants {
+  vec4 row0;
+  vec4 row1;
+  vec4 row2;
+  uint flags;  // kDraw…
+};
+
+/// Constants of one material, in a uniform buffer of its own set.
+struct MaterialConstants {
+  vec4 base_color;
+  vec4 emissive_cutoff;       // rgb cd/m², alpha cutoff
+  vec4 factors;               // metallic, roughness, normal scale, occlusion strength
+  vec4 extras;                // subsurface 0 or 1, reflectivity (< 0: from metallic and roughness), 0, 0
+  vec4 uv_transform[10];      // two rows (xyz) a texture: base, normal, metallic-roughness, occlusion, emissive; w of row 0: uv set
+};
+
+GLOAM_SHARED_END
+
+// DrawConstants::flags
+#define GLOAM_DRAW_MIRRORED 1u      // front faces are clockwise in the mesh's winding
+// Specialisation constant 0 of the surface shaders
+#define GLOAM_SURFACE_BASE_TEXTURE 1u
+#define GLOAM_SURFACE_NORMAL_TEXTURE 2u
+#define GLOAM_SURFACE_METALLIC_ROUGHNESS_TEXTURE 4u
+#define GLOAM_SURFACE_OCCLUSION_TEXTURE 8u
+#define GLOAM_SURFACE_EMISSIVE_TEXTURE 16u
+#define GLOAM_SURFACE_MASK 32u
+#define GLOAM_SURFACE_DOUBLE_SIDED 64u
+#define GLOAM_SURFACE_VERTEX_COLOR 128u
+
+#endif

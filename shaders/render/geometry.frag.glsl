@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/render/surface_api.glsl"
+
+layout(location = 0) out vec4 out_base_color;
+layout(location = 1) out uvec4 out_normals;
+layout(location = 2) out vec4 out_material;
+layout(location = 3) out vec4 out_emissive;
+
+void main() {
+  Surface s = fetch_surface();
+  out_base_color = vec4(s.base_color.rgb, s.subsurface ? 1.0 : 0.0);
+  out_normals = uvec4(pack_normal(s.normal), pack_normal(s.face_normal), 0u, 0u);
+  out_material = vec4(s.roughness, s.metallic, s.occlusion, s.reflectivity);
+  out_emissive = vec4(s.emissive, 0.0);
+}

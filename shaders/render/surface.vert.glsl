@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/common/math.glsl"
+#include "shaders/render/draw_shared.h"
+#include "shaders/render/view_shared.h"
+
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in uvec2 in_frame;  // octahedral normal; octahedral tangent with the handedness in the lowest bit
+layout(location = 2) in vec4 in_uv;
+layout(location = 3) in vec4 in_color;
+
+layout(location = 0) out vec3 out_relative;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) out vec4 out_tangent;
+layout(location = 3) out vec4 out_uv;
+layout(location = 4) out vec4 out_color;
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(push_constant, scalar) uniform DrawBlock { DrawConstants draw; };
+
+layout(constant_id = 0) const uint kSurface = 0u;
+
+void main() {
+  vec3 relative = vec3(dot(draw.row0, vec4(in_position, 1.0)), dot(draw.row1, vec4(in_position, 1.0)),
+                       dot(draw.row2, vec4(in_position, 1.0)));
+  gl_Position = view.clip_from_relative * vec4(relative, 1.0);
+  out_relative = relative;
+
+  // Normals transform with the cofactors of the matrix; its rows are cross products, mirrored matrices included.
+  vec3 normal = unpack_normal(in_frame.x);
+  vec3 c0 = cross(draw.row1.xyz, draw.row2.xyz);
+  vec3 c1 = cross(draw.row2.xyz, draw.row0.xyz);
+  vec3 c2 = cross(draw.row0.xyz, draw.row1.xyz);
+  vec3 turned = vec3(dot(c0, normal), dot(c1, normal), dot(c2, normal));
+  out_normal = (draw.flags & GLOAM_DRAW_MIRRORED) != 0u ? -turned : turned;
+
+  out_tangent = vec4(0.0);
+  if ((kSurface & GLOAM_SURFACE_NORMAL_TEXTURE) != 0u) {
+    vec3 tangent = unpack_normal(in_frame.y & 0xFFFEFFFFu);
+    float handedness = (in_frame.y & 0x10000u) != 0u ? -1.0 : 1.0;
+    if ((draw.flags & GLOAM_DRAW_MIRRORED) != 0u) handedness = -handedness;
+    out_tangent = vec4(dot(draw.row0.xyz, tangent), dot(draw.row1.xyz, tangent), dot(draw.row2.xyz, tangent), handedness);
+  }
+  out_uv = in_uv;
+  out_color = (kSurface & GLOAM_SURFACE_VERTEX_COLOR) != 0u ? in_color : vec4(1.0);
+}

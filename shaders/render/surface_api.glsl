@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_RENDER_SURFACE_API_GLSL
+#define GLOAM_SHADERS_RENDER_SURFACE_API_GLSL
+
+// What a fragment of a mesh's surface is made of. Include in fragment shaders behind surface.vert; binds set 1.
+
+#include "shaders/common/math.glsl"
+#include "shaders/render/draw_shared.h"
+
+layout(location = 0) in vec3 in_relative;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec4 in_tangent;
+layout(location = 3) in vec4 in_uv;
+layout(location = 4) in vec4 in_color;
+
+layout(set = 1, binding = 0, scalar) uniform MaterialBlock { MaterialConstants material; };
+layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
+layout(set = 1, binding = 2) uniform sampler2D normal_texture;
+layout(set = 1, binding = 3) uniform sampler2D metallic_roughness_texture;
+layout(set = 1, binding = 4) uniform sampler2D occlusion_texture;
+layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
+
+layout(constant_id = 0) const uint kSurface = 0u;
+
+struct Surface {
+  vec4 base_color;     // linear, with alpha
+  vec3 normal;         // shading normal, unit, on the visible side
+  vec3 face_normal;    // of the triangle, unit, on the visible side
+  float metallic;
+  float roughness;
+  float occlusion;
+  float reflectivity;  // 0…1
+  vec3 emissive;       // cd/m²
+  bool subsurface;
+};
+
+vec2 texture_uv(int slot) {
+  vec4 row0 = material.uv_transform[2 * slot];
+  vec4 row1 = material.uv_transform[2 * slot + 1];
+  vec3 uv = vec3(row0.w < 0.5 ? in_uv.xy : in_uv.zw, 1.0);
+  return vec2(dot(row0.xyz, uv), dot(row1.xyz, uv));
+}
+
+Surface fetch_surface() {
+  Surface s;
+  s.base_color = material.base_color * in_color;
+  if ((kSurface & GLOAM_SURFACE_BASE_TEXTURE) != 0u) s.base_color *= texture(base_color_texture, texture_uv(0));
+  if ((kSurface & GLOAM_SURFACE_MASK) != 0u && s.base_color.a < material.emissive_cutoff.a) discard;
+
+  // The camera is at the origin: the visible side is the one towards it, whatever the winding and mirroring say.
+  s.face_normal = normalize(cross(dFdx(in_relative), dFdy(in_relative)));
+  if (dot(s.face_normal, in_relative) > 0.0) s.face_normal = -s.face_normal;
+  if (!(dot(s.face_normal, s.face_normal) > 0.5)) s.face_normal = normalize(-in_relative);  // degenerate derivatives
+
+  s.normal = normalize(in_normal);
+  if ((kSurface & GLOAM_SURFACE_NORMAL_TEXTURE) != 0u) {
+    vec3 t = texture(normal_texture, texture_uv(1)).xyz * 2.0 - 1.0;
+    t.xy *= material.factors.z;
+    vec3 bitangent = cross(in_normal, in_tangent.xyz) * in_tangent.w;
+    vec3 bumped = normalize(in_tangent.xyz) * t.x + normalize(bitangent) * t.y + s.normal * t.z;
+    s.normal = dot(bumped, bumped) > 0.0 && !any(isnan(bumped)) ? normalize(bumped) : s.normal;
+  }
+  // Two-sided materials shade their back with the turned normal.
+  if ((kSurface & GLOAM_SURFACE_DOUBLE_SIDED) != 0u && dot(in_normal, s.face_normal) < 0.0) s.normal = -s.normal;
+  if (!(dot(s.normal, s.normal) > 0.5)) s.normal = s.face_normal;
+
+  s.metallic = material.factors.x;
+  s.roughness = material.factors.y;
+  if ((kSurface & GLOAM_SURFACE_METALLIC_ROUGHNESS_TEXTURE) != 0u) {
+    vec4 mr = texture(metallic_roughness_texture, texture_uv(2));
+    s.metallic *= mr.b;
+    s.roughness *= mr.g;
+  }
+  s.occlusion = 1.0;
+  if ((kSurface & GLOAM_SURFACE_OCCLUSION_TEXTURE) != 0u)
+    s.occlusion = 1.0 + material.factors.w * (texture(occlusion_texture, texture_uv(3)).r - 1.0);
+  s.emissive = material.emissive_cutoff.rgb;
+  if ((kSurface & GLOAM_SURFACE_EMISSIVE_TEXTURE) != 0u) s.emissive *= texture(emissive_texture, texture_uv(4)).rgb;
+  s.subsurface = material.extras.x > 0.5;
+  float smoothness = 1.0 - s.roughness;
+  s.reflectivity = material.extras.y >= 0.0 ? material.extras.y : smoothness * mix(0.5, 1.0, s.metallic);
+  return s;
+}
+
+#endif
