@@ -77,7 +77,8 @@ Archetype::Archetype(std::uint32_t index, std::vector<ComponentId> components, s
   for (std::size_t i = 0; i < columns_.size(); ++i) locate(columns_[i], i + 1);
 
   entities_ = reinterpret_cast<Entity*>(entity_column_.data);
-  data_.assign(components_.empty() ? 0 : components_.back() + std::size_t{1}, nullptr);
+  id_end_ = components_.empty() ? 0 : components_.back() + 1u;
+  data_ = std::make_unique<std::byte*[]>(id_end_);
   for (const ComponentId id : components_) data_[id] = entity_column_.data;  // stays so for tags
   for (const Column& column : columns_) data_[column.id] = column.data;
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,7 @@ class Archetype {
 
   /// First byte of a component's column; null when the archetype lacks it. A tag's is not null, but has no bytes behind
   /// it.
-  [[nodiscard]] std::byte* data(ComponentId id) const { return id < data_.size() ? data_[id] : nullptr; }
+  [[nodiscard]] std::byte* data(ComponentId id) const { return id < id_end_ ? data_[id] : nullptr; }
 
   /// Appends `count` rows and returns the first. Entities and values are the caller's to write.
   std::uint32_t push_rows(std::uint32_t count, Tick now) {
@@ -73,12 +74,14 @@ class Archetype {
   void grow(std::uint32_t more_rows);
   void commit(Column& column, std::uint32_t rows);
 
+  // What access to single entities needs comes first, on one cache line.
   std::uint32_t rows_ = 0;
   std::uint32_t capacity_ = 0;  ///< rows that fit what is committed
+  std::uint32_t id_end_ = 0;    ///< highest component id + 1
   Entity* entities_ = nullptr;
-  std::vector<std::byte*> data_;  ///< by component id
-  std::vector<Column> columns_;   ///< of components that have bytes, by ascending id
-  std::vector<Tick> row_ticks_;   ///< one a block: rows came or moved
+  std::unique_ptr<std::byte*[]> data_;  ///< by component id
+  std::vector<Column> columns_;         ///< of components that have bytes, by ascending id
+  std::vector<Tick> row_ticks_;         ///< one a block: rows came or moved
   std::vector<Archetype*> edges_;
   Column entity_column_;
   std::vector<ComponentId> components_;

@@ -26,6 +26,22 @@ constexpr const char* raw_type_name() {
 #endif
 }
 
+template <class T>
+constexpr std::string_view cut_type_name() {
+  std::string_view name = raw_type_name<T>();
+#if defined(_MSC_VER) && !defined(__clang__)
+  name.remove_prefix(name.find("raw_type_name<") + 14);
+  name.remove_suffix(name.size() - name.rfind(">("));
+#else
+  name.remove_prefix(name.find("T = ") + 4);
+  name.remove_suffix(1);
+#endif
+  return name;
+}
+
+template <class T>
+inline constexpr std::string_view kTypeName = cut_type_name<T>();
+
 }  // namespace detail
 
 /// Tells types apart within one program run. Carries no order and no meaning for two worlds: each maps keys to ids of
@@ -38,15 +54,7 @@ template <class T>
 /// The type's name as the compiler writes it, for messages only.
 template <class T>
 [[nodiscard]] constexpr std::string_view type_name() {
-  std::string_view name = detail::raw_type_name<T>();
-#if defined(_MSC_VER) && !defined(__clang__)
-  name.remove_prefix(name.find("raw_type_name<") + 14);
-  name.remove_suffix(name.size() - name.rfind(">("));
-#else
-  name.remove_prefix(name.find("T = ") + 4);
-  name.remove_suffix(1);
-#endif
-  return name;
+  return detail::kTypeName<T>;
 }
 
 }  // namespace gloam

@@ -10,6 +10,12 @@ namespace gloam {
 
 TypeTable::TypeTable() : slots_(32), shift_(64 - 5) {}
 
+std::uint32_t TypeTable::find_further(const void* key) const {
+  std::size_t i = home(key);
+  while (slots_[i].key != key && slots_[i].key != nullptr) i = (i + 1) & (slots_.size() - 1);
+  return slots_[i].value;  // kAbsent in a free slot
+}
+
 void TypeTable::insert(const void* key, std::uint32_t value) {
   GLOAM_ASSERT(find(key) == kAbsent, "a type is entered into a table once");
   if ((used_ + 1) * 2 > slots_.size()) {

@@ -17,10 +17,8 @@ class TypeTable {
   TypeTable();
 
   [[nodiscard]] std::uint32_t find(const void* key) const {
-    for (std::size_t i = home(key);; i = (i + 1) & (slots_.size() - 1)) {
-      if (slots_[i].key == key) return slots_[i].value;
-      if (slots_[i].key == nullptr) return kAbsent;
-    }
+    const Slot& first = slots_[home(key)];
+    return first.key == key ? first.value : find_further(key);
   }
 
   /// `key` must not be there yet.
@@ -35,6 +33,8 @@ class TypeTable {
   [[nodiscard]] std::size_t home(const void* key) const {
     return static_cast<std::size_t>((reinterpret_cast<std::uintptr_t>(key) * 0x9e3779b97f4a7c15ull) >> shift_);
   }
+
+  [[nodiscard]] std::uint32_t find_further(const void* key) const;
 
   std::vector<Slot> slots_;
   std::size_t used_ = 0;

@@ -197,11 +197,11 @@ class View {
     (std::index_sequence_for<Cs...>{});
     static_cast<void>(columns);
   }
-  template <class F>
-  void rows(F& f, std::size_t m, std::size_t first, std::size_t last, Columns list) const {
+  template <class F, class... Cs>
+  void rows(F& f, std::size_t m, std::size_t first, std::size_t last, TypeList<Cs...> list) const {
     const Entity* entities = query_->match(m).entities();
     with_cursors(
-        m, [&](auto... cursors) { detail::call_rows(f, entities, first, last, cursors...); }, list);
+        m, [&](auto... cursors) { detail::call_rows<Cs...>(f, entities, first, last, cursors...); }, list);
   }
   template <class F>
   void chunk(F& f, std::size_t m, std::size_t first, std::size_t count, Columns list) const {

@@ -11,6 +11,12 @@
 #include "engine/ecs/type_key.h"
 #include "engine/ecs/world.h"
 
+#ifdef _MSC_VER
+#define GLOAM_RESTRICT __restrict
+#else
+#define GLOAM_RESTRICT __restrict__
+#endif
+
 namespace gloam {
 
 /// Filters of a view. Maybe<const T> or Maybe<T> hands out a pointer (a span, for chunks) that is null (empty) where T
@@ -29,7 +35,8 @@ template <class Arg>
 struct ViewTerm {
   using Component = std::remove_const_t<Arg>;
   using Value = Arg;
-  using Cursor = Arg*;
+  /// Nobody writes what a view reads while it iterates, so writes need not be feared to change it.
+  using Cursor = std::conditional_t<std::is_const_v<Arg>, Arg * GLOAM_RESTRICT, Arg*>;
   static constexpr bool kColumn = true;
   static constexpr bool kWrites = !std::is_const_v<Arg>;
   static_assert(!std::is_empty_v<Component>, "a tag has no values: ask for With<Tag>, or has<Tag>");
@@ -83,9 +90,10 @@ std::span<Arg> chunk_span(MaybeCursor<Arg> cursor, std::size_t first, std::size_
   return cursor.column == nullptr ? std::span<Arg>() : std::span<Arg>(cursor.column + first, count);
 }
 
-/// The loop all iteration comes down to: plain pointers and one counter.
-template <class F, class... Cursors>
-void call_rows(F& f, const Entity* entities, std::size_t first, std::size_t last, Cursors... cursors) {
+/// The loop all iteration comes down to: plain pointers and one counter. Args: the view's column arguments.
+template <class... Args, class F>
+void call_rows(F& f, const Entity* entities, std::size_t first, std::size_t last,
+               typename ViewTerm<Args>::Cursor... cursors) {
   if constexpr (std::is_invocable_v<F&, Entity, decltype(cursors[0])...>) {
     for (std::size_t row = first; row < last; ++row) f(entities[row], cursors[row]...);
   } else {

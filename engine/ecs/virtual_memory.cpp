@@ -21,6 +21,11 @@ ReservedMemory::ReservedMemory(std::size_t bytes) : bytes_(round_up(bytes, page_
   void* address = mmap(nullptr, bytes_, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (address == MAP_FAILED) throw std::bad_alloc();
   data_ = static_cast<std::byte*>(address);
+#ifdef MADV_HUGEPAGE
+  // Long columns are walked from end to end: large pages save faults on filling and misses on walking. Advice only, and without
+  // effect on stretches of which less than a large page is committed.
+  madvise(address, bytes_, MADV_HUGEPAGE);
+#endif
 }
 
 ReservedMemory::~ReservedMemory() {
@@ -32,11 +37,6 @@ void ReservedMemory::commit(std::size_t begin, std::size_t end) {
   GLOAM_ASSERT(begin % page_size() == 0 && end % page_size() == 0, "memory is committed by whole pages");
   if (begin == end) return;
   if (mprotect(data_ + begin, end - begin, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
-  // Long columns are walked from end to end: large pages save faults on filling and misses on walking. Advice only.
-  constexpr std::size_t kLong = std::size_t{4} << 20;
-  if (end - begin >= kLong) madvise(data_ + begin, end - begin, MADV_HUGEPAGE);
-#endif
 }
 
 }  // namespace gloam
