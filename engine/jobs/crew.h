@@ -12,9 +12,9 @@
 namespace gloam {
 
 /// Work shorter than this is done before a sleeping thread would have come to help.
-inline constexpr float kWakeUpNs = 5'000.0f;
+inline constexpr float kWakeUpNs = 10'000.0f;
 /// The same for a helper that is still spinning.
-inline constexpr float kJoinNs = 1'000.0f;
+inline constexpr float kJoinNs = 1'500.0f;
 
 using Clock = std::chrono::steady_clock;
 
@@ -92,7 +92,7 @@ class Crew {
 
   /// How long work must take for helpers to pay: less while some still spin.
   [[nodiscard]] float worthwhile_ns() const {
-    return state_->idle.load(std::memory_order_relaxed) > 0 ? kJoinNs : kWakeUpNs;
+    return state_->idle.load(std::memory_order_relaxed) > 0 && !state_->crowded ? kJoinNs : kWakeUpNs;
   }
 
   /// Lets helpers see the region, and calls for up to `wanted` of them. May be called again for an open region.

@@ -12,6 +12,31 @@
 namespace gloam {
 namespace {
 
+class Batch final : public RangeWork {
+ public:
+  explicit Batch(std::span<const std::function<void()>> jobs) : jobs_(jobs) {}
+  void run(std::size_t& i, std::size_t end) const override {
+    for (; i < end; ++i) jobs_[i]();
+  }
+
+ private:
+  std::span<const std::function<void()>> jobs_;
+};
+
+class Loop final : public RangeWork {
+ public:
+  Loop(std::size_t count, std::size_t grain, const std::function<void(JobRange)>& body)
+      : count_(count), grain_(grain), body_(body) {}
+  void run(std::size_t& i, std::size_t end) const override {
+    for (; i < end; ++i) body_(job_range(i, count_, grain_));
+  }
+
+ private:
+  std::size_t count_;
+  std::size_t grain_;
+  const std::function<void(JobRange)>& body_;
+};
+
 class PoolExecutor final : public JobExecutor {
  public:
   explicit PoolExecutor(std::uint32_t threads) : crew_(threads) {}
@@ -19,21 +44,12 @@ class PoolExecutor final : public JobExecutor {
   [[nodiscard]] std::uint32_t worker_count() const override { return crew_.threads(); }
 
   void run(std::span<const std::function<void()>> jobs) override {
-    if (jobs.size() <= 1 || crew_.threads() == 1) {
-      for (const auto& job : jobs) job();
-      return;
-    }
-    const std::function<void(JobRange)> body = [jobs](JobRange range) { jobs[range.begin](); };
-    lead_ranges(jobs.size(), 1, body, SiteCosts::site(jobs.front().target_type(), 0));
+    if (jobs.empty()) return;
+    lead_ranges(jobs.size(), Batch(jobs), 1, jobs.front().target_type());
   }
 
   void parallel_for(std::size_t count, std::size_t grain, const std::function<void(JobRange)>& body) override {
-    const std::size_t ranges = range_count(count, grain);
-    if (ranges <= 1 || crew_.threads() == 1) {
-      for (std::size_t i = 0; i < ranges; ++i) body(job_range(i, count, grain));
-      return;
-    }
-    lead_ranges(count, grain, body, SiteCosts::site(body.target_type(), 0));
+    lead_ranges(range_count(count, grain), Loop(count, grain, body), std::min(count, grain), body.target_type());
   }
 
   void run_graph(std::span<JobNode> nodes) override {
@@ -44,12 +60,17 @@ class PoolExecutor final : public JobExecutor {
   }
 
  private:
-  void lead_ranges(std::size_t count, std::size_t grain, const std::function<void(JobRange)>& body,
-                   SiteCosts::Site site) {
-    const auto items_a_range = static_cast<float>(std::min(count, grain));
-    RangeRegion region(count, grain, body, crew_);
-    const float range_ns = region.lead(costs_.recall(site) * items_a_range);
-    if (range_ns > 0.0f) costs_.learn(site, range_ns / items_a_range);
+  /// `items`: in a range. Costs are remembered an item, because a site's grain may change.
+  void lead_ranges(std::size_t ranges, const RangeWork& work, std::size_t items, const std::type_info& type) {
+    if (ranges <= 1 || crew_.threads() == 1) {
+      std::size_t i = 0;
+      work.run(i, ranges);
+      return;
+    }
+    const SiteCosts::Site site = SiteCosts::site(type, 0);
+    RangeRegion region(ranges, work, crew_);
+    const float range_ns = region.lead(costs_.recall(site) * static_cast<float>(items));
+    if (range_ns > 0.0f) costs_.learn(site, range_ns / static_cast<float>(items));
   }
 
   Crew crew_;

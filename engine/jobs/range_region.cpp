@@ -4,13 +4,14 @@
 
 #include <algorithm>
 
-#include "engine/jobs/job_graph.h"
-
 namespace gloam {
 namespace {
 
 /// A claim should take about this long: claiming and reading the clock are then below one percent.
 constexpr float kClaimNs = 10'000.0f;
+
+/// Of a shorter claim, the clock measures mostly itself: it may only lower what a range is believed to cost.
+constexpr float kTrustedNs = 1'000.0f;
 
 std::size_t ranges_a_claim(float range_ns, std::size_t last) {
   if (range_ns * static_cast<float>(last) * 8.0f <= kClaimNs) return last * 8;
@@ -19,9 +20,6 @@ std::size_t ranges_a_claim(float range_ns, std::size_t last) {
 
 }  // namespace
 
-RangeRegion::RangeRegion(std::size_t count, std::size_t grain, const std::function<void(JobRange)>& body, Crew& crew)
-    : count_(count), grain_(grain), ranges_(range_count(count, grain)), body_(body), crew_(crew) {}
-
 bool RangeRegion::has_work() const {
   return next_.load(std::memory_order_relaxed) < std::min(ranges_, failure_.index());
 }
@@ -29,21 +27,23 @@ bool RangeRegion::has_work() const {
 RangeRegion::Claim RangeRegion::claim(std::size_t wanted) {
   std::size_t begin = next_.load(std::memory_order_relaxed);
   while (begin < std::min(ranges_, failure_.index())) {
-    const std::size_t fair = (ranges_ - begin) / (2 * std::size_t{crew_.threads()});
-    const std::size_t end = begin + std::max<std::size_t>(1, std::min(wanted, fair));
+    const std::size_t left = ranges_ - begin;
+    // An even end is not worth claims much shorter than wanted.
+    const std::size_t fair = std::max(left / (2 * std::size_t{crew_.threads()}), wanted / 8);
+    const std::size_t end = begin + std::clamp<std::size_t>(std::min(wanted, fair), 1, left);
     if (next_.compare_exchange_weak(begin, end, std::memory_order_relaxed)) return {begin, end};
   }
   return {};
 }
 
 void RangeRegion::run(Claim claim) {
-  // Ranges below the lowest failure always run, so the exception that the caller sees does not depend on timing.
-  for (std::size_t i = claim.begin; i < claim.end && i < failure_.index(); ++i) {
-    try {
-      body_(job_range(i, count_, grain_));
-    } catch (...) {
-      failure_.record(i, std::current_exception());
-    }
+  // Claims are made from the front and end at their own first failure only, so every range below the lowest failure
+  // runs: the exception that the caller sees does not depend on timing.
+  std::size_t i = claim.begin;
+  try {
+    work_.run(i, claim.end);
+  } catch (...) {
+    failure_.record(i, std::current_exception());
   }
 }
 
@@ -62,8 +62,9 @@ void RangeRegion::offer_rest(std::size_t claimed_end, float range_ns) {
   const std::size_t rest = ranges_ - std::min(claimed_end, ranges_);
   if (rest == 0) return;
   const float rest_ns = range_ns * static_cast<float>(rest);
+  const float saved_ns = rest == 1 ? rest_ns : rest_ns * 0.5f;  // at least: this thread goes on too
   const float worthwhile_ns = crew_.worthwhile_ns();
-  if (rest_ns < worthwhile_ns) return;
+  if (saved_ns < worthwhile_ns) return;
   const float limit = static_cast<float>(std::min<std::size_t>(rest, crew_.threads() - 1));
   const auto wanted = static_cast<std::uint32_t>(std::min(limit, rest_ns / worthwhile_ns));
   if (helpers() < wanted) crew_.offer(*this, wanted - helpers());
@@ -79,7 +80,9 @@ float RangeRegion::lead(float range_ns) {
     offer_rest(c.end, range_ns);
     run(c);
     const auto after = Clock::now();
-    range_ns = nanoseconds_between(before, after) / static_cast<float>(c.end - c.begin);
+    const float claim_ns = nanoseconds_between(before, after);
+    const float measured = claim_ns / static_cast<float>(c.end - c.begin);
+    if (claim_ns >= kTrustedNs || measured < range_ns) range_ns = measured;
     wanted = ranges_a_claim(range_ns, wanted);
     before = after;
     ran += c.end - c.begin;

@@ -4,19 +4,27 @@
 
 #include <atomic>
 #include <cstddef>
-#include <functional>
 
 #include "engine/jobs/crew.h"
-#include "engine/jobs/executor.h"
 #include "engine/jobs/first_failure.h"
 
 namespace gloam {
 
-/// One parallel_for. Threads claim runs of ranges, as long as pays for the claim: the clock decides, not the caller.
+/// What the ranges of a region are.
+class RangeWork {
+ public:
+  /// Runs ranges i, i + 1, … up to `end`. If one throws, `i` is that one's.
+  virtual void run(std::size_t& i, std::size_t end) const = 0;
+
+ protected:
+  ~RangeWork() = default;
+};
+
+/// One parallel_for or batch. Threads claim runs of ranges, as long as pays for the claim: the clock decides, not the caller.
 class RangeRegion final : public Region {
  public:
-  /// grain ≥ 1; body must outlive the region.
-  RangeRegion(std::size_t count, std::size_t grain, const std::function<void(JobRange)>& body, Crew& crew);
+  /// `work` has `ranges` ranges and must outlive the region.
+  RangeRegion(std::size_t ranges, const RangeWork& work, Crew& crew) : ranges_(ranges), work_(work), crew_(crew) {}
   ~RangeRegion() { crew_.close(*this); }
 
   /// Runs every range; `range_ns` is what one is believed to cost. Returns what one did cost on this thread, which is
@@ -36,10 +44,8 @@ class RangeRegion final : public Region {
   void run(Claim claim);
   void offer_rest(std::size_t claimed_end, float range_ns);
 
-  const std::size_t count_;
-  const std::size_t grain_;
   const std::size_t ranges_;
-  const std::function<void(JobRange)>& body_;
+  const RangeWork& work_;
   Crew& crew_;
   FirstFailure failure_;
   alignas(64) std::atomic<std::size_t> next_ = 0;
