@@ -22,6 +22,7 @@ namespace gloam {
 ///
 /// Within a call of each, each_chunk, parallel_…, changed_since: structural changes assert; spans are valid until the
 /// next structural change; every row is visited once; archetypes come in order of their making, rows in order.
+/// What the view reads (const), nothing may write meanwhile, its own function included: the loops are compiled on that.
 template <class... Args>
 class View {
  public:

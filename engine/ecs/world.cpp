@@ -175,6 +175,9 @@ Query* World::find_query(const void* key) const {
 }
 
 Query* World::add_query(const void* key, QueryTerms terms) const {
+  std::vector<ComponentId> sorted = terms.columns;
+  std::ranges::sort(sorted);
+  GLOAM_ASSERT(std::ranges::adjacent_find(sorted) == sorted.end(), "a view names each column once");
   const std::lock_guard lock(query_mutex_);
   const std::uint32_t known = query_table_.find(key);
   if (known != TypeTable::kAbsent) return queries_[known].get();  // another thread was first

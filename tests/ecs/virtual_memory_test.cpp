@@ -25,9 +25,9 @@ TEST(ReservedMemory, committed_pages_are_zero_and_writable) {
 }
 
 TEST(ReservedMemory, takes_address_space_and_no_memory) {
-  const ReservedMemory memory(std::size_t{1} << 38);
+  const ReservedMemory memory(std::size_t{1} << 36);
   EXPECT_NE(memory.data(), nullptr);
-  EXPECT_EQ(memory.size(), std::size_t{1} << 38);
+  EXPECT_EQ(memory.size(), std::size_t{1} << 36);
 }
 
 TEST(ReservedMemory, throws_when_address_space_is_used_up) {

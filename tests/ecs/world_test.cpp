@@ -242,6 +242,7 @@ TEST(World, misuse_of_types_asserts) {
   EXPECT_ASSERT((void)world.view<const Unregistered>(), "is not registered");
   EXPECT_ASSERT(world.register_component<Unregistered>("health"), "\"health\" is taken by another type");
   EXPECT_ASSERT(world.create(Health{1}, Health{2}), "each component once");
+  EXPECT_ASSERT((void)(world.view<Health, Maybe<const Health>>()), "each column once");
 }
 
 TEST(World, limits_assert) {
