@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 #include "engine/core/assert.h"
@@ -21,9 +22,15 @@ constexpr std::array kBufferAccesses = {Access::compute_write, Access::compute_r
                                         Access::indirect_read, Access::vertex_input,  Access::transfer_write,
                                         Access::transfer_read, Access::fragment_read, Access::fragment_write};
 constexpr std::uint32_t kBufferUnit = 16;
+constexpr std::uint64_t kScratchBytes = std::uint64_t{1} << 18;
+constexpr std::uint64_t kScratchStep = 1024;  ///< bytes of one copy at most
+constexpr std::uint32_t kMostPasses = 80;     ///< of 3 copies at most each
 constexpr Access kRest = Access::compute_read;
 constexpr auto kAllImageUsage = static_cast<gpu::ImageUsage>(0x1f);  // all but depth_target
 constexpr auto kAllBufferUsage = static_cast<gpu::BufferUsage>(0x7f);
+
+/// What a pass writes: never 0, never that of its neighbours.
+std::uint8_t value_of(std::uint32_t pass) { return static_cast<std::uint8_t>(1 + pass % 255); }
 
 /// Endless numbers from a finite list.
 class Numbers {
@@ -53,7 +60,7 @@ RandomFrame RandomFrame::from(const std::vector<std::uint32_t>& numbers) {
                                .size = 4 + 4 * next.below(3)});
   }
   std::vector<bool> written(resource_count, false);
-  for (std::size_t p = 0; p < numbers.size() / 2 + 1; ++p) {
+  for (std::size_t p = 0; p < std::min<std::size_t>(numbers.size() / 2 + 1, kMostPasses); ++p) {
     Pass& pass = frame.passes.emplace_back();
     pass.keep = next.below(8) == 0;
     const std::uint32_t use_count = 1 + next.below(3);
@@ -120,14 +127,32 @@ frame::Declaration RandomFrame::declaration() const {
   return declaration;
 }
 
-RandomFrameRunner::RandomFrameRunner(const RandomFrame& frame) : frame_(frame) {
-  compute_ = device_->create_pipeline(gpu::ComputePipelineDesc{.name = "kernel"}).value();
-  paint_ = device_->create_pipeline(gpu::GraphicsPipelineDesc{.name = "paint"}).value();
-  paint_stream_ =
-      device_->create_pipeline(gpu::GraphicsPipelineDesc{.name = "paint stream", .stream_strides = {4}}).value();
-  scratch_ =
-      device_->create_buffer({.name = "scratch", .size = 4096, .usage = gpu::BufferUsage::transfer_target}).value();
+RandomFrameRunner::RandomFrameRunner(const RandomFrame& frame, gpu::Device& device, bool with_shaders)
+    : frame_(frame), device_(device), with_shaders_(with_shaders), contents_(frame.resources.size()) {
+  scratch_ = device_
+                 .create_buffer({.name = "scratch",
+                                 .module = "test",
+                                 .size = kScratchBytes,
+                                 .usage = gpu::BufferUsage::transfer_target,
+                                 .memory = gpu::MemoryKind::readback})
+                 .value();
   make_imports();
+  if (!with_shaders_) return;
+  compute_ = device_.create_pipeline(gpu::ComputePipelineDesc{.name = "kernel"}).value();
+  paint_ = device_.create_pipeline(gpu::GraphicsPipelineDesc{.name = "paint"}).value();
+  paint_stream_ =
+      device_.create_pipeline(gpu::GraphicsPipelineDesc{.name = "paint stream", .stream_strides = {4}}).value();
+}
+
+RandomFrameRunner::~RandomFrameRunner() {
+  for (const Imported& imported : imports_) {
+    if (imported.image) device_.destroy(imported.image);
+    if (imported.buffer) device_.destroy(imported.buffer);
+  }
+  for (gpu::PipelineHandle pipeline : {compute_, paint_, paint_stream_}) {
+    if (pipeline) device_.destroy(pipeline);
+  }
+  device_.destroy(scratch_);
 }
 
 void RandomFrameRunner::make_imports() {
@@ -138,18 +163,20 @@ void RandomFrameRunner::make_imports() {
     const std::string name = "import " + std::to_string(r);
     if (resource.is_image) {
       imported.image = device_
-                           ->create_image({.name = name,
-                                           .format = gpu::Format::rgba8_unorm,
-                                           .width = resource.size,
-                                           .height = resource.size,
-                                           .usage = kAllImageUsage})
+                           .create_image({.name = name,
+                                          .module = "test",
+                                          .format = gpu::Format::rgba8_unorm,
+                                          .width = resource.size,
+                                          .height = resource.size,
+                                          .usage = kAllImageUsage})
                            .value();
     } else {
-      imported.buffer =
-          device_
-              ->create_buffer(
-                  {.name = name, .size = std::uint64_t{resource.size} * kBufferUnit, .usage = kAllBufferUsage})
-              .value();
+      imported.buffer = device_
+                            .create_buffer({.name = name,
+                                            .module = "test",
+                                            .size = std::uint64_t{resource.size} * kBufferUnit,
+                                            .usage = kAllBufferUsage})
+                            .value();
     }
   }
 }
@@ -162,23 +189,30 @@ void RandomFrameRunner::declare_resources(std::vector<ImageRef>& images, std::ve
     const std::string name = "resource " + std::to_string(r);
     const Access before = resource.content_kept && imports_[r].used ? kRest : Access::none;
     const Access after = resource.content_kept ? kRest : Access::none;
+    if (!resource.imported || before == Access::none) contents_[r].reset();
     if (resource.imported && resource.is_image) {
       images[r] = graph_.import_image(name, imports_[r].image, before, after);
     } else if (resource.imported) {
       buffers[r] = graph_.import_buffer(name, imports_[r].buffer, before, after);
     } else if (resource.is_image) {
-      images[r] = graph_.create_image(
-          {.name = name, .format = gpu::Format::rgba8_unorm, .width = resource.size, .height = resource.size});
+      images[r] = graph_.create_image({.name = name,
+                                       .module = "test",
+                                       .format = gpu::Format::rgba8_unorm,
+                                       .width = resource.size,
+                                       .height = resource.size});
     } else {
-      buffers[r] = graph_.create_buffer({.name = name, .size = std::uint64_t{resource.size} * kBufferUnit});
+      buffers[r] =
+          graph_.create_buffer({.name = name, .module = "test", .size = std::uint64_t{resource.size} * kBufferUnit});
     }
     imports_[r].used = true;
   }
 }
 
 std::vector<std::string> RandomFrameRunner::run(std::uint32_t pass_count) {
-  device_->forget_commands();
-  gpu::CommandList* commands = device_->begin_frame().value();
+  ran_.clear();
+  expected_.clear();
+  scratch_used_ = 0;
+  gpu::CommandList* commands = device_.begin_frame().value();
   graph_.begin();
   std::vector<ImageRef> images;
   std::vector<BufferRef> buffers;
@@ -196,33 +230,65 @@ std::vector<std::string> RandomFrameRunner::run(std::uint32_t pass_count) {
       if (!write && !is_image) builder.read(buffers[use.resource], use.access);
     }
     // The versions as this pass has them, for when it records.
-    builder.execute([this, &pass, images, buffers](PassContext& context) {
-      for (const RandomFrame::Use& use : pass.uses) {
-        if (frame_.resources[use.resource].is_image) {
-          touch_image(context.commands(), context.image(images[use.resource]), use.access);
-        } else {
-          touch_buffer(context.commands(), context.buffer(buffers[use.resource]), use.access);
-        }
-      }
-    });
+    builder.execute([this, p, images, buffers](PassContext& context) { record(context, p, images, buffers); });
   }
-  GLOAM_ASSERT(graph_.compile().ok(), "the recording device does not run out of memory");
+  const Status compiled = graph_.compile();
+  GLOAM_ASSERT(compiled.ok(), "a small frame finds its memory");
   graph_.execute(*commands);
-  GLOAM_ASSERT(device_->submit_frame().ok(), "the recording device does not fail");
-  std::vector<std::string> ran;
-  for (const gpu::RecordedCommand& command : device_->commands()) {
-    if (command.name == "begin_label") ran.push_back(command.text.substr(command.name.size() + 1));
+  make_scratch_ready(*commands, Access::host_read);
+  const Status submitted = device_.submit_frame();
+  GLOAM_ASSERT(submitted.ok(), "a small frame can be submitted");
+  return ran_;
+}
+
+void RandomFrameRunner::record(PassContext& context, std::uint32_t pass, const std::vector<ImageRef>& images,
+                               const std::vector<BufferRef>& buffers) {
+  ran_.push_back("p" + std::to_string(pass));
+  for (const RandomFrame::Use& use : frame_.passes[pass].uses) {
+    follow_contents(pass, use);
+    if (frame_.resources[use.resource].is_image) {
+      touch_image(context.commands(), context.image(images[use.resource]), use.access, value_of(pass));
+    } else {
+      touch_buffer(context.commands(), context.buffer(buffers[use.resource]), use.access, value_of(pass));
+    }
   }
-  return ran;
+}
+
+void RandomFrameRunner::follow_contents(std::uint32_t pass, const RandomFrame::Use& use) {
+  std::optional<std::uint8_t>& content = contents_[use.resource];
+  if (use.access == Access::transfer_write || use.access == Access::color_target) {
+    content = value_of(pass);
+  } else if (gpu::is_write(use.access)) {
+    content.reset();
+  } else if (use.access == Access::transfer_read && content.has_value()) {
+    expected_.push_back(
+        {scratch_used_, *content, "pass " + std::to_string(pass) + ", resource " + std::to_string(use.resource)});
+  }
+}
+
+std::string RandomFrameRunner::wrong_contents() {
+  std::string wrong;
+  for (const Expected& e : expected_) {
+    const auto seen = static_cast<int>(device_.mapped(scratch_)[e.offset]);
+    if (seen != e.value) wrong += e.text + ": " + std::to_string(seen) + " for " + std::to_string(e.value) + "\n";
+  }
+  return wrong;
+}
+
+void RandomFrameRunner::make_scratch_ready(gpu::CommandList& commands, Access access) {
+  const gpu::BufferBarrier barrier{.buffer = scratch_, .after = access};
+  commands.barrier({&barrier, 1}, {});
 }
 
 void RandomFrameRunner::dispatch(gpu::CommandList& commands, const gpu::Binding& binding) {
+  if (!with_shaders_) return;
   commands.bind_pipeline(compute_);
   commands.bind({&binding, 1});
   commands.dispatch(1, 1, 1);
 }
 
 void RandomFrameRunner::draw(gpu::CommandList& commands, const gpu::Binding& binding) {
+  if (!with_shaders_) return;
   commands.begin_rendering({.width = 4, .height = 4});
   commands.bind_pipeline(paint_);
   commands.bind({&binding, 1});
@@ -230,8 +296,9 @@ void RandomFrameRunner::draw(gpu::CommandList& commands, const gpu::Binding& bin
   commands.end_rendering();
 }
 
-void RandomFrameRunner::touch_image(gpu::CommandList& commands, gpu::ImageHandle image, Access access) {
-  const gpu::BufferBarrier fresh_scratch{.buffer = scratch_, .after = Access::transfer_write};
+void RandomFrameRunner::touch_image(gpu::CommandList& commands, gpu::ImageHandle image, Access access,
+                                    std::uint8_t value) {
+  const float color = static_cast<float>(value) / 255.0f;
   switch (access) {
     case Access::compute_write:
     case Access::compute_storage_read:
@@ -241,18 +308,22 @@ void RandomFrameRunner::touch_image(gpu::CommandList& commands, gpu::ImageHandle
     case Access::fragment_read:
       return draw(commands, {0, gpu::Binding::Sampled{.view = {.image = image}}});
     case Access::color_target:
-      commands.begin_rendering({.colors = {{.view = {.image = image}}}, .width = 4, .height = 4});
+      commands.begin_rendering(
+          {.colors = {{.view = {.image = image}, .clear = {color, color, color, color}}}, .width = 4, .height = 4});
       return commands.end_rendering();
-    case Access::transfer_write:
-      return commands.clear_color_image(image, {});
+    case Access::transfer_write: {
+      const auto bits = std::bit_cast<std::uint32_t>(color);
+      return commands.clear_color_image(image, {bits, bits, bits, bits});
+    }
     default:
-      commands.barrier({&fresh_scratch, 1}, {});
-      return commands.copy_image_to_buffer(image, 0, 0, scratch_, 0);
+      make_scratch_ready(commands, Access::transfer_write);
+      commands.copy_image_to_buffer(image, 0, 0, scratch_, scratch_used_);
+      scratch_used_ += kScratchStep;
   }
 }
 
-void RandomFrameRunner::touch_buffer(gpu::CommandList& commands, gpu::BufferHandle buffer, Access access) {
-  const gpu::BufferBarrier fresh_scratch{.buffer = scratch_, .after = Access::transfer_write};
+void RandomFrameRunner::touch_buffer(gpu::CommandList& commands, gpu::BufferHandle buffer, Access access,
+                                     std::uint8_t value) {
   switch (access) {
     case Access::compute_write:
     case Access::compute_read:
@@ -262,19 +333,22 @@ void RandomFrameRunner::touch_buffer(gpu::CommandList& commands, gpu::BufferHand
     case Access::fragment_write:
       return draw(commands, {0, gpu::Binding::BufferRange{.buffer = buffer}});
     case Access::indirect_read:
+      if (!with_shaders_) return;
       commands.bind_pipeline(compute_);
       return commands.dispatch_indirect(buffer, 0);
     case Access::vertex_input:
+      if (!with_shaders_) return;
       commands.begin_rendering({.width = 4, .height = 4});
       commands.bind_pipeline(paint_stream_);
       commands.bind_vertex_stream(0, buffer, 0);
       commands.draw(3, 1, 0, 0);
       return commands.end_rendering();
     case Access::transfer_write:
-      return commands.fill_buffer(buffer, 0, kBufferUnit, 1);
+      return commands.fill_buffer(buffer, 0, kBufferUnit, value);
     default:
-      commands.barrier({&fresh_scratch, 1}, {});
-      return commands.copy_buffer(buffer, 0, scratch_, 0, kBufferUnit);
+      make_scratch_ready(commands, Access::transfer_write);
+      commands.copy_buffer(buffer, 0, scratch_, scratch_used_, kBufferUnit);
+      scratch_used_ += kScratchStep;
   }
 }
 

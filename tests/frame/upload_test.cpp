@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/frame/upload.h"
 
-#include <numeric>
+#include <algorithm>
 
 #include "tests/frame/graph_fixture.h"
 #include "tests/support/expect_assert.h"
