@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
 # Functions that make this project's targets: one library a layer, one test program a suite, one shader library a folder.
 
 add_library(gloam_options INTERFACE)
@@ -29,7 +31,7 @@ endfunction()
 
 # gloam_add_shaders(<folder> <file.comp.glsl>…)
 # Compiles shaders/<folder>/<file> and embeds the words: library gloam_shaders_<folder>, header shaders/<folder>/shaders.h in the build
-# tree, which declares gloam::shaders::<folder>::<file with _ for .>.
+# tree, which declares gloam::shaders::<folder>::<file with _ for .>. Names stay in the words: reflection finds structures by them.
 function(gloam_add_shaders folder)
   set(out_dir ${PROJECT_BINARY_DIR}/generated/shaders/${folder})
   file(MAKE_DIRECTORY ${out_dir})
@@ -43,7 +45,7 @@ function(gloam_add_shaders folder)
     string(REGEX REPLACE ".*\\.(comp|vert|frag)$" "\\1" stage ${stem})
     set(output ${out_dir}/${stem}.spv.h)
     add_custom_command(OUTPUT ${output}
-      COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.3 -S ${stage} -I${PROJECT_SOURCE_DIR} -g0 --vn ${symbol}_words
+      COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.3 -S ${stage} -I${PROJECT_SOURCE_DIR} --vn ${symbol}_words
         --depfile ${output}.d -o ${output} ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
       DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
       DEPFILE ${output}.d
@@ -87,6 +89,13 @@ function(gloam_add_test suite)
   target_include_directories(${suite} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
   target_compile_definitions(${suite} PRIVATE GLOAM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     GLOAM_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared" GLOAM_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if("sanitize" IN_LIST ARG_LABELS)
+    # Builds what the sanitizer presets run, and nothing else.
+    if(NOT TARGET gloam_sanitize_tests)
+      add_custom_target(gloam_sanitize_tests)
+    endif()
+    add_dependencies(gloam_sanitize_tests ${suite})
+  endif()
   if(NOT ARG_WIDTHS)
     add_test(NAME ${suite} COMMAND ${suite})
     set_tests_properties(${suite} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${GLOAM_TEST_TIMEOUT}

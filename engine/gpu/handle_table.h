@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/core/assert.h"
+
+namespace gloam::gpu {
+
+/// Objects by handle. Every method may be called from any thread. A reference stays good until its object is removed; who may
+/// change the object behind it is the caller's business.
+template <class T, class H>
+class HandleTable {
+ public:
+  H insert(T object) {
+    const std::lock_guard lock(mutex_);
+    std::uint32_t index = 0;
+    if (free_.empty()) {
+      index = static_cast<std::uint32_t>(slots_.size());
+      slots_.emplace_back();
+    } else {
+      index = free_.back();
+      free_.pop_back();
+    }
+    Slot& slot = slots_[index];
+    ++slot.generation;
+    slot.object.emplace(std::move(object));
+    return H{index, slot.generation};
+  }
+
+  [[nodiscard]] bool alive(H handle) const {
+    const std::lock_guard lock(mutex_);
+    return holds(handle);
+  }
+
+  [[nodiscard]] T& get(H handle) {
+    const std::lock_guard lock(mutex_);
+    GLOAM_ASSERT(holds(handle), "a handle must name an object that is alive");
+    return *slots_[handle.index].object;
+  }
+  [[nodiscard]] const T& get(H handle) const {
+    const std::lock_guard lock(mutex_);
+    GLOAM_ASSERT(holds(handle), "a handle must name an object that is alive");
+    return *slots_[handle.index].object;
+  }
+
+  /// Takes the object out; its handle is stale from now on.
+  [[nodiscard]] T remove(H handle) {
+    const std::lock_guard lock(mutex_);
+    GLOAM_ASSERT(holds(handle), "an object is destroyed once, by a handle that is alive");
+    return take(handle.index);
+  }
+
+  /// Takes every object out, in order of index.
+  [[nodiscard]] std::vector<T> remove_all() {
+    const std::lock_guard lock(mutex_);
+    std::vector<T> objects;
+    for (std::uint32_t i = 0; i < slots_.size(); ++i) {
+      if (slots_[i].object) objects.push_back(take(i));
+    }
+    return objects;
+  }
+
+  /// Calls function(const T&) for every object while the table is locked.
+  template <class F>
+  void for_each(F&& function) const {
+    const std::lock_guard lock(mutex_);
+    for (const Slot& slot : slots_) {
+      if (slot.object) function(*slot.object);
+    }
+  }
+
+ private:
+  struct Slot {
+    std::uint32_t generation = 0;
+    std::optional<T> object;
+  };
+
+  [[nodiscard]] bool holds(H handle) const {
+    return handle.index < slots_.size() && slots_[handle.index].object.has_value() &&
+           slots_[handle.index].generation == handle.generation;
+  }
+
+  T take(std::uint32_t index) {
+    Slot& slot = slots_[index];
+    T object = std::move(*slot.object);
+    slot.object.reset();
+    free_.push_back(index);
+    return object;
+  }
+
+  mutable std::mutex mutex_;
+  std::deque<Slot> slots_;  // a deque never moves its elements when it grows
+  std::vector<std::uint32_t> free_;
+};
+
+}  // namespace gloam::gpu

@@ -1,0 +1,381 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/spirv/module.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace gloam::gpu::spirv {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x07230203;
+constexpr std::uint32_t kHeaderWords = 5;
+constexpr std::uint32_t kMaxBound = 1u << 22;  // the universal limit of the specification
+
+enum Op : std::uint32_t {
+  op_name = 5,
+  op_member_name = 6,
+  op_entry_point = 15,
+  op_execution_mode = 16,
+  op_type_bool = 20,
+  op_type_int = 21,
+  op_type_float = 22,
+  op_type_vector = 23,
+  op_type_matrix = 24,
+  op_type_image = 25,
+  op_type_sampler = 26,
+  op_type_sampled_image = 27,
+  op_type_array = 28,
+  op_type_runtime_array = 29,
+  op_type_struct = 30,
+  op_type_pointer = 32,
+  op_constant = 43,
+  op_constant_composite = 44,
+  op_spec_constant = 50,
+  op_spec_constant_composite = 51,
+  op_function = 54,
+  op_function_call = 57,
+  op_variable = 59,
+  op_image_texel_pointer = 60,
+  op_load = 61,
+  op_store = 62,
+  op_copy_memory = 63,
+  op_access_chain = 65,
+  op_in_bounds_access_chain = 66,
+  op_ptr_access_chain = 67,
+  op_array_length = 68,
+  op_decorate = 71,
+  op_member_decorate = 72,
+  op_copy_object = 83,
+  op_atomic_load = 227,
+  op_atomic_store = 228,
+  op_atomic_last = 242,
+  op_execution_mode_id = 331,
+};
+
+enum Decoration : std::uint32_t {
+  decoration_block = 2,
+  decoration_buffer_block = 3,
+  decoration_array_stride = 6,
+  decoration_matrix_stride = 7,
+  decoration_built_in = 11,
+  decoration_binding = 33,
+  decoration_descriptor_set = 34,
+  decoration_offset = 35,
+};
+
+constexpr std::uint32_t kBuiltInWorkgroupSize = 25;
+constexpr std::uint32_t kModeLocalSize = 17;
+constexpr std::uint32_t kModeLocalSizeId = 38;
+constexpr std::uint32_t kStorageFunction = 7;
+constexpr std::uint32_t kPointerBytes = 8;  // of a buffer reference
+
+/// Words of an instruction after its first one.
+using Operands = std::span<const std::uint32_t>;
+
+std::string literal_text(Operands words) {
+  std::string text;
+  for (std::uint32_t word : words) {
+    for (int byte = 0; byte < 4; ++byte) {
+      const char c = static_cast<char>((word >> (8 * byte)) & 0xff);
+      if (c == '\0') return text;
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::uint32_t clamp_bytes(std::uint64_t bytes) {
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(bytes, std::numeric_limits<std::uint32_t>::max()));
+}
+
+class Parser {
+ public:
+  explicit Parser(std::span<const std::uint32_t> words) : words_(words) {}
+
+  Result<Module> run() {
+    if (words_.size() < kHeaderWords) return fault("it is shorter than the header of a module");
+    if (words_[0] != kMagic) return fault("it does not begin with the magic number of SPIR-V");
+    const std::uint32_t bound = words_[3];
+    if (bound == 0 || bound > kMaxBound) return fault("its bound of ids is out of range");
+    module_.ids.resize(bound);
+    for (std::size_t at = kHeaderWords; at < words_.size();) {
+      const std::uint32_t op = words_[at] & 0xffff;
+      const std::size_t count = words_[at] >> 16;
+      if (count == 0 || count > words_.size() - at) return fault("an instruction runs past the end");
+      if (!instruction(op, words_.subspan(at + 1, count - 1))) {
+        return fault("the instruction at word " + std::to_string(at) + " is broken");
+      }
+      at += count;
+    }
+    resolve_local_size();
+    return std::move(module_);
+  }
+
+ private:
+  static Error fault(std::string clause) { return {ErrorKind::input, std::move(clause)}; }
+
+  [[nodiscard]] bool known(std::uint32_t id) const { return id != 0 && id < module_.ids.size(); }
+  [[nodiscard]] bool is_type(std::uint32_t id) const {
+    return known(id) && module_.ids[id].type.kind != TypeKind::none;
+  }
+
+  bool instruction(std::uint32_t op, Operands o) {
+    if (op >= op_type_bool && op <= op_type_pointer) return type_instruction(op, o);
+    switch (op) {
+      case op_name:
+        return name(o);
+      case op_member_name:
+        return member_name(o);
+      case op_entry_point:
+        return entry_point(o);
+      case op_execution_mode:
+      case op_execution_mode_id:
+        return execution_mode(o);
+      case op_decorate:
+        return decorate(o);
+      case op_member_decorate:
+        return member_decorate(o);
+      case op_constant:
+      case op_spec_constant:
+        return constant(o);
+      case op_constant_composite:
+      case op_spec_constant_composite:
+        return constant_composite(o);
+      case op_variable:
+        return variable(o);
+      default:
+        return use(op, o);
+    }
+  }
+
+  bool name(Operands o) {
+    if (o.size() < 2 || !known(o[0])) return false;
+    module_.ids[o[0]].name = literal_text(o.subspan(1));
+    return true;
+  }
+
+  bool member_name(Operands o) {
+    if (o.size() < 3 || !known(o[0])) return false;
+    module_.ids[o[0]].members[o[1]].name = literal_text(o.subspan(2));
+    return true;
+  }
+
+  bool entry_point(Operands o) {
+    if (o.size() < 3) return false;
+    if (literal_text(o.subspan(2)) != "main" || module_.has_entry) return true;
+    module_.has_entry = true;
+    module_.execution_model = o[0];
+    return true;
+  }
+
+  bool execution_mode(Operands o) {
+    if (o.size() < 2) return false;
+    if (o[1] != kModeLocalSize && o[1] != kModeLocalSizeId) return true;
+    if (o.size() < 5) return false;
+    local_size_are_ids_ = o[1] == kModeLocalSizeId;
+    std::copy_n(o.begin() + 2, 3, module_.local_size.begin());
+    return true;
+  }
+
+  bool decorate(Operands o) {
+    if (o.size() < 2 || !known(o[0])) return false;
+    Id& id = module_.ids[o[0]];
+    const bool has_value = o.size() >= 3;
+    switch (o[1]) {
+      case decoration_block:
+        id.block = true;
+        return true;
+      case decoration_buffer_block:
+        id.buffer_block = true;
+        return true;
+      case decoration_array_stride:
+        if (has_value) id.array_stride = o[2];
+        return has_value;
+      case decoration_built_in:
+        if (has_value) id.is_workgroup_size = o[2] == kBuiltInWorkgroupSize;
+        return has_value;
+      case decoration_binding:
+        id.has_binding = has_value;
+        if (has_value) id.binding = o[2];
+        return has_value;
+      case decoration_descriptor_set:
+        id.has_set = has_value;
+        if (has_value) id.set = o[2];
+        return has_value;
+      default:
+        return true;
+    }
+  }
+
+  bool member_decorate(Operands o) {
+    if (o.size() < 3 || !known(o[0])) return false;
+    if (o[2] != decoration_offset && o[2] != decoration_matrix_stride) return true;
+    if (o.size() < 4) return false;
+    MemberDecorations& member = module_.ids[o[0]].members[o[1]];
+    if (o[2] == decoration_offset) {
+      member.offset = o[3];
+      member.has_offset = true;
+    } else {
+      member.matrix_stride = o[3];
+    }
+    return true;
+  }
+
+  bool constant(Operands o) {
+    if (o.size() < 3 || !known(o[1])) return false;
+    module_.ids[o[1]].constant = o[2];
+    module_.ids[o[1]].has_constant = true;
+    return true;
+  }
+
+  bool constant_composite(Operands o) {
+    if (o.size() < 2 || !known(o[1])) return false;
+    Id& id = module_.ids[o[1]];
+    for (std::size_t i = 0; i < 3 && i + 2 < o.size(); ++i) {
+      if (!known(o[i + 2])) return false;
+      id.composite[i] = module_.ids[o[i + 2]].constant;
+    }
+    if (id.is_workgroup_size) workgroup_size_ = id.composite;
+    return true;
+  }
+
+  bool variable(Operands o) {
+    if (o.size() < 3 || !known(o[1]) || !is_type(o[0])) return false;
+    if (o[2] == kStorageFunction) return true;
+    Id& id = module_.ids[o[1]];
+    id.variable_type = o[0];
+    id.storage_class = o[2];
+    module_.variables.push_back(o[1]);
+    return true;
+  }
+
+  bool type_instruction(std::uint32_t op, Operands o) {
+    if (o.empty() || !known(o[0]) || is_type(o[0])) return false;
+    Type& type = module_.ids[o[0]].type;
+    switch (op) {
+      case op_type_int:
+      case op_type_float:
+        if (o.size() < 2 || o[1] > 64) return false;
+        type = {.kind = TypeKind::scalar, .bytes = o[1] / 8};
+        return true;
+      case op_type_vector:
+        if (o.size() < 3 || !is_type(o[1])) return false;
+        type = {.kind = TypeKind::vector, .element = o[1], .count = o[2]};
+        type.bytes = clamp_bytes(std::uint64_t{o[2]} * module_.ids[o[1]].type.bytes);
+        return true;
+      case op_type_matrix:
+        if (o.size() < 3 || !is_type(o[1])) return false;
+        type = {.kind = TypeKind::matrix, .element = o[1], .count = o[2]};
+        return true;
+      case op_type_image:
+        if (o.size() < 8) return false;
+        type.kind = TypeKind::image;
+        type.image_dimension = o[2];
+        type.image_arrayed = o[4] != 0;
+        type.image_sampled = o[6];
+        return true;
+      case op_type_sampled_image:
+      case op_type_runtime_array:
+        if (o.size() < 2 || !is_type(o[1])) return false;
+        type.kind = op == op_type_sampled_image ? TypeKind::sampled_image : TypeKind::runtime_array;
+        type.element = o[1];
+        return true;
+      case op_type_array:
+        if (o.size() < 3 || !is_type(o[1]) || !known(o[2])) return false;
+        type = {.kind = TypeKind::array, .element = o[1], .count = module_.ids[o[2]].constant};
+        type.bytes = clamp_bytes(std::uint64_t{type.count} * module_.ids[o[0]].array_stride);
+        return true;
+      case op_type_struct:
+        return structure(o);
+      case op_type_pointer:
+        if (o.size() < 3 || !known(o[2])) return false;
+        type = {.kind = TypeKind::pointer, .element = o[2], .bytes = kPointerBytes, .storage_class = o[1]};
+        return true;
+      default:
+        type.kind = TypeKind::other;
+        return true;
+    }
+  }
+
+  bool structure(Operands o) {
+    Id& id = module_.ids[o[0]];
+    for (std::uint32_t i = 1; i < o.size(); ++i) {
+      if (!known(o[i])) return false;
+      id.type.members.push_back(o[i]);
+      const auto member = id.members.find(i - 1);
+      if (member == id.members.end() || !member->second.has_offset) continue;
+      // A member whose type comes later can only be a pointer.
+      const std::uint32_t bytes = is_type(o[i]) ? module_.bytes_of(o[i], member->second.matrix_stride) : kPointerBytes;
+      id.type.bytes = std::max(id.type.bytes, clamp_bytes(std::uint64_t{member->second.offset} + bytes));
+    }
+    id.type.kind = TypeKind::structure;
+    module_.structures.push_back(o[0]);
+    return true;
+  }
+
+  /// Marks what an instruction of a function body reads or writes through. Only operands that are ids are looked at.
+  bool use(std::uint32_t op, Operands o) {
+    std::size_t first = o.size();
+    std::size_t last = o.size();
+    switch (op) {
+      case op_load:
+      case op_copy_object:
+      case op_image_texel_pointer:
+      case op_access_chain:
+      case op_in_bounds_access_chain:
+      case op_ptr_access_chain:
+      case op_array_length:
+        first = 2;
+        last = 3;
+        break;
+      case op_function_call:
+        first = 3;
+        break;
+      case op_store:
+      case op_atomic_store:
+        first = 0;
+        last = 1;
+        break;
+      case op_copy_memory:
+        first = 0;
+        last = 2;
+        break;
+      default:
+        if (op < op_atomic_load || op > op_atomic_last) return true;
+        first = 2;
+        last = 3;
+        break;
+    }
+    for (std::size_t i = first; i < last && i < o.size(); ++i) {
+      if (!known(o[i])) return false;
+      module_.ids[o[i]].used = true;
+    }
+    return true;
+  }
+
+  void resolve_local_size() {
+    if (local_size_are_ids_) {
+      for (std::uint32_t& size : module_.local_size) size = known(size) ? module_.ids[size].constant : 0;
+    }
+    if (workgroup_size_[0] != 0) module_.local_size = workgroup_size_;
+  }
+
+  std::span<const std::uint32_t> words_;
+  Module module_;
+  bool local_size_are_ids_ = false;
+  std::array<std::uint32_t, 3> workgroup_size_ = {0, 0, 0};
+};
+
+}  // namespace
+
+std::uint32_t Module::bytes_of(std::uint32_t type, std::uint32_t matrix_stride) const {
+  const Type& t = ids[type].type;
+  if (t.kind != TypeKind::matrix) return t.bytes;
+  return t.count == 0 ? 0 : clamp_bytes(std::uint64_t{t.count - 1} * matrix_stride + ids[t.element].type.bytes);
+}
+
+Result<Module> parse_module(std::span<const std::uint32_t> words) { return Parser(words).run(); }
+
+}  // namespace gloam::gpu::spirv

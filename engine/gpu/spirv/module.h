@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+
+/// A SPIR-V module taken apart into the tables that reflection asks. Knows opcodes; knows nothing of descriptors.
+namespace gloam::gpu::spirv {
+
+enum class TypeKind : std::uint8_t {
+  none,
+  scalar,
+  vector,
+  matrix,
+  image,
+  sampled_image,
+  array,
+  runtime_array,
+  structure,
+  pointer,
+  other,
+};
+
+struct Type {
+  TypeKind kind = TypeKind::none;
+  std::uint32_t element = 0;          ///< id of the component, column, element, image or pointee type
+  std::uint32_t count = 0;            ///< components, columns or elements
+  std::uint32_t bytes = 0;            ///< to the last byte, without padding after it; 0: opaque, unsized, or a matrix
+  std::uint32_t storage_class = 0;    ///< pointers only
+  std::uint32_t image_dimension = 0;  ///< Dim operand
+  bool image_arrayed = false;
+  std::uint32_t image_sampled = 0;     ///< 1: with a sampler, 2: storage
+  std::vector<std::uint32_t> members;  ///< structures only: type ids
+};
+
+struct MemberDecorations {
+  std::string name;
+  bool has_offset = false;
+  std::uint32_t offset = 0;
+  std::uint32_t matrix_stride = 0;
+};
+
+/// What is known of one id.
+struct Id {
+  std::string name;
+  Type type;
+  std::uint32_t constant = 0;
+  bool has_constant = false;
+  std::array<std::uint32_t, 3> composite = {0, 0, 0};
+  bool is_workgroup_size = false;
+  bool has_set = false;
+  bool has_binding = false;
+  bool buffer_block = false;
+  bool block = false;
+  bool used = false;
+  std::uint32_t set = 0;
+  std::uint32_t binding = 0;
+  std::uint32_t array_stride = 0;
+  std::uint32_t variable_type = 0;  ///< of a global variable: its pointer type; 0: no variable
+  std::uint32_t storage_class = 0;
+  std::map<std::uint32_t, MemberDecorations> members;
+};
+
+struct Module {
+  std::vector<Id> ids;
+  std::vector<std::uint32_t> variables;  ///< global ones, in order
+  std::vector<std::uint32_t> structures;
+  bool has_entry = false;
+  std::uint32_t execution_model = 0;
+  std::array<std::uint32_t, 3> local_size = {0, 0, 0};
+
+  /// As Type::bytes, for matrices too: `matrix_stride` comes from the member that holds one.
+  [[nodiscard]] std::uint32_t bytes_of(std::uint32_t type, std::uint32_t matrix_stride) const;
+};
+
+/// The error is a clause ("instruction 12 runs past the end") for a sentence of the caller.
+[[nodiscard]] Result<Module> parse_module(std::span<const std::uint32_t> words);
+
+}  // namespace gloam::gpu::spirv

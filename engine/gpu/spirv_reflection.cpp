@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/spirv_reflection.h"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
+#include "engine/gpu/spirv/module.h"
+
+namespace gloam::gpu {
+namespace {
+
+using spirv::Id;
+using spirv::Module;
+using spirv::Type;
+using spirv::TypeKind;
+
+constexpr std::uint32_t kStorageUniform = 2;
+constexpr std::uint32_t kStoragePushConstant = 9;
+constexpr std::uint32_t kStorageStorageBuffer = 12;
+constexpr std::uint32_t kDim2d = 1;
+constexpr std::uint32_t kDimCube = 3;
+
+std::optional<ShaderStage> stage_of(std::uint32_t execution_model) {
+  switch (execution_model) {
+    case 0:
+      return ShaderStage::vertex;
+    case 4:
+      return ShaderStage::fragment;
+    case 5:
+      return ShaderStage::compute;
+    default:
+      return std::nullopt;
+  }
+}
+
+bool is_type(const Module& module, std::uint32_t id) {
+  return id != 0 && id < module.ids.size() && module.ids[id].type.kind != TypeKind::none;
+}
+
+void describe_image(const Type& image, ReflectedBinding& binding) {
+  binding.arrayed = image.image_arrayed;
+  binding.dimension = image.image_dimension == kDim2d     ? ImageDimension::plane
+                      : image.image_dimension == kDimCube ? ImageDimension::cube
+                                                          : ImageDimension::other;
+}
+
+ReflectedBinding reflect_binding(const Module& module, const Id& variable) {
+  ReflectedBinding binding;
+  binding.set = variable.set;
+  binding.binding = variable.binding;
+  binding.used = variable.used;
+  binding.name = variable.name;
+  std::uint32_t id = module.ids[variable.variable_type].type.element;
+  while (is_type(module, id)) {
+    const Type& type = module.ids[id].type;
+    if (type.kind == TypeKind::array || type.kind == TypeKind::runtime_array) {
+      binding.count *= type.kind == TypeKind::array ? type.count : 0;
+      id = type.element;
+      continue;
+    }
+    if (type.kind == TypeKind::structure) {
+      if (binding.name.empty()) binding.name = module.ids[id].name;
+      const bool storage = variable.storage_class == kStorageStorageBuffer ||
+                           (variable.storage_class == kStorageUniform && module.ids[id].buffer_block);
+      binding.kind = storage                                     ? ResourceKind::storage_buffer
+                     : variable.storage_class == kStorageUniform ? ResourceKind::uniform_buffer
+                                                                 : ResourceKind::other;
+    } else if (type.kind == TypeKind::sampled_image) {
+      binding.kind = ResourceKind::sampled_image;
+      describe_image(module.ids[type.element].type, binding);
+    } else if (type.kind == TypeKind::image && type.image_sampled == 2) {
+      binding.kind = ResourceKind::storage_image;
+      describe_image(type, binding);
+    }
+    break;
+  }
+  return binding;
+}
+
+/// None when some member has no offset: such a structure lives in registers, not in memory.
+std::optional<ReflectedStruct> reflect_struct(const Module& module, std::uint32_t id) {
+  const Id& structure = module.ids[id];
+  ReflectedStruct result;
+  result.name = structure.name;
+  result.size = structure.type.bytes;
+  for (std::uint32_t i = 0; i < structure.type.members.size(); ++i) {
+    const auto found = structure.members.find(i);
+    if (found == structure.members.end() || !found->second.has_offset) return std::nullopt;
+    const std::uint32_t type = structure.type.members[i];
+    ReflectedMember member;
+    member.name = found->second.name;
+    member.offset = found->second.offset;
+    if (is_type(module, type)) {
+      member.size = module.bytes_of(type, found->second.matrix_stride);
+      member.array_stride = module.ids[type].array_stride;
+    }
+    result.members.push_back(std::move(member));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string_view name_of(ResourceKind kind) {
+  switch (kind) {
+    case ResourceKind::uniform_buffer:
+      return "uniform buffer";
+    case ResourceKind::storage_buffer:
+      return "storage buffer";
+    case ResourceKind::sampled_image:
+      return "sampled image";
+    case ResourceKind::storage_image:
+      return "storage image";
+    case ResourceKind::other:
+      break;
+  }
+  return "resource of an unknown kind";
+}
+
+const ReflectedStruct* SpirvReflection::find_struct(std::string_view struct_name) const {
+  const auto found = std::find_if(structs.begin(), structs.end(), [&](const auto& s) { return s.name == struct_name; });
+  return found == structs.end() ? nullptr : &*found;
+}
+
+const ReflectedBinding* SpirvReflection::find_binding(std::uint32_t set, std::uint32_t binding) const {
+  const auto found = std::find_if(bindings.begin(), bindings.end(),
+                                  [&](const auto& b) { return b.set == set && b.binding == binding; });
+  return found == bindings.end() ? nullptr : &*found;
+}
+
+Result<SpirvReflection> reflect_spirv(const ShaderCode& code) {
+  const std::string who = "shader \"" + std::string(code.name) + "\"";
+  Result<Module> parsed = spirv::parse_module(code.words);
+  if (!parsed) return Error{ErrorKind::input, who + " is no valid SPIR-V: " + parsed.error().message};
+  const Module& module = *parsed;
+
+  SpirvReflection reflection;
+  const std::optional<ShaderStage> stage = module.has_entry ? stage_of(module.execution_model) : std::nullopt;
+  if (!stage) return Error{ErrorKind::input, who + " has no entry point \"main\" for vertices, fragments or compute"};
+  reflection.stage = *stage;
+  if (*stage == ShaderStage::compute) reflection.local_size = module.local_size;
+
+  for (const std::uint32_t id : module.variables) {
+    const Id& variable = module.ids[id];
+    if (variable.has_set && variable.has_binding) {
+      reflection.bindings.push_back(reflect_binding(module, variable));
+    } else if (variable.storage_class == kStoragePushConstant) {
+      const std::uint32_t block = module.ids[variable.variable_type].type.element;
+      if (is_type(module, block)) {
+        reflection.push_constant_bytes = std::max(reflection.push_constant_bytes, module.ids[block].type.bytes);
+      }
+    }
+  }
+  std::sort(reflection.bindings.begin(), reflection.bindings.end(),
+            [](const auto& a, const auto& b) { return std::tie(a.set, a.binding) < std::tie(b.set, b.binding); });
+  for (const std::uint32_t id : module.structures) {
+    if (auto structure = reflect_struct(module, id)) reflection.structs.push_back(std::move(*structure));
+  }
+  return reflection;
+}
+
+}  // namespace gloam::gpu

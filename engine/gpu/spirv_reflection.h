@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/types.h"
+
+/// What a compiled shader says about itself. SPIR-V specification 1.6, §2 (layout of a module) and §3 (instructions).
+namespace gloam::gpu {
+
+enum class ShaderStage : std::uint8_t { vertex, fragment, compute };
+enum class ResourceKind : std::uint8_t { uniform_buffer, storage_buffer, sampled_image, storage_image, other };
+enum class ImageDimension : std::uint8_t { none, plane, cube, other };
+[[nodiscard]] std::string_view name_of(ResourceKind kind);
+
+struct ReflectedBinding {
+  std::uint32_t set = 0;
+  std::uint32_t binding = 0;
+  ResourceKind kind = ResourceKind::other;
+  std::uint32_t count = 1;  ///< array elements; 0: unsized array
+  ImageDimension dimension = ImageDimension::none;
+  bool arrayed = false;  ///< image with layers
+  bool used = false;     ///< some function of the shader reads or writes it
+  std::string name;      ///< of the variable, or of the block when the variable has none
+};
+
+struct ReflectedMember {
+  std::string name;
+  std::uint32_t offset = 0;        ///< bytes
+  std::uint32_t size = 0;          ///< bytes; 0 for an unsized array
+  std::uint32_t array_stride = 0;  ///< bytes from element to element; 0: not an array
+};
+
+/// A structure with a memory layout: a block, or a structure inside one.
+struct ReflectedStruct {
+  std::string name;
+  std::vector<ReflectedMember> members;
+  std::uint32_t size = 0;  ///< bytes to the end of the last member, without padding after it
+};
+
+struct SpirvReflection {
+  ShaderStage stage = ShaderStage::compute;
+  std::array<std::uint32_t, 3> local_size = {0, 0, 0};  ///< compute only, with the default specialisation
+  std::uint32_t push_constant_bytes = 0;
+  std::vector<ReflectedBinding> bindings;  ///< ordered by set, then binding
+  std::vector<ReflectedStruct> structs;
+
+  /// The first structure of that name, or null. Names are there unless the shader was compiled without them.
+  [[nodiscard]] const ReflectedStruct* find_struct(std::string_view struct_name) const;
+  [[nodiscard]] const ReflectedBinding* find_binding(std::uint32_t set, std::uint32_t binding) const;
+};
+
+/// Fails with ErrorKind::input, naming the shader, when the words are no module with an entry point of a known stage.
+[[nodiscard]] Result<SpirvReflection> reflect_spirv(const ShaderCode& code);
+
+}  // namespace gloam::gpu

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/command_list.h"
+
+#include <algorithm>
+#include <string>
+
+#include "engine/gpu/vulkan/barriers.h"
+#include "engine/gpu/vulkan/convert.h"
+
+// Labels, barriers and copies; what draws and dispatches is in command_list_work.cpp.
+namespace gloam::gpu::vulkan {
+namespace {
+
+VkExtent3D mip_extent(const ImageDesc& desc, std::uint32_t mip) {
+  return {std::max(desc.width >> mip, 1u), std::max(desc.height >> mip, 1u), 1};
+}
+
+std::uint64_t packed_bytes(const ImageDesc& desc, std::uint32_t mip, std::uint32_t layers) {
+  const VkExtent3D extent = mip_extent(desc, mip);
+  return std::uint64_t{extent.width} * extent.height * layers * bytes_per_texel(desc.format);
+}
+
+VkBufferImageCopy packed_region(const ImageDesc& desc, std::uint64_t offset, std::uint32_t mip, std::uint32_t layer,
+                                std::uint32_t layers) {
+  GLOAM_ASSERT(mip < desc.mips && layer < desc.layers && layers <= desc.layers - layer,
+               "a copy stays inside image \"" + desc.name + "\"");
+  return {.bufferOffset = offset,
+          .imageSubresource = {aspect_of(desc.format), mip, layer, layers},
+          .imageExtent = mip_extent(desc, mip)};
+}
+
+void check_transfer_layout(const Image& image, Access wanted) {
+  GLOAM_ASSERT(image.access == wanted, "image \"" + image.desc.name + "\" must be in " + std::string(name_of(wanted)) +
+                                           " for this copy, and its last barrier left it in " +
+                                           std::string(name_of(image.access)));
+}
+
+}  // namespace
+
+void VulkanCommandList::start(VkCommandBuffer commands) {
+  commands_ = commands;
+  pipeline_ = {};
+  fault_.reset();
+}
+
+void VulkanCommandList::fail(const Error& error) {
+  if (!fault_) fault_ = error;
+}
+
+void VulkanCommandList::check_range(BufferHandle buffer, std::uint64_t offset, std::uint64_t size) const {
+  const BufferDesc& desc = buffers_.get(buffer).desc;
+  GLOAM_ASSERT(offset <= desc.size && size <= desc.size - offset, "a range stays inside buffer \"" + desc.name + "\"");
+}
+
+void VulkanCommandList::begin_label(std::string_view name) {
+  const auto begin = context_.instance_functions().vkCmdBeginDebugUtilsLabelEXT;
+  if (begin == nullptr) return;
+  const std::string text(name);
+  const VkDebugUtilsLabelEXT label = {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = text.c_str()};
+  begin(commands_, &label);
+}
+
+void VulkanCommandList::end_label() {
+  if (const auto end = context_.instance_functions().vkCmdEndDebugUtilsLabelEXT) end(commands_);
+}
+
+void VulkanCommandList::write_timestamp(std::uint32_t index) { frames_.write_timestamp(index); }
+
+void VulkanCommandList::barrier(std::span<const BufferBarrier> buffers, std::span<const ImageBarrier> images) {
+  if (buffers.empty() && images.empty()) return;
+  buffer_barriers_.clear();
+  image_barriers_.clear();
+  for (const BufferBarrier& b : buffers) buffer_barriers_.push_back(to_vulkan(b, buffers_.get(b.buffer).buffer));
+  for (const ImageBarrier& b : images) {
+    Image& image = images_.get(b.image);
+    image_barriers_.push_back(to_vulkan(b, image.image, aspect_of(image.desc.format)));
+    image.access = b.after;
+  }
+  const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                 .bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffer_barriers_.size()),
+                                 .pBufferMemoryBarriers = buffer_barriers_.data(),
+                                 .imageMemoryBarrierCount = static_cast<std::uint32_t>(image_barriers_.size()),
+                                 .pImageMemoryBarriers = image_barriers_.data()};
+  context_.vk.vkCmdPipelineBarrier2(commands_, &info);
+}
+
+void VulkanCommandList::copy_buffer(BufferHandle source, std::uint64_t source_offset, BufferHandle target,
+                                    std::uint64_t target_offset, std::uint64_t size) {
+  if (size == 0) return;
+  check_range(source, source_offset, size);
+  check_range(target, target_offset, size);
+  const VkBufferCopy region = {source_offset, target_offset, size};
+  context_.vk.vkCmdCopyBuffer(commands_, buffers_.get(source).buffer, buffers_.get(target).buffer, 1, &region);
+}
+
+void VulkanCommandList::copy_buffer_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target,
+                                             std::uint32_t mip, std::uint32_t first_layer, std::uint32_t layer_count) {
+  const Image& image = images_.get(target);
+  check_transfer_layout(image, Access::transfer_write);
+  const VkBufferImageCopy region = packed_region(image.desc, source_offset, mip, first_layer, layer_count);
+  check_range(source, source_offset, packed_bytes(image.desc, mip, layer_count));
+  context_.vk.vkCmdCopyBufferToImage(commands_, buffers_.get(source).buffer, image.image,
+                                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void VulkanCommandList::copy_image_to_buffer(ImageHandle source, std::uint32_t mip, std::uint32_t layer,
+                                             BufferHandle target, std::uint64_t target_offset) {
+  const Image& image = images_.get(source);
+  check_transfer_layout(image, Access::transfer_read);
+  const VkBufferImageCopy region = packed_region(image.desc, target_offset, mip, layer, 1);
+  check_range(target, target_offset, packed_bytes(image.desc, mip, 1));
+  context_.vk.vkCmdCopyImageToBuffer(commands_, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                     buffers_.get(target).buffer, 1, &region);
+}
+
+void VulkanCommandList::fill_buffer(BufferHandle buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t word) {
+  if (size == 0) return;
+  GLOAM_ASSERT(offset % 4 == 0 && size % 4 == 0, "a buffer is filled in whole words");
+  check_range(buffer, offset, size);
+  context_.vk.vkCmdFillBuffer(commands_, buffers_.get(buffer).buffer, offset, size, word);
+}
+
+void VulkanCommandList::clear_color_image(ImageHandle handle, std::array<std::uint32_t, 4> bits) {
+  const Image& image = images_.get(handle);
+  GLOAM_ASSERT(!is_depth(image.desc.format), "a depth image is cleared by rendering to it");
+  check_transfer_layout(image, Access::transfer_write);
+  VkClearColorValue value;
+  std::copy(bits.begin(), bits.end(), value.uint32);
+  const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                       VK_REMAINING_ARRAY_LAYERS};
+  context_.vk.vkCmdClearColorImage(commands_, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &all);
+}
+
+void VulkanCommandList::blit(ImageHandle source, ImageHandle target) {
+  const Image& from = images_.get(source);
+  const Image& to = images_.get(target);
+  check_transfer_layout(from, Access::transfer_read);
+  check_transfer_layout(to, Access::transfer_write);
+  const auto corner = [](const ImageDesc& desc) {
+    return VkOffset3D{static_cast<std::int32_t>(desc.width), static_cast<std::int32_t>(desc.height), 1};
+  };
+  VkImageBlit region = {};
+  region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.dstSubresource = region.srcSubresource;
+  region.srcOffsets[1] = corner(from.desc);
+  region.dstOffsets[1] = corner(to.desc);
+  context_.vk.vkCmdBlitImage(commands_, from.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.image,
+                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
+}
+
+}  // namespace gloam::gpu::vulkan

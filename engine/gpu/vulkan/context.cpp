@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/context.h"
+
+#include <string>
+#include <vector>
+
+#include "engine/gpu/vulkan/errors.h"
+
+namespace gloam::gpu::vulkan {
+namespace {
+
+/// volk fills a table through a global pointer, so two devices opened at once must take turns.
+void load_table(const InstanceFunctions& functions, VkDevice device, VolkDeviceTable& table) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  vkGetDeviceProcAddr = functions.vkGetDeviceProcAddr;
+  volkLoadDeviceTable(&table, device);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Context>> Context::create(const Instance& instance, const PhysicalDevice& physical) {
+  std::unique_ptr<Context> context(new Context(instance, physical));
+  Features features = features_to_enable(physical);
+  std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+  if (physical.can_present) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+
+  const float priority = 1.0f;
+  const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                         .queueFamilyIndex = physical.queue_family,
+                                         .queueCount = 1,
+                                         .pQueuePriorities = &priority};
+  const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                   .pNext = features.chain(),
+                                   .queueCreateInfoCount = 1,
+                                   .pQueueCreateInfos = &queue,
+                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                   .ppEnabledExtensionNames = extensions.data()};
+  const InstanceFunctions& f = instance.functions();
+  const VkResult result = f.vkCreateDevice(physical.handle, &info, nullptr, &context->device);
+  if (result != VK_SUCCESS) return failure("The device " + physical.info.name + " could not be opened", result);
+  load_table(f, context->device, context->vk);
+  context->vk.vkGetDeviceQueue(context->device, physical.queue_family, 0, &context->queue);
+  context->set_name(VK_OBJECT_TYPE_QUEUE, context->queue, "main queue");
+  return context;
+}
+
+void Context::set_object_name(VkObjectType type, std::uint64_t object, std::string_view name) const {
+  const PFN_vkSetDebugUtilsObjectNameEXT set = instance_functions().vkSetDebugUtilsObjectNameEXT;
+  if (set == nullptr || object == 0) return;
+  const std::string text(name);
+  const VkDebugUtilsObjectNameInfoEXT info = {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                              .objectType = type,
+                                              .objectHandle = object,
+                                              .pObjectName = text.c_str()};
+  set(device, &info);
+}
+
+Context::~Context() {
+  if (device != VK_NULL_HANDLE) vk.vkDestroyDevice(device, nullptr);
+}
+
+}  // namespace gloam::gpu::vulkan

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/descriptor_writer.h"
+
+#include <string>
+
+#include "engine/gpu/vulkan/barriers.h"
+#include "engine/gpu/vulkan/convert.h"
+
+namespace gloam::gpu::vulkan {
+namespace {
+
+/// The shader says how it looks at an image; the layers given must fit that.
+VkImageViewType view_type(const ReflectedBinding& slot, std::uint32_t layers) {
+  if (slot.dimension == ImageDimension::cube) {
+    GLOAM_ASSERT(slot.arrayed ? layers % 6 == 0 : layers == 6,
+                 "\"" + slot.name + "\" is a cube for the shader and needs six layers a cube");
+    return slot.arrayed ? VK_IMAGE_VIEW_TYPE_CUBE_ARRAY : VK_IMAGE_VIEW_TYPE_CUBE;
+  }
+  GLOAM_ASSERT(slot.arrayed || layers == 1, "\"" + slot.name + "\" has one layer for the shader");
+  return slot.arrayed ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+}
+
+bool is_buffer(ResourceKind kind) {
+  return kind == ResourceKind::uniform_buffer || kind == ResourceKind::storage_buffer;
+}
+
+std::string wrong_kind(const ReflectedBinding& slot) {
+  return "\"" + slot.name + "\" (binding " + std::to_string(slot.binding) + ") is a " +
+         std::string(name_of(slot.kind)) + " for the shader";
+}
+
+}  // namespace
+
+Result<std::span<const VkWriteDescriptorSet>> DescriptorWriter::build(const Pipeline& pipeline, std::uint32_t set,
+                                                                      std::span<const Binding> bindings,
+                                                                      VkDescriptorSet target, Layouts layouts) {
+  buffer_infos_.clear();
+  image_infos_.clear();
+  writes_.clear();
+  // The writes point into these; they must not move while they grow.
+  buffer_infos_.reserve(bindings.size());
+  image_infos_.reserve(bindings.size());
+  for (const ReflectedBinding& slot : pipeline.shader.of_set(set)) {
+    const std::size_t first_buffer = buffer_infos_.size();
+    const std::size_t first_image = image_infos_.size();
+    for (const Binding& binding : bindings) {
+      if (binding.binding == slot.binding) GLOAM_TRY(add(slot, binding, layouts));
+    }
+    const std::size_t given = buffer_infos_.size() - first_buffer + image_infos_.size() - first_image;
+    GLOAM_ASSERT(given == slot.count || (given == 0 && !slot.used),
+                 "pipeline \"" + pipeline.name + "\" needs " + std::to_string(slot.count) + " resource(s) for \"" +
+                     slot.name + "\" (set " + std::to_string(set) + ", binding " + std::to_string(slot.binding) +
+                     "), and was given " + std::to_string(given));
+    if (given == 0) continue;
+    writes_.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                       .dstSet = target,
+                       .dstBinding = slot.binding,
+                       .descriptorCount = static_cast<std::uint32_t>(given),
+                       .descriptorType = to_vulkan(slot.kind),
+                       .pImageInfo = image_infos_.data() + first_image,
+                       .pBufferInfo = buffer_infos_.data() + first_buffer});
+  }
+  return std::span<const VkWriteDescriptorSet>(writes_);
+}
+
+Status DescriptorWriter::add(const ReflectedBinding& slot, const Binding& binding, Layouts layouts) {
+  if (const auto* range = std::get_if<Binding::BufferRange>(&binding.resource)) {
+    GLOAM_ASSERT(is_buffer(slot.kind), wrong_kind(slot));
+    add_buffer(slot, *range);
+    return {};
+  }
+  if (const auto* sampled = std::get_if<Binding::Sampled>(&binding.resource)) {
+    GLOAM_ASSERT(slot.kind == ResourceKind::sampled_image, wrong_kind(slot));
+    return add_image(slot, sampled->view, samplers_.get(sampled->sampler), layouts);
+  }
+  GLOAM_ASSERT(slot.kind == ResourceKind::storage_image, wrong_kind(slot));
+  return add_image(slot, std::get<Binding::Storage>(binding.resource).view, VK_NULL_HANDLE, layouts);
+}
+
+void DescriptorWriter::add_buffer(const ReflectedBinding& slot, const Binding::BufferRange& range) {
+  const Buffer& buffer = buffers_.get(range.buffer);
+  GLOAM_ASSERT(range.offset < buffer.desc.size, "a bound range of \"" + buffer.desc.name + "\" begins inside it");
+  const std::uint64_t rest = buffer.desc.size - range.offset;
+  GLOAM_ASSERT(range.size <= rest, "a bound range of \"" + buffer.desc.name + "\" ends inside it");
+  const std::uint64_t size = range.size == 0 ? rest : range.size;
+  const VkPhysicalDeviceLimits& limits = context_.physical.limits;
+  const std::uint64_t most =
+      slot.kind == ResourceKind::uniform_buffer ? limits.maxUniformBufferRange : limits.maxStorageBufferRange;
+  GLOAM_ASSERT(size <= most, "the bound range of \"" + buffer.desc.name + "\" is larger than the device can bind");
+  buffer_infos_.push_back({buffer.buffer, range.offset, size});
+}
+
+Status DescriptorWriter::add_image(const ReflectedBinding& slot, const ImageView& view, VkSampler sampler,
+                                   Layouts layouts) {
+  const Image& image = images_.get(view.image);
+  ViewKey key = resolve_view(image.desc, view);
+  key.type = view_type(slot, key.layer_count);
+  const bool storage = slot.kind == ResourceKind::storage_image;
+  if (storage) key.mip_count = 1;  // a storage image is one mip
+  const Result<VkImageView> vk_view = images_.view(view.image, key);
+  if (!vk_view) return vk_view.error();
+  // A kernel that samples one mip and writes the next has the whole image in the general layout.
+  const bool general =
+      storage || (layouts == Layouts::as_recorded && facts_of(image.access).layout == VK_IMAGE_LAYOUT_GENERAL);
+  image_infos_.push_back({sampler, *vk_view, general ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL});
+  return {};
+}
+
+}  // namespace gloam::gpu::vulkan

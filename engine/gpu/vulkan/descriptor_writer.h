@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/types.h"
+#include "engine/gpu/vulkan/buffers.h"
+#include "engine/gpu/vulkan/images.h"
+#include "engine/gpu/vulkan/pipelines.h"
+#include "engine/gpu/vulkan/samplers.h"
+
+namespace gloam::gpu::vulkan {
+
+/// Turns bindings into descriptor writes for one set of a pipeline. Elements of an array binding are given by repeating its number.
+/// Bindings that the shader does not declare are left out; those it declares but never uses may be missing.
+class DescriptorWriter {
+ public:
+  DescriptorWriter(const Context& context, const Buffers& buffers, Images& images, const Samplers& samplers)
+      : context_(context), buffers_(buffers), images_(images), samplers_(samplers) {}
+
+  /// Whether sampled images are in the layout that barriers recorded so far left them in, or will be in the read-only one.
+  enum class Layouts : std::uint8_t { as_recorded, read_only };
+
+  /// The writes point into this object and hold until the next call.
+  [[nodiscard]] Result<std::span<const VkWriteDescriptorSet>> build(const Pipeline& pipeline, std::uint32_t set,
+                                                                    std::span<const Binding> bindings,
+                                                                    VkDescriptorSet target, Layouts layouts);
+
+ private:
+  [[nodiscard]] Status add(const ReflectedBinding& slot, const Binding& binding, Layouts layouts);
+  void add_buffer(const ReflectedBinding& slot, const Binding::BufferRange& range);
+  [[nodiscard]] Status add_image(const ReflectedBinding& slot, const ImageView& view, VkSampler sampler,
+                                 Layouts layouts);
+
+  const Context& context_;
+  const Buffers& buffers_;
+  Images& images_;
+  const Samplers& samplers_;
+  std::vector<VkDescriptorBufferInfo> buffer_infos_;
+  std::vector<VkDescriptorImageInfo> image_infos_;
+  std::vector<VkWriteDescriptorSet> writes_;
+};
+
+}  // namespace gloam::gpu::vulkan

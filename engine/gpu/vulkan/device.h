@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/vulkan/buffers.h"
+#include "engine/gpu/vulkan/command_list.h"
+#include "engine/gpu/vulkan/context.h"
+#include "engine/gpu/vulkan/frames.h"
+#include "engine/gpu/vulkan/graveyard.h"
+#include "engine/gpu/vulkan/images.h"
+#include "engine/gpu/vulkan/instance.h"
+#include "engine/gpu/vulkan/memory.h"
+#include "engine/gpu/vulkan/pipelines.h"
+#include "engine/gpu/vulkan/resource_sets.h"
+#include "engine/gpu/vulkan/samplers.h"
+
+namespace gloam::gpu::vulkan {
+
+/// Device on Vulkan: owns the parts and hands each call to the part that does the work.
+class VulkanDevice final : public Device {
+ public:
+  static Result<std::unique_ptr<Device>> create(const VulkanOptions& options);
+  ~VulkanDevice() override;
+
+  [[nodiscard]] const DeviceInfo& info() const override { return context_->physical.info; }
+  [[nodiscard]] Result<BufferHandle> create_buffer(const BufferDesc& desc) override { return buffers_.create(desc); }
+  [[nodiscard]] Result<ImageHandle> create_image(const ImageDesc& desc) override { return images_.create(desc); }
+  [[nodiscard]] Result<SamplerHandle> create_sampler(const SamplerDesc& desc) override {
+    return samplers_.find_or_create(desc);
+  }
+  [[nodiscard]] Result<PipelineHandle> create_pipeline(const ComputePipelineDesc& desc) override {
+    return pipelines_.create(desc);
+  }
+  [[nodiscard]] Result<PipelineHandle> create_pipeline(const GraphicsPipelineDesc& desc) override {
+    return pipelines_.create(desc);
+  }
+  [[nodiscard]] Result<ResourceSetHandle> create_resource_set(PipelineHandle like, std::uint32_t set,
+                                                              std::span<const Binding> bindings) override {
+    return sets_.create(pipelines_.get(like), set, bindings);
+  }
+  void destroy(BufferHandle buffer) override { buffers_.destroy(buffer); }
+  void destroy(ImageHandle image) override { images_.destroy(image); }
+  void destroy(PipelineHandle pipeline) override { pipelines_.destroy(pipeline); }
+  void destroy(ResourceSetHandle resources) override { sets_.destroy(resources); }
+  [[nodiscard]] const BufferDesc& desc(BufferHandle buffer) const override { return buffers_.get(buffer).desc; }
+  [[nodiscard]] const ImageDesc& desc(ImageHandle image) const override { return images_.get(image).desc; }
+  [[nodiscard]] std::span<std::byte> mapped(BufferHandle buffer) override { return buffers_.mapped(buffer); }
+  [[nodiscard]] Result<std::vector<ImageHandle>> create_aliased_images(std::span<const ImageDesc> descs) override {
+    return images_.create_aliased(descs);
+  }
+
+  [[nodiscard]] Result<CommandList*> begin_frame() override;
+  [[nodiscard]] Status submit_frame() override;
+  [[nodiscard]] std::uint64_t frame_number() const override { return frames_->number(); }
+  [[nodiscard]] std::uint64_t completed_frames() const override { return frames_->completed(); }
+  [[nodiscard]] std::vector<std::uint64_t> timestamps(std::uint64_t frame) override {
+    return frames_->timestamps(frame);
+  }
+  [[nodiscard]] Status wait_idle() override { return frames_->wait_idle(); }
+  [[nodiscard]] std::vector<ModuleMemory> memory() const override { return memory_.usage(); }
+  [[nodiscard]] std::uint32_t pipeline_count(std::string_view module) const override {
+    return pipelines_.count(module);
+  }
+  [[nodiscard]] std::uint64_t validation_messages() const override { return instance_->messages(); }
+
+  // For the swapchain.
+  [[nodiscard]] Context& context() { return *context_; }
+  [[nodiscard]] Images& images() { return images_; }
+  [[nodiscard]] Frames& frames() { return *frames_; }
+
+ private:
+  VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,
+               const std::string& cache_directory);
+
+  // In the order in which they need each other; destroyed the other way round.
+  std::unique_ptr<Instance> instance_;
+  std::unique_ptr<Context> context_;
+  Graveyard graveyard_;
+  MemoryAllocator memory_;
+  Buffers buffers_;
+  Images images_;
+  Samplers samplers_;
+  Pipelines pipelines_;
+  DescriptorWriter writer_;
+  ResourceSets sets_;
+  std::unique_ptr<Frames> frames_;
+  std::unique_ptr<VulkanCommandList> commands_;
+};
+
+}  // namespace gloam::gpu::vulkan

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/core/result.h"
+#include "engine/gpu/vulkan/api.h"
+
+namespace gloam::gpu::vulkan {
+
+/// "out of device memory", "the device was lost", …
+[[nodiscard]] std::string describe(VkResult result);
+
+/// ErrorKind::failed: "<what could not be done>: <why>".
+[[nodiscard]] Error failure(std::string_view what, VkResult result);
+
+}  // namespace gloam::gpu::vulkan

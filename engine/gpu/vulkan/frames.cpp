@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/frames.h"
+
+#include <algorithm>
+#include <string>
+
+#include "engine/gpu/vulkan/errors.h"
+
+namespace gloam::gpu::vulkan {
+namespace {
+
+VkSemaphoreSubmitInfo at_all_commands(VkSemaphore semaphore, std::uint64_t value = 0) {
+  return {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+          .semaphore = semaphore,
+          .value = value,
+          .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Frames>> Frames::create(Context& context, Graveyard& graveyard) {
+  std::unique_ptr<Frames> frames(new Frames(context, graveyard));
+  GLOAM_TRY(frames->make());
+  return frames;
+}
+
+Status Frames::make() {
+  const VkSemaphoreTypeCreateInfo type = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
+                                          .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
+  const VkSemaphoreCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
+  const VkResult result = context_.vk.vkCreateSemaphore(context_.device, &info, nullptr, &timeline_);
+  if (result != VK_SUCCESS) return failure("The frame timeline could not be made", result);
+  context_.set_name(VK_OBJECT_TYPE_SEMAPHORE, timeline_, "frames");
+  for (std::uint32_t i = 0; i < slots_.size(); ++i) GLOAM_TRY(make_slot(slots_[i], i));
+  return {};
+}
+
+Status Frames::make_slot(Slot& slot, std::uint32_t index) {
+  const VolkDeviceTable& vk = context_.vk;
+  const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                        .queueFamilyIndex = context_.physical.queue_family};
+  VkResult result = vk.vkCreateCommandPool(context_.device, &pool, nullptr, &slot.pool);
+  if (result != VK_SUCCESS) return failure("A command pool could not be made", result);
+  const VkCommandBufferAllocateInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                                .commandPool = slot.pool,
+                                                .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                                .commandBufferCount = 1};
+  result = vk.vkAllocateCommandBuffers(context_.device, &commands, &slot.commands);
+  if (result != VK_SUCCESS) return failure("A command buffer could not be made", result);
+  const VkQueryPoolCreateInfo queries = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                         .queryCount = Device::kTimestampsPerFrame};
+  result = vk.vkCreateQueryPool(context_.device, &queries, nullptr, &slot.queries);
+  if (result != VK_SUCCESS) return failure("A timestamp pool could not be made", result);
+  const std::string name = "frame slot " + std::to_string(index);
+  context_.set_name(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, name);
+  context_.set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, name);
+  context_.set_name(VK_OBJECT_TYPE_QUERY_POOL, slot.queries, name);
+  return {};
+}
+
+Frames::~Frames() {
+  for (const Slot& slot : slots_) {
+    context_.vk.vkDestroyCommandPool(context_.device, slot.pool, nullptr);
+    context_.vk.vkDestroyQueryPool(context_.device, slot.queries, nullptr);
+  }
+  context_.vk.vkDestroySemaphore(context_.device, timeline_, nullptr);
+}
+
+Status Frames::wait_for_frames(std::uint64_t completed) {
+  const VkSemaphoreWaitInfo wait = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
+                                    .semaphoreCount = 1,
+                                    .pSemaphores = &timeline_,
+                                    .pValues = &completed};
+  const VkResult result = context_.vk.vkWaitSemaphores(context_.device, &wait, UINT64_MAX);
+  if (result == VK_SUCCESS) return {};
+  lost_ = true;
+  return failure("Waiting for frame " + std::to_string(completed - 1), result);
+}
+
+std::uint64_t Frames::completed() const {
+  std::uint64_t value = 0;
+  // A lost device completes nothing more; its value is then whatever it was.
+  context_.vk.vkGetSemaphoreCounterValue(context_.device, timeline_, &value);
+  return value;
+}
+
+Result<VkCommandBuffer> Frames::begin() {
+  GLOAM_ASSERT(!recording_, "a frame is submitted before the next one begins");
+  if (lost_) return failure("Beginning frame " + std::to_string(number()), VK_ERROR_DEVICE_LOST);
+  Slot& slot = current();
+  if (number() >= Device::kFramesInFlight) GLOAM_TRY(wait_for_frames(number() - Device::kFramesInFlight + 1));
+  settle();
+  GLOAM_TRY(begin_commands(slot));
+  {
+    const std::lock_guard lock(timestamps_mutex_);
+    slot.frame = number();
+    slot.written.assign(Device::kTimestampsPerFrame, false);
+    slot.has_timestamps = false;
+  }
+  recording_ = true;
+  graveyard_.set_begun(number() + 1);
+  return slot.commands;
+}
+
+Status Frames::begin_commands(Slot& slot) {
+  VkResult result = context_.vk.vkResetCommandPool(context_.device, slot.pool, 0);
+  if (result == VK_SUCCESS) {
+    const VkCommandBufferBeginInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                           .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    result = context_.vk.vkBeginCommandBuffer(slot.commands, &info);
+  }
+  if (result != VK_SUCCESS) return failure("Beginning frame " + std::to_string(number()), result);
+  context_.vk.vkCmdResetQueryPool(slot.commands, slot.queries, 0, Device::kTimestampsPerFrame);
+  return {};
+}
+
+Status Frames::submit(bool discard) {
+  GLOAM_ASSERT(recording_, "a frame is begun before it is submitted");
+  Slot& slot = current();
+  recording_ = false;
+  VkResult result = context_.vk.vkEndCommandBuffer(slot.commands);
+  if (discard) slot.written.assign(Device::kTimestampsPerFrame, false);
+  if (result == VK_SUCCESS || discard) result = submit_commands(slot, discard);
+  waits_.clear();
+  signals_.clear();
+  if (result != VK_SUCCESS) {
+    // The timeline will never reach this frame, so nothing may wait for it.
+    lost_ = true;
+    return failure("Submitting frame " + std::to_string(number()), result);
+  }
+  const std::lock_guard lock(timestamps_mutex_);
+  slot.has_timestamps = true;
+  ++number_;
+  return {};
+}
+
+VkResult Frames::submit_commands(const Slot& slot, bool discard) {
+  std::vector<VkSemaphoreSubmitInfo> waits;
+  std::vector<VkSemaphoreSubmitInfo> signals = {at_all_commands(timeline_, number() + 1)};
+  for (VkSemaphore semaphore : waits_) waits.push_back(at_all_commands(semaphore));
+  for (VkSemaphore semaphore : signals_) signals.push_back(at_all_commands(semaphore));
+  const VkCommandBufferSubmitInfo command = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                             .commandBuffer = slot.commands};
+  const VkSubmitInfo2 info = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                              .waitSemaphoreInfoCount = static_cast<std::uint32_t>(waits.size()),
+                              .pWaitSemaphoreInfos = waits.data(),
+                              .commandBufferInfoCount = discard ? 0u : 1u,
+                              .pCommandBufferInfos = &command,
+                              .signalSemaphoreInfoCount = static_cast<std::uint32_t>(signals.size()),
+                              .pSignalSemaphoreInfos = signals.data()};
+  const std::lock_guard lock(context_.queue_mutex);
+  return context_.vk.vkQueueSubmit2(context_.queue, 1, &info, VK_NULL_HANDLE);
+}
+
+Status Frames::wait_idle() {
+  if (lost_) return failure("Waiting for the device", VK_ERROR_DEVICE_LOST);
+  if (number() > 0) GLOAM_TRY(wait_for_frames(number()));
+  settle();
+  return {};
+}
+
+void Frames::settle() {
+  const std::uint64_t ended = completed();
+  {
+    const std::lock_guard lock(timestamps_mutex_);
+    for (Slot& slot : slots_) {
+      if (slot.has_timestamps && slot.frame < ended) read_timestamps(slot);
+    }
+  }
+  graveyard_.collect(ended);
+}
+
+void Frames::write_timestamp(std::uint32_t index) {
+  GLOAM_ASSERT(index < Device::kTimestampsPerFrame, "a timestamp's index is below Device::kTimestampsPerFrame");
+  Slot& slot = current();
+  GLOAM_ASSERT(!slot.written[index], "a timestamp is written once a frame");
+  slot.written[index] = true;
+  context_.vk.vkCmdWriteTimestamp2(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.queries, index);
+}
+
+void Frames::read_timestamps(Slot& slot) {
+  slot.has_timestamps = false;
+  const auto last = std::find(slot.written.rbegin(), slot.written.rend(), true);
+  const auto count = static_cast<std::uint32_t>(slot.written.rend() - last);
+  std::vector<std::uint64_t> times(count, 0);
+  const PhysicalDevice& device = context_.physical;
+  const std::uint64_t mask = device.timestamp_bits >= 64 ? ~0ull : (1ull << device.timestamp_bits) - 1;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::uint64_t ticks = 0;
+    if (!slot.written[i]) continue;
+    const VkResult result = context_.vk.vkGetQueryPoolResults(context_.device, slot.queries, i, 1, sizeof ticks, &ticks,
+                                                              sizeof ticks, VK_QUERY_RESULT_64_BIT);
+    if (result != VK_SUCCESS) continue;
+    times[i] = static_cast<std::uint64_t>(static_cast<double>(ticks & mask) * device.limits.timestampPeriod);
+  }
+  timestamps_[slot.frame] = std::move(times);
+  while (timestamps_.size() > kRememberedFrames) timestamps_.erase(timestamps_.begin());
+}
+
+std::vector<std::uint64_t> Frames::timestamps(std::uint64_t frame) {
+  const std::uint64_t ended = completed();
+  const std::lock_guard lock(timestamps_mutex_);
+  for (Slot& slot : slots_) {
+    if (slot.has_timestamps && slot.frame < ended) read_timestamps(slot);
+  }
+  const auto found = timestamps_.find(frame);
+  return found == timestamps_.end() ? std::vector<std::uint64_t>() : found->second;
+}
+
+}  // namespace gloam::gpu::vulkan

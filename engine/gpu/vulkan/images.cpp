@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/images.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+#include "engine/gpu/vulkan/convert.h"
+#include "engine/gpu/vulkan/errors.h"
+
+namespace gloam::gpu::vulkan {
+namespace {
+
+std::string cannot_make(const ImageDesc& desc) {
+  return "Image \"" + desc.name + "\" of module \"" + desc.module + "\" (" + std::to_string(desc.width) + "x" +
+         std::to_string(desc.height) + ", " + std::to_string(desc.layers) + " layers, " +
+         std::string(name_of(desc.format)) + ") could not be made";
+}
+
+VkFormatFeatureFlags features_needed(ImageUsage usage) {
+  VkFormatFeatureFlags needed = 0;
+  if (has(usage, ImageUsage::sampled)) needed |= VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+  if (has(usage, ImageUsage::storage)) needed |= VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
+  if (has(usage, ImageUsage::color_target)) needed |= VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+  if (has(usage, ImageUsage::depth_target)) needed |= VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  return needed;
+}
+
+void check_rules(const ImageDesc& desc) {
+  GLOAM_ASSERT(desc.format != Format::undefined, "an image has a format");
+  GLOAM_ASSERT(desc.usage != ImageUsage::none, "an image must be used for something");
+  GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.mips > 0, "an image holds a texel");
+  GLOAM_ASSERT(desc.shape != ImageShape::plain || desc.layers == 1, "a plain image has one layer");
+  GLOAM_ASSERT(desc.shape != ImageShape::cube || (desc.layers % 6 == 0 && desc.width == desc.height),
+               "a cube image is square and has six layers a cube");
+  GLOAM_ASSERT(desc.mips <= static_cast<std::uint32_t>(std::bit_width(std::max(desc.width, desc.height))),
+               "an image has no more mips than it can be halved");
+}
+
+Status check_limits(const Context& context, const ImageDesc& desc) {
+  const VkPhysicalDeviceLimits& limits = context.physical.limits;
+  const std::uint32_t most = desc.shape == ImageShape::cube ? limits.maxImageDimensionCube : limits.maxImageDimension2D;
+  if (desc.width > most || desc.height > most) {
+    return Error{ErrorKind::failed,
+                 cannot_make(desc) + ": the device allows " + std::to_string(most) + " texels a side"};
+  }
+  if (desc.layers > limits.maxImageArrayLayers) {
+    return Error{ErrorKind::failed,
+                 cannot_make(desc) + ": the device allows " + std::to_string(limits.maxImageArrayLayers) + " layers"};
+  }
+  VkFormatProperties format;
+  context.instance_functions().vkGetPhysicalDeviceFormatProperties(context.physical.handle, to_vulkan(desc.format),
+                                                                   &format);
+  const VkFormatFeatureFlags needed = features_needed(desc.usage);
+  if ((format.optimalTilingFeatures & needed) != needed) {
+    return Error{ErrorKind::failed, cannot_make(desc) + ": the device cannot use this format in that way"};
+  }
+  return {};
+}
+
+}  // namespace
+
+ViewKey resolve_view(const ImageDesc& desc, const ImageView& view) {
+  GLOAM_ASSERT(view.first_mip < desc.mips && view.first_layer < desc.layers, "a view begins inside its image");
+  ViewKey key;
+  key.first_mip = view.first_mip;
+  key.mip_count = view.mip_count == 0 ? desc.mips - view.first_mip : view.mip_count;
+  key.first_layer = view.first_layer;
+  key.layer_count = view.layer_count == 0 ? desc.layers - view.first_layer : view.layer_count;
+  GLOAM_ASSERT(key.mip_count <= desc.mips - key.first_mip && key.layer_count <= desc.layers - key.first_layer,
+               "a view ends inside its image");
+  return key;
+}
+
+Images::~Images() {
+  for (const Image& image : table_.remove_all()) release(image);
+}
+
+Result<Image> Images::make(const ImageDesc& desc) const {
+  check_rules(desc);
+  GLOAM_TRY(check_limits(context_, desc));
+  const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                  .flags = desc.shape == ImageShape::cube
+                                               ? static_cast<VkImageCreateFlags>(VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT)
+                                               : 0,
+                                  .imageType = VK_IMAGE_TYPE_2D,
+                                  .format = to_vulkan(desc.format),
+                                  .extent = {desc.width, desc.height, 1},
+                                  .mipLevels = desc.mips,
+                                  .arrayLayers = desc.layers,
+                                  .samples = VK_SAMPLE_COUNT_1_BIT,
+                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                  .usage = to_vulkan(desc.usage),
+                                  .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
+                                  .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+  Image image;
+  image.desc = desc;
+  const VkResult result = context_.vk.vkCreateImage(context_.device, &info, nullptr, &image.image);
+  if (result != VK_SUCCESS) return failure(cannot_make(desc), result);
+  context_.set_name(VK_OBJECT_TYPE_IMAGE, image.image, desc.name);
+  return image;
+}
+
+Status Images::bind(Image& image, AllocationOwner memory) const {
+  image.memory = std::move(memory);
+  const VkResult result =
+      context_.vk.vkBindImageMemory(context_.device, image.image, image.memory->memory, image.memory->offset);
+  if (result != VK_SUCCESS) return failure(cannot_make(image.desc), result);
+  return {};
+}
+
+Result<ImageHandle> Images::create(const ImageDesc& desc) {
+  Result<std::vector<ImageHandle>> images = create_aliased({&desc, 1});
+  if (!images) return images.error();
+  return images->front();
+}
+
+Result<std::vector<ImageHandle>> Images::create_aliased(std::span<const ImageDesc> descs) {
+  GLOAM_ASSERT(!descs.empty(), "there must be an image to make");
+  std::vector<Image> images;
+  const auto fail = [&](const Error& error) {
+    for (const Image& image : images) context_.vk.vkDestroyImage(context_.device, image.image, nullptr);
+    return error;
+  };
+  MemoryRequest request = {.image = true, .module = descs.front().module, .name = descs.front().name};
+  request.requirements = {.size = 0, .alignment = 1, .memoryTypeBits = ~0u};
+  for (const ImageDesc& desc : descs) {
+    Result<Image> image = make(desc);
+    if (!image) return fail(image.error());
+    VkMemoryRequirements needs;
+    context_.vk.vkGetImageMemoryRequirements(context_.device, image->image, &needs);
+    request.requirements.size = std::max(request.requirements.size, needs.size);
+    request.requirements.alignment = std::max(request.requirements.alignment, needs.alignment);
+    request.requirements.memoryTypeBits &= needs.memoryTypeBits;
+    images.push_back(std::move(*image));
+  }
+  const Result<AllocationOwner> memory = memory_.allocate(request);
+  if (!memory) return fail(memory.error());
+  for (Image& image : images) {
+    if (const Status bound = bind(image, *memory); !bound) return fail(bound.error());
+  }
+  std::vector<ImageHandle> handles;
+  for (Image& image : images) handles.push_back(table_.insert(std::move(image)));
+  return handles;
+}
+
+ImageHandle Images::adopt(const ImageDesc& desc, VkImage vk_image) {
+  Image image;
+  image.desc = desc;
+  image.image = vk_image;
+  context_.set_name(VK_OBJECT_TYPE_IMAGE, vk_image, desc.name);
+  return table_.insert(std::move(image));
+}
+
+void Images::release(const Image& image) const {
+  for (const auto& [key, view] : image.views) context_.vk.vkDestroyImageView(context_.device, view, nullptr);
+  if (image.memory) context_.vk.vkDestroyImage(context_.device, image.image, nullptr);
+}
+
+void Images::destroy(ImageHandle handle) {
+  graveyard_.bury([this, image = table_.remove(handle)] { release(image); });
+}
+
+Result<VkImageView> Images::view(ImageHandle handle, const ViewKey& key) {
+  Image& image = get(handle);
+  const std::lock_guard lock(views_mutex_);
+  for (const auto& [known, view] : image.views) {
+    if (known == key) return view;
+  }
+  const VkImageViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                      .image = image.image,
+                                      .viewType = key.type,
+                                      .format = to_vulkan(image.desc.format),
+                                      .subresourceRange = {aspect_of(image.desc.format), key.first_mip, key.mip_count,
+                                                           key.first_layer, key.layer_count}};
+  VkImageView view = VK_NULL_HANDLE;
+  const VkResult result = context_.vk.vkCreateImageView(context_.device, &info, nullptr, &view);
+  if (result != VK_SUCCESS) return failure("A view of image \"" + image.desc.name + "\" could not be made", result);
+  context_.set_name(VK_OBJECT_TYPE_IMAGE_VIEW, view, image.desc.name);
+  image.views.emplace_back(key, view);
+  return view;
+}
+
+}  // namespace gloam::gpu::vulkan

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <compare>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/handle_table.h"
+#include "engine/gpu/types.h"
+#include "engine/gpu/vulkan/context.h"
+#include "engine/gpu/vulkan/graveyard.h"
+#include "engine/gpu/vulkan/memory.h"
+
+namespace gloam::gpu::vulkan {
+
+/// Exactly what a VkImageView shows.
+struct ViewKey {
+  VkImageViewType type = VK_IMAGE_VIEW_TYPE_2D;
+  std::uint32_t first_mip = 0;
+  std::uint32_t mip_count = 1;
+  std::uint32_t first_layer = 0;
+  std::uint32_t layer_count = 1;
+  bool operator==(const ViewKey&) const = default;
+};
+
+struct Image {
+  ImageDesc desc;
+  VkImage image = VK_NULL_HANDLE;
+  AllocationOwner memory;  ///< null: somebody else's image, which is not destroyed here
+  std::vector<std::pair<ViewKey, VkImageView>> views;
+  /// What the last recorded barrier left the image in; only the recording thread looks at it.
+  Access access = Access::none;
+};
+
+/// The view with "all the rest" made into numbers, checked against the image. `type` is left to the caller.
+[[nodiscard]] ViewKey resolve_view(const ImageDesc& desc, const ImageView& view);
+
+/// Thread-safe, except Image::access.
+class Images {
+ public:
+  Images(Context& context, MemoryAllocator& memory, Graveyard& graveyard)
+      : context_(context), memory_(memory), graveyard_(graveyard) {}
+  ~Images();
+
+  [[nodiscard]] Result<ImageHandle> create(const ImageDesc& desc);
+  [[nodiscard]] Result<std::vector<ImageHandle>> create_aliased(std::span<const ImageDesc> descs);
+  /// An image owned by a window or a host; destroying the handle destroys only its views.
+  [[nodiscard]] ImageHandle adopt(const ImageDesc& desc, VkImage image);
+  void destroy(ImageHandle handle);
+  [[nodiscard]] const Image& get(ImageHandle handle) const { return table_.get(handle); }
+  [[nodiscard]] Image& get(ImageHandle handle) { return table_.get(handle); }
+  /// Views are made once and live as long as their image.
+  [[nodiscard]] Result<VkImageView> view(ImageHandle handle, const ViewKey& key);
+
+ private:
+  [[nodiscard]] Result<Image> make(const ImageDesc& desc) const;
+  [[nodiscard]] Status bind(Image& image, AllocationOwner memory) const;
+  void release(const Image& image) const;
+
+  Context& context_;
+  MemoryAllocator& memory_;
+  Graveyard& graveyard_;
+  std::mutex views_mutex_;
+  HandleTable<Image, ImageHandle> table_;
+};
+
+}  // namespace gloam::gpu::vulkan

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/instance.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "engine/gpu/vulkan/errors.h"
+
+namespace gloam::gpu::vulkan {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* kDebugUtils = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+
+/// The loader's entry points are process-wide and never change once found.
+VkResult find_loader() {
+  static std::once_flag once;
+  static VkResult result = VK_SUCCESS;
+  std::call_once(once, [] { result = volkInitialize(); });
+  return result;
+}
+
+bool layer_installed(const char* name) {
+  std::uint32_t count = 0;
+  vkEnumerateInstanceLayerProperties(&count, nullptr);
+  std::vector<VkLayerProperties> layers(count);
+  vkEnumerateInstanceLayerProperties(&count, layers.data());
+  return std::any_of(layers.begin(), layers.end(), [&](const auto& l) { return std::strcmp(l.layerName, name) == 0; });
+}
+
+bool extension_available(const char* name) {
+  std::uint32_t count = 0;
+  vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Instance>> Instance::create(const VulkanOptions& options) {
+  std::unique_ptr<Instance> instance(new Instance(options.log != nullptr ? *options.log : null_log()));
+  GLOAM_TRY(instance->make(options));
+  return instance;
+}
+
+Status Instance::make(const VulkanOptions& options) {
+  if (find_loader() != VK_SUCCESS) {
+    return Error{ErrorKind::no_device, "There is no Vulkan loader (libvulkan) on this machine"};
+  }
+  if (volkGetInstanceVersion() < VK_API_VERSION_1_3) {
+    return Error{ErrorKind::no_device, "The Vulkan loader is older than version 1.3"};
+  }
+  std::vector<const char*> extensions;
+  for (const std::string& name : options.window_extensions) {
+    if (!extension_available(name.c_str())) {
+      return Error{ErrorKind::no_device, "The window needs the Vulkan extension " + name + ", which is not there"};
+    }
+    extensions.push_back(name.c_str());
+  }
+  std::vector<const char*> layers;
+  if (options.validate) {
+    if (!layer_installed(kValidationLayer)) {
+      return Error{ErrorKind::failed, std::string("Validation was asked for, but the layer ") + kValidationLayer +
+                                          " is not installed (package vulkan-validationlayers)"};
+    }
+    layers.push_back(kValidationLayer);
+    extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+  }
+  const bool debug_utils = options.validate || extension_available(kDebugUtils);
+  if (debug_utils) extensions.push_back(kDebugUtils);
+
+  const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                         .pApplicationName = "gloam",
+                                         .pEngineName = "gloam",
+                                         .apiVersion = VK_API_VERSION_1_3};
+  const std::array enabled = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  const VkValidationFeaturesEXT features = {.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                            .enabledValidationFeatureCount = enabled.size(),
+                                            .pEnabledValidationFeatures = enabled.data()};
+  const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                     .pNext = options.validate ? &features : nullptr,
+                                     .pApplicationInfo = &application,
+                                     .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
+                                     .ppEnabledLayerNames = layers.data(),
+                                     .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                     .ppEnabledExtensionNames = extensions.data()};
+  const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
+    return Error{ErrorKind::no_device, "No Vulkan driver is installed on this machine"};
+  }
+  if (result != VK_SUCCESS) return failure("Vulkan could not be started", result);
+#define X(name) functions_.name = reinterpret_cast<PFN_##name>(vkGetInstanceProcAddr(instance_, #name));
+  GLOAM_VULKAN_INSTANCE_FUNCTIONS(X)
+#undef X
+  return options.validate ? make_messenger() : Status();
+}
+
+Status Instance::make_messenger() {
+  const VkDebugUtilsMessengerCreateInfoEXT info = {
+      .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+      .messageSeverity =
+          VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+      .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT,
+      .pfnUserCallback = &Instance::on_message,
+      .pUserData = this};
+  const VkResult result = functions_.vkCreateDebugUtilsMessengerEXT(instance_, &info, nullptr, &messenger_);
+  if (result != VK_SUCCESS) return failure("Validation messages could not be subscribed to", result);
+  return {};
+}
+
+VkBool32 Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
+                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  // The loader reports drivers without hardware and odd search paths as general messages; they say nothing about our calls.
+  const bool from_loader = data->pMessageIdName != nullptr && std::strcmp(data->pMessageIdName, "Loader Message") == 0;
+  if (from_loader || (types & VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT) == 0) return VK_FALSE;
+  auto* self = static_cast<Instance*>(user);
+  self->messages_.fetch_add(1);
+  std::string line = std::string("Vulkan: ") + data->pMessage;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  const bool is_error = (severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) != 0;
+  self->log_->write(is_error ? LogLevel::error : LogLevel::warning, line);
+  return VK_FALSE;
+}
+
+Instance::~Instance() {
+  if (messenger_ != VK_NULL_HANDLE) functions_.vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+  if (instance_ != VK_NULL_HANDLE) functions_.vkDestroyInstance(instance_, nullptr);
+}
+
+}  // namespace gloam::gpu::vulkan

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/physical_device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <vector>
+
+#include "engine/gpu/vulkan/errors.h"
+
+namespace gloam::gpu::vulkan {
+namespace {
+
+struct CoreFeature {
+  VkBool32 VkPhysicalDeviceFeatures::*flag;
+  std::string_view name;
+};
+struct Feature12 {
+  VkBool32 VkPhysicalDeviceVulkan12Features::*flag;
+  std::string_view name;
+};
+struct Feature13 {
+  VkBool32 VkPhysicalDeviceVulkan13Features::*flag;
+  std::string_view name;
+};
+
+constexpr std::array kRequiredCore = {
+    CoreFeature{&VkPhysicalDeviceFeatures::fragmentStoresAndAtomics, "fragmentStoresAndAtomics"},
+    CoreFeature{&VkPhysicalDeviceFeatures::drawIndirectFirstInstance, "drawIndirectFirstInstance"},
+    CoreFeature{&VkPhysicalDeviceFeatures::multiDrawIndirect, "multiDrawIndirect"},
+    CoreFeature{&VkPhysicalDeviceFeatures::independentBlend, "independentBlend"},
+    CoreFeature{&VkPhysicalDeviceFeatures::imageCubeArray, "imageCubeArray"},
+};
+constexpr std::array kRequired12 = {
+    Feature12{&VkPhysicalDeviceVulkan12Features::timelineSemaphore, "timelineSemaphore"},
+    Feature12{&VkPhysicalDeviceVulkan12Features::scalarBlockLayout, "scalarBlockLayout"},
+};
+constexpr std::array kRequired13 = {
+    Feature13{&VkPhysicalDeviceVulkan13Features::dynamicRendering, "dynamicRendering"},
+    Feature13{&VkPhysicalDeviceVulkan13Features::synchronization2, "synchronization2"},
+    Feature13{&VkPhysicalDeviceVulkan13Features::maintenance4, "maintenance4"},
+};
+// Used when there; no effect of the engine depends on one.
+constexpr std::array kOptionalCore = {
+    &VkPhysicalDeviceFeatures::samplerAnisotropy,
+    &VkPhysicalDeviceFeatures::depthClamp,
+    &VkPhysicalDeviceFeatures::shaderStorageImageReadWithoutFormat,
+    &VkPhysicalDeviceFeatures::shaderStorageImageWriteWithoutFormat,
+    &VkPhysicalDeviceFeatures::shaderStorageImageExtendedFormats,
+    &VkPhysicalDeviceFeatures::vertexPipelineStoresAndAtomics,
+};
+constexpr std::array kOptional12 = {
+    &VkPhysicalDeviceVulkan12Features::shaderOutputLayer,
+    &VkPhysicalDeviceVulkan12Features::shaderSubgroupExtendedTypes,
+};
+
+constexpr VkQueueFlags kQueueNeeds = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+
+struct Candidate {
+  PhysicalDevice device;
+  std::string lacks;  ///< why it cannot be used; empty: it can
+};
+
+DeviceType type_of(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return DeviceType::discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return DeviceType::integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return DeviceType::cpu;
+    default:
+      return DeviceType::other;
+  }
+}
+
+/// Smaller is better: discrete, integrated, other (virtual machines), cpu.
+int rank_of(DeviceType type) {
+  switch (type) {
+    case DeviceType::discrete:
+      return 0;
+    case DeviceType::integrated:
+      return 1;
+    case DeviceType::other:
+      return 2;
+    case DeviceType::cpu:
+      break;
+  }
+  return 3;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+void add(std::string& list, std::string_view item) {
+  if (!list.empty()) list += ", ";
+  list += item;
+}
+
+void read_properties(const InstanceFunctions& f, PhysicalDevice& device) {
+  VkPhysicalDevicePushDescriptorPropertiesKHR push = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR};
+  VkPhysicalDeviceVulkan11Properties v11 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
+                                            .pNext = &push};
+  VkPhysicalDeviceVulkan12Properties v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,
+                                            .pNext = &v11};
+  VkPhysicalDeviceVulkan13Properties v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES,
+                                            .pNext = &v12};
+  VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &v13};
+  f.vkGetPhysicalDeviceProperties2(device.handle, &properties);
+  const VkPhysicalDeviceProperties& core = properties.properties;
+  device.limits = core.limits;
+  device.vendor = core.vendorID;
+  device.device = core.deviceID;
+  std::copy(std::begin(core.pipelineCacheUUID), std::end(core.pipelineCacheUUID), device.cache_uuid.begin());
+  device.max_buffer_size = v13.maxBufferSize;
+  device.max_allocation_size = v11.maxMemoryAllocationSize;
+  device.max_push_descriptors = push.maxPushDescriptors;
+  device.info.name = core.deviceName;
+  device.info.driver = std::string(v12.driverName) + " " + v12.driverInfo;
+  device.info.subgroup_size = v11.subgroupSize;
+  device.info.max_storage_range = core.limits.maxStorageBufferRange;
+  f.vkGetPhysicalDeviceMemoryProperties(device.handle, &device.memory);
+  f.vkGetPhysicalDeviceFeatures2(device.handle, device.features.chain());
+}
+
+bool has_extension(const InstanceFunctions& f, VkPhysicalDevice device, const char* name) {
+  std::uint32_t count = 0;
+  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+bool find_queue_family(const InstanceFunctions& f, PhysicalDevice& device) {
+  std::uint32_t count = 0;
+  f.vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  f.vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if ((families[i].queueFlags & kQueueNeeds) != kQueueNeeds) continue;
+    device.queue_family = i;
+    device.timestamp_bits = families[i].timestampValidBits;
+    return true;
+  }
+  return false;
+}
+
+std::string missing_features(const Features& features) {
+  std::string lacks;
+  for (const CoreFeature& f : kRequiredCore) {
+    if (features.core.features.*f.flag == VK_FALSE) add(lacks, f.name);
+  }
+  for (const Feature12& f : kRequired12) {
+    if (features.v12.*f.flag == VK_FALSE) add(lacks, f.name);
+  }
+  for (const Feature13& f : kRequired13) {
+    if (features.v13.*f.flag == VK_FALSE) add(lacks, f.name);
+  }
+  return lacks;
+}
+
+Candidate examine(const Instance& instance, VkPhysicalDevice handle, bool for_window) {
+  const InstanceFunctions& f = instance.functions();
+  Candidate candidate;
+  PhysicalDevice& device = candidate.device;
+  device.handle = handle;
+  VkPhysicalDeviceProperties properties;
+  f.vkGetPhysicalDeviceProperties(handle, &properties);
+  device.info.name = properties.deviceName;
+  device.info.type = type_of(properties.deviceType);
+  if (properties.apiVersion < VK_API_VERSION_1_3) {
+    candidate.lacks = "Vulkan 1.3";
+    return candidate;
+  }
+  read_properties(f, device);
+  candidate.lacks = missing_features(device.features);
+  if (!has_extension(f, handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) {
+    add(candidate.lacks, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+  }
+  device.can_present = for_window && has_extension(f, handle, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (for_window && !device.can_present) add(candidate.lacks, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (!find_queue_family(f, device)) add(candidate.lacks, "a queue for graphics and compute");
+  return candidate;
+}
+
+bool fits(const Candidate& candidate, const std::string& wish) {
+  const DeviceInfo& info = candidate.device.info;
+  if (wish.empty() || wish == "auto") return true;
+  if (wish == "cpu") return info.type == DeviceType::cpu;
+  if (wish == "gpu") return info.type != DeviceType::cpu;
+  return lower(info.name).find(wish) != std::string::npos;
+}
+
+Error no_device(std::string_view wish, const std::vector<Candidate>& candidates) {
+  std::string there;
+  for (const Candidate& c : candidates) {
+    std::string item = c.device.info.name + " (" + std::string(name_of(c.device.info.type));
+    if (!c.lacks.empty()) item += "; lacks " + c.lacks;
+    add(there, item + ")");
+  }
+  return {ErrorKind::no_device, "No usable Vulkan device fits \"" + std::string(wish) +
+                                    "\"; there is: " + (there.empty() ? "none at all" : there)};
+}
+
+}  // namespace
+
+VkPhysicalDeviceFeatures2* Features::chain() {
+  core.pNext = &v12;
+  v12.pNext = &v13;
+  return &core;
+}
+
+Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::string_view wish, bool for_window) {
+  const InstanceFunctions& f = instance.functions();
+  std::uint32_t count = 0;
+  VkResult result = f.vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr);
+  std::vector<VkPhysicalDevice> handles(count);
+  if (result == VK_SUCCESS) result = f.vkEnumeratePhysicalDevices(instance.handle(), &count, handles.data());
+  if (result != VK_SUCCESS && result != VK_INCOMPLETE) {
+    return Error{ErrorKind::no_device, "The Vulkan devices could not be listed: " + describe(result)};
+  }
+  std::vector<Candidate> candidates;
+  for (VkPhysicalDevice handle : handles) candidates.push_back(examine(instance, handle, for_window));
+
+  const std::string wanted = lower(wish);
+  const Candidate* best = nullptr;
+  for (const Candidate& c : candidates) {
+    if (!c.lacks.empty() || !fits(c, wanted)) continue;
+    if (best == nullptr || rank_of(c.device.info.type) < rank_of(best->device.info.type)) best = &c;
+  }
+  if (best == nullptr) return no_device(wish, candidates);
+  return best->device;
+}
+
+Features features_to_enable(const PhysicalDevice& device) {
+  Features on;
+  for (const CoreFeature& f : kRequiredCore) on.core.features.*f.flag = VK_TRUE;
+  for (const Feature12& f : kRequired12) on.v12.*f.flag = VK_TRUE;
+  for (const Feature13& f : kRequired13) on.v13.*f.flag = VK_TRUE;
+  for (auto flag : kOptionalCore) on.core.features.*flag = device.features.core.features.*flag;
+  for (auto flag : kOptional12) on.v12.*flag = device.features.v12.*flag;
+  return on;
+}
+
+}  // namespace gloam::gpu::vulkan

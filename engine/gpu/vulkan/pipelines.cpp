@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/pipelines.h"
+
+#include <array>
+#include <vector>
+
+#include "engine/gpu/vulkan/errors.h"
+#include "engine/gpu/vulkan/graphics_state.h"
+#include "engine/gpu/vulkan/shader_stages.h"
+
+namespace gloam::gpu::vulkan {
+
+Pipelines::~Pipelines() {
+  for (const Pipeline& p : table_.remove_all()) context_.vk.vkDestroyPipeline(context_.device, p.pipeline, nullptr);
+}
+
+Result<Pipeline> Pipelines::prepare(std::string_view name, std::string_view module, std::span<const ShaderCode> shaders,
+                                    std::span<const ShaderStage> stages) {
+  std::vector<SpirvReflection> reflections;
+  for (std::size_t i = 0; i < shaders.size(); ++i) {
+    Result<SpirvReflection> reflection = reflect_spirv(shaders[i]);
+    if (!reflection) {
+      return Error{ErrorKind::failed, "Pipeline \"" + std::string(name) + "\": " + reflection.error().message};
+    }
+    GLOAM_ASSERT(reflection->stage == stages[i], "a shader is used as the stage it was written for");
+    reflections.push_back(std::move(*reflection));
+  }
+  Result<ShaderInterface> shader = merge_stages(context_, name, reflections);
+  if (!shader) return shader.error();
+  const Result<const PipelineLayout*> layout = layouts_.find_or_create(*shader);
+  if (!layout) return layout.error();
+  return Pipeline{
+      .name = std::string(name), .module = std::string(module), .layout = *layout, .shader = std::move(*shader)};
+}
+
+Result<PipelineHandle> Pipelines::finish(Pipeline pipeline, VkResult result) {
+  if (result != VK_SUCCESS) return failure("Pipeline \"" + pipeline.name + "\" could not be compiled", result);
+  context_.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline.pipeline, pipeline.name);
+  return table_.insert(std::move(pipeline));
+}
+
+Result<PipelineHandle> Pipelines::create(const ComputePipelineDesc& desc) {
+  constexpr std::array kStages = {ShaderStage::compute};
+  Result<Pipeline> pipeline = prepare(desc.name, desc.module, {&desc.shader, 1}, kStages);
+  if (!pipeline) return pipeline.error();
+  ShaderStages stages(context_, desc.constants);
+  GLOAM_TRY(stages.add(desc.shader, ShaderStage::compute));
+  const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                            .stage = stages.infos().front(),
+                                            .layout = pipeline->layout->layout};
+  const VkResult result =
+      context_.vk.vkCreateComputePipelines(context_.device, cache_.handle(), 1, &info, nullptr, &pipeline->pipeline);
+  return finish(std::move(*pipeline), result);
+}
+
+Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
+  constexpr std::array kStages = {ShaderStage::vertex, ShaderStage::fragment};
+  const std::array shaders = {desc.vertex, desc.fragment};
+  const std::size_t count = desc.fragment.words.empty() ? 1 : 2;
+  Result<Pipeline> pipeline = prepare(desc.name, desc.module, std::span(shaders).first(count), kStages);
+  if (!pipeline) return pipeline.error();
+  pipeline->bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  ShaderStages stages(context_, desc.constants);
+  for (std::size_t i = 0; i < count; ++i) GLOAM_TRY(stages.add(shaders[i], kStages[i]));
+
+  const GraphicsState state(desc);
+  VkGraphicsPipelineCreateInfo info = state.info();
+  info.stageCount = static_cast<std::uint32_t>(stages.infos().size());
+  info.pStages = stages.infos().data();
+  info.layout = pipeline->layout->layout;
+  const VkResult result =
+      context_.vk.vkCreateGraphicsPipelines(context_.device, cache_.handle(), 1, &info, nullptr, &pipeline->pipeline);
+  return finish(std::move(*pipeline), result);
+}
+
+void Pipelines::destroy(PipelineHandle handle) {
+  graveyard_.bury([this, pipeline = table_.remove(handle).pipeline] {
+    context_.vk.vkDestroyPipeline(context_.device, pipeline, nullptr);
+  });
+}
+
+std::uint32_t Pipelines::count(std::string_view module) const {
+  std::uint32_t count = 0;
+  table_.for_each([&](const Pipeline& pipeline) { count += pipeline.module == module ? 1 : 0; });
+  return count;
+}
+
+}  // namespace gloam::gpu::vulkan

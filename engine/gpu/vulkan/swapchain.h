@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/gpu/vulkan/device.h"
+#include "engine/gpu/vulkan_device.h"
+
+namespace gloam::gpu::vulkan {
+
+/// A window's pictures: 8 bits a channel, stored as they are shown (whoever writes them encodes for the display), shown in step
+/// with the display.
+class VulkanSwapchain final : public Swapchain {
+ public:
+  static Result<std::unique_ptr<Swapchain>> create(VulkanDevice& device, VkSurfaceKHR surface);
+  ~VulkanSwapchain() override;
+
+  [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height) override;
+  [[nodiscard]] Result<ImageHandle> acquire() override;
+  [[nodiscard]] Status present() override;
+
+ private:
+  static constexpr std::uint32_t kNone = ~0u;
+
+  VulkanSwapchain(VulkanDevice& device, VkSurfaceKHR surface) : device_(device), surface_(surface) {}
+  Status check_surface();
+  Status make_acquire_semaphores();
+  Status make_swapchain(const VkSurfaceCapabilitiesKHR& capabilities, VkExtent2D extent);
+  Status adopt_images(VkExtent2D extent);
+  void forget_images();
+  Result<VkSemaphore> make_semaphore(std::string_view name);
+
+  VulkanDevice& device_;
+  VkSurfaceKHR surface_;
+  VkSurfaceFormatKHR format_ = {};
+  VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+  bool stale_ = true;  ///< the window has another size, or there is none
+  std::uint32_t acquired_ = kNone;
+  std::vector<ImageHandle> images_;
+  std::vector<VkSemaphore> rendered_;  ///< one a picture: presenting waits for it
+  std::array<VkSemaphore, Device::kFramesInFlight> available_ = {};
+};
+
+}  // namespace gloam::gpu::vulkan

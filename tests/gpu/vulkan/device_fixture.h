@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "engine/gpu/device.h"
+#include "tests/support/gpu_device.h"
+
+namespace gloam::gpu {
+
+/// A validated device a test; a validation message fails the test.
+class VulkanTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    device_ = test::make_test_device();
+    GLOAM_REQUIRE_GPU(device_);
+  }
+  void TearDown() override {
+    if (device_) {
+      EXPECT_EQ(device_->validation_messages(), 0u);
+    }
+  }
+  [[nodiscard]] Device& device() { return *device_; }
+
+  [[nodiscard]] std::uint64_t bytes_of(std::string_view module) {
+    for (const ModuleMemory& m : device_->memory()) {
+      if (m.module == module) return m.bytes;
+    }
+    return 0;
+  }
+
+  /// Copies mip 0 of one layer into a fresh readback buffer; the image is left in transfer_read.
+  [[nodiscard]] BufferHandle read_layer(CommandList& commands, ImageHandle image, Access before,
+                                        std::uint32_t layer = 0, std::uint32_t mip = 0) {
+    const ImageDesc& desc = device_->desc(image);
+    const std::uint64_t bytes = std::uint64_t{std::max(desc.width >> mip, 1u)} * std::max(desc.height >> mip, 1u) *
+                                bytes_per_texel(desc.format);
+    const BufferHandle target = test::make_readback(*device_, bytes);
+    const ImageBarrier to_read = {.image = image, .before = before, .after = Access::transfer_read};
+    commands.barrier({}, {&to_read, 1});
+    commands.copy_image_to_buffer(image, mip, layer, target, 0);
+    const BufferBarrier to_host = {.buffer = target, .before = Access::transfer_write, .after = Access::host_read};
+    commands.barrier({&to_host, 1}, {});
+    return target;
+  }
+
+  static void to(CommandList& commands, ImageHandle image, Access before, Access after) {
+    const ImageBarrier barrier = {.image = image, .before = before, .after = after};
+    commands.barrier({}, {&barrier, 1});
+  }
+  static void to(CommandList& commands, BufferHandle buffer, Access before, Access after) {
+    const BufferBarrier barrier = {.buffer = buffer, .before = before, .after = after};
+    commands.barrier({&barrier, 1}, {});
+  }
+
+  std::unique_ptr<Device> device_;
+};
+
+}  // namespace gloam::gpu
