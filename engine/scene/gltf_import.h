@@ -24,7 +24,8 @@ struct SceneInfo {
   std::string name;
   std::vector<Entity> node_entities;  ///< by glTF node index; kNoEntity for nodes outside the chosen scene
   std::vector<Entity> cameras;        ///< in file order of their nodes
-  std::uint64_t triangles = 0;
+  std::uint64_t triangles = 0;         ///< of all mesh nodes of the scene
+  std::uint64_t replaced_normals = 0;  ///< normals without length that got a direction from the faces around them
   std::vector<std::string> warnings;  ///< also sent to the log
 };
 

@@ -19,7 +19,11 @@ namespace gloam {
 /// What a scene key may stand on. `light_node`: a node with a light; `mesh_node`, `camera_node` alike; `node`: any node.
 enum class KeyElement { node, light_node, mesh_node, camera_node, material, scene };
 
+// GCC takes scoped enumerators that are spelled like a type for shadowing.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
 enum class KeyType { boolean, number, integer, text, choice, vec2, vec3 };
+#pragma GCC diagnostic pop
 
 /// A checked value: boolean → bool, number → double, integer → long long, text and choice → string.
 using KeyValue = std::variant<bool, double, long long, std::string, vec2, vec3>;

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+
+namespace gloam::gltf {
+
+/// A .gltf or .glb in memory; which of the two, its first bytes say, not its name.
+struct Container {
+  std::vector<std::uint8_t> bytes;
+  bool binary = false;
+  bool has_binary_chunk = false;
+  std::size_t json_offset = 0;
+  std::size_t json_size = 0;
+
+  [[nodiscard]] std::string_view json() const {
+    return {reinterpret_cast<const char*>(bytes.data()) + json_offset, json_size};
+  }
+};
+
+/// Takes apart what read_scene_file gave. Every length of a .glb's chunks is checked. The error is the fault alone.
+[[nodiscard]] Result<Container> open_container(std::vector<std::uint8_t> bytes);
+
+}  // namespace gloam::gltf

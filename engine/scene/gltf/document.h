@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/math/types.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/components.h"
+
+/// What a glTF file says, in plain structs: references are indices, kNone where absent. Nothing is checked until
+/// check_document has passed it.
+namespace gloam::gltf {
+
+struct BufferView {
+  std::uint32_t buffer = kNone;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;
+  std::uint64_t stride = 0;  ///< bytes; 0: packed
+};
+
+/// Values of glTF's componentType.
+enum class ComponentType : std::uint32_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
+
+/// Elements that replace some of an accessor's.
+struct SparseSource {
+  std::uint64_t count = 0;
+  std::uint32_t index_view = kNone;
+  std::uint64_t index_offset = 0;
+  ComponentType index_type = ComponentType::u16;
+  std::uint32_t value_view = kNone;
+  std::uint64_t value_offset = 0;
+};
+
+struct Accessor {
+  std::uint32_t view = kNone;  ///< kNone: all zero
+  std::uint64_t offset = 0;
+  std::uint64_t count = 0;
+  ComponentType component_type = ComponentType::f32;
+  std::uint32_t components = 1;  ///< 1…4, or 16 for a 4×4 matrix; 0: a kind that nothing here uses
+  bool normalized = false;
+  std::optional<SparseSource> sparse;
+};
+
+/// Accessors of one primitive.
+struct PrimitiveSource {
+  int mode = 4;
+  std::uint32_t material = kNone;
+  std::uint32_t indices = kNone;
+  std::uint32_t position = kNone;
+  std::uint32_t normal = kNone;
+  std::uint32_t tangent = kNone;
+  std::uint32_t uv0 = kNone;
+  std::uint32_t uv1 = kNone;
+  std::uint32_t color = kNone;
+  std::uint32_t joints = kNone;
+  std::uint32_t weights = kNone;
+  bool more_influences = false;  ///< there is a second set of joints
+  struct Target {
+    std::uint32_t position = kNone;
+    std::uint32_t normal = kNone;
+  };
+  std::vector<Target> targets;
+};
+
+struct MeshSource {
+  std::string name;
+  std::vector<PrimitiveSource> primitives;
+  std::vector<double> weights;
+};
+
+/// Exactly one of uri, view and bytes says where the file is.
+struct ImageSource {
+  std::string name;
+  std::string uri;
+  std::uint32_t view = kNone;
+  std::vector<std::uint8_t> bytes;
+};
+
+struct TextureSource {
+  std::string name;
+  std::uint32_t image = kNone;
+  std::uint32_t sampler = kNone;
+};
+
+struct SamplerSource {
+  bool nearest = false;
+  int wrap_u = 10497;
+  int wrap_v = 10497;
+};
+
+struct SkinSource {
+  std::string name;
+  std::vector<std::uint32_t> joints;
+  std::uint32_t inverse_bind = kNone;
+};
+
+struct AnimationSource {
+  std::string name;
+  struct Sampler {
+    std::uint32_t input = kNone;
+    std::uint32_t output = kNone;
+    std::string interpolation;
+  };
+  struct Channel {
+    std::uint32_t sampler = kNone;
+    std::uint32_t node = kNone;
+    std::string path;
+  };
+  std::vector<Sampler> samplers;
+  std::vector<Channel> channels;
+};
+
+struct CameraSource {
+  std::string name;
+  bool orthographic = false;
+  double yfov = 0.0;
+  double xmag = 0.0;
+  double ymag = 0.0;
+  double znear = 0.0;
+  double zfar = 0.0;
+};
+
+struct NodeSource {
+  std::string name;
+  std::vector<std::uint32_t> children;
+  std::uint32_t mesh = kNone;
+  std::uint32_t skin = kNone;
+  std::uint32_t camera = kNone;
+  std::optional<dmat4> matrix;
+  LocalTransform pose;
+  std::vector<double> weights;
+  std::uint32_t parent = kNone;  ///< filled by check_node_tree
+};
+
+struct SceneSource {
+  std::string name;
+  std::vector<std::uint32_t> nodes;
+};
+
+struct Document {
+  std::vector<std::vector<std::uint8_t>> buffers;
+  std::vector<BufferView> views;
+  std::vector<Accessor> accessors;
+  std::vector<MeshSource> meshes;
+  std::vector<Material> materials;  ///< slots hold indices into `textures`
+  std::vector<TextureSource> textures;
+  std::vector<SamplerSource> samplers;
+  std::vector<ImageSource> images;
+  std::vector<SkinSource> skins;
+  std::vector<AnimationSource> animations;
+  std::vector<CameraSource> cameras;
+  std::vector<NodeSource> nodes;
+  std::vector<SceneSource> scenes;
+  std::uint32_t default_scene = kNone;
+  std::vector<std::string> warnings;  ///< place and fault
+};
+
+}  // namespace gloam::gltf

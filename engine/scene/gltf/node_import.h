@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/ecs/world.h"
+#include "engine/scene/gltf/document.h"
+#include "engine/scene/gltf/poses.h"
+
+namespace gloam::gltf {
+
+/// Makes one entity a node of the scene, in node order, with its pose, mesh, camera and names. The world is prepared.
+/// joint_counts: by mesh, one past the largest joint it names. Returns the entities by node, kNoEntity for those not in the scene.
+[[nodiscard]] Result<std::vector<Entity>> import_nodes(Document& document, const SceneNodeOrder& nodes,
+                                                       std::span<const std::uint32_t> joint_counts, World& world);
+
+}  // namespace gloam::gltf

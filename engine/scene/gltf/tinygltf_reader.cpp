@@ -1,0 +1,352 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/scene/gltf/tinygltf_reader.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "engine/scene/gltf/place.h"
+#include "engine/scene/scene_path.h"
+
+namespace gloam::gltf {
+namespace {
+
+std::uint32_t index_of(int value) { return value < 0 ? kNone : static_cast<std::uint32_t>(value); }
+
+std::vector<std::uint32_t> indices_of(const std::vector<int>& values) {
+  std::vector<std::uint32_t> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(), index_of);
+  return result;
+}
+
+// ---- files ----
+
+/// tinygltf asks for files in the order of buffers, then images.
+struct FileRequests {
+  const JsonScan& scan;
+  const std::string& directory;
+  std::size_t buffer = 0;  ///< next to look at
+  std::string fault;
+};
+
+bool file_exists(const std::string&, void*) { return true; }
+std::string same_path(const std::string& path, void*) { return path; }
+bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+
+/// Ignores the path, which tinygltf has decoded in its own way: the URI as written is in the scan.
+bool read_file(std::vector<unsigned char>* out, std::string*, const std::string&, void* user) {
+  auto& requests = *static_cast<FileRequests*>(user);
+  const std::vector<ByteSource>& buffers = requests.scan.buffers;
+  std::size_t& i = requests.buffer;
+  while (i < buffers.size() && (buffers[i].uri.empty() || buffers[i].data_uri)) ++i;
+  if (i >= buffers.size()) {
+    out->assign(1, 0);  // an image: its file is read when it is decoded
+    return true;
+  }
+  const std::string where = place("buffer", i);
+  const ByteSource& source = buffers[i++];
+  Result<std::string> path = resolve_scene_path(requests.directory, source.uri);
+  if (!path) {
+    requests.fault = where + ": " + path.error().message;
+    return false;
+  }
+  Result<std::vector<std::uint8_t>> bytes = read_scene_file(*path, source.byte_length);
+  if (!bytes) {
+    requests.fault = where + ": " + bytes.error().message;
+    return false;
+  }
+  *out = std::move(*bytes);
+  return true;
+}
+
+/// Keeps the bytes of images that stand in the text; others have a URI or a buffer view by which they are found later.
+bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
+                void*) {
+  if (image->uri.empty() && image->bufferView < 0) image->image.assign(bytes, bytes + size);
+  return true;
+}
+
+Status check_byte_sources(const JsonScan& scan, const Container& file) {
+  for (std::size_t i = 0; i < scan.buffers.size(); ++i) {
+    const ByteSource& source = scan.buffers[i];
+    if (source.byte_length == 0) return fault_at(place("buffer", i), "byteLength must be ≥ 1");
+    if (source.uri.empty() && !(file.binary && i == 0 && file.has_binary_chunk))
+      return fault_at(place("buffer", i), "it has no uri, and there is no binary chunk for it");
+    if (source.data_uri && !tinygltf::IsDataURI(source.uri))
+      return fault_at(place("buffer", i), "its data URI must be application/octet-stream in base64");
+  }
+  return {};
+}
+
+Result<tinygltf::Model> load_model(const Container& file, const JsonScan& scan, const std::string& directory) {
+  FileRequests requests{scan, directory, 0, {}};
+  tinygltf::TinyGLTF loader;
+  loader.SetFsCallbacks({&file_exists, &same_path, &read_file, &write_nothing, &requests});
+  loader.SetImageLoader(&keep_image, nullptr);
+  tinygltf::Model model;
+  std::string errors;
+  std::string warnings;
+  const auto size = static_cast<unsigned int>(file.bytes.size());
+  bool loaded = false;
+  try {
+    loaded = file.binary ? loader.LoadBinaryFromMemory(&model, &errors, &warnings, file.bytes.data(), size, "")
+                         : loader.LoadASCIIFromString(&model, &errors, &warnings, file.json().data(), size, "");
+  } catch (const std::exception& exception) {
+    errors = exception.what();
+  }
+  if (loaded) return model;
+  if (!requests.fault.empty()) return Error{ErrorKind::input, requests.fault};
+  const std::size_t failed = model.buffers.size();
+  if (failed < scan.buffers.size() && scan.buffers[failed].data_uri)
+    return fault_at(place("buffer", failed), "its data URI does not hold byteLength = " +
+                                                 std::to_string(scan.buffers[failed].byte_length) + " bytes of base64");
+  return fault_at("the file", one_line(errors.substr(0, errors.find('\n')), 200));
+}
+
+// ---- geometry ----
+
+std::uint32_t component_count(int type) {
+  switch (type) {
+    case TINYGLTF_TYPE_SCALAR:
+      return 1;
+    case TINYGLTF_TYPE_VEC2:
+      return 2;
+    case TINYGLTF_TYPE_VEC3:
+      return 3;
+    case TINYGLTF_TYPE_VEC4:
+      return 4;
+    case TINYGLTF_TYPE_MAT4:
+      return 16;
+    default:
+      return 0;
+  }
+}
+
+Accessor translate(const tinygltf::Accessor& source) {
+  Accessor accessor;
+  accessor.view = index_of(source.bufferView);
+  accessor.offset = source.byteOffset;
+  accessor.count = source.count;
+  accessor.component_type = static_cast<ComponentType>(source.componentType);
+  accessor.components = component_count(source.type);
+  accessor.normalized = source.normalized;
+  if (source.sparse.isSparse) {
+    SparseSource sparse;
+    sparse.count = static_cast<std::uint64_t>(source.sparse.count);
+    sparse.index_view = index_of(source.sparse.indices.bufferView);
+    sparse.index_offset = static_cast<std::uint64_t>(source.sparse.indices.byteOffset);
+    sparse.index_type = static_cast<ComponentType>(source.sparse.indices.componentType);
+    sparse.value_view = index_of(source.sparse.values.bufferView);
+    sparse.value_offset = static_cast<std::uint64_t>(source.sparse.values.byteOffset);
+    accessor.sparse = sparse;
+  }
+  return accessor;
+}
+
+std::uint32_t attribute(const std::map<std::string, int>& attributes, const char* name) {
+  const auto found = attributes.find(name);
+  return found == attributes.end() ? kNone : index_of(found->second);
+}
+
+PrimitiveSource translate(const tinygltf::Primitive& source) {
+  PrimitiveSource primitive;
+  primitive.mode = source.mode;
+  primitive.material = index_of(source.material);
+  primitive.indices = index_of(source.indices);
+  primitive.position = attribute(source.attributes, "POSITION");
+  primitive.normal = attribute(source.attributes, "NORMAL");
+  primitive.tangent = attribute(source.attributes, "TANGENT");
+  primitive.uv0 = attribute(source.attributes, "TEXCOORD_0");
+  primitive.uv1 = attribute(source.attributes, "TEXCOORD_1");
+  primitive.color = attribute(source.attributes, "COLOR_0");
+  primitive.joints = attribute(source.attributes, "JOINTS_0");
+  primitive.weights = attribute(source.attributes, "WEIGHTS_0");
+  primitive.more_influences = attribute(source.attributes, "JOINTS_1") != kNone;
+  for (const std::map<std::string, int>& target : source.targets)
+    primitive.targets.push_back({attribute(target, "POSITION"), attribute(target, "NORMAL")});
+  return primitive;
+}
+
+MeshSource translate(const tinygltf::Mesh& source) {
+  MeshSource mesh;
+  mesh.name = source.name;
+  mesh.weights = source.weights;
+  for (const tinygltf::Primitive& primitive : source.primitives) mesh.primitives.push_back(translate(primitive));
+  return mesh;
+}
+
+// ---- materials ----
+
+/// Numbers of an extension's member; the scan has checked how many.
+double number_at(const tinygltf::Value& list, int i) { return list.Get(i).GetNumberAsDouble(); }
+
+TextureSlot translate_slot(int index, int uv_set, const tinygltf::ExtensionMap& extensions) {
+  TextureSlot slot;
+  slot.texture = index_of(index);
+  slot.uv_set = index_of(uv_set);
+  const auto found = extensions.find("KHR_texture_transform");
+  if (found == extensions.end()) return slot;
+  const tinygltf::Value& transform = found->second;
+  double offset[2] = {0.0, 0.0};
+  double scale[2] = {1.0, 1.0};
+  double rotation = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    if (transform.Has("offset")) offset[i] = number_at(transform.Get("offset"), i);
+    if (transform.Has("scale")) scale[i] = number_at(transform.Get("scale"), i);
+  }
+  if (transform.Has("rotation")) rotation = transform.Get("rotation").GetNumberAsDouble();
+  if (transform.Has("texCoord")) slot.uv_set = index_of(transform.Get("texCoord").GetNumberAsInt());
+  // KHR_texture_transform: translation · rotation · scale, rotation counter-clockwise with v pointing down.
+  const double c = std::cos(rotation);
+  const double s = std::sin(rotation);
+  slot.transform_row0 = vec3(c * scale[0], s * scale[1], offset[0]);
+  slot.transform_row1 = vec3(-s * scale[0], c * scale[1], offset[1]);
+  return slot;
+}
+
+template <class Info>
+TextureSlot translate_slot(const Info& info) {
+  return translate_slot(info.index, info.texCoord, info.extensions);
+}
+
+float unit_number(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
+
+Result<Material> translate(const tinygltf::Material& source) {
+  const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+  Material material;
+  material.name = source.name;
+  for (int i = 0; i < 4; ++i) material.base_color[i] = unit_number(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
+  double strength = 1.0;
+  if (const auto found = source.extensions.find("KHR_materials_emissive_strength");
+      found != source.extensions.end() && found->second.Has("emissiveStrength"))
+    strength = std::max(found->second.Get("emissiveStrength").GetNumberAsDouble(), 0.0);
+  for (int i = 0; i < 3; ++i)
+    material.emissive[i] =
+        static_cast<float>(unit_number(source.emissiveFactor[static_cast<std::size_t>(i)]) * strength);
+  material.metallic = unit_number(pbr.metallicFactor);
+  material.roughness = unit_number(pbr.roughnessFactor);
+  material.normal_scale = static_cast<float>(source.normalTexture.scale);
+  material.occlusion_strength = unit_number(source.occlusionTexture.strength);
+  material.alpha_cutoff = static_cast<float>(std::max(source.alphaCutoff, 0.0));
+  if (!std::isfinite(material.normal_scale) || !std::isfinite(material.alpha_cutoff) ||
+      !std::isfinite(material.emissive.x + material.emissive.y + material.emissive.z))
+    return Error{ErrorKind::input, "a factor is too large"};
+  material.double_sided = source.doubleSided;
+  if (source.alphaMode == "MASK")
+    material.alpha_mode = AlphaMode::mask;
+  else if (source.alphaMode == "BLEND")
+    material.alpha_mode = AlphaMode::blend;
+  else if (source.alphaMode != "OPAQUE")
+    return Error{ErrorKind::input,
+                 "alphaMode must be \"OPAQUE\", \"MASK\" or \"BLEND\", is " + in_quotes(source.alphaMode)};
+  material.base_color_texture = translate_slot(pbr.baseColorTexture);
+  material.metallic_roughness_texture = translate_slot(pbr.metallicRoughnessTexture);
+  material.normal_texture = translate_slot(source.normalTexture);
+  material.occlusion_texture = translate_slot(source.occlusionTexture);
+  material.emissive_texture = translate_slot(source.emissiveTexture);
+  return material;
+}
+
+ImageSource translate(tinygltf::Image&& source) {
+  ImageSource image;
+  image.name = source.name;
+  image.uri = source.uri;
+  image.view = index_of(source.bufferView);
+  image.bytes = std::move(source.image);
+  return image;
+}
+
+// ---- scene ----
+
+dvec3 vec3_of(const std::vector<double>& values, const dvec3& otherwise) {
+  return values.size() == 3 ? dvec3(values[0], values[1], values[2]) : otherwise;
+}
+
+NodeSource translate(const tinygltf::Node& source) {
+  NodeSource node;
+  node.name = source.name;
+  node.children = indices_of(source.children);
+  node.mesh = index_of(source.mesh);
+  node.skin = index_of(source.skin);
+  node.camera = index_of(source.camera);
+  node.weights = source.weights;
+  if (source.matrix.size() == 16) {
+    dmat4 matrix;
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = source.matrix[static_cast<std::size_t>(i)];
+    node.matrix = matrix;
+  }
+  node.pose.translation = vec3_of(source.translation, dvec3(0.0));
+  node.pose.scale = vec3_of(source.scale, dvec3(1.0));
+  if (const std::vector<double>& r = source.rotation; r.size() == 4) node.pose.rotation = dquat(r[3], r[0], r[1], r[2]);
+  return node;
+}
+
+SkinSource translate(const tinygltf::Skin& source) {
+  return {source.name, indices_of(source.joints), index_of(source.inverseBindMatrices)};
+}
+
+AnimationSource translate(const tinygltf::Animation& source) {
+  AnimationSource animation;
+  animation.name = source.name;
+  for (const tinygltf::AnimationSampler& sampler : source.samplers)
+    animation.samplers.push_back({index_of(sampler.input), index_of(sampler.output), sampler.interpolation});
+  for (const tinygltf::AnimationChannel& channel : source.channels)
+    animation.channels.push_back({index_of(channel.sampler), index_of(channel.target_node), channel.target_path});
+  return animation;
+}
+
+CameraSource translate(const tinygltf::Camera& source) {
+  CameraSource camera;
+  camera.name = source.name;
+  camera.orthographic = source.type == "orthographic";
+  camera.yfov = source.perspective.yfov;
+  camera.xmag = source.orthographic.xmag;
+  camera.ymag = source.orthographic.ymag;
+  camera.znear = camera.orthographic ? source.orthographic.znear : source.perspective.znear;
+  camera.zfar = camera.orthographic ? source.orthographic.zfar : source.perspective.zfar;
+  return camera;
+}
+
+template <class From, class To>
+void translate_all(const std::vector<From>& from, std::vector<To>& to) {
+  to.reserve(from.size());
+  for (const From& item : from) to.push_back(translate(item));
+}
+
+}  // namespace
+
+Result<Document> read_document(const Container& file, const JsonScan& scan, const std::string& directory) {
+  GLOAM_TRY(check_byte_sources(scan, file));
+  Result<tinygltf::Model> loaded = load_model(file, scan, directory);
+  if (!loaded) return loaded.error();
+  tinygltf::Model& model = *loaded;
+  Document document;
+  for (tinygltf::Buffer& buffer : model.buffers) document.buffers.push_back(std::move(buffer.data));
+  for (const tinygltf::BufferView& view : model.bufferViews)
+    document.views.push_back({index_of(view.buffer), view.byteOffset, view.byteLength, view.byteStride});
+  translate_all(model.accessors, document.accessors);
+  translate_all(model.meshes, document.meshes);
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    Result<Material> material = translate(model.materials[i]);
+    if (!material) return fault_at(place("material", i, model.materials[i].name), material.error().message);
+    document.materials.push_back(std::move(*material));
+  }
+  for (const tinygltf::Texture& texture : model.textures)
+    document.textures.push_back({texture.name, index_of(texture.source), index_of(texture.sampler)});
+  for (const tinygltf::Sampler& sampler : model.samplers)
+    document.samplers.push_back({sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST, sampler.wrapS, sampler.wrapT});
+  for (tinygltf::Image& image : model.images) document.images.push_back(translate(std::move(image)));
+  translate_all(model.skins, document.skins);
+  translate_all(model.animations, document.animations);
+  translate_all(model.cameras, document.cameras);
+  translate_all(model.nodes, document.nodes);
+  for (const tinygltf::Scene& scene : model.scenes) document.scenes.push_back({scene.name, indices_of(scene.nodes)});
+  document.default_scene = index_of(model.defaultScene);
+  return document;
+}
+
+}  // namespace gloam::gltf

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/log.h"
+#include "engine/core/result.h"
+#include "engine/ecs/world.h"
+#include "engine/scene/gltf_import.h"
+#include "engine/scene/key_registry.h"
+
+namespace gloam::test {
+
+/// A folder of its own below the system's temporary one; removed with everything in it at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  /// Writes a file, with the folders it needs, and returns its path.
+  std::string write(const std::string& name, std::string_view content) const;
+  std::string write(const std::string& name, std::span<const std::uint8_t> content) const;
+
+ private:
+  std::string path_;
+};
+
+/// Writes glTF files bit by bit. Arrays of the root are lists of JSON texts; numbers go into one buffer, which is embedded.
+class GltfText {
+ public:
+  /// Appends an item to an array of the root and returns its index.
+  int add(const std::string& array, const std::string& json);
+  /// Sets any other member of the root.
+  void set(const std::string& member, const std::string& json) { members_[member] = json; }
+
+  /// Appends bytes (4-aligned) to the buffer as a buffer view and returns its index. `more`: further members, ", \"byteStride\": 8".
+  int view(std::span<const std::byte> bytes, const std::string& more = {});
+  /// Values as an accessor of their own view. component_type as glTF numbers it; type "SCALAR", "VEC3", …
+  template <class T>
+  int accessor(const std::vector<T>& values, int component_type, const std::string& type, const std::string& more = {}) {
+    return accessor(view(std::as_bytes(std::span(values))), values.size(), component_type, type, more);
+  }
+  int floats(const std::vector<float>& values, const std::string& type) { return accessor(values, 5126, type); }
+  /// A mesh with one primitive; `attributes` like "\"POSITION\": 0", `more` like ", \"indices\": 1".
+  int mesh(const std::string& attributes, const std::string& more = {});
+  /// A mesh of one triangle (0,0,0), (1,0,0), (0,1,0).
+  int triangle();
+
+  /// The whole file, the buffer as a data URI; with `uri`, the buffer is that file instead.
+  [[nodiscard]] std::string text(const std::string& uri = {}) const;
+  [[nodiscard]] std::vector<std::uint8_t> glb() const;
+  [[nodiscard]] const std::vector<std::uint8_t>& buffer() const { return buffer_; }
+
+ private:
+  int accessor(int view, std::size_t values, int component_type, const std::string& type, const std::string& more);
+  [[nodiscard]] std::string json(const std::string& buffer) const;
+
+  std::map<std::string, std::vector<std::string>> arrays_;
+  std::map<std::string, std::string> members_ = {{"asset", R"({"version": "2.0"})"}};
+  std::vector<std::uint8_t> buffer_;
+};
+
+[[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);
+/// Header, JSON chunk, BIN chunk (none when empty), padded as they must be.
+[[nodiscard]] std::vector<std::uint8_t> make_glb(std::string json, std::span<const std::uint8_t> bin);
+
+/// Pictures of one colour, RGBA.
+[[nodiscard]] std::vector<std::uint8_t> make_png(int width, int height, std::span<const std::uint8_t, 4> color);
+[[nodiscard]] std::vector<std::uint8_t> make_jpeg(int width, int height, std::span<const std::uint8_t, 4> color);
+
+/// Keys that record nothing but stand where the engine's modules' do: gloam.light.width (light node, number ≥ 0 m),
+/// gloam.closeup (node, boolean), gloam.grass.density (mesh node), gloam.dof.focus (camera node), and KHR_lights_punctual,
+/// whose nodes count as lights. Beside the engine's own.
+[[nodiscard]] KeyRegistry light_registry();
+
+/// One import into a world of its own.
+struct Import {
+  World world;
+  Result<SceneInfo> result = Error{};
+  std::vector<std::string> log;
+
+  [[nodiscard]] bool ok() const { return result.ok(); }
+  /// "" when it went well.
+  [[nodiscard]] std::string fault() const { return ok() ? "" : result.error().message; }
+  [[nodiscard]] const SceneInfo& info() const { return result.value(); }
+  [[nodiscard]] Entity node(std::size_t index) const { return info().node_entities[index]; }
+};
+
+/// Imports a file into `import.world`, serially.
+void import_file(const std::string& path, Import& import, const ImportOptions& options = {},
+                 const KeyRegistry& registry = light_registry());
+/// Writes the text as scene.gltf into a folder of its own first.
+void import_text(const std::string& text, Import& import, const ImportOptions& options = {},
+                 const KeyRegistry& registry = light_registry());
+
+}  // namespace gloam::test
