@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+# The umbrella target gloam::gloam, and the package that find_package(gloam) finds. Everything is in the install component
+# "gloam", so that `cmake --install <build> --component gloam` needs the libraries only.
+include(CMakePackageConfigHelpers)
+
+get_property(gloam_layers GLOBAL PROPERTY GLOAM_LAYERS)
+list(FILTER gloam_layers EXCLUDE REGEX "^gloam_(sandbox|shaders_sandbox|shaders_.*_test)$")
+
+add_library(gloam_gloam INTERFACE)
+add_library(gloam::gloam ALIAS gloam_gloam)
+set_target_properties(gloam_gloam PROPERTIES EXPORT_NAME gloam)
+target_link_libraries(gloam_gloam INTERFACE ${gloam_layers})
+set_target_properties(gloam_options PROPERTIES EXPORT_NAME options)
+
+# Packages that the layers' targets name, for gloamConfig.cmake: a pattern of target names and the package each.
+set(gloam_packages
+  "^Threads::" Threads "^glm::" glm "^TBB::" TBB "^Vulkan::" Vulkan "^TinyGLTF::" TinyGLTF "^OpenMesh" OpenMesh
+  "^(OpenEXR|Imath)::" OpenEXR "^meshoptimizer::" meshoptimizer "^nlohmann_json::" nlohmann_json "^embree" embree)
+set(GLOAM_FIND_DEPENDENCIES "")
+set(gloam_links "")
+foreach(layer IN LISTS gloam_layers)
+  get_target_property(links ${layer} LINK_LIBRARIES)
+  list(APPEND gloam_links ${links})
+endforeach()
+list(REMOVE_DUPLICATES gloam_links)
+while(gloam_packages)
+  list(POP_FRONT gloam_packages pattern package)
+  set(matches ${gloam_links})
+  list(FILTER matches INCLUDE REGEX "${pattern}")
+  if(matches)
+    string(APPEND GLOAM_FIND_DEPENDENCIES "find_dependency(${package})\n")
+  endif()
+endwhile()
+
+set(gloam_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gloam)
+install(TARGETS ${gloam_layers} gloam_options gloam_gloam EXPORT gloamTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT gloam)
+install(EXPORT gloamTargets NAMESPACE gloam:: DESTINATION ${gloam_package_dir} COMPONENT gloam)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/gloamConfig.cmake.in ${PROJECT_BINARY_DIR}/gloamConfig.cmake
+  INSTALL_DESTINATION ${gloam_package_dir} NO_SET_AND_CHECK_MACRO)
+# Below 1.0 a minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/gloamConfig.cmake ${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake
+  DESTINATION ${gloam_package_dir} COMPONENT gloam)
+
+# Headers keep their paths from the root. Of modules only what others may see; Vulkan stays behind engine/gpu.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION include COMPONENT gloam
+  FILES_MATCHING PATTERN "*.h" PATTERN "engine/gpu/vulkan" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION include COMPONENT gloam
+  FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|module_list)\\.h$")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION include COMPONENT gloam
+  FILES_MATCHING REGEX "_shared\\.h$|/shaders/common/[a-z_]+\\.h$" PATTERN "*_test" EXCLUDE)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/shaders DESTINATION include COMPONENT gloam
+  FILES_MATCHING PATTERN "shaders.h" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)

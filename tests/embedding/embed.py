@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""Installs, configures, builds and runs the embedding host. usage: embed.py CMAKE HOST_SOURCE BUILD [CMAKE_ARGUMENT…]"""
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+OURS = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]((?:engine|modules|shaders)/[^">]+)[">]', re.MULTILINE)
+PRIVATE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*[\"<](?:vulkan/|volk|GLFW/|imgui|tiny_gltf|OpenMesh/|nlohmann/)", re.MULTILINE)
+
+
+def run(*command):
+    print("$", *command, flush=True)
+    subprocess.run(command, check=True)
+
+
+def header_faults(include):
+    """Headers that name project headers which were not installed, or private libraries."""
+    faults = []
+    headers = sorted(include.rglob("*.h"))
+    for header in headers:
+        text = header.read_text(encoding="utf-8")
+        name = header.relative_to(include).as_posix()
+        faults += [f"{name} includes {path}, which is not installed" for path in OURS.findall(text)
+                   if not (include / path).is_file()]
+        faults += [f"{name} carries a private library: {line.strip()}" for line in PRIVATE.findall(text)]
+    return faults if headers else ["no headers were installed"]
+
+
+def main(cmake, source, build, *arguments):
+    work = Path(build) / "embedding"
+    prefix = work / "prefix"
+    shutil.rmtree(prefix, ignore_errors=True)
+    shutil.rmtree(work / "host", ignore_errors=True)
+    run(cmake, "--install", build, "--prefix", prefix, "--component", "gloam")
+    faults = header_faults(prefix / "include")
+    if faults:
+        sys.exit("\n".join(faults))
+    run(cmake, "-S", source, "-B", work / "host", f"-DCMAKE_PREFIX_PATH={prefix}", *arguments)
+    run(cmake, "--build", work / "host", "--parallel", "2")
+    run(work / "host" / "host")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

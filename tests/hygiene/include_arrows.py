@@ -1,0 +1,190 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""Fails on an include against the arrows of the architecture. usage: include_arrows.py ROOT
+
+An owner is a layer (engine/ecs), a module (modules/lights), the sandbox or the tests; shaders/<name> belongs to the layer or
+module of that name."""
+import re
+import sys
+from pathlib import Path
+
+import source_text
+
+# Layer: what it may include directly; closed transitively below.
+LAYERS = {
+    "core": (), "math": ("core",), "jobs": ("core",), "ecs": ("core", "jobs"), "schedule": ("ecs", "jobs"),
+    "gpu": ("core", "math", "jobs"), "frame": ("gpu",), "scene": ("ecs", "schedule", "math"),
+    "render": ("schedule", "frame", "scene"),
+}
+MODULES = {
+    "lights": (), "shadows": ("lights",), "closeups": ("shadows",), "lighting": ("closeups",),
+    "reflections": ("lighting",), "grass": ("lighting",), "particles": ("lighting",),
+    "depth_of_field": ("reflections", "grass", "particles"),
+    "visualizers": ("depth_of_field",), "accuracy": ("depth_of_field",),
+}
+MODULE_LIST = "module_list"  # names every module; no module stands on it
+MODULE_PUBLIC = ("components.h", "module.h", "outputs.h")
+
+# Third-party headers: where they may stand at all, and whether a header of ours may carry them.
+HEAVY = (
+    (re.compile(r"^(vulkan/|volk\.h$|vk_mem_alloc\.h$)"), ("engine/gpu/", "tests/gpu/"), "Vulkan's headers"),
+    (re.compile(r"^(GLFW/|imgui|CLI/|spdlog/)"), ("sandbox/",), "the sandbox's libraries"),
+    (re.compile(r"^(tiny_gltf|stb_|OpenMesh/)"), ("engine/scene/", "tests/", "sandbox/"), "the importer's libraries"),
+    (re.compile(r"^embree"), ("modules/", "tests/", "sandbox/"), "Embree"),
+)
+NOT_IN_PUBLIC_HEADERS = re.compile(r"^(vulkan/|volk\.h$|GLFW/|imgui|tiny_gltf|stb_|OpenMesh/|nlohmann/|embree)")
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"\n]+)"|<([^>\n]+)>)', re.MULTILINE)
+
+
+def closure(graph):
+    reach = {}
+    for name in graph:
+        seen, todo = set(), list(graph[name])
+        while todo:
+            at = todo.pop()
+            if at not in seen:
+                seen.add(at)
+                todo.extend(graph[at])
+        reach[name] = seen
+    return reach
+
+
+LAYER_REACH = closure(LAYERS)
+MODULE_REACH = closure(MODULES)
+
+
+def includes(text):
+    """(line, path, quoted) of each include."""
+    clean = source_text.without_comments(text)
+    return [(clean.count("\n", 0, m.start()) + 1, m.group(1) or m.group(2), m.group(1) is not None)
+            for m in INCLUDE.finditer(clean)]
+
+
+def is_public_header(name):
+    parts = name.split("/")
+    if not name.endswith(".h") or parts[0] not in ("engine", "modules"):
+        return False
+    return parts[0] == "engine" or parts[1] == MODULE_LIST or parts[-1] in MODULE_PUBLIC
+
+
+def cpp_arrow(parts, target):
+    """Why C++ code of an owner may not include a project path, or None."""
+    kind = parts[0]
+    own = parts[1] if len(parts) > 2 else ""
+    if kind == "tests" or (kind == "sandbox" and own == "bench"):
+        return None
+    to_own = target[1] if len(target) > 2 else ""
+    if target[0] == "engine":
+        if kind != "engine" or to_own == own or to_own in LAYER_REACH[own]:
+            return None
+        return f"engine/{own} does not stand on engine/{to_own}"
+    if target[0] == "modules":
+        if kind == "engine":
+            return "the engine knows no module"
+        if to_own == own:
+            return None
+        if kind == "modules" and own != MODULE_LIST and to_own not in MODULE_REACH[own]:
+            return f"modules/{own} does not stand on modules/{to_own}"
+        public = len(target) == 3 and is_public_header("/".join(target))
+        return None if public else f"of another module only {', '.join(MODULE_PUBLIC)}"
+    if target[0] == "shaders":
+        if to_own == "common" and target[-1].endswith(".h"):
+            return None
+        own_shaders = "sandbox" if kind == "sandbox" else own
+        if to_own != own_shaders:
+            return "C++ includes only its own shaders folder and shaders/common"
+        generated = target[-1] == "shaders.h" or target[-1].endswith(".spv.h")
+        return None if generated or target[-1].endswith("_shared.h") else "of shaders C++ includes *_shared.h only"
+    if target[0] == "sandbox":
+        return None if kind == "sandbox" else "nothing stands on the sandbox"
+    return "only tests include tests/"
+
+
+def shader_arrow(parts, target):
+    """Why a file below shaders/ may not include a project path, or None."""
+    if parts[1] == "common" and parts[-1].endswith(".h") and target == ["engine", "math", "types.h"]:
+        return None  # the prelude names the C++ side's vectors
+    if target[0] != "shaders" or len(target) != 3:
+        return "shaders include shaders only"
+    own, to_own, leaf = parts[1], target[1], target[2]
+    if to_own in ("common", own):
+        return None
+    if own == "common":
+        return "shaders/common stands on nothing"
+    if own == "sandbox" or own.endswith("_test"):
+        return None if own != "sandbox" or leaf.endswith(("_api.glsl", "_shared.h")) else "only *_api.glsl and *_shared.h"
+    below = LAYER_REACH[own] if own in LAYERS else set(LAYERS) | MODULE_REACH[own]
+    if to_own not in below:
+        return f"shaders/{own} does not stand on shaders/{to_own}"
+    if leaf.endswith("_api.glsl") or (to_own in LAYERS and leaf.endswith("_shared.h")):
+        return None
+    return "of another folder's shaders only *_api.glsl"
+
+
+def exists(root, include):
+    generated = re.fullmatch(r"shaders/\w+/(shaders\.h|[\w.]+\.spv\.h)", include)
+    return bool(generated) or (root / include).is_file()
+
+
+def third_party_fault(name, include):
+    for pattern, places, what in HEAVY:
+        if pattern.search(include) and not name.startswith(places):
+            return f"<{include}>: {what} stay in {', '.join(p.rstrip('/') for p in places)}"
+    if is_public_header(name) and NOT_IN_PUBLIC_HEADERS.search(include):
+        # engine/gpu has headers of its own with Vulkan in them; they are not installed.
+        if not re.fullmatch(r"engine/gpu/vulkan/.*|engine/gpu/.*_internal\.h|engine/gpu/vk_.*\.h", name):
+            return f"<{include}>: public headers carry no such header"
+    return None
+
+
+def owner_fault(parts):
+    known = {"engine": LAYERS, "modules": (*MODULES, MODULE_LIST)}
+    if parts[0] in known and len(parts) > 2 and parts[1] not in known[parts[0]]:
+        return f"{parts[0]}/{parts[1]} is not in the architecture"
+    if parts[0] == "shaders":
+        owners = ("common", "sandbox", *LAYERS, *MODULES)
+        if len(parts) != 3 or (parts[1] not in owners and not parts[1].endswith("_test")):
+            return "a shader stands in shaders/common, in the folder of a layer, a module or the sandbox, or in <suite>_test"
+    return None
+
+
+def check_file(root, name):
+    parts = name.split("/")
+    fault = owner_fault(parts)
+    if fault:
+        return [f"{name}: {fault}"]
+    faults = []
+    found = includes(source_text.read(root, name))
+    own_header = re.sub(r"\.cpp$", ".h", name)
+    if name.endswith(".cpp") and (root / own_header).is_file() and (not found or found[0][1] != own_header):
+        faults.append(f"{name}: its own header comes first")
+    for line, include, quoted in found:
+        target = include.split("/")
+        ours = target[0] in source_text.SOURCE_FOLDERS
+        fault = None
+        if parts[0] == "shaders":
+            fault = None if not quoted and name.endswith(".h") else shader_arrow(parts, target)
+        elif ours:
+            fault = cpp_arrow(parts, target)
+            if fault is None and is_public_header(name) and target[0] == "modules" and not is_public_header(include):
+                fault = "a public header includes public headers only"
+        else:
+            fault = third_party_fault(name, include)
+        if fault is None and quoted and not ours:
+            fault = "a project include is the full path from the root; others stand in <>"
+        if fault is None and ours and not exists(root, include):
+            fault = "there is no such file"
+        if fault:
+            faults.append(f"{name}:{line}: {include}: {fault}")
+    return faults
+
+
+def check(root):
+    root = Path(root)
+    names = source_text.files(root, (".h", ".cpp", ".glsl"))
+    return [fault for name in names for fault in check_file(root, name)], len(names)
+
+
+if __name__ == "__main__":
+    sys.exit(source_text.report("include_arrows", *check(source_text.root_argument())))
