@@ -14,8 +14,8 @@
 
 namespace gloam::gpu {
 
-/// Objects by handle. Every method may be called from any thread. A reference stays good until its object is removed; who may
-/// change the object behind it is the caller's business.
+/// Objects by handle. Every method may be called from any thread. A reference stays good until its object is removed;
+/// who may change the object behind it is the caller's business.
 template <class T, class H>
 class HandleTable {
  public:

@@ -26,8 +26,8 @@ inline LogSink& gpu_log() {
   return log;
 }
 
-/// A Vulkan device for a test, or null when the machine has none. GLOAM_TEST_DEVICE chooses as VulkanOptions::device does. Without
-/// the validation layer the device comes unvalidated.
+/// A Vulkan device for a test, or null when the machine has none. GLOAM_TEST_DEVICE chooses as VulkanOptions::device
+/// does. Without the validation layer the device comes unvalidated.
 [[nodiscard]] inline std::unique_ptr<gpu::Device> make_test_device(bool validate = true) {
   gpu::VulkanOptions options;
   options.device = environment_text("GLOAM_TEST_DEVICE").value_or("auto");

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The one way this layer sees Vulkan: no prototypes, every call goes through a table that belongs to an instance or a device.
+/// The one way this layer sees Vulkan: no prototypes, every call goes through a table that belongs to an instance or a
+/// device.
 #ifndef VK_NO_PROTOTYPES
 #define VK_NO_PROTOTYPES
 #endif

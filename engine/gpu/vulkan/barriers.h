@@ -20,8 +20,8 @@ struct SyncScope {
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
 };
-/// What must end before the barrier. An empty mask, or one with Access::present, means all earlier work: what used the memory,
-/// or waits for the window, is not known.
+/// What must end before the barrier. An empty mask, or one with Access::present, means all earlier work: what used the
+/// memory, or waits for the window, is not known.
 [[nodiscard]] SyncScope source_scope(AccessMask before);
 [[nodiscard]] SyncScope target_scope(AccessMask after);
 

@@ -14,14 +14,15 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Turns bindings into descriptor writes for one set of a pipeline. Elements of an array binding are given by repeating its number.
-/// Bindings that the shader does not declare are left out; those it declares but never uses may be missing.
+/// Turns bindings into descriptor writes for one set of a pipeline. Elements of an array binding are given by repeating
+/// its number. Bindings that the shader does not declare are left out; those it declares but never uses may be missing.
 class DescriptorWriter {
  public:
   DescriptorWriter(const Context& context, const Buffers& buffers, Images& images, const Samplers& samplers)
       : context_(context), buffers_(buffers), images_(images), samplers_(samplers) {}
 
-  /// Whether sampled images are in the layout that barriers recorded so far left them in, or will be in the read-only one.
+  /// Whether sampled images are in the layout that barriers recorded so far left them in, or will be in the read-only
+  /// one.
   enum class Layouts : std::uint8_t { as_recorded, read_only };
 
   /// The writes point into this object and hold until the next call.

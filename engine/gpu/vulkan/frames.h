@@ -17,8 +17,8 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Frames in flight: command buffers, timestamps and one timeline semaphore, whose value is the number of frames that have ended.
-/// Frames are begun and submitted on one thread; numbers, timestamps and waiting are for any thread.
+/// Frames in flight: command buffers, timestamps and one timeline semaphore, whose value is the number of frames that
+/// have ended. Frames are begun and submitted on one thread; numbers, timestamps and waiting are for any thread.
 class Frames {
  public:
   static Result<std::unique_ptr<Frames>> create(Context& context, Graveyard& graveyard);

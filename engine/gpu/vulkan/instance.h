@@ -37,7 +37,8 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Calls of one instance. Tables of our own, because volk's global pointers would tie all devices of a process together.
+/// Calls of one instance. Tables of our own, because volk's global pointers would tie all devices of a process
+/// together.
 struct InstanceFunctions {
 #define X(name) PFN_##name name = nullptr;
   GLOAM_VULKAN_INSTANCE_FUNCTIONS(X)

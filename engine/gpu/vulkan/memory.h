@@ -37,8 +37,9 @@ struct MemoryRequest {
   std::string_view name;  ///< for the error
 };
 
-/// Cuts buffers and images out of blocks of 64 MiB, one list of blocks a use and memory type; what is larger than half a block gets
-/// memory of its own. Images and buffers never share a block, so bufferImageGranularity does not matter. Thread-safe.
+/// Cuts buffers and images out of blocks of 64 MiB, one list of blocks a use and memory type; what is larger than half
+/// a block gets memory of its own. Images and buffers never share a block, so bufferImageGranularity does not matter.
+/// Thread-safe.
 class MemoryAllocator {
  public:
   static constexpr std::uint64_t kBlockBytes = 64ull << 20;

@@ -9,8 +9,8 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Compiled pipelines, kept in one file a device and driver. A file that is damaged or of another driver counts as absent; a
-/// directory that cannot be written costs a warning, never more.
+/// Compiled pipelines, kept in one file a device and driver. A file that is damaged or of another driver counts as
+/// absent; a directory that cannot be written costs a warning, never more.
 class PipelineCache {
  public:
   /// `directory` empty: nothing is read or written.

@@ -38,8 +38,9 @@ struct PipelineLayout {
   std::vector<VkDescriptorSetLayout> sets;
 };
 
-/// Layouts by content, for the device's life: equal sets of two pipelines get one layout, so their resource sets fit both. Every
-/// binding is visible to all stages for the same reason. Set 0 is pushed, the others are allocated. Thread-safe.
+/// Layouts by content, for the device's life: equal sets of two pipelines get one layout, so their resource sets fit
+/// both. Every binding is visible to all stages for the same reason. Set 0 is pushed, the others are allocated.
+/// Thread-safe.
 class PipelineLayouts {
  public:
   explicit PipelineLayouts(Context& context) : context_(context) {}

@@ -12,8 +12,8 @@
 
 namespace gloam::gpu::vulkan {
 
-/// A window's pictures: 8 bits a channel, stored as they are shown (whoever writes them encodes for the display), shown in step
-/// with the display.
+/// A window's pictures: 8 bits a channel, stored as they are shown (whoever writes them encodes for the display), shown
+/// in step with the display.
 class VulkanSwapchain final : public Swapchain {
  public:
   static Result<std::unique_ptr<Swapchain>> create(VulkanDevice& device, VkSurfaceKHR surface);

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/swapchain.h"
+
+#include <gtest/gtest.h>
+
+#define GLFW_INCLUDE_VULKAN
+#include <GLFW/glfw3.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "tests/support/gpu_device.h"
+
+namespace gloam::gpu {
+namespace {
+
+/// A window on whatever display the machine has; skipped where there is none.
+class WindowTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (glfwInit() != GLFW_TRUE || glfwVulkanSupported() != GLFW_TRUE) GTEST_SKIP() << "there is no display";
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    window_ = glfwCreateWindow(200, 100, "test", nullptr, nullptr);
+    if (window_ == nullptr) GTEST_SKIP() << "there is no window to be had";
+    std::uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    auto made =
+        create_vulkan_device({.validate = true, .log = &test::gpu_log(), .window_extensions = {names, names + count}});
+    if (!made) GTEST_SKIP() << made.error().message;
+    device_ = std::move(*made);
+    auto swapchain = create_swapchain(*device_, [&](void* instance) -> std::uint64_t {
+      VkSurfaceKHR surface = VK_NULL_HANDLE;
+      glfwCreateWindowSurface(static_cast<VkInstance>(instance), window_, nullptr, &surface);
+      return (std::uint64_t)surface;
+    });
+    ASSERT_TRUE(swapchain.ok()) << swapchain.error().message;
+    swapchain_ = std::move(*swapchain);
+  }
+  void TearDown() override {
+    swapchain_.reset();
+    if (device_) {
+      EXPECT_EQ(device_->validation_messages(), 0u);
+    }
+    device_.reset();
+    if (window_ != nullptr) glfwDestroyWindow(window_);
+    glfwTerminate();
+  }
+
+  /// Shows one frame of one colour; gives back the image it went to.
+  ImageHandle show() {
+    const auto commands = device_->begin_frame();
+    EXPECT_TRUE(commands.ok()) << commands.error().message;
+    const auto image = swapchain_->acquire();
+    EXPECT_TRUE(image.ok()) << image.error().message;
+    if (*image) {
+      const ImageBarrier fill = {.image = *image, .after = Access::transfer_write};
+      (*commands)->barrier({}, {&fill, 1});
+      (*commands)->clear_color_image(*image, {0x3f800000u, 0u, 0u, 0x3f800000u});
+      const ImageBarrier present = {.image = *image, .before = Access::transfer_write, .after = Access::present};
+      (*commands)->barrier({}, {&present, 1});
+    }
+    EXPECT_TRUE(device_->submit_frame().ok());
+    EXPECT_TRUE(swapchain_->present().ok());
+    return *image;
+  }
+
+  GLFWwindow* window_ = nullptr;
+  std::unique_ptr<Device> device_;
+  std::unique_ptr<Swapchain> swapchain_;
+};
+
+TEST_F(WindowTest, shows_frame_after_frame_in_pictures_of_its_size) {
+  ASSERT_TRUE(swapchain_->resize(200, 100).ok());
+  for (int i = 0; i < 8; ++i) {
+    const ImageHandle image = show();
+    ASSERT_TRUE(image);
+    EXPECT_EQ(device_->desc(image).width, 200u);
+    EXPECT_EQ(device_->desc(image).height, 100u);
+  }
+}
+
+TEST_F(WindowTest, follows_a_new_size_and_gives_nothing_while_minimised) {
+  EXPECT_FALSE(show());  // never sized
+  ASSERT_TRUE(swapchain_->resize(200, 100).ok());
+  EXPECT_TRUE(show());
+  ASSERT_TRUE(swapchain_->resize(0, 0).ok());
+  EXPECT_FALSE(show());
+  glfwSetWindowSize(window_, 320, 240);
+  glfwPollEvents();
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    int width = 0;
+    int height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    ASSERT_TRUE(swapchain_->resize(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)).ok());
+    const ImageHandle image = show();
+    if (image && device_->desc(image).width == 320) return;
+    glfwPollEvents();
+  }
+  FAIL() << "the pictures never had the window's size";
+}
+
+}  // namespace
+}  // namespace gloam::gpu
