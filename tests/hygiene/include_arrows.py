@@ -28,7 +28,7 @@ MODULE_PUBLIC = ("components.h", "module.h", "outputs.h")
 # Third-party headers: where they may stand at all, and whether a header of ours may carry them.
 HEAVY = (
     (re.compile(r"^(vulkan/|volk\.h$|vk_mem_alloc\.h$)"), ("engine/gpu/", "tests/gpu/"), "Vulkan's headers"),
-    (re.compile(r"^(GLFW/|imgui|CLI/|spdlog/)"), ("sandbox/",), "the sandbox's libraries"),
+    (re.compile(r"^(GLFW/|imgui|CLI/|spdlog/)"), ("sandbox/", "tests/"), "the sandbox's libraries"),
     (re.compile(r"^(tiny_gltf|stb_|OpenMesh/)"), ("engine/scene/", "tests/", "sandbox/"), "the importer's libraries"),
     (re.compile(r"^embree"), ("modules/", "tests/", "sandbox/"), "Embree"),
 )
