@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
 # Every package this project uses; all come from the distribution.
 find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
@@ -14,6 +16,7 @@ if(GLOAM_SANDBOX)
   find_package(CLI11 REQUIRED)
   find_package(spdlog REQUIRED)
   find_package(benchmark REQUIRED)
+  find_package(ZLIB REQUIRED)
 endif()
 if(GLOAM_TESTS)
   find_package(GTest REQUIRED)

@@ -21,6 +21,19 @@ std::uint32_t engine_visualizer_code(std::string_view name) {
   return 0;
 }
 
+/// Resolves a target that exists only while a frame is recorded.
+Status acquire_target(const gpu::Device& device, ViewRequest& request) {
+  if (!request.target.acquire) return {};
+  const auto image = request.target.acquire();
+  if (!image.ok()) return image.error();
+  request.target.image = *image;
+  if (!*image) return {};
+  const gpu::ImageDesc& desc = device.desc(*image);
+  request.settings.width = desc.width;
+  request.settings.height = desc.height;
+  return {};
+}
+
 }  // namespace
 
 Renderer::State::State(RendererOptions given)
@@ -203,8 +216,10 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   s.graph.begin();
   s.builders.clear();
   s.views.clear();
-  for (const ViewRequest& request : requests) {
-    ViewSettings settings = request.settings;
+  for (const ViewRequest& requested : requests) {
+    ViewRequest request = requested;
+    GLOAM_TRY(acquire_target(*s.options.device, request));
+    ViewSettings& settings = request.settings;
     follow_camera(world, settings);
     GLOAM_TRY(s.prepare_images(request));
     s.views.push_back(std::make_unique<RenderView>(make_view(settings, s.frame_count)));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -33,6 +34,9 @@ struct RendererOptions {
 struct ViewTarget {
   gpu::ImageHandle image;
   gpu::Access after = gpu::Access::color_target;
+  /// Instead of `image`, for pictures that exist only while a frame is recorded (gpu::Swapchain::acquire): called when the frame has
+  /// begun. The view takes the size of the image it gives; when it gives none, the renderer's own picture is drawn.
+  std::function<Result<gpu::ImageHandle>()> acquire;
 };
 
 struct ViewRequest {

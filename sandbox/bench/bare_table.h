@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gloam::bench {
+
+struct Position {
+  float x = 0.0f;
+  float y = 0.0f;
+  float z = 0.0f;
+};
+struct Velocity {
+  float x = 1.0f;
+  float y = 0.5f;
+  float z = 0.25f;
+};
+struct Mass {
+  float kg = 2.0f;
+};
+
+/// What a program without an ECS would write: plain columns, the row of each thing, swap-remove. A thing with a mass lives in a second
+/// set of columns, as an archetype would hold it.
+struct BareTable {
+  struct Columns {
+    std::vector<std::uint32_t> things;
+    std::vector<Position> positions;
+    std::vector<Velocity> velocities;
+    std::vector<Mass> masses;  ///< empty in the set without
+
+    void push(std::uint32_t thing, const Position& position, const Velocity& velocity) {
+      things.push_back(thing);
+      positions.push_back(position);
+      velocities.push_back(velocity);
+    }
+  };
+  struct Record {
+    Columns* columns = nullptr;
+    std::uint32_t row = 0;
+  };
+  Columns plain;
+  Columns heavy;
+  std::vector<Record> records;
+
+  void create(const Position& position, const Velocity& velocity) {
+    records.push_back({&plain, static_cast<std::uint32_t>(plain.things.size())});
+    plain.push(static_cast<std::uint32_t>(records.size() - 1), position, velocity);
+  }
+  void create_bulk(std::size_t count, const Position& position, const Velocity& velocity) {
+    const std::size_t first = plain.things.size();
+    const std::size_t first_thing = records.size();
+    plain.positions.resize(first + count, position);
+    plain.velocities.resize(first + count, velocity);
+    plain.things.resize(first + count);
+    records.resize(first_thing + count);
+    for (std::size_t i = 0; i < count; ++i) {
+      plain.things[first + i] = static_cast<std::uint32_t>(first_thing + i);
+      records[first_thing + i] = {&plain, static_cast<std::uint32_t>(first + i)};
+    }
+  }
+  void destroy(std::uint32_t thing) {
+    take_row(records[thing]);
+    records[thing].columns = nullptr;
+  }
+  void add_mass(std::uint32_t thing, const Mass& mass) {
+    const Record from = records[thing];
+    records[thing] = {&heavy, static_cast<std::uint32_t>(heavy.things.size())};
+    heavy.push(thing, plain.positions[from.row], plain.velocities[from.row]);
+    heavy.masses.push_back(mass);
+    take_row(from);
+  }
+  void remove_mass(std::uint32_t thing) {
+    const Record from = records[thing];
+    records[thing] = {&plain, static_cast<std::uint32_t>(plain.things.size())};
+    plain.push(thing, heavy.positions[from.row], heavy.velocities[from.row]);
+    take_row(from);
+  }
+
+ private:
+  /// Fills a row with the last one.
+  void take_row(Record record) {
+    Columns& c = *record.columns;
+    const std::uint32_t moved = c.things.back();
+    if (record.row + 1 < c.things.size()) {
+      c.things[record.row] = moved;
+      c.positions[record.row] = c.positions.back();
+      c.velocities[record.row] = c.velocities.back();
+      if (!c.masses.empty()) c.masses[record.row] = c.masses.back();
+      records[moved].row = record.row;
+    }
+    c.things.pop_back();
+    c.positions.pop_back();
+    c.velocities.pop_back();
+    if (!c.masses.empty()) c.masses.pop_back();
+  }
+};
+
+}  // namespace gloam::bench

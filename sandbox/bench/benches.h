@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sandbox/bench/registry.h"
+
+namespace gloam {
+
+/// Entities and components against plain arrays (`…_over_bare`).
+void add_ecs_benches(BenchRegistry& registry);
+/// Whole frames of the scene against a pass of 48 gathers a pixel.
+void add_frame_benches(BenchRegistry& registry);
+/// The cost of jobs, ranges and graphs.
+void add_job_benches(BenchRegistry& registry);
+
+}  // namespace gloam

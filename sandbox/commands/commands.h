@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/log.h"
+#include "engine/core/result.h"
+#include "sandbox/console.h"
+#include "sandbox/options.h"
+
+namespace gloam {
+
+/// What every command works with.
+struct CommandContext {
+  const Options& options;
+  Console& console;
+  LogSink& log;
+};
+
+[[nodiscard]] Status run_play(const CommandContext& context);
+[[nodiscard]] Status run_render(const CommandContext& context);
+[[nodiscard]] Status run_inspect(const CommandContext& context);
+[[nodiscard]] Status run_bake(const CommandContext& context);
+[[nodiscard]] Status run_cost(const CommandContext& context);
+[[nodiscard]] Status run_bench(const CommandContext& context);
+[[nodiscard]] Status run_scenes(const CommandContext& context);
+
+}  // namespace gloam

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "engine/gpu/vulkan_device.h"
+#include "sandbox/commands/commands.h"
+#include "sandbox/fly_camera.h"
+#include "sandbox/run_output.h"
+#include "sandbox/scene_loading.h"
+#include "sandbox/session.h"
+#include "sandbox/window.h"
+
+namespace gloam {
+namespace {
+
+constexpr double kRadiansPerPixel = 0.003;
+constexpr double kFastFactor = 5.0;
+constexpr double kLongestStep = 0.1;  // seconds: after a pause nothing leaps
+
+/// A scene in a window, frame by frame.
+class Player {
+ public:
+  Player(const Options& options, Window& window, Session& session, gpu::Swapchain& swapchain)
+      : options_(options), window_(window), session_(session), swapchain_(swapchain), time_s_(options.time_s) {
+    settings_ = session.view_settings(options.width, options.height, options.view);
+    // From here on the user moves the camera, not the scene.
+    settings_.camera_entity = kNoEntity;
+    camera_ = FlyCamera(settings_.world_from_camera);
+    last_ns_ = session.zones.now_ns();
+  }
+
+  [[nodiscard]] Status run() {
+    std::uint32_t frames = 0;
+    while (options_.frames == 0 || frames < options_.frames) {
+      move_camera(window_.poll());
+      if (window_.should_close()) break;
+      const auto drawn = draw();
+      if (!drawn) return drawn.error();
+      if (*drawn) ++frames;
+    }
+    return session_.renderer->wait();
+  }
+
+  [[nodiscard]] const ViewSettings& settings() const { return settings_; }
+  [[nodiscard]] const std::vector<FrameSample>& samples() const { return samples_; }
+
+ private:
+  void move_camera(const WindowInput& input) {
+    const std::uint64_t now = session_.zones.now_ns();
+    step_s_ = std::min(static_cast<double>(now - last_ns_) * 1e-9, kLongestStep);
+    last_ns_ = now;
+    camera_.advance({.forward = input.forward,
+                     .right = input.right,
+                     .up = input.up,
+                     .turn = -input.drag_x * kRadiansPerPixel,
+                     .tilt = -input.drag_y * kRadiansPerPixel,
+                     .speed = input.fast ? kFastFactor : 1.0},
+                    step_s_);
+    settings_.world_from_camera = camera_.world_from_camera();
+  }
+
+  /// Whether a frame was drawn: not while the window is minimised or changes its size.
+  [[nodiscard]] Result<bool> draw() {
+    const std::uint32_t width = window_.width();
+    const std::uint32_t height = window_.height();
+    if (width == 0 || height == 0) return false;
+    if (!fits_ || width != settings_.width || height != settings_.height) {
+      GLOAM_TRY(swapchain_.resize(width, height));
+      settings_.width = width;
+      settings_.height = height;
+      fits_ = true;
+    }
+    const double dt_s = options_.fixed_step ? options_.dt_s : step_s_;
+    session_.set_clock(time_s_, dt_s);
+    const auto acquire = [this]() -> Result<gpu::ImageHandle> {
+      auto image = swapchain_.acquire();
+      fits_ = image.ok() && *image;
+      return image;
+    };
+    GLOAM_TRY(render({.settings = settings_, .target = {.after = gpu::Access::present, .acquire = acquire}}));
+    GLOAM_TRY(swapchain_.present());
+    if (!fits_) return false;
+    time_s_ += dt_s;
+    return true;
+  }
+
+  /// Waits for every frame only where its times are wanted.
+  [[nodiscard]] Status render(const ViewRequest& request) {
+    if (options_.stats.empty() && options_.trace.empty()) {
+      static_cast<void>(session_.zones.take());
+      return session_.renderer->render(session_.world, {&request, 1});
+    }
+    auto sample = session_.render_frame(request);
+    if (!sample) return sample.error();
+    samples_.push_back(std::move(sample).value());
+    return {};
+  }
+
+  const Options& options_;
+  Window& window_;
+  Session& session_;
+  gpu::Swapchain& swapchain_;
+  ViewSettings settings_;
+  FlyCamera camera_;
+  std::vector<FrameSample> samples_;
+  double time_s_ = 0.0;
+  double step_s_ = 0.0;
+  std::uint64_t last_ns_ = 0;
+  bool fits_ = false;
+};
+
+/// What the options ask for beyond the window: of one more frame, drawn into the renderer's own image.
+Status leave_results(const CommandContext& context, Session& session, const Player& player) {
+  const Options& options = context.options;
+  const bool wants_reports = !options.stats.empty() || !options.trace.empty() || options.pick;
+  if (options.out.empty() && !wants_reports) return {};
+  auto last = session.render_frame({.settings = player.settings(), .target = {}});
+  if (!last) return last.error();
+  std::vector<FrameSample> samples = player.samples();
+  samples.push_back(std::move(last).value());
+  const DrawnRun run = {.session = session, .view = player.settings(), .samples = samples};
+  if (!options.out.empty()) GLOAM_TRY(write_picture(run, options.out));
+  return write_reports(run, options, context.console);
+}
+
+}  // namespace
+
+Status run_play(const CommandContext& context) {
+  const Options& options = context.options;
+  GLOAM_TRY(check_scene_exists(options.scene));
+  const auto window = Window::open("gloam: " + options.scene, options.width, options.height);
+  if (!window) return window.error();
+  const auto session = open_session(options, context.log, window.value()->vulkan_extensions());
+  if (!session) return session.error();
+  const auto swapchain = gpu::create_swapchain(*session.value()->device, window.value()->surface_maker());
+  if (!swapchain) return swapchain.error();
+  Player player(options, *window.value(), *session.value(), *swapchain.value());
+  GLOAM_TRY(player.run());
+  GLOAM_TRY(leave_results(context, *session.value(), player));
+  return session.value()->check_validation();
+}
+
+}  // namespace gloam

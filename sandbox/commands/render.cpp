@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sandbox/commands/commands.h"
+#include "sandbox/run_output.h"
+#include "sandbox/scene_loading.h"
+#include "sandbox/session.h"
+
+namespace gloam {
+namespace {
+
+Result<std::vector<FrameSample>> render_frames(Session& session, const Options& options, const ViewSettings& view) {
+  std::vector<FrameSample> samples;
+  samples.reserve(options.frames);
+  for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
+    session.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
+    auto sample = session.render_frame({.settings = view, .target = {}});
+    if (!sample) return sample.error();
+    samples.push_back(std::move(sample).value());
+  }
+  return samples;
+}
+
+}  // namespace
+
+Status run_render(const CommandContext& context) {
+  const Options& options = context.options;
+  auto session = open_session(options, context.log);
+  if (!session) return session.error();
+  const ViewSettings view = session.value()->view_settings(options.width, options.height, options.view);
+  const auto samples = render_frames(*session.value(), options, view);
+  if (!samples) return samples.error();
+
+  const DrawnRun run = {.session = *session.value(), .view = view, .samples = *samples};
+  const std::string path = options.out.empty() ? "out/" + scene_stem(options.scene) + ".png" : options.out;
+  GLOAM_TRY(write_picture(run, path));
+  GLOAM_TRY(write_reports(run, options, context.console));
+  GLOAM_TRY(session.value()->check_validation());
+  if (!options.quiet) context.console.print("wrote " + path + "\n");
+  return {};
+}
+
+}  // namespace gloam

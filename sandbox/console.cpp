@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/console.h"
+
+#include <unistd.h>
+
+namespace gloam {
+namespace {
+
+// A sanitizer's report goes to standard error by number: capturing would hide it.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kCapture = false;
+#else
+constexpr bool kCapture = true;
+#endif
+
+/// A stream of its own for what `number` stands for now; null when it is closed.
+std::FILE* duplicate(int number) {
+  const int copy = dup(number);
+  return copy < 0 ? nullptr : fdopen(copy, "w");
+}
+
+void write_line(std::FILE* stream, std::string_view start, std::string_view message) {
+  if (stream == nullptr) return;
+  const std::string line = std::string(start) + one_line(message) + "\n";
+  std::fwrite(line.data(), 1, line.size(), stream);
+  std::fflush(stream);
+}
+
+}  // namespace
+
+Console::Console() : results_(duplicate(STDOUT_FILENO)), errors_(duplicate(STDERR_FILENO)) {
+  if (!kCapture) return;
+  capture_ = std::tmpfile();
+  if (capture_ == nullptr) return;
+  dup2(fileno(capture_), STDOUT_FILENO);
+  dup2(fileno(capture_), STDERR_FILENO);
+}
+
+Console::~Console() {
+  if (results_ != nullptr) std::fflush(results_);
+  if (capture_ != nullptr) {
+    std::fflush(stdout);
+    if (results_ != nullptr) dup2(fileno(results_), STDOUT_FILENO);
+    if (errors_ != nullptr) dup2(fileno(errors_), STDERR_FILENO);
+    std::fclose(capture_);
+  }
+  if (results_ != nullptr) std::fclose(results_);
+  if (errors_ != nullptr) std::fclose(errors_);
+}
+
+void Console::print(std::string_view text) {
+  if (results_ == nullptr || std::fwrite(text.data(), 1, text.size(), results_) != text.size()) failed_ = true;
+}
+
+void Console::print_error(std::string_view message) {
+  if (results_ != nullptr) std::fflush(results_);
+  write_line(errors_, "gloam: error: ", message);
+}
+
+void Console::print_warning(std::string_view message) { write_line(errors_, "gloam: warning: ", message); }
+
+Status Console::flush() {
+  if (results_ != nullptr && std::fflush(results_) != 0) failed_ = true;
+  if (failed_) return Error{ErrorKind::failed, "results cannot be written to standard output"};
+  return {};
+}
+
+std::string Console::captured() const {
+  std::string text;
+  if (capture_ == nullptr) return text;
+  std::fflush(stdout);
+  char block[4096];
+  off_t offset = 0;
+  // pread leaves the shared position alone: libraries go on writing at the end.
+  for (ssize_t got = 0; (got = pread(fileno(capture_), block, sizeof(block), offset)) > 0; offset += got)
+    text.append(block, static_cast<std::size_t>(got));
+  return text;
+}
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  bool space = false;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) <= 0x20) {
+      space = !line.empty();
+      continue;
+    }
+    if (space) line += ' ';
+    space = false;
+    line += c;
+  }
+  return line;
+}
+
+}  // namespace gloam

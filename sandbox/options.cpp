@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "engine/core/env.h"
+
+namespace gloam {
+namespace {
+
+/// Two unsigned numbers with `separator` between them and nothing else; false otherwise.
+bool parse_pair(const std::string& text, char separator, std::uint32_t& first, std::uint32_t& second) {
+  const char* const end = text.data() + text.size();
+  const auto left = std::from_chars(text.data(), end, first);
+  if (left.ec != std::errc() || left.ptr == end || *left.ptr != separator) return false;
+  const auto right = std::from_chars(left.ptr + 1, end, second);
+  return right.ec == std::errc() && right.ptr == end;
+}
+
+struct RawTexts {
+  std::string size;
+  std::string pick;
+  bool version = false;
+};
+
+void add_frame_options(CLI::App& app, Options& options, RawTexts& raw) {
+  app.add_option("--size", raw.size, "Size of the picture in pixels (default 1280x720)")->type_name("WxH");
+  app.add_option("--camera", options.camera, "Camera of the scene; default: the first, else one fitted to the scene")
+      ->type_name("NAME");
+  app.add_option("--frames", options.frames, "Number of frames (default 1; play: until the window is closed)")
+      ->type_name("N");
+  app.add_option("--time", options.time_s, "Simulated time of the first frame (default 0)")->type_name("SECONDS");
+  app.add_option("--dt", options.dt_s, "Simulated time from frame to frame (default 1/60)")->type_name("SECONDS");
+  app.add_option("--seed", options.seed, "Seed of everything random (default 1)")->type_name("N");
+  app.add_option("--set", options.assignments, "Set a knob; may be repeated")
+      ->type_name("KNOB=VALUE")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--config", options.config, "Knobs from a JSON object; --set comes after it")->type_name("FILE");
+  app.add_option("--view", options.view, "Visualizer to show instead of the lit picture")->type_name("VISUALIZER");
+  app.add_option("--pick", raw.pick, "Print what the modules know about a pixel")->type_name("X,Y");
+  app.add_option("--animation", options.animation, "Clip to play where several move the same thing")->type_name("NAME");
+}
+
+void add_machine_options(CLI::App& app, Options& options) {
+  app.add_option("--out", options.out, "Picture to write: .png, or .exr for linear light (default out/<scene>.png)")
+      ->type_name("FILE");
+  app.add_option("--stats", options.stats, "Write times, memory and counters as JSON")->type_name("FILE");
+  app.add_option("--trace", options.trace, "Write a Chrome trace of systems and passes")->type_name("FILE");
+  app.add_option("--device", options.device, "auto, cpu, gpu, or part of a device's name")->type_name("DEVICE");
+  app.add_option("--threads", options.threads, "Threads that run jobs (default 0: one a core)")->type_name("N");
+  app.add_option("--budget", options.budget, "Time budget that the knobs are chosen for; needs --ledger")
+      ->type_name("BUDGET");
+  app.add_option("--ledger", options.ledger, "Cost ledger to choose knobs from")->type_name("FILE");
+  app.add_option("--cache-dir", options.cache_dir, "Where compiled pipelines are kept between runs")->type_name("DIR");
+  app.add_flag("--validate", options.validate,
+               "Vulkan validation with synchronization checks; any message is a failure");
+  app.add_flag("--quiet", options.quiet, "Print nothing but errors and what was asked for");
+}
+
+struct CommandApp {
+  Command command;
+  CLI::App* app;
+};
+
+std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts& raw) {
+  std::vector<CommandApp> commands;
+  const auto add = [&](Command command, const char* name, const char* what) {
+    CLI::App* app = root.add_subcommand(name, what);
+    add_frame_options(*app, options, raw);
+    add_machine_options(*app, options);
+    commands.push_back({command, app});
+    return app;
+  };
+  const char* const scene_text = "A .gltf or .glb file, or builtin:NAME";
+  CLI::App* play = add(Command::play, "play", "Open a window");
+  play->add_option("SCENE", options.scene, scene_text);
+  CLI::App* render = add(Command::render, "render", "Render without a window");
+  render->add_option("SCENE", options.scene, scene_text)->required();
+  CLI::App* inspect = add(Command::inspect, "inspect", "What is in a scene, which effects it calls for and why");
+  inspect->add_option("SCENE", options.scene, scene_text)->required();
+  inspect->add_flag("--json", options.json, "As JSON");
+  CLI::App* bake = add(Command::bake, "bake", "Capture proxies and probes");
+  bake->add_option("SCENE", options.scene, scene_text)->required();
+  bake->add_option("--fit-proxies", options.fit_proxies, "Fit this many proxies to the scene")->type_name("N");
+  CLI::App* cost = add(Command::cost, "cost", "Measure what each knob costs and saves");
+  cost->add_option("SCENE", options.scene, scene_text)->required();
+  cost->add_option("--knobs", options.knobs, "Only these knobs, separated by commas")->type_name("A,B");
+  cost->add_flag("--quick", options.quick, "Fewer repetitions");
+  CLI::App* bench = add(Command::bench, "bench", "Measure the papers' tables and the CPU systems, by name");
+  bench->add_option("NAME", options.names, "Runs the ids that start with NAME and a dot, or are NAME");
+  bench->add_option("--scene", options.scene, scene_text)->type_name("SCENE");
+  bench->add_option("--json", options.json_file, "Write the rows as JSON")->type_name("FILE");
+  bench->add_flag("--list", options.list, "List the ids");
+  bench->add_flag("--strict", options.strict, "A missed bar is a failure");
+  add(Command::scenes, "scenes", "List the built-in scenes with what they show");
+  return commands;
+}
+
+Error usage(std::string message) { return {ErrorKind::usage, std::move(message)}; }
+
+Status check_texts(Options& options, const RawTexts& raw) {
+  if (!raw.size.empty()) {
+    const bool read = parse_pair(raw.size, 'x', options.width, options.height);
+    if (!read || options.width < 1 || options.height < 1 || options.width > kMaxSize || options.height > kMaxSize)
+      return usage("--size wants WxH with numbers in 1…" + std::to_string(kMaxSize) + ", not '" + raw.size + "'");
+  }
+  if (!raw.pick.empty()) {
+    PixelPosition pixel;
+    if (!parse_pair(raw.pick, ',', pixel.x, pixel.y))
+      return usage("--pick wants X,Y in pixels, not '" + raw.pick + "'");
+    if (pixel.x >= options.width || pixel.y >= options.height)
+      return usage("--pick " + raw.pick + " lies outside the picture of " + std::to_string(options.width) + "x" +
+                   std::to_string(options.height));
+    options.pick = pixel;
+  }
+  return {};
+}
+
+bool ends_with_picture_suffix(const std::string& path) { return path.ends_with(".png") || path.ends_with(".exr"); }
+
+Status check_values(const Options& options) {
+  if (options.frames < 1 && options.command != Command::play) return usage("--frames wants a number of at least 1");
+  if (!std::isfinite(options.time_s)) return usage("--time wants a finite number of seconds");
+  if (!std::isfinite(options.dt_s) || options.dt_s < 0.0)
+    return usage("--dt wants a finite number of seconds, 0 or more");
+  if (options.threads > 1024) return usage("--threads wants a number in 0…1024");
+  for (const std::string& assignment : options.assignments) {
+    if (assignment.find('=') == std::string::npos) return usage("--set wants KNOB=VALUE, not '" + assignment + "'");
+  }
+  const bool writes_picture = options.command == Command::render || options.command == Command::play;
+  if (writes_picture && !options.out.empty() && !ends_with_picture_suffix(options.out))
+    return usage("--out wants a name that ends in .png or .exr, not '" + options.out + "'");
+  if (options.command == Command::cost && options.out.empty()) return usage("cost needs --out DIR");
+  if (options.command == Command::bench && options.names.empty() && !options.list)
+    return usage("bench needs a NAME, or --list");
+  if (!options.budget.empty() && options.ledger.empty())
+    return usage("--budget needs --ledger FILE to choose knobs from");
+  return {};
+}
+
+std::string default_cache_directory() {
+  if (const auto cache = environment_text("XDG_CACHE_HOME")) return *cache + "/gloam";
+  if (const auto home = environment_text("HOME")) return *home + "/.cache/gloam";
+  return {};
+}
+
+std::unique_ptr<CLI::App> make_app(Options& options, RawTexts& raw, std::vector<CommandApp>& commands) {
+  auto app = std::make_unique<CLI::App>("Many lights, soft shadows, wet reflections, moving grass", "gloam");
+  app->add_flag("--version", raw.version, "Print the version");
+  commands = add_commands(*app, options, raw);
+  return app;
+}
+
+}  // namespace
+
+std::string help_text() {
+  Options options;
+  RawTexts raw;
+  std::vector<CommandApp> commands;
+  return make_app(options, raw, commands)->help();
+}
+
+Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::string> arguments,
+                                                           const std::string& version) {
+  using Outcome = std::variant<Options, PrintAndLeave>;
+  Options options;
+  RawTexts raw;
+  std::vector<CommandApp> commands;
+  const std::unique_ptr<CLI::App> app = make_app(options, raw, commands);
+  try {
+    app->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::CallForHelp&) {
+    return Outcome(PrintAndLeave{app->help()});
+  } catch (const CLI::ParseError& error) {
+    return usage(error.what());
+  }
+  if (raw.version) return Outcome(PrintAndLeave{version + "\n"});
+
+  const CLI::App* chosen = nullptr;
+  for (const CommandApp& candidate : commands) {
+    if (!candidate.app->parsed()) continue;
+    if (chosen != nullptr)
+      return usage("one command at a time: " + chosen->get_name() + " or " + candidate.app->get_name());
+    chosen = candidate.app;
+    options.command = candidate.command;
+  }
+  if (chosen == nullptr) return usage("a command is needed: play, render, inspect, bake, cost, bench or scenes");
+  if (options.command == Command::play && chosen->count("--frames") == 0) options.frames = 0;
+  options.fixed_step = options.command != Command::play || chosen->count("--dt") > 0;
+  if (chosen->count("--cache-dir") == 0) options.cache_dir = default_cache_directory();
+  if (options.scene.empty() && (options.command == Command::play || options.command == Command::bench))
+    options.scene = "builtin:lanterns";
+  GLOAM_TRY(check_texts(options, raw));
+  GLOAM_TRY(check_values(options));
+  return Outcome(std::move(options));
+}
+
+}  // namespace gloam

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/scenes/builtin.h"
+
+#include "sandbox/scenes/lanterns.h"
+#include "sandbox/scenes/plain.h"
+
+namespace gloam {
+namespace {
+
+constexpr BuiltinScene kScenes[] = {
+    {"plain", "geometry and materials under one sun", &build_plain_scene},
+    {"lanterns", "256 coloured point and spot lights between arches", &build_lanterns_scene},
+};
+
+}  // namespace
+
+std::span<const BuiltinScene> builtin_scenes() { return kScenes; }
+
+Result<const BuiltinScene*> find_builtin_scene(std::string_view name) {
+  std::string names;
+  for (const BuiltinScene& scene : kScenes) {
+    if (scene.name == name) return &scene;
+    names += (names.empty() ? "" : ", ") + std::string(scene.name);
+  }
+  return Error{ErrorKind::usage, "there is no built-in scene '" + std::string(name) + "'; there are: " + names};
+}
+
+}  // namespace gloam

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/ecs/world.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/components.h"
+#include "engine/scene/gltf_import.h"
+#include "modules/lights/components.h"
+
+namespace gloam {
+
+/// Fills a world by code, as the importer does from a file. The world has all components registered and prepare_scene_world's
+/// resources in place.
+class SceneBuilder {
+ public:
+  SceneBuilder(World& world, SceneInfo& info) : world_(world), info_(info) {}
+
+  [[nodiscard]] std::uint32_t add_material(const Material& material);
+  [[nodiscard]] std::uint32_t add_mesh(const std::string& name, Primitive shape, std::uint32_t material);
+
+  /// heading: radians about +Y.
+  Entity add_instance(const std::string& name, std::uint32_t mesh, dvec3 position, double heading = 0.0,
+                      dvec3 scale = dvec3(1.0));
+  Entity add_camera(const std::string& name, dvec3 eye, dvec3 target, float fov_y);
+  /// direction: where it shines, any length above 0; a point light's does not matter.
+  Entity add_light(const std::string& name, const Light& light, dvec3 position, dvec3 direction, bool casts_shadows);
+
+ private:
+  Entity add_node(const char* kind, const std::string& name, const LocalTransform& local);
+
+  World& world_;
+  SceneInfo& info_;
+};
+
+/// A rotation that turns −Z towards `direction` (length above 0) and keeps +Y as near to up as it can be.
+[[nodiscard]] dquat rotation_towards(dvec3 direction);
+
+}  // namespace gloam

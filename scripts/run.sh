@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+# Builds the program and runs it. usage: scripts/run.sh [arguments of gloam]
+# Without arguments: a window with the lanterns where there is a display, else a picture of them in out/lanterns.png.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+started_in=$PWD
+cd "$root"
+source scripts/common.sh
+scripts/setup.sh
+configure release build
+[ -x build/bin/gloam ] || echo "building (the first time takes some minutes)" >&2
+build build gloam_program
+
+if [ $# -gt 0 ]; then
+  cd "$started_in"
+  exec "$root/build/bin/gloam" "$@"
+fi
+if [ -n "${DISPLAY:-}" ] || [ -n "${WAYLAND_DISPLAY:-}" ]; then
+  exec build/bin/gloam play builtin:lanterns
+fi
+build/bin/gloam render builtin:lanterns --out out/lanterns.png --quiet
+echo "there is no display: the picture is $root/out/lanterns.png"

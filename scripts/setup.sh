@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+# Installs the packages of scripts/packages.txt that are missing. usage: scripts/setup.sh
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "setup: this is no Debian system: install what scripts/packages.txt names in your system's way" >&2
+  exit 0
+fi
+
+# Every package's name and state in one call; a package dpkg never heard of is missing too.
+mapfile -t wanted <scripts/packages.txt
+installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${wanted[@]}" 2>/dev/null || true)
+missing=()
+for package in "${wanted[@]}"; do
+  grep -qxF "$package installed" <<<"$installed" || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+echo "setup: installing ${missing[*]}" >&2
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "setup: you are not root and there is no sudo: have these installed: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+export DEBIAN_FRONTEND=noninteractive
+install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}")
+# Lists may be old or absent: fetch them once when the first try fails.
+if ! "${install[@]}" </dev/null >/dev/null 2>&1; then
+  "${as_root[@]}" apt-get update -q </dev/null >&2 || true
+  "${install[@]}" </dev/null >&2 || {
+    echo "setup: apt-get could not install ${missing[*]}" >&2
+    exit 1
+  }
+fi

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+# Builds and runs all tests: first everything in the release build, then the suites labelled `sanitize` under ASan and UBSan.
+# usage: scripts/test.sh [arguments of ctest, e.g. -R ecs]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source scripts/common.sh
+scripts/setup.sh
+
+jobs=${CTEST_PARALLEL_LEVEL:-$(nproc)}
+reports=()
+
+# run_tests PRESET FOLDER NAME [ctest arguments]: leaves FOLDER/junit.xml and the log; the report judges them.
+run_tests() {
+  local preset=$1 folder=$2 name=$3
+  shift 3
+  echo "testing: $name" >&2
+  rm -f "$folder/junit.xml" "$folder/Testing/Temporary/LastTest.log"
+  # A failing test is counted by the report.
+  ctest --preset "$preset" -j "$jobs" --output-junit "$PWD/$folder/junit.xml" "$@" >"$folder/ctest.log" 2>&1 </dev/null || true
+  if [ ! -f "$folder/junit.xml" ]; then
+    tail -n 20 "$folder/ctest.log" >&2
+    echo "ctest failed: see $folder/ctest.log" >&2
+    exit 1
+  fi
+  reports+=("$name=$folder")
+}
+
+configure release build
+build build
+run_tests release build release "$@"
+
+configure asan build-asan
+build build-asan gloam_sanitize_tests
+run_tests asan build-asan asan "$@"
+
+exec python3 -B scripts/test_report.py "${reports[@]}"

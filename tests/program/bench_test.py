@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""`bench` from the outside: ids, rows as JSON, bars."""
+from program_case import ProgramCase, main
+
+FIELDS = {"id", "value", "unit", "p10", "p90", "better", "holds", "hash"}
+
+
+class Bench(ProgramCase):
+    def test_ids_are_listed_once_each(self):
+        ids = self.expect(0, "bench", "--list").stdout.split()
+        self.assertEqual(len(ids), len(set(ids)))
+        for an_id in ("jobs.empty", "jobs.empty.one_thread", "ecs.iterate2.1e4", "ecs.random_get_over_bare", "frame.scene"):
+            self.assertIn(an_id, ids)
+
+    def test_rows_have_the_documented_fields(self):
+        self.expect(0, "bench", "jobs.fork_join", "ecs.random_get", "--json", "deep/rows.json")
+        told = self.read_json("deep/rows.json")
+        self.assertEqual(told["version"], 1)
+        self.assertEqual(told["scene"], "builtin:lanterns")
+        self.assertEqual(told["size"], [1280, 720])
+        self.assertEqual(set(told["device"]), {"name", "driver", "type", "subgroup_size"})
+        self.assertEqual([row["id"] for row in told["rows"]], ["ecs.random_get", "jobs.fork_join"])
+        for row in told["rows"]:
+            self.assertEqual(set(row) - {"bar"}, FIELDS)
+            self.assertGreater(row["value"], 0)
+            self.assertLessEqual(row["p10"], row["p90"])
+            self.assertIn(row["better"], ("lower", "higher"))
+
+    def test_what_is_computed_does_not_depend_on_the_run(self):
+        hashes = []
+        for _ in range(2):
+            self.expect(0, "bench", "ecs.iterate2.1e4", "--quiet", "--json", "rows.json")
+            hashes.append([row["hash"] for row in self.read_json("rows.json")["rows"]])
+        self.assertEqual(hashes[0], hashes[1])
+
+    def test_quiet_prints_nothing(self):
+        self.assertEqual(self.expect(0, "bench", "jobs.fork_join", "--quiet").stdout, "")
+
+
+if __name__ == "__main__":
+    main()

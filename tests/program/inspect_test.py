@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""What `inspect` tells of built-in scenes and of a file."""
+import json
+
+from program_case import ProgramCase, main
+
+COUNTS = ("nodes", "meshes", "triangles", "instances", "drawn_triangles", "materials", "textures", "images", "lights", "skins")
+TRIANGLE = {
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+    "nodes": [{"mesh": 0, "name": "leaf"}, {"camera": 0, "name": "eye"}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
+                 "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+}
+
+
+class Inspect(ProgramCase):
+    def inspect(self, scene):
+        return json.loads(self.expect(0, "inspect", scene, "--json").stdout)
+
+    def test_json_holds_every_field(self):
+        told = self.inspect("builtin:lanterns")
+        self.assertEqual(told["version"], 1)
+        self.assertEqual(told["scene"], "builtin:lanterns")
+        for count in COUNTS:
+            self.assertIsInstance(told[count], int, count)
+        self.assertEqual(told["cameras"], ["main", "steps"])
+        self.assertEqual(told["animations"], [])
+        self.assertEqual(told["lights"], 256)
+        self.assertGreater(told["drawn_triangles"], told["triangles"])
+        for module in told["modules"]:
+            self.assertEqual(set(module), {"name", "built", "demanded", "reason"})
+
+    def test_modules_say_whether_and_why(self):
+        modules = {module["name"]: module for module in self.inspect("builtin:lanterns")["modules"]}
+        self.assertTrue(modules["lights"]["demanded"])
+        self.assertTrue(modules["lights"]["built"])
+        self.assertFalse(modules["grass"]["demanded"])
+        for module in modules.values():
+            self.assertTrue(module["reason"], module["name"])
+
+    def test_text_says_what_is_not_built_yet(self):
+        lines = self.expect(0, "inspect", "builtin:lanterns").stdout.splitlines()
+        unbuilt = [m["name"] for m in self.inspect("builtin:lanterns")["modules"] if m["demanded"] and not m["built"]]
+        for name in unbuilt:
+            line = next(line for line in lines if line.split()[0] == name)
+            self.assertIn("called for, not built yet", line)
+
+    def test_a_file_is_told_like_a_built_in_scene(self):
+        (self.folder / "leaf.gltf").write_text(json.dumps(TRIANGLE))
+        told = self.inspect("leaf.gltf")
+        self.assertEqual(told["triangles"], 1)
+        self.assertEqual(told["nodes"], 2)
+        self.assertEqual(told["cameras"], ["eye"])
+        self.assertEqual(told["lights"], 0)
+        self.assertIn("eye", self.expect(0, "inspect", "leaf.gltf").stdout)
+        self.expect(2, "inspect", "leaf.gltf", "--camera", "leaf")
+
+
+if __name__ == "__main__":
+    main()

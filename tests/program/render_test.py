@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""`render`: pictures, stats, traces, reproducibility, faults. Needs a Vulkan device."""
+import os
+
+from program_case import ProgramCase, main
+
+SMALL = ("--size", "160x90")
+STATS = {"version", "scene", "device", "size", "frames", "frame_ms", "systems", "passes", "memory", "modules", "counters", "knobs"}
+
+
+class Render(ProgramCase):
+    def setUp(self):
+        super().setUp()
+        self.require_device()
+
+    def bytes_of(self, name):
+        return (self.folder / name).read_bytes()
+
+    def test_the_default_picture_is_named_after_the_scene(self):
+        run = self.expect(0, "render", "builtin:plain", *SMALL)
+        self.assertIn("out/plain.png", run.stdout)
+        self.assertTrue(self.bytes_of("out/plain.png").startswith(b"\x89PNG"))
+
+    def test_the_same_twice_to_the_bit(self):
+        for scene in ("plain", "lanterns"):
+            for name in ("a", "b"):
+                self.expect(0, "render", f"builtin:{scene}", *SMALL, "--frames", "2", "--time", "1.5", "--seed", "7",
+                            "--out", f"{name}.png")
+            self.assertEqual(self.bytes_of("a.png"), self.bytes_of("b.png"), scene)
+
+    def test_threads_do_not_change_the_picture(self):
+        for threads in ("1", "4"):
+            self.expect(0, "render", "builtin:lanterns", *SMALL, "--threads", threads, "--out", f"{threads}.png")
+        self.assertEqual(self.bytes_of("1.png"), self.bytes_of("4.png"))
+
+    def test_cameras_differ(self):
+        for camera in ("main", "steps"):
+            self.expect(0, "render", "builtin:lanterns", *SMALL, "--camera", camera, "--out", f"{camera}.png")
+        self.assertNotEqual(self.bytes_of("main.png"), self.bytes_of("steps.png"))
+
+    def test_an_exr_is_written(self):
+        self.expect(0, "render", "builtin:plain", *SMALL, "--out", "deep/light.exr")
+        self.assertTrue(self.bytes_of("deep/light.exr").startswith(b"\x76\x2f\x31\x01"))
+
+    def test_stats_hold_the_schema(self):
+        self.expect(0, "render", "builtin:lanterns", *SMALL, "--frames", "3", "--stats", "stats.json", "--quiet")
+        stats = self.read_json("stats.json")
+        self.assertEqual(set(stats), STATS)
+        self.assertEqual((stats["version"], stats["scene"], stats["size"], stats["frames"]),
+                         (1, "builtin:lanterns", [160, 90], 3))
+        self.assertEqual(set(stats["device"]), {"name", "driver", "type", "subgroup_size"})
+        for clock in ("cpu", "gpu", "wall"):
+            times = stats["frame_ms"][clock]
+            self.assertEqual(set(times), {"median", "p10", "p90"})
+            self.assertLessEqual(times["p10"], times["median"])
+            self.assertLessEqual(times["median"], times["p90"])
+        self.assertGreater(stats["frame_ms"]["wall"]["median"], 0)
+        self.assertTrue(stats["systems"])
+        for row in stats["systems"]:
+            self.assertEqual(set(row), {"name", "module", "median_ms", "p90_ms", "calls"})
+        self.assertTrue(stats["passes"])
+        for row in stats["passes"]:
+            self.assertEqual(set(row), {"name", "module", "median_ms", "p90_ms", "dispatches", "draws"})
+        for row in stats["memory"]:
+            self.assertEqual(set(row), {"module", "gpu_bytes", "cpu_bytes"})
+        for row in stats["modules"]:
+            self.assertEqual(set(row), {"name", "demanded", "reason", "pipelines"})
+            if not row["demanded"]:
+                self.assertEqual(row["pipelines"], 0, row)
+        self.assertEqual(stats["counters"]["nan_pixels"], 0)
+        self.assertEqual(stats["counters"]["lights.total"], 256)
+
+    def test_a_trace_holds_systems_and_passes(self):
+        self.expect(0, "render", "builtin:plain", *SMALL, "--trace", "trace.json")
+        categories = {event.get("cat") for event in self.read_json("trace.json")["traceEvents"]}
+        self.assertIn("engine", categories)
+
+    def test_a_pixel_can_be_asked_about(self):
+        self.assertTrue(self.expect(0, "render", "builtin:plain", *SMALL, "--pick", "80,80", "--quiet").stdout.strip())
+
+    def test_unknown_knobs_views_and_cameras_are_wrong_usage(self):
+        (self.folder / "bad.json").write_text('{"no.such": 1}')
+        for option in (("--set", "no.such=1"), ("--view", "no_such"), ("--camera", "nobody"), ("--config", "absent.json"),
+                       ("--config", "bad.json"), ("--animation", "walk")):
+            self.expect(2, "render", "builtin:plain", *SMALL, *option)
+
+    def test_no_such_device_is_4(self):
+        self.expect(4, "render", "builtin:plain", "--device", "no such device")
+
+    def test_a_place_that_cannot_be_written_is_1(self):
+        (self.folder / "file").write_text("")
+        for option in (("--out", "file/a.png"), ("--stats", "file/s.json"), ("--trace", "file/t.json")):
+            self.expect(1, "render", "builtin:plain", *SMALL, *option)
+        if os.path.exists("/dev/full"):
+            os.symlink("/dev/full", self.folder / "full.png")
+            self.expect(1, "render", "builtin:plain", *SMALL, "--out", "full.png")
+
+    def test_validation_has_nothing_to_say(self):
+        run = self.run_program("render", "builtin:lanterns", *SMALL, "--frames", "3", "--validate")
+        if run.returncode != 0 and "layer" in run.stderr:
+            self.skipTest(run.stderr.strip())
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+
+if __name__ == "__main__":
+    main()

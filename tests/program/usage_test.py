@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""Exit codes and error lines of everything that needs no device."""
+import os
+import subprocess
+
+from program_case import NO_DEVICE, ProgramCase, main
+
+NO_VULKAN = {"VK_ICD_FILENAMES": "/nonexistent", "VK_DRIVER_FILES": "/nonexistent"}
+
+
+class Usage(ProgramCase):
+    def test_alone_it_prints_its_help_and_leaves_with_2(self):
+        run = self.expect(2)
+        for command in ("play", "render", "inspect", "bake", "cost", "bench", "scenes"):
+            self.assertIn(command, run.stdout)
+
+    def test_help_and_version_are_results(self):
+        self.assertIn("render", self.expect(0, "--help").stdout)
+        self.assertIn("--stats", self.expect(0, "render", "--help").stdout)
+        self.assertRegex(self.expect(0, "--version").stdout, r"^gloam \d+\.\d+\.\d+\n$")
+
+    def test_wrong_usage_is_2(self):
+        for arguments in (["dance"], ["render"], ["--no-such"], ["render", "builtin:plain", "--no-such"],
+                          ["render", "builtin:nothing"], ["inspect", "builtin:nothing"],
+                          ["inspect", "builtin:plain", "--camera", "nobody"],
+                          ["inspect", "builtin:plain", "--animation", "walk"],
+                          ["render", "builtin:plain", "--size", "0x0"], ["render", "builtin:plain", "--frames", "0"],
+                          ["render", "builtin:plain", "--out", "a.txt"], ["render", "builtin:plain", "--set", "x"],
+                          ["render", "builtin:plain", "--pick", "1280,0"], ["bench"], ["bench", "nothing"],
+                          ["render", "builtin:plain", "--budget", "8"], ["cost", "builtin:plain"]):
+            self.expect(2, *arguments)
+
+    def test_a_bad_scene_is_3(self):
+        (self.folder / "broken.gltf").write_text("{ this is no scene")
+        (self.folder / "empty.glb").write_bytes(b"")
+        for scene in ("absent.gltf", "broken.gltf", "empty.glb", "."):
+            self.expect(3, "inspect", scene, says=scene)
+        self.expect(3, "render", "absent.gltf", says="absent.gltf")
+
+    def test_what_is_not_built_says_so(self):
+        self.expect(1, "bake", "builtin:plain", says="not built yet")
+        self.expect(1, "cost", "builtin:plain", "--out", "ledger", says="not built yet")
+
+    def test_without_vulkan_only_drawing_fails(self):
+        self.expect(NO_DEVICE, "render", "builtin:plain", env=NO_VULKAN)
+        self.expect(0, "inspect", "builtin:plain", env=NO_VULKAN)
+        self.expect(0, "scenes", env=NO_VULKAN)
+        self.expect(0, "bench", "--list", env=NO_VULKAN)
+        self.expect(0, "bench", "jobs.fork_join", env=NO_VULKAN)
+
+    def test_play_without_a_display_is_1(self):
+        self.expect(1, "play", env={"DISPLAY": "", "WAYLAND_DISPLAY": ""}, says="display")
+
+    def test_scenes_are_one_a_line(self):
+        lines = self.expect(0, "scenes").stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in lines], ["builtin:plain", "builtin:lanterns"])
+        for line in lines:
+            self.assertGreater(len(line.split()), 3)
+
+    def test_a_full_disk_is_1(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("there is no /dev/full")
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            run = subprocess.run([self.program, "scenes"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, r"^gloam: error: [^\n]+\n$")
+
+    def test_it_runs_with_all_streams_closed(self):
+        run = subprocess.run(["sh", "-c", '"$0" inspect builtin:plain <&- 2>&- | grep -c camera', self.program],
+                             stdout=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(run.stdout.strip(), "1")
+
+
+if __name__ == "__main__":
+    main()

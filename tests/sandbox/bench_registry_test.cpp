@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/bench/registry.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sandbox/bench/report.h"
+#include "tests/support/expect_assert.h"
+
+namespace gloam {
+namespace {
+
+BenchRow row(const std::string& id) { return {.id = id, .unit = "ms", .bar = {}, .better = Better::lower, .run = {}}; }
+
+BenchRegistry some_rows() {
+  BenchRegistry registry;
+  for (const char* id : {"jobs.empty", "jobs.empty.one_thread", "jobs.fork_join", "jobsite.dig"}) registry.add(row(id));
+  return registry;
+}
+
+std::vector<std::string> chosen(const std::vector<std::string>& names) {
+  const BenchRegistry registry = some_rows();
+  const auto rows = registry.choose(names);
+  std::vector<std::string> ids;
+  EXPECT_TRUE(rows.ok());
+  if (rows.ok()) {
+    for (const BenchRow* each : *rows) ids.push_back(each->id);
+  }
+  return ids;
+}
+
+TEST(BenchRegistry, a_name_chooses_what_starts_with_it_and_a_dot) {
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(chosen({"jobs"}), (Ids{"jobs.empty", "jobs.empty.one_thread", "jobs.fork_join"}));
+  EXPECT_EQ(chosen({"jobs.empty"}), (Ids{"jobs.empty", "jobs.empty.one_thread"}));
+  EXPECT_EQ(chosen({"jobs", "jobs.empty"}).size(), 3u);
+}
+
+TEST(BenchRegistry, an_unknown_name_is_wrong_usage) {
+  const BenchRegistry registry = some_rows();
+  for (const char* name : {"job", "jobs.", "jobs.emp", ""}) {
+    const auto rows = registry.choose(std::vector<std::string>{"jobs", name});
+    ASSERT_FALSE(rows.ok()) << name;
+    EXPECT_EQ(rows.error().kind, ErrorKind::usage);
+  }
+}
+
+TEST(BenchRegistry, ids_are_unique) {
+  BenchRegistry registry = some_rows();
+  EXPECT_ASSERT(registry.add(row("jobs.empty")), "unique");
+}
+
+TEST(BenchRegistry, a_bar_holds_on_its_better_side) {
+  BenchRow lower = row("a");
+  EXPECT_TRUE(holds(lower, 1e9));
+  lower.bar = 0.5;
+  EXPECT_TRUE(holds(lower, 0.5));
+  EXPECT_FALSE(holds(lower, 0.6));
+  lower.better = Better::higher;
+  EXPECT_TRUE(holds(lower, 0.6));
+  EXPECT_FALSE(holds(lower, 0.4));
+}
+
+TEST(BenchRegistry, the_programs_own_benches_have_the_documented_ids) {
+  std::set<std::string> ids;
+  const BenchRegistry registry = make_bench_registry();
+  for (const BenchRow& each : registry.rows()) ids.insert(each.id);
+  for (const char* id : {"iterate2.1e4", "iterate2.1e6", "iterate3_fragmented.10", "iterate3_fragmented.1024", "create",
+                         "create_bulk", "destroy", "destroy_random", "add", "add_shuffled", "remove", "random_get"}) {
+    EXPECT_TRUE(ids.contains("ecs." + std::string(id))) << id;
+    EXPECT_TRUE(ids.contains("ecs." + std::string(id) + "_over_bare")) << id;
+  }
+  for (const char* id : {"empty", "empty.one_thread", "parallel_for_efficiency", "graph_node", "fork_join"})
+    EXPECT_TRUE(ids.contains("jobs." + std::string(id))) << id;
+  for (const char* id : {"scene", "gather48", "scene_over_gather48"})
+    EXPECT_TRUE(ids.contains("frame." + std::string(id))) << id;
+}
+
+TEST(BenchReport, json_has_the_documented_fields) {
+  BenchRow barred = row("a.b");
+  barred.bar = 2.0;
+  const BenchRow informing = row("a.c");
+  const std::vector<MeasuredRow> rows = {{&barred, {.value = 2.5, .p10 = 2.0, .p90 = 3.0, .hash = "00ff"}},
+                                         {&informing, {.value = 1.0, .p10 = {}, .p90 = {}, .hash = {}}}};
+  const auto json =
+      nlohmann::json::parse(bench_json({.scene = "builtin:plain", .device = {}, .width = 64, .height = 32}, rows));
+  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["size"], nlohmann::json({64, 32}));
+  EXPECT_EQ(json["scene"], "builtin:plain");
+  EXPECT_EQ(json["device"]["type"], "none");
+  EXPECT_EQ(json["rows"][0], nlohmann::json({{"id", "a.b"},
+                                             {"value", 2.5},
+                                             {"unit", "ms"},
+                                             {"p10", 2.0},
+                                             {"p90", 3.0},
+                                             {"bar", 2.0},
+                                             {"better", "lower"},
+                                             {"holds", false},
+                                             {"hash", "00ff"}}));
+  EXPECT_FALSE(json["rows"][1].contains("bar"));
+  EXPECT_EQ(json["rows"][1]["holds"], true);
+  EXPECT_TRUE(json["rows"][1]["hash"].is_null());
+  EXPECT_NE(bench_line(rows[0]).find("MISSED"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gloam

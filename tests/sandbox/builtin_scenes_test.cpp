@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "engine/ecs/view.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/resources.h"
+#include "modules/lights/components.h"
+#include "modules/shadows/components.h"
+#include "sandbox/scenes/builtin.h"
+#include "sandbox/scenes/scene_builder.h"
+
+namespace gloam {
+namespace {
+
+struct BuiltWorld {
+  World world;
+  SceneInfo info;
+
+  explicit BuiltWorld(std::string_view name) {
+    prepare_scene_world(world);
+    world.register_component<Light>("light");
+    world.register_component<ShadowCaster>("shadow_caster");
+    const auto scene = find_builtin_scene(name);
+    EXPECT_TRUE(scene.ok());
+    if (scene.ok()) scene.value()->build(world, info);
+  }
+};
+
+std::map<LightKind, int> lights_by_kind(World& world) {
+  std::map<LightKind, int> kinds;
+  world.view<const Light>().each([&](const Light& light) { ++kinds[light.kind]; });
+  return kinds;
+}
+
+TEST(BuiltinScenes, names_are_unique_and_each_says_what_it_shows) {
+  std::set<std::string_view> names;
+  for (const BuiltinScene& scene : builtin_scenes()) {
+    EXPECT_TRUE(names.insert(scene.name).second);
+    EXPECT_FALSE(scene.shows.empty());
+  }
+  EXPECT_TRUE(names.contains("plain"));
+  EXPECT_TRUE(names.contains("lanterns"));
+}
+
+TEST(BuiltinScenes, an_unknown_name_is_wrong_usage_that_lists_the_names) {
+  const auto scene = find_builtin_scene("lantern");
+  ASSERT_FALSE(scene.ok());
+  EXPECT_EQ(scene.error().kind, ErrorKind::usage);
+  EXPECT_NE(scene.error().message.find("lanterns"), std::string::npos);
+}
+
+TEST(BuiltinScenes, every_instance_names_a_mesh_and_every_mesh_a_material) {
+  for (const BuiltinScene& scene : builtin_scenes()) {
+    BuiltWorld built(scene.name);
+    const auto& assets = built.world.resource<SceneAssets>();
+    std::uint64_t triangles = 0;
+    built.world.view<const MeshInstance>().each([&](const MeshInstance& instance) {
+      ASSERT_LT(instance.mesh, assets.meshes.size());
+      for (const Primitive& primitive : assets.meshes[instance.mesh].primitives)
+        triangles += primitive.indices.size() / 3;
+    });
+    EXPECT_EQ(triangles, built.info.triangles);
+    for (const Mesh& mesh : assets.meshes) {
+      for (const Primitive& primitive : mesh.primitives) EXPECT_LT(primitive.material, assets.materials.size());
+    }
+    EXPECT_EQ(built.info.name, scene.name);
+  }
+}
+
+TEST(BuiltinScenes, cameras_can_be_found_by_name) {
+  for (const BuiltinScene& scene : builtin_scenes()) {
+    BuiltWorld built(scene.name);
+    const auto main = built.world.resource<SceneNames>().find("camera", "main");
+    ASSERT_TRUE(main.ok());
+    EXPECT_EQ(*main, built.info.cameras.front());
+  }
+}
+
+TEST(PlainScene, has_one_sun) {
+  BuiltWorld built("plain");
+  EXPECT_EQ(lights_by_kind(built.world), (std::map<LightKind, int>{{LightKind::directional, 1}}));
+}
+
+TEST(LanternsScene, has_256_coloured_point_and_spot_lights) {
+  BuiltWorld built("lanterns");
+  EXPECT_EQ(lights_by_kind(built.world), (std::map<LightKind, int>{{LightKind::point, 208}, {LightKind::spot, 48}}));
+  EXPECT_EQ(built.world.resource<SceneNames>().names("light").size(), 256u);
+  EXPECT_EQ(built.info.cameras.size(), 2u);
+  built.world.view<const Light>().each([](const Light& light) {
+    EXPECT_GT(light.range_m, 0.0f);
+    EXPECT_GT(light.intensity, 0.0f);
+    EXPECT_LE(light.inner_angle, light.outer_angle);
+  });
+}
+
+TEST(SceneBuilder, a_rotation_towards_a_direction_turns_minus_z_there) {
+  for (const dvec3& direction : {dvec3(0, 0, -1), dvec3(0, 0, 1), dvec3(0, -1, 0), dvec3(0, 2, 0), dvec3(1, -3, 0.5)}) {
+    const dvec3 turned = rotation_towards(direction) * dvec3(0, 0, -1);
+    EXPECT_LT(glm::length(turned - glm::normalize(direction)), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace gloam

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/options.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gloam {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+Result<std::variant<Options, PrintAndLeave>> parse(const Arguments& arguments) {
+  return parse_options(arguments, "gloam 9.8.7");
+}
+
+Options parsed(const Arguments& arguments) {
+  const auto outcome = parse(arguments);
+  EXPECT_TRUE(outcome.ok()) << (outcome.ok() ? "" : outcome.error().message);
+  if (!outcome.ok() || !std::holds_alternative<Options>(*outcome)) return {};
+  return std::get<Options>(*outcome);
+}
+
+std::string fault(const Arguments& arguments) {
+  const auto outcome = parse(arguments);
+  EXPECT_FALSE(outcome.ok()) << "nothing was wrong with the arguments";
+  if (outcome.ok()) return {};
+  EXPECT_EQ(outcome.error().kind, ErrorKind::usage);
+  EXPECT_FALSE(outcome.error().message.empty());
+  return outcome.error().message;
+}
+
+TEST(Options, defaults_are_the_documented_ones) {
+  const Options options = parsed({"render", "scene.gltf"});
+  EXPECT_EQ(options.command, Command::render);
+  EXPECT_EQ(options.scene, "scene.gltf");
+  EXPECT_EQ(options.width, 1280u);
+  EXPECT_EQ(options.height, 720u);
+  EXPECT_EQ(options.frames, 1u);
+  EXPECT_EQ(options.time_s, 0.0);
+  EXPECT_DOUBLE_EQ(options.dt_s, 1.0 / 60.0);
+  EXPECT_EQ(options.view, "none");
+  EXPECT_EQ(options.device, "auto");
+  EXPECT_FALSE(options.validate);
+  EXPECT_FALSE(options.pick.has_value());
+}
+
+TEST(Options, every_common_option_is_read) {
+  const Options options =
+      parsed({"render",    "a.glb",  "--size",      "320x180", "--camera",   "court",  "--frames",    "7",
+              "--time",    "-1.5",   "--dt",        "0.25",    "--seed",     "42",     "--view",      "depth",
+              "--out",     "x.exr",  "--stats",     "s.json",  "--trace",    "t.json", "--device",    "cpu",
+              "--threads", "3",      "--animation", "walk",    "--config",   "c.json", "--cache-dir", "cache",
+              "--ledger",  "l.json", "--budget",    "8ms",     "--validate", "--pick", "5,6",         "--quiet"});
+  EXPECT_EQ(options.width, 320u);
+  EXPECT_EQ(options.height, 180u);
+  EXPECT_EQ(options.camera, "court");
+  EXPECT_EQ(options.frames, 7u);
+  EXPECT_EQ(options.time_s, -1.5);
+  EXPECT_EQ(options.dt_s, 0.25);
+  EXPECT_EQ(options.seed, 42u);
+  EXPECT_EQ(options.view, "depth");
+  EXPECT_EQ(options.out, "x.exr");
+  EXPECT_EQ(options.stats, "s.json");
+  EXPECT_EQ(options.trace, "t.json");
+  EXPECT_EQ(options.device, "cpu");
+  EXPECT_EQ(options.threads, 3u);
+  EXPECT_EQ(options.animation, "walk");
+  EXPECT_EQ(options.config, "c.json");
+  EXPECT_EQ(options.cache_dir, "cache");
+  EXPECT_EQ(options.ledger, "l.json");
+  EXPECT_EQ(options.budget, "8ms");
+  EXPECT_TRUE(options.validate);
+  ASSERT_TRUE(options.pick.has_value());
+  EXPECT_EQ(options.pick->x, 5u);
+  EXPECT_EQ(options.pick->y, 6u);
+  EXPECT_TRUE(options.quiet);
+}
+
+TEST(Options, set_may_be_repeated_and_does_not_swallow_the_scene) {
+  const Options options = parsed({"render", "--set", "a.b=1", "--set", "c=two", "scene.gltf"});
+  EXPECT_EQ(options.assignments, (Arguments{"a.b=1", "c=two"}));
+  EXPECT_EQ(options.scene, "scene.gltf");
+}
+
+TEST(Options, play_shows_the_lanterns_until_the_window_is_closed) {
+  const Options options = parsed({"play"});
+  EXPECT_EQ(options.scene, "builtin:lanterns");
+  EXPECT_EQ(options.frames, 0u);
+  EXPECT_FALSE(options.fixed_step);
+  EXPECT_TRUE(parsed({"play", "--dt", "0.1"}).fixed_step);
+  EXPECT_EQ(parsed({"play", "--frames", "3"}).frames, 3u);
+}
+
+TEST(Options, bench_takes_names_and_a_scene) {
+  const Options options = parsed({"bench", "ecs", "jobs", "--strict", "--json", "rows.json"});
+  EXPECT_EQ(options.names, (Arguments{"ecs", "jobs"}));
+  EXPECT_EQ(options.scene, "builtin:lanterns");
+  EXPECT_TRUE(options.strict);
+  EXPECT_EQ(options.json_file, "rows.json");
+  EXPECT_TRUE(parsed({"bench", "--list"}).list);
+}
+
+TEST(Options, help_and_version_are_to_be_printed) {
+  for (const Arguments& arguments : {Arguments{"--help"}, Arguments{"render", "--help"}, Arguments{"--version"}}) {
+    const auto outcome = parse(arguments);
+    ASSERT_TRUE(outcome.ok());
+    EXPECT_TRUE(std::holds_alternative<PrintAndLeave>(*outcome));
+  }
+  EXPECT_EQ(std::get<PrintAndLeave>(*parse({"--version"})).text, "gloam 9.8.7\n");
+  EXPECT_NE(std::get<PrintAndLeave>(*parse({"render", "--help"})).text.find("--stats"), std::string::npos);
+  EXPECT_NE(help_text().find("inspect"), std::string::npos);
+}
+
+TEST(Options, wrong_usage_is_refused) {
+  fault({});
+  fault({"dance"});
+  fault({"render"});
+  fault({"render", "a.gltf", "b.gltf"});
+  fault({"render", "a.gltf", "--no-such-option"});
+  fault({"render", "a.gltf", "--frames", "0"});
+  fault({"render", "a.gltf", "--frames", "many"});
+  fault({"render", "a.gltf", "--frames", "-1"});
+  fault({"render", "a.gltf", "--time", "nan"});
+  fault({"render", "a.gltf", "--dt", "-0.1"});
+  fault({"render", "a.gltf", "--dt", "inf"});
+  fault({"render", "a.gltf", "--threads", "5000"});
+  fault({"render", "a.gltf", "--seed", "x"});
+  fault({"render", "a.gltf", "--out", "picture.jpg"});
+  fault({"render", "a.gltf", "--set", "no_equals_sign"});
+  fault({"render", "a.gltf", "--budget", "8ms"});
+  fault({"cost", "a.gltf"});
+  fault({"bench"});
+}
+
+TEST(Options, sizes_are_two_numbers_in_range) {
+  for (const char* size :
+       {"0x10", "10x0", "10", "10x", "x10", "10x10x10", "-1x5", "10 x10", "99999x10", "4294967297x10", "axb"})
+    EXPECT_NE(fault({"render", "a.gltf", "--size", size}).find("--size"), std::string::npos) << size;
+  EXPECT_EQ(parsed({"render", "a.gltf", "--size", "1x16384"}).height, 16384u);
+}
+
+TEST(Options, a_pick_lies_in_the_picture) {
+  EXPECT_TRUE(parsed({"render", "a.gltf", "--size", "10x10", "--pick", "9,9"}).pick.has_value());
+  for (const char* pick : {"10,0", "0,10", "1", "1,", "-1,2", "1,2,3"})
+    EXPECT_NE(fault({"render", "a.gltf", "--size", "10x10", "--pick", pick}).find("--pick"), std::string::npos) << pick;
+}
+
+}  // namespace
+}  // namespace gloam
