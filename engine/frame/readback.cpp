@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/assert.h"
+#include "engine/gpu/image_size.h"
 
 namespace gloam {
 
@@ -39,7 +40,8 @@ Result<Readback::Request*> Readback::make_request(std::uint64_t size) {
     if (!made.ok()) return made.error();
     buffer = *made;
   }
-  requests_.push_back(std::make_unique<Request>(Request{.id = ++last_id_, .buffer = buffer, .size = size}));
+  requests_.push_back(std::make_unique<Request>(
+      Request{.id = ++last_id_, .buffer = buffer, .size = size, .frame = device_.frame_number()}));
   return requests_.back().get();
 }
 
@@ -50,9 +52,7 @@ BufferRef Readback::import_target(FrameGraph& graph, const Request& request) {
 Result<ReadbackTicket> Readback::read_image(FrameGraph& graph, ImageRef image, std::uint32_t mip, std::uint32_t layer) {
   const gpu::ImageDesc& desc = graph.desc(image);
   GLOAM_ASSERT(mip < desc.mips && layer < desc.layers, "image '" + desc.name + "' has no such mip or layer");
-  const std::uint64_t size = std::uint64_t{std::max(desc.width >> mip, 1u)} * std::max(desc.height >> mip, 1u) *
-                             gpu::bytes_per_texel(desc.format);
-  Result<Request*> made = make_request(size);
+  Result<Request*> made = make_request(gpu::mip_bytes(desc, mip));
   if (!made.ok()) return made.error();
   Request* request = *made;
   const BufferRef imported = import_target(graph, *request);
@@ -112,7 +112,7 @@ std::size_t Readback::open_requests() const {
 
 void Readback::recycle_finished() {
   std::erase_if(requests_, [&](const auto& request) {
-    const bool finished = request->dropped && request->recorded && device_.completed_frames() > request->frame;
+    const bool finished = request->dropped && device_.completed_frames() > request->frame;
     if (finished) free_buffers_.push_back(request->buffer);
     return finished;
   });

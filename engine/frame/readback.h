@@ -49,7 +49,7 @@ class Readback {
     std::uint64_t id = 0;
     gpu::BufferHandle buffer;
     std::uint64_t size = 0;
-    std::uint64_t frame = 0;
+    std::uint64_t frame = 0;  ///< that copies, or until it does the one that was asked to
     bool recorded = false;
     bool dropped = false;
   };

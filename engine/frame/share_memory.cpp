@@ -3,19 +3,11 @@
 #include <algorithm>
 
 #include "engine/frame/plan.h"
+#include "engine/gpu/image_size.h"
 
 namespace gloam::frame {
 
 namespace {
-
-/// Bytes of all mips and layers, as if tightly packed.
-std::uint64_t image_bytes(const gpu::ImageDesc& desc) {
-  std::uint64_t texels = 0;
-  for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
-    texels += std::uint64_t{std::max(desc.width >> mip, 1u)} * std::max(desc.height >> mip, 1u);
-  }
-  return texels * desc.layers * gpu::bytes_per_texel(desc.format);
-}
 
 /// The slot whose size differs least among those that are free at `time` and fit; kNone when there is none.
 std::uint32_t find_slot(const Plan& plan, const std::vector<MemorySlot>& slots, std::uint32_t time, std::uint64_t bytes,
@@ -68,7 +60,7 @@ void share_memory(const Declaration& declaration, Plan& plan) {
   for (std::uint32_t r : order) {
     const DeclaredResource& resource = declaration.resources[r];
     if (resource.is_image) {
-      place(plan, plan.image_slots, r, image_bytes(resource.image_desc), false);
+      place(plan, plan.image_slots, r, gpu::image_bytes(resource.image_desc), false);
     } else {
       place(plan, plan.buffer_slots, r, resource.buffer_desc.size, true);
     }

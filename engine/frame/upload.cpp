@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/assert.h"
+#include "engine/gpu/image_size.h"
 
 namespace gloam {
 
@@ -17,16 +18,6 @@ constexpr std::uint64_t kStagingBytes = std::uint64_t{64}
 
 constexpr std::uint64_t align_up(std::uint64_t bytes, std::uint64_t alignment) {
   return (bytes + alignment - 1) / alignment * alignment;
-}
-
-std::uint64_t mip_bytes(const gpu::ImageDesc& desc, std::uint32_t mip) {
-  return std::uint64_t{std::max(desc.width >> mip, 1u)} * std::max(desc.height >> mip, 1u) *
-         gpu::bytes_per_texel(desc.format);
-}
-std::uint64_t layer_bytes(const gpu::ImageDesc& desc) {
-  std::uint64_t bytes = 0;
-  for (std::uint32_t mip = 0; mip < desc.mips; ++mip) bytes += mip_bytes(desc, mip);
-  return bytes;
 }
 
 }  // namespace
@@ -98,7 +89,7 @@ void Uploader::buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gp
 
 void Uploader::image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after) {
   const gpu::ImageDesc& desc = device_.desc(target);
-  GLOAM_ASSERT(texels.size() == layer_bytes(desc) * desc.layers,
+  GLOAM_ASSERT(texels.size() == gpu::image_bytes(desc),
                "an upload gives all mips of all layers of its image '" + desc.name + "'");
   jobs_.push_back({.buffer = {}, .image = target, .bytes = std::move(texels), .after = after});
 }
@@ -166,7 +157,7 @@ void Uploader::record(gpu::CommandList& commands, std::span<const Job> jobs, gpu
       for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
         for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
           commands.copy_buffer_to_image(staging, offset, job.image, mip, layer, 1);
-          offset += mip_bytes(desc, mip);
+          offset += gpu::mip_bytes(desc, mip);
         }
       }
     }

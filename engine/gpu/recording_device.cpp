@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/gpu/image_size.h"
 #include "engine/gpu/recording/command_recorder.h"
 #include "engine/gpu/recording/objects.h"
 

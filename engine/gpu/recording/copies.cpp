@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/gpu/image_size.h"
 #include "engine/gpu/recording/command_recorder.h"
 
 namespace gloam::gpu::recording {

@@ -105,17 +105,4 @@ struct Objects {
   std::vector<std::string> faults;
 };
 
-[[nodiscard]] inline std::uint32_t mip_extent(std::uint32_t extent, std::uint32_t mip) {
-  return extent >> mip == 0 ? 1 : extent >> mip;
-}
-/// Bytes of one layer of one mip, tightly packed.
-[[nodiscard]] inline std::uint64_t mip_bytes(const ImageDesc& desc, std::uint32_t mip) {
-  return std::uint64_t{mip_extent(desc.width, mip)} * mip_extent(desc.height, mip) * bytes_per_texel(desc.format);
-}
-[[nodiscard]] inline std::uint64_t image_bytes(const ImageDesc& desc) {
-  std::uint64_t bytes = 0;
-  for (std::uint32_t mip = 0; mip < desc.mips; ++mip) bytes += mip_bytes(desc, mip);
-  return bytes * desc.layers;
-}
-
 }  // namespace gloam::gpu::recording

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/recording/tracker.h"
 
+#include <algorithm>
+
 #include "engine/gpu/access.h"
 #include "engine/gpu/device.h"
 
@@ -74,62 +76,62 @@ void Tracker::pass_barrier(SyncState& sync, AccessMask before, AccessMask after,
   sync = {.ready = after, .pending = 0, .pending_frame = frame_, .writer = 0};
 }
 
+void Tracker::buffer_barriers(std::span<const BufferBarrier> barriers) {
+  const BufferHandle handle = barriers.front().buffer;
+  Buffer* buffer = objects_.buffers.find(handle);
+  if (buffer == nullptr) return objects_.fault("barrier: a buffer that is not alive");
+  AccessMask before = 0;
+  AccessMask after = 0;
+  bool waits_for_all = false;
+  for (const BufferBarrier& b : barriers) {
+    if (b.buffer != handle) continue;
+    const AccessMask own_before = mask_of(b.before) | b.also_before;
+    waits_for_all = waits_for_all || own_before == 0;
+    before |= own_before;
+    after |= mask_of(b.after) | b.also_after;
+  }
+  if (waits_for_all) before = 0;
+  const std::string object = name_of_object(*buffer);
+  const AccessMask ready = buffer->sync.ready;
+  if (after == 0) objects_.fault("barrier: " + object + " is made ready for nothing");
+  if (before != 0 && ready != 0 && (with_reads_of_same_stages(before) & ready) == 0) {
+    objects_.fault("barrier: " + object + " waits for " + text_of(before) + " but its last barrier left it ready for " +
+                   text_of(ready));
+  }
+  pass_barrier(buffer->sync, before, after, object);
+}
+
+void Tracker::image_barrier(const ImageBarrier& b) {
+  Image* image = objects_.images.find(b.image);
+  if (image == nullptr) return objects_.fault("barrier: an image that is not alive");
+  ImageMemory& memory = *image->memory;
+  const std::string object = name_of_object(*image);
+  const AccessMask after = mask_of(b.after) | b.also_after;
+  if (b.after == Access::none || (after & ~accesses_in(layout_of(b.after))) != 0) {
+    objects_.fault("barrier: " + object + " is made ready for " + text_of(after) + ", which is not one layout");
+  }
+  const AccessMask ready = memory.owner == b.image.index ? memory.sync.ready : 0;
+  if (b.before != Access::none && (ready == 0 || layout_of(first_of(ready)) != layout_of(b.before))) {
+    objects_.fault("barrier: " + object + " is said to be in " + std::string(name_of(b.before)) +
+                   " but its last barrier left it ready for " + text_of(ready));
+  }
+  memory.owner = b.image.index;
+  pass_barrier(memory.sync, mask_of(b.before) | b.also_before, after, object);
+}
+
 void Tracker::barrier(std::span<const BufferBarrier> buffers, std::span<const ImageBarrier> images) {
   for (std::size_t i = 0; i < buffers.size(); ++i) {
-    const BufferHandle handle = buffers[i].buffer;
-    bool seen = false;
-    for (std::size_t j = 0; j < i; ++j) seen = seen || buffers[j].buffer == handle;
-    if (seen) continue;
-    Buffer* buffer = objects_.buffers.find(handle);
-    if (buffer == nullptr) {
-      objects_.fault("barrier: a buffer that is not alive");
-      continue;
-    }
-    // Several barriers on one buffer in one call act together.
-    AccessMask before = 0;
-    AccessMask after = 0;
-    bool waits_for_all = false;
-    for (const BufferBarrier& b : buffers.subspan(i)) {
-      if (b.buffer != handle) continue;
-      const AccessMask own_before = mask_of(b.before) | b.also_before;
-      waits_for_all = waits_for_all || own_before == 0;
-      before |= own_before;
-      after |= mask_of(b.after) | b.also_after;
-    }
-    const std::string object = name_of_object(*buffer);
-    if (waits_for_all) before = 0;
-    if (after == 0) objects_.fault("barrier: " + object + " is made ready for nothing");
-    if (before != 0 && buffer->sync.ready != 0 && (with_reads_of_same_stages(before) & buffer->sync.ready) == 0) {
-      objects_.fault("barrier: " + object + " waits for " + text_of(before) +
-                     " but its last barrier left it ready for " + text_of(buffer->sync.ready));
-    }
-    pass_barrier(buffer->sync, before, after, object);
+    const auto earlier = buffers.first(i);
+    // All barriers on one buffer in one call act together, so they are taken at the first of them.
+    if (std::ranges::find(earlier, buffers[i].buffer, &BufferBarrier::buffer) != earlier.end()) continue;
+    buffer_barriers(buffers.subspan(i));
   }
   for (std::size_t i = 0; i < images.size(); ++i) {
-    const ImageBarrier& b = images[i];
-    Image* image = objects_.images.find(b.image);
-    if (image == nullptr) {
-      objects_.fault("barrier: an image that is not alive");
-      continue;
+    const auto earlier = images.first(i);
+    if (std::ranges::find(earlier, images[i].image, &ImageBarrier::image) != earlier.end()) {
+      objects_.fault("barrier: one image appears twice in one call");
     }
-    ImageMemory& memory = *image->memory;
-    const std::string object = name_of_object(*image);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (images[j].image == b.image) objects_.fault("barrier: " + object + " appears twice in one call");
-    }
-    const AccessMask after = mask_of(b.after) | b.also_after;
-    if (b.after == Access::none || (after & ~accesses_in(layout_of(b.after))) != 0) {
-      objects_.fault("barrier: " + object + " is made ready for " + text_of(after) + ", which is not one layout");
-    }
-    if (b.before != Access::none) {
-      const AccessMask ready = memory.owner == b.image.index ? memory.sync.ready : 0;
-      if (ready == 0 || layout_of(first_of(ready)) != layout_of(b.before)) {
-        objects_.fault("barrier: " + object + " is said to be in " + std::string(name_of(b.before)) +
-                       " but its last barrier left it ready for " + text_of(ready));
-      }
-    }
-    memory.owner = b.image.index;
-    pass_barrier(memory.sync, mask_of(b.before) | b.also_before, after, object);
+    image_barrier(images[i]);
   }
 }
 

@@ -34,6 +34,9 @@ class Tracker {
   void use(ImageHandle handle, AccessMask possible, std::string_view command);
 
  private:
+  /// Those of the first one's buffer.
+  void buffer_barriers(std::span<const BufferBarrier> barriers);
+  void image_barrier(const ImageBarrier& barrier);
   void pass_barrier(SyncState& sync, AccessMask before, AccessMask after, const std::string& object);
   void note_use(SyncState& sync, AccessMask possible, const std::string& object, std::string_view command);
 

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "engine/gpu/types.h"
+
+/// Bytes of images when tightly packed, as copies to and from buffers have them. Memory on a device may be more.
+namespace gloam::gpu {
+
+/// One layer of one mip.
+[[nodiscard]] inline std::uint64_t mip_bytes(const ImageDesc& desc, std::uint32_t mip) {
+  return std::uint64_t{std::max(desc.width >> mip, 1u)} * std::max(desc.height >> mip, 1u) *
+         bytes_per_texel(desc.format);
+}
+/// One layer with all its mips.
+[[nodiscard]] inline std::uint64_t layer_bytes(const ImageDesc& desc) {
+  std::uint64_t bytes = 0;
+  for (std::uint32_t mip = 0; mip < desc.mips; ++mip) bytes += mip_bytes(desc, mip);
+  return bytes;
+}
+[[nodiscard]] inline std::uint64_t image_bytes(const ImageDesc& desc) { return layer_bytes(desc) * desc.layers; }
+
+}  // namespace gloam::gpu
