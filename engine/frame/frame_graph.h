@@ -14,8 +14,8 @@
 
 namespace gloam {
 
-/// A version of a resource in this frame's graph. Writing gives a new version; using an old one in a later pass, or a handle of
-/// another frame, asserts.
+/// A version of a resource in this frame's graph. Writing gives a new version; using an old one in a later pass, or a
+/// handle of another frame, asserts.
 template <class Kind>
 struct FrameRef {
   std::uint32_t resource = ~0u;
@@ -43,8 +43,9 @@ class PassContext {
 
 using PassFunction = std::function<void(PassContext&)>;
 
-/// Declares one pass: what it reads and writes, then what it records. Reads and writes come before the next pass is added. A pass may
-/// name one resource several times where one layout and one barrier serve: several reads, or a write that includes the read.
+/// Declares one pass: what it reads and writes, then what it records. Reads and writes come before the next pass is
+/// added. A pass may name one resource several times where one layout and one barrier serve: several reads, or a write
+/// that includes the read.
 class PassBuilder {
  public:
   PassBuilder(FrameGraph& graph, std::uint32_t pass) : graph_(graph), pass_(pass) {}
@@ -70,8 +71,8 @@ struct PassTime {
   std::uint32_t draws = 0;
 };
 
-/// A frame's passes as data. Declared anew every frame; the compiled plan (culled passes, barriers, shared memory) is cached by a
-/// structural hash. Order of declaration is order of execution.
+/// A frame's passes as data. Declared anew every frame; the compiled plan (culled passes, barriers, shared memory) is
+/// cached by a structural hash. Order of declaration is order of execution.
 class FrameGraph {
  public:
   explicit FrameGraph(gpu::Device& device);
@@ -85,8 +86,9 @@ class FrameGraph {
   /// Transient: lives in this frame only and may share memory with others. Usage flags are derived from the accesses.
   [[nodiscard]] ImageRef create_image(gpu::ImageDesc desc);
   [[nodiscard]] BufferRef create_buffer(gpu::BufferDesc desc);
-  /// Owned elsewhere. `before`: its last access outside the graph (none: contents may be thrown away). `after`: the access it is left
-  /// ready for when the frame ends (none: whatever came last). Passes that write an import are never culled.
+  /// Owned elsewhere. `before`: its last access outside the graph (none: contents may be thrown away). `after`: the
+  /// access it is left ready for when the frame ends (none: whatever came last). Passes that write an import are never
+  /// culled.
   [[nodiscard]] ImageRef import_image(std::string_view name, gpu::ImageHandle image, gpu::Access before,
                                       gpu::Access after);
   [[nodiscard]] BufferRef import_buffer(std::string_view name, gpu::BufferHandle buffer, gpu::Access before,
@@ -113,7 +115,8 @@ class FrameGraph {
   /// Bytes of transient memory in the current plan, and what it would be without sharing.
   [[nodiscard]] std::uint64_t transient_bytes() const;
   [[nodiscard]] std::uint64_t unshared_bytes() const;
-  /// Gives back the transient memory of all cached plans but the current one's. Happens by itself to plans that rest for 60 frames.
+  /// Gives back the transient memory of all cached plans but the current one's. Happens by itself to plans that rest
+  /// for 60 frames.
   void free_idle_memory();
 
  private:

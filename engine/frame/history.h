@@ -15,8 +15,8 @@
 
 namespace gloam {
 
-/// What the last use wrote, and what this frame shall write in full. When not `valid`, `previous` holds nothing of use: the pass must
-/// not rely on it, but may bind it. `age`: frames since `previous` was written, ≥ 1 when valid.
+/// What the last use wrote, and what this frame shall write in full. When not `valid`, `previous` holds nothing of use:
+/// the pass must not rely on it, but may bind it. `age`: frames since `previous` was written, ≥ 1 when valid.
 struct HistoryImage {
   ImageRef previous;
   ImageRef current;
@@ -30,9 +30,9 @@ struct HistoryBuffer {
   std::uint64_t age = 0;
 };
 
-/// Resources whose contents pass from frame to frame: pairs that swap roles at every use. A pair belongs to a module and is found
-/// by module and name. It starts invalid when it is new, when its description changes, after a reset, and after it was released
-/// because nobody asked for it in kFramesKept frames.
+/// Resources whose contents pass from frame to frame: pairs that swap roles at every use. A pair belongs to a module
+/// and is found by module and name. It starts invalid when it is new, when its description changes, after a reset, and
+/// after it was released because nobody asked for it in kFramesKept frames.
 class History {
  public:
   static constexpr std::uint64_t kFramesKept = 120;
@@ -45,8 +45,8 @@ class History {
   /// Once a frame, before the first image() or buffer(): releases the pairs that nobody used for kFramesKept frames.
   void begin_frame();
 
-  /// Imports a pair into this frame's graph, once a frame. desc.usage names all flags that the passes need. Both are left ready for
-  /// `rest` when the frame ends, so `rest` is best what reads `previous` first.
+  /// Imports a pair into this frame's graph, once a frame. desc.usage names all flags that the passes need. Both are
+  /// left ready for `rest` when the frame ends, so `rest` is best what reads `previous` first.
   [[nodiscard]] Result<HistoryImage> image(FrameGraph& graph, const gpu::ImageDesc& desc, gpu::Access rest);
   [[nodiscard]] Result<HistoryBuffer> buffer(FrameGraph& graph, const gpu::BufferDesc& desc, gpu::Access rest);
 

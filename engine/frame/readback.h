@@ -21,8 +21,8 @@ struct ReadbackTicket {
   [[nodiscard]] explicit operator bool() const { return id != 0; }
 };
 
-/// Brings what a frame computed to the CPU: a pass of the graph copies it to mapped memory, and the bytes are handed out once that
-/// frame has ended on the GPU. Must outlive the execution of the graphs it added passes to.
+/// Brings what a frame computed to the CPU: a pass of the graph copies it to mapped memory, and the bytes are handed
+/// out once that frame has ended on the GPU. Must outlive the execution of the graphs it added passes to.
 class Readback {
  public:
   /// Memory is accounted under `module`.

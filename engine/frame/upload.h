@@ -52,15 +52,16 @@ class UploadRing {
   std::vector<Slot> slots_;
 };
 
-/// Fills device buffers and images once (meshes, textures): stages, submits frames of its own and waits. Not for per-frame use.
+/// Fills device buffers and images once (meshes, textures): stages, submits frames of its own and waits. Not for
+/// per-frame use.
 class Uploader {
  public:
   explicit Uploader(gpu::Device& device) : device_(device) {}
   void buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after);
   /// All mips of all layers, tightly packed, layer by layer and inside a layer mip by mip.
   void image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after);
-  /// Does all that was asked for since the last call; not between begin_frame and submit_frame. One upload a target and call.
-  /// After a fault nothing of it is tried again.
+  /// Does all that was asked for since the last call; not between begin_frame and submit_frame. One upload a target and
+  /// call. After a fault nothing of it is tried again.
   [[nodiscard]] Status flush();
 
  private:

@@ -16,11 +16,12 @@ struct RecordedCommand {
   std::string text;
 };
 
-/// A device without a GPU for tests: hands out handles, counts bytes and pipelines, keeps upload and readback memory as plain bytes,
-/// and writes down every command. Frames complete at once. Barriers, bindings and copies are checked: an object that is not
-/// alive, a copy out of range, or an image used in another state than its last barrier left it is a fault; so is a write that no barrier
-/// orders against what other passes (outermost labels) do, a barrier that does not wait for all earlier uses, and a use of an image whose
-/// shared memory another one took. Copies and fills between buffers and images move bytes; drawing and dispatching do nothing.
+/// A device without a GPU for tests: hands out handles, counts bytes and pipelines, keeps upload and readback memory as
+/// plain bytes, and writes down every command. Frames complete at once. Barriers, bindings and copies are checked: an
+/// object that is not alive, a copy out of range, or an image used in another state than its last barrier left it is a
+/// fault; so is a write that no barrier orders against what other passes (outermost labels) do, a barrier that does not
+/// wait for all earlier uses, and a use of an image whose shared memory another one took. Copies and fills between
+/// buffers and images move bytes; drawing and dispatching do nothing.
 class RecordingDevice : public Device {
  public:
   [[nodiscard]] virtual const std::vector<RecordedCommand>& commands() const = 0;

@@ -50,8 +50,8 @@ class RandomFrameRunner {
 
   /// Declares and runs the first `pass_count` passes as one frame; gives the names of the passes that ran.
   std::vector<std::string> run(std::uint32_t pass_count);
-  /// After the device has become idle: what is wrong with the contents that the last frame's copies saw; empty when nothing is.
-  /// Only for devices that execute clears.
+  /// After the device has become idle: what is wrong with the contents that the last frame's copies saw; empty when
+  /// nothing is. Only for devices that execute clears.
   [[nodiscard]] std::string wrong_contents();
 
  private:
