@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/environment.h"
 
-#include <memory>
-
 #include "engine/scene/resources.h"
 #include "shaders/lighting/lighting_shared.h"
-#include "shaders/lights/lights_shared.h"
 
 namespace gloam {
 
@@ -22,8 +19,7 @@ Result<ShadingInputs> shading_inputs(FrameBuilder& frame) {
     inputs.lights = lights->lights;
     inputs.tiled = static_cast<bool>(lights->tile_masks);
   } else {
-    const auto dark = std::make_unique<shaders::LightBlock>();
-    auto range = frame.services().uniforms.write_value(*dark);
+    auto range = frame.services().uniforms.write(empty_light_block());
     if (!range.ok()) return range.error();
     inputs.lights = *range;
   }

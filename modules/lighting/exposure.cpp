@@ -29,8 +29,10 @@ void ExposureSlots::release() {
   next_ = 0;
 }
 
-ExposureSlots::Slot ExposureSlots::slot_of(const World& world, const RenderView& view) {
-  const auto [found, fresh] = slots_.try_emplace({&world, view.id.value, view.camera_entity.index}, next_ % kCapacity);
+ExposureSlots::Slot ExposureSlots::slot_of(LightingWorld world, const RenderView& view) {
+  const Entity camera = view.camera_entity;
+  const auto [found, fresh] =
+      slots_.try_emplace({world.number, view.id.value, camera.index, camera.generation}, next_ % kCapacity);
   if (!fresh) return {found->second, false};
   const std::uint32_t index = found->second;
   ++next_;

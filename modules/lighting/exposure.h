@@ -15,7 +15,13 @@ namespace gloam {
 /// Factor from cd/m² to 1 = white before the curve, for an exposure value at ISO 100.
 [[nodiscard]] float exposure_from_ev100(float ev100);
 
-/// Metered exposures on the GPU, one slot a world and camera: metered in the camera's first frame, then fixed.
+/// Number of a world among those a lighting module has prepared; a resource of the world. An address would not do: a scene that is
+/// loaded again may get the old one's, but not its exposure.
+struct LightingWorld {
+  std::uint64_t number = 0;
+};
+
+/// Metered exposures on the GPU, one slot a world, view and camera: metered in the camera's first frame, then fixed.
 class ExposureSlots {
  public:
   static constexpr std::uint32_t kCapacity = 1024;
@@ -29,12 +35,13 @@ class ExposureSlots {
   void release();
   [[nodiscard]] gpu::BufferHandle buffer() const { return buffer_; }
   /// The slot of a camera of a world; when all are taken, the oldest camera's is metered anew.
-  [[nodiscard]] Slot slot_of(const World& world, const RenderView& view);
+  [[nodiscard]] Slot slot_of(LightingWorld world, const RenderView& view);
 
  private:
   gpu::Device* device_ = nullptr;
   gpu::BufferHandle buffer_;
-  std::map<std::tuple<const World*, std::uint32_t, std::uint32_t>, std::uint32_t> slots_;
+  using Key = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // world, view, camera's index and generation
+  std::map<Key, std::uint32_t> slots_;
   std::uint32_t next_ = 0;
 };
 

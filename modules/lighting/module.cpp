@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/module.h"
 
+#include <atomic>
+
 #include "engine/ecs/view.h"
 #include "engine/scene/key_table.h"
 #include "modules/lighting/components.h"
@@ -14,7 +16,10 @@ class LightingModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "lighting"; }
 
-  void register_components(World& world) const override { world.register_component<Fog>("fog"); }
+  void register_components(World& world) const override {
+    world.register_component<Fog>("fog");
+    world.set_resource(LightingWorld{++worlds_});
+  }
 
   void scene_keys(KeyRegistry& registry) const override {
     registry.add(number_key(key_line("lighting", KeyElement::node, "gloam.fog.density", "0", "1/m", "homogeneous fog, one a scene"), 0,
@@ -50,6 +55,7 @@ class LightingModule final : public Module {
 
  private:
   ExposureSlots exposures_;
+  mutable std::atomic<std::uint64_t> worlds_ = 0;
 };
 
 }  // namespace

@@ -49,7 +49,7 @@ Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
   if (environment.has_exposure) {
     constants.exposure = exposure_from_ev100(environment.exposure_ev100);
   } else {
-    const ExposureSlots::Slot slot = exposures.slot_of(frame.world(), frame.view());
+    const ExposureSlots::Slot slot = exposures.slot_of(frame.world().resource<LightingWorld>(), frame.view());
     constants.exposure_slot = slot.index;
     constants.metered = 1;
     if (slot.fresh) GLOAM_TRY(add_meter_pass(frame, slots, slot.index));

@@ -2,29 +2,33 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lights/light_keys.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "engine/scene/key_table.h"
+#include "engine/scene/scene_path.h"
 #include "modules/lights/components.h"
 
 namespace gloam {
 namespace {
 
-constexpr const char* kExtension = "KHR_lights_punctual";
+constexpr double kHalfPi = 1.5707963267948966;
 
 /// Definitions of the file's root, looked up by its nodes; a resource while a file is read.
 struct LightDefinitions {
   std::vector<Light> lights;
 };
 
-Error fault(std::string message) { return {ErrorKind::input, std::string(kExtension) + ": " + std::move(message)}; }
+/// The fault alone: whoever reads the file knows the place.
+Error fault(std::string message) { return {ErrorKind::input, std::move(message)}; }
 
-Status read_number(const SceneValue& object, const char* name, double min, double max, float& target) {
+/// `range`: what [min, max] is in words.
+Status read_number(const SceneValue& object, const char* name, double min, double max, const char* range, float& target) {
   const SceneValue* value = object.find(name);
   if (value == nullptr) return {};
-  if (value->kind != SceneValue::Kind::number) return fault(std::string(name) + " must be a number");
-  if (!(value->number >= min && value->number <= max)) return fault(std::string(name) + " is out of range");
+  if (value->kind != SceneValue::Kind::number || !(value->number >= min && value->number <= max))
+    return fault(std::string(name) + " must be a number " + range);
   target = static_cast<float>(value->number);
   return {};
 }
@@ -36,22 +40,22 @@ Status read_color(const SceneValue& object, vec3& color) {
   for (std::size_t c = 0; c < 3; ++c) {
     const SceneValue& item = value->items[c];
     if (item.kind != SceneValue::Kind::number || !(item.number >= 0.0 && item.number <= 1e6))
-      return fault("color must be three numbers ≥ 0");
+      return fault("color must be three numbers in 0…1000000");
     color[static_cast<int>(c)] = static_cast<float>(item.number);
   }
   return {};
 }
 
 Status read_spot(const SceneValue& object, Light& light) {
-  constexpr double kHalfPi = 1.5707963267948966;
   const SceneValue* spot = object.find("spot");
   light.inner_angle = 0.0f;
   light.outer_angle = static_cast<float>(kHalfPi / 2.0);
   if (spot == nullptr) return {};
   if (spot->kind != SceneValue::Kind::object) return fault("spot must be an object");
+  constexpr const char* kAngles = "in 0…π/2 (half of a cone of at most 180°)";
   // A half angle over π/2 is a cone over 180°, which is refused; files round π/2 either way.
-  GLOAM_TRY(read_number(*spot, "innerConeAngle", 0.0, kHalfPi + 1e-6, light.inner_angle));
-  GLOAM_TRY(read_number(*spot, "outerConeAngle", 0.0, kHalfPi + 1e-6, light.outer_angle));
+  GLOAM_TRY(read_number(*spot, "innerConeAngle", 0.0, kHalfPi + 1e-6, kAngles, light.inner_angle));
+  GLOAM_TRY(read_number(*spot, "outerConeAngle", 0.0, kHalfPi + 1e-6, kAngles, light.outer_angle));
   if (light.outer_angle <= 0.0f) return fault("outerConeAngle must be above 0");
   if (light.inner_angle > light.outer_angle) return fault("innerConeAngle must not exceed outerConeAngle");
   light.outer_angle = std::min(light.outer_angle, static_cast<float>(kHalfPi));
@@ -67,8 +71,8 @@ Result<Light> read_light(const SceneValue& object) {
   else if (type->text == "directional") light.kind = LightKind::directional;
   else return fault("type \"" + type->text + "\" is none of point, spot, directional");
   GLOAM_TRY(read_color(object, light.color));
-  GLOAM_TRY(read_number(object, "intensity", 0.0, 1e12, light.intensity));
-  GLOAM_TRY(read_number(object, "range", 1e-6, 1e9, light.range_m));
+  GLOAM_TRY(read_number(object, "intensity", 0.0, 1e12, "in 0…1e12", light.intensity));
+  GLOAM_TRY(read_number(object, "range", 1e-6, 1e9, "above 0, at most 1e9", light.range_m));
   if (light.kind == LightKind::spot) GLOAM_TRY(read_spot(object, light));
   return light;
 }
@@ -80,7 +84,7 @@ Status begin_file(World& world, const SceneValue* root) {
     if (lights == nullptr || lights->kind != SceneValue::Kind::array) return fault("lights must be an array");
     for (std::size_t i = 0; i < lights->items.size(); ++i) {
       auto light = read_light(lights->items[i]);
-      if (!light.ok()) return Error{ErrorKind::input, light.error().message + " (light " + std::to_string(i) + ")"};
+      if (!light.ok()) return fault("light " + std::to_string(i) + ": " + light.error().message);
       definitions.lights.push_back(*light);
     }
   }
@@ -91,12 +95,14 @@ Status begin_file(World& world, const SceneValue* root) {
 Status read_node(KeyTarget& target, const SceneValue& node) {
   const auto& lights = target.world.resource<LightDefinitions>().lights;
   const SceneValue* index = node.find("light");
-  if (index == nullptr || index->kind != SceneValue::Kind::number) return fault("a node must name its light by number");
-  if (!(index->number >= 0.0 && index->number < static_cast<double>(lights.size())))
-    return fault("light " + std::to_string(static_cast<long long>(index->number)) + " does not exist");
+  if (index == nullptr || index->kind != SceneValue::Kind::number || !(index->number >= 0.0) ||
+      index->number != std::floor(index->number))
+    return fault("must name its light by a whole number");
+  if (index->number >= static_cast<double>(lights.size()))
+    return fault("names a light that does not exist, the file has " + std::to_string(lights.size()));
   target.world.add<Light>(target.entity, lights[static_cast<std::size_t>(index->number)]);
   SceneNames& names = target.world.resource<SceneNames>();
-  names.add("light", std::string(names.name_of(target.entity)), target.entity);
+  if (const std::string name(names.name_of(target.entity)); !name.empty()) names.add("light", name, target.entity);
   return {};
 }
 
@@ -106,11 +112,12 @@ SceneKey cookie_key() {
   key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
     const auto& name = std::get<std::string>(value);
     Light& light = target.world.get<Light>(target.entity);
-    if (light.kind != LightKind::spot) return Error{ErrorKind::input, "only spot lights project an image"};
-    const std::filesystem::path path = std::filesystem::path(target.directory) / name;
+    if (light.kind != LightKind::spot) return fault("projects an image, which only a spot does");
+    const auto path = resolve_scene_path(target.directory, name);
+    if (!path.ok()) return path.error();
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return Error{ErrorKind::input, "the image " + name + " is absent"};
-    light.cookie = target.world.resource<SceneStrings>().intern(path.string());
+    if (!std::filesystem::is_regular_file(*path, error)) return fault("names an image that is absent: " + *path);
+    light.cookie = target.world.resource<SceneStrings>().intern(*path);
     return {};
   };
   return key;
@@ -119,7 +126,7 @@ SceneKey cookie_key() {
 }  // namespace
 
 void add_light_keys(KeyRegistry& registry) {
-  registry.add_extension({"lights", kExtension, &begin_file, &read_node});
+  registry.add_extension({"lights", "KHR_lights_punctual", &begin_file, &read_node});
   registry.set_light_test([](const World& world, Entity entity) { return world.try_get<Light>(entity) != nullptr; });
   registry.add(number_key(key_line("lights", KeyElement::light_node, "gloam.light.width", "0", "m",
                                    "diameter of the emitter; 0 = hard shadows"),

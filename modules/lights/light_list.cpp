@@ -10,6 +10,9 @@ namespace {
 
 constexpr float kLeastIlluminance = 0.01f;  // lux: where a light without a range ends
 constexpr float kLeastRange = 1e-3f;        // metres
+constexpr float kMostRange = 1e9f;          // metres: its square is a float
+constexpr float kMostColor = 1e20f;         // candela or lux: what shading makes of it is a float
+constexpr float kHalfPi = kPi * 0.5f;
 
 struct Candidate {
   std::uint32_t light = 0;
@@ -21,12 +24,30 @@ float brightness(const Light& light) {
   return light.intensity * std::max({light.color.r, light.color.g, light.color.b, 0.0f});
 }
 
+/// Colour times intensity, free of negative channels and of values that shading could not multiply.
+vec3 strength(const Light& light) { return glm::clamp(light.color * light.intensity, vec3(0.0f), vec3(kMostColor)); }
+
+bool is_finite(const vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// False for lights that give nothing, and for those with NaN or infinity where no sense can be made of it.
+bool shines(const PlacedLight& placed, const RenderView& view) {
+  const Light& light = placed.light;
+  if (!is_finite(light.color) || !std::isfinite(light.intensity) || !(brightness(light) > 0.0f)) return false;
+  if (!is_finite(placed.direction)) return false;
+  if (light.kind == LightKind::directional) return std::isfinite(light.apparent_angle);
+  if (light.kind == LightKind::spot && !(std::isfinite(light.inner_angle) && std::isfinite(light.outer_angle))) return false;
+  return is_finite(view.relative(placed.position));
+}
+
+/// Cones over 180° are cut to it.
+float outer_angle(const Light& light) { return std::clamp(light.outer_angle, 0.0f, kHalfPi); }
+
 shaders::LocalLight pack_local(const PlacedLight& placed, const RenderView& view) {
   shaders::LocalLight packed{};
   const float range = effective_range(placed.light);
   packed.position = view.relative(placed.position);
   packed.inverse_range_squared = 1.0f / (range * range);
-  packed.color = placed.light.color * placed.light.intensity;
+  packed.color = strength(placed.light);
   packed.direction = placed.direction;
   const vec2 ramp = spot_ramp(placed.light);
   packed.spot_scale = ramp.x;
@@ -49,14 +70,14 @@ std::uint32_t keep_most_important(std::vector<Candidate>& candidates, std::size_
 
 float effective_range(const Light& light) {
   const float range = light.range_m > 0.0f ? light.range_m : std::sqrt(std::max(brightness(light), 0.0f) / kLeastIlluminance);
-  return std::max(range, kLeastRange);
+  return std::min(std::max(kLeastRange, range), kMostRange);  // in this order NaN gives the least
 }
 
 PlacedLight place_light(Entity entity, const Light& light, const dmat4& world_from_node) {
   PlacedLight placed{entity, light, dvec3(world_from_node[3]), vec3(0.0f, 0.0f, -1.0f)};
   const dvec3 axis = -dvec3(world_from_node[2]);
   const double length = glm::length(axis);
-  if (length > 0.0) placed.direction = vec3(axis / length);
+  if (length > 0.0 && std::isfinite(length)) placed.direction = vec3(axis / length);
   return placed;
 }
 
@@ -64,12 +85,12 @@ Sphere light_bounds(const PlacedLight& light, const dvec3& origin) {
   const vec3 position = vec3(light.position - origin);
   const float range = effective_range(light.light);
   if (light.light.kind != LightKind::spot) return {position, range};
-  return bounding_sphere(Cone{position, light.direction, light.light.outer_angle, range});
+  return bounding_sphere(Cone{position, light.direction, outer_angle(light.light), range});
 }
 
 vec2 spot_ramp(const Light& light) {
   if (light.kind != LightKind::spot) return vec2(0.0f, 1.0f);
-  const float cos_outer = std::cos(light.outer_angle);
+  const float cos_outer = std::cos(outer_angle(light));
   const float scale = 1.0f / std::max(1e-3f, std::cos(light.inner_angle) - cos_outer);
   return vec2(scale, -cos_outer * scale);
 }
@@ -83,9 +104,9 @@ void select_lights(std::span<const PlacedLight> lights, const RenderView& view, 
   std::vector<Candidate> directional;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
     const PlacedLight& placed = lights[i];
-    if (!(brightness(placed.light) > 0.0f)) continue;
+    if (!shines(placed, view)) continue;
     if (placed.light.kind == LightKind::directional) {
-      directional.push_back({i, 0.0f, brightness(placed.light)});
+      directional.push_back({i, 0.0f, std::min(brightness(placed.light), kMostColor)});
       continue;
     }
     const Sphere bounds = light_bounds(placed, view.position);
@@ -93,7 +114,7 @@ void select_lights(std::span<const PlacedLight> lights, const RenderView& view, 
     const float depth = glm::dot(forward, bounds.center);
     const float distance = std::max(glm::length(bounds.center), bounds.radius);
     const float coverage = bounds.radius * bounds.radius / (distance * distance);
-    local.push_back({i, std::max(view.near_m, depth - bounds.radius), coverage * brightness(placed.light)});
+    local.push_back({i, std::max(view.near_m, depth - bounds.radius), coverage * std::min(brightness(placed.light), kMostColor)});
   }
   visible.dropped = keep_most_important(local, GLOAM_MAX_LOCAL_LIGHTS);
   visible.dropped += keep_most_important(directional, GLOAM_MAX_DIRECTIONAL_LIGHTS);
@@ -111,7 +132,7 @@ void select_lights(std::span<const PlacedLight> lights, const RenderView& view, 
   }
   for (std::size_t i = 0; i < directional.size(); ++i) {
     const PlacedLight& placed = lights[directional[i].light];
-    block.directional[i] = {placed.light.color * placed.light.intensity, placed.light.apparent_angle, placed.direction, 0.0f};
+    block.directional[i] = {strength(placed.light), placed.light.apparent_angle, placed.direction, 0.0f};
     visible.directional_entities.push_back(placed.entity);
   }
 }

@@ -9,6 +9,11 @@
 
 namespace gloam {
 
+std::span<const std::byte> empty_light_block() {
+  static const shaders::LightBlock block{};
+  return std::as_bytes(std::span(&block, 1));
+}
+
 std::vector<std::uint32_t> decode_tile_mask(std::span<const std::uint32_t> layers) {
   GLOAM_ASSERT(layers.size() == GLOAM_LIGHT_GROUPS + 1, "a tile mask has a word a group of lights and one for the groups");
   std::vector<std::uint32_t> lights;

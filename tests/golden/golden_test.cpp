@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "engine/scene/image_file.h"
+#include "sandbox/image_io.h"
+#include "sandbox/session.h"
+#include "tests/support/gpu_device.h"
+
+// Whole pictures. A golden changes only in a commit that says why: the failing test leaves the new picture in the build folder's
+// golden/, to be looked at and copied here.
+
+namespace gloam::test {
+namespace {
+
+constexpr std::uint32_t kWidth = 320;
+constexpr std::uint32_t kHeight = 180;
+
+Options golden_options(const std::string& scene, const std::string& camera) {
+  Options options;
+  options.scene = scene;
+  options.camera = camera;
+  options.width = kWidth;
+  options.height = kHeight;
+  options.validate = true;
+  return options;
+}
+
+/// The picture of one frame; fails the test on any error or validation message.
+Picture draw(const Options& options) {
+  auto session = open_session(options, gpu_log());
+  if (!session) {
+    ADD_FAILURE() << session.error().message;
+    return {};
+  }
+  Session& s = **session;
+  s.set_clock(options.time_s, options.dt_s);
+  const ViewRequest request{s.view_settings(kWidth, kHeight, options.view), {}};
+  auto sample = s.render_frame(request);
+  EXPECT_TRUE(sample.ok()) << sample.error().message;
+  auto picture = s.renderer->read_picture(request.settings.id);
+  EXPECT_TRUE(picture.ok()) << picture.error().message;
+  EXPECT_TRUE(s.check_validation().ok());
+  return picture.ok() ? std::move(*picture) : Picture{};
+}
+
+/// Root mean square of the difference of encoded channels, 0…1.
+double root_mean_square(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double difference = (static_cast<double>(a[i]) - static_cast<double>(b[i])) / 255.0;
+    sum += difference * difference;
+  }
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void expect_golden(const Picture& picture, const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path(GLOAM_BINARY_DIR) / "golden";
+  std::filesystem::create_directories(folder);
+  const std::string drawn = (folder / (name + ".png")).string();
+  ASSERT_TRUE(write_png(drawn, picture.width, picture.height, picture.rgba).ok());
+  const auto golden = decode_image(file_bytes(std::filesystem::path(GLOAM_SOURCE_DIR) / "tests/golden" / (name + ".png")));
+  ASSERT_TRUE(golden.ok()) << golden.error().message << "; the drawn picture is " << drawn;
+  ASSERT_EQ(golden->width, picture.width);
+  ASSERT_EQ(golden->height, picture.height);
+  // Devices round differently and cover edges differently; a wrong light, material or matrix is far beyond this.
+  EXPECT_LT(root_mean_square(picture.rgba, golden->rgba), 0.01) << "look at " << drawn;
+}
+
+class Golden : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+    if (width != nullptr && std::string(width) == "512") GTEST_SKIP() << "lavapipe 22.3 crashes at this width when fragments sample";
+    GLOAM_REQUIRE_GPU(make_test_device(false));
+  }
+};
+
+TEST_F(Golden, plain_looks_as_it_did) { expect_golden(draw(golden_options("builtin:plain", "")), "plain"); }
+
+TEST_F(Golden, lanterns_look_as_they_did) { expect_golden(draw(golden_options("builtin:lanterns", "main")), "lanterns"); }
+
+class Courtyard : public Golden {
+ protected:
+  void SetUp() override {
+    Golden::SetUp();
+    if (!std::filesystem::exists(kScene)) GTEST_SKIP() << "the shared scene " << kScene << " is absent";
+  }
+  static constexpr const char* kScene = GLOAM_SHARED_DIR "/scenes/courtyard/courtyard.gltf";
+};
+
+TEST_F(Courtyard, every_camera_draws_the_same_picture_twice) {
+  for (const char* camera : {"court", "closeup", "lawn", "walkway", "down", "grazing"}) {
+    const Options options = golden_options(kScene, camera);
+    EXPECT_EQ(draw(options).rgba, draw(options).rgba) << camera;
+  }
+}
+
+TEST_F(Courtyard, tiled_culling_draws_what_brute_force_draws) {
+  for (const char* camera : {"court", "closeup", "walkway"}) {
+    Options options = golden_options(kScene, camera);
+    const Picture tiled = draw(options);
+    options.assignments = {"lights.culling=brute"};
+    EXPECT_EQ(tiled.rgba, draw(options).rgba) << camera;
+  }
+}
+
+TEST_F(Courtyard, avatars_move_with_time) {
+  Options options = golden_options(kScene, "closeup");
+  const Picture first = draw(options);
+  options.time_s = 0.5;
+  EXPECT_GT(root_mean_square(first.rgba, draw(options).rgba), 0.005);
+}
+
+}  // namespace
+}  // namespace gloam::test
