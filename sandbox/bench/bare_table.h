@@ -31,6 +31,12 @@ struct BareTable {
     std::vector<Velocity> velocities;
     std::vector<Mass> masses;  ///< empty in the set without
 
+    void clear() {
+      things.clear();
+      positions.clear();
+      velocities.clear();
+      masses.clear();
+    }
     void push(std::uint32_t thing, const Position& position, const Velocity& velocity) {
       things.push_back(thing);
       positions.push_back(position);
@@ -45,6 +51,12 @@ struct BareTable {
   Columns heavy;
   std::vector<Record> records;
 
+  /// Keeps the memory.
+  void clear() {
+    plain.clear();
+    heavy.clear();
+    records.clear();
+  }
   void create(const Position& position, const Velocity& velocity) {
     records.push_back({&plain, static_cast<std::uint32_t>(plain.things.size())});
     plain.push(static_cast<std::uint32_t>(records.size() - 1), position, velocity);

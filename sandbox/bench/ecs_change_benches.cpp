@@ -16,15 +16,18 @@ namespace {
 
 constexpr std::size_t kEntities = 100000;
 
-/// A world with its entities by number, made anew for every repetition.
+/// A world with its entities by number, emptied for every repetition. Memory stays: both sides are measured as they run in the middle
+/// of a session, not on the first touch of a page.
 struct WorldSide {
-  std::unique_ptr<World> world;
+  std::unique_ptr<World> world = std::make_unique<World>();
   std::vector<Entity> entities;
 
+  WorldSide() { register_components(*world); }
   void reset() {
-    world.reset();
-    world = std::make_unique<World>();
-    register_components(*world);
+    std::vector<Entity> left;
+    world->view<const Position>().each([&](Entity entity, const Position&) { left.push_back(entity); });
+    // The last one first: nothing moves, and numbers are given again from the lowest.
+    for (auto entity = left.rbegin(); entity != left.rend(); ++entity) world->destroy(*entity);
     entities.clear();
   }
   void fill() {
@@ -39,9 +42,9 @@ struct WorldSide {
 };
 
 struct BareSide {
-  std::unique_ptr<BareTable> table;
+  std::unique_ptr<BareTable> table = std::make_unique<BareTable>();
 
-  void reset() { table = std::make_unique<BareTable>(); }
+  void reset() { table->clear(); }
   void fill() {
     reset();
     for (std::size_t i = 0; i < kEntities; ++i) table->create(start_of(i), Velocity{});

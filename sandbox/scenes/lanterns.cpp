@@ -25,6 +25,7 @@ constexpr double kStepDepth = 0.5;
 constexpr double kTerraceZ = kStepsZ - kSteps * kStepDepth;
 constexpr double kTerraceY = kSteps * kStepRise;
 constexpr double kTerraceDepth = 6.0;
+constexpr double kGateZ = kTerraceZ - kTerraceDepth + 0.4;
 
 constexpr std::array<vec3, 6> kPalette = {vec3(1.0f, 0.55f, 0.18f),  vec3(1.0f, 0.30f, 0.12f),
                                           vec3(0.95f, 0.22f, 0.45f), vec3(0.20f, 0.75f, 0.70f),
@@ -42,10 +43,8 @@ using GlowMeshes = std::array<std::uint32_t, kPalette.size()>;
 
 Materials add_materials(SceneBuilder& builder) {
   return {
-      .paving = builder.add_material({.name = "wet paving",
-                                      .base_color = vec4(0.055f, 0.055f, 0.06f, 1.0f),
-                                      .metallic = 0.0f,
-                                      .roughness = 0.16f}),
+      .paving = builder.add_material(
+          {.name = "wet paving", .base_color = vec4(0.10f, 0.10f, 0.11f, 1.0f), .metallic = 0.0f, .roughness = 0.2f}),
       .stone = builder.add_material(
           {.name = "stone", .base_color = vec4(0.46f, 0.42f, 0.37f, 1.0f), .metallic = 0.0f, .roughness = 0.72f}),
       .wall = builder.add_material(
@@ -108,8 +107,8 @@ void add_arcades(SceneBuilder& builder, const Materials& materials) {
 void add_grounds(SceneBuilder& builder, const Materials& materials) {
   const std::uint32_t ground = builder.add_mesh("paving", box_shape({60.0f, 0.2f, 70.0f}), materials.paving);
   builder.add_instance("paving", ground, {0.0, -0.2, -18.0});
-  const std::uint32_t wall = builder.add_mesh("wall", box_shape({0.4f, 5.2f, 42.0f}), materials.wall);
-  for (const double side : {-1.0, 1.0}) builder.add_instance("wall", wall, {side * (kWallX + 0.2), 0.0, -19.0});
+  const std::uint32_t wall = builder.add_mesh("wall", box_shape({0.4f, 5.2f, 46.0f}), materials.wall);
+  for (const double side : {-1.0, 1.0}) builder.add_instance("wall", wall, {side * (kWallX + 0.2), 0.0, -21.0});
 
   const auto width = static_cast<float>(2.0 * kWallX);
   for (int i = 0; i < kSteps; ++i) {
@@ -120,14 +119,13 @@ void add_grounds(SceneBuilder& builder, const Materials& materials) {
     builder.add_instance("step", step, {0.0, i * kStepRise, front - depth * 0.5});
   }
   const ArchSize gate = {.width_m = width, .height_m = 3.6f, .radius_m = 2.2f, .depth_m = 0.5f};
-  const double back = kTerraceZ - kTerraceDepth + 0.4;
   builder.add_instance("gate", builder.add_mesh("gate", arch_shape(gate, 40), materials.wall),
-                       {0.0, kTerraceY + 1.6, back});
+                       {0.0, kTerraceY + 1.6, kGateZ});
   const double pier_width = kWallX - 2.2;
   const std::uint32_t pier =
       builder.add_mesh("gate pier", box_shape({static_cast<float>(pier_width), 1.6f, 0.5f}), materials.wall);
   for (const double side : {-1.0, 1.0})
-    builder.add_instance("gate pier", pier, {side * (2.2 + pier_width * 0.5), kTerraceY, back});
+    builder.add_instance("gate pier", pier, {side * (2.2 + pier_width * 0.5), kTerraceY, kGateZ});
 }
 
 void add_urn(SceneBuilder& builder, const Materials& materials) {
@@ -141,7 +139,7 @@ void add_urn(SceneBuilder& builder, const Materials& materials) {
 /// A lantern under every arch: 20 point lights.
 void add_arch_lanterns(SceneBuilder& builder, int& count) {
   const vec2 lantern[] = {{0.0f, -0.2f}, {0.1f, -0.2f}, {0.16f, -0.1f}, {0.16f, 0.12f}, {0.07f, 0.22f}, {0.0f, 0.22f}};
-  const GlowMeshes meshes = add_glow_meshes(builder, "lantern", turned_shape(lantern, 12), 12.0f);
+  const GlowMeshes meshes = add_glow_meshes(builder, "lantern", turned_shape(lantern, 12), 2.2f);
   for (const double side : {-1.0, 1.0}) {
     for (int i = 0; i < kBays; ++i) {
       const std::size_t color = i % 2 == 0 ? 0 : 1;
@@ -157,7 +155,7 @@ void add_arch_lanterns(SceneBuilder& builder, int& count) {
 /// Four candles round the foot of every column: 88 point lights.
 void add_candles(SceneBuilder& builder, int& count) {
   const vec2 candle[] = {{0.0f, 0.0f}, {0.035f, 0.0f}, {0.035f, 0.16f}, {0.012f, 0.2f}, {0.0f, 0.22f}};
-  const GlowMeshes meshes = add_glow_meshes(builder, "candle", turned_shape(candle, 8), 5.0f);
+  const GlowMeshes meshes = add_glow_meshes(builder, "candle", turned_shape(candle, 8), 1.6f);
   for (const double side : {-1.0, 1.0}) {
     for (int i = 0; i <= kBays; ++i) {
       for (int corner = 0; corner < 4; ++corner) {
@@ -175,7 +173,7 @@ void add_candles(SceneBuilder& builder, int& count) {
 /// Ten strings of nine paper globes from arcade to arcade: 90 point lights.
 void add_garlands(SceneBuilder& builder, int& count) {
   constexpr int kGlobes = 9;
-  const GlowMeshes meshes = add_glow_meshes(builder, "globe", sphere_shape(0.11f, 14), 8.0f);
+  const GlowMeshes meshes = add_glow_meshes(builder, "globe", sphere_shape(0.11f, 14), 1.8f);
   for (int string = 0; string < kBays; ++string) {
     for (int i = 0; i < kGlobes; ++i) {
       const double along = (i + 1.0) / (kGlobes + 1.0) * 2.0 - 1.0;
@@ -183,27 +181,32 @@ void add_garlands(SceneBuilder& builder, int& count) {
       const dvec3 position(along * kArcadeX, height, -(string + 0.5) * kBayLength + 0.6 * along);
       const auto color = static_cast<std::size_t>(string * 2 + i) % kPalette.size();
       builder.add_instance("globe", meshes[color], position);
-      builder.add_light(next_name(count), point_light(color, 1.6f, 4.5f, 0.0f), position - dvec3(0.0, 0.16, 0.0),
+      builder.add_light(next_name(count), point_light(color, 3.2f, 5.5f, 0.0f), position - dvec3(0.0, 0.16, 0.0),
                         {0, -1, 0}, false);
     }
   }
 }
 
-/// Two washers a bay at the foot of both walls: 40 spot lights, cool against the warm lanterns.
+/// 17 washers at the foot of either wall and 6 at the gate's: 40 spot lights, cool against the warm lanterns.
 void add_wall_washers(SceneBuilder& builder, int& count) {
   for (const double side : {-1.0, 1.0}) {
-    for (int i = 0; i < kBays * 2; ++i) {
+    for (int i = 0; i < 17; ++i) {
       const std::size_t color = 3 + static_cast<std::size_t>(i / 2) % 3;
-      const dvec3 position(side * (kWallX - 0.35), 0.12, -(i + 0.5) * kBayLength * 0.5);
+      const dvec3 position(side * (kWallX - 0.35), 0.12, -(i + 0.5) * kBayLength * 0.58);
       builder.add_light(next_name(count), spot_light(color, 9.0f, 6.0f, 0.62f), position, {side * 0.16, 1.0, 0.0},
                         true);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t color = i == 1 ? 4 : 5;
+      const dvec3 position(side * (2.8 + i * 1.35), kTerraceY + 0.12, kGateZ + 0.6);
+      builder.add_light(next_name(count), spot_light(color, 9.0f, 6.0f, 0.62f), position, {0.0, 1.0, -0.16}, true);
     }
   }
 }
 
 /// A lamp at both ends of every step (10 point lights) and a ring of 8 spot lights on the urn.
 void add_terrace_lights(SceneBuilder& builder, int& count) {
-  const GlowMeshes meshes = add_glow_meshes(builder, "step lamp", sphere_shape(0.07f, 12), 6.0f);
+  const GlowMeshes meshes = add_glow_meshes(builder, "step lamp", sphere_shape(0.07f, 12), 1.8f);
   for (int i = 0; i < kSteps; ++i) {
     for (const double side : {-1.0, 1.0}) {
       const auto color = static_cast<std::size_t>(i) % 3;

@@ -45,9 +45,11 @@ void build_plain_scene(World& world, SceneInfo& info) {
   builder.add_camera("main", {2.6, 2.3, 6.2}, {-0.2, 0.9, -0.4}, 0.75f);
 
   auto& environment = world.resource<SceneEnvironment>();
-  environment.sky_zenith = vec3(40.0f, 65.0f, 110.0f);
-  environment.sky_horizon = vec3(190.0f, 140.0f, 110.0f);
-  environment.sky_ground = vec3(40.0f, 34.0f, 30.0f);
+  environment.sky_zenith = vec3(24.0f, 42.0f, 80.0f);
+  environment.sky_horizon = vec3(110.0f, 78.0f, 60.0f);
+  environment.sky_ground = vec3(22.0f, 18.0f, 16.0f);
+  environment.has_exposure = true;
+  environment.exposure_ev100 = 9.4f;
   info.name = "plain";
 }
 

@@ -67,7 +67,7 @@ class Usage(ProgramCase):
         self.assertRegex(run.stderr, r"^gloam: error: [^\n]+\n$")
 
     def test_it_runs_with_all_streams_closed(self):
-        run = subprocess.run(["sh", "-c", '"$0" inspect builtin:plain <&- 2>&- | grep -c camera', self.program],
+        run = subprocess.run(["sh", "-c", '"$0" inspect builtin:plain <&- 2>&- | grep -c ^cameras', self.program],
                              stdout=subprocess.PIPE, text=True, check=False)
         self.assertEqual(run.stdout.strip(), "1")
 
