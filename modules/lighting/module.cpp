@@ -4,9 +4,6 @@
 
 #include <atomic>
 
-#include "engine/ecs/view.h"
-#include "engine/scene/key_table.h"
-#include "modules/lighting/components.h"
 #include "modules/lighting/passes.h"
 
 namespace gloam {
@@ -16,18 +13,8 @@ class LightingModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "lighting"; }
 
-  void register_components(World& world) const override {
-    world.register_component<Fog>("fog");
-    world.set_resource(LightingWorld{++worlds_});
-  }
-
-  void scene_keys(KeyRegistry& registry) const override {
-    registry.add(number_key(key_line("lighting", KeyElement::node, "gloam.fog.density", "0", "1/m", "homogeneous fog, one a scene"), 0,
-                            1e3, &Fog::density));
-    registry.add(vec3_key(key_line("lighting", KeyElement::node, "gloam.fog.color", "[0, 0, 0]", "cd/m²", "in-scattered radiance"), 0,
-                          1e6, &Fog::color));
-    registry.add_finish("lighting", [](World& world) { return at_most_one(world.view<const Fog>().size(), "gloam.fog"); });
-  }
+  void register_components(World& world) const override { world.set_resource(LightingWorld{++worlds_}); }
+  void scene_keys(KeyRegistry&) const override {}
 
   void knobs(KnobRegistry& registry) const override {
     Knob curve;

@@ -4,6 +4,7 @@
 
 #include "modules/closeups/module.h"
 #include "modules/depth_of_field/module.h"
+#include "modules/fog/module.h"
 #include "modules/grass/module.h"
 #include "modules/lighting/module.h"
 #include "modules/lights/module.h"
@@ -22,6 +23,7 @@ ModuleList make_all_modules() {
   modules.push_back(make_reflections_module());
   modules.push_back(make_grass_module());
   modules.push_back(make_particles_module());
+  modules.push_back(make_fog_module());
   modules.push_back(make_depth_of_field_module());
   return modules;
 }

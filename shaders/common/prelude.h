@@ -12,6 +12,7 @@
 #define GLOAM_SHARED_END }
 namespace gloam::shaders {
 using uint = std::uint32_t;
+using glm::ivec2;
 }
 #else
 #extension GL_EXT_scalar_block_layout : require

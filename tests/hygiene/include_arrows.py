@@ -18,8 +18,8 @@ LAYERS = {
 }
 MODULES = {
     "lights": (), "shadows": ("lights",), "closeups": ("shadows",), "lighting": ("closeups",),
-    "reflections": ("lighting",), "grass": ("lighting",), "particles": ("lighting",),
-    "depth_of_field": ("reflections", "grass", "particles"),
+    "fog": ("lighting",), "reflections": ("lighting",), "grass": ("lighting",), "particles": ("lighting",),
+    "depth_of_field": ("fog", "reflections", "grass", "particles"),
     "visualizers": ("depth_of_field",), "accuracy": ("depth_of_field",),
 }
 MODULE_LIST = "module_list"  # names every module; no module stands on it

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/fog/fog_passes.h"
+
+#include "modules/fog/fog_model.h"
+#include "shaders/fog/fog_shared.h"
+#include "shaders/fog/shaders.h"
+
+namespace gloam {
+namespace {
+
+constexpr gpu::Format kGlowFormat = gpu::Format::rgba16_float;
+
+/// A full-screen pass from one image into another; the constants are pushed where there are any.
+struct FilterPass {
+  std::string name;
+  gpu::PipelineHandle pipeline;
+  gpu::SamplerHandle sampler;
+  std::vector<std::byte> constants;
+};
+
+void start_rendering(gpu::CommandList& commands, gpu::ImageHandle target, const gpu::ImageDesc& desc, gpu::LoadOp load) {
+  gpu::RenderingDesc rendering;
+  rendering.colors.push_back({.view = {.image = target}, .load = load});
+  rendering.width = desc.width;
+  rendering.height = desc.height;
+  commands.begin_rendering(rendering);
+  commands.set_viewport(0.0f, 0.0f, static_cast<float>(desc.width), static_cast<float>(desc.height));
+  commands.set_scissor(0, 0, desc.width, desc.height);
+}
+
+ImageRef add_filter_pass(FrameBuilder& frame, FilterPass filter, ImageRef source, ImageRef target) {
+  FrameGraph& graph = frame.graph();
+  PassBuilder pass = graph.add_pass(filter.name, "fog");
+  pass.read(source, gpu::Access::fragment_read);
+  target = pass.write(target, gpu::Access::color_target);
+  pass.execute([&graph, filter = std::move(filter), source, target](PassContext& context) {
+    gpu::CommandList& commands = context.commands();
+    start_rendering(commands, context.image(target), graph.desc(target), gpu::LoadOp::discard);
+    commands.bind_pipeline(filter.pipeline);
+    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(source)}, filter.sampler}}};
+    commands.bind(bindings);
+    if (!filter.constants.empty()) commands.push_constants(filter.constants);
+    commands.draw(3, 1, 0, 0);
+    commands.end_rendering();
+  });
+  return target;
+}
+
+std::vector<std::byte> bytes_of(const shaders::FogBlurConstants& constants) {
+  const auto bytes = std::as_bytes(std::span(&constants, 1));
+  return {bytes.begin(), bytes.end()};
+}
+
+/// LitOutput blurred at 1/divisor of its size.
+[[nodiscard]] Result<ImageRef> add_glow_passes(FrameBuilder& frame, std::uint32_t divisor, float radius) {
+  auto sampler = frame.nearest_sampler();
+  if (!sampler.ok()) return sampler.error();
+  auto blur = frame.services().pipelines.get(fullscreen_pipeline("fog_blur", "fog", shaders::fog::blur_frag, kGlowFormat));
+  if (!blur.ok()) return blur.error();
+  ImageRef source = frame.get<LitOutput>().color;
+  if (divisor > 1) {
+    gpu::GraphicsPipelineDesc desc =
+        fullscreen_pipeline("fog_reduce/" + std::to_string(divisor), "fog", shaders::fog::reduce_frag, kGlowFormat);
+    desc.constants = {{0, divisor}};
+    auto reduce = frame.services().pipelines.get(desc);
+    if (!reduce.ok()) return reduce.error();
+    const ImageRef reduced = create_view_image(frame, "fog_reduced", "fog", kGlowFormat, divisor);
+    source = add_filter_pass(frame, {"fog_reduce", *reduce, *sampler, {}}, source, reduced);
+  }
+  const GlowKernel kernel = glow_kernel(frame.view().height, divisor, radius);
+  const auto blur_pass = [&](const char* name, glm::ivec2 direction, ImageRef from) {
+    const ImageRef target = create_view_image(frame, name, "fog", kGlowFormat, divisor);
+    return add_filter_pass(frame, {name, *blur, *sampler, bytes_of({direction, kernel.taps, 1.0f / kernel.sigma})}, from, target);
+  };
+  return blur_pass("fog_blur_y", {0, 1}, blur_pass("fog_blur_x", {1, 0}, source));
+}
+
+}  // namespace
+
+Status add_fog_passes(FrameBuilder& frame, const Fog& fog) {
+  const FrameServices& services = frame.services();
+  const std::uint32_t divisor = 1u << frame.knobs().choice("fog.resolution");
+  auto glow = add_glow_passes(frame, divisor, static_cast<float>(frame.knobs().number("fog.radius")));
+  if (!glow.ok()) return glow.error();
+
+  const shaders::FogConstants constants{vec4(fog.color, 0.0f), fog.density, kFogForwardShare, kFogSkyDistance};
+  auto range = services.uniforms.write_value(constants);
+  if (!range.ok()) return range.error();
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline("fog_apply", "fog", shaders::fog::apply_frag, gpu::Format::rgba16_float);
+  desc.blend = gpu::BlendMode::premultiplied;
+  auto pipeline = services.pipelines.get(desc);
+  if (!pipeline.ok()) return pipeline.error();
+  auto nearest = frame.nearest_sampler();
+  if (!nearest.ok()) return nearest.error();
+  auto linear = frame.linear_sampler();
+  if (!linear.ok()) return linear.error();
+
+  const ImageRef depth = frame.get<GeometryOutputs>().depth;
+  LitOutput& lit = frame.get<LitOutput>();
+  PassBuilder pass = frame.graph().add_pass("fog_apply", "fog");
+  pass.read(depth, gpu::Access::fragment_read);
+  pass.read(*glow, gpu::Access::fragment_read);
+  lit.color = pass.write(lit.color, gpu::Access::color_target);
+  pass.execute([&frame, depth, glow = *glow, color = lit.color, range = *range, pipeline = *pipeline, nearest = *nearest,
+                linear = *linear](PassContext& context) {
+    gpu::CommandList& commands = context.commands();
+    start_rendering(commands, context.image(color), frame.graph().desc(color), gpu::LoadOp::load);
+    commands.bind_pipeline(pipeline);
+    const gpu::Binding bindings[] = {frame.view_binding(),
+                                     {1, range},
+                                     {2, gpu::Binding::Sampled{{.image = context.image(depth)}, nearest}},
+                                     {3, gpu::Binding::Sampled{{.image = context.image(glow)}, linear}}};
+    commands.bind(bindings);
+    commands.draw(3, 1, 0, 0);
+    commands.end_rendering();
+  });
+  return {};
+}
+
+}  // namespace gloam

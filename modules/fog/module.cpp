@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/fog/module.h"
+
+#include "engine/ecs/view.h"
+#include "engine/scene/key_table.h"
+#include "modules/fog/components.h"
+#include "modules/fog/fog_passes.h"
+
+namespace gloam {
+namespace {
+
+/// The scene's fog; none when no node has one or its density is 0.
+Fog find_fog(const World& world) {
+  Fog found;
+  world.view<const Fog>().each([&](const Fog& fog) {
+    if (fog.density > 0.0f) found = fog;
+  });
+  return found;
+}
+
+class FogModule final : public Module {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "fog"; }
+
+  void register_components(World& world) const override { world.register_component<Fog>("fog"); }
+
+  void scene_keys(KeyRegistry& registry) const override {
+    const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
+      return key_line("fog", KeyElement::node, std::move(key), std::move(fallback), std::move(unit), std::move(meaning));
+    };
+    registry.add(number_key(line("gloam.fog.density", "0", "1/m", "homogeneous fog, one a scene"), 0, 1e3, &Fog::density));
+    registry.add(vec3_key(line("gloam.fog.color", "[0, 0, 0]", "cd/m²", "in-scattered radiance"), 0, 1e6, &Fog::color));
+    registry.add_finish("fog", [](World& world) { return at_most_one(world.view<const Fog>().size(), "gloam.fog"); });
+  }
+
+  void knobs(KnobRegistry& registry) const override {
+    Knob resolution;
+    resolution.name = "fog.resolution";
+    resolution.module = "fog";
+    resolution.meaning = "size of the image in which the fog's glow is blurred";
+    resolution.choices = {"full", "half", "quarter"};
+    resolution.default_number = 2;
+    registry.add(resolution);
+    Knob radius;
+    radius.name = "fog.radius";
+    radius.module = "fog";
+    radius.meaning = "where the glow's Gaussian is cut";
+    radius.type = Knob::Type::number;
+    radius.min = 0.5;
+    radius.max = 6.0;
+    radius.default_number = 2.5;
+    radius.unit = "standard deviations";
+    radius.ledger_values = {1.0, 2.0, 2.5, 3.0, 4.0};
+    registry.add(radius);
+  }
+
+  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
+    if (!(find_fog(world).density > 0.0f)) return {false, "no fog"};
+    return {true, "the scene has fog"};
+  }
+
+  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::post) return {};
+    return add_fog_passes(frame, find_fog(frame.world()));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Module> make_fog_module() { return std::make_unique<FogModule>(); }
+
+}  // namespace gloam

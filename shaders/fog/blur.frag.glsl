@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/fog/fog_shared.h"
+
+// One direction of a Gaussian, cut after `taps` texels and normalised; texels beyond the border repeat the border's.
+
+layout(push_constant, scalar) uniform Blur { FogBlurConstants c; };
+layout(set = 0, binding = 0) uniform sampler2D image;
+
+layout(location = 0) out vec4 out_light;
+
+void main() {
+  ivec2 center = ivec2(gl_FragCoord.xy);
+  ivec2 last = textureSize(image, 0) - 1;
+  vec3 sum = texelFetch(image, center, 0).rgb;
+  float total = 1.0;
+  for (int i = 1; i <= c.taps; ++i) {
+    float distance = float(i) * c.inverse_sigma;
+    float weight = exp(-0.5 * distance * distance);
+    sum += weight * (texelFetch(image, clamp(center - i * c.direction, ivec2(0), last), 0).rgb +
+                     texelFetch(image, clamp(center + i * c.direction, ivec2(0), last), 0).rgb);
+    total += 2.0 * weight;
+  }
+  out_light = vec4(sum / total, 1.0);
+}
