@@ -14,7 +14,7 @@ LONGEST_S = 30.0
 # Only the run named so is judged by the clock: sanitizers are slow by nature.
 TIMED_RUN = "release"
 
-BLOCK = re.compile(r"^\d+/\d+ Testing: (?P<name>.+?)$(?P<body>.*?)^end time:", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r'^\d+/\d+ Testing: (?P<name>.+?)$(?P<body>.*?)^"[^"\n]*" end time:', re.MULTILINE | re.DOTALL)
 CASE = re.compile(r"^\[ +(OK|FAILED|SKIPPED) +\] (?P<case>[\w/]+\.[\w/]+)(?:,.*)? \(\d+ ms\)$", re.MULTILINE)
 SKIP_MESSAGE = re.compile(r"^\S+:\d+: Skipped\n(?P<message>.*?)\n*^\[  SKIPPED \] (?P<case>\S+) \(\d+ ms\)", re.MULTILINE | re.DOTALL)
 PYTHON_RUN = re.compile(r"^Ran (\d+) tests? in ", re.MULTILINE)
