@@ -11,6 +11,8 @@
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
 #include "engine/render/knobs.h"
+#include "engine/render/reference.h"
+#include "engine/render/pipelines.h"
 #include "engine/render/view.h"
 #include "engine/scene/key_registry.h"
 #include "engine/schedule/schedule.h"
@@ -65,6 +67,8 @@ class Module {
   virtual void register_components(World& world) const = 0;
   virtual void scene_keys(KeyRegistry& registry) const = 0;
   virtual void knobs(KnobRegistry& registry) const { static_cast<void>(registry); }
+  /// For knobs that are judged by more than their most exact value; at most one a knob.
+  [[nodiscard]] virtual std::vector<ReferenceInfo> references() const { return {}; }
   virtual void add_systems(Schedule& schedule) { static_cast<void>(schedule); }
   [[nodiscard]] virtual std::vector<VisualizerInfo> visualizers() const { return {}; }
 
@@ -75,6 +79,13 @@ class Module {
   virtual void prepare_view(World& world, ViewId view) const {
     static_cast<void>(world);
     static_cast<void>(view);
+  }
+  /// Whether a frame without the module makes no sense: then its pipelines are waited for even under Readiness::background.
+  [[nodiscard]] virtual bool essential() const { return false; }
+  /// The pipelines add_passes will ask for with the knobs as they are; only asked under Readiness::background.
+  virtual void pipelines(const KnobRegistry& knobs, PipelineList& list) const {
+    static_cast<void>(knobs);
+    static_cast<void>(list);
   }
   /// Only called when demanded. Pipelines are made on first use.
   [[nodiscard]] virtual Status add_passes(FrameBuilder& frame, PassPhase phase) {
@@ -88,7 +99,7 @@ class Module {
     static_cast<void>(view);
     static_cast<void>(sink);
   }
-  /// Gives back GPU objects; the next demand makes them anew.
+  /// Gives back GPU memory, after 120 frames without demand and at the end; the next demand makes it anew. Pipelines are the renderer's.
   virtual void release() {}
 };
 

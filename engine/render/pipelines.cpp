@@ -5,6 +5,7 @@
 namespace gloam {
 
 Pipelines::~Pipelines() {
+  worker_ = std::jthread();  // stops it and waits
   for (auto& [name, entry] : entries_) device_.destroy(entry.pipeline);
 }
 
@@ -26,6 +27,34 @@ gpu::PipelineHandle Pipelines::find(std::string_view name) const {
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(name);
   return found == entries_.end() ? gpu::PipelineHandle{} : found->second.pipeline;
+}
+
+bool Pipelines::request(const PipelineList& list, LogSink& log) {
+  const std::lock_guard lock(mutex_);
+  bool ready = true;
+  for (const auto& desc : list) {
+    const std::string& name = std::visit([](const auto& d) -> const std::string& { return d.name; }, desc);
+    if (entries_.contains(name) || failed_.contains(name)) continue;
+    ready = false;
+    if (begun_.insert(name).second) queue_.push_back(desc);
+  }
+  if (!ready && !worker_.joinable()) worker_ = std::jthread([this, &log](std::stop_token stop) { run_worker(std::move(stop), log); });
+  wake_.notify_one();
+  return ready;
+}
+
+void Pipelines::run_worker(std::stop_token stop, LogSink& log) {
+  std::unique_lock lock(mutex_);
+  while (wake_.wait(lock, stop, [&] { return !queue_.empty(); })) {
+    const auto desc = std::move(queue_.front());
+    queue_.erase(queue_.begin());
+    lock.unlock();
+    const auto [name, made] = std::visit([&](const auto& d) { return std::pair(d.name, get(d)); }, desc);
+    if (!made.ok()) log.warning("pipeline " + name + " failed in the background: " + made.error().message);
+    lock.lock();
+    begun_.erase(name);
+    if (!made.ok()) failed_.insert(name);
+  }
 }
 
 void Pipelines::release(std::string_view module) {

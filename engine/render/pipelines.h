@@ -2,16 +2,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <condition_variable>
 #include <map>
 #include <mutex>
+#include <set>
+#include <stop_token>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
+#include <variant>
+#include <vector>
 
+#include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 
 namespace gloam {
+
+/// Descriptions of the pipelines a module will ask for.
+using PipelineList = std::vector<std::variant<gpu::ComputePipelineDesc, gpu::GraphicsPipelineDesc>>;
 
 /// Pipelines by name, made on first use. A name stands for one description. Safe from many threads.
 class Pipelines {
@@ -25,6 +35,10 @@ class Pipelines {
   [[nodiscard]] Result<gpu::PipelineHandle> get(const gpu::GraphicsPipelineDesc& desc) { return find_or_make(desc); }
   /// The pipeline of a name that was made before, or none.
   [[nodiscard]] gpu::PipelineHandle find(std::string_view name) const;
+
+  /// Whether all pipelines of a list are made. Those that are not are begun in the background, each once; one that fails there is told
+  /// to the log and counts as ready, so that `get` meets the error.
+  [[nodiscard]] bool request(const PipelineList& list, LogSink& log);
   /// Destroys all pipelines of a module.
   void release(std::string_view module);
 
@@ -36,9 +50,16 @@ class Pipelines {
     std::string module;
     gpu::PipelineHandle pipeline;
   };
+  void run_worker(std::stop_token stop, LogSink& log);
+
   gpu::Device& device_;
   mutable std::mutex mutex_;
   std::map<std::string, Entry, std::less<>> entries_;
+  std::set<std::string, std::less<>> begun_;  ///< names handed to the worker
+  std::set<std::string, std::less<>> failed_;
+  PipelineList queue_;
+  std::condition_variable_any wake_;
+  std::jthread worker_;  ///< started with the first request; ends before the members above
 };
 
 }  // namespace gloam

@@ -42,7 +42,7 @@ Renderer::State::State(RendererOptions given)
       uniforms(*options.device, "engine", gpu::BufferUsage::uniform),
       storage(*options.device, "engine", gpu::BufferUsage::storage),
       graph(*options.device),
-      demands(options.modules.size()) {
+      runtimes(options.modules.size()) {
   add_scene_systems(schedule);
   for (const auto& module : options.modules) {
     module->knobs(knobs);
@@ -107,19 +107,40 @@ Status Renderer::State::prepare_images(const ViewRequest& request) {
 void Renderer::State::update_demand(const World& world) {
   for (std::size_t i = 0; i < options.modules.size(); ++i) {
     const Module& module = *options.modules[i];
-    demands[i] = module.demand(world, nullptr);
-    schedule.set_enabled(module.name(), module.built() && demands[i].needed);
+    runtimes[i].demand = module.demand(world, nullptr);
+    runtimes[i].in_view = false;
+    schedule.set_enabled(module.name(), module.built() && runtimes[i].demand.needed);
   }
 }
 
+bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder) {
+  const Module& module = *options.modules[index];
+  if (!module.built() || !runtimes[index].demand.needed) return false;
+  if (!module.demand(builder.world(), &builder.view()).needed) return false;
+  runtimes[index].in_view = true;
+  if (options.readiness == Readiness::wait || module.essential()) return true;
+  PipelineList needed;
+  module.pipelines(knobs, needed);
+  return pipelines.request(needed, *options.log);
+}
+
 Status Renderer::State::add_module_passes(FrameBuilder& builder) {
-  for (const PassPhase phase : kAllPhases) {
-    for (const auto& module : options.modules) {
-      if (!module->built() || !module->demand(builder.world(), &builder.view()).needed) continue;
-      GLOAM_TRY(module->add_passes(builder, phase));
-    }
-  }
+  std::vector<Module*> taking_part;
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (takes_part(i, builder)) taking_part.push_back(options.modules[i].get());
+  for (const PassPhase phase : kAllPhases)
+    for (Module* module : taking_part) GLOAM_TRY(module->add_passes(builder, phase));
   return {};
+}
+
+void Renderer::State::release_idle_modules() {
+  for (std::size_t i = 0; i < options.modules.size(); ++i) {
+    ModuleRuntime& runtime = runtimes[i];
+    runtime.idle_frames = runtime.in_view ? 0 : runtime.idle_frames + 1;
+    if (runtime.idle_frames != kFramesUntilRelease) continue;
+    options.modules[i]->release();
+    if (!runtime.demand.needed) pipelines.release(options.modules[i]->name());
+  }
 }
 
 Status Renderer::State::add_view(World& world, const ViewRequest& request, const RenderView& view) {
@@ -225,7 +246,7 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
     s.views.push_back(std::make_unique<RenderView>(make_view(settings, s.frame_count)));
     world.set_view_resource(settings.id, *s.views.back());
     for (std::size_t i = 0; i < s.options.modules.size(); ++i)
-      if (s.demands[i].needed) s.options.modules[i]->prepare_view(world, settings.id);
+      if (s.runtimes[i].demand.needed) s.options.modules[i]->prepare_view(world, settings.id);
     s.schedule.run_view(settings.id, world, *s.options.executor, s.options.zones);
     GLOAM_TRY(s.add_view(world, request, *s.views.back()));
   }
@@ -239,6 +260,7 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   }
   s.last_requests.assign(requests.begin(), requests.end());
   s.collect_counters(world);
+  s.release_idle_modules();
   ++s.frame_count;
   const Status submitted = s.options.device->submit_frame();
   s.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

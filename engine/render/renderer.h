@@ -18,8 +18,15 @@
 #include "engine/gpu/device.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/module.h"
+#include "engine/render/picture.h"
 
 namespace gloam {
+
+/// What happens while a demanded module's pipelines are not made yet.
+enum class Readiness {
+  wait,        ///< the frame waits: every demanded effect is in the first frame
+  background,  ///< the module is left out until another thread has made them
+};
 
 struct RendererOptions {
   gpu::Device* device = nullptr;
@@ -27,6 +34,7 @@ struct RendererOptions {
   LogSink* log = nullptr;
   ZoneRecorder* zones = nullptr;  ///< may be null
   ModuleList modules;             ///< in the order of the module graph
+  Readiness readiness = Readiness::wait;
 };
 
 /// Where a view's picture goes. An image of the caller (swapchain, host) must be sRGB or UNORM colour of the view's size; it is taken
@@ -61,17 +69,6 @@ struct FrameReport {
   std::vector<PassTime> passes;
   std::vector<ModuleState> modules;          ///< "engine" first, then the list's order
   std::map<std::string, double> counters;    ///< of the last view
-};
-
-struct Picture {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  std::vector<std::uint8_t> rgba;  ///< sRGB-encoded, rows from the top
-};
-struct LinearPicture {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  std::vector<float> rgba;  ///< linear light before exposure, cd/m²
 };
 
 /// Draws worlds. Owns modules, knobs, the schedule and all GPU state; one thread at a time.

@@ -43,7 +43,7 @@ void Renderer::State::collect_counters(const World& world) {
   sink.count("engine.draws", static_cast<double>(last.draws().solid.size() + last.draws().blended.size()));
   sink.count("engine.culled_primitives", last.draws().culled_instances);
   for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (options.modules[i]->built() && demands[i].needed) options.modules[i]->counters(world, last.view(), sink);
+    if (options.modules[i]->built() && runtimes[i].demand.needed) options.modules[i]->counters(world, last.view(), sink);
 }
 
 FrameReport Renderer::report() {
@@ -69,8 +69,8 @@ FrameReport Renderer::report() {
   for (std::size_t i = 0; i < s.options.modules.size(); ++i) {
     ModuleState state = state_of(s.options.modules[i]->name());
     state.built = s.options.modules[i]->built();
-    state.demanded = s.demands[i].needed;
-    state.reason = s.demands[i].reason + (state.demanded && !state.built ? "; not built yet" : "");
+    state.demanded = s.runtimes[i].demand.needed;
+    state.reason = s.runtimes[i].demand.reason + (state.demanded && !state.built ? "; not built yet" : "");
     report.modules.push_back(state);
   }
   return report;

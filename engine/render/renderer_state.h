@@ -36,6 +36,16 @@ struct PickRequest {
   std::uint32_t y = 0;
 };
 
+/// A module without demand keeps its memory for this many frames.
+inline constexpr std::uint32_t kFramesUntilRelease = 120;
+
+/// What the renderer knows of one module.
+struct ModuleRuntime {
+  Demand demand;                  ///< of the world
+  bool in_view = false;           ///< demanded by a view of the frame in the making
+  std::uint32_t idle_frames = 0;  ///< since a view demanded it last
+};
+
 struct Renderer::State {
   explicit State(RendererOptions given);
   ~State();
@@ -48,6 +58,10 @@ struct Renderer::State {
   /// Declares one view's passes.
   [[nodiscard]] Status add_view(World& world, const ViewRequest& request, const RenderView& view);
   [[nodiscard]] Status add_module_passes(FrameBuilder& builder);
+  /// Whether a module takes part in a view: built, demanded, and its pipelines made where they are not waited for.
+  [[nodiscard]] bool takes_part(std::size_t module, const FrameBuilder& builder);
+  /// After a frame: memory of modules that nobody has demanded for long goes back; pipelines too when the world has no call for them.
+  void release_idle_modules();
   void collect_counters(const World& world);
 
   RendererOptions options;
@@ -62,7 +76,7 @@ struct Renderer::State {
   std::map<std::uint32_t, ViewImages> images;
   std::vector<std::unique_ptr<FrameBuilder>> builders;  ///< of the frame in the making; pass functions refer to them
   std::vector<std::unique_ptr<RenderView>> views;
-  std::vector<Demand> demands;  ///< by module: of the world or any view of the last frame
+  std::vector<ModuleRuntime> runtimes;  ///< by module
   std::vector<ViewRequest> last_requests;
   std::map<std::string, double> counters;
   std::optional<PickRequest> pick;

@@ -52,18 +52,32 @@ std::vector<std::byte> bytes_of(const shaders::FogBlurConstants& constants) {
   return {bytes.begin(), bytes.end()};
 }
 
+std::uint32_t glow_divisor(const KnobRegistry& knobs) { return 1u << knobs.choice("fog.resolution"); }
+
+gpu::GraphicsPipelineDesc blur_pipeline() { return fullscreen_pipeline("fog_blur", "fog", shaders::fog::blur_frag, kGlowFormat); }
+
+gpu::GraphicsPipelineDesc reduce_pipeline(std::uint32_t divisor) {
+  gpu::GraphicsPipelineDesc desc =
+      fullscreen_pipeline("fog_reduce/" + std::to_string(divisor), "fog", shaders::fog::reduce_frag, kGlowFormat);
+  desc.constants = {{0, divisor}};
+  return desc;
+}
+
+gpu::GraphicsPipelineDesc apply_pipeline() {
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline("fog_apply", "fog", shaders::fog::apply_frag, gpu::Format::rgba16_float);
+  desc.blend = gpu::BlendMode::premultiplied;
+  return desc;
+}
+
 /// LitOutput blurred at 1/divisor of its size.
 [[nodiscard]] Result<ImageRef> add_glow_passes(FrameBuilder& frame, std::uint32_t divisor, float radius) {
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
-  auto blur = frame.services().pipelines.get(fullscreen_pipeline("fog_blur", "fog", shaders::fog::blur_frag, kGlowFormat));
+  auto blur = frame.services().pipelines.get(blur_pipeline());
   if (!blur.ok()) return blur.error();
   ImageRef source = frame.get<LitOutput>().color;
   if (divisor > 1) {
-    gpu::GraphicsPipelineDesc desc =
-        fullscreen_pipeline("fog_reduce/" + std::to_string(divisor), "fog", shaders::fog::reduce_frag, kGlowFormat);
-    desc.constants = {{0, divisor}};
-    auto reduce = frame.services().pipelines.get(desc);
+    auto reduce = frame.services().pipelines.get(reduce_pipeline(divisor));
     if (!reduce.ok()) return reduce.error();
     const ImageRef reduced = create_view_image(frame, "fog_reduced", "fog", kGlowFormat, divisor);
     source = add_filter_pass(frame, {"fog_reduce", *reduce, *sampler, {}}, source, reduced);
@@ -78,18 +92,21 @@ std::vector<std::byte> bytes_of(const shaders::FogBlurConstants& constants) {
 
 }  // namespace
 
+void list_fog_pipelines(const KnobRegistry& knobs, PipelineList& list) {
+  if (glow_divisor(knobs) > 1) list.push_back(reduce_pipeline(glow_divisor(knobs)));
+  list.push_back(blur_pipeline());
+  list.push_back(apply_pipeline());
+}
+
 Status add_fog_passes(FrameBuilder& frame, const Fog& fog) {
   const FrameServices& services = frame.services();
-  const std::uint32_t divisor = 1u << frame.knobs().choice("fog.resolution");
-  auto glow = add_glow_passes(frame, divisor, static_cast<float>(frame.knobs().number("fog.radius")));
+  auto glow = add_glow_passes(frame, glow_divisor(frame.knobs()), static_cast<float>(frame.knobs().number("fog.radius")));
   if (!glow.ok()) return glow.error();
 
   const shaders::FogConstants constants{vec4(fog.color, 0.0f), fog.density, kFogForwardShare, kFogSkyDistance};
   auto range = services.uniforms.write_value(constants);
   if (!range.ok()) return range.error();
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline("fog_apply", "fog", shaders::fog::apply_frag, gpu::Format::rgba16_float);
-  desc.blend = gpu::BlendMode::premultiplied;
-  auto pipeline = services.pipelines.get(desc);
+  auto pipeline = services.pipelines.get(apply_pipeline());
   if (!pipeline.ok()) return pipeline.error();
   auto nearest = frame.nearest_sampler();
   if (!nearest.ok()) return nearest.error();

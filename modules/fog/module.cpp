@@ -60,6 +60,8 @@ class FogModule final : public Module {
     return {true, "the scene has fog"};
   }
 
+  void pipelines(const KnobRegistry& knobs, PipelineList& list) const override { list_fog_pipelines(knobs, list); }
+
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase != PassPhase::post) return {};
     return add_fog_passes(frame, find_fog(frame.world()));

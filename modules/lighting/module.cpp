@@ -27,6 +27,8 @@ class LightingModule final : public Module {
 
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "every picture is lit"}; }
 
+  [[nodiscard]] bool essential() const override { return true; }
+
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
     switch (phase) {
       case PassPhase::shading: return add_deferred_pass(frame);

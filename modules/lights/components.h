@@ -21,13 +21,13 @@ struct Light {
   float intensity = 1.0f;       ///< candela; directional: lux
   float range_m = 0.0f;         ///< 0: where the light falls to 0.01 lx
   float inner_angle = 0.0f;     ///< spot: half angle of full strength, radians
-  float outer_angle = 0.785398163f;  ///< spot: half angle where it ends, radians, ≤ π/2
+  float outer_angle = 0.785398163f;  ///< spot: half angle where it ends, radians; beyond π/2 is taken for π/2
   float width_m = 0.0f;         ///< diameter of the emitter; 0: hard shadows
-  float apparent_angle = 0.00925f;  ///< directional: apparent diameter, radians
+  float apparent_angle = 0.00925025f;  ///< directional: apparent diameter, radians
   std::uint32_t cookie = 0;     ///< spot: image file in SceneStrings, 0: none
 };
 
-/// Distance in metres beyond which a light gives nothing: its range, or √(intensity / 0.01 lx).
+/// Distance in metres beyond which a light gives nothing: its range, or √(intensity / 0.01 lx); in 0.001…1e9 for any light.
 [[nodiscard]] float effective_range(const Light& light);
 
 /// The lights a comma-separated list of names means. Input error when one is absent or two lights share it; the message names `key`.

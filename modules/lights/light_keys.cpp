@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "engine/scene/key_table.h"
-#include "engine/scene/scene_path.h"
 #include "modules/lights/components.h"
 
 namespace gloam {
@@ -106,18 +104,30 @@ Status read_node(KeyTarget& target, const SceneValue& node) {
   return {};
 }
 
+SceneKey angle_key() {
+  SceneKey key = key_line("lights", KeyElement::light_node, "gloam.light.angle", "0.53", "degrees",
+                          "directional only: apparent diameter (penumbra)");
+  key.type = KeyType::number;
+  key.min = 0.0;
+  key.max = 90.0;
+  key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
+    Light& light = target.world.get<Light>(target.entity);
+    if (light.kind != LightKind::directional) return fault("is for directional lights, others have gloam.light.width");
+    light.apparent_angle = static_cast<float>(std::get<double>(value) * (kHalfPi / 90.0));
+    return {};
+  };
+  return key;
+}
+
 SceneKey cookie_key() {
   SceneKey key = key_line("lights", KeyElement::light_node, "gloam.light.cookie", "", "", "image file, projected texture (spot)");
   key.type = KeyType::text;
   key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
-    const auto& name = std::get<std::string>(value);
     Light& light = target.world.get<Light>(target.entity);
     if (light.kind != LightKind::spot) return fault("projects an image, which only a spot does");
-    const auto path = resolve_scene_path(target.directory, name);
-    if (!path.ok()) return path.error();
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(*path, error)) return fault("names an image that is absent: " + *path);
-    light.cookie = target.world.resource<SceneStrings>().intern(*path);
+    const auto file = intern_scene_file(target, std::get<std::string>(value));
+    if (!file.ok()) return file.error();
+    light.cookie = *file;
     return {};
   };
   return key;
@@ -131,9 +141,7 @@ void add_light_keys(KeyRegistry& registry) {
   registry.add(number_key(key_line("lights", KeyElement::light_node, "gloam.light.width", "0", "m",
                                    "diameter of the emitter; 0 = hard shadows"),
                           0, 1e4, &Light::width_m));
-  registry.add(number_key(key_line("lights", KeyElement::light_node, "gloam.light.angle", "0.53", "degrees",
-                                   "directional only: apparent diameter (penumbra)"),
-                          0, 90, &Light::apparent_angle, static_cast<double>(kPi) / 180.0));
+  registry.add(angle_key());
   registry.add(cookie_key());
 }
 

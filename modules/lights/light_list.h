@@ -46,7 +46,8 @@ struct VisibleLights {
 [[nodiscard]] vec2 spot_ramp(const Light& light);
 
 /// Chooses the lights whose bounds may touch the view's frustum. More than fit: those with the largest (solid angle × intensity) stay,
-/// ties by entity index. Local lights come ordered by nearest view depth of their bounds, then entity index.
+/// ties by place in `lights`. Lights that give nothing, or have NaN or infinity where no sense can be made of it, are left out. Local
+/// lights come ordered by nearest view depth of their bounds, then by place in `lights` (which a LightSet orders by entity).
 void select_lights(std::span<const PlacedLight> lights, const RenderView& view, VisibleLights& visible);
 
 }  // namespace gloam

@@ -45,6 +45,7 @@ class LightsModule final : public Module {
     culling.meaning = "lights a pixel looks at: those of its tile, or all of them";
     culling.choices = {"brute", "tiled"};
     culling.default_number = 1;
+    culling.exact = "brute";
     registry.add(culling);
   }
 
@@ -53,10 +54,18 @@ class LightsModule final : public Module {
     schedule.add_system("select_lights", "lights", Stage::view, &select_lights_system);
   }
 
-  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
+  [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     const std::size_t count = world.view<const Light>().size();
     if (count == 0) return {false, "no light"};
-    return {true, std::to_string(count) + (count == 1 ? " light" : " lights")};
+    const std::string lights = std::to_string(count) + (count == 1 ? " light" : " lights");
+    const VisibleLights* visible = view == nullptr ? nullptr : world.try_view_resource<VisibleLights>(view->id);
+    if (visible != nullptr && visible->block.local_count + visible->block.directional_count == 0)
+      return {false, lights + ", none in view"};
+    return {true, lights};
+  }
+
+  void pipelines(const KnobRegistry& knobs, PipelineList& list) const override {
+    if (knobs.is("lights.culling", "tiled")) list.push_back(tile_masks_pipeline());
   }
 
   void prepare_view(World& world, ViewId view) const override {

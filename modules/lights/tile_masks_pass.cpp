@@ -7,6 +7,8 @@
 
 namespace gloam {
 
+gpu::ComputePipelineDesc tile_masks_pipeline() { return {"tile_masks", "lights", shaders::lights::tile_masks_comp, {}}; }
+
 Status add_tile_masks_pass(FrameBuilder& frame, const VisibleLights& visible) {
   const FrameServices& services = frame.services();
   LightsOutputs outputs;
@@ -19,7 +21,7 @@ Status add_tile_masks_pass(FrameBuilder& frame, const VisibleLights& visible) {
     return {};
   }
 
-  auto pipeline = services.pipelines.get(gpu::ComputePipelineDesc{"tile_masks", "lights", shaders::lights::tile_masks_comp, {}});
+  auto pipeline = services.pipelines.get(tile_masks_pipeline());
   if (!pipeline.ok()) return pipeline.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
