@@ -9,15 +9,19 @@ Status add_debug_view_pass(FrameBuilder& frame, std::uint32_t code) {
   GLOAM_TRY(frame.upload_view_constants(code));
   const FrameServices& services = frame.services();
   TargetOutput& target = frame.get<TargetOutput>();
-  auto pipeline = services.pipelines.get(fullscreen_pipeline("debug_view/" + std::to_string(static_cast<int>(target.format)),
-                                                             "engine", shaders::render::debug_view_frag, target.format));
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline("debug_view/" + std::string(gpu::name_of(target.format)),
+                                                       "engine", shaders::render::debug_view_frag, target.format);
+  const bool encodes = target.format == gpu::Format::rgba8_srgb || target.format == gpu::Format::bgra8_srgb;
+  desc.constants = {{0, encodes ? 0u : 1u}};
+  auto pipeline = services.pipelines.get(desc);
   if (!pipeline.ok()) return pipeline.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
 
   const GeometryOutputs outputs = frame.get<GeometryOutputs>();
   PassBuilder pass = frame.graph().add_pass("debug_view", "engine");
-  for (const ImageRef ref : {outputs.base_color, outputs.normals, outputs.depth}) pass.read(ref, gpu::Access::fragment_read);
+  for (const ImageRef ref : {outputs.base_color, outputs.normals, outputs.depth})
+    pass.read(ref, gpu::Access::fragment_read);
   target.color = pass.write(target.color, gpu::Access::color_target);
   pass.execute([&frame, outputs, color = target.color, pipeline = *pipeline, sampler = *sampler](PassContext& context) {
     FullscreenPass draw;

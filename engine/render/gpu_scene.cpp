@@ -24,11 +24,19 @@ void append(std::vector<std::byte>& stream, const std::vector<T>& values) {
   std::copy(bytes.begin(), bytes.end(), stream.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primitive) {
+/// From the packed weights, because those are what the GPU skins with.
+std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primitive,
+                                                         const std::vector<PackedInfluence>& influences) {
   std::map<std::uint32_t, Aabb> bounds;
-  for (std::size_t v = 0; v < primitive.joints.size() && v < primitive.weights.size(); ++v)
-    for (int k = 0; k < 4; ++k)
-      if (primitive.weights[v][k] > 0.0f) bounds[primitive.joints[v][static_cast<std::size_t>(k)]].grow(primitive.positions[v]);
+  for (std::size_t v = 0; v < influences.size(); ++v) {
+    const PackedInfluence& packed = influences[v];
+    const std::uint32_t joints[] = {packed.joints01 & 0xFFFFu, packed.joints01 >> 16, packed.joints23 & 0xFFFFu,
+                                    packed.joints23 >> 16};
+    const std::uint32_t weights[] = {packed.weights01 & 0xFFFFu, packed.weights01 >> 16, packed.weights23 & 0xFFFFu,
+                                     packed.weights23 >> 16};
+    for (std::size_t k = 0; k < 4; ++k)
+      if (weights[k] > 0) bounds[joints[k]].grow(primitive.positions[v]);
+  }
   return {bounds.begin(), bounds.end()};
 }
 
@@ -56,7 +64,7 @@ struct GpuScene::Streams {
     primitive.skinned = !influences.empty();
     primitive.colored = !source.colors.empty();
     primitive.bounds = source.bounds;
-    primitive.joint_bounds = joint_bounds(source);
+    primitive.joint_bounds = joint_bounds(source, influences);
   }
 };
 
@@ -125,7 +133,8 @@ Status GpuScene::upload_meshes(const SceneAssets& assets, JobExecutor& executor,
     auto buffer = device_.create_buffer(desc);
     if (!buffer.ok()) return buffer.error();
     buffers_[i] = *buffer;
-    uploader.buffer(buffers_[i], std::move(streams[i]), i == 3 || i == 2 ? gpu::Access::vertex_input : gpu::Access::compute_read);
+    uploader.buffer(buffers_[i], std::move(streams[i]),
+                    i == 3 || i == 2 ? gpu::Access::vertex_input : gpu::Access::compute_read);
   }
   return {};
 }
@@ -191,8 +200,8 @@ Status GpuScene::upload_materials(const SceneAssets& assets, Uploader& uploader)
   return {};
 }
 
-Result<gpu::ResourceSetHandle> GpuScene::material_set(const SceneAssets& assets, const Material& material, std::uint32_t index,
-                                                      std::uint32_t features) {
+Result<gpu::ResourceSetHandle> GpuScene::material_set(const SceneAssets& assets, const Material& material,
+                                                      std::uint32_t index, std::uint32_t features) {
   // Any pipeline of the surface shaders has the layout of set 1; one that is drawn with anyway costs nothing.
   const SurfaceVariant variant{features, material.double_sided ? gpu::CullMode::none : gpu::CullMode::back};
   auto like = surface_pipeline(pipelines_, geometry_surface_pass(), variant);
@@ -200,8 +209,9 @@ Result<gpu::ResourceSetHandle> GpuScene::material_set(const SceneAssets& assets,
   std::vector<gpu::Binding> bindings;
   bindings.push_back({0, gpu::Binding::BufferRange{material_constants_, std::uint64_t{index} * kMaterialStride,
                                                    sizeof(shaders::MaterialConstants)}});
-  const TextureSlot* slots[] = {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
-                                &material.occlusion_texture, &material.emissive_texture};
+  const TextureSlot* slots[] = {&material.base_color_texture, &material.normal_texture,
+                                &material.metallic_roughness_texture, &material.occlusion_texture,
+                                &material.emissive_texture};
   for (std::uint32_t s = 0; s < 5; ++s) {
     const bool used = slots[s]->texture != kNone;
     auto sampler = device_.create_sampler(used ? sampler_desc(assets.textures[slots[s]->texture]) : gpu::SamplerDesc{});

@@ -18,6 +18,17 @@ std::uint32_t unorm(float value, float scale) {
   return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * scale));
 }
 
+/// Sum 1, none negative. Weights that sum to nothing leave everything to the first joint.
+vec4 normalised(vec4 weights) {
+  float sum = 0.0f;
+  for (int k = 0; k < 4; ++k) {
+    if (!(weights[k] > 0.0f)) weights[k] = 0.0f;  // NaN too
+    sum += weights[k];
+  }
+  if (!(sum > 0.0f) || !std::isfinite(sum)) return {1.0f, 0.0f, 0.0f, 0.0f};
+  return weights / sum;
+}
+
 }  // namespace
 
 std::vector<PackedFrame> pack_frames(const Primitive& primitive) {
@@ -38,7 +49,8 @@ std::vector<PackedSurface> pack_surfaces(const Primitive& primitive) {
     if (!primitive.uv1.empty()) surfaces[i].uv1 = primitive.uv1[i];
     if (primitive.colors.empty()) continue;
     const vec4 c = primitive.colors[i];
-    surfaces[i].color = unorm(c.r, 255.0f) | unorm(c.g, 255.0f) << 8 | unorm(c.b, 255.0f) << 16 | unorm(c.a, 255.0f) << 24;
+    surfaces[i].color =
+        unorm(c.r, 255.0f) | unorm(c.g, 255.0f) << 8 | unorm(c.b, 255.0f) << 16 | unorm(c.a, 255.0f) << 24;
   }
   return surfaces;
 }
@@ -48,7 +60,7 @@ std::vector<PackedInfluence> pack_influences(const Primitive& primitive) {
   std::vector<PackedInfluence> packed(primitive.positions.size());
   for (std::size_t i = 0; i < packed.size(); ++i) {
     const auto& joints = primitive.joints[i];
-    const vec4 weights = primitive.weights[i];
+    const vec4 weights = normalised(primitive.weights[i]);
     std::uint32_t w[4];
     std::uint32_t sum = 0;
     int heaviest = 0;
@@ -58,10 +70,9 @@ std::vector<PackedInfluence> pack_influences(const Primitive& primitive) {
       if (w[k] > w[heaviest]) heaviest = k;
     }
     // Rounding leaves the sum a few units off; the heaviest influence takes the difference.
-    const std::int64_t mended = static_cast<std::int64_t>(w[heaviest]) + 65535 - static_cast<std::int64_t>(sum);
-    w[heaviest] = static_cast<std::uint32_t>(std::clamp<std::int64_t>(mended, 0, 65535));
-    packed[i] = {joints[0] | static_cast<std::uint32_t>(joints[1]) << 16, joints[2] | static_cast<std::uint32_t>(joints[3]) << 16,
-                 w[0] | w[1] << 16, w[2] | w[3] << 16};
+    w[heaviest] = w[heaviest] + 65535u - sum;
+    packed[i] = {joints[0] | static_cast<std::uint32_t>(joints[1]) << 16,
+                 joints[2] | static_cast<std::uint32_t>(joints[3]) << 16, w[0] | w[1] << 16, w[2] | w[3] << 16};
   }
   return packed;
 }

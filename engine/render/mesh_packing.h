@@ -42,7 +42,8 @@ inline constexpr std::size_t kClusterTriangles = 256;
 
 [[nodiscard]] std::vector<PackedFrame> pack_frames(const Primitive& primitive);
 [[nodiscard]] std::vector<PackedSurface> pack_surfaces(const Primitive& primitive);
-/// Weights are renormalised so that their integers sum to 65535; empty when the primitive has none.
+/// Weights are renormalised so that their integers sum to 65535 (all to the first joint where there is no weight); empty when the
+/// primitive has none.
 [[nodiscard]] std::vector<PackedInfluence> pack_influences(const Primitive& primitive);
 /// Offsets of all targets: positions of target 0, (normals of target 0,) positions of target 1, …; normals for all or none.
 [[nodiscard]] std::vector<float> pack_morph_offsets(const Primitive& primitive, bool& has_normals);

@@ -12,9 +12,9 @@ namespace gloam {
 /// Mips down to 1×1.
 [[nodiscard]] std::uint32_t mip_count(std::uint32_t width, std::uint32_t height);
 
-/// All mips of an RGBA8 image, one behind the other. Each texel is the mean of the 2×2 above it (the last row and column of an odd
-/// size is folded in by clamping); colours of sRGB images are averaged in linear light, alpha as it is.
-[[nodiscard]] std::vector<std::byte> build_mip_chain(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height,
-                                                     bool srgb);
+/// All mips of an RGBA8 image, one behind the other. Each texel is the mean of the 2×2 above it: of an odd size the last row or column
+/// is left out, and a side of one texel counts twice. Colours of sRGB images are averaged in linear light, alpha as it is.
+[[nodiscard]] std::vector<std::byte> build_mip_chain(std::span<const std::uint8_t> rgba, std::uint32_t width,
+                                                     std::uint32_t height, bool srgb);
 
 }  // namespace gloam

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
+#include <limits>
 
 #include "engine/core/assert.h"
 #include "engine/ecs/view.h"
@@ -13,16 +14,29 @@
 namespace gloam {
 namespace {
 
-/// Everything drawn, in the world's floats: only used to place a camera.
-Aabb drawn_bounds(const World& world) {
-  Aabb bounds;
+struct WideBounds {
+  dvec3 min = dvec3(std::numeric_limits<double>::infinity());
+  dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
+};
+
+/// Everything drawn, in double: floats far from the world's origin would move it out of the picture.
+WideBounds drawn_bounds(const World& world) {
+  WideBounds bounds;
   const SceneAssets* assets = world.try_resource<SceneAssets>();
   if (assets == nullptr) return bounds;
-  world.view<const MeshInstance, const WorldTransform>().each([&](const MeshInstance& instance, const WorldTransform& transform) {
-    if (instance.mesh >= assets->meshes.size()) return;
-    const Aabb& box = assets->meshes[instance.mesh].bounds;
-    if (!box.empty()) bounds.grow(transformed(box, mat4(transform.matrix)));
-  });
+  world.view<const MeshInstance, const WorldTransform>().each(
+      [&](const MeshInstance& instance, const WorldTransform& transform) {
+        if (instance.mesh >= assets->meshes.size()) return;
+        const Aabb& box = assets->meshes[instance.mesh].bounds;
+        if (box.empty()) return;
+        const dmat4& m = transform.matrix;
+        const dvec3 center = dvec3(m * dvec4(dvec3(box.center()), 1.0));
+        const dvec3 half(box.half_extent());
+        const dvec3 reach =
+            glm::abs(dvec3(m[0])) * half.x + glm::abs(dvec3(m[1])) * half.y + glm::abs(dvec3(m[2])) * half.z;
+        bounds.min = glm::min(bounds.min, center - reach);
+        bounds.max = glm::max(bounds.max, center + reach);
+      });
   return bounds;
 }
 
@@ -62,8 +76,8 @@ RenderView make_view(const ViewSettings& settings, std::uint64_t frame) {
   const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
   if (settings.camera.orthographic) {
     const float far_m = settings.camera.far_m > view.near_m ? settings.camera.far_m : view.near_m + 1000.0f;
-    view.clip_from_view =
-        reversed_orthographic(settings.camera.half_height_m * aspect, settings.camera.half_height_m, view.near_m, far_m);
+    view.clip_from_view = reversed_orthographic(settings.camera.half_height_m * aspect, settings.camera.half_height_m,
+                                                view.near_m, far_m);
   } else {
     view.clip_from_view = reversed_perspective(settings.camera.fov_y, aspect, view.near_m);
   }
@@ -81,10 +95,15 @@ ViewSettings settings_for_camera(const World& world, Entity camera, std::uint32_
     follow_camera(world, settings);
     return settings;
   }
-  const Aabb bounds = drawn_bounds(world);
-  const dvec3 center = bounds.empty() ? dvec3(0.0) : dvec3(bounds.center());
-  const double radius = bounds.empty() ? 1.0 : std::max(1e-3, glm::length(dvec3(bounds.half_extent())));
-  const double distance = radius / std::sin(0.5 * static_cast<double>(settings.camera.fov_y));
+  const WideBounds bounds = drawn_bounds(world);
+  const bool empty = !(bounds.min.x <= bounds.max.x);
+  const dvec3 center = empty ? dvec3(0.0) : (bounds.min + bounds.max) * 0.5;
+  const double radius = empty ? 1.0 : std::max(1e-3, 0.5 * glm::length(bounds.max - bounds.min));
+  // The narrower side of the picture decides.
+  const double half_fov_y = 0.5 * static_cast<double>(settings.camera.fov_y);
+  const double aspect = static_cast<double>(width) / static_cast<double>(height);
+  const double half_fov = std::min(half_fov_y, std::atan(std::tan(half_fov_y) * aspect));
+  const double distance = radius / std::sin(half_fov);
   const dvec3 eye = center + glm::normalize(dvec3(0.6, 0.45, 1.0)) * distance;
   settings.camera.near_m = static_cast<float>(std::clamp(distance * 0.01, 1e-4, 0.1));
   settings.world_from_camera = glm::inverse(glm::lookAt(eye, center, dvec3(0.0, 1.0, 0.0)));

@@ -12,6 +12,8 @@ layout(set = 0, binding = 1) uniform sampler2D base_color_image;
 layout(set = 0, binding = 2) uniform usampler2D normal_image;
 layout(set = 0, binding = 3) uniform sampler2D depth_image;
 
+layout(constant_id = 0) const uint kEncode = 0u;  // 1: the target does not encode sRGB by itself
+
 layout(location = 0) out vec4 out_color;
 
 void main() {
@@ -29,5 +31,5 @@ void main() {
       shown = vec3(1.0 / (1.0 + 0.1 * metres));
     }
   }
-  out_color = vec4(shown, 1.0);
+  out_color = vec4(kEncode != 0u ? linear_to_srgb(shown) : shown, 1.0);
 }

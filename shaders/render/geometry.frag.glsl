@@ -3,6 +3,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/surface_api.glsl"
+#include "shaders/render/view_api.glsl"
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 
 layout(location = 0) out vec4 out_base_color;
 layout(location = 1) out uvec4 out_normals;
@@ -10,7 +13,7 @@ layout(location = 2) out vec4 out_material;
 layout(location = 3) out vec4 out_emissive;
 
 void main() {
-  Surface s = fetch_surface();
+  Surface s = fetch_surface(to_viewer(view, in_relative));
   out_base_color = vec4(s.base_color.rgb, s.subsurface ? 1.0 : 0.0);
   out_normals = uvec4(pack_normal(s.normal), pack_normal(s.face_normal), 0u, 0u);
   out_material = vec4(s.roughness, s.metallic, s.occlusion, s.reflectivity);

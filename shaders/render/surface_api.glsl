@@ -42,16 +42,16 @@ vec2 texture_uv(int slot) {
   return vec2(dot(row0.xyz, uv), dot(row1.xyz, uv));
 }
 
-Surface fetch_surface() {
+// `to_viewer`: towards the camera, any length (view_api.glsl).
+Surface fetch_surface(vec3 to_viewer) {
   Surface s;
   s.base_color = material.base_color * in_color;
   if ((kSurface & GLOAM_SURFACE_BASE_TEXTURE) != 0u) s.base_color *= texture(base_color_texture, texture_uv(0));
-  if ((kSurface & GLOAM_SURFACE_MASK) != 0u && s.base_color.a < material.emissive_cutoff.a) discard;
 
-  // The camera is at the origin: the visible side is the one towards it, whatever the winding and mirroring say.
+  // The visible side is the one towards the camera, whatever the winding and mirroring say.
   s.face_normal = normalize(cross(dFdx(in_relative), dFdy(in_relative)));
-  if (dot(s.face_normal, in_relative) > 0.0) s.face_normal = -s.face_normal;
-  if (!(dot(s.face_normal, s.face_normal) > 0.5)) s.face_normal = normalize(-in_relative);  // degenerate derivatives
+  if (dot(s.face_normal, to_viewer) < 0.0) s.face_normal = -s.face_normal;
+  if (!(dot(s.face_normal, s.face_normal) > 0.5)) s.face_normal = normalize(to_viewer);  // degenerate derivatives
 
   s.normal = normalize(in_normal);
   if ((kSurface & GLOAM_SURFACE_NORMAL_TEXTURE) != 0u) {
@@ -80,6 +80,8 @@ Surface fetch_surface() {
   s.subsurface = material.extras.x > 0.5;
   float smoothness = 1.0 - s.roughness;
   s.reflectivity = material.extras.y >= 0.0 ? material.extras.y : smoothness * mix(0.5, 1.0, s.metallic);
+  // Last, because derivatives and texture lookups above need whole quads.
+  if ((kSurface & GLOAM_SURFACE_MASK) != 0u && s.base_color.a < material.emissive_cutoff.a) discard;
   return s;
 }
 

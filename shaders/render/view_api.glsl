@@ -17,6 +17,9 @@ vec3 view_ray(ViewConstants view, vec2 pixel) {
   return relative_position(view, pixel, 0.5);
 }
 
+// Towards the camera from a camera-relative position; not normalised.
+vec3 to_viewer(ViewConstants view, vec3 relative) { return view.orthographic != 0u ? view.view_row_z.xyz : -relative; }
+
 // Metres in front of the camera of a camera-relative position.
 float view_depth(ViewConstants view, vec3 relative) { return -dot(view.view_row_z.xyz, relative); }
 

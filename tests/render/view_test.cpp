@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/ext/matrix_transform.hpp>
+#include <vector>
+
+#include "engine/scene/gltf_import.h"
+#include "tests/support/expect_assert.h"
+#include "tests/support/render_scene.h"
+
+namespace gloam {
+namespace {
+
+ViewSettings looking(const dvec3& eye, const dvec3& target, std::uint32_t width = 640, std::uint32_t height = 360) {
+  return test::look_at(eye, target, width, height);
+}
+
+dvec4 clip_of(const RenderView& view, const dvec3& world) {
+  return dmat4(view.clip_from_relative) * dvec4(dvec3(view.relative(world)), 1.0);
+}
+
+TEST(MakeView, depth_is_near_over_distance) {
+  const RenderView view = make_view(looking(dvec3(0.0), dvec3(0.0, 0.0, -1.0)), 7);
+  EXPECT_EQ(view.frame, 7u);
+  for (const double distance : {0.1, 1.0, 25.0, 1000.0}) {
+    const dvec4 clip = clip_of(view, dvec3(0.0, 0.0, -distance));
+    EXPECT_NEAR(clip.w, distance, 1e-5 * distance);
+    EXPECT_NEAR(clip.z / clip.w, 0.1 / distance, 1e-6);
+  }
+}
+
+TEST(MakeView, right_is_right_and_up_is_up) {
+  const RenderView view = make_view(looking(dvec3(3.0, 2.0, 1.0), dvec3(3.0, 2.0, -9.0)), 0);
+  EXPECT_GT(clip_of(view, dvec3(4.0, 2.0, -4.0)).x, 0.0);
+  EXPECT_GT(clip_of(view, dvec3(3.0, 3.0, -4.0)).y, 0.0);
+  EXPECT_LT(clip_of(view, dvec3(3.0, 2.0, 4.0)).w, 0.0) << "what lies behind has negative w";
+}
+
+TEST(MakeView, a_point_at_the_edge_of_the_field_of_view_is_at_the_edge_of_the_picture) {
+  ViewSettings settings = looking(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 200, 100);
+  settings.camera.fov_y = 1.2f;
+  const RenderView view = make_view(settings, 0);
+  const double half = std::tan(0.5 * static_cast<double>(settings.camera.fov_y));
+  const dvec4 clip = clip_of(view, dvec3(2.0 * half * 5.0, half * 5.0, -5.0));
+  EXPECT_NEAR(clip.x / clip.w, 1.0, 1e-5);
+  EXPECT_NEAR(clip.y / clip.w, 1.0, 1e-5);
+}
+
+TEST(MakeView, relative_positions_keep_a_tenth_of_a_millimetre_a_thousand_kilometres_out) {
+  const dvec3 eye(1e6, -2e6, 3e6);
+  const RenderView view = make_view(looking(eye, eye + dvec3(1.0, 0.2, -3.0)), 0);
+  for (const dvec3 offset : {dvec3(0.1234, 5.4321, -10.0001), dvec3(-100.0625, 3.0, 0.0003)}) {
+    const vec3 relative = view.relative(eye + offset);
+    EXPECT_LT(glm::length(dvec3(relative) - offset), 1e-5);
+  }
+  const RenderView home = make_view(looking(dvec3(0.0), dvec3(1.0, 0.2, -3.0)), 0);
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      EXPECT_NEAR(view.clip_from_relative[column][row], home.clip_from_relative[column][row], 1e-6f);
+}
+
+TEST(MakeView, the_frustum_holds_what_the_picture_shows) {
+  const RenderView view = make_view(looking(dvec3(1e5, 0.0, 0.0), dvec3(1e5, 1.0, -4.0)), 0);
+  const auto sphere_at = [&](const dvec3& world) { return Sphere{view.relative(world), 0.01f}; };
+  EXPECT_TRUE(may_intersect(view.frustum, sphere_at(dvec3(1e5, 1.0, -4.0))));
+  EXPECT_FALSE(may_intersect(view.frustum, sphere_at(dvec3(1e5, -1.0, 4.0))));
+  EXPECT_FALSE(may_intersect(view.frustum, sphere_at(dvec3(1e5 + 40.0, 1.0, -4.0))));
+  EXPECT_TRUE(may_intersect(view.frustum, sphere_at(dvec3(1e5, 1e6, -4e6)))) << "there is no far plane";
+}
+
+TEST(MakeView, orthographic_depth_falls_evenly_from_near_to_far) {
+  ViewSettings settings = looking(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 400, 200);
+  settings.camera.orthographic = true;
+  settings.camera.half_height_m = 3.0f;
+  settings.camera.near_m = 1.0f;
+  settings.camera.far_m = 11.0f;
+  const RenderView view = make_view(settings, 0);
+  EXPECT_NEAR(clip_of(view, dvec3(0.0, 0.0, -1.0)).z, 1.0, 1e-6);
+  EXPECT_NEAR(clip_of(view, dvec3(0.0, 0.0, -6.0)).z, 0.5, 1e-6);
+  EXPECT_NEAR(clip_of(view, dvec3(0.0, 0.0, -11.0)).z, 0.0, 1e-6);
+  const dvec4 corner = clip_of(view, dvec3(6.0, 3.0, -8.0));
+  EXPECT_NEAR(corner.x, 1.0, 1e-6) << "the picture's shape sets the width";
+  EXPECT_NEAR(corner.y, 1.0, 1e-6);
+  EXPECT_EQ(corner.w, 1.0);
+  EXPECT_FALSE(may_intersect(view.frustum, Sphere{vec3(0.0f, 0.0f, -12.0f), 0.5f}));
+}
+
+TEST(MakeView, orthographic_without_a_far_distance_sees_a_kilometre) {
+  ViewSettings settings = looking(dvec3(0.0), dvec3(0.0, 0.0, -1.0));
+  settings.camera.orthographic = true;
+  settings.camera.far_m = 0.0f;
+  const RenderView view = make_view(settings, 0);
+  EXPECT_GT(clip_of(view, dvec3(0.0, 0.0, -999.0)).z, 0.0);
+}
+
+TEST(MakeView, an_empty_picture_asserts) {
+  EXPECT_ASSERT((void)make_view(looking(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 0, 5), 0), "at least one pixel");
+}
+
+class CameraWorld : public ::testing::Test {
+ protected:
+  CameraWorld() { prepare_scene_world(world_); }
+  [[nodiscard]] Entity camera_at(const dmat4& matrix) {
+    Camera camera;
+    camera.fov_y = 0.5f;
+    camera.near_m = 0.25f;
+    return world_.create(WorldTransform{matrix}, camera);
+  }
+  World world_;
+  std::vector<Entity> drawn_;
+};
+
+TEST_F(CameraWorld, following_takes_pose_and_lens) {
+  const dmat4 pose =
+      glm::translate(dmat4(1.0), dvec3(5.0, 6.0, 7.0)) * glm::rotate(dmat4(1.0), 0.7, dvec3(0.0, 1.0, 0.0));
+  ViewSettings settings;
+  settings.camera_entity = camera_at(pose);
+  follow_camera(world_, settings);
+  EXPECT_EQ(settings.camera.fov_y, 0.5f);
+  EXPECT_EQ(settings.camera.near_m, 0.25f);
+  for (int column = 0; column < 4; ++column)
+    EXPECT_LT(glm::length(settings.world_from_camera[column] - pose[column]), 1e-12);
+  EXPECT_EQ(make_view(settings, 0).near_m, 0.25f);
+}
+
+TEST_F(CameraWorld, a_scaled_or_mirrored_camera_node_gives_a_rigid_pose) {
+  for (const dvec3 scale : {dvec3(3.0), dvec3(0.01, 2.0, 5.0), dvec3(-1.0, 1.0, 1.0), dvec3(1.0, 1.0, 7.0)}) {
+    const dmat4 rotation = glm::rotate(dmat4(1.0), 1.1, glm::normalize(dvec3(1.0, 2.0, 3.0)));
+    ViewSettings settings;
+    settings.camera_entity =
+        camera_at(glm::translate(dmat4(1.0), dvec3(1.0, 2.0, 3.0)) * rotation * glm::scale(dmat4(1.0), scale));
+    follow_camera(world_, settings);
+    const glm::dmat3 axes(settings.world_from_camera);
+    EXPECT_NEAR(glm::determinant(axes), 1.0, 1e-9);
+    const glm::dmat3 gram = glm::transpose(axes) * axes;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) EXPECT_NEAR(gram[i][j], i == j ? 1.0 : 0.0, 1e-9);
+    EXPECT_LT(glm::length(dvec3(settings.world_from_camera[2]) - dvec3(rotation[2])), 1e-9)
+        << "it looks where its node looks";
+    EXPECT_EQ(dvec3(settings.world_from_camera[3]), dvec3(1.0, 2.0, 3.0));
+  }
+}
+
+TEST_F(CameraWorld, nothing_to_follow_leaves_the_settings) {
+  ViewSettings settings;
+  settings.camera.fov_y = 0.9f;
+  follow_camera(world_, settings);
+  EXPECT_EQ(settings.camera.fov_y, 0.9f);
+  settings.camera_entity = camera_at(dmat4(1.0));
+  world_.destroy(settings.camera_entity);
+  follow_camera(world_, settings);
+  EXPECT_EQ(settings.camera.fov_y, 0.9f);
+  settings.camera_entity = world_.create(WorldTransform{});  // no lens
+  follow_camera(world_, settings);
+  EXPECT_EQ(settings.camera.fov_y, 0.9f);
+}
+
+TEST_F(CameraWorld, settings_for_a_camera_are_its_own) {
+  const Entity camera = camera_at(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, 9.0)));
+  const ViewSettings settings = settings_for_camera(world_, camera, 33, 44);
+  EXPECT_EQ(settings.camera_entity, camera);
+  EXPECT_EQ(settings.width, 33u);
+  EXPECT_EQ(settings.height, 44u);
+  EXPECT_EQ(dvec3(settings.world_from_camera[3]), dvec3(0.0, 0.0, 9.0));
+}
+
+TEST_F(CameraWorld, a_fitted_camera_sees_all_that_is_drawn) {
+  test::SceneMaker scene(world_);
+  const std::uint32_t box = scene.mesh(test::box(vec3(0.5f, 2.0f, 0.25f)));
+  struct Case {
+    dvec3 center;
+    double spread;
+    std::uint32_t width, height;
+  };
+  const Case cases[] = {{dvec3(0.0), 1.0, 1280, 720},
+                        {dvec3(0.0), 30.0, 300, 900},
+                        {dvec3(5.0, -3.0, 8.0), 0.01, 64, 64},
+                        {dvec3(1e6, 2e6, 0.0), 3.0, 50, 400},
+                        {dvec3(-1e9, 0.0, 1e9), 2.0, 640, 360}};
+  for (const Case& c : cases) {
+    for (const Entity old : drawn_) world_.destroy(old);
+    drawn_.clear();
+    std::vector<dvec3> corners;
+    for (int i = 0; i < 5; ++i) {
+      const dvec3 offset = c.spread * dvec3(std::sin(2.0 * i), std::cos(3.0 * i), std::sin(5.0 * i + 1.0));
+      const dmat4 matrix = glm::translate(dmat4(1.0), c.center + offset) *
+                           glm::rotate(dmat4(1.0), 0.9 * i, glm::normalize(dvec3(1.0, i, 2.0))) *
+                           glm::scale(dmat4(1.0), dvec3(c.spread));
+      drawn_.push_back(scene.draw(box, matrix));
+      for (const vec3 p : scene.assets().meshes[box].primitives[0].positions)
+        corners.push_back(dvec3(matrix * dvec4(dvec3(p), 1.0)));
+    }
+    const ViewSettings settings = settings_for_camera(world_, kNoEntity, c.width, c.height);
+    const RenderView view = make_view(settings, 0);
+    for (const dvec3& corner : corners) {
+      const dvec4 clip = clip_of(view, corner);
+      EXPECT_LE(std::abs(clip.x), clip.w) << "spread " << c.spread << ", " << c.width << "x" << c.height;
+      EXPECT_LE(std::abs(clip.y), clip.w) << "spread " << c.spread << ", " << c.width << "x" << c.height;
+      EXPECT_LE(clip.z, clip.w) << "nearer than the near plane";
+    }
+  }
+}
+
+TEST_F(CameraWorld, a_world_without_meshes_is_seen_from_near_its_origin) {
+  const ViewSettings settings = settings_for_camera(world_, kNoEntity, 64, 64);
+  const double distance = glm::length(dvec3(settings.world_from_camera[3]));
+  EXPECT_GT(distance, 0.5);
+  EXPECT_LT(distance, 100.0);
+}
+
+}  // namespace
+}  // namespace gloam

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/ext/matrix_transform.hpp>
+#include <utility>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/render/view.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/components.h"
+#include "engine/scene/resources.h"
+
+/// Small scenes made by code, for tests of what draws.
+namespace gloam::test {
+
+/// Fills in bounds, and indices 0, 1, 2, … where there are none.
+[[nodiscard]] inline Primitive finished(Primitive primitive) {
+  if (primitive.indices.empty())
+    for (std::uint32_t i = 0; i < primitive.positions.size(); ++i) primitive.indices.push_back(i);
+  primitive.bounds = {};
+  for (const vec3& position : primitive.positions) primitive.bounds.grow(position);
+  return primitive;
+}
+
+/// A square in the XY plane around the origin that faces +Z; texture coordinates run 0…1 from the upper left, tangent +X.
+[[nodiscard]] inline Primitive quad(float half, std::uint32_t material = kNone) {
+  Primitive p;
+  p.material = material;
+  p.positions = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
+  p.normals.assign(4, vec3(0.0f, 0.0f, 1.0f));
+  p.tangents.assign(4, vec4(1.0f, 0.0f, 0.0f, 1.0f));
+  p.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  p.indices = {0, 1, 2, 0, 2, 3};
+  return finished(std::move(p));
+}
+
+/// A box around the origin with faces of its own vertices, counter-clockwise from outside.
+[[nodiscard]] inline Primitive box(vec3 half, std::uint32_t material = kNone) {
+  Primitive p;
+  p.material = material;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {1.0f, -1.0f}) {
+      vec3 normal(0.0f), u(0.0f), v(0.0f);
+      normal[axis] = side;
+      u[(axis + 1) % 3] = side;
+      v[(axis + 2) % 3] = 1.0f;
+      const auto first = static_cast<std::uint32_t>(p.positions.size());
+      for (const vec3 corner : {normal - u - v, normal + u - v, normal + u + v, normal - u + v}) {
+        p.positions.push_back(corner * half);
+        p.normals.push_back(normal);
+      }
+      for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) p.indices.push_back(first + i);
+    }
+  }
+  return finished(std::move(p));
+}
+
+/// Fills a world that prepare_scene_world (or Renderer::prepare_world) has prepared.
+class SceneMaker {
+ public:
+  explicit SceneMaker(World& world) : world_(world) {}
+
+  [[nodiscard]] SceneAssets& assets() { return world_.resource<SceneAssets>(); }
+
+  std::uint32_t material(Material material) { return add(assets().materials, std::move(material)); }
+  std::uint32_t mesh(Primitive primitive) {
+    Mesh mesh;
+    mesh.bounds = primitive.bounds;
+    mesh.primitives.push_back(std::move(primitive));
+    return add(assets().meshes, std::move(mesh));
+  }
+  /// A texture of its own image, without filtering.
+  std::uint32_t texture(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgba, bool srgb) {
+    Image image{"test", width, height, std::move(rgba)};
+    Texture texture;
+    texture.name = "test";
+    texture.image = add(assets().images, std::move(image));
+    texture.srgb = srgb;
+    texture.nearest = true;
+    texture.wrap_u = texture.wrap_v = WrapMode::clamp_to_edge;
+    return add(assets().textures, std::move(texture));
+  }
+  Entity draw(std::uint32_t mesh_index, const dmat4& world_from_mesh = dmat4(1.0)) {
+    return world_.create(WorldTransform{world_from_mesh}, MeshInstance{mesh_index});
+  }
+  /// An entity at a matrix, e.g. a joint.
+  Entity node(std::uint32_t index, const dmat4& matrix) {
+    return world_.create(WorldTransform{matrix}, SourceNode{index});
+  }
+
+ private:
+  template <class T>
+  std::uint32_t add(std::vector<T>& list, T item) {
+    list.push_back(std::move(item));
+    ++assets().version;
+    return static_cast<std::uint32_t>(list.size()) - 1;
+  }
+  World& world_;
+};
+
+[[nodiscard]] inline ViewSettings look_at(const dvec3& eye, const dvec3& target, std::uint32_t width,
+                                          std::uint32_t height) {
+  ViewSettings settings;
+  settings.width = width;
+  settings.height = height;
+  // The offset alone: a look-at matrix in world coordinates would lose digits far from the origin.
+  settings.world_from_camera = glm::inverse(glm::lookAt(dvec3(0.0), target - eye, dvec3(0.0, 1.0, 0.0)));
+  settings.world_from_camera[3] = dvec4(eye, 1.0);
+  return settings;
+}
+
+}  // namespace gloam::test
