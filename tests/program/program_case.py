@@ -56,7 +56,7 @@ class ProgramCase(unittest.TestCase):
 
 def main():
     """usage: TEST.py PROGRAM SOURCE_FOLDER"""
-    ProgramCase.program, ProgramCase.source = sys.argv[1], Path(sys.argv[2])
+    ProgramCase.program, ProgramCase.source = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2])
     result = unittest.main(argv=sys.argv[:1], exit=False, verbosity=2).result
     for test, reason in result.skipped:
         print(f"SKIPPED: {test.id()}: {reason}")
