@@ -3,8 +3,8 @@
 #pragma once
 
 /// The one way this layer sees Vulkan: no prototypes, every call goes through a table that belongs to an instance or a
-/// device.
+/// device (functions.h).
 #ifndef VK_NO_PROTOTYPES
 #define VK_NO_PROTOTYPES
 #endif
-#include <volk.h>
+#include <vulkan/vulkan.h>

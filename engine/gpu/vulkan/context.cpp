@@ -2,28 +2,19 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/vulkan/context.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/gpu/vulkan/errors.h"
 
 namespace gloam::gpu::vulkan {
-namespace {
-
-/// volk fills a table through a global pointer, so two devices opened at once must take turns.
-void load_table(const InstanceFunctions& functions, VkDevice device, VolkDeviceTable& table) {
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  vkGetDeviceProcAddr = functions.vkGetDeviceProcAddr;
-  volkLoadDeviceTable(&table, device);
-}
-
-}  // namespace
 
 Result<std::unique_ptr<Context>> Context::create(const Instance& instance, const PhysicalDevice& physical) {
   std::unique_ptr<Context> context(new Context(instance, physical));
-  Features features = features_to_enable(physical);
-  std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+  Features features = features_to_enable(physical.features);
+  const std::span<const char* const> required = required_device_extensions();
+  std::vector<const char*> extensions(required.begin(), required.end());
   if (physical.can_present) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 
   const float priority = 1.0f;
@@ -40,10 +31,28 @@ Result<std::unique_ptr<Context>> Context::create(const Instance& instance, const
   const InstanceFunctions& f = instance.functions();
   const VkResult result = f.vkCreateDevice(physical.handle, &info, nullptr, &context->device);
   if (result != VK_SUCCESS) return failure("The device " + physical.info.name + " could not be opened", result);
-  load_table(f, context->device, context->vk);
+  GLOAM_TRY(context->load_functions());
   context->vk.vkGetDeviceQueue(context->device, physical.queue_family, 0, &context->queue);
   context->set_name(VK_OBJECT_TYPE_QUEUE, context->queue, "main queue");
   return context;
+}
+
+Result<std::unique_ptr<Context>> Context::adopt(const Instance& instance, const PhysicalDevice& physical,
+                                                const HostDevice& host) {
+  std::unique_ptr<Context> context(new Context(instance, physical));
+  context->owned_ = false;
+  context->device = host.device;
+  context->queue = host.queue;
+  if (host.queue_mutex != nullptr) context->queue_mutex_ = host.queue_mutex;
+  GLOAM_TRY(context->load_functions());
+  return context;
+}
+
+Status Context::load_functions() {
+  const Result<DeviceFunctions> functions = load_device_functions(instance_functions().vkGetDeviceProcAddr, device);
+  if (!functions) return functions.error();
+  vk = *functions;
+  return {};
 }
 
 void Context::set_object_name(VkObjectType type, std::uint64_t object, std::string_view name) const {
@@ -58,7 +67,7 @@ void Context::set_object_name(VkObjectType type, std::uint64_t object, std::stri
 }
 
 Context::~Context() {
-  if (device != VK_NULL_HANDLE) vk.vkDestroyDevice(device, nullptr);
+  if (owned_ && device != VK_NULL_HANDLE && vk.vkDestroyDevice != nullptr) vk.vkDestroyDevice(device, nullptr);
 }
 
 }  // namespace gloam::gpu::vulkan

@@ -10,8 +10,10 @@
 #include "engine/core/result.h"
 #include "engine/gpu/types.h"
 #include "engine/gpu/vulkan/api.h"
+#include "engine/gpu/vulkan/functions.h"
 #include "engine/gpu/vulkan/instance.h"
 #include "engine/gpu/vulkan/physical_device.h"
+#include "engine/gpu/vulkan_interop.h"
 
 namespace gloam::gpu::vulkan {
 
@@ -19,6 +21,9 @@ namespace gloam::gpu::vulkan {
 class Context {
  public:
   static Result<std::unique_ptr<Context>> create(const Instance& instance, const PhysicalDevice& physical);
+  /// On a host's device, which is not destroyed here. `physical` is from examine_host_device.
+  static Result<std::unique_ptr<Context>> adopt(const Instance& instance, const PhysicalDevice& physical,
+                                                const HostDevice& host);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
@@ -34,17 +39,26 @@ class Context {
     set_object_name(type, (std::uint64_t)object, name);  // a pointer or an integer, by platform
   }
 
+  /// Held around every use of the queue: submitting and presenting are not thread-safe in Vulkan.
+  [[nodiscard]] std::mutex& queue_mutex() { return *queue_mutex_; }
+  /// False on a host's device.
+  [[nodiscard]] bool owns_device() const { return owned_; }
+
   PhysicalDevice physical;
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
-  std::mutex queue_mutex;  ///< submitting and presenting are not thread-safe in Vulkan
-  VolkDeviceTable vk = {};
+  DeviceFunctions vk;
 
  private:
   explicit Context(const Instance& instance, const PhysicalDevice& chosen) : physical(chosen), instance_(&instance) {}
   void set_object_name(VkObjectType type, std::uint64_t object, std::string_view name) const;
 
+  Status load_functions();
+
   const Instance* instance_;
+  bool owned_ = true;
+  std::mutex own_queue_mutex_;
+  std::mutex* queue_mutex_ = &own_queue_mutex_;
 };
 
 }  // namespace gloam::gpu::vulkan

@@ -29,8 +29,30 @@ Result<std::unique_ptr<Device>> VulkanDevice::create(const VulkanOptions& option
   if (!physical) return physical.error();
   Result<std::unique_ptr<Context>> context = Context::create(**instance, *physical);
   if (!context) return context.error();
-  std::unique_ptr<VulkanDevice> device(
-      new VulkanDevice(std::move(*instance), std::move(*context), options.cache_directory));
+  return assemble(std::move(*instance), std::move(*context), options.cache_directory);
+}
+
+Result<std::unique_ptr<Device>> VulkanDevice::create_on(const HostDevice& host) {
+  GLOAM_ASSERT(host.instance != VK_NULL_HANDLE && host.physical_device != VK_NULL_HANDLE &&
+                   host.device != VK_NULL_HANDLE && host.queue != VK_NULL_HANDLE &&
+                   host.get_instance_proc_addr != nullptr,
+               "a host's device comes with its instance, physical device, queue and vkGetInstanceProcAddr");
+  if (host.api_version < VK_API_VERSION_1_3) {
+    return Error{ErrorKind::no_device, "The host's VkInstance was made for a Vulkan older than 1.3"};
+  }
+  Result<std::unique_ptr<Instance>> instance = Instance::adopt(host);
+  if (!instance) return instance.error();
+  const Result<PhysicalDevice> physical = examine_host_device(**instance, host);
+  if (!physical) return physical.error();
+  Result<std::unique_ptr<Context>> context = Context::adopt(**instance, *physical, host);
+  if (!context) return context.error();
+  return assemble(std::move(*instance), std::move(*context), host.cache_directory);
+}
+
+Result<std::unique_ptr<Device>> VulkanDevice::assemble(std::unique_ptr<Instance> instance,
+                                                       std::unique_ptr<Context> context,
+                                                       const std::string& cache_directory) {
+  std::unique_ptr<VulkanDevice> device(new VulkanDevice(std::move(instance), std::move(context), cache_directory));
   Result<std::unique_ptr<Frames>> frames = Frames::create(*device->context_, device->graveyard_);
   if (!frames) return frames.error();
   device->frames_ = std::move(*frames);
@@ -41,7 +63,12 @@ Result<std::unique_ptr<Device>> VulkanDevice::create(const VulkanOptions& option
 }
 
 VulkanDevice::~VulkanDevice() {
-  context_->vk.vkDeviceWaitIdle(context_->device);
+  if (context_->owns_device()) {
+    context_->vk.vkDeviceWaitIdle(context_->device);
+  } else if (frames_) {
+    // The host may be using other queues, or this one, at this moment; our own work is all that matters.
+    static_cast<void>(frames_->wait_idle());
+  }
   graveyard_.collect_all();
 }
 

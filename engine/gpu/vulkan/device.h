@@ -26,6 +26,7 @@ namespace gloam::gpu::vulkan {
 class VulkanDevice final : public Device {
  public:
   static Result<std::unique_ptr<Device>> create(const VulkanOptions& options);
+  static Result<std::unique_ptr<Device>> create_on(const HostDevice& host);
   ~VulkanDevice() override;
 
   [[nodiscard]] const DeviceInfo& info() const override { return context_->physical.info; }
@@ -69,7 +70,7 @@ class VulkanDevice final : public Device {
   }
   [[nodiscard]] std::uint64_t validation_messages() const override { return instance_->messages(); }
 
-  // For the swapchain.
+  // For the swapchain and hosts.
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] Images& images() { return images_; }
   [[nodiscard]] Frames& frames() { return *frames_; }
@@ -77,6 +78,8 @@ class VulkanDevice final : public Device {
  private:
   VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,
                const std::string& cache_directory);
+  static Result<std::unique_ptr<Device>> assemble(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,
+                                                  const std::string& cache_directory);
 
   // In the order in which they need each other; destroyed the other way round.
   std::unique_ptr<Instance> instance_;

@@ -10,7 +10,7 @@
 namespace gloam::gpu::vulkan {
 namespace {
 
-VkSemaphoreSubmitInfo at_all_commands(VkSemaphore semaphore, std::uint64_t value = 0) {
+VkSemaphoreSubmitInfo at_all_commands(VkSemaphore semaphore, std::uint64_t value) {
   return {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
           .semaphore = semaphore,
           .value = value,
@@ -37,7 +37,7 @@ Status Frames::make() {
 }
 
 Status Frames::make_slot(Slot& slot, std::uint32_t index) {
-  const VolkDeviceTable& vk = context_.vk;
+  const DeviceFunctions& vk = context_.vk;
   const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                         .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                         .queueFamilyIndex = context_.physical.queue_family};
@@ -137,21 +137,28 @@ Status Frames::submit(bool discard) {
   return {};
 }
 
+void Frames::wait_for(VkSemaphore semaphore, std::uint64_t value) {
+  GLOAM_ASSERT(recording_, "a frame's semaphores are given while it is recorded");
+  waits_.push_back(at_all_commands(semaphore, value));
+}
+
+void Frames::signal(VkSemaphore semaphore, std::uint64_t value) {
+  GLOAM_ASSERT(recording_, "a frame's semaphores are given while it is recorded");
+  signals_.push_back(at_all_commands(semaphore, value));
+}
+
 VkResult Frames::submit_commands(const Slot& slot, bool discard) {
-  std::vector<VkSemaphoreSubmitInfo> waits;
-  std::vector<VkSemaphoreSubmitInfo> signals = {at_all_commands(timeline_, number() + 1)};
-  for (VkSemaphore semaphore : waits_) waits.push_back(at_all_commands(semaphore));
-  for (VkSemaphore semaphore : signals_) signals.push_back(at_all_commands(semaphore));
+  signals_.push_back(at_all_commands(timeline_, number() + 1));
   const VkCommandBufferSubmitInfo command = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                              .commandBuffer = slot.commands};
   const VkSubmitInfo2 info = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                              .waitSemaphoreInfoCount = static_cast<std::uint32_t>(waits.size()),
-                              .pWaitSemaphoreInfos = waits.data(),
+                              .waitSemaphoreInfoCount = static_cast<std::uint32_t>(waits_.size()),
+                              .pWaitSemaphoreInfos = waits_.data(),
                               .commandBufferInfoCount = discard ? 0u : 1u,
                               .pCommandBufferInfos = &command,
-                              .signalSemaphoreInfoCount = static_cast<std::uint32_t>(signals.size()),
-                              .pSignalSemaphoreInfos = signals.data()};
-  const std::lock_guard lock(context_.queue_mutex);
+                              .signalSemaphoreInfoCount = static_cast<std::uint32_t>(signals_.size()),
+                              .pSignalSemaphoreInfos = signals_.data()};
+  const std::lock_guard lock(context_.queue_mutex());
   return context_.vk.vkQueueSubmit2(context_.queue, 1, &info, VK_NULL_HANDLE);
 }
 

@@ -37,9 +37,11 @@ class Frames {
   void write_timestamp(std::uint32_t index);
   [[nodiscard]] std::vector<std::uint64_t> timestamps(std::uint64_t frame);
 
-  /// Semaphores of a window's picture, for the frame being recorded.
-  void wait_for(VkSemaphore semaphore) { waits_.push_back(semaphore); }
-  void signal(VkSemaphore semaphore) { signals_.push_back(semaphore); }
+  /// Semaphores of a window's picture or of a host, for the frame being recorded. `value`: of a timeline semaphore.
+  void wait_for(VkSemaphore semaphore, std::uint64_t value = 0);
+  void signal(VkSemaphore semaphore, std::uint64_t value = 0);
+  /// Its value is the number of frames that have ended.
+  [[nodiscard]] VkSemaphore timeline() const { return timeline_; }
 
  private:
   static constexpr std::uint64_t kRememberedFrames = 8;
@@ -71,8 +73,8 @@ class Frames {
   std::atomic<std::uint64_t> number_ = 0;
   bool recording_ = false;
   std::atomic<bool> lost_ = false;
-  std::vector<VkSemaphore> waits_;
-  std::vector<VkSemaphore> signals_;
+  std::vector<VkSemaphoreSubmitInfo> waits_;
+  std::vector<VkSemaphoreSubmitInfo> signals_;
   std::mutex timestamps_mutex_;  ///< guards Slot::has_timestamps and what follows
   std::map<std::uint64_t, std::vector<std::uint64_t>> timestamps_;
 };

@@ -146,10 +146,10 @@ Result<std::vector<ImageHandle>> Images::create_aliased(std::span<const ImageDes
 }
 
 ImageHandle Images::adopt(const ImageDesc& desc, VkImage vk_image) {
+  check_rules(desc);
   Image image;
   image.desc = desc;
   image.image = vk_image;
-  context_.set_name(VK_OBJECT_TYPE_IMAGE, vk_image, desc.name);
   return table_.insert(std::move(image));
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -17,27 +16,19 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kDebugUtils = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
 
-/// The loader's entry points are process-wide and never change once found.
-VkResult find_loader() {
-  static std::once_flag once;
-  static VkResult result = VK_SUCCESS;
-  std::call_once(once, [] { result = volkInitialize(); });
-  return result;
-}
-
-bool layer_installed(const char* name) {
+bool layer_installed(const GlobalFunctions& f, const char* name) {
   std::uint32_t count = 0;
-  vkEnumerateInstanceLayerProperties(&count, nullptr);
+  f.vkEnumerateInstanceLayerProperties(&count, nullptr);
   std::vector<VkLayerProperties> layers(count);
-  vkEnumerateInstanceLayerProperties(&count, layers.data());
+  f.vkEnumerateInstanceLayerProperties(&count, layers.data());
   return std::any_of(layers.begin(), layers.end(), [&](const auto& l) { return std::strcmp(l.layerName, name) == 0; });
 }
 
-bool extension_available(const char* name) {
+bool extension_available(const GlobalFunctions& f, const char* name) {
   std::uint32_t count = 0;
-  vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+  f.vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+  f.vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
   return std::any_of(extensions.begin(), extensions.end(),
                      [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
@@ -50,30 +41,50 @@ Result<std::unique_ptr<Instance>> Instance::create(const VulkanOptions& options)
   return instance;
 }
 
+Result<std::unique_ptr<Instance>> Instance::adopt(const HostDevice& host) {
+  std::unique_ptr<Instance> instance(new Instance(host.log != nullptr ? *host.log : null_log()));
+  instance->instance_ = host.instance;
+  instance->owned_ = false;
+  GLOAM_TRY(instance->load_functions(host.get_instance_proc_addr));
+  return instance;
+}
+
+Status Instance::load_functions(PFN_vkGetInstanceProcAddr get) {
+  const Result<InstanceFunctions> functions = load_instance_functions(get, instance_);
+  if (!functions) return functions.error();
+  functions_ = *functions;
+  return {};
+}
+
 Status Instance::make(const VulkanOptions& options) {
-  if (find_loader() != VK_SUCCESS) {
+  const PFN_vkGetInstanceProcAddr loader = find_loader();
+  if (loader == nullptr) {
     return Error{ErrorKind::no_device, "There is no Vulkan loader (libvulkan) on this machine"};
   }
-  if (volkGetInstanceVersion() < VK_API_VERSION_1_3) {
+  const Result<GlobalFunctions> global = load_global_functions(loader);
+  if (!global) return global.error();
+  std::uint32_t version = 0;
+  global->vkEnumerateInstanceVersion(&version);
+  if (version < VK_API_VERSION_1_3) {
     return Error{ErrorKind::no_device, "The Vulkan loader is older than version 1.3"};
   }
   std::vector<const char*> extensions;
   for (const std::string& name : options.window_extensions) {
-    if (!extension_available(name.c_str())) {
+    if (!extension_available(*global, name.c_str())) {
       return Error{ErrorKind::no_device, "The window needs the Vulkan extension " + name + ", which is not there"};
     }
     extensions.push_back(name.c_str());
   }
   std::vector<const char*> layers;
   if (options.validate) {
-    if (!layer_installed(kValidationLayer)) {
+    if (!layer_installed(*global, kValidationLayer)) {
       return Error{ErrorKind::failed, std::string("Validation was asked for, but the layer ") + kValidationLayer +
                                           " is not installed (package vulkan-validationlayers)"};
     }
     layers.push_back(kValidationLayer);
     extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
   }
-  const bool debug_utils = options.validate || extension_available(kDebugUtils);
+  const bool debug_utils = options.validate || extension_available(*global, kDebugUtils);
   if (debug_utils) extensions.push_back(kDebugUtils);
 
   const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
@@ -91,14 +102,12 @@ Status Instance::make(const VulkanOptions& options) {
                                      .ppEnabledLayerNames = layers.data(),
                                      .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                      .ppEnabledExtensionNames = extensions.data()};
-  const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
+  const VkResult result = global->vkCreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
     return Error{ErrorKind::no_device, "No Vulkan driver is installed on this machine"};
   }
   if (result != VK_SUCCESS) return failure("Vulkan could not be started", result);
-#define X(name) functions_.name = reinterpret_cast<PFN_##name>(vkGetInstanceProcAddr(instance_, #name));
-  GLOAM_VULKAN_INSTANCE_FUNCTIONS(X)
-#undef X
+  GLOAM_TRY(load_functions(loader));
   return options.validate ? make_messenger() : Status();
 }
 
@@ -132,7 +141,8 @@ VkBool32 Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity, V
 
 Instance::~Instance() {
   if (messenger_ != VK_NULL_HANDLE) functions_.vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
-  if (instance_ != VK_NULL_HANDLE) functions_.vkDestroyInstance(instance_, nullptr);
+  if (owned_ && instance_ != VK_NULL_HANDLE && functions_.vkDestroyInstance != nullptr)
+    functions_.vkDestroyInstance(instance_, nullptr);
 }
 
 }  // namespace gloam::gpu::vulkan

@@ -10,45 +10,18 @@
 #include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "engine/gpu/vulkan/api.h"
+#include "engine/gpu/vulkan/functions.h"
 #include "engine/gpu/vulkan_device.h"
-
-// Core first; then debug utilities and surfaces, which are null where their extension is absent.
-#define GLOAM_VULKAN_INSTANCE_FUNCTIONS(X)     \
-  X(vkDestroyInstance)                         \
-  X(vkEnumeratePhysicalDevices)                \
-  X(vkGetPhysicalDeviceProperties)             \
-  X(vkGetPhysicalDeviceProperties2)            \
-  X(vkGetPhysicalDeviceFeatures2)              \
-  X(vkGetPhysicalDeviceMemoryProperties)       \
-  X(vkGetPhysicalDeviceQueueFamilyProperties)  \
-  X(vkGetPhysicalDeviceFormatProperties)       \
-  X(vkEnumerateDeviceExtensionProperties)      \
-  X(vkCreateDevice)                            \
-  X(vkGetDeviceProcAddr)                       \
-  X(vkCreateDebugUtilsMessengerEXT)            \
-  X(vkDestroyDebugUtilsMessengerEXT)           \
-  X(vkSetDebugUtilsObjectNameEXT)              \
-  X(vkCmdBeginDebugUtilsLabelEXT)              \
-  X(vkCmdEndDebugUtilsLabelEXT)                \
-  X(vkDestroySurfaceKHR)                       \
-  X(vkGetPhysicalDeviceSurfaceSupportKHR)      \
-  X(vkGetPhysicalDeviceSurfaceCapabilitiesKHR) \
-  X(vkGetPhysicalDeviceSurfaceFormatsKHR)
+#include "engine/gpu/vulkan_interop.h"
 
 namespace gloam::gpu::vulkan {
-
-/// Calls of one instance. Tables of our own, because volk's global pointers would tie all devices of a process
-/// together.
-struct InstanceFunctions {
-#define X(name) PFN_##name name = nullptr;
-  GLOAM_VULKAN_INSTANCE_FUNCTIONS(X)
-#undef X
-};
 
 /// A VkInstance with its messenger. Messages of the validation layer go to the log and are counted.
 class Instance {
  public:
   static Result<std::unique_ptr<Instance>> create(const VulkanOptions& options);
+  /// A host's instance, which is not destroyed here and whose messages are the host's.
+  static Result<std::unique_ptr<Instance>> adopt(const HostDevice& host);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -61,6 +34,7 @@ class Instance {
  private:
   explicit Instance(LogSink& log) : log_(&log) {}
   Status make(const VulkanOptions& options);
+  Status load_functions(PFN_vkGetInstanceProcAddr get);
   Status make_messenger();
   static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                    VkDebugUtilsMessageTypeFlagsEXT types,
@@ -68,6 +42,7 @@ class Instance {
 
   LogSink* log_;
   VkInstance instance_ = VK_NULL_HANDLE;
+  bool owned_ = true;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   InstanceFunctions functions_;
   std::atomic<std::uint64_t> messages_ = 0;

@@ -5,55 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "engine/gpu/vulkan/errors.h"
 
 namespace gloam::gpu::vulkan {
 namespace {
-
-struct CoreFeature {
-  VkBool32 VkPhysicalDeviceFeatures::*flag;
-  std::string_view name;
-};
-struct Feature12 {
-  VkBool32 VkPhysicalDeviceVulkan12Features::*flag;
-  std::string_view name;
-};
-struct Feature13 {
-  VkBool32 VkPhysicalDeviceVulkan13Features::*flag;
-  std::string_view name;
-};
-
-constexpr std::array kRequiredCore = {
-    CoreFeature{&VkPhysicalDeviceFeatures::fragmentStoresAndAtomics, "fragmentStoresAndAtomics"},
-    CoreFeature{&VkPhysicalDeviceFeatures::drawIndirectFirstInstance, "drawIndirectFirstInstance"},
-    CoreFeature{&VkPhysicalDeviceFeatures::multiDrawIndirect, "multiDrawIndirect"},
-    CoreFeature{&VkPhysicalDeviceFeatures::independentBlend, "independentBlend"},
-    CoreFeature{&VkPhysicalDeviceFeatures::imageCubeArray, "imageCubeArray"},
-};
-constexpr std::array kRequired12 = {
-    Feature12{&VkPhysicalDeviceVulkan12Features::timelineSemaphore, "timelineSemaphore"},
-    Feature12{&VkPhysicalDeviceVulkan12Features::scalarBlockLayout, "scalarBlockLayout"},
-};
-constexpr std::array kRequired13 = {
-    Feature13{&VkPhysicalDeviceVulkan13Features::dynamicRendering, "dynamicRendering"},
-    Feature13{&VkPhysicalDeviceVulkan13Features::synchronization2, "synchronization2"},
-    Feature13{&VkPhysicalDeviceVulkan13Features::maintenance4, "maintenance4"},
-};
-// Used when there; no effect of the engine depends on one.
-constexpr std::array kOptionalCore = {
-    &VkPhysicalDeviceFeatures::samplerAnisotropy,
-    &VkPhysicalDeviceFeatures::depthClamp,
-    &VkPhysicalDeviceFeatures::shaderStorageImageReadWithoutFormat,
-    &VkPhysicalDeviceFeatures::shaderStorageImageWriteWithoutFormat,
-    &VkPhysicalDeviceFeatures::shaderStorageImageExtendedFormats,
-    &VkPhysicalDeviceFeatures::vertexPipelineStoresAndAtomics,
-};
-constexpr std::array kOptional12 = {
-    &VkPhysicalDeviceVulkan12Features::shaderOutputLayer,
-    &VkPhysicalDeviceVulkan12Features::shaderSubgroupExtendedTypes,
-};
 
 constexpr VkQueueFlags kQueueNeeds = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
 
@@ -138,32 +96,28 @@ bool has_extension(const InstanceFunctions& f, VkPhysicalDevice device, const ch
                      [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
-bool find_queue_family(const InstanceFunctions& f, PhysicalDevice& device) {
+std::vector<VkQueueFamilyProperties> queue_families(const InstanceFunctions& f, VkPhysicalDevice device) {
   std::uint32_t count = 0;
-  f.vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
+  f.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
-  f.vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if ((families[i].queueFlags & kQueueNeeds) != kQueueNeeds) continue;
-    device.queue_family = i;
-    device.timestamp_bits = families[i].timestampValidBits;
-    return true;
-  }
-  return false;
+  f.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  return families;
 }
 
-std::string missing_features(const Features& features) {
-  std::string lacks;
-  for (const CoreFeature& f : kRequiredCore) {
-    if (features.core.features.*f.flag == VK_FALSE) add(lacks, f.name);
+/// Whether a family serves; sets the device's queue facts when it does.
+bool take_queue_family(PhysicalDevice& device, std::span<const VkQueueFamilyProperties> families, std::uint32_t index) {
+  if (index >= families.size() || (families[index].queueFlags & kQueueNeeds) != kQueueNeeds) return false;
+  device.queue_family = index;
+  device.timestamp_bits = families[index].timestampValidBits;
+  return true;
+}
+
+bool find_queue_family(const InstanceFunctions& f, PhysicalDevice& device) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(f, device.handle);
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    if (take_queue_family(device, families, i)) return true;
   }
-  for (const Feature12& f : kRequired12) {
-    if (features.v12.*f.flag == VK_FALSE) add(lacks, f.name);
-  }
-  for (const Feature13& f : kRequired13) {
-    if (features.v13.*f.flag == VK_FALSE) add(lacks, f.name);
-  }
-  return lacks;
+  return false;
 }
 
 Candidate examine(const Instance& instance, VkPhysicalDevice handle, bool for_window) {
@@ -211,12 +165,6 @@ Error no_device(std::string_view wish, const std::vector<Candidate>& candidates)
 
 }  // namespace
 
-VkPhysicalDeviceFeatures2* Features::chain() {
-  core.pNext = &v12;
-  v12.pNext = &v13;
-  return &core;
-}
-
 Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::string_view wish, bool for_window) {
   const InstanceFunctions& f = instance.functions();
   std::uint32_t count = 0;
@@ -239,14 +187,30 @@ Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::str
   return best->device;
 }
 
-Features features_to_enable(const PhysicalDevice& device) {
-  Features on;
-  for (const CoreFeature& f : kRequiredCore) on.core.features.*f.flag = VK_TRUE;
-  for (const Feature12& f : kRequired12) on.v12.*f.flag = VK_TRUE;
-  for (const Feature13& f : kRequired13) on.v13.*f.flag = VK_TRUE;
-  for (auto flag : kOptionalCore) on.core.features.*flag = device.features.core.features.*flag;
-  for (auto flag : kOptional12) on.v12.*flag = device.features.v12.*flag;
-  return on;
+Result<PhysicalDevice> examine_host_device(const Instance& instance, const HostDevice& host) {
+  Candidate candidate = examine(instance, host.physical_device, false);
+  PhysicalDevice& device = candidate.device;
+  const std::string subject = "The host's device " + device.info.name + " cannot be used: ";
+  if (!candidate.lacks.empty()) return Error{ErrorKind::no_device, subject + "it lacks " + candidate.lacks};
+  if (!take_queue_family(device, queue_families(instance.functions(), device.handle), host.queue_family)) {
+    return Error{ErrorKind::no_device, subject + "its queue family " + std::to_string(host.queue_family) +
+                                           " is not one for graphics and compute"};
+  }
+  const auto enabled = [&](const char* name) {
+    return std::any_of(host.enabled_extensions.begin(), host.enabled_extensions.end(),
+                       [&](const char* extension) { return std::strcmp(extension, name) == 0; });
+  };
+  device.features = host.enabled_features == nullptr ? Features() : features_of_chain(*host.enabled_features);
+  device.can_present = enabled(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  std::string absent = missing_features(device.features);
+  for (const char* name : required_device_extensions()) {
+    if (!enabled(name)) add(absent, name);
+  }
+  if (!absent.empty()) {
+    return Error{ErrorKind::no_device, subject + "vkCreateDevice must enable " + absent +
+                                           " (see required_device_extensions and fill_required_features)"};
+  }
+  return device;
 }
 
 }  // namespace gloam::gpu::vulkan

@@ -10,18 +10,11 @@
 #include "engine/core/result.h"
 #include "engine/gpu/types.h"
 #include "engine/gpu/vulkan/api.h"
+#include "engine/gpu/vulkan/features.h"
 #include "engine/gpu/vulkan/instance.h"
+#include "engine/gpu/vulkan_interop.h"
 
 namespace gloam::gpu::vulkan {
-
-/// The features this engine knows of, as a chain for vkGetPhysicalDeviceFeatures2 and vkCreateDevice.
-struct Features {
-  VkPhysicalDeviceFeatures2 core = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-  VkPhysicalDeviceVulkan12Features v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-  VkPhysicalDeviceVulkan13Features v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-  /// Links the parts; the chain holds as long as the object stays where it is.
-  [[nodiscard]] VkPhysicalDeviceFeatures2* chain();
-};
 
 /// A device that fits, and what it can do.
 struct PhysicalDevice {
@@ -29,7 +22,7 @@ struct PhysicalDevice {
   DeviceInfo info;
   VkPhysicalDeviceLimits limits = {};
   VkPhysicalDeviceMemoryProperties memory = {};
-  Features features;  ///< supported ones, not chained
+  Features features;  ///< supported ones, or on a host's device those it has enabled; not chained
   std::uint32_t vendor = 0;
   std::uint32_t device = 0;
   std::array<std::uint8_t, VK_UUID_SIZE> cache_uuid = {};
@@ -45,7 +38,7 @@ struct PhysicalDevice {
 [[nodiscard]] Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::string_view wish,
                                                             bool for_window);
 
-/// What is required, and what is used when there.
-[[nodiscard]] Features features_to_enable(const PhysicalDevice& device);
+/// The device a host has opened; fails naming all that it lacks and all that the host has not enabled.
+[[nodiscard]] Result<PhysicalDevice> examine_host_device(const Instance& instance, const HostDevice& host);
 
 }  // namespace gloam::gpu::vulkan

@@ -66,7 +66,7 @@ Status VulkanSwapchain::resize(std::uint32_t width, std::uint32_t height) {
   Context& context = device_.context();
   {
     // The display may still read the last picture; only the whole queue's idleness says that presenting is over.
-    const std::lock_guard lock(context.queue_mutex);
+    const std::lock_guard lock(context.queue_mutex());
     context.vk.vkQueueWaitIdle(context.queue);
   }
   forget_images();
@@ -129,6 +129,7 @@ Status VulkanSwapchain::adopt_images(VkExtent2D extent) {
                             .width = extent.width,
                             .height = extent.height,
                             .usage = ImageUsage::color_target | ImageUsage::transfer_target};
+    context.set_name(VK_OBJECT_TYPE_IMAGE, image, desc.name);
     images_.push_back(device_.images().adopt(desc, image));
     const Result<VkSemaphore> semaphore = make_semaphore(desc.name + " rendered");
     if (!semaphore) return semaphore.error();
@@ -178,7 +179,7 @@ Status VulkanSwapchain::present() {
                                  .pImageIndices = &acquired_};
   VkResult result = VK_SUCCESS;
   {
-    const std::lock_guard lock(context.queue_mutex);
+    const std::lock_guard lock(context.queue_mutex());
     result = context.vk.vkQueuePresentKHR(context.queue, &info);
   }
   acquired_ = kNone;
