@@ -6,6 +6,7 @@
 
 #include "sandbox/file_io.h"
 #include "sandbox/image_io.h"
+#include "sandbox/legend.h"
 #include "sandbox/scene_loading.h"
 #include "sandbox/stats.h"
 #include "sandbox/trace.h"
@@ -32,8 +33,11 @@ Status write_picture(const DrawnRun& run, const std::string& path) {
     if (!linear) return linear.error();
     return write_exr(path, linear->width, linear->height, linear->rgba);
   }
-  const auto picture = run.session.renderer->read_picture(run.view.id);
+  auto picture = run.session.renderer->read_picture(run.view.id);
   if (!picture) return picture.error();
+  const std::string_view shown = std::string_view(run.view.visualizer).substr(0, run.view.visualizer.find(':'));
+  for (const VisualizerInfo& info : run.session.renderer->visualizers())
+    if (info.name == shown && shown != "none") draw_legend(*picture, info.name + ": " + info.legend);
   return write_png(path, picture->width, picture->height, picture->rgba);
 }
 

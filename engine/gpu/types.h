@@ -58,6 +58,8 @@ enum class Format : std::uint8_t {
 
 [[nodiscard]] std::uint32_t bytes_per_texel(Format format);
 [[nodiscard]] bool is_depth(Format format);
+/// Whether the hardware encodes linear colour on writing.
+[[nodiscard]] constexpr bool encodes_srgb(Format format) { return format == Format::rgba8_srgb || format == Format::bgra8_srgb; }
 [[nodiscard]] std::string_view name_of(Format format);
 
 template <class E>

@@ -11,8 +11,7 @@ Status add_debug_view_pass(FrameBuilder& frame, std::uint32_t code) {
   TargetOutput& target = frame.get<TargetOutput>();
   gpu::GraphicsPipelineDesc desc = fullscreen_pipeline("debug_view/" + std::string(gpu::name_of(target.format)),
                                                        "engine", shaders::render::debug_view_frag, target.format);
-  const bool encodes = target.format == gpu::Format::rgba8_srgb || target.format == gpu::Format::bgra8_srgb;
-  desc.constants = {{0, encodes ? 0u : 1u}};
+  desc.constants = {{0, gpu::encodes_srgb(target.format) ? 0u : 1u}};
   auto pipeline = services.pipelines.get(desc);
   if (!pipeline.ok()) return pipeline.error();
   auto sampler = frame.nearest_sampler();

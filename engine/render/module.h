@@ -34,9 +34,10 @@ enum class PassPhase {
   translucent,  ///< forward-lit things over them
   post,         ///< on linear light: depth of field, bloom
   output,       ///< linear light → picture
+  visualize,    ///< over the picture, when FrameBuilder::visualizer() names one of the module's
 };
 inline constexpr PassPhase kAllPhases[] = {PassPhase::lists, PassPhase::shading, PassPhase::translucent, PassPhase::post,
-                                           PassPhase::output};
+                                           PassPhase::output, PassPhase::visualize};
 
 /// A picture a module can show instead of the lit one.
 struct VisualizerInfo {

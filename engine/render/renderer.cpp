@@ -21,6 +21,11 @@ std::uint32_t engine_visualizer_code(std::string_view name) {
   return 0;
 }
 
+bool is_picture(gpu::Format format) {
+  using enum gpu::Format;
+  return format == rgba8_unorm || format == rgba8_srgb || format == bgra8_unorm || format == bgra8_srgb;
+}
+
 /// Resolves a target that exists only while a frame is recorded.
 Status acquire_target(const gpu::Device& device, ViewRequest& request) {
   if (!request.target.acquire) return {};
@@ -32,6 +37,15 @@ Status acquire_target(const gpu::Device& device, ViewRequest& request) {
   request.settings.width = desc.width;
   request.settings.height = desc.height;
   return {};
+}
+
+void check_target(const gpu::Device& device, const ViewRequest& request) {
+  if (!request.target.image) return;
+  const gpu::ImageDesc& desc = device.desc(request.target.image);
+  GLOAM_ASSERT(desc.width == request.settings.width && desc.height == request.settings.height,
+               "a target image has the size of its view");
+  GLOAM_ASSERT(is_picture(desc.format), "a target image is rgba8 or bgra8, UNORM or sRGB");
+  GLOAM_ASSERT(gpu::has(desc.usage, gpu::ImageUsage::color_target), "a target image was made to be a color_target");
 }
 
 }  // namespace
@@ -160,12 +174,9 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   const gpu::ImageHandle picture = external ? request.target.image : own.picture;
   const gpu::Access after = external ? request.target.after : gpu::Access::transfer_read;
   frame.put(TargetOutput{graph.import_image("picture", picture, gpu::Access::none, after), options.device->desc(picture).format});
-  if (code == 0) {
-    frame.put(LitOutput{graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read)});
-    GLOAM_TRY(add_module_passes(frame));
-  } else {
-    GLOAM_TRY(add_debug_view_pass(frame, code));
-  }
+  frame.put(LitOutput{graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read)});
+  GLOAM_TRY(add_module_passes(frame));
+  if (code != 0) GLOAM_TRY(add_debug_view_pass(frame, code));
   if (pick && pick->view == view.id) {
     const GeometryOutputs& g = frame.get<GeometryOutputs>();
     for (const ImageRef ref : {g.base_color, g.normals, g.material, g.depth}) {
@@ -174,6 +185,41 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
       captures.push_back(*capture);
     }
   }
+  return {};
+}
+
+Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands) {
+  uniforms.begin_frame();
+  storage.begin_frame();
+  graph.begin();
+  builders.clear();
+  views.clear();
+  const std::uint64_t frame = world.resource<RenderSlot>().frames++;
+  for (const ViewRequest& requested : requests) {
+    ViewRequest request = requested;
+    GLOAM_TRY(acquire_target(*options.device, request));
+    ViewSettings& settings = request.settings;
+    check_target(*options.device, request);
+    follow_camera(world, settings);
+    GLOAM_TRY(prepare_images(request));
+    views.push_back(std::make_unique<RenderView>(make_view(settings, frame)));
+    world.set_view_resource(settings.id, *views.back());
+    for (std::size_t i = 0; i < options.modules.size(); ++i)
+      if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id);
+    schedule.run_view(settings.id, world, *options.executor, options.zones);
+    GLOAM_TRY(add_view(world, request, *views.back()));
+  }
+  {
+    const ScopedZone zone(options.zones, "compile_frame_graph", "engine");
+    GLOAM_TRY(graph.compile());
+  }
+  {
+    const ScopedZone zone(options.zones, "record_passes", "engine");
+    graph.execute(commands);
+  }
+  last_requests.assign(requests.begin(), requests.end());
+  collect_counters(world);
+  release_idle_modules();
   return {};
 }
 
@@ -192,7 +238,7 @@ const ModuleList& Renderer::modules() const { return state_->options.modules; }
 std::vector<VisualizerInfo> Renderer::visualizers() const {
   std::vector<VisualizerInfo> all = {{"none", "engine", "", "the lit picture"},
                                      {"albedo", "engine", "", "base colour without light"},
-                                     {"normal", "engine", "", "shading normal, −1…1 as 0…1 of red, green, blue = x, y, z"},
+                                     {"normal", "engine", "", "shading normal, -1 to 1 of x, y, z as 0 to 1 of red, green, blue"},
                                      {"depth", "engine", "", "distance: white near, grey far, black sky"}};
   for (const auto& module : state_->options.modules)
     for (VisualizerInfo& info : module->visualizers()) all.push_back(std::move(info));
@@ -223,6 +269,10 @@ void Renderer::prepare_world(World& world) const {
   world.set_resource(RenderSlot{state_->next_slot++});
 }
 
+void Renderer::release_world(const World& world) {
+  if (const RenderSlot* slot = world.try_resource<RenderSlot>(); slot != nullptr) state_->scenes.erase(slot->value);
+}
+
 Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   State& s = *state_;
   const auto start = std::chrono::steady_clock::now();
@@ -232,39 +282,12 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
 
   auto commands = s.options.device->begin_frame();
   if (!commands.ok()) return commands.error();
-  s.uniforms.begin_frame();
-  s.storage.begin_frame();
-  s.graph.begin();
-  s.builders.clear();
-  s.views.clear();
-  for (const ViewRequest& requested : requests) {
-    ViewRequest request = requested;
-    GLOAM_TRY(acquire_target(*s.options.device, request));
-    ViewSettings& settings = request.settings;
-    follow_camera(world, settings);
-    GLOAM_TRY(s.prepare_images(request));
-    s.views.push_back(std::make_unique<RenderView>(make_view(settings, s.frame_count)));
-    world.set_view_resource(settings.id, *s.views.back());
-    for (std::size_t i = 0; i < s.options.modules.size(); ++i)
-      if (s.runtimes[i].demand.needed) s.options.modules[i]->prepare_view(world, settings.id);
-    s.schedule.run_view(settings.id, world, *s.options.executor, s.options.zones);
-    GLOAM_TRY(s.add_view(world, request, *s.views.back()));
-  }
-  {
-    const ScopedZone zone(s.options.zones, "compile_frame_graph", "engine");
-    GLOAM_TRY(s.graph.compile());
-  }
-  {
-    const ScopedZone zone(s.options.zones, "record_passes", "engine");
-    s.graph.execute(**commands);
-  }
-  s.last_requests.assign(requests.begin(), requests.end());
-  s.collect_counters(world);
-  s.release_idle_modules();
-  ++s.frame_count;
+  const Status recorded = s.record_frame(world, requests, **commands);
+  // A frame that could not be declared ends all the same, with nothing in it: the next one can begin, and whoever waits for
+  // its semaphores goes on.
   const Status submitted = s.options.device->submit_frame();
   s.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return submitted;
+  return recorded.ok() ? submitted : recorded;
 }
 
 Status Renderer::wait() { return state_->options.device->wait_idle(); }

@@ -35,7 +35,8 @@ class LightingModule final : public Module {
       case PassPhase::translucent: return add_forward_pass(frame);
       case PassPhase::output: return add_tone_map_passes(frame, exposures_);
       case PassPhase::lists:
-      case PassPhase::post: break;
+      case PassPhase::post:
+      case PassPhase::visualize: break;
     }
     return {};
   }

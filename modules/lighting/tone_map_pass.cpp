@@ -32,8 +32,6 @@ Status add_meter_pass(FrameBuilder& frame, BufferRef& slots, std::uint32_t slot)
   return {};
 }
 
-bool encodes_srgb(gpu::Format format) { return format == gpu::Format::rgba8_srgb || format == gpu::Format::bgra8_srgb; }
-
 }  // namespace
 
 Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
@@ -45,7 +43,7 @@ Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
 
   shaders::ToneMapConstants constants{};
   constants.curve = frame.knobs().choice("lighting.tone_map");
-  constants.encode_srgb = encodes_srgb(target.format) ? 0 : 1;
+  constants.encode_srgb = gpu::encodes_srgb(target.format) ? 0 : 1;
   if (environment.has_exposure) {
     constants.exposure = exposure_from_ev100(environment.exposure_ev100);
   } else {

@@ -68,11 +68,22 @@ class LightsModule final : public Module {
     if (knobs.is("lights.culling", "tiled")) list.push_back(tile_masks_pipeline());
   }
 
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
+    return {{"tile_masks", "lights", "", "lights of each 8x8 tile: black 0, blue 6, cyan 12, green 19, yellow 25, red 31, white more"},
+            {"light_culling", "lights", "LIGHT", "tiles a light may touch", false},
+            {"light_list", "lights", "LIGHT", "pixels a light's lists hold", false},
+            {"lights_approx", "lights", "", "lights a tile after the approximate search", false},
+            {"lights_accurate", "lights", "", "lights a tile after the accurate search", false},
+            {"lights_difference", "lights", "", "lights a tile the accurate search dropped", false},
+            {"lights_final", "lights", "", "lights a tile in the final list", false}};
+  }
+
   void prepare_view(World& world, ViewId view) const override {
     if (world.try_view_resource<VisibleLights>(view) == nullptr) world.set_view_resource(view, VisibleLights{});
   }
 
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::visualize && frame.visualizer() == "tile_masks") return add_tile_masks_view_pass(frame);
     if (phase != PassPhase::lists) return {};
     const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
     if (visible.dropped > 0 && !warned_.exchange(true)) {

@@ -55,4 +55,31 @@ Status add_tile_masks_pass(FrameBuilder& frame, const VisibleLights& visible) {
   return {};
 }
 
+Status add_tile_masks_view_pass(FrameBuilder& frame) {
+  const FrameServices& services = frame.services();
+  const LightsOutputs outputs = frame.get<LightsOutputs>();
+  if (!outputs.tile_masks) return Error{ErrorKind::usage, "view tile_masks needs lights.culling=tiled"};
+  TargetOutput& target = frame.get<TargetOutput>();
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline("tile_masks_view/" + std::string(gpu::name_of(target.format)), "lights",
+                                                       shaders::lights::tile_masks_view_frag, target.format);
+  desc.constants = {{0, gpu::encodes_srgb(target.format) ? 0u : 1u}};
+  auto pipeline = services.pipelines.get(desc);
+  if (!pipeline.ok()) return pipeline.error();
+  auto sampler = frame.nearest_sampler();
+  if (!sampler.ok()) return sampler.error();
+  PassBuilder pass = frame.graph().add_pass("tile_masks_view", "lights");
+  pass.read(outputs.tile_masks, gpu::Access::fragment_read);
+  target.color = pass.write(target.color, gpu::Access::color_target);
+  pass.execute([&frame, masks = outputs.tile_masks, color = target.color, pipeline = *pipeline, sampler = *sampler](PassContext& context) {
+    FullscreenPass draw;
+    draw.pipeline = pipeline;
+    draw.bindings = {{0, gpu::Binding::Sampled{{.image = context.image(masks), .as_array = true}, sampler}}};
+    draw.target = context.image(color);
+    draw.width = frame.view().width;
+    draw.height = frame.view().height;
+    record_fullscreen(context.commands(), draw);
+  });
+  return {};
+}
+
 }  // namespace gloam
