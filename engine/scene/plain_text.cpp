@@ -2,18 +2,44 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/plain_text.h"
 
+#include <algorithm>
+
 namespace gloam {
 
+namespace {
+
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u; }
+
+/// Bytes of the UTF-8 character at the front; 0 when there is none.
+std::size_t character_size(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  const std::size_t size = first < 0x80   ? 1
+                           : first < 0xc2 ? 0
+                           : first < 0xe0 ? 2
+                           : first < 0xf0 ? 3
+                           : first < 0xf5 ? 4
+                                          : 0;
+  if (size > text.size()) return 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if (!is_continuation(text[i])) return 0;
+  return size;
+}
+
+}  // namespace
+
 std::string one_line(std::string_view text, std::size_t max_bytes) {
-  std::size_t end = text.size();
-  if (end > max_bytes) {
-    end = max_bytes;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) --end;
+  std::string line;
+  while (!text.empty()) {
+    const std::size_t size = character_size(text);
+    if (line.size() + std::max<std::size_t>(size, 1) > max_bytes) return line + "…";
+    if (size == 0)
+      line += '?';
+    else if (size == 1 && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7f))
+      line += ' ';
+    else
+      line += text.substr(0, size);
+    text.remove_prefix(std::max<std::size_t>(size, 1));
   }
-  std::string line(text.substr(0, end));
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  if (end < text.size()) line += "…";
   return line;
 }
 

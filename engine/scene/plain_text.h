@@ -8,7 +8,7 @@
 
 namespace gloam {
 
-/// Text from a file made fit for one line of a message: control characters become spaces, what exceeds `max_bytes` is cut at
+/// Text from a file made fit for one line of a message: control characters become spaces, what is not UTF-8 "?", what exceeds `max_bytes` is cut at
 /// a character's end and replaced by "…".
 [[nodiscard]] std::string one_line(std::string_view text, std::size_t max_bytes = 80);
 

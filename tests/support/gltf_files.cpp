@@ -146,8 +146,7 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t group = 0;
     for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
   }
   return text;
 }
@@ -171,8 +170,14 @@ std::vector<std::uint8_t> make_glb(std::string json, std::span<const std::uint8_
 }
 
 std::vector<std::uint8_t> make_png(int width, int height, std::span<const std::uint8_t, 4> color) {
+  return encode_png(width, height, 4, fill(width, height, color));
+}
+
+std::vector<std::uint8_t> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
+                                     int filter) {
   std::vector<std::uint8_t> file;
-  stbi_write_png_to_func(&append_bytes, &file, width, height, 4, fill(width, height, color).data(), width * 4);
+  stbi_write_force_png_filter = filter;
+  stbi_write_png_to_func(&append_bytes, &file, width, height, channels, pixels.data(), width * channels);
   return file;
 }
 

@@ -45,9 +45,14 @@ class GltfText {
 
   /// Appends bytes (4-aligned) to the buffer as a buffer view and returns its index. `more`: further members, ", \"byteStride\": 8".
   int view(std::span<const std::byte> bytes, const std::string& more = {});
+  template <class T>
+  int view_of(const std::vector<T>& values) {
+    return view(std::as_bytes(std::span(values)));
+  }
   /// Values as an accessor of their own view. component_type as glTF numbers it; type "SCALAR", "VEC3", …
   template <class T>
-  int accessor(const std::vector<T>& values, int component_type, const std::string& type, const std::string& more = {}) {
+  int accessor(const std::vector<T>& values, int component_type, const std::string& type,
+               const std::string& more = {}) {
     return accessor(view(std::as_bytes(std::span(values))), values.size(), component_type, type, more);
   }
   int floats(const std::vector<float>& values, const std::string& type) { return accessor(values, 5126, type); }
@@ -77,6 +82,10 @@ class GltfText {
 /// Pictures of one colour, RGBA.
 [[nodiscard]] std::vector<std::uint8_t> make_png(int width, int height, std::span<const std::uint8_t, 4> color);
 [[nodiscard]] std::vector<std::uint8_t> make_jpeg(int width, int height, std::span<const std::uint8_t, 4> color);
+
+/// Any pixels, 1 to 4 channels. filter: the PNG filter of every row, 0…4; −1: whichever packs best.
+[[nodiscard]] std::vector<std::uint8_t> encode_png(int width, int height, int channels,
+                                                   std::span<const std::uint8_t> pixels, int filter = -1);
 
 /// Keys that record nothing but stand where the engine's modules' do: gloam.light.width (light node, number ≥ 0 m),
 /// gloam.closeup (node, boolean), gloam.grass.density (mesh node), gloam.dof.focus (camera node), and KHR_lights_punctual,

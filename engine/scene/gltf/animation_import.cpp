@@ -24,11 +24,9 @@ std::optional<AnimationPath> path_of(std::string_view text) {
   return std::nullopt;
 }
 
-std::optional<Interpolation> interpolation_of(std::string_view text) {
-  if (text.empty() || text == "LINEAR") return Interpolation::linear;
+Interpolation interpolation_of(std::string_view text) {
   if (text == "STEP") return Interpolation::step;
-  if (text == "CUBICSPLINE") return Interpolation::cubic;
-  return std::nullopt;
+  return text == "CUBICSPLINE" ? Interpolation::cubic : Interpolation::linear;
 }
 
 std::uint32_t target_count(const Document& document, std::uint32_t node) {
@@ -74,9 +72,7 @@ Result<std::optional<AnimationChannel>> import_channel(const Document& document,
   if (channel.width == 0)
     return fault("it moves the weights of node " + std::to_string(source.node) + ", which has no morph targets");
   const AnimationSource::Sampler& sampler = animation.samplers[source.sampler];
-  const std::optional<Interpolation> interpolation = interpolation_of(sampler.interpolation);
-  if (!interpolation) return fault("interpolation " + in_quotes(sampler.interpolation) + " is not one of glTF");
-  channel.interpolation = *interpolation;
+  channel.interpolation = interpolation_of(sampler.interpolation);
   GLOAM_TRY(read_keys(document, sampler, channel));
   return std::optional<AnimationChannel>(std::move(channel));
 }

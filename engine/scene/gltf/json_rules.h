@@ -12,6 +12,7 @@ namespace gloam::gltf {
 enum class Form : std::uint8_t {
   any,
   text,
+  word,  ///< one of the words in `item`
   boolean,
   number,
   index,       ///< integer in 0…2³¹−1

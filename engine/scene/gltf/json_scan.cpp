@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/gltf/json_scan.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 #include <utility>
@@ -37,6 +38,7 @@ std::string_view form_text(Form form) {
   switch (form) {
     case Form::text:
     case Form::texts:
+    case Form::word:
       return "a string";
     case Form::boolean:
       return "true or false";
@@ -68,6 +70,7 @@ bool fits(Form form, const SceneValue& value) {
     case Form::any:
       return true;
     case Form::text:
+    case Form::word:
       return value.kind == Kind::text;
     case Form::boolean:
       return value.kind == Kind::boolean;
@@ -80,6 +83,15 @@ bool fits(Form form, const SceneValue& value) {
     default:
       return false;
   }
+}
+
+bool has_word(std::string_view words, std::string_view word) {
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    if (words.substr(0, end) == word) return true;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return false;
 }
 
 /// Form of the items of a list.
@@ -178,7 +190,7 @@ Scanner::Expected Scanner::expected() const {
   return {top.rule->form, top.rule->item};
 }
 
-/// Where the scan is: "node 12", "mesh 3, primitive 0", "accessor 7, sparse".
+/// Where the scan is: "node 12: ", "mesh 3, primitive 0: ", "accessor 7, sparse: "; empty at the root.
 std::string Scanner::here() const {
   std::string text;
   for (std::size_t i = 1; i < frames_.size(); ++i) {
@@ -189,11 +201,11 @@ std::string Scanner::here() const {
     text +=
         around.is_array ? place(frame.type.empty() ? "item" : frame.type, around.items - 1) : one_line(around.member);
   }
-  return text.empty() ? "the file" : text;
+  return text.empty() ? text : text + ": ";
 }
 
 void Scanner::note(const std::string& fault) {
-  if (scan_.first_fault.empty()) scan_.first_fault = here() + ": " + fault;
+  if (scan_.first_fault.empty()) scan_.first_fault = here() + fault;
 }
 
 void Scanner::wrong(const Expected& expected, bool list) {
@@ -276,6 +288,9 @@ bool Scanner::scalar(SceneValue value) {
     wrong(wanted, is_list(wanted.form));
     return !frames_.empty();
   }
+  if (wanted.form == Form::word && !has_word(wanted.item, value.text))
+    note(std::string(frames_.back().member) + " must be one of " + std::string(wanted.item) + ", is " +
+         in_quotes(value.text));
   take_reference(value);
   take(value);
   kept_place(std::move(value));
@@ -288,8 +303,7 @@ void Scanner::take_reference(const SceneValue& value) {
   if (rule == nullptr || rule->refers.empty()) return;
   Reference& reference = references_[rule];
   if (value.number <= reference.index) return;
-  reference = {value.number,
-               here() + ": " + (top.form == Form::index_map ? one_line(top.member) : std::string(rule->member))};
+  reference = {value.number, here() + (top.form == Form::index_map ? one_line(top.member) : std::string(rule->member))};
 }
 
 void Scanner::check_references() {

@@ -27,7 +27,7 @@ struct ByteSource {
 
 /// A "gloam." member of the extras of something that takes no keys.
 struct StrayKey {
-  std::string place;
+  std::string place;  ///< "mesh 3: "; empty: the file itself
   std::string key;
 };
 

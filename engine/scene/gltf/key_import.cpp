@@ -142,8 +142,8 @@ Status check_stray_keys(const JsonScan& scan, const KeyRegistry& registry) {
   if (scan.stray_keys.empty()) return {};
   const StrayKey& stray = scan.stray_keys.front();
   const SceneKey* key = registry.find(stray.key);
-  if (key == nullptr) return fault_at(stray.place, unknown_key(registry, stray.key));
-  return fault_at(stray.place, stray.key + " belongs on " + std::string(element_text(key->on)));
+  if (key == nullptr) return Error{ErrorKind::input, stray.place + unknown_key(registry, stray.key)};
+  return Error{ErrorKind::input, stray.place + stray.key + " belongs on " + std::string(element_text(key->on))};
 }
 
 Status import_keys(const JsonScan& scan, const Document& document, std::uint32_t scene,

@@ -104,7 +104,7 @@ Result<tinygltf::Model> load_model(const Container& file, const JsonScan& scan, 
   if (failed < scan.buffers.size() && scan.buffers[failed].data_uri)
     return fault_at(place("buffer", failed), "its data URI does not hold byteLength = " +
                                                  std::to_string(scan.buffers[failed].byte_length) + " bytes of base64");
-  return fault_at("the file", one_line(errors.substr(0, errors.find('\n')), 200));
+  return Error{ErrorKind::input, one_line(errors.substr(0, errors.find('\n')), 200)};
 }
 
 // ---- geometry ----
@@ -240,9 +240,6 @@ Result<Material> translate(const tinygltf::Material& source) {
     material.alpha_mode = AlphaMode::mask;
   else if (source.alphaMode == "BLEND")
     material.alpha_mode = AlphaMode::blend;
-  else if (source.alphaMode != "OPAQUE")
-    return Error{ErrorKind::input,
-                 "alphaMode must be \"OPAQUE\", \"MASK\" or \"BLEND\", is " + in_quotes(source.alphaMode)};
   material.base_color_texture = translate_slot(pbr.baseColorTexture);
   material.metallic_roughness_texture = translate_slot(pbr.metallicRoughnessTexture);
   material.normal_texture = translate_slot(source.normalTexture);

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/scene/image_file.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "engine/scene/png_rows.h"
+#include "tests/support/gltf_files.h"
+
+namespace gloam {
+namespace {
+
+using ::testing::HasSubstr;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t kColor[4] = {200, 100, 50, 255};
+
+std::vector<std::uint8_t> noise(std::size_t size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<std::uint8_t> bytes(size);
+  for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random() >> 13);
+  return bytes;
+}
+
+TEST(ImageFile, png_pixels_come_back_exactly_under_every_filter) {
+  for (int filter = 0; filter < 5; ++filter) {
+    for (int channels = 1; channels <= 4; ++channels) {
+      for (const int width : {1, 2, 3, 17, 64}) {
+        constexpr int kHeight = 5;
+        const auto pixels = noise(static_cast<std::size_t>(width * kHeight * channels), 7);
+        const Result<Image> image = decode_image(test::encode_png(width, kHeight, channels, pixels, filter));
+        ASSERT_TRUE(image.ok()) << image.error().message;
+        ASSERT_EQ(image->rgba.size(), static_cast<std::size_t>(width * kHeight * 4));
+        for (std::size_t i = 0; i < image->rgba.size(); ++i) {
+          const std::size_t pixel = i / 4 * static_cast<std::size_t>(channels);
+          const std::size_t colors = channels > 2 ? 3 : 1;
+          const bool alpha = i % 4 == 3;
+          const std::uint8_t wanted =
+              alpha ? (channels % 2 == 0 ? pixels[pixel + colors] : 255) : pixels[pixel + (colors == 3 ? i % 4 : 0)];
+          ASSERT_EQ(image->rgba[i], wanted) << "filter " << filter << ", channels " << channels << ", byte " << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(ImageFile, jpeg_comes_back_nearly) {
+  const Result<Image> image = decode_image(test::make_jpeg(16, 8, kColor));
+  ASSERT_TRUE(image.ok()) << image.error().message;
+  EXPECT_EQ(image->width, 16u);
+  EXPECT_EQ(image->height, 8u);
+  for (std::size_t i = 0; i < image->rgba.size(); ++i) EXPECT_NEAR(image->rgba[i], kColor[i % 4], 6);
+}
+
+TEST(ImageFile, other_formats_are_refused) {
+  EXPECT_EQ(decode_image({}).error().message, "is not a PNG or JPEG image");
+  const std::string gif = "GIF89a\1\0\1\0\0\0\0;not an image at all";
+  const Bytes bytes(gif.begin(), gif.end());
+  EXPECT_EQ(decode_image(bytes).error().message, "is not a PNG or JPEG image");
+}
+
+TEST(ImageFile, a_cut_file_is_refused_or_a_picture_at_every_length) {
+  const Bytes png = test::make_png(20, 20, kColor);
+  const Bytes jpeg = test::make_jpeg(20, 20, kColor);
+  // Without its last checksum a PNG is whole.
+  for (std::size_t size = 0; size + 4 < png.size(); ++size)
+    EXPECT_FALSE(decode_image(std::span(png).first(size)).ok()) << size;
+  for (std::size_t size = 0; size < jpeg.size(); ++size) {
+    // JPEG readers fill up what is missing.
+    const Result<Image> image = decode_image(std::span(jpeg).first(size));
+    if (image.ok()) {
+      EXPECT_EQ(image->rgba.size(), 20u * 20 * 4);
+    }
+  }
+}
+
+TEST(ImageFile, gigantic_sizes_are_refused_before_any_memory_is_taken) {
+  Bytes png = test::make_png(4, 4, kColor);
+  const auto set_size = [&png](std::uint32_t width, std::uint32_t height) {
+    for (int i = 0; i < 4; ++i) {
+      png[16 + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(width >> (24 - 8 * i));
+      png[20 + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(height >> (24 - 8 * i));
+    }
+  };
+  set_size(16384, 16384);
+  EXPECT_THAT(image_size(png).error().message, HasSubstr("16384×16384 pixels, more than its bytes can hold"));
+  set_size(16385, 4);
+  EXPECT_THAT(image_size(png).error().message, HasSubstr("16384"));
+  set_size(0x7fffffff, 0x7fffffff);
+  EXPECT_FALSE(image_size(png).ok());
+  set_size(0, 0);
+  EXPECT_FALSE(image_size(png).ok());
+}
+
+TEST(PngRows, an_unknown_filter_is_refused) {
+  Bytes rows(2 * (3 * 2 + 1) + kPngRowPadding);
+  Bytes rgba(2 * 2 * 4);
+  EXPECT_TRUE(unfilter_png_rows(rows, 2, 2, 3, rgba));
+  rows[7] = 5;
+  EXPECT_FALSE(unfilter_png_rows(rows, 2, 2, 3, rgba));
+}
+
+}  // namespace
+}  // namespace gloam
