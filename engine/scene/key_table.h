@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "engine/scene/key_registry.h"
 #include "engine/scene/resources.h"
+#include "engine/scene/scene_path.h"
 
 namespace gloam {
 
@@ -116,6 +119,28 @@ template <class C>
   key.set = [member](KeyTarget& target, const KeyValue& value) -> Status {
     const std::uint32_t id = target.world.resource<SceneStrings>().intern(std::get<std::string>(value));
     component_of<C>(target).*member = id;
+    return {};
+  };
+  return key;
+}
+
+/// Number in SceneStrings of the path of a file in the scene's folder. Input error when it is absent or outside.
+[[nodiscard]] inline Result<std::uint32_t> intern_scene_file(KeyTarget& target, const std::string& name) {
+  auto path = resolve_scene_path(target.directory, name);
+  if (!path.ok()) return path.error();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(*path, error)) return Error{ErrorKind::input, "names a file that is absent: " + *path};
+  return target.world.resource<SceneStrings>().intern(*path);
+}
+
+/// Stores intern_scene_file of a string.
+template <class C>
+[[nodiscard]] SceneKey file_key(SceneKey key, std::uint32_t C::*member) {
+  key.type = KeyType::text;
+  key.set = [member](KeyTarget& target, const KeyValue& value) -> Status {
+    const auto id = intern_scene_file(target, std::get<std::string>(value));
+    if (!id.ok()) return id.error();
+    component_of<C>(target).*member = *id;
     return {};
   };
   return key;

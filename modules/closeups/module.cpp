@@ -43,7 +43,7 @@ class CloseupsModule final : public Module {
     std::size_t subjects = 0;
     world.view<const CloseupSubject>().each([&](const CloseupSubject& s) { subjects += s.enabled ? 1 : 0; });
     if (subjects == 0) return {false, "no close-up subject"};
-    return {true, std::to_string(subjects) + " close-up subjects"};
+    return {true, std::to_string(subjects) + (subjects == 1 ? " close-up subject" : " close-up subjects")};
   }
 };
 

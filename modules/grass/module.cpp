@@ -31,7 +31,7 @@ class GrassModule final : public Module {
     registry.add(number_key(grass("gloam.grass.width", "0.006", "m", "of a blade"), 1e-6, 10, &GrassSurface::width_m));
     registry.add(number_key(grass("gloam.grass.max_distance", "40", "m", "quantisation range of the LOD"), 1e-3, 1e6,
                             &GrassSurface::max_distance_m));
-    registry.add(text_key(grass("gloam.grass.types", "", "", "blade file; default: the built-in five types"), &GrassSurface::types));
+    registry.add(file_key(grass("gloam.grass.types", "", "", "blade file; default: the built-in five types"), &GrassSurface::types));
     registry.add(choice_key(node("gloam.collider", "", "", "moves grass"), {"sphere", "capsule", "box"}, ColliderShape::sphere,
                             &Collider::shape));
     registry.add(number_key(node("gloam.collider.radius", "0.5", "m", "of a sphere or capsule"), 1e-6, 1e6, &Collider::radius_m));
@@ -42,7 +42,8 @@ class GrassModule final : public Module {
     registry.add_finish("grass", [](World& world) { return at_most_one(world.view<const Wind>().size(), "gloam.wind"); });
   }
   [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
-    const std::size_t surfaces = world.view<const GrassSurface>().size();
+    std::size_t surfaces = 0;
+    world.view<const GrassSurface>().each([&](const GrassSurface& s) { surfaces += s.density > 0.0f ? 1 : 0; });
     if (surfaces == 0) return {false, "no surface grows grass"};
     return {true, std::to_string(surfaces) + (surfaces == 1 ? " surface grows grass" : " surfaces grow grass")};
   }

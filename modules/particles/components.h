@@ -17,7 +17,7 @@ struct ParticleEmitter {
   float lifetime_s = 2.0f;
   float size_m = 0.3f;
   float speed = 0.5f;       ///< m/s
-  float spread = 0.35f;     ///< half angle around +Y, radians
+  float spread = 0.34906585f;  ///< half angle around +Y, radians
   vec3 box_m = vec3(1.0f);
 };
 

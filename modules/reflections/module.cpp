@@ -36,7 +36,7 @@ class ReflectionsModule final : public Module {
                           1e-6, 1e6, &IbrProxy::size_m));
     registry.add(choice_key(line("gloam.ibr_proxy.kind", "scene", "", "captured from the scene, or emissive image"),
                             {"scene", "fire"}, IbrProxyKind::scene, &IbrProxy::kind));
-    registry.add(text_key(line("gloam.ibr_proxy.texture", "", "", "image instead of a capture"), &IbrProxy::texture));
+    registry.add(file_key(line("gloam.ibr_proxy.texture", "", "", "image instead of a capture"), &IbrProxy::texture));
     registry.add(text_key(line("gloam.ibr_proxy.lights", "", "", "comma-separated lights that dim it"), &IbrProxy::lights));
     registry.add(vec3_key(line("gloam.ibr_room.size", "", "m", "box around the node"), 1e-6, 1e6, &IbrRoom::size_m));
     registry.add(vec3_key(line("gloam.cube_probe.size", "", "m", "influence box around the node"), 1e-6, 1e6, &CubeProbe::size_m));
@@ -45,10 +45,13 @@ class ReflectionsModule final : public Module {
     registry.add_finish("reflections", &check_light_names);
   }
   [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
-    const std::size_t proxies = world.view<const IbrProxy>().size();
-    const std::size_t probes = world.view<const CubeProbe>().size();
+    std::size_t proxies = 0;
+    world.view<const IbrProxy>().each([&](const IbrProxy& p) { proxies += p.size_m.x > 0.0f && p.size_m.y > 0.0f ? 1 : 0; });
+    std::size_t probes = 0;
+    world.view<const CubeProbe>().each([&](const CubeProbe& p) { probes += p.global || p.size_m.x > 0.0f ? 1 : 0; });
     if (proxies + probes == 0) return {false, "no proxy and no probe"};
-    return {true, std::to_string(proxies) + " proxies, " + std::to_string(probes) + " probes"};
+    return {true, std::to_string(proxies) + (proxies == 1 ? " proxy, " : " proxies, ") + std::to_string(probes) +
+                      (probes == 1 ? " probe" : " probes")};
   }
 };
 

@@ -28,7 +28,7 @@ class ShadowsModule final : public Module {
     world.view<const Light, Maybe<const ShadowCaster>>().each(
         [&](const Light&, const ShadowCaster* caster) { casters += caster == nullptr || caster->enabled ? 1 : 0; });
     if (casters == 0) return {false, "no light casts shadows"};
-    return {true, std::to_string(casters) + " lights cast shadows"};
+    return {true, std::to_string(casters) + (casters == 1 ? " light casts shadows" : " lights cast shadows")};
   }
 };
 

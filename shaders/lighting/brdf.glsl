@@ -17,23 +17,24 @@ struct ShadingPoint {
   float n_dot_v;
 };
 
-ShadingPoint shading_point(vec3 position, vec3 normal, vec3 base_color, float metallic, float roughness) {
+ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_color, float metallic, float roughness) {
   ShadingPoint p;
   p.position = position;
   p.normal = normal;
-  p.to_eye = -normalize(position);
+  p.to_eye = to_eye;
   p.diffuse = base_color * ((1.0 - metallic) / kPi);
   p.f0 = mix(vec3(0.04), base_color, metallic);
   float alpha = max(roughness * roughness, 1e-3);
   p.alpha2 = alpha * alpha;
-  p.n_dot_v = max(dot(normal, p.to_eye), 1e-3);
+  p.n_dot_v = max(dot(normal, to_eye), 1e-3);
   return p;
 }
 
 // Radiance towards the eye for an illuminance (on a plane facing the light) from a unit direction.
 vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance) {
   float n_dot_l = clamp(dot(p.normal, to_light), 0.0, 1.0);
-  vec3 half_vector = normalize(to_light + p.to_eye);
+  vec3 sum = to_light + p.to_eye;
+  vec3 half_vector = sum * inversesqrt(max(dot(sum, sum), 1e-12));  // a light straight behind the surface: not NaN
   float n_dot_h = clamp(dot(p.normal, half_vector), 0.0, 1.0);
   float v_dot_h = clamp(dot(p.to_eye, half_vector), 0.0, 1.0);
   float f = (n_dot_h * p.alpha2 - n_dot_h) * n_dot_h + 1.0;

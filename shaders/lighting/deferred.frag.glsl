@@ -56,7 +56,8 @@ void main() {
   vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
   GBufferTexel g = decode_gbuffer(texelFetch(base_color_image, pixel, 0), texelFetch(normal_image, pixel, 0).xy,
                                   texelFetch(material_image, pixel, 0));
-  ShadingPoint p = shading_point(position, g.normal, g.base_color, g.metallic, g.roughness);
+  vec3 to_eye = normalize(to_viewer(view, position));
+  ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
   vec3 light = texelFetch(emissive_image, pixel, 0).rgb + ambient(environment, p, g.roughness, g.occlusion);
   for (uint i = 0u; i < lights.directional_count; ++i) {
     DirectionalLight d = lights.directional[subgroupBroadcastFirst(i)];

@@ -7,7 +7,7 @@
 #include "shaders/lighting/environment.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/surface_api.glsl"
-#include "shaders/render/view_shared.h"
+#include "shaders/render/view_api.glsl"
 
 // Lights blended surfaces where they are drawn. They see every light of the view: tile masks know opaque depths only.
 
@@ -18,8 +18,9 @@ layout(set = 0, binding = 2, scalar) uniform Environment { EnvironmentConstants 
 layout(location = 0) out vec4 out_light;
 
 void main() {
-  Surface s = fetch_surface();
-  ShadingPoint p = shading_point(in_relative, s.normal, s.base_color.rgb, s.metallic, s.roughness);
+  vec3 to_eye = normalize(to_viewer(view, in_relative));
+  Surface s = fetch_surface(to_eye);
+  ShadingPoint p = shading_point(in_relative, to_eye, s.normal, s.base_color.rgb, s.metallic, s.roughness);
   vec3 light = s.emissive + ambient(environment, p, s.roughness, s.occlusion);
   for (uint i = 0u; i < lights.directional_count; ++i) {
     DirectionalLight d = lights.directional[subgroupBroadcastFirst(i)];

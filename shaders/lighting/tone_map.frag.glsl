@@ -18,7 +18,8 @@ layout(location = 0) out vec4 out_color;
 
 void main() {
   float exposure = c.metered != 0u ? exposures[c.exposure_slot] : c.exposure;
-  vec3 x = max(texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb * exposure, vec3(0.0));
+  // Every curve has reached white at the upper end, and its square is still a float.
+  vec3 x = clamp(texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb * exposure, vec3(0.0), vec3(1e6));
   vec3 shown = x;
   if (c.curve == 0u) shown = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
   if (c.curve == 1u) shown = x / (1.0 + x);

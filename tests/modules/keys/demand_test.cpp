@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "engine/scene/gltf_import.h"
+#include "modules/closeups/components.h"
+#include "modules/depth_of_field/components.h"
+#include "modules/fog/components.h"
+#include "modules/grass/components.h"
+#include "modules/lights/components.h"
+#include "modules/module_list/module_list.h"
+#include "modules/particles/components.h"
+#include "modules/reflections/components.h"
+#include "modules/shadows/components.h"
+
+namespace gloam {
+namespace {
+
+struct ModuleDemand : ::testing::Test {
+  ModuleList modules = make_all_modules();
+  World world;
+
+  ModuleDemand() {
+    prepare_scene_world(world);
+    for (const auto& module : modules) module->register_components(world);
+  }
+  /// The reason, with a + in front when the module is needed and a − when not.
+  [[nodiscard]] std::string demand(std::string_view name) const {
+    for (const auto& module : modules) {
+      if (module->name() != name) continue;
+      const Demand demand = module->demand(world, nullptr);
+      return (demand.needed ? "+" : "-") + demand.reason;
+    }
+    return "no such module";
+  }
+};
+
+TEST_F(ModuleDemand, modules_come_in_the_order_of_their_graph) {
+  const std::string_view names[] = {"lights", "shadows",   "closeups", "lighting",      "reflections",
+                                    "grass",  "particles", "fog",      "depth_of_field"};
+  ASSERT_EQ(modules.size(), std::size(names));
+  for (std::size_t i = 0; i < modules.size(); ++i) EXPECT_EQ(modules[i]->name(), names[i]);
+}
+
+TEST_F(ModuleDemand, an_empty_world_calls_for_lighting_alone) {
+  EXPECT_EQ(demand("lights"), "-no light");
+  EXPECT_EQ(demand("shadows"), "-no light casts shadows");
+  EXPECT_EQ(demand("closeups"), "-no close-up subject");
+  EXPECT_EQ(demand("lighting"), "+every picture is lit");
+  EXPECT_EQ(demand("reflections"), "-no proxy and no probe");
+  EXPECT_EQ(demand("grass"), "-no surface grows grass");
+  EXPECT_EQ(demand("particles"), "-no emitter");
+  EXPECT_EQ(demand("fog"), "-no fog");
+  EXPECT_EQ(demand("depth_of_field"), "-no camera has a focus");
+}
+
+TEST_F(ModuleDemand, lights_call_for_lights_and_shadows) {
+  const Entity lamp = world.create(Light{});
+  EXPECT_EQ(demand("lights"), "+1 light");
+  EXPECT_EQ(demand("shadows"), "+1 light casts shadows");
+  world.create(Light{});
+  EXPECT_EQ(demand("lights"), "+2 lights");
+  EXPECT_EQ(demand("shadows"), "+2 lights cast shadows");
+  world.add(lamp, ShadowCaster{.enabled = false});
+  EXPECT_EQ(demand("shadows"), "+1 light casts shadows");
+}
+
+TEST_F(ModuleDemand, components_that_are_off_call_for_nothing) {
+  world.create(Light{}, ShadowCaster{.enabled = false});
+  world.create(CloseupSubject{}, IbrProxy{}, IbrRoom{}, CubeProbe{}, GrassSurface{}, Collider{});
+  world.create(Wind{}, ParticleEmitter{}, DepthOfField{}, Fog{});
+  EXPECT_EQ(demand("shadows"), "-no light casts shadows");
+  EXPECT_EQ(demand("closeups"), "-no close-up subject");
+  EXPECT_EQ(demand("reflections"), "-no proxy and no probe");
+  EXPECT_EQ(demand("grass"), "-no surface grows grass");
+  EXPECT_EQ(demand("particles"), "-no emitter");
+  EXPECT_EQ(demand("fog"), "-no fog");
+  EXPECT_EQ(demand("depth_of_field"), "-no camera has a focus");
+}
+
+TEST_F(ModuleDemand, says_how_many_call_for_it) {
+  world.create(CloseupSubject{.enabled = true});
+  world.create(IbrProxy{.size_m = vec2(1.0f)});
+  world.create(GrassSurface{.density = 10.0f});
+  world.create(ParticleEmitter{.kind = EmitterKind::fog});
+  world.create(DepthOfField{.focus_m = 2.0f});
+  world.create(Fog{.density = 0.1f});
+  EXPECT_EQ(demand("fog"), "+the scene has fog");
+  EXPECT_EQ(demand("closeups"), "+1 close-up subject");
+  EXPECT_EQ(demand("reflections"), "+1 proxy, 0 probes");
+  EXPECT_EQ(demand("grass"), "+1 surface grows grass");
+  EXPECT_EQ(demand("particles"), "+1 emitter");
+  EXPECT_EQ(demand("depth_of_field"), "+1 camera has a focus");
+  world.create(CloseupSubject{.enabled = true});
+  world.create(IbrProxy{.size_m = vec2(1.0f)});
+  world.create(CubeProbe{.global = true});
+  world.create(GrassSurface{.density = 10.0f});
+  world.create(ParticleEmitter{.kind = EmitterKind::fire});
+  world.create(DepthOfField{.focus_m = 3.0f});
+  EXPECT_EQ(demand("closeups"), "+2 close-up subjects");
+  EXPECT_EQ(demand("reflections"), "+2 proxies, 1 probe");
+  EXPECT_EQ(demand("grass"), "+2 surfaces grow grass");
+  EXPECT_EQ(demand("particles"), "+2 emitters");
+  EXPECT_EQ(demand("depth_of_field"), "+2 cameras have a focus");
+}
+
+TEST_F(ModuleDemand, components_of_all_modules_can_be_registered_twice) {
+  const std::size_t count = world.components().size();
+  for (const auto& module : modules) module->register_components(world);
+  EXPECT_EQ(world.components().size(), count);
+}
+
+}  // namespace
+}  // namespace gloam
