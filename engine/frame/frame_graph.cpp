@@ -109,6 +109,8 @@ DeclaredResource& add_resource(frame::Declaration& declaration, bool is_image, b
 
 }  // namespace
 
+std::uint32_t FrameGraph::frame() const { return state_->frame_number; }
+
 ImageRef FrameGraph::create_image(gpu::ImageDesc desc) {
   state_->check_declaring();
   GLOAM_ASSERT(desc.format != gpu::Format::undefined, "a transient image has a format: '" + desc.name + "'");

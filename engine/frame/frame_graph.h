@@ -82,6 +82,8 @@ class FrameGraph {
 
   /// Forgets the last frame's declarations.
   void begin();
+  /// Counts begin(): FrameRef::frame of the handles that are good now.
+  [[nodiscard]] std::uint32_t frame() const;
 
   /// Transient: lives in this frame only and may share memory with others. Usage flags are derived from the accesses.
   [[nodiscard]] ImageRef create_image(gpu::ImageDesc desc);

@@ -27,6 +27,11 @@ T texel(std::span<const std::byte> bytes, std::size_t index) {
   return value;
 }
 
+/// Metres in front of the camera of what has this depth.
+float view_depth(const mat4& clip_from_view, float depth) {
+  return (clip_from_view[3][2] - depth * clip_from_view[3][3]) / (clip_from_view[2][2] - depth * clip_from_view[2][3]);
+}
+
 std::string vector_text(const vec3& v) {
   char line[96];
   std::snprintf(line, sizeof(line), "%.4f %.4f %.4f", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
@@ -104,17 +109,26 @@ Result<LinearPicture> Renderer::read_linear(ViewId view) {
 
 Result<std::vector<std::string>> Renderer::pick(World& world, ViewId view, std::uint32_t x, std::uint32_t y) {
   State& s = *state_;
-  const auto request = std::find_if(s.last_requests.begin(), s.last_requests.end(),
-                                    [&](const ViewRequest& r) { return r.settings.id == view; });
-  GLOAM_ASSERT(request != s.last_requests.end(), "pick needs a view of the last frame");
-  const std::uint32_t width = request->settings.width;
-  if (x >= width || y >= request->settings.height) return Error{ErrorKind::usage, "the picked pixel lies outside the picture"};
-  // The same frame once more, with its geometry copied out.
+  const auto last = std::find_if(s.last_requests.begin(), s.last_requests.end(),
+                                 [&](const ViewRequest& r) { return r.settings.id == view; });
+  GLOAM_ASSERT(last != s.last_requests.end(), "pick needs a view of the last frame");
+  // The same frame once more, with its geometry copied out; into a picture of the renderer's own, since a window's is gone.
+  ViewRequest again = *last;
+  again.target = {};
+  again.settings.width = s.images.at(view.value).width;
+  again.settings.height = s.images.at(view.value).height;
+  const std::uint32_t width = again.settings.width;
+  if (x >= width || y >= again.settings.height) return Error{ErrorKind::usage, "the picked pixel lies outside the picture"};
+  const std::vector<ViewRequest> all = s.last_requests;
   s.pick = PickRequest{view, x, y};
-  const std::vector<ViewRequest> again = {*request};
-  const Status drawn = render(world, again);
+  const Status drawn = render(world, std::span(&again, 1));
   s.pick.reset();
-  GLOAM_TRY(drawn);
+  s.last_requests = all;
+  if (!drawn.ok()) {
+    for (const Capture& capture : s.captures) s.options.device->destroy(capture.buffer);
+    s.captures.clear();
+    return drawn.error();
+  }
   GLOAM_TRY(wait());
   std::vector<std::vector<std::byte>> bytes;
   for (const Capture& capture : s.captures) bytes.push_back(take_capture(*s.options.device, capture));
@@ -130,7 +144,7 @@ Result<std::vector<std::string>> Renderer::pick(World& world, ViewId view, std::
   }
   const GeometryTexel g =
       decode_geometry(texel<std::uint32_t>(bytes[0], at), texel<glm::uvec2>(bytes[1], at), texel<std::uint32_t>(bytes[2], at));
-  lines.push_back("view depth " + std::to_string(request->settings.camera.near_m / depth) + " m");
+  lines.push_back("view depth " + std::to_string(view_depth(s.views.back()->clip_from_view, depth)) + " m");
   lines.push_back("base colour " + vector_text(g.base_color) + (g.subsurface ? ", subsurface" : ""));
   lines.push_back("normal " + vector_text(g.normal) + ", face normal " + vector_text(g.face_normal));
   lines.push_back("roughness, metallic, occlusion " + vector_text({g.roughness, g.metallic, g.occlusion}));

@@ -22,6 +22,12 @@ Status ExposureSlots::prepare(gpu::Device& device) {
   return {};
 }
 
+BufferRef& ExposureSlots::in(FrameGraph& graph) {
+  if (!imported_ || imported_.frame != graph.frame())
+    imported_ = graph.import_buffer("exposures", buffer_, gpu::Access::fragment_read, gpu::Access::fragment_read);
+  return imported_;
+}
+
 void ExposureSlots::release() {
   if (buffer_) device_->destroy(buffer_);
   buffer_ = {};

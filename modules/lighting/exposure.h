@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/core/result.h"
+#include "engine/frame/frame_graph.h"
 #include "engine/gpu/device.h"
 #include "engine/render/view.h"
 
@@ -34,12 +35,15 @@ class ExposureSlots {
   [[nodiscard]] Status prepare(gpu::Device& device);
   void release();
   [[nodiscard]] gpu::BufferHandle buffer() const { return buffer_; }
+  /// The buffer in the frame being declared: one import for all its views, and the version the last of them left.
+  [[nodiscard]] BufferRef& in(FrameGraph& graph);
   /// The slot of a camera of a world; when all are taken, the oldest camera's is metered anew.
   [[nodiscard]] Slot slot_of(LightingWorld world, const RenderView& view);
 
  private:
   gpu::Device* device_ = nullptr;
   gpu::BufferHandle buffer_;
+  BufferRef imported_;
   using Key = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // world, view, camera's index and generation
   std::map<Key, std::uint32_t> slots_;
   std::uint32_t next_ = 0;

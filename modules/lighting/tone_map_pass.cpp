@@ -38,7 +38,7 @@ Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
   const FrameServices& services = frame.services();
   GLOAM_TRY(exposures.prepare(services.device));
   const auto& environment = frame.world().resource<SceneEnvironment>();
-  BufferRef slots = frame.graph().import_buffer("exposures", exposures.buffer(), gpu::Access::fragment_read, gpu::Access::fragment_read);
+  BufferRef& slots = exposures.in(frame.graph());
   TargetOutput& target = frame.get<TargetOutput>();
 
   shaders::ToneMapConstants constants{};
