@@ -37,8 +37,9 @@ struct RendererOptions {
   Readiness readiness = Readiness::wait;
 };
 
-/// Where a view's picture goes. An image of the caller (swapchain, host) must be sRGB or UNORM colour of the view's size; it is taken
-/// with contents thrown away and left ready for `after`. No image: the renderer keeps one, see read_picture.
+/// Where a view's picture goes. An image of the caller (swapchain, host) must be rgba8 or bgra8, UNORM (written sRGB-encoded by the
+/// shader) or sRGB (by the hardware), of the view's size, made as a color_target; it is taken with contents thrown away and left ready
+/// for `after`, an access that its usage allows. No image: the renderer keeps one, see read_picture.
 struct ViewTarget {
   gpu::ImageHandle image;
   gpu::Access after = gpu::Access::color_target;
@@ -87,6 +88,8 @@ class Renderer {
 
   /// Registers every module's components and resources; once a world, before it is filled.
   void prepare_world(World& world) const;
+  /// Gives back what the renderer keeps for a world on the GPU, before the world goes; drawing it again uploads it anew.
+  void release_world(const World& world);
 
   /// One frame: world systems, then for every view its systems and passes, then submission. Does not wait for the GPU.
   [[nodiscard]] Status render(World& world, std::span<const ViewRequest> views);

@@ -16,9 +16,10 @@
 
 namespace gloam {
 
-/// Which of a renderer's GPU scenes belongs to a world; a resource of the world.
+/// Which of a renderer's GPU scenes belongs to a world, and its frames; a resource of the world.
 struct RenderSlot {
   std::uint64_t value = 0;
+  std::uint64_t frames = 0;  ///< drawn so far, so that a world's pictures do not depend on its neighbours
 };
 
 /// Images a renderer keeps for one view between frames.
@@ -55,6 +56,8 @@ struct Renderer::State {
   /// Makes the view's images when missing or of another size.
   [[nodiscard]] Status prepare_images(const ViewRequest& request);
   void update_demand(const World& world);
+  /// Everything between Device::begin_frame and submit_frame.
+  [[nodiscard]] Status record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands);
   /// Declares one view's passes.
   [[nodiscard]] Status add_view(World& world, const ViewRequest& request, const RenderView& view);
   [[nodiscard]] Status add_module_passes(FrameBuilder& builder);
@@ -81,7 +84,6 @@ struct Renderer::State {
   std::map<std::string, double> counters;
   std::optional<PickRequest> pick;
   std::vector<Capture> captures;
-  std::uint64_t frame_count = 0;
   double cpu_ms = 0.0;
 };
 

@@ -30,7 +30,7 @@ struct RenderView {
   ViewId id{0};
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint64_t frame = 0;          ///< counted per renderer, from 0
+  std::uint64_t frame = 0;          ///< of its world, counted from 0
   Entity camera_entity = kNoEntity; ///< the camera it follows, if any
   dvec3 position = dvec3(0.0);      ///< of the camera, world
   mat4 view_from_relative = mat4(1.0);  ///< rotation only
