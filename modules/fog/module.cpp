@@ -41,6 +41,7 @@ class FogModule final : public Module {
     resolution.meaning = "size of the image in which the fog's glow is blurred";
     resolution.choices = {"full", "half", "quarter"};
     resolution.default_number = 2;
+    resolution.exact = "full";
     registry.add(resolution);
     Knob radius;
     radius.name = "fog.radius";
@@ -51,6 +52,7 @@ class FogModule final : public Module {
     radius.max = 6.0;
     radius.default_number = 2.5;
     radius.unit = "standard deviations";
+    radius.exact = "6";
     radius.ledger_values = {1.0, 2.0, 2.5, 3.0, 4.0};
     registry.add(radius);
   }

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "modules/lighting/passes.h"
+#include "modules/lighting/tone_reference.h"
 
 namespace gloam {
 namespace {
@@ -23,6 +24,19 @@ class LightingModule final : public Module {
     curve.meaning = "curve from exposed linear light to the picture";
     curve.choices = {"filmic", "reinhard", "linear"};
     registry.add(curve);
+    Knob table;
+    table.name = "lighting.tone_map_table";
+    table.module = "lighting";
+    table.meaning = "steps of the tone curve's table; exact: computed for every pixel";
+    table.choices = {"exact", "1024", "256", "64"};
+    registry.add(table);
+  }
+
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override {
+    std::vector<ReferenceInfo> list;
+    for (const char* knob : {"lighting.tone_map", "lighting.tone_map_table"})
+      list.push_back({knob, "double precision", "tone curve on the CPU", true, false, &draw_tone_reference});
+    return list;
   }
 
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "every picture is lit"}; }

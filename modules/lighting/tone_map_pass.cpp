@@ -32,6 +32,71 @@ Status add_meter_pass(FrameBuilder& frame, BufferRef& slots, std::uint32_t slot)
   return {};
 }
 
+/// The chosen curve as a table; none when it is computed.
+Result<ImageRef> add_tone_table_pass(FrameBuilder& frame) {
+  static constexpr std::uint32_t kSizes[] = {0, 1024, 256, 64};  // by choice of lighting.tone_map_table
+  const std::uint32_t size = kSizes[frame.knobs().choice("lighting.tone_map_table")];
+  if (size == 0) return ImageRef{};
+  auto pipeline =
+      frame.services().pipelines.get(gpu::ComputePipelineDesc{"tone_table", "lighting", shaders::lighting::tone_table_comp, {}});
+  if (!pipeline.ok()) return pipeline.error();
+  gpu::ImageDesc desc;
+  desc.name = "tone_table";
+  desc.module = "lighting";
+  desc.format = gpu::Format::rgba16_float;
+  desc.width = size;
+  PassBuilder pass = frame.graph().add_pass("tone_table", "lighting");
+  const ImageRef table = pass.write(frame.graph().create_image(desc), gpu::Access::compute_write);
+  const shaders::ToneTableConstants constants{frame.knobs().choice("lighting.tone_map"), size};
+  pass.execute([table, constants, pipeline = *pipeline](PassContext& context) {
+    gpu::CommandList& commands = context.commands();
+    commands.bind_pipeline(pipeline);
+    const gpu::Binding bindings[] = {{0, gpu::Binding::Storage{{.image = context.image(table)}}}};
+    commands.bind(bindings);
+    commands.push(constants);
+    commands.dispatch((constants.size + 63) / 64, 1, 1);
+  });
+  return table;
+}
+
+struct ToneMapPass {
+  shaders::ToneMapConstants constants{};
+  gpu::PipelineHandle pipeline;
+  gpu::SamplerHandle nearest;
+  gpu::SamplerHandle linear;
+  ImageRef table;  ///< none: the curve is computed
+};
+
+void add_tone_map_pass(FrameBuilder& frame, const ToneMapPass& tone_map, BufferRef slots) {
+  const ImageRef lit = frame.get<LitOutput>().color;
+  TargetOutput& target = frame.get<TargetOutput>();
+  PassBuilder pass = frame.graph().add_pass("tone_map", "lighting");
+  pass.read(lit, gpu::Access::fragment_read);
+  pass.read(slots, gpu::Access::fragment_read);
+  if (tone_map.table) pass.read(tone_map.table, gpu::Access::fragment_read);
+  target.color = pass.write(target.color, gpu::Access::color_target);
+  pass.execute([&frame, lit, slots, tone_map, color = target.color](PassContext& context) {
+    gpu::CommandList& commands = context.commands();
+    gpu::RenderingDesc rendering;
+    rendering.colors.push_back({.view = {.image = context.image(color)}, .load = gpu::LoadOp::discard});
+    rendering.width = frame.view().width;
+    rendering.height = frame.view().height;
+    commands.begin_rendering(rendering);
+    commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
+    commands.set_scissor(0, 0, rendering.width, rendering.height);
+    commands.bind_pipeline(tone_map.pipeline);
+    // Without a table the shader does not look at it, but every binding must be given.
+    const ImageRef table = tone_map.table ? tone_map.table : lit;
+    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(lit)}, tone_map.nearest}},
+                                     {1, gpu::Binding::BufferRange{context.buffer(slots)}},
+                                     {2, gpu::Binding::Sampled{{.image = context.image(table)}, tone_map.linear}}};
+    commands.bind(bindings);
+    commands.push(tone_map.constants);
+    commands.draw(3, 1, 0, 0);
+    commands.end_rendering();
+  });
+}
+
 }  // namespace
 
 Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
@@ -39,9 +104,10 @@ Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
   GLOAM_TRY(exposures.prepare(services.device));
   const auto& environment = frame.world().resource<SceneEnvironment>();
   BufferRef& slots = exposures.in(frame.graph());
-  TargetOutput& target = frame.get<TargetOutput>();
+  const TargetOutput& target = frame.get<TargetOutput>();
 
-  shaders::ToneMapConstants constants{};
+  ToneMapPass tone_map;
+  shaders::ToneMapConstants& constants = tone_map.constants;
   constants.curve = frame.knobs().choice("lighting.tone_map");
   constants.encode_srgb = gpu::encodes_srgb(target.format) ? 0 : 1;
   if (environment.has_exposure) {
@@ -53,33 +119,23 @@ Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
     if (slot.fresh) GLOAM_TRY(add_meter_pass(frame, slots, slot.index));
   }
 
-  auto pipeline = services.pipelines.get(fullscreen_pipeline("tone_map/" + std::string(gpu::name_of(target.format)), "lighting",
-                                                             shaders::lighting::tone_map_frag, target.format));
+  auto table = add_tone_table_pass(frame);
+  if (!table.ok()) return table.error();
+  tone_map.table = *table;
+  gpu::GraphicsPipelineDesc desc =
+      fullscreen_pipeline(std::string(tone_map.table ? "tone_map_table/" : "tone_map/") + std::string(gpu::name_of(target.format)),
+                          "lighting", shaders::lighting::tone_map_frag, target.format);
+  desc.constants = {{0, tone_map.table ? 1u : 0u}};
+  auto pipeline = services.pipelines.get(desc);
   if (!pipeline.ok()) return pipeline.error();
-  auto sampler = frame.nearest_sampler();
-  if (!sampler.ok()) return sampler.error();
-  const ImageRef lit = frame.get<LitOutput>().color;
-  PassBuilder pass = frame.graph().add_pass("tone_map", "lighting");
-  pass.read(lit, gpu::Access::fragment_read);
-  pass.read(slots, gpu::Access::fragment_read);
-  target.color = pass.write(target.color, gpu::Access::color_target);
-  pass.execute([&frame, lit, slots, constants, color = target.color, pipeline = *pipeline, sampler = *sampler](PassContext& context) {
-    gpu::CommandList& commands = context.commands();
-    gpu::RenderingDesc rendering;
-    rendering.colors.push_back({.view = {.image = context.image(color)}, .load = gpu::LoadOp::discard});
-    rendering.width = frame.view().width;
-    rendering.height = frame.view().height;
-    commands.begin_rendering(rendering);
-    commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
-    commands.set_scissor(0, 0, rendering.width, rendering.height);
-    commands.bind_pipeline(pipeline);
-    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(lit)}, sampler}},
-                                     {1, gpu::Binding::BufferRange{context.buffer(slots)}}};
-    commands.bind(bindings);
-    commands.push(constants);
-    commands.draw(3, 1, 0, 0);
-    commands.end_rendering();
-  });
+  auto nearest = frame.nearest_sampler();
+  if (!nearest.ok()) return nearest.error();
+  auto linear = frame.linear_sampler();
+  if (!linear.ok()) return linear.error();
+  tone_map.pipeline = *pipeline;
+  tone_map.nearest = *nearest;
+  tone_map.linear = *linear;
+  add_tone_map_pass(frame, tone_map, slots);
   return {};
 }
 

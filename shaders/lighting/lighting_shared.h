@@ -23,6 +23,12 @@ struct ToneMapConstants {
   uint encode_srgb;      // 1: the target does not encode by itself
 };
 
+/// A tabulated tone curve.
+struct ToneTableConstants {
+  uint curve;
+  uint size;             // texels
+};
+
 /// Metering of one view into a slot.
 struct MeterConstants {
   uvec2 size;            // pixels of the picture

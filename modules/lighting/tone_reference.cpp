@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lighting/tone_reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/resources.h"
+
+namespace gloam {
+namespace {
+
+double encode_srgb(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+}  // namespace
+
+double tone_curve(std::uint32_t curve, double x) {
+  if (curve == 0) return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+  if (curve == 1) return std::clamp(x / (1.0 + x), 0.0, 1.0);
+  return std::clamp(x, 0.0, 1.0);
+}
+
+double metered_exposure(const LinearPicture& lit) {
+  constexpr std::uint32_t kGrid = 32;
+  double sum = 0.0;
+  for (std::uint32_t row = 0; row < kGrid; ++row) {
+    for (std::uint32_t column = 0; column < kGrid; ++column) {
+      const std::size_t x = (column * 2 + 1) * lit.width / (2 * kGrid);
+      const std::size_t y = (row * 2 + 1) * lit.height / (2 * kGrid);
+      const float* light = &lit.rgba[4 * (y * lit.width + x)];
+      const double luminance = 0.2126 * static_cast<double>(light[0]) + 0.7152 * static_cast<double>(light[1]) +
+                               0.0722 * static_cast<double>(light[2]);
+      sum += std::log2(std::clamp(luminance, 1e-4, 1e6));
+    }
+  }
+  const double mean = std::exp2(sum / (kGrid * kGrid));
+  return (1.03 - 2.0 / (2.0 + std::log10(mean + 1.0))) / mean;
+}
+
+Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
+  const LinearPicture& lit = input.frame.linear;
+  const auto& environment = input.world.resource<SceneEnvironment>();
+  const double exposure = environment.has_exposure ? 1.0 / (1.2 * std::exp2(static_cast<double>(environment.exposure_ev100)))
+                                                   : metered_exposure(lit);
+  const std::uint32_t curve = input.knobs.choice("lighting.tone_map");
+  FramePictures right;
+  right.picture = {lit.width, lit.height, std::vector<std::uint8_t>(lit.rgba.size(), 255)};
+  constexpr std::size_t kGrain = 16384;
+  input.executor.parallel_for(lit.rgba.size() / 4, kGrain, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double exposed = std::clamp(static_cast<double>(lit.rgba[4 * i + c]) * exposure, 0.0, 1e6);
+        right.picture.rgba[4 * i + c] =
+            static_cast<std::uint8_t>(std::lround(encode_srgb(tone_curve(curve, exposed)) * 255.0));
+      }
+    }
+  });
+  return right;
+}
+
+}  // namespace gloam
