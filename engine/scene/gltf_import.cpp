@@ -159,7 +159,7 @@ Result<SceneInfo> import_gltf(const std::string& path, const ImportOptions& opti
                               World& world, JobExecutor& executor, LogSink& log) {
   const std::filesystem::path file(path);
   const std::string name = file.filename().string();
-  const std::string directory = file.parent_path().string();
+  const std::string directory = file.has_parent_path() ? file.parent_path().string() : ".";
   SceneInfo info;
   info.path = path;
   try {

@@ -90,7 +90,7 @@ class KeyRegistry {
   std::function<bool(const World&, Entity)> is_light_;
 };
 
-/// Keys the engine itself reads: gloam.reflectivity is a module's; sky and exposure and gloam.subsurface are the scene's own.
+/// Keys the engine itself reads: gloam.sky.*, gloam.exposure, gloam.reflectivity, gloam.subsurface.
 void add_engine_keys(KeyRegistry& registry);
 
 }  // namespace gloam

@@ -9,60 +9,48 @@ namespace gloam {
 
 void SceneNames::add(std::string_view kind, std::string_view name, Entity entity) {
   auto found = kinds_.find(kind);
-  if (found == kinds_.end()) found = kinds_.emplace(std::string(kind), decltype(kinds_)::mapped_type()).first;
-  found->second.emplace_back(std::string(name), entity);
+  if (found == kinds_.end()) found = kinds_.emplace(std::string(kind), Kind()).first;
+  found->second.order.emplace_back(name);
+  Named& named = found->second.by_name[std::string(name)];
+  if (named.count++ == 0) named.first = entity;
+  if (kind == "node")
+    names_.insert_or_assign(entity, std::string(name));
+  else
+    names_.try_emplace(entity, name);
 }
 
 Result<Entity> SceneNames::find(std::string_view kind, std::string_view name) const {
   const std::string what(kind);
   const auto found = kinds_.find(kind);
-  Entity entity = kNoEntity;
-  std::size_t count = 0;
-  if (found != kinds_.end()) {
-    for (const auto& [known, candidate] : found->second) {
-      if (known != name) continue;
-      if (count++ == 0) entity = candidate;
-    }
+  if (found == kinds_.end())
+    return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + ", there is none"};
+  const auto named = found->second.by_name.find(std::string(name));
+  if (named == found->second.by_name.end()) {
+    std::string list;
+    for (const std::string& known : found->second.order) list += (list.empty() ? "" : ", ") + one_line(known);
+    return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + ", there are: " + list};
   }
-  if (count == 1) return entity;
-  if (count > 1)
-    return Error{ErrorKind::input, "the name " + in_quotes(name) + " is used by " + std::to_string(count) + " " + what +
+  if (named->second.count > 1)
+    return Error{ErrorKind::input, "the name " + in_quotes(name) + " is used by " +
+                                       std::to_string(named->second.count) + " " + what +
                                        " nodes, so it names none of them"};
-  const std::vector<std::string> valid = names(kind);
-  if (valid.empty()) return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + ", there is none"};
-  std::string list;
-  for (const std::string& known : valid) list += (list.empty() ? "" : ", ") + one_line(known);
-  return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + ", there are: " + list};
+  return named->second.first;
 }
 
 std::vector<std::string> SceneNames::names(std::string_view kind) const {
-  std::vector<std::string> result;
   const auto found = kinds_.find(kind);
-  if (found == kinds_.end()) return result;
-  result.reserve(found->second.size());
-  for (const auto& [name, entity] : found->second) result.push_back(name);
-  return result;
+  return found == kinds_.end() ? std::vector<std::string>() : found->second.order;
 }
 
 std::string_view SceneNames::name_of(Entity entity) const {
-  const auto search = [entity](const auto& named) -> std::string_view {
-    for (const auto& [name, candidate] : named)
-      if (candidate == entity) return name;
-    return {};
-  };
-  // A node's own name comes before what a light or a camera on it is called.
-  if (const auto nodes = kinds_.find("node"); nodes != kinds_.end())
-    if (const std::string_view name = search(nodes->second); !name.empty()) return name;
-  for (const auto& [kind, named] : kinds_)
-    if (const std::string_view name = search(named); !name.empty()) return name;
-  return {};
+  const auto found = names_.find(entity);
+  return found == names_.end() ? std::string_view() : std::string_view(found->second);
 }
 
 std::uint32_t SceneStrings::intern(std::string_view text) {
-  for (std::size_t i = 0; i < texts_.size(); ++i)
-    if (texts_[i] == text) return static_cast<std::uint32_t>(i);
-  texts_.emplace_back(text);
-  return static_cast<std::uint32_t>(texts_.size() - 1);
+  const auto [found, added] = ids_.try_emplace(std::string(text), static_cast<std::uint32_t>(texts_.size()));
+  if (added) texts_.emplace_back(text);
+  return found->second;
 }
 
 const std::string& SceneStrings::text(std::uint32_t id) const {

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -24,11 +25,11 @@ struct SceneClock {
 /// entity in `origins` (its world position subtracted), so that floats stay small far from the world's origin.
 struct JointMatrices {
   struct Range {
-    Entity instance;           ///< entity with the MeshInstance
-    std::uint32_t first = 0;   ///< index into matrices
+    Entity instance;          ///< entity with the MeshInstance
+    std::uint32_t first = 0;  ///< index into matrices
     std::uint32_t count = 0;
-    dvec3 origin = dvec3(0.0); ///< world position that positions after skinning are relative to
-    bool mirrored = false;     ///< the skinned surface is mirrored: front faces swap
+    dvec3 origin = dvec3(0.0);  ///< world position that positions after skinning are relative to
+    bool mirrored = false;      ///< the skinned surface is mirrored: front faces swap
   };
   std::vector<Range> ranges;  ///< ordered by instance index
   std::vector<mat4> matrices;
@@ -49,7 +50,18 @@ class SceneNames {
   [[nodiscard]] std::string_view name_of(Entity entity) const;                ///< empty when it has none
 
  private:
-  std::map<std::string, std::vector<std::pair<std::string, Entity>>, std::less<>> kinds_;
+  struct Named {
+    Entity first = kNoEntity;
+    std::uint32_t count = 0;
+  };
+  struct Kind {
+    std::vector<std::string> order;
+    std::unordered_map<std::string, Named> by_name;
+  };
+
+  std::map<std::string, Kind, std::less<>> kinds_;
+  std::unordered_map<Entity, std::string>
+      names_;  ///< a node's own name before what a light or a camera on it is called
 };
 
 /// Strings that components refer to by number; number 0 is the empty string.
@@ -60,11 +72,12 @@ class SceneStrings {
 
  private:
   std::vector<std::string> texts_ = {std::string()};
+  std::unordered_map<std::string, std::uint32_t> ids_ = {{std::string(), 0u}};
 };
 
 /// Sky, exposure and other facts of a whole scene; set by `gloam.sky.*` and `gloam.exposure`.
 struct SceneEnvironment {
-  vec3 sky_zenith = vec3(0.0f);   ///< cd/m²
+  vec3 sky_zenith = vec3(0.0f);  ///< cd/m²
   vec3 sky_horizon = vec3(0.0f);
   vec3 sky_ground = vec3(0.0f);
   bool has_exposure = false;

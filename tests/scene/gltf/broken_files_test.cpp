@@ -64,6 +64,18 @@ std::string file_with_animation(
   return gltf.text();
 }
 
+/// A skinned triangle whose vertices all follow this joint, and a skin of one.
+std::string file_with_joint(std::uint8_t joint) {
+  GltfText gltf;
+  gltf.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  gltf.accessor(std::vector<std::uint8_t>{joint, 0, 0, 0, joint, 0, 0, 0, joint, 0, 0, 0}, 5121, "VEC4");
+  gltf.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+  gltf.mesh(R"("POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2)");
+  gltf.add("skins", R"({"joints": [0]})");
+  gltf.add("nodes", R"({"name": "n", "mesh": 0, "skin": 0})");
+  return gltf.text();
+}
+
 std::string file_with_image(const std::string& image) { return file(R"("images": [)" + image + "]"); }
 
 std::string image_uri(const std::string& mime, std::string_view bytes) {
@@ -307,6 +319,7 @@ std::vector<Broken> broken_parts() {
       {"joint_out_of_range",
        file(R"("nodes": [{}], "skins": [{"joints": [1]}])"),
        {"skin 0: joints is 1, but the file has 1 nodes"}},
+      {"joint_past_its_skin", file_with_joint(1), {"node 0 \"n\": its mesh names joint 1, but its skin has 1"}},
       {"camera_type_unknown",
        file(R"("cameras": [{"type": "fisheye"}])"),
        {"camera 0: type must be one of perspective orthographic, is \"fisheye\""}},
