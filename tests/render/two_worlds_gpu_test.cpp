@@ -142,7 +142,6 @@ TEST_F(TwoWorlds, one_can_go_and_leave_the_other_as_it_is) {
   World stays;
   renderer->prepare_world(stays);
   fill(stays, 0);
-  std::uint64_t bytes = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
     step(stays, frame);
     draw(*renderer, stays, {request(0, 1)});
@@ -151,11 +150,23 @@ TEST_F(TwoWorlds, one_can_go_and_leave_the_other_as_it_is) {
     fill(passing, 1);
     draw(*renderer, passing, {request(0, 0)});
     renderer->release_world(passing);
-    ASSERT_TRUE(renderer->wait().ok());
-    if (frame == 0) bytes = renderer->report().modules.front().gpu_bytes;
   }
-  EXPECT_EQ(renderer->report().modules.front().gpu_bytes, bytes) << "worlds that went have left something";
   EXPECT_TRUE(pixels_of(*renderer, 1) == alone(0, 1));
+}
+
+TEST_F(TwoWorlds, that_go_give_their_memory_back) {
+  const auto renderer = make_renderer();
+  std::vector<std::uint64_t> bytes;
+  for (int i = 0; i < 8; ++i) {
+    World passing;
+    renderer->prepare_world(passing);
+    fill(passing, 1);
+    draw(*renderer, passing, {request(0, 0)});
+    renderer->release_world(passing);
+    ASSERT_TRUE(renderer->wait().ok());
+    bytes.push_back(renderer->report().modules.front().gpu_bytes);
+  }
+  EXPECT_EQ(bytes[7], bytes[4]);  // the first few still fill the rings of the frames in flight
 }
 
 TEST_F(TwoWorlds, can_each_have_a_renderer_on_one_device) {

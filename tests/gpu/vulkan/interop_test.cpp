@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan_interop.h"
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "engine/gpu/access.h"
+#include "engine/gpu/vulkan/device.h"
+#include "engine/gpu/vulkan/features.h"
+#include "tests/gpu/vulkan/device_fixture.h"
+#include "tests/support/expect_assert.h"
+
+namespace gloam::gpu {
+namespace {
+
+/// The fixture's own device stands for the host's: its handles are lent to a second gpu::Device.
+class Interop : public VulkanTest {
+ protected:
+  [[nodiscard]] vulkan::Context& context() { return dynamic_cast<vulkan::VulkanDevice&>(device()).context(); }
+  [[nodiscard]] HostDevice lend() {
+    vulkan::Context& c = context();
+    features_ = vulkan::features_to_enable(c.physical.features);
+    HostDevice host;
+    host.instance = c.instance();
+    host.physical_device = c.physical.handle;
+    host.device = c.device;
+    host.queue = c.queue;
+    host.queue_family = c.physical.queue_family;
+    host.get_instance_proc_addr = vulkan::find_loader();
+    host.enabled_extensions = required_device_extensions();
+    host.enabled_features = features_.chain();
+    host.queue_mutex = &c.queue_mutex();
+    host.log = &test::gpu_log();
+    return host;
+  }
+  [[nodiscard]] static std::string refusal_of(const HostDevice& host) {
+    const auto refused = create_vulkan_device_on(host);
+    EXPECT_FALSE(refused.ok());
+    if (refused.ok()) return {};
+    EXPECT_EQ(refused.error().kind, ErrorKind::no_device);
+    return refused.error().message;
+  }
+  [[nodiscard]] VkImage raw(ImageHandle image) {
+    return dynamic_cast<vulkan::VulkanDevice&>(device()).images().get(image).image;
+  }
+  [[nodiscard]] ImageHandle make_image(const ImageDesc& desc) { return test::value_of(device().create_image(desc)); }
+
+  vulkan::Features features_;
+};
+
+ImageDesc small_image() {
+  return {.name = "lent",
+          .module = "test",
+          .format = Format::rgba8_unorm,
+          .width = 4,
+          .height = 4,
+          .usage = ImageUsage::transfer_source | ImageUsage::transfer_target};
+}
+
+TEST_F(Interop, a_hosts_device_says_what_it_is_and_outlives_ours) {
+  {
+    const auto ours = test::value_of(create_vulkan_device_on(lend()));
+    ASSERT_NE(ours, nullptr);
+    EXPECT_EQ(ours->info().name, device().info().name);
+    EXPECT_EQ(ours->validation_messages(), 0u);
+  }
+  const BufferHandle buffer = test::make_readback(device(), 4);
+  test::run_frame(device(), [&](CommandList& commands) {
+    commands.fill_buffer(buffer, 0, 4, 7);
+    to(commands, buffer, Access::transfer_write, Access::host_read);
+  });
+  EXPECT_EQ(test::items_of<std::uint32_t>(device(), buffer).at(0), 7u);
+}
+
+TEST_F(Interop, an_imported_image_is_written_and_left_to_the_host) {
+  const ImageHandle theirs = make_image(small_image());
+  const auto ours = test::value_of(create_vulkan_device_on(lend()));
+  const ImageHandle imported = import_image(*ours, raw(theirs), small_image());
+  EXPECT_EQ(ours->desc(imported).width, 4u);
+  test::run_frame(*ours, [&](CommandList& commands) {
+    to(commands, imported, Access::none, Access::transfer_write);
+    commands.clear_color_image(imported,
+                               {std::bit_cast<std::uint32_t>(1.0f), 0, 0, std::bit_cast<std::uint32_t>(1.0f)});
+    to(commands, imported, Access::transfer_write, Access::transfer_read);
+  });
+  ours->destroy(imported);
+  BufferHandle bytes;
+  test::run_frame(device(),
+                  [&](CommandList& commands) { bytes = read_layer(commands, theirs, Access::transfer_read); });
+  EXPECT_EQ(test::items_of<std::uint32_t>(device(), bytes).at(15), 0xFF0000FFu);
+}
+
+TEST_F(Interop, a_frame_waits_for_the_hosts_semaphore_and_signals_another) {
+  vulkan::Context& c = context();
+  const VkSemaphoreTypeCreateInfo type = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
+                                          .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
+  const VkSemaphoreCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
+  VkSemaphore go = VK_NULL_HANDLE, done = VK_NULL_HANDLE;
+  ASSERT_EQ(c.vk.vkCreateSemaphore(c.device, &info, nullptr, &go), VK_SUCCESS);
+  ASSERT_EQ(c.vk.vkCreateSemaphore(c.device, &info, nullptr, &done), VK_SUCCESS);
+  const auto value_of = [&](VkSemaphore semaphore) {
+    std::uint64_t value = 0;
+    c.vk.vkGetSemaphoreCounterValue(c.device, semaphore, &value);
+    return value;
+  };
+  const auto signal = reinterpret_cast<PFN_vkSignalSemaphore>(
+      c.instance_functions().vkGetDeviceProcAddr(c.device, "vkSignalSemaphore"));
+  {
+    const auto ours = test::value_of(create_vulkan_device_on(lend()));
+    EXPECT_EQ(frame_timeline(*ours).value, 0u);
+    ASSERT_TRUE(ours->begin_frame().ok());
+    const HostSemaphore wait = {go, 5};
+    const HostSemaphore then = {done, 9};
+    add_frame_semaphores(*ours, {&wait, 1}, {&then, 1});
+    ASSERT_TRUE(ours->submit_frame().ok());
+    EXPECT_EQ(value_of(done), 0u);
+    EXPECT_EQ(ours->completed_frames(), 0u);
+    const VkSemaphoreSignalInfo allow = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO, .semaphore = go, .value = 5};
+    ASSERT_EQ(signal(c.device, &allow), VK_SUCCESS);
+    ASSERT_TRUE(ours->wait_idle().ok());
+    EXPECT_EQ(value_of(done), 9u);
+    EXPECT_EQ(frame_timeline(*ours).value, 1u);
+    EXPECT_EQ(value_of(frame_timeline(*ours).semaphore), 1u);
+    EXPECT_ASSERT(add_frame_semaphores(*ours, {&wait, 1}), "while it is recorded");
+  }
+  c.vk.vkDestroySemaphore(c.device, go, nullptr);
+  c.vk.vkDestroySemaphore(c.device, done, nullptr);
+}
+
+TEST_F(Interop, what_a_host_has_not_enabled_is_named) {
+  HostDevice host = lend();
+  features_.v12.timelineSemaphore = VK_FALSE;
+  features_.core.features.multiDrawIndirect = VK_FALSE;
+  host.enabled_extensions = {};
+  const std::string message = refusal_of(host);
+  for (const char* name : {"multiDrawIndirect, timelineSemaphore", VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME}) {
+    EXPECT_NE(message.find(name), std::string::npos) << message;
+  }
+  EXPECT_EQ(message.find("dynamicRendering"), std::string::npos) << message;
+}
+
+TEST_F(Interop, a_host_of_an_older_vulkan_or_with_another_queue_family_is_refused) {
+  HostDevice host = lend();
+  host.api_version = VK_API_VERSION_1_2;
+  EXPECT_NE(refusal_of(host).find("1.3"), std::string::npos);
+  host = lend();
+  host.queue_family = 100;
+  EXPECT_NE(refusal_of(host).find("queue family 100"), std::string::npos);
+}
+
+TEST(HostFeatures, the_structures_of_single_features_count) {
+  VkPhysicalDeviceVulkan12Features v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  VkPhysicalDeviceVulkan13Features v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+  VkPhysicalDeviceFeatures2 chain = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+  EXPECT_NE(vulkan::missing_features(vulkan::features_of_chain(chain)), "");
+  fill_required_features(chain.features, v12, v13);
+  VkPhysicalDeviceMaintenance4Features maintenance = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
+                                                      .maintenance4 = VK_TRUE};
+  VkPhysicalDeviceSynchronization2Features synchronization = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+      .pNext = &maintenance,
+      .synchronization2 = VK_TRUE};
+  VkPhysicalDeviceDynamicRenderingFeatures rendering = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES,
+      .pNext = &synchronization,
+      .dynamicRendering = VK_TRUE};
+  v12.pNext = &rendering;
+  chain.pNext = &v12;
+  EXPECT_EQ(vulkan::missing_features(vulkan::features_of_chain(chain)), "");
+}
+
+TEST(HostImageLayouts, agree_with_the_layouts_that_accesses_share) {
+  for (std::uint32_t a = 0; a <= static_cast<std::uint32_t>(Access::present); ++a) {
+    const auto access = static_cast<Access>(a);
+    if (access != Access::none && !fits_image(access)) {
+      EXPECT_ASSERT((void)host_image_layout(access), "images can have");
+      continue;
+    }
+    const HostImageLayout one = host_image_layout(access);
+    EXPECT_EQ(one.layout == VK_IMAGE_LAYOUT_UNDEFINED, access == Access::none) << name_of(access);
+    for (std::uint32_t b = 1; b <= static_cast<std::uint32_t>(Access::present); ++b) {
+      const auto other = static_cast<Access>(b);
+      if (!fits_image(other) || layout_of(access) != layout_of(other)) continue;
+      EXPECT_EQ(one.layout, host_image_layout(other).layout) << name_of(access) << ", " << name_of(other);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gloam::gpu
