@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/jobs/executor.h"
+#include "tests/embedding/host/thread_executor.h"
 
 namespace gloam::test {
 
@@ -19,13 +20,14 @@ struct ExecutorCase {
 
 inline void PrintTo(const ExecutorCase& c, std::ostream* out) { *out << c.name; }
 
-/// One of each kind; the pool with 8 threads has more than most machines under test have cores.
+/// One of each kind, a host's own among them; the pool with 8 threads has more than most machines under test have cores.
 inline std::vector<ExecutorCase> all_executors() {
   std::vector<ExecutorCase> cases{{"serial", [] { return make_serial_executor(); }},
                                   {"shuffled", [] { return make_shuffled_executor(7); }}};
   for (const std::uint32_t threads : {1u, 2u, 8u}) {
     cases.push_back({"pool_" + std::to_string(threads), [threads] { return make_pool_executor(threads); }});
   }
+  cases.push_back({"host_threads", [] { return std::make_unique<host::ThreadExecutor>(3); }});
   return cases;
 }
 
