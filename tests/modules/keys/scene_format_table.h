@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "engine/scene/assets.h"
+#include "engine/scene/gltf_import.h"
+#include "engine/scene/key_table.h"
+#include "modules/lights/components.h"
+#include "modules/module_list/module_list.h"
+#include "tests/support/gltf_files.h"
+
+namespace gloam::test {
+
+inline SceneValue number(double value) {
+  return {.kind = SceneValue::Kind::number, .number = value, .integral = value == std::floor(value)};
+}
+inline SceneValue yes_or_no(bool value) { return {.kind = SceneValue::Kind::boolean, .boolean = value}; }
+inline SceneValue text(std::string value) { return {.kind = SceneValue::Kind::text, .text = std::move(value)}; }
+inline SceneValue list(std::initializer_list<double> values) {
+  SceneValue array{.kind = SceneValue::Kind::array};
+  for (const double value : values) array.items.push_back(number(value));
+  return array;
+}
+
+/// Where keys are set in this test: a light (the kind that `kind` says), a material, a scene's environment, a folder with a file.
+struct Place {
+  World world;
+  TemporaryFolder folder;
+  KeyTarget target;
+
+  Place(const ModuleList& modules, LightKind kind) : target{world, kNoEntity, 0, folder.path()} {
+    prepare_scene_world(world);
+    for (const auto& module : modules) module->register_components(world);
+    static_cast<void>(folder.write("file.bin", "content"));
+    Light light;
+    light.kind = kind;
+    target.entity = world.create(light);
+    world.resource<SceneAssets>().materials.emplace_back();
+  }
+};
+
+/// Looks at one member after a key was set: is it what was asked for (false: the member's default)?
+using Look = std::function<void(const Place&, bool wanted)>;
+
+struct Line {
+  KeyElement on;
+  const char* name;
+  const char* module;
+  KeyType type;
+  const char* unit;
+  const char* default_text;
+  SceneValue good;
+  std::vector<SceneValue> bad;
+  Look look;
+  LightKind light = LightKind::spot;
+};
+
+/// The table of the scene format, line by line.
+[[nodiscard]] std::vector<Line> scene_format_table();
+
+}  // namespace gloam::test
