@@ -171,5 +171,23 @@ TEST_F(Knobs, reading_what_is_not_there_asserts) {
   EXPECT_ASSERT((void)knobs_.choice("shadows.maps"), "has no choices");
 }
 
+TEST_F(Knobs, say_their_values_as_text) {
+  EXPECT_EQ(value_text(*knobs_.find("lights.culling"), 0.0), "brute");
+  EXPECT_EQ(value_text(*knobs_.find("grass.reach"), 0.5), "0.5");
+  EXPECT_EQ(value_text(*knobs_.find("shadows.maps"), 64.0), "64");
+}
+
+TEST_F(Knobs, an_exact_value_is_one_of_theirs) {
+  for (const char* exact : {"sideways", ""}) {
+    Knob knob = choice_knob("x", {"a", "b"});
+    knob.exact = exact;
+    const bool wrong = knob.exact == "sideways";
+    EXPECT_ASSERT(KnobRegistry().add(knob), wrong ? "exact value" : "no assertion failed");
+  }
+  Knob knob = number_knob("y", Knob::Type::integer, 1, 64, 8);
+  knob.exact = "65";
+  EXPECT_ASSERT(KnobRegistry().add(knob), "exact value");
+}
+
 }  // namespace
 }  // namespace gloam

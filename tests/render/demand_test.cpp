@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/render/demand_fixture.h"
+
+namespace gloam {
+namespace {
+
+using test::CountingModule;
+using test::kFramesKept;
+using test::kOptionalModules;
+using test::Seen;
+using ::testing::IsEmpty;
+
+/// A module with a scene that can call for it.
+class DemandOf : public test::DemandTest, public ::testing::WithParamInterface<std::string> {
+ protected:
+  [[nodiscard]] Seen now() { return seen(GetParam()); }
+
+  void expect_nothing_at_all() {
+    expect_nothing_in_the_frame();
+    EXPECT_EQ(now().pipelines, 0u);
+    EXPECT_EQ(now().bytes, 0u);
+  }
+  void expect_nothing_in_the_frame() {
+    const Seen n = now();
+    EXPECT_EQ(n.passes, 0u);
+    EXPECT_EQ(n.dispatches, 0u);
+    EXPECT_EQ(n.draws, 0u);
+  }
+  void expect_at_work() {
+    const Seen n = now();
+    EXPECT_GE(n.passes, 1u);
+    EXPECT_GE(n.dispatches + n.draws, 1u);
+    EXPECT_GE(n.pipelines, 1u);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Modules, DemandOf, ::testing::ValuesIn(kOptionalModules),
+                         [](const auto& instance) { return instance.param; });
+
+/// Those that know what a view sees.
+class DemandInView : public DemandOf {};
+INSTANTIATE_TEST_SUITE_P(Modules, DemandInView, ::testing::Values("lights", "counting"),
+                         [](const auto& instance) { return instance.param; });
+
+TEST_P(DemandOf, absent_it_runs_nothing_and_owns_nothing) {
+  for (int frame = 0; frame < 130; ++frame) {
+    frames();
+    EXPECT_THAT(now().systems, IsEmpty());
+    expect_nothing_at_all();
+  }
+  EXPECT_EQ(gate_->asked_here(GetParam()) + gate_->asked_elsewhere(GetParam()), 0u);
+  EXPECT_EQ(calls_.prepared + calls_.passes + calls_.counters, 0u);
+  EXPECT_EQ(world_->resource<test::CountedRuns>().world + world_->resource<test::CountedRuns>().view, 0u);
+  EXPECT_FALSE(renderer_->report().counters.contains("lights.total"));
+  EXPECT_THAT(log_.lines(), IsEmpty());
+}
+
+TEST_P(DemandOf, one_that_appears_is_in_the_very_first_frame) {
+  frames(3);
+  static_cast<void>(call_for(GetParam()));
+  frames();
+  expect_at_work();
+}
+
+TEST_P(DemandOf, one_that_is_there_from_the_start_is_in_the_very_first_frame) {
+  static_cast<void>(call_for(GetParam()));
+  frames();
+  expect_at_work();
+}
+
+TEST_P(DemandOf, one_that_disappears_works_no_more_in_the_next_frame) {
+  frames(2);
+  const auto before = work();
+  const Entity cause = call_for(GetParam());
+  frames(3);
+  EXPECT_NE(work(), before);
+  world_->destroy(cause);
+  frames();
+  EXPECT_THAT(now().systems, IsEmpty());
+  expect_nothing_in_the_frame();
+  EXPECT_EQ(work(), before);
+}
+
+TEST_P(DemandOf, one_that_disappeared_gives_everything_back) {
+  frames(2);
+  const std::string before = belongings();
+  const Entity cause = call_for(GetParam());
+  frames(3);
+  EXPECT_NE(belongings(), before);
+  world_->destroy(cause);
+  frames(kFramesKept - 1);
+  EXPECT_GE(now().pipelines, 1u) << "it might come back";
+  frames();
+  expect_nothing_at_all();
+}
+
+TEST_P(DemandInView, one_out_of_view_works_no_more_from_that_frame_on_and_keeps_its_pipelines) {
+  const Entity cause = call_for(GetParam());
+  frames(3);
+  const Seen visible = now();
+  show(GetParam(), cause, false);
+  for (std::uint32_t frame = 0; frame < 2 * kFramesKept; ++frame) {
+    frames();
+    expect_nothing_in_the_frame();
+    EXPECT_EQ(now().pipelines, visible.pipelines);
+    if (frame + 1 >= kFramesKept) {
+      EXPECT_EQ(now().bytes, 0u);
+    }
+  }
+  const std::uint32_t made = gate_->asked_here(GetParam());
+  show(GetParam(), cause, true);
+  frames();
+  const Seen again = now();
+  EXPECT_EQ(again.passes, visible.passes);
+  EXPECT_EQ(again.dispatches, visible.dispatches);
+  EXPECT_EQ(again.bytes, visible.bytes);
+  EXPECT_EQ(again.systems, visible.systems);
+  EXPECT_EQ(gate_->asked_here(GetParam()), made);
+}
+
+TEST_P(DemandInView, one_out_of_view_for_long_gives_its_pipelines_back_once_it_is_gone) {
+  const Entity cause = call_for(GetParam());
+  frames(3);
+  show(GetParam(), cause, false);
+  frames(kFramesKept + 50);
+  world_->destroy(cause);
+  frames(kFramesKept - 1);
+  EXPECT_GE(now().pipelines, 1u);
+  frames();
+  expect_nothing_at_all();
+}
+
+TEST_P(DemandOf, a_hundred_quick_toggles_grow_nothing) {
+  std::string on, off;
+  std::uint64_t resources = 0;
+  for (int toggle = 0; toggle < 100; ++toggle) {
+    const Entity cause = call_for(GetParam());
+    frames();
+    expect_at_work();
+    if (toggle == 3) on = belongings();
+    ASSERT_TRUE(toggle <= 3 || belongings() == on) << toggle << "\n" << belongings();
+    world_->destroy(cause);
+    frames();
+    expect_nothing_in_the_frame();
+    if (toggle == 3) off = belongings();
+    ASSERT_TRUE(toggle <= 3 || belongings() == off) << toggle << "\n" << belongings();
+    if (toggle == 3) resources = gate_->resources_made();
+  }
+  EXPECT_EQ(gate_->resources_made(), resources) << "toggling makes nothing anew";
+  EXPECT_EQ(calls_.releases, 0u);
+}
+
+TEST_P(DemandOf, slow_toggles_return_to_the_same_numbers) {
+  frames(kFramesKept);
+  const std::string without = belongings();
+  std::string with;
+  for (int toggle = 0; toggle < 4; ++toggle) {
+    const Entity cause = call_for(GetParam());
+    frames(kFramesKept);
+    if (toggle == 0) with = belongings();
+    EXPECT_EQ(belongings(), with) << toggle;
+    world_->destroy(cause);
+    frames(kFramesKept);
+    expect_nothing_at_all();
+    EXPECT_EQ(belongings(), without) << toggle;
+  }
+}
+
+TEST_P(DemandOf, another_world_without_it_takes_nothing_from_the_one_that_has_it) {
+  World other;
+  renderer_->prepare_world(other);
+  static_cast<void>(call_for(GetParam()));
+  frames();
+  const std::uint64_t bytes = now().bytes;
+  for (std::uint32_t i = 0; i < kFramesKept + 10; ++i) {
+    ASSERT_TRUE(render(other, {request(1)}).ok());
+    expect_nothing_in_the_frame();
+    frames();
+    expect_at_work();
+  }
+  EXPECT_GE(now().bytes, bytes);
+  EXPECT_EQ(calls_.releases, 0u);
+  renderer_->release_world(other);
+}
+
+class DemandFrames : public test::DemandTest {};
+
+TEST_F(DemandFrames, memory_goes_after_120_frames_and_not_after_119) {
+  const Entity counted = call_for("counting");
+  frames(2);
+  EXPECT_EQ(seen("counting").bytes, CountingModule::kKeptBytes + 8 * 8 * 4);
+  show("counting", counted, false);
+  for (int round = 0; round < 2; ++round) {
+    frames(kFramesKept - 1);
+    EXPECT_EQ(seen("counting").bytes, CountingModule::kKeptBytes) << "the transient image goes with its plan, sooner";
+    EXPECT_EQ(calls_.releases, 0u);
+    if (round > 0) break;
+    show("counting", counted, true);  // one frame with demand, and the count begins anew
+    frames();
+    show("counting", counted, false);
+  }
+  frames();
+  EXPECT_EQ(seen("counting").bytes, 0u);
+  EXPECT_EQ(seen("counting").pipelines, 1u);
+  EXPECT_EQ(calls_.releases, 1u);
+  frames(3 * kFramesKept);
+  EXPECT_EQ(calls_.releases, 1u) << "once is enough";
+}
+
+TEST_F(DemandFrames, what_is_out_of_view_runs_its_systems_but_adds_no_passes) {
+  const Entity counted = call_for("counting");
+  frames(2);
+  const std::uint32_t passes = calls_.passes;
+  show("counting", counted, false);
+  frames(3);
+  EXPECT_EQ(world_->resource<test::CountedRuns>().world, 5u);
+  EXPECT_EQ(world_->resource<test::CountedRuns>().view, 5u);
+  EXPECT_EQ(calls_.passes, passes);
+  world_->destroy(counted);
+  frames(3);
+  EXPECT_EQ(world_->resource<test::CountedRuns>().world, 5u);
+  EXPECT_EQ(world_->resource<test::CountedRuns>().view, 5u);
+}
+
+TEST_F(DemandFrames, lights_work_for_the_view_that_sees_them_alone) {
+  static_cast<void>(call_for("lights"));
+  ViewRequest away = request(1);
+  away.settings.world_from_camera = test::look_at(dvec3(2.0, 3.0, 9.0), dvec3(4.0, 6.0, 18.0), 64, 40).world_from_camera;
+  frames(1, {request(), away});
+  EXPECT_EQ(seen("lights").passes, 1u);
+  const std::uint64_t bytes = seen("lights").bytes;
+  frames(kFramesKept + 5, {away, request()});
+  EXPECT_EQ(seen("lights").passes, 1u);
+  EXPECT_EQ(seen("lights").bytes, bytes);
+  frames(1, {away});
+  EXPECT_EQ(seen("lights").passes, 0u);
+}
+
+TEST_F(DemandFrames, fog_without_density_is_no_fog) {
+  static_cast<void>(world_->create(Fog{0.0f, vec3(1.0f)}));
+  frames(3);
+  const Seen fog = seen("fog");
+  EXPECT_EQ(fog.passes + fog.pipelines, 0u);
+  EXPECT_EQ(fog.bytes, 0u);
+}
+
+TEST_F(DemandFrames, frames_without_views_count_as_frames_without_demand) {
+  static_cast<void>(call_for("counting"));
+  frames(2);
+  frames(kFramesKept, {});
+  EXPECT_EQ(seen("counting").bytes, 0u);
+  EXPECT_EQ(seen("counting").pipelines, 1u) << "the world still calls for it";
+}
+
+TEST_F(DemandFrames, transient_images_are_counted_under_their_module) {
+  static_cast<void>(call_for("lights"));
+  frames();
+  // One word for each 8×8 tile of 64×40 pixels and each of 32 groups and their summary.
+  EXPECT_EQ(seen("lights").bytes, 8u * 5u * 33u * 4u);
+  const std::uint64_t engine = seen("engine").bytes;
+  static_cast<void>(call_for("counting"));
+  frames();
+  EXPECT_EQ(seen("counting").bytes, CountingModule::kKeptBytes + 8 * 8 * 4);
+  EXPECT_GE(seen("engine").bytes, engine);
+}
+
+}  // namespace
+}  // namespace gloam

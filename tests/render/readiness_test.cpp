@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <string>
+#include <vector>
+
+#include "engine/render/pipelines.h"
+#include "tests/render/demand_fixture.h"
+
+namespace gloam {
+namespace {
+
+using test::kFramesKept;
+using test::kOptionalModules;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A renderer that does not wait for pipelines, with a closed gate.
+class BackgroundRenderer : public test::DemandTest {
+ protected:
+  BackgroundRenderer() {
+    make_renderer(Readiness::background);
+    gate_->close();
+  }
+  [[nodiscard]] std::vector<std::string> last_commands() const {
+    std::vector<std::string> lines;
+    for (const gpu::RecordedCommand& command : device_->commands()) lines.push_back(command.name + " " + command.text);
+    return lines;
+  }
+};
+
+class ReadinessOf : public BackgroundRenderer, public ::testing::WithParamInterface<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Modules, ReadinessOf, ::testing::ValuesIn(kOptionalModules),
+                         [](const auto& instance) { return instance.param; });
+
+TEST_P(ReadinessOf, a_module_comes_when_its_pipelines_are_made_and_no_frame_waits_for_them) {
+  frames(2);
+  const auto before = work();
+  static_cast<void>(call_for(GetParam()));
+  frames(5);  // would never end if they waited
+  EXPECT_TRUE(gate_->wait_for_one_at_the_gate());
+  frames();
+  EXPECT_EQ(seen(GetParam()).passes, 0u);
+  EXPECT_EQ(seen(GetParam()).pipelines, 0u);
+  EXPECT_EQ(work(), before) << "nobody else stands in for it";
+  gate_->open();
+  frames_until_there_are_passes_of(GetParam());
+  frames(3);
+  EXPECT_GE(seen(GetParam()).passes, 1u);
+  EXPECT_EQ(gate_->asked_here(GetParam()), 0u) << "the rendering thread makes none of them";
+  EXPECT_EQ(gate_->asked_elsewhere(GetParam()), seen(GetParam()).pipelines) << "each is made once";
+  EXPECT_THAT(log_.lines(), IsEmpty());
+}
+
+TEST_P(ReadinessOf, what_goes_while_it_is_compiled_leaves_nothing) {
+  const Entity cause = call_for(GetParam());
+  frames(2);
+  ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
+  world_->destroy(cause);
+  frames(kFramesKept + 10);
+  gate_->open();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the longer, the likelier something is made too late
+  frames(2 * kFramesKept);
+  EXPECT_EQ(seen(GetParam()).pipelines, 0u);
+  EXPECT_EQ(seen(GetParam()).bytes, 0u);
+  static_cast<void>(call_for(GetParam()));
+  frames();
+  frames_until_there_are_passes_of(GetParam());
+  EXPECT_EQ(gate_->asked_here(GetParam()), 0u);
+}
+
+TEST_P(ReadinessOf, once_ready_its_frames_are_those_of_a_renderer_that_waits) {
+  static_cast<void>(call_for(GetParam()));
+  frames(2);
+  gate_->open();
+  frames_until_there_are_passes_of(GetParam());
+  frames(10);
+  const std::vector<std::string> background = last_commands();
+  make_renderer(Readiness::wait);
+  static_cast<void>(call_for(GetParam()));
+  frames(10);
+  EXPECT_EQ(last_commands(), background);
+}
+
+TEST_P(ReadinessOf, toggling_grows_nothing) {
+  gate_->open();
+  std::string with;
+  for (int toggle = 0; toggle < 4; ++toggle) {
+    const Entity cause = call_for(GetParam());
+    frames();
+    frames_until_there_are_passes_of(GetParam());
+    frames(kFramesKept);
+    if (toggle == 0) with = belongings();
+    EXPECT_EQ(belongings(), with);
+    world_->destroy(cause);
+    frames(kFramesKept);
+    EXPECT_EQ(seen(GetParam()).pipelines, 0u);
+    EXPECT_EQ(seen(GetParam()).bytes, 0u);
+  }
+  EXPECT_EQ(gate_->asked_here(GetParam()), 0u);
+}
+
+class ReadinessFrames : public BackgroundRenderer {};
+
+TEST_F(ReadinessFrames, a_module_waits_for_the_last_of_its_pipelines) {
+  static_cast<void>(call_for("fog"));
+  frames();
+  ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
+  for (std::uint32_t made = 0; made < 3; ++made) {
+    EXPECT_EQ(seen("fog").pipelines, made);
+    EXPECT_EQ(seen("fog").passes, 0u);
+    gate_->let(1);
+    if (made < 2) ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
+    if (made < 2) frames();
+  }
+  frames_until_there_are_passes_of("fog");
+  EXPECT_EQ(seen("fog").passes, 4u);
+}
+
+TEST_F(ReadinessFrames, essential_modules_are_in_the_first_frame) {
+  frames();
+  EXPECT_GE(seen("lighting").passes, 2u);
+  EXPECT_GE(seen("engine").passes, 1u);
+}
+
+TEST_F(ReadinessFrames, modules_do_not_wait_for_each_other) {
+  static_cast<void>(call_for("lights"));
+  frames();
+  ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
+  gate_->let(1);
+  static_cast<void>(call_for("fog"));
+  frames_until_there_are_passes_of("lights");
+  EXPECT_EQ(seen("fog").passes, 0u);
+}
+
+TEST_F(ReadinessFrames, a_pipeline_that_fails_is_told_once_and_the_next_frame_returns_the_error) {
+  gate_->break_pipeline("fog_blur", {ErrorKind::failed, "the compiler gave up"});
+  static_cast<void>(call_for("fog"));
+  frames(3);
+  EXPECT_THAT(log_.lines(), IsEmpty());
+  gate_->open();
+  Status status;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (status.ok() && std::chrono::steady_clock::now() < deadline) status = render(*world_, {request()});
+  for (int again = 0; again < 3; ++again) {
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().message, "the compiler gave up");
+    EXPECT_THAT(log_.lines(), ElementsAre(HasSubstr("fog_blur failed in the background: the compiler gave up")));
+    status = render(*world_, {request()});
+  }
+  gate_->heal();
+  frames(2);
+  EXPECT_EQ(seen("fog").passes, 4u);
+  EXPECT_EQ(log_.lines().size(), 1u);
+}
+
+TEST_F(ReadinessFrames, a_failure_is_forgotten_with_the_modules_pipelines) {
+  gate_->break_pipeline("counting", {ErrorKind::failed, "the compiler gave up"});
+  gate_->open();
+  const Entity cause = call_for("counting");
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (render(*world_, {request()}).ok()) ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+  world_->destroy(cause);
+  gate_->heal();
+  frames(kFramesKept);
+  const std::uint32_t tried = gate_->asked_here("counting");
+  static_cast<void>(call_for("counting"));
+  frames();
+  frames_until_there_are_passes_of("counting");
+  EXPECT_EQ(gate_->asked_here("counting"), tried) << "made in the background, as if nothing had been";
+}
+
+class BackgroundPipelines : public ::testing::Test {
+ protected:
+  [[nodiscard]] static PipelineList list(const std::vector<std::string>& names) {
+    PipelineList list;
+    for (const std::string& name : names) list.push_back(gpu::ComputePipelineDesc{name, "test", {}, {}});
+    return list;
+  }
+  std::unique_ptr<gpu::RecordingDevice> device_ = gpu::make_recording_device();
+  test::GatedDevice gate_{*device_};
+  test::LineLog log_;
+};
+
+TEST_F(BackgroundPipelines, are_ready_when_all_are_made_and_begun_once) {
+  gate_.close();
+  Pipelines pipelines(gate_);
+  EXPECT_TRUE(pipelines.request({}, log_));
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(pipelines.request(list({"a", "b", "c"}), log_));
+  ASSERT_TRUE(gate_.wait_for_one_at_the_gate());
+  gate_.let(2);
+  ASSERT_TRUE(gate_.wait_for_one_at_the_gate());
+  EXPECT_TRUE(pipelines.request(list({"b", "a"}), log_));
+  EXPECT_FALSE(pipelines.request(list({"a", "b", "c"}), log_));
+  EXPECT_FALSE(pipelines.find("c"));
+  gate_.open();
+  while (!pipelines.request(list({"a", "b", "c"}), log_)) std::this_thread::yield();
+  EXPECT_TRUE(pipelines.find("c"));
+  EXPECT_EQ(gate_.asked_elsewhere("test"), 3u);
+  EXPECT_EQ(gate_.asked_here("test"), 0u);
+}
+
+TEST_F(BackgroundPipelines, that_are_released_before_their_turn_are_not_made) {
+  gate_.close();
+  Pipelines pipelines(gate_);
+  EXPECT_FALSE(pipelines.request(list({"a", "b", "c"}), log_));
+  ASSERT_TRUE(gate_.wait_for_one_at_the_gate());
+  pipelines.release("test");
+  EXPECT_FALSE(pipelines.request({gpu::ComputePipelineDesc{"z", "other", {}, {}}}, log_));
+  gate_.open();
+  while (!pipelines.find("z")) std::this_thread::yield();
+  EXPECT_FALSE(pipelines.find("b"));
+  EXPECT_FALSE(pipelines.find("c"));
+  EXPECT_EQ(gate_.asked_elsewhere("test"), 1u);
+  EXPECT_FALSE(pipelines.request(list({"b"}), log_)) << "they can be asked for again";
+  while (!pipelines.request(list({"b"}), log_)) std::this_thread::yield();
+}
+
+TEST_F(BackgroundPipelines, are_also_had_at_once_by_who_cannot_wait) {
+  gate_.close();
+  {
+    Pipelines pipelines(gate_);
+    EXPECT_FALSE(pipelines.request(list({"a"}), log_));
+    ASSERT_TRUE(gate_.wait_for_one_at_the_gate());
+    const auto mine = pipelines.get(gpu::ComputePipelineDesc{"a", "test", {}, {}});
+    ASSERT_TRUE(mine.ok());
+    EXPECT_TRUE(pipelines.request(list({"a"}), log_));
+    gate_.open();
+    EXPECT_EQ(*pipelines.get(gpu::ComputePipelineDesc{"a", "test", {}, {}}), *mine);
+  }
+  EXPECT_EQ(device_->pipeline_count("test"), 0u);
+  EXPECT_THAT(device_->faults(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace gloam
