@@ -136,6 +136,7 @@ class IncludeArrows(Tree):
     def test_paths_are_full_and_exist(self):
         self.assert_faults(self.faults_with("engine/core/a.cpp", '#include "b.h"\n', "engine/core/b.h"), "full path")
         self.assert_faults(self.faults_with("engine/core/a.cpp", '#include "engine/core/c.h"\n'), "no such file")
+        self.assertEqual(self.faults_with("tests/embedding/host/a.cpp", '#include "b.h"\n', "tests/embedding/host/b.h"), [])
 
     def test_the_own_header_comes_first(self):
         good = '// words\n#include "engine/core/a.h"\n#include <vector>\n'
