@@ -49,16 +49,32 @@ Console::~Console() {
   if (errors_ != nullptr) std::fclose(errors_);
 }
 
+bool Console::shows_progress() const { return errors_ != nullptr && isatty(fileno(errors_)) == 1; }
+
+void Console::show_progress(std::string_view line) {
+  if (line.empty() && !progress_) return;
+  if (!shows_progress()) return;
+  const std::string text = "\r\x1b[K" + one_line(line);
+  std::fwrite(text.data(), 1, text.size(), errors_);
+  std::fflush(errors_);
+  progress_ = !line.empty();
+}
+
 void Console::print(std::string_view text) {
+  show_progress({});
   if (results_ == nullptr || std::fwrite(text.data(), 1, text.size(), results_) != text.size()) failed_ = true;
 }
 
 void Console::print_error(std::string_view message) {
+  show_progress({});
   if (results_ != nullptr) std::fflush(results_);
   write_line(errors_, "gloam: error: ", message);
 }
 
-void Console::print_warning(std::string_view message) { write_line(errors_, "gloam: warning: ", message); }
+void Console::print_warning(std::string_view message) {
+  show_progress({});
+  write_line(errors_, "gloam: warning: ", message);
+}
 
 Status Console::flush() {
   if (results_ != nullptr && std::fflush(results_) != 0) failed_ = true;

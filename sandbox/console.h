@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -28,6 +29,11 @@ class Console {
   /// A line on standard error with "gloam: warning: " in front.
   void print_warning(std::string_view message);
 
+  /// Whether standard error is a terminal, where a line may be overwritten.
+  [[nodiscard]] bool shows_progress() const;
+  /// Shows a line that the next one, or any other output, replaces; an empty one takes it away. Nothing unless shows_progress.
+  void show_progress(std::string_view line);
+
   /// Error of ErrorKind::failed when results could not be written (disk full, closed).
   [[nodiscard]] Status flush();
 
@@ -39,6 +45,7 @@ class Console {
   std::FILE* errors_ = nullptr;
   std::FILE* capture_ = nullptr;
   bool failed_ = false;
+  std::atomic<bool> progress_ = false;  ///< a line is shown; warnings may come from jobs
 };
 
 /// `text` as one line: line breaks and other control characters become single spaces, none at the ends.

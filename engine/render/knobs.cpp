@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "engine/core/assert.h"
 
@@ -28,7 +29,26 @@ std::string valid_values(const Knob& knob) {
   return list;
 }
 
+/// The number a text sets a knob to, if it is one of its values.
+std::optional<double> parse_value(const Knob& knob, std::string_view value) {
+  if (knob.type == Knob::Type::choice) {
+    const auto found = std::find(knob.choices.begin(), knob.choices.end(), value);
+    if (found == knob.choices.end()) return std::nullopt;
+    return static_cast<double>(found - knob.choices.begin());
+  }
+  double parsed = 0.0;
+  const auto result = std::from_chars(value.data(), value.data() + value.size(), parsed);
+  if (result.ec != std::errc() || result.ptr != value.data() + value.size()) return std::nullopt;
+  if (!(parsed >= knob.min && parsed <= knob.max)) return std::nullopt;
+  if (knob.type == Knob::Type::integer && parsed != std::floor(parsed)) return std::nullopt;
+  return parsed;
+}
+
 }  // namespace
+
+std::string value_text(const Knob& knob, double value) {
+  return knob.type == Knob::Type::choice ? knob.choices[static_cast<std::size_t>(value)] : number_text(value);
+}
 
 void KnobRegistry::add(Knob knob) {
   GLOAM_ASSERT(find(knob.name) == nullptr, "a knob's name is declared twice");
@@ -37,6 +57,7 @@ void KnobRegistry::add(Knob knob) {
     knob.max = static_cast<double>(knob.choices.size()) - 1.0;
   }
   GLOAM_ASSERT(knob.default_number >= knob.min && knob.default_number <= knob.max, "a knob's default lies outside its range");
+  GLOAM_ASSERT(knob.exact.empty() || parse_value(knob, knob.exact), "a knob's exact value is none of its values");
   values_.push_back(knob.default_number);
   knobs_.push_back(std::move(knob));
 }
@@ -48,20 +69,11 @@ Status KnobRegistry::set(std::string_view name, std::string_view value) {
     for (const Knob& k : knobs_) list += (list.empty() ? "" : ", ") + k.name;
     return Error{ErrorKind::usage, "unknown knob " + std::string(name) + "; there are " + (list.empty() ? "none" : list)};
   }
-  const Error wrong{ErrorKind::usage,
-                    "knob " + knob->name + " must be " + valid_values(*knob) + ", is \"" + std::string(value) + "\""};
-  double parsed = 0.0;
-  if (knob->type == Knob::Type::choice) {
-    const auto found = std::find(knob->choices.begin(), knob->choices.end(), value);
-    if (found == knob->choices.end()) return wrong;
-    parsed = static_cast<double>(found - knob->choices.begin());
-  } else {
-    const auto result = std::from_chars(value.data(), value.data() + value.size(), parsed);
-    if (result.ec != std::errc() || result.ptr != value.data() + value.size()) return wrong;
-    if (!(parsed >= knob->min && parsed <= knob->max)) return wrong;
-    if (knob->type == Knob::Type::integer && parsed != std::floor(parsed)) return wrong;
-  }
-  values_[static_cast<std::size_t>(knob - knobs_.data())] = parsed;
+  const std::optional<double> parsed = parse_value(*knob, value);
+  if (!parsed)
+    return Error{ErrorKind::usage,
+                 "knob " + knob->name + " must be " + valid_values(*knob) + ", is \"" + std::string(value) + "\""};
+  values_[static_cast<std::size_t>(knob - knobs_.data())] = *parsed;
   ++version_;
   return {};
 }
@@ -107,8 +119,7 @@ bool KnobRegistry::is(std::string_view name, std::string_view value) const { ret
 
 std::string KnobRegistry::text(std::string_view name) const {
   const std::size_t i = index_of(name);
-  if (knobs_[i].type == Knob::Type::choice) return knobs_[i].choices[static_cast<std::size_t>(values_[i])];
-  return number_text(values_[i]);
+  return value_text(knobs_[i], values_[i]);
 }
 
 }  // namespace gloam

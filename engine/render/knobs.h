@@ -20,18 +20,24 @@ struct Knob {
   std::string module;
   std::string meaning;
   Type type = Type::choice;
-  std::vector<std::string> choices;  ///< for choice; the reference's is named in `reference`
+  std::vector<std::string> choices;  ///< for choice
   double min = 0.0;
   double max = 0.0;
   double default_number = 0.0;       ///< for choice: index into choices
   std::string unit;
-  std::vector<double> ledger_values;  ///< numbers worth a row of the ledger; empty: all choices
+  std::vector<double> ledger_values;  ///< numbers worth a row of the ledger; empty: all choices, or the default and the exact number
+  /// Text of the most exact value: the same frame drawn with it is what the other values are held against. Empty: no value is more right
+  /// than another, or the module judges the knob by a reference of its own (Module::references).
+  std::string exact;
 };
+
+/// The text that sets a knob to a number of its range (for choice: an index).
+[[nodiscard]] std::string value_text(const Knob& knob, double value);
 
 /// All knobs of all modules with their current values. Names are unique.
 class KnobRegistry {
  public:
-  /// Asserts on a duplicate name or a default out of range.
+  /// Asserts on a duplicate name, a default out of range or an exact value that cannot be set.
   void add(Knob knob);
 
   /// From text: "tiled", "3", "0.5". Usage error that lists what is valid.

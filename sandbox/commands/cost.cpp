@@ -1,13 +1,147 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "modules/accuracy/module.h"
+#include "modules/accuracy/outputs.h"
+#include "modules/module_list/module_list.h"
 #include "sandbox/commands/commands.h"
+#include "sandbox/file_io.h"
+#include "sandbox/identity.h"
+#include "sandbox/progress_bar.h"
 #include "sandbox/scene_loading.h"
+#include "sandbox/session.h"
+#include "sandbox/session_costs.h"
 
 namespace gloam {
+namespace {
+
+/// A bar on a terminal, else a line a finished row.
+class ConsoleProgress final : public CostProgress {
+ public:
+  ConsoleProgress(Console& console, bool quiet) : console_(console), quiet_(quiet) {}
+
+  void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) override {
+    if (measured_ == 0) begin_ = Clock::now();
+    const double elapsed_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    if (!quiet_) console_.show_progress(progress_line(done, total, knob + "=" + value, measured_, elapsed_s));
+  }
+
+  void finished(const LedgerRow& row, bool resumed) override {
+    ++(resumed ? resumed_ : measured_);
+    if (quiet_ || console_.shows_progress()) return;
+    char times[64];
+    std::snprintf(times, sizeof(times), ": %.3f ms, %.2f of the default", row.ms.median_ms, row.ratio);
+    console_.print(row.knob + "=" + row.value + times + (resumed ? " (measured before)" : "") + "\n");
+    // Whoever waits at the other end of a pipe wants it now; a failure to write is told at the end.
+    static_cast<void>(console_.flush());
+  }
+
+  [[nodiscard]] std::size_t resumed() const { return resumed_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Console& console_;
+  bool quiet_ = false;
+  std::size_t measured_ = 0;
+  std::size_t resumed_ = 0;
+  Clock::time_point begin_;
+};
+
+KnobRegistry knobs_of(const ModuleList& modules) {
+  KnobRegistry registry;
+  for (const auto& module : modules) module->knobs(registry);
+  return registry;
+}
+
+LedgerHeader header_of(const Session& session, const Options& options) {
+  const gpu::DeviceInfo& device = session.device->info();
+  return {.scene = options.scene,
+          .scene_hash = scene_hash(options.scene, session.world),
+          .camera = options.camera,
+          .time_s = options.time_s,
+          .device = device.name,
+          .driver = device.driver,
+          .device_type = std::string(gpu::name_of(device.type)),
+          .subgroup_size = device.subgroup_size,
+          .width = options.width,
+          .height = options.height,
+          .version = GLOAM_VERSION,
+          .build = program_hash(),
+          .quick = options.quick,
+          .frames = options.quick ? kQuickFrames : kLedgerFrames,
+          .samples = options.quick ? kQuickSamples : kLedgerSamples};
+}
+
+std::string conditions_of(const Options& options) {
+  return "seed " + std::to_string(options.seed) + " dt " + std::to_string(options.dt_s) + " view '" + options.view +
+         "' animation '" + options.animation + "'";
+}
+
+/// Knobs of effects that the scene does not call for change nothing: they are measured only when the user names them.
+CostRequest make_request(Session& session, const Options& options, const std::vector<std::string>& chosen) {
+  CostRequest request = {.header = header_of(session, options),
+                         .conditions = conditions_of(options),
+                         .sequence = options.frames,
+                         .folder = options.out};
+  for (const std::string& name : chosen) {
+    const std::string& owner = session.renderer->knobs().find(name)->module;
+    std::string reason;
+    for (const auto& module : session.renderer->modules()) {
+      if (module->name() != owner || !options.knobs.empty()) continue;
+      const Demand demand = module->demand(session.world, nullptr);
+      if (!module->built())
+        reason = owner + " is not built yet";
+      else if (!demand.needed)
+        reason = "the scene does not call for " + owner + ": " + demand.reason;
+    }
+    if (reason.empty())
+      request.knobs.push_back(name);
+    else
+      request.skipped.push_back({name, reason});
+  }
+  return request;
+}
+
+Status write_ledger(const Ledger& ledger, const std::string& folder) {
+  GLOAM_TRY(make_folder_of(folder + "/ledger.json"));
+  GLOAM_TRY(write_file(folder + "/ledger.json", ledger_json(ledger)));
+  return write_file(folder + "/ledger.csv", ledger_csv(ledger));
+}
+
+}  // namespace
 
 Status run_cost(const CommandContext& context) {
-  GLOAM_TRY(check_scene_exists(context.options.scene));
-  return Error{ErrorKind::failed, "cost is not built yet: this version measures no ledger"};
+  Options options = context.options;
+  if (options.quick) {
+    options.width = kQuickWidth;
+    options.height = kQuickHeight;
+  }
+  GLOAM_TRY(check_scene_exists(options.scene));
+  const auto chosen = choose_knobs(knobs_of(make_all_modules()), options.knobs);
+  if (!chosen) return chosen.error();
+  // Ahead of minutes of measuring that could not be kept.
+  GLOAM_TRY(make_folder_of(options.out + "/ledger.json"));
+
+  const auto session = open_session(options, context.log);
+  if (!session) return session.error();
+  SessionCosts costs(*session.value(), options);
+  ConsoleProgress progress(context.console, options.quiet);
+  auto ledger = measure_costs(make_request(*session.value(), options, *chosen), costs, progress);
+  context.console.show_progress("");
+  if (!ledger) return ledger.error();
+  GLOAM_TRY(session.value()->check_validation());
+  GLOAM_TRY(write_ledger(*ledger, options.out));
+  context.console.print(ledger_table(*ledger));
+  if (options.quiet) return {};
+  if (progress.resumed() > 0)
+    context.console.print(std::to_string(progress.resumed()) + " of " + std::to_string(ledger->rows.size()) +
+                          " rows were measured before\n");
+  context.console.print("wrote " + options.out + "/ledger.json and ledger.csv\n");
+  return {};
 }
 
 }  // namespace gloam

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/accuracy/cost/knob_measurement.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <span>
+#include <utility>
+
+#include "engine/core/assert.h"
+#include "engine/core/hash.h"
+#include "modules/accuracy/cost/timing.h"
+
+namespace gloam {
+namespace {
+
+/// Frames drawn of one moment before it is looked at: what a frame takes from the one before has come to rest.
+constexpr std::uint32_t kSettlingFrames = 3;
+
+/// Grows when metrics or protocol change: rows of an older program are measured again.
+constexpr int kMethod = 1;
+
+std::string exact_text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof(buffer), "%.17g", value);
+  return buffer;
+}
+
+std::string hash_of(const FramePictures& frame) {
+  Hasher hasher;
+  hasher.value(frame.picture.width).value(frame.picture.height).bytes(std::as_bytes(std::span(frame.picture.rgba)));
+  hasher.bytes(std::as_bytes(std::span(frame.linear.rgba)));
+  return std::to_string(hasher.digest());
+}
+
+/// One line without line breaks of its own.
+std::string joined_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+KnobMeasurement::KnobMeasurement(const CostRequest& request, CostSubject& subject, const Knob& knob)
+    : request_(request),
+      subject_(subject),
+      knob_(knob),
+      users_(subject.knobs().text(knob.name)),
+      default_(value_text(knob, knob.default_number)),
+      cache_(request.folder + "/references") {
+  for (ReferenceInfo& reference : subject.references()) {
+    if (reference.knob == knob.name) reference_ = std::move(reference);
+  }
+}
+
+KnobMeasurement::~KnobMeasurement() {
+  const Status restored = set(users_);
+  GLOAM_ASSERT(restored.ok(), "a knob's own value can be set");
+}
+
+Status KnobMeasurement::set(const std::string& value) {
+  // Setting is a change to who watches the knobs, whatever the value.
+  if (subject_.knobs().text(knob_.name) == value) return {};
+  return subject_.knobs().set(knob_.name, value);
+}
+
+std::string KnobMeasurement::frame_identity(const std::string& value) const {
+  const LedgerHeader& header = request_.header;
+  std::string text = "method " + std::to_string(kMethod) + " scene " + header.scene_hash + " size " +
+                     std::to_string(header.width) + "x" + std::to_string(header.height) + " camera '" + header.camera +
+                     "' time " + exact_text(header.time_s) + " device '" + header.device + "' '" + header.driver +
+                     "' gloam " + header.version + " " + header.build + " samples " + std::to_string(header.samples) +
+                     " " + request_.conditions;
+  for (const Knob& other : subject_.knobs().knobs()) {
+    if (other.name != knob_.name) text += " " + other.name + "=" + subject_.knobs().text(other.name);
+  }
+  return joined_line(text + " measured " + knob_.name + "=" + value);
+}
+
+std::string KnobMeasurement::identity(const std::string& value) const {
+  return frame_identity(value) + " frames " + std::to_string(request_.header.frames) + " sequence " +
+         std::to_string(request_.sequence);
+}
+
+Result<LedgerRow> KnobMeasurement::measure(const std::string& value) {
+  LedgerRow row = {.knob = knob_.name, .value = value, .is_default = value == default_};
+  GLOAM_TRY(judge(value, row));
+  GLOAM_TRY(time(value, row));
+  return row;
+}
+
+Status KnobMeasurement::settle() {
+  for (std::uint32_t frame = 0; frame < kSettlingFrames; ++frame) GLOAM_TRY(subject_.draw(0));
+  return {};
+}
+
+Result<KnobMeasurement::Drawn> KnobMeasurement::draw(const std::string& value) {
+  GLOAM_TRY(set(value));
+  Drawn drawn;
+  if (request_.sequence >= 2) {
+    GLOAM_TRY(settle());
+    for (std::uint32_t index = 0; index < request_.sequence; ++index) {
+      GLOAM_TRY(subject_.draw(index));
+      auto frame = subject_.read();
+      if (!frame) return frame.error();
+      drawn.sequence.push_back(std::move(frame->linear));
+    }
+  }
+  GLOAM_TRY(settle());
+  auto frame = subject_.read();
+  if (!frame) return frame.error();
+  drawn.frame = std::move(frame).value();
+  return drawn;
+}
+
+Status KnobMeasurement::judge(const std::string& value, LedgerRow& row) {
+  if (!reference_ && knob_.exact.empty()) return {};
+  const bool serves_all = !reference_ || !reference_->follows_value;
+  if (serves_all && !held_) GLOAM_TRY(hold_reference());
+  const auto drawn = draw(value);
+  if (!drawn) return drawn.error();
+  return reference_ ? judge_by_module(value, *drawn, row) : judge_by_exact(*drawn, row);
+}
+
+Status KnobMeasurement::hold_reference() {
+  auto drawn = draw(reference_ ? default_ : knob_.exact);
+  if (!drawn) return drawn.error();
+  if (!reference_) {
+    exact_sequence_ = std::move(drawn->sequence);
+    held_.emplace(Held{PictureJudge(std::move(drawn->frame))});
+    return {};
+  }
+  auto held = module_reference(default_, drawn->frame);
+  if (!held) return held.error();
+  held_.emplace(std::move(held).value());
+  return {};
+}
+
+Status KnobMeasurement::judge_by_exact(const Drawn& drawn, LedgerRow& row) {
+  row.reference_kind = "brute force";
+  row.reference_name = knob_.name + "=" + knob_.exact;
+  GLOAM_TRY(held_->judge.judge(drawn.frame, row));
+  return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn.sequence, row);
+}
+
+Status KnobMeasurement::judge_by_module(const std::string& value, const Drawn& drawn, LedgerRow& row) {
+  row.reference_kind = reference_->kind;
+  row.reference_name = reference_->name;
+  std::optional<Held> own;
+  if (reference_->follows_value) {
+    auto held = module_reference(value, drawn.frame);
+    if (!held) return held.error();
+    own.emplace(std::move(held).value());
+  }
+  const Held& held = own ? *own : *held_;
+  GLOAM_TRY(held.judge.judge(drawn.frame, row));
+  row.reference_noise = held.noise;
+  const double error = row.flip ? row.flip->mean : *row.rmse;
+  row.below_noise = held.noise > 0.0 && error < held.noise;
+  return {};
+}
+
+Result<KnobMeasurement::Held> KnobMeasurement::module_reference(const std::string& value, const FramePictures& frame) {
+  const std::string identity =
+      joined_line(reference_->kind + " " + reference_->name + " of " + hash_of(frame) + " " + frame_identity(value));
+  std::optional<JudgedReference> reference = cache_.load(identity);
+  if (!reference) {
+    auto computed = compute(frame);
+    if (!computed) return computed.error();
+    reference = std::move(computed).value();
+    GLOAM_TRY(cache_.save(identity, *reference));
+  }
+  const double noise = reference->noise;
+  return Held{PictureJudge(std::move(reference->pictures)), noise};
+}
+
+Result<JudgedReference> KnobMeasurement::compute(const FramePictures& frame) {
+  const std::uint32_t samples = std::max(request_.header.samples, 2u);
+  auto full = subject_.draw_reference(*reference_, frame, samples);
+  if (!full) return full.error();
+  JudgedReference reference = {.pictures = std::move(full).value()};
+  if (!reference_->samples) return reference;
+  auto half = subject_.draw_reference(*reference_, frame, samples / 2);
+  if (!half) return half.error();
+  LedgerRow change;
+  GLOAM_TRY(PictureJudge(reference.pictures).judge(*half, change));
+  reference.noise = change.flip ? change.flip->mean : *change.rmse;
+  return reference;
+}
+
+Status KnobMeasurement::time(const std::string& value, LedgerRow& row) {
+  const auto run = [&](TimedSide side) -> Result<FrameCost> {
+    GLOAM_TRY(set(side == TimedSide::standard ? default_ : value));
+    return subject_.draw(0);
+  };
+  const auto times = time_alternating({.pairs = request_.header.frames}, run);
+  if (!times) return times.error();
+  const TimedValue timed = summarize_times(*times);
+  row.ms = timed.ms;
+  row.cpu_ms = timed.cpu_ms;
+  row.gpu_ms = timed.gpu_ms;
+  row.ratio = row.is_default ? 1.0 : timed.ratio;
+  row.gpu_bytes = times->candidate.back().gpu_bytes;
+  return {};
+}
+
+}  // namespace gloam

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <charconv>
+#include <cmath>
+
+#include "modules/accuracy/outputs.h"
+
+namespace gloam {
+namespace {
+
+/// Cells of one line.
+class CsvLine {
+ public:
+  CsvLine& text(std::string_view value) {
+    if (value.find_first_of(",\"\r\n") == std::string_view::npos) return cell(value);
+    std::string quoted = "\"";
+    for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return cell(quoted + "\"");
+  }
+  CsvLine& number(double value) {
+    if (std::isinf(value)) return cell(value > 0 ? "inf" : "-inf");
+    char buffer[32];
+    return cell({buffer, std::to_chars(buffer, buffer + sizeof(buffer), value).ptr});
+  }
+  CsvLine& number(const std::optional<double>& value) { return value ? number(*value) : cell(""); }
+  CsvLine& pair(const std::optional<ErrorPair>& value) {
+    return value ? number(value->mean).number(value->p99) : cell("").cell("");
+  }
+  CsvLine& integer(std::uint64_t value) { return cell(std::to_string(value)); }
+  CsvLine& flag(bool value) { return cell(value ? "1" : "0"); }
+  [[nodiscard]] std::string finish() const { return line_ + "\n"; }
+
+ private:
+  CsvLine& cell(std::string_view value) {
+    if (!first_) line_ += ',';
+    first_ = false;
+    line_ += value;
+    return *this;
+  }
+  std::string line_;
+  bool first_ = true;
+};
+
+constexpr const char* kColumns =
+    "knob,value,default,reference_kind,reference,reference_noise,below_noise,flip_mean,flip_p99,rmse,rmse_p99,psnr_db,"
+    "temporal_mean,temporal_p99,median_ms,p10_ms,p90_ms,cpu_ms,gpu_ms,ratio,gpu_bytes,front\n";
+
+}  // namespace
+
+std::string ledger_csv(const Ledger& ledger) {
+  std::string text = kColumns;
+  for (const LedgerRow& row : ledger.rows) {
+    CsvLine line;
+    line.text(row.knob).text(row.value).flag(row.is_default);
+    line.text(row.reference_kind).text(row.reference_name).number(row.reference_noise).flag(row.below_noise);
+    line.pair(row.flip).number(row.rmse).number(row.rmse_p99).number(row.psnr_db).pair(row.temporal);
+    line.number(row.ms.median_ms).number(row.ms.p10_ms).number(row.ms.p90_ms).number(row.cpu_ms).number(row.gpu_ms);
+    line.number(row.ratio).integer(row.gpu_bytes).flag(row.on_front);
+    text += line.finish();
+  }
+  return text;
+}
+
+}  // namespace gloam

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "modules/accuracy/ledger/row_json.h"
+
+namespace gloam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json pair_json(const ErrorPair& pair) { return {{"mean", pair.mean}, {"p99", pair.p99}}; }
+ErrorPair pair_of(const Json& json) { return {json.at("mean").get<double>(), json.at("p99").get<double>()}; }
+
+/// An absent error has no key; an infinite PSNR (the same picture) is null.
+Json errors_json(const LedgerRow& row) {
+  Json json = Json::object();
+  if (row.flip) json["flip"] = pair_json(*row.flip);
+  if (row.rmse) json["rmse"] = *row.rmse;
+  if (row.rmse_p99) json["rmse_p99"] = *row.rmse_p99;
+  if (row.psnr_db) json["psnr_db"] = std::isfinite(*row.psnr_db) ? Json(*row.psnr_db) : Json(nullptr);
+  if (row.temporal) json["temporal"] = pair_json(*row.temporal);
+  return json;
+}
+
+void read_errors(const Json& json, LedgerRow& row) {
+  if (json.contains("flip")) row.flip = pair_of(json["flip"]);
+  if (json.contains("rmse")) row.rmse = json["rmse"].get<double>();
+  if (json.contains("rmse_p99")) row.rmse_p99 = json["rmse_p99"].get<double>();
+  if (json.contains("psnr_db"))
+    row.psnr_db = json["psnr_db"].is_null() ? std::numeric_limits<double>::infinity() : json["psnr_db"].get<double>();
+  if (json.contains("temporal")) row.temporal = pair_of(json["temporal"]);
+}
+
+Json json_of(const LedgerRow& row) {
+  Json json = {{"knob", row.knob}, {"value", row.value}, {"default", row.is_default}};
+  json["reference"] = {{"kind", row.reference_kind}, {"name", row.reference_name}, {"noise", row.reference_noise}};
+  json["error"] = errors_json(row);
+  json["below_noise"] = row.below_noise;
+  json["ms"] = {{"median", row.ms.median_ms}, {"p10", row.ms.p10_ms}, {"p90", row.ms.p90_ms}};
+  json["cpu_ms"] = row.cpu_ms;
+  json["gpu_ms"] = row.gpu_ms;
+  json["ratio"] = row.ratio;
+  json["gpu_bytes"] = row.gpu_bytes;
+  json["front"] = row.on_front;
+  return json;
+}
+
+LedgerRow row_of(const Json& json) {
+  LedgerRow row;
+  row.knob = json.at("knob").get<std::string>();
+  row.value = json.at("value").get<std::string>();
+  row.is_default = json.at("default").get<bool>();
+  const Json& reference = json.at("reference");
+  row.reference_kind = reference.at("kind").get<std::string>();
+  row.reference_name = reference.at("name").get<std::string>();
+  row.reference_noise = reference.at("noise").get<double>();
+  read_errors(json.at("error"), row);
+  row.below_noise = json.at("below_noise").get<bool>();
+  const Json& ms = json.at("ms");
+  row.ms = {ms.at("median").get<double>(), ms.at("p10").get<double>(), ms.at("p90").get<double>()};
+  row.cpu_ms = json.at("cpu_ms").get<double>();
+  row.gpu_ms = json.at("gpu_ms").get<double>();
+  row.ratio = json.at("ratio").get<double>();
+  row.gpu_bytes = json.at("gpu_bytes").get<std::uint64_t>();
+  row.on_front = json.at("front").get<bool>();
+  return row;
+}
+
+Json json_of(const LedgerHeader& header) {
+  Json json = {{"version", 1}, {"scene", header.scene}, {"scene_hash", header.scene_hash}, {"camera", header.camera}};
+  json["time_s"] = header.time_s;
+  json["device"] = {{"name", header.device},
+                    {"driver", header.driver},
+                    {"type", header.device_type},
+                    {"subgroup_size", header.subgroup_size}};
+  json["size"] = {header.width, header.height};
+  json["gloam"] = {{"version", header.version}, {"build", header.build}};
+  json["quick"] = header.quick;
+  json["frames"] = header.frames;
+  json["reference_samples"] = header.samples;
+  return json;
+}
+
+LedgerHeader header_of(const Json& json) {
+  LedgerHeader header;
+  header.scene = json.at("scene").get<std::string>();
+  header.scene_hash = json.at("scene_hash").get<std::string>();
+  header.camera = json.at("camera").get<std::string>();
+  header.time_s = json.at("time_s").get<double>();
+  const Json& device = json.at("device");
+  header.device = device.at("name").get<std::string>();
+  header.driver = device.at("driver").get<std::string>();
+  header.device_type = device.at("type").get<std::string>();
+  header.subgroup_size = device.at("subgroup_size").get<std::uint32_t>();
+  header.width = json.at("size").at(0).get<std::uint32_t>();
+  header.height = json.at("size").at(1).get<std::uint32_t>();
+  header.version = json.at("gloam").at("version").get<std::string>();
+  header.build = json.at("gloam").at("build").get<std::string>();
+  header.quick = json.at("quick").get<bool>();
+  header.frames = json.at("frames").get<std::uint32_t>();
+  header.samples = json.at("reference_samples").get<std::uint32_t>();
+  return header;
+}
+
+/// `read(json)`, or why the text is not what it should be.
+template <class Read>
+auto parse(std::string_view text, const char* what, Read&& read) -> Result<decltype(read(Json()))> {
+  try {
+    return read(Json::parse(text));
+  } catch (const Json::exception& fault) {
+    return Error{ErrorKind::input, std::string("is no ") + what + ": " + fault.what()};
+  }
+}
+
+std::string dump(const Json& json, int indent) { return json.dump(indent, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string row_json(const LedgerRow& row) { return dump(json_of(row), -1); }
+
+Result<LedgerRow> parse_row_json(std::string_view text) { return parse(text, "row of a ledger", row_of); }
+
+std::string ledger_json(const Ledger& ledger) {
+  Json json = json_of(ledger.header);
+  json["rows"] = Json::array();
+  for (const LedgerRow& row : ledger.rows) json["rows"].push_back(json_of(row));
+  json["skipped"] = Json::array();
+  for (const SkippedKnob& skipped : ledger.skipped)
+    json["skipped"].push_back({{"knob", skipped.knob}, {"reason", skipped.reason}});
+  return dump(json, 2) + "\n";
+}
+
+Result<Ledger> parse_ledger_json(std::string_view text) {
+  auto parsed = parse(text, "ledger", [](const Json& json) -> std::optional<Ledger> {
+    if (json.at("version").get<int>() != 1) return std::nullopt;
+    Ledger ledger = {.header = header_of(json)};
+    for (const Json& row : json.at("rows")) ledger.rows.push_back(row_of(row));
+    for (const Json& skipped : json.at("skipped"))
+      ledger.skipped.push_back({skipped.at("knob").get<std::string>(), skipped.at("reason").get<std::string>()});
+    return ledger;
+  });
+  if (!parsed) return parsed.error();
+  if (!*parsed) return Error{ErrorKind::input, "is a ledger of another version; this program reads version 1"};
+  return std::move(**parsed);
+}
+
+}  // namespace gloam

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "modules/accuracy/outputs.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::size_t kColumns = 10;
+using Line = std::array<std::string, kColumns>;
+const Line kTitles = {"", "knob", "value", "FLIP mean", "FLIP p99", "RMSE", "ms", "p10-p90", "ratio", "MiB"};
+constexpr std::size_t kTextColumns = 3;  // aligned to the left
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  char buffer[96];
+  std::snprintf(buffer, sizeof(buffer), format, values...);
+  return buffer;
+}
+
+std::string error_text(const LedgerRow& row, const std::optional<double>& value) {
+  if (!value) return "-";
+  return row.below_noise ? "< noise" : formatted("%.6f", *value);
+}
+
+Line line_of(const LedgerRow& row) {
+  const auto mean = row.flip ? std::optional(row.flip->mean) : std::nullopt;
+  const auto p99 = row.flip ? std::optional(row.flip->p99) : std::nullopt;
+  return {row.on_front ? "*" : "",
+          row.knob,
+          row.value + (row.is_default ? " (default)" : ""),
+          error_text(row, mean),
+          error_text(row, p99),
+          error_text(row, row.rmse),
+          formatted("%.3f", row.ms.median_ms),
+          formatted("%.3f-%.3f", row.ms.p10_ms, row.ms.p90_ms),
+          formatted("%.2f", row.ratio),
+          formatted("%.1f", static_cast<double>(row.gpu_bytes) / (1024.0 * 1024.0))};
+}
+
+std::string aligned(const Line& line, const std::array<std::size_t, kColumns>& widths) {
+  std::string text;
+  for (std::size_t i = 0; i < kColumns; ++i) {
+    const std::string gap(widths[i] - line[i].size(), ' ');
+    text += (i > 0 ? "  " : "") + (i < kTextColumns ? line[i] + gap : gap + line[i]);
+  }
+  return text.erase(text.find_last_not_of(' ') + 1) + "\n";
+}
+
+std::string head(const LedgerHeader& header) {
+  std::string text = header.scene + " (" + header.scene_hash + "), " + formatted("%ux%u", header.width, header.height);
+  if (!header.camera.empty()) text += ", camera " + header.camera;
+  text += formatted(", time %g s\n", header.time_s);
+  text += header.device + ", " + header.driver + "; gloam " + header.version + " (" + header.build + ")\n";
+  if (header.quick)
+    text += formatted("quick: %ux%u, %u frames a value, %u reference samples: errors and times are noisier\n",
+                      header.width, header.height, header.frames, header.samples);
+  return text;
+}
+
+}  // namespace
+
+std::string ledger_table(const Ledger& ledger) {
+  std::vector<Line> lines = {kTitles};
+  for (const LedgerRow& row : ledger.rows) lines.push_back(line_of(row));
+  std::array<std::size_t, kColumns> widths{};
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text = head(ledger.header);
+  for (const Line& line : lines) text += aligned(line, widths);
+  std::string judged;
+  for (const LedgerRow& row : ledger.rows) {
+    const std::string by = row.reference_kind.empty() ? "no reference: no value is more right than another"
+                                                      : row.reference_kind + ", " + row.reference_name;
+    const std::string line = row.knob + ": " + by + "\n";
+    if (judged.find(line) == std::string::npos) judged += line;
+  }
+  text += judged;
+  for (const SkippedKnob& skipped : ledger.skipped) text += skipped.knob + ": not measured: " + skipped.reason + "\n";
+  return text +
+         "* no other value of the knob is as cheap and as right; RMSE in cd/m²; ms is CPU and GPU work of a frame\n";
+}
+
+}  // namespace gloam

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/accuracy/ledger/measurement_store.h"
+
+#include "modules/accuracy/ledger/row_json.h"
+#include "modules/accuracy/ledger/sealed_file.h"
+
+namespace gloam {
+
+std::string MeasurementStore::path_of(const std::string& identity) const {
+  return folder_ + "/" + hash_text(identity) + ".row";
+}
+
+std::optional<LedgerRow> MeasurementStore::load(const std::string& identity) const {
+  const std::optional<std::string> payload = read_sealed(path_of(identity), identity);
+  if (!payload) return std::nullopt;
+  auto row = parse_row_json(*payload);
+  if (!row) return std::nullopt;
+  return std::move(row).value();
+}
+
+Status MeasurementStore::save(const std::string& identity, const LedgerRow& row) const {
+  return write_sealed(path_of(identity), identity, row_json(row));
+}
+
+}  // namespace gloam

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace gloam::flip {
+
+struct Plane {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<double> values;
+};
+
+/// Weights of the offsets −radius…radius of a one-dimensional filter.
+struct Kernel {
+  int radius = 0;
+  std::vector<double> weights;
+};
+
+/// Correlation along rows or columns; beyond its border a plane goes on as its last pixel.
+[[nodiscard]] Plane filter_rows(const Plane& plane, const Kernel& kernel);
+[[nodiscard]] Plane filter_columns(const Plane& plane, const Kernel& kernel);
+
+/// A contrast sensitivity as a sum of two-dimensional Gaussians, each the product of its kernel along rows and along columns. Kernels have
+/// the sum 1, and so have the shares.
+struct SensitivityFilter {
+  struct Part {
+    double share = 0.0;
+    Kernel kernel;
+  };
+  std::vector<Part> parts;
+};
+
+enum class Opponent { luminance, red_green, blue_yellow };
+[[nodiscard]] SensitivityFilter sensitivity_filter(Opponent channel, double pixels_per_degree);
+[[nodiscard]] Plane apply(const SensitivityFilter& filter, const Plane& plane);
+
+/// The Gaussian that features are looked for at, with its first and second derivative: positive weights of a derivative have the sum 1,
+/// negative ones the sum −1.
+struct FeatureKernels {
+  Kernel gaussian;
+  Kernel edge;
+  Kernel point;
+};
+[[nodiscard]] FeatureKernels feature_kernels(double pixels_per_degree);
+
+}  // namespace gloam::flip

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/accuracy/metrics/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "engine/core/assert.h"
+
+namespace gloam {
+
+double quantile(std::vector<double>& values, double fraction) {
+  GLOAM_ASSERT(!values.empty(), "a quantile is of at least one value");
+  GLOAM_ASSERT(fraction >= 0.0 && fraction <= 1.0, "a quantile's fraction lies in 0…1");
+  const double position = fraction * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::ptrdiff_t>(std::floor(position));
+  const auto at = values.begin() + below;
+  std::nth_element(values.begin(), at, values.end());
+  const double weight = position - static_cast<double>(below);
+  if (weight == 0.0) return *at;
+  const double next = *std::min_element(at + 1, values.end());
+  return *at + (next - *at) * weight;
+}
+
+ErrorStatistics statistics_of(std::span<const float> errors) {
+  if (errors.empty()) return {};
+  std::vector<double> values(errors.begin(), errors.end());
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  ErrorStatistics statistics = {.mean = sum / static_cast<double>(values.size()), .min = *low, .max = *high};
+  statistics.p99 = quantile(values, 0.99);
+  return statistics;
+}
+
+}  // namespace gloam

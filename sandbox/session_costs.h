@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "modules/accuracy/module.h"
+#include "sandbox/options.h"
+#include "sandbox/session.h"
+
+namespace gloam {
+
+/// The frames of a session, for the cost ledger: frame `index` is at --time plus so many --dt.
+class SessionCosts final : public CostSubject {
+ public:
+  /// Both must outlive it.
+  SessionCosts(Session& session, const Options& options);
+
+  [[nodiscard]] KnobRegistry& knobs() override { return session_.renderer->knobs(); }
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override;
+  [[nodiscard]] Result<FrameCost> draw(std::uint32_t index) override;
+  [[nodiscard]] Result<FramePictures> read() override;
+  [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo& reference, const FramePictures& frame,
+                                                     std::uint32_t samples) override;
+
+ private:
+  Session& session_;
+  const Options& options_;
+  ViewRequest request_;
+};
+
+}  // namespace gloam

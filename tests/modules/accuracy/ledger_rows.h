@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <random>
+#include <string>
+
+#include "modules/accuracy/outputs.h"
+
+namespace gloam::test {
+
+/// A row with a number of its own in every field.
+inline LedgerRow full_row(std::uint32_t seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(0.0, 1.0);
+  LedgerRow row = {.knob = "shadows.filter", .value = "exact \"16\", wide", .is_default = seed % 2 == 0};
+  row.reference_kind = "traced";
+  row.reference_name = "visibility, traced\nin jobs";
+  row.reference_noise = number(random) * 1e-4;
+  row.below_noise = seed % 3 == 0;
+  row.flip = ErrorPair{number(random), number(random)};
+  row.rmse = number(random) * 1e3;
+  row.rmse_p99 = number(random) * 1e-9;
+  row.psnr_db = number(random) * 60.0;
+  row.temporal = ErrorPair{number(random), number(random)};
+  row.ms = {number(random) * 10.0, number(random), number(random) * 100.0};
+  row.cpu_ms = number(random);
+  row.gpu_ms = number(random);
+  row.ratio = number(random) * 2.0;
+  row.gpu_bytes = 0x1234567890abcull + seed;
+  row.on_front = seed % 2 == 1;
+  return row;
+}
+
+/// A row without a reference, and so without errors.
+inline LedgerRow bare_row() {
+  LedgerRow row = {.knob = "lighting.tone_map", .value = "filmic", .is_default = true};
+  row.ms = {1.0, 0.5, 2.0};
+  return row;
+}
+
+inline Ledger full_ledger() {
+  Ledger ledger;
+  ledger.header = {.scene = "scenes/court \"yard\".gltf",
+                   .scene_hash = "0123456789abcdef",
+                   .camera = "lawn",
+                   .time_s = 0.1,
+                   .device = "a device",
+                   .driver = "a driver, 1.2",
+                   .device_type = "cpu",
+                   .subgroup_size = 8,
+                   .width = 320,
+                   .height = 180,
+                   .version = "0.1.0",
+                   .build = "fedcba9876543210",
+                   .quick = true,
+                   .frames = 5,
+                   .samples = 64};
+  for (std::uint32_t seed = 1; seed < 5; ++seed) ledger.rows.push_back(full_row(seed));
+  ledger.rows.push_back(bare_row());
+  ledger.rows.back().flip = ErrorPair{};
+  ledger.rows.back().psnr_db = std::numeric_limits<double>::infinity();
+  ledger.rows.push_back(bare_row());
+  ledger.skipped = {{"grass.lod", "the scene does not call for grass: no patch"}};
+  return ledger;
+}
+
+}  // namespace gloam::test

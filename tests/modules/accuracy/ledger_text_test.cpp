@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "modules/accuracy/ledger/row_json.h"
+#include "modules/accuracy/outputs.h"
+#include "tests/modules/accuracy/ledger_rows.h"
+
+namespace gloam {
+namespace {
+
+using test::bare_row;
+using test::full_ledger;
+using test::full_row;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(ledger_json, reads_back_what_it_wrote) {
+  const Ledger ledger = full_ledger();
+  const auto read = parse_ledger_json(ledger_json(ledger));
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(read->header, ledger.header);
+  EXPECT_EQ(read->rows, ledger.rows);
+  EXPECT_EQ(read->skipped, ledger.skipped);
+}
+
+TEST(ledger_json, reads_back_rows_one_by_one) {
+  for (std::uint32_t seed = 1; seed < 50; ++seed) {
+    const auto read = parse_row_json(row_json(full_row(seed)));
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    EXPECT_EQ(*read, full_row(seed));
+  }
+  EXPECT_EQ(*parse_row_json(row_json(bare_row())), bare_row());
+  EXPECT_THAT(row_json(full_row()), Not(HasSubstr("\n")));
+}
+
+TEST(ledger_json, has_what_scripts_look_for) {
+  const auto json = nlohmann::json::parse(ledger_json(full_ledger()));
+  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["size"], nlohmann::json::array({320, 180}));
+  EXPECT_EQ(json["quick"], true);
+  EXPECT_EQ(json["device"]["driver"], "a driver, 1.2");
+  EXPECT_EQ(json["rows"][0]["reference"]["kind"], "traced");
+  EXPECT_TRUE(json["rows"][4]["error"]["psnr_db"].is_null()) << "the same picture has no finite ratio";
+  EXPECT_TRUE(json["rows"][5]["error"].empty()) << "no reference, no errors";
+}
+
+TEST(ledger_json, says_what_is_wrong_with_a_text) {
+  for (const std::string text : {"", "{", "[]", "3", "{}", R"({"version": 1})", R"({"version": 1, "scene": 7})"}) {
+    const auto read = parse_ledger_json(text);
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.error().kind, ErrorKind::input);
+    EXPECT_THAT(read.error().message, HasSubstr("is no ledger"));
+  }
+  EXPECT_THAT(parse_ledger_json(R"({"version": 2})").error().message, HasSubstr("another version"));
+  EXPECT_FALSE(parse_row_json("{}").ok());
+}
+
+TEST(ledger_json, survives_cutting_at_every_byte) {
+  const std::string text = row_json(full_row());
+  for (std::size_t size = 0; size < text.size(); ++size)
+    EXPECT_FALSE(parse_row_json(text.substr(0, size)).ok()) << size;
+}
+
+/// Cells of RFC 4180 text, line by line.
+std::vector<std::vector<std::string>> csv_cells(const std::string& text) {
+  std::vector<std::vector<std::string>> lines(1, std::vector<std::string>(1));
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    std::string& cell = lines.back().back();
+    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
+      cell += c;
+      ++i;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (!quoted && c == ',') {
+      lines.back().emplace_back();
+    } else if (!quoted && c == '\n') {
+      lines.emplace_back(1);
+    } else {
+      cell += c;
+    }
+  }
+  lines.pop_back();
+  return lines;
+}
+
+TEST(ledger_csv, reads_back_what_it_wrote) {
+  const Ledger ledger = full_ledger();
+  const auto lines = csv_cells(ledger_csv(ledger));
+  ASSERT_EQ(lines.size(), ledger.rows.size() + 1);
+  const auto& names = lines[0];
+  for (std::size_t i = 0; i < ledger.rows.size(); ++i) {
+    const LedgerRow& row = ledger.rows[i];
+    ASSERT_EQ(lines[i + 1].size(), names.size());
+    const auto cell = [&](const std::string& name) {
+      const auto found = std::find(names.begin(), names.end(), name);
+      return found == names.end() ? "no column " + name : lines[i + 1][static_cast<std::size_t>(found - names.begin())];
+    };
+    const auto expect_number = [&](const std::string& name, const std::optional<double>& value) {
+      EXPECT_EQ(cell(name).empty(), !value) << name;
+      EXPECT_EQ(std::strtod(cell(name).c_str(), nullptr), value.value_or(0.0)) << name;
+    };
+    EXPECT_EQ(cell("knob"), row.knob);
+    EXPECT_EQ(cell("value"), row.value);
+    EXPECT_EQ(cell("default"), row.is_default ? "1" : "0");
+    EXPECT_EQ(cell("reference_kind"), row.reference_kind);
+    EXPECT_EQ(cell("reference"), row.reference_name);
+    EXPECT_EQ(cell("below_noise"), row.below_noise ? "1" : "0");
+    EXPECT_EQ(cell("front"), row.on_front ? "1" : "0");
+    EXPECT_EQ(cell("gpu_bytes"), std::to_string(row.gpu_bytes));
+    expect_number("reference_noise", row.reference_noise);
+    expect_number("flip_mean", row.flip ? std::optional(row.flip->mean) : std::nullopt);
+    expect_number("flip_p99", row.flip ? std::optional(row.flip->p99) : std::nullopt);
+    expect_number("rmse", row.rmse);
+    expect_number("rmse_p99", row.rmse_p99);
+    expect_number("psnr_db", row.psnr_db);
+    expect_number("temporal_mean", row.temporal ? std::optional(row.temporal->mean) : std::nullopt);
+    expect_number("temporal_p99", row.temporal ? std::optional(row.temporal->p99) : std::nullopt);
+    expect_number("median_ms", row.ms.median_ms);
+    expect_number("p10_ms", row.ms.p10_ms);
+    expect_number("p90_ms", row.ms.p90_ms);
+    expect_number("cpu_ms", row.cpu_ms);
+    expect_number("gpu_ms", row.gpu_ms);
+    expect_number("ratio", row.ratio);
+  }
+}
+
+TEST(ledger_table, has_a_line_a_row_and_marks_the_front) {
+  Ledger ledger = full_ledger();
+  const std::string table = ledger_table(ledger);
+  EXPECT_THAT(table, HasSubstr("320x180, camera lawn, time 0.1 s"));
+  EXPECT_THAT(table, HasSubstr("a device, a driver, 1.2; gloam 0.1.0 (fedcba9876543210)"));
+  EXPECT_THAT(table, HasSubstr("\n*  shadows.filter"));
+  EXPECT_THAT(table, HasSubstr("filmic (default)"));
+  EXPECT_THAT(table, HasSubstr("< noise"));
+  EXPECT_THAT(table, HasSubstr("lighting.tone_map: no reference"));
+  EXPECT_THAT(table, HasSubstr("grass.lod: not measured: the scene does not call for grass"));
+  EXPECT_THAT(table, HasSubstr("quick: 320x180, 5 frames a value, 64 reference samples"));
+  ledger.header.quick = false;
+  EXPECT_THAT(ledger_table(ledger), Not(HasSubstr("quick")));
+}
+
+TEST(ledger_table, of_nothing_is_a_head) { EXPECT_THAT(ledger_table({}), HasSubstr("knob")); }
+
+}  // namespace
+}  // namespace gloam

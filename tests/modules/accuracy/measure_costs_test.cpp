@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "modules/accuracy/module.h"
+#include "tests/modules/accuracy/temporary_folder.h"
+#include "tests/support/expect_assert.h"
+
+namespace gloam {
+namespace {
+
+using test::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr std::uint32_t kSide = 4;
+
+/// A renderer on paper: "samples" makes the picture brighter by 1/samples and takes that many milliseconds; "look" is a matter of taste.
+class FakeSubject final : public CostSubject {
+ public:
+  FakeSubject() {
+    Knob samples = {.name = "fake.samples", .module = "fake", .type = Knob::Type::integer, .min = 1, .max = 64};
+    samples.default_number = 4;
+    samples.ledger_values = {1, 4, 16};
+    samples.exact = "64";
+    knobs_.add(samples);
+    knobs_.add({.name = "fake.look", .module = "fake", .choices = {"warm", "cold"}});
+  }
+
+  [[nodiscard]] KnobRegistry& knobs() override { return knobs_; }
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override { return references_; }
+  [[nodiscard]] Result<FrameCost> draw(std::uint32_t index) override {
+    ++frames_drawn;
+    index_ = index;
+    if (fail_after > 0 && frames_drawn > fail_after) return Error{ErrorKind::failed, "the device is lost"};
+    return FrameCost{.cpu_ms = 1.0, .gpu_ms = knobs_.number("fake.samples"), .gpu_bytes = 100};
+  }
+  [[nodiscard]] Result<FramePictures> read() override { return pictures(brightness()); }
+  [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo&, const FramePictures& frame,
+                                                     std::uint32_t samples) override {
+    ++references_drawn;
+    return reference(frame, samples);
+  }
+
+  [[nodiscard]] double brightness() const {
+    const double error = 1.0 / knobs_.number("fake.samples");
+    // The exact value stands still; others flicker.
+    return 0.25 + (knobs_.text("fake.samples") == "64" ? 0.0 : error * (index_ % 2 == 0 ? 0.5 : 0.25));
+  }
+  static FramePictures pictures(double brightness) {
+    const auto encoded = static_cast<std::uint8_t>(std::lround(255.0 * brightness));
+    return {.linear = {kSide, kSide, std::vector<float>(kSide * kSide * 4, static_cast<float>(brightness))},
+            .picture = {kSide, kSide, std::vector<std::uint8_t>(kSide * kSide * 4, encoded)}};
+  }
+
+  int frames_drawn = 0;
+  int references_drawn = 0;
+  int fail_after = 0;
+  std::vector<ReferenceInfo> references_;
+  std::function<Result<FramePictures>(const FramePictures&, std::uint32_t)> reference;
+
+ private:
+  KnobRegistry knobs_;
+  std::uint32_t index_ = 0;
+};
+
+class Progress final : public CostProgress {
+ public:
+  void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) override {
+    lines.push_back(knob + "=" + value + " " + std::to_string(done) + "/" + std::to_string(total));
+  }
+  void finished(const LedgerRow&, bool resumed) override { ++(resumed ? found : measured); }
+
+  std::vector<std::string> lines;
+  int measured = 0;
+  int found = 0;
+};
+
+class MeasureCosts : public ::testing::Test {
+ protected:
+  MeasureCosts() {
+    request_.header = {.scene = "s", .scene_hash = "h", .width = kSide, .height = kSide, .frames = 5, .samples = 64};
+    request_.knobs = {"fake.samples"};
+    request_.folder = folder_.path();
+  }
+  Ledger measure() {
+    progress_ = {};
+    auto ledger = measure_costs(request_, subject_, progress_);
+    EXPECT_TRUE(ledger.ok()) << ledger.error().message;
+    return ledger.ok() ? *ledger : Ledger{};
+  }
+  void judge_by(ReferenceInfo reference) { subject_.references_ = {std::move(reference)}; }
+
+  TemporaryFolder folder_;
+  CostRequest request_;
+  FakeSubject subject_;
+  Progress progress_;
+};
+
+TEST_F(MeasureCosts, holds_every_value_against_the_most_exact_one) {
+  const Ledger ledger = measure();
+  ASSERT_EQ(ledger.rows.size(), 4u);
+  for (const LedgerRow& row : ledger.rows) {
+    EXPECT_EQ(row.reference_kind, "brute force");
+    EXPECT_EQ(row.reference_name, "fake.samples=64");
+    const double samples = std::stod(row.value);
+    EXPECT_NEAR(*row.rmse, row.value == "64" ? 0.0 : 0.5 / samples, 1e-6) << row.value;
+    EXPECT_DOUBLE_EQ(row.ms.median_ms, 1.0 + samples);
+    EXPECT_DOUBLE_EQ(row.gpu_ms, samples);
+    EXPECT_DOUBLE_EQ(row.ratio, (1.0 + samples) / 5.0);
+    EXPECT_EQ(row.is_default, row.value == "4");
+    EXPECT_EQ(row.gpu_bytes, 100u);
+    EXPECT_TRUE(row.on_front) << "each is dearer and righter than the one before";
+    EXPECT_FALSE(row.temporal);
+  }
+  EXPECT_GT(ledger.rows[0].flip->mean, ledger.rows[1].flip->mean);
+  EXPECT_EQ(ledger.rows[3].flip->mean, 0.0);
+}
+
+TEST_F(MeasureCosts, leaves_the_users_value_and_tells_progress) {
+  ASSERT_TRUE(subject_.knobs().set("fake.samples", "7").ok());
+  static_cast<void>(measure());
+  EXPECT_EQ(subject_.knobs().text("fake.samples"), "7");
+  EXPECT_THAT(progress_.lines,
+              ElementsAre("fake.samples=1 0/4", "fake.samples=4 1/4", "fake.samples=16 2/4", "fake.samples=64 3/4"));
+  EXPECT_EQ(progress_.measured, 4);
+}
+
+TEST_F(MeasureCosts, a_second_run_draws_nothing) {
+  const Ledger first = measure();
+  const int drawn = subject_.frames_drawn;
+  const Ledger second = measure();
+  EXPECT_EQ(subject_.frames_drawn, drawn);
+  EXPECT_EQ(progress_.found, 4);
+  EXPECT_EQ(second.rows, first.rows);
+}
+
+TEST_F(MeasureCosts, goes_on_where_it_was_cut_off) {
+  subject_.fail_after = 70;  // in the third row
+  const auto broken = measure_costs(request_, subject_, progress_);
+  ASSERT_FALSE(broken.ok());
+  EXPECT_THAT(broken.error().message, HasSubstr("fake.samples=16: the device is lost"));
+  EXPECT_EQ(progress_.measured, 2);
+  EXPECT_EQ(subject_.knobs().text("fake.samples"), "4") << "put back after a failure, too";
+  subject_.fail_after = 0;
+  static_cast<void>(measure());
+  EXPECT_EQ(progress_.found, 2);
+  EXPECT_EQ(progress_.measured, 2);
+}
+
+TEST_F(MeasureCosts, measures_again_when_anything_a_row_depends_on_has_changed) {
+  static_cast<void>(measure());
+  const std::vector<std::function<void()>> changes = {
+      [&] { request_.header.scene_hash = "other"; },
+      [&] { request_.header.width = kSide + 1; },
+      [&] { request_.header.camera = "other"; },
+      [&] { request_.header.time_s = 1e-9; },
+      [&] { request_.header.device = "other"; },
+      [&] { request_.header.driver = "other"; },
+      [&] { request_.header.version = "other"; },
+      [&] { request_.header.build = "other"; },
+      [&] { request_.header.frames = 6; },
+      [&] { request_.header.samples = 65; },
+      [&] { request_.conditions = "seed 2"; },
+      [&] { request_.sequence = 2; },
+      [&] { EXPECT_TRUE(subject_.knobs().set("fake.look", "cold").ok()); }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    changes[i]();
+    static_cast<void>(measure());
+    EXPECT_EQ(progress_.measured, 4) << "change " << i;
+  }
+  ASSERT_TRUE(subject_.knobs().set("fake.samples", "9").ok());
+  static_cast<void>(measure());
+  EXPECT_EQ(progress_.found, 4) << "how the measured knob itself was set does not matter";
+}
+
+TEST_F(MeasureCosts, a_knob_without_a_reference_has_times_alone) {
+  request_.knobs = {"fake.look"};
+  const Ledger ledger = measure();
+  ASSERT_EQ(ledger.rows.size(), 2u);
+  for (const LedgerRow& row : ledger.rows) {
+    EXPECT_EQ(row.reference_kind, "");
+    EXPECT_FALSE(row.error());
+    EXPECT_FALSE(row.on_front);
+    EXPECT_GT(row.ms.median_ms, 0.0);
+  }
+  EXPECT_THAT(ledger_table(ledger), HasSubstr("fake.look: no reference"));
+}
+
+TEST_F(MeasureCosts, a_sequence_shows_flicker) {
+  request_.sequence = 3;
+  const Ledger ledger = measure();
+  EXPECT_NEAR(ledger.rows[0].temporal->mean, 0.25, 1e-6);
+  EXPECT_NEAR(ledger.rows[2].temporal->mean, 0.25 / 16.0, 1e-6);
+  EXPECT_EQ(ledger.rows[3].temporal->mean, 0.0);
+  EXPECT_NEAR(*ledger.rows[0].rmse, 0.5, 1e-6) << "the picture is of the first moment";
+}
+
+TEST_F(MeasureCosts, a_modules_reference_serves_all_values_and_tells_its_noise) {
+  judge_by({.knob = "fake.samples", .kind = "traced", .name = "sums", .samples = true});
+  subject_.reference = [](const FramePictures& frame, std::uint32_t samples) -> Result<FramePictures> {
+    EXPECT_NEAR(frame.linear.rgba[0], 0.25f + 0.125f, 1e-6f) << "computed from the default's frame";
+    FramePictures result = FakeSubject::pictures(0.25 + 1.0 / samples);
+    result.picture = {};
+    return result;
+  };
+  const Ledger ledger = measure();
+  EXPECT_EQ(subject_.references_drawn, 2) << "half and all samples";
+  for (const LedgerRow& row : ledger.rows) {
+    EXPECT_EQ(row.reference_kind, "traced");
+    EXPECT_NEAR(row.reference_noise, 1.0 / 32.0 - 1.0 / 64.0, 1e-6);
+    EXPECT_FALSE(row.flip) << "the reference has no picture";
+  }
+  EXPECT_NEAR(*ledger.rows[0].rmse, 0.5 - 1.0 / 64.0, 1e-6);
+  EXPECT_FALSE(ledger.rows[0].below_noise);
+  EXPECT_NEAR(*ledger.rows[3].rmse, 1.0 / 64.0, 1e-6);
+  request_.header.frames = 6;  // rows are measured again …
+  static_cast<void>(measure());
+  EXPECT_EQ(subject_.references_drawn, 2) << "… the reference is not computed again";
+}
+
+TEST_F(MeasureCosts, an_error_below_the_references_noise_says_so) {
+  judge_by({.knob = "fake.samples", .kind = "traced", .name = "sums", .samples = true});
+  subject_.reference = [](const FramePictures&, std::uint32_t samples) -> Result<FramePictures> {
+    return FakeSubject::pictures(0.25 + 8.0 / samples);
+  };
+  const Ledger ledger = measure();
+  EXPECT_FALSE(ledger.rows[0].below_noise);
+  EXPECT_TRUE(ledger.rows[1].below_noise) << "wrong by nothing, 0.125 of noise";
+}
+
+TEST_F(MeasureCosts, a_twin_follows_each_value) {
+  judge_by({.knob = "fake.samples", .kind = "double precision", .name = "twin", .follows_value = true});
+  subject_.reference = [](const FramePictures& frame, std::uint32_t) -> Result<FramePictures> {
+    FramePictures result = FakeSubject::pictures(frame.linear.rgba[0]);
+    result.linear = {};
+    return result;
+  };
+  const Ledger ledger = measure();
+  EXPECT_EQ(subject_.references_drawn, 4);
+  for (const LedgerRow& row : ledger.rows) {
+    EXPECT_EQ(row.flip->mean, 0.0);
+    EXPECT_EQ(row.reference_noise, 0.0);
+    EXPECT_FALSE(row.below_noise);
+    EXPECT_FALSE(row.rmse);
+  }
+}
+
+TEST_F(MeasureCosts, a_reference_that_fails_names_the_row) {
+  judge_by({.knob = "fake.samples", .kind = "traced", .name = "sums"});
+  subject_.reference = [](const FramePictures&, std::uint32_t) -> Result<FramePictures> {
+    return Error{ErrorKind::failed, "out of memory"};
+  };
+  const auto ledger = measure_costs(request_, subject_, progress_);
+  ASSERT_FALSE(ledger.ok());
+  EXPECT_EQ(ledger.error().message, "fake.samples=1: out of memory");
+}
+
+TEST_F(MeasureCosts, of_no_knobs_is_an_empty_ledger) {
+  request_.knobs = {};
+  request_.skipped = {{"fake.look", "not called for"}};
+  const Ledger ledger = measure();
+  EXPECT_TRUE(ledger.rows.empty());
+  EXPECT_EQ(ledger.skipped, request_.skipped);
+  EXPECT_EQ(subject_.frames_drawn, 0);
+}
+
+TEST_F(MeasureCosts, values_of_a_ledger_hold_the_default_and_the_exact_one_once) {
+  EXPECT_THAT(ledger_values(*subject_.knobs().find("fake.samples")), ElementsAre("1", "4", "16", "64"));
+  EXPECT_THAT(ledger_values(*subject_.knobs().find("fake.look")), ElementsAre("warm", "cold"));
+  Knob bare = {.name = "bare", .type = Knob::Type::number, .min = 0.0, .max = 1.0, .default_number = 0.5};
+  EXPECT_THAT(ledger_values(bare), ElementsAre("0.5"));
+}
+
+TEST_F(MeasureCosts, knobs_are_chosen_by_name) {
+  const KnobRegistry& knobs = subject_.knobs();
+  EXPECT_THAT(*choose_knobs(knobs, ""), ElementsAre("fake.samples", "fake.look"));
+  EXPECT_THAT(*choose_knobs(knobs, "fake.look,fake.samples,fake.look"), ElementsAre("fake.look", "fake.samples"));
+  for (const char* list : {"nope", "fake.look,", ",fake.look", "fake.look,,fake.samples", "fake.look fake.samples"}) {
+    const auto chosen = choose_knobs(knobs, list);
+    ASSERT_FALSE(chosen.ok()) << list;
+    EXPECT_EQ(chosen.error().kind, ErrorKind::usage);
+    EXPECT_THAT(chosen.error().message, HasSubstr("there are fake.samples, fake.look"));
+  }
+}
+
+}  // namespace
+}  // namespace gloam

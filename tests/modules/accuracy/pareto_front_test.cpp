@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "modules/accuracy/outputs.h"
+
+namespace gloam {
+namespace {
+
+LedgerRow point(const std::string& knob, double error, double ms) {
+  LedgerRow row = {.knob = knob};
+  row.flip = ErrorPair{.mean = error};
+  row.ms.median_ms = ms;
+  return row;
+}
+
+std::vector<bool> front_of(std::vector<LedgerRow> rows) {
+  mark_pareto_front(rows);
+  std::vector<bool> front;
+  for (const LedgerRow& row : rows) front.push_back(row.on_front);
+  return front;
+}
+
+TEST(pareto_front, keeps_what_nothing_else_beats) {
+  EXPECT_EQ(front_of({point("a", 0.0, 9.0), point("a", 0.1, 5.0), point("a", 0.2, 6.0), point("a", 0.3, 1.0)}),
+            (std::vector<bool>{true, true, false, true}));
+}
+
+TEST(pareto_front, is_of_each_knob) {
+  EXPECT_EQ(front_of({point("a", 0.5, 9.0), point("b", 0.0, 1.0)}), (std::vector<bool>{true, true}));
+}
+
+TEST(pareto_front, keeps_equals_and_of_equal_errors_the_cheapest) {
+  EXPECT_EQ(front_of({point("a", 0.1, 2.0), point("a", 0.1, 2.0), point("a", 0.1, 3.0)}),
+            (std::vector<bool>{true, true, false}));
+}
+
+TEST(pareto_front, takes_errors_below_the_noise_as_equal) {
+  std::vector<LedgerRow> rows = {point("a", 0.001, 5.0), point("a", 0.003, 4.0)};
+  for (LedgerRow& row : rows) row.reference_noise = 0.01;
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{false, true}));
+}
+
+TEST(pareto_front, leaves_out_rows_that_nobody_judged) {
+  LedgerRow unjudged = {.knob = "a"};
+  EXPECT_EQ(front_of({unjudged, point("a", 0.9, 9.0)}), (std::vector<bool>{false, true}));
+  EXPECT_TRUE(front_of({}).empty());
+}
+
+TEST(pareto_front, goes_by_linear_light_where_there_is_no_picture) {
+  LedgerRow right = {.knob = "a", .rmse = 0.1};
+  LedgerRow wrong = {.knob = "a", .rmse = 0.2};
+  EXPECT_EQ(front_of({right, wrong}), (std::vector<bool>{true, false}));
+}
+
+/// Straight from the definition: sorted by time, a point is on the front when no cheaper or equally cheap one errs less.
+TEST(pareto_front, agrees_with_brute_force) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<LedgerRow> rows;
+    const auto step = [&random] { return static_cast<double>(random() % 6) / 8.0; };
+    for (auto left = random() % 20; left > 0; --left)
+      rows.push_back(point(random() % 2 == 0 ? "a" : "b", step(), step()));
+    const std::vector<bool> front = front_of(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      bool beaten = false;
+      for (std::size_t j = 0; j < rows.size(); ++j) {
+        if (rows[j].knob != rows[i].knob) continue;
+        const bool cheaper = rows[j].ms.median_ms < rows[i].ms.median_ms;
+        const bool as_cheap = rows[j].ms.median_ms == rows[i].ms.median_ms;
+        const bool better = rows[j].flip->mean < rows[i].flip->mean;
+        const bool as_good = rows[j].flip->mean == rows[i].flip->mean;
+        beaten = beaten || (cheaper && (better || as_good)) || (as_cheap && better);
+      }
+      EXPECT_EQ(front[i], !beaten);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gloam

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/accuracy/cost/timing.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/expect_assert.h"
+
+namespace gloam {
+namespace {
+
+/// A machine whose clock only moves when it draws.
+class FakeMachine {
+ public:
+  /// Every frame takes longer than the one before by `drift_ms`; the first after a change of side by 1000 ms.
+  explicit FakeMachine(double drift_ms = 0.0) : drift_ms_(drift_ms) {}
+
+  RunFrame runner() {
+    return [this](TimedSide side) -> Result<FrameCost> {
+      const double start = now_ms_;
+      now_ms_ += side == TimedSide::standard ? 10.0 : 20.0;
+      now_ms_ += drift_ms_ * static_cast<double>(sides_.size());
+      if (sides_.empty() || sides_.back() != (side == TimedSide::standard ? 'A' : 'B')) now_ms_ += 1000.0;
+      sides_ += side == TimedSide::standard ? 'A' : 'B';
+      const double gpu_ms = (now_ms_ - start) * 0.75;
+      return FrameCost{.cpu_ms = gpu_ms / 3.0, .gpu_ms = gpu_ms};
+    };
+  }
+  [[nodiscard]] const std::string& sides() const { return sides_; }
+
+ private:
+  double drift_ms_;
+  double now_ms_ = 0.0;
+  std::string sides_;
+};
+
+TEST(timing, alternates_and_leaves_warm_up_out) {
+  FakeMachine machine;
+  const auto times = time_alternating({.pairs = 3, .first_warm_up = 2, .warm_up = 1}, machine.runner());
+  ASSERT_TRUE(times.ok());
+  EXPECT_EQ(machine.sides(),
+            "AABB"
+            "AABB"
+            "AABB"
+            "AABB");
+  ASSERT_EQ(times->standard.size(), 3u);
+  ASSERT_EQ(times->candidate.size(), 3u);
+  for (const FrameCost& cost : times->standard) EXPECT_DOUBLE_EQ(cost.ms(), 10.0);
+  for (const FrameCost& cost : times->candidate) EXPECT_DOUBLE_EQ(cost.ms(), 20.0);
+}
+
+TEST(timing, measures_twenty_frames_unless_told_otherwise) {
+  FakeMachine machine;
+  EXPECT_EQ(time_alternating({}, machine.runner())->candidate.size(), 20u);
+  EXPECT_EQ(time_alternating({.pairs = kQuickFrames}, machine.runner())->candidate.size(), 5u);
+}
+
+TEST(timing, tells_median_spread_and_ratio) {
+  FakeMachine machine;
+  const TimedValue timed = summarize_times(*time_alternating({}, machine.runner()));
+  EXPECT_DOUBLE_EQ(timed.ms.median_ms, 20.0);
+  EXPECT_DOUBLE_EQ(timed.ms.p10_ms, 20.0);
+  EXPECT_DOUBLE_EQ(timed.ms.p90_ms, 20.0);
+  EXPECT_DOUBLE_EQ(timed.cpu_ms, 5.0);
+  EXPECT_DOUBLE_EQ(timed.gpu_ms, 15.0);
+  EXPECT_DOUBLE_EQ(timed.ratio, 2.0);
+}
+
+TEST(timing, a_machine_that_slows_down_hardly_moves_the_ratio) {
+  FakeMachine drifting(0.05);
+  const TimedValue timed = summarize_times(*time_alternating({}, drifting.runner()));
+  EXPECT_GT(timed.ms.p90_ms, timed.ms.p10_ms + 2.0);
+  // Around the middle frame of the run; one side after the other would give more than 2.
+  const double middle = 0.05 * 46.0;
+  EXPECT_NEAR(timed.ratio, (20.0 + middle) / (10.0 + middle), 0.05);
+}
+
+TEST(timing, one_interrupted_frame_does_not_move_the_median) {
+  AlternatingTimes times;
+  for (int i = 0; i < 9; ++i) {
+    times.standard.push_back({.gpu_ms = 4.0});
+    times.candidate.push_back({.gpu_ms = i == 5 ? 500.0 : 2.0});
+  }
+  const TimedValue timed = summarize_times(times);
+  EXPECT_DOUBLE_EQ(timed.ms.median_ms, 2.0);
+  EXPECT_DOUBLE_EQ(timed.ratio, 0.5);
+}
+
+TEST(timing, pairs_without_a_time_say_nothing_of_the_ratio) {
+  AlternatingTimes times;
+  times.standard = {{.gpu_ms = 0.0}, {.gpu_ms = 2.0}};
+  times.candidate = {{.gpu_ms = 5.0}, {.gpu_ms = 6.0}};
+  EXPECT_DOUBLE_EQ(summarize_times(times).ratio, 3.0);
+  times.standard[1].gpu_ms = 0.0;
+  EXPECT_DOUBLE_EQ(summarize_times(times).ratio, 1.0);
+}
+
+TEST(timing, stops_at_the_first_frame_that_fails) {
+  int frames = 0;
+  const auto times = time_alternating({}, [&frames](TimedSide) -> Result<FrameCost> {
+    if (++frames == 9) return Error{ErrorKind::failed, "the device is lost"};
+    return FrameCost{};
+  });
+  ASSERT_FALSE(times.ok());
+  EXPECT_EQ(times.error().message, "the device is lost");
+  EXPECT_EQ(frames, 9);
+}
+
+TEST(timing, needs_a_frame) {
+  FakeMachine machine;
+  EXPECT_ASSERT((void)time_alternating({.pairs = 0}, machine.runner()), "at least one frame");
+  EXPECT_ASSERT((void)summarize_times({}), "at least one frame");
+}
+
+}  // namespace
+}  // namespace gloam

@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""`cost`: rows, files, resuming. Needs a Vulkan device."""
+import csv
+import os
+import signal
+import subprocess
+import time
+
+from program_case import ProgramCase, main
+
+KNOB = "lights.culling"
+QUICK = ("cost", "builtin:plain", "--quick", "--knobs", KNOB)
+
+
+class Cost(ProgramCase):
+    def setUp(self):
+        super().setUp()
+        self.require_device()
+
+    def finished_rows(self, folder):
+        return sorted((self.folder / folder).glob("measurements/*.row"))
+
+    def test_a_quick_run_writes_rows(self):
+        run = self.expect(0, *QUICK, "--out", "ledger")
+        self.assertIn("quick: 320x180, 5 frames a value, 64 reference samples", run.stdout)
+        self.assertEqual(run.stderr, "")
+        ledger = self.read_json("ledger/ledger.json")
+        self.assertEqual((ledger["version"], ledger["size"], ledger["quick"], ledger["frames"]), (1, [320, 180], True, 5))
+        self.assertEqual(ledger["scene"], "builtin:plain")
+        self.assertRegex(ledger["scene_hash"], r"^[0-9a-f]{16}$")
+        self.assertTrue(ledger["device"]["name"] and ledger["device"]["driver"])
+        rows = {row["value"]: row for row in ledger["rows"]}
+        self.assertEqual(set(rows), {"brute", "tiled"})
+        for value, row in rows.items():
+            self.assertEqual(row["knob"], KNOB)
+            self.assertEqual(row["default"], value == "tiled")
+            self.assertEqual(row["reference"]["kind"], "brute force")
+            self.assertEqual(row["error"]["flip"], {"mean": 0.0, "p99": 0.0}, "light lists drop no light")
+            self.assertEqual(row["error"]["rmse"], 0.0)
+            self.assertTrue(0.0 < row["ms"]["p10"] <= row["ms"]["median"] <= row["ms"]["p90"])
+            self.assertGreater(row["ratio"], 0.0)
+            self.assertGreater(row["gpu_bytes"], 0)
+        self.assertEqual(rows["tiled"]["ratio"], 1.0)
+        self.assertTrue(any(row["front"] for row in rows.values()))
+        with open(self.folder / "ledger/ledger.csv", encoding="utf-8", newline="") as file:
+            lines = list(csv.DictReader(file))
+        self.assertEqual([(line["knob"], line["value"]) for line in lines],
+                         [(row["knob"], row["value"]) for row in ledger["rows"]])
+        for line, row in zip(lines, ledger["rows"]):
+            self.assertEqual(float(line["median_ms"]), row["ms"]["median"])
+            self.assertEqual(float(line["flip_mean"]), row["error"]["flip"]["mean"])
+
+    def test_a_second_run_measures_nothing_again(self):
+        self.expect(0, *QUICK, "--out", "ledger")
+        first = self.read_json("ledger/ledger.json")
+        run = self.expect(0, *QUICK, "--out", "ledger")
+        self.assertIn("2 of 2 rows were measured before", run.stdout)
+        self.assertEqual(self.read_json("ledger/ledger.json"), first)
+        # Under other conditions they are other rows.
+        run = self.expect(0, *QUICK, "--out", "ledger", "--time", "0.5")
+        self.assertNotIn("measured before", run.stdout)
+
+    def test_damaged_rows_are_measured_again(self):
+        self.expect(0, *QUICK, "--out", "ledger")
+        damaged, _ = self.finished_rows("ledger")
+        damaged.write_bytes(damaged.read_bytes()[:-7])
+        self.assertIn("1 of 2 rows were measured before", self.expect(0, *QUICK, "--out", "ledger").stdout)
+
+    def test_a_killed_run_is_resumed(self):
+        for number in (signal.SIGINT, signal.SIGKILL):
+            folder = f"ledger-{int(number)}"
+            command = ("cost", "builtin:plain", "--size", "160x90", "--knobs", KNOB, "--out", folder)
+            environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"))
+            with subprocess.Popen([self.program, *command], cwd=self.folder, env=environment, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL) as run:
+                give_up = time.monotonic() + 60.0
+                while not self.finished_rows(folder) and run.poll() is None and time.monotonic() < give_up:
+                    time.sleep(0.001)
+                run.send_signal(number)
+                run.wait(timeout=60)
+            done = len(self.finished_rows(folder))
+            self.assertGreaterEqual(done, 1)
+            self.assertIn(f"{done} of 2 rows were measured before", self.expect(0, *command).stdout)
+            self.assertEqual(len(self.read_json(f"{folder}/ledger.json")["rows"]), 2)
+
+    def test_other_knobs_stay_as_they_are_set(self):
+        self.expect(0, *QUICK, "--out", "ledger")
+        run = self.expect(0, *QUICK, "--out", "ledger", "--set", "lighting.tone_map=linear")
+        self.assertNotIn("measured before", run.stdout)
+        run = self.expect(0, *QUICK, "--out", "ledger", "--set", f"{KNOB}=brute")
+        self.assertIn("2 of 2 rows were measured before", run.stdout)
+
+    def test_knobs_of_effects_that_the_scene_does_not_call_for_are_skipped(self):
+        self.expect(0, "cost", "builtin:plain", "--quick", "--out", "ledger", "--quiet")
+        ledger = self.read_json("ledger/ledger.json")
+        measured = {row["knob"] for row in ledger["rows"]}
+        skipped = {entry["knob"] for entry in ledger["skipped"]}
+        self.assertIn(KNOB, measured)
+        self.assertFalse(measured & skipped)
+        for entry in ledger["skipped"]:
+            self.assertTrue(entry["reason"])
+
+    def test_a_wrong_value_is_2(self):
+        self.expect(2, *QUICK, "--out", "ledger", "--set", f"{KNOB}=sideways", says="brute, tiled")
+
+    def test_a_folder_that_cannot_be_written_is_1(self):
+        (self.folder / "file").write_text("")
+        self.expect(1, *QUICK, "--out", "file/ledger", says="file/ledger")
+
+
+if __name__ == "__main__":
+    main()
