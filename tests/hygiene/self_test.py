@@ -136,6 +136,8 @@ class IncludeArrows(Tree):
     def test_paths_are_full_and_exist(self):
         self.assert_faults(self.faults_with("engine/core/a.cpp", '#include "b.h"\n', "engine/core/b.h"), "full path")
         self.assert_faults(self.faults_with("engine/core/a.cpp", '#include "engine/core/c.h"\n'), "no such file")
+
+    def test_the_embedding_host_names_its_own_headers(self):
         self.assertEqual(self.faults_with("tests/embedding/host/a.cpp", '#include "b.h"\n', "tests/embedding/host/b.h"), [])
 
     def test_the_own_header_comes_first(self):
