@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/ecs/world.h"
+#include "engine/jobs/executor.h"
+#include "engine/render/knobs.h"
+#include "engine/render/picture.h"
+#include "engine/render/view.h"
+
+namespace gloam {
+
+/// What a frame looked like, or should have looked like. Either side may be absent (width 0): then it is not compared.
+struct FramePictures {
+  LinearPicture linear;
+  Picture picture;
+};
+
+/// What a reference is computed from: one frame that has been drawn and read back.
+struct ReferenceInput {
+  const World& world;          ///< as the frame's systems left it
+  const RenderView& view;      ///< size, camera and pose of the frame
+  const KnobRegistry& knobs;   ///< as the frame was drawn
+  const FramePictures& frame;  ///< what was drawn; both sides are there
+  std::uint32_t samples = 0;   ///< a pixel (and light), for references that sample; at least 1
+  JobExecutor& executor;
+};
+
+/// What "right" means for a knob where that is more than the same frame with the knob at Knob::exact: a picture that the module computes
+/// on the CPU. Deterministic: the same input gives the same picture, whatever the executor.
+///
+/// Two sorts. A model of its own (`follows_value` false: traced visibility, accumulated lenses) does not care how the knob is set: it is
+/// computed once a knob, from a frame with the knob at its default, and every value is held against it. A twin in higher precision
+/// (`follows_value` true: the tone curve in double precision) states what the drawn value should have given from its own inputs: it is
+/// computed for every value, from the frame drawn with that value.
+///
+/// A twin that turns the frame's linear light into the picture fills FramePictures::picture alone; a traced one fills `linear`, and
+/// `picture` too when it can.
+struct ReferenceInfo {
+  std::string knob;            ///< a knob of the same module
+  std::string kind;            ///< "traced" or "double precision"
+  std::string name;            ///< of the reference, for the ledger: "tone curve on the CPU"
+  bool follows_value = false;  ///< see above
+  bool samples = false;        ///< ReferenceInput::samples matters; its noise is the change from half of them to all
+  std::function<Result<FramePictures>(const ReferenceInput&)> draw;
+};
+
+}  // namespace gloam
