@@ -5,6 +5,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
 #include <optional>
@@ -134,6 +135,7 @@ struct Crew::Workers {
   explicit Workers(std::uint32_t threads) : limit(threads), arena(static_cast<int>(threads), 1) {}
   ThreadLimit limit;
   tbb::task_arena arena;
+  tbb::task_group visits;  ///< every enqueued visit, so that the end can wait for those that nobody has begun
 };
 
 std::uint32_t Crew::core_count() { return static_cast<std::uint32_t>(tbb::info::default_concurrency()); }
@@ -146,6 +148,8 @@ Crew::Crew(std::uint32_t threads)
 Crew::~Crew() {
   state_->closing.store(true, std::memory_order_relaxed);
   state_->announce();
+  // Runs what is still enqueued, which leaves at once: a visit that is never run would hold the state for ever.
+  if (workers_ != nullptr) workers_->arena.execute([this] { workers_->visits.wait(); });
   workers_.reset();
   state_->release();
 }
@@ -160,12 +164,12 @@ void Crew::call_helpers(std::uint32_t wanted) {
     }
     ++holders;
     state_->idle.fetch_add(1, std::memory_order_relaxed);
-    workers_->arena.enqueue([state = state_] {
+    workers_->arena.enqueue(workers_->visits.defer([state = state_] {
       (void)state->holders.load(
           std::memory_order_acquire);  // pairs with the increment above: oneTBB is not instrumented
       state->visit();
       state->release();
-    });
+    }));
   }
 }
 
