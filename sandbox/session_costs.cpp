@@ -23,9 +23,17 @@ Result<FrameCost> SessionCosts::draw(std::uint32_t index) {
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
-  FrameCost cost = {.cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms};
-  for (const ModuleState& module : sample->report.modules) cost.gpu_bytes += module.gpu_bytes;
-  return cost;
+  index_ = index;
+  return FrameCost{.cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms};
+}
+
+Result<std::uint64_t> SessionCosts::gpu_bytes() {
+  session_.renderer->free_idle_memory();
+  // The device frees when the frames that could still use it have passed.
+  for (int frame = 0; frame < 3; ++frame) GLOAM_TRY(draw(index_));
+  std::uint64_t bytes = 0;
+  for (const ModuleState& module : session_.renderer->report().modules) bytes += module.gpu_bytes;
+  return bytes;
 }
 
 Result<FramePictures> SessionCosts::read() {

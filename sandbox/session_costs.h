@@ -17,6 +17,7 @@ class SessionCosts final : public CostSubject {
   [[nodiscard]] KnobRegistry& knobs() override { return session_.renderer->knobs(); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override;
   [[nodiscard]] Result<FrameCost> draw(std::uint32_t index) override;
+  [[nodiscard]] Result<std::uint64_t> gpu_bytes() override;
   [[nodiscard]] Result<FramePictures> read() override;
   [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo& reference, const FramePictures& frame,
                                                      std::uint32_t samples) override;
@@ -25,6 +26,7 @@ class SessionCosts final : public CostSubject {
   Session& session_;
   const Options& options_;
   ViewRequest request_;
+  std::uint32_t index_ = 0;  ///< of the last frame
 };
 
 }  // namespace gloam

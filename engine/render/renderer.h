@@ -46,6 +46,9 @@ struct ViewTarget {
   /// Instead of `image`, for pictures that exist only while a frame is recorded (gpu::Swapchain::acquire): called when the frame has
   /// begun. The view takes the size of the image it gives; when it gives none, the renderer's own picture is drawn.
   std::function<Result<gpu::ImageHandle>()> acquire;
+  /// Draws over the finished picture: called while the frame is declared, when all modules have added their passes. Adds passes that
+  /// write `picture`, which it leaves at its newest version. What they use must live until the frame is submitted.
+  std::function<Status(FrameGraph& graph, ImageRef& picture)> overlay;
 };
 
 struct ViewRequest {
@@ -97,6 +100,8 @@ class Renderer {
   [[nodiscard]] Status wait();
 
   [[nodiscard]] FrameReport report();
+  /// Gives back memory of frames that were put together otherwise than the last one; it would be kept for a while, should they return.
+  void free_idle_memory();
   /// The picture of a view that had no target image, from its last frame; waits.
   [[nodiscard]] Result<Picture> read_picture(ViewId view);
   /// The same frame's linear light.

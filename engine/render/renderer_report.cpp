@@ -81,6 +81,8 @@ FrameReport Renderer::report() {
   return report;
 }
 
+void Renderer::free_idle_memory() { state_->graph.free_idle_memory(); }
+
 Result<Picture> Renderer::read_picture(ViewId view) {
   State& s = *state_;
   const auto found = s.images.find(view.value);

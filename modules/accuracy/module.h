@@ -16,11 +16,10 @@
 
 namespace gloam {
 
-/// What one frame took, and what memory stood behind it.
+/// What one frame took.
 struct FrameCost {
   double cpu_ms = 0.0;
   double gpu_ms = 0.0;
-  std::uint64_t gpu_bytes = 0;  ///< of all modules
   [[nodiscard]] double ms() const { return cpu_ms + gpu_ms; }
 };
 
@@ -35,6 +34,8 @@ class CostSubject {
   [[nodiscard]] virtual std::vector<ReferenceInfo> references() const = 0;
   /// Draws frame `index` (from 0) of the measured sequence and waits for it. The same index shows the same moment.
   [[nodiscard]] virtual Result<FrameCost> draw(std::uint32_t index) = 0;
+  /// Memory of all modules that frames like the last one need, and none that others left behind. May draw.
+  [[nodiscard]] virtual Result<std::uint64_t> gpu_bytes() = 0;
   /// What the last frame looks like, both sides.
   [[nodiscard]] virtual Result<FramePictures> read() = 0;
   /// Calls reference.draw for the last frame, which is `frame`.

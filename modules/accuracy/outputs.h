@@ -51,7 +51,8 @@ struct LedgerRow {
   double gpu_ms = 0.0;
   double ratio = 1.0;  ///< to the default's time: median over pairs of neighbouring frames; the default's own is 1
   std::uint64_t gpu_bytes = 0;  ///< of all modules
-  bool on_front = false;  ///< no other value of the knob is both as cheap and as right, and better in one of the two
+  bool on_front =
+      false;  ///< no other value of the knob is both as cheap (by ratio) and as right, and better in one of the two
 
   /// What the front and people go by: mean FLIP, else RMSE; never less than the reference's noise.
   [[nodiscard]] std::optional<double> error() const;

@@ -200,7 +200,9 @@ Status KnobMeasurement::time(const std::string& value, LedgerRow& row) {
   row.cpu_ms = timed.cpu_ms;
   row.gpu_ms = timed.gpu_ms;
   row.ratio = row.is_default ? 1.0 : timed.ratio;
-  row.gpu_bytes = times->candidate.back().gpu_bytes;
+  const auto bytes = subject_.gpu_bytes();
+  if (!bytes) return bytes.error();
+  row.gpu_bytes = *bytes;
   return {};
 }
 

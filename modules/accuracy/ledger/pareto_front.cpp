@@ -7,12 +7,13 @@
 namespace gloam {
 namespace {
 
-/// Whether `a` makes `b` pointless.
+/// Whether `a` makes `b` pointless. Times of two rows were taken minutes apart, their ratios to the default side by side with it: a
+/// machine that drifts changes the first, not the second.
 bool dominates(const LedgerRow& a, const LedgerRow& b) {
   const double error_a = *a.error();
   const double error_b = *b.error();
-  const bool no_worse = error_a <= error_b && a.ms.median_ms <= b.ms.median_ms;
-  return no_worse && (error_a < error_b || a.ms.median_ms < b.ms.median_ms);
+  const bool no_worse = error_a <= error_b && a.ratio <= b.ratio;
+  return no_worse && (error_a < error_b || a.ratio < b.ratio);
 }
 
 }  // namespace

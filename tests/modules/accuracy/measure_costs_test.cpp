@@ -38,7 +38,10 @@ class FakeSubject final : public CostSubject {
     ++frames_drawn;
     index_ = index;
     if (fail_after > 0 && frames_drawn > fail_after) return Error{ErrorKind::failed, "the device is lost"};
-    return FrameCost{.cpu_ms = 1.0, .gpu_ms = knobs_.number("fake.samples"), .gpu_bytes = 100};
+    return FrameCost{.cpu_ms = 1.0, .gpu_ms = knobs_.number("fake.samples")};
+  }
+  [[nodiscard]] Result<std::uint64_t> gpu_bytes() override {
+    return static_cast<std::uint64_t>(knobs_.number("fake.samples")) * 100;
   }
   [[nodiscard]] Result<FramePictures> read() override { return pictures(brightness()); }
   [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo&, const FramePictures& frame,
@@ -114,7 +117,7 @@ TEST_F(MeasureCosts, holds_every_value_against_the_most_exact_one) {
     EXPECT_DOUBLE_EQ(row.gpu_ms, samples);
     EXPECT_DOUBLE_EQ(row.ratio, (1.0 + samples) / 5.0);
     EXPECT_EQ(row.is_default, row.value == "4");
-    EXPECT_EQ(row.gpu_bytes, 100u);
+    EXPECT_EQ(row.gpu_bytes, std::stoull(row.value) * 100) << "of the value, not of the default";
     EXPECT_TRUE(row.on_front) << "each is dearer and righter than the one before";
     EXPECT_FALSE(row.temporal);
   }
