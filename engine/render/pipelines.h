@@ -39,7 +39,8 @@ class Pipelines {
   /// Whether all pipelines of a list are made. Those that are not are begun in the background, each once; one that fails there is told
   /// to the log and counts as ready, so that `get` meets the error.
   [[nodiscard]] bool request(const PipelineList& list, LogSink& log);
-  /// Destroys all pipelines of a module.
+  /// Destroys all pipelines of a module, drops those that wait for their turn in the background and forgets failures. One that is
+  /// being compiled in the background stays.
   void release(std::string_view module);
 
  private:
@@ -55,8 +56,8 @@ class Pipelines {
   gpu::Device& device_;
   mutable std::mutex mutex_;
   std::map<std::string, Entry, std::less<>> entries_;
-  std::set<std::string, std::less<>> begun_;  ///< names handed to the worker
-  std::set<std::string, std::less<>> failed_;
+  std::set<std::string, std::less<>> begun_;                ///< names handed to the worker
+  std::map<std::string, std::string, std::less<>> failed_;  ///< in the background; modules by name
   PipelineList queue_;
   std::condition_variable_any wake_;
   std::jthread worker_;  ///< started with the first request; ends before the members above

@@ -151,9 +151,10 @@ void Renderer::State::release_idle_modules() {
   for (std::size_t i = 0; i < options.modules.size(); ++i) {
     ModuleRuntime& runtime = runtimes[i];
     runtime.idle_frames = runtime.in_view ? 0 : runtime.idle_frames + 1;
-    if (runtime.idle_frames != kFramesUntilRelease) continue;
-    options.modules[i]->release();
-    if (!runtime.demand.needed) pipelines.release(options.modules[i]->name());
+    runtime.absent_frames = runtime.demand.needed ? 0 : runtime.absent_frames + 1;
+    if (runtime.idle_frames == kFramesUntilRelease) options.modules[i]->release();
+    // Time and again: one that was being compiled may have come since.
+    if (runtime.absent_frames != 0 && runtime.absent_frames % kFramesUntilRelease == 0) pipelines.release(options.modules[i]->name());
   }
 }
 
@@ -177,6 +178,7 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   frame.put(LitOutput{graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read)});
   GLOAM_TRY(add_module_passes(frame));
   if (code != 0) GLOAM_TRY(add_debug_view_pass(frame, code));
+  if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
   if (pick && pick->view == view.id) {
     const GeometryOutputs& g = frame.get<GeometryOutputs>();
     for (const ImageRef ref : {g.base_color, g.normals, g.material, g.depth}) {

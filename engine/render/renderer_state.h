@@ -42,9 +42,10 @@ inline constexpr std::uint32_t kFramesUntilRelease = 120;
 
 /// What the renderer knows of one module.
 struct ModuleRuntime {
-  Demand demand;                  ///< of the world
-  bool in_view = false;           ///< demanded by a view of the frame in the making
-  std::uint32_t idle_frames = 0;  ///< since a view demanded it last
+  Demand demand;                    ///< of the world
+  bool in_view = false;             ///< demanded by a view of the frame in the making
+  std::uint32_t idle_frames = 0;    ///< since a view demanded it last
+  std::uint32_t absent_frames = 0;  ///< since a world called for it last
 };
 
 struct Renderer::State {

@@ -109,6 +109,8 @@ class DemandTest : public ::testing::Test {
       ASSERT_TRUE(status.ok()) << status.error().message;
     }
   }
+  /// Frames until the plans of the first ones, which have passes of their own, have given their memory back.
+  void settle() { frames(70); }
   /// Renders until `name` has passes, as it must some day under Readiness::background.
   void frames_until_there_are_passes_of(std::string_view name) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -147,7 +149,8 @@ class DemandTest : public ::testing::Test {
   [[nodiscard]] std::string belongings() {
     std::string text;
     for (const ModuleState& state : renderer_->report().modules)
-      text += state.name + " " + std::to_string(state.gpu_bytes) + " bytes, " + std::to_string(state.pipelines) + " pipelines\n";
+      text += state.name + " " + std::to_string(state.gpu_bytes) + " bytes, " + std::to_string(state.pipelines) +
+              " pipelines\n";
     return text;
   }
 

@@ -64,15 +64,20 @@ class GatedDevice final : public gpu::Device {
     count_resource();
     return inner_.create_image(desc);
   }
-  [[nodiscard]] Result<std::vector<gpu::ImageHandle>> create_aliased_images(std::span<const gpu::ImageDesc> descs) override {
+  [[nodiscard]] Result<std::vector<gpu::ImageHandle>> create_aliased_images(
+      std::span<const gpu::ImageDesc> descs) override {
     count_resource();
     return inner_.create_aliased_images(descs);
   }
   [[nodiscard]] Result<gpu::SamplerHandle> create_sampler(const gpu::SamplerDesc& desc) override {
     return inner_.create_sampler(desc);
   }
-  [[nodiscard]] Result<gpu::PipelineHandle> create_pipeline(const gpu::ComputePipelineDesc& desc) override { return make(desc); }
-  [[nodiscard]] Result<gpu::PipelineHandle> create_pipeline(const gpu::GraphicsPipelineDesc& desc) override { return make(desc); }
+  [[nodiscard]] Result<gpu::PipelineHandle> create_pipeline(const gpu::ComputePipelineDesc& desc) override {
+    return make(desc);
+  }
+  [[nodiscard]] Result<gpu::PipelineHandle> create_pipeline(const gpu::GraphicsPipelineDesc& desc) override {
+    return make(desc);
+  }
   [[nodiscard]] Result<gpu::ResourceSetHandle> create_resource_set(gpu::PipelineHandle like, std::uint32_t set,
                                                                    std::span<const gpu::Binding> bindings) override {
     return inner_.create_resource_set(like, set, bindings);
@@ -91,7 +96,9 @@ class GatedDevice final : public gpu::Device {
   [[nodiscard]] std::vector<std::uint64_t> timestamps(std::uint64_t frame) override { return inner_.timestamps(frame); }
   [[nodiscard]] Status wait_idle() override { return inner_.wait_idle(); }
   [[nodiscard]] std::vector<gpu::ModuleMemory> memory() const override { return inner_.memory(); }
-  [[nodiscard]] std::uint32_t pipeline_count(std::string_view module) const override { return inner_.pipeline_count(module); }
+  [[nodiscard]] std::uint32_t pipeline_count(std::string_view module) const override {
+    return inner_.pipeline_count(module);
+  }
   [[nodiscard]] std::uint64_t validation_messages() const override { return inner_.validation_messages(); }
 
  private:

@@ -67,8 +67,8 @@ TEST_F(PlanReuse, a_hundred_frames_alike_compile_one_plan) {
   EXPECT_EQ(graph_->plans_compiled(), 1u);
   EXPECT_EQ(graph_->pass_times().size(), kPasses);
   std::ranges::sort(rest);
-  std::printf("declaration and plan of %u passes: %.3f ms in the first frame, %.3f ms in the median one after\n", kPasses, first,
-              rest[rest.size() / 2]);
+  std::printf("declaration and plan of %u passes: %.3f ms in the first frame, %.3f ms in the median one after\n",
+              kPasses, first, rest[rest.size() / 2]);
 }
 
 TEST_F(PlanReuse, toggling_between_two_structures_compiles_two_plans) {
