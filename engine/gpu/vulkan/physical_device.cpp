@@ -120,6 +120,9 @@ bool find_queue_family(const InstanceFunctions& f, PhysicalDevice& device) {
   return false;
 }
 
+constexpr std::uint32_t kLeastUniformRange = 65536;
+constexpr std::uint32_t kLeastPushConstants = 128;
+
 Candidate examine(const Instance& instance, VkPhysicalDevice handle, bool for_window) {
   const InstanceFunctions& f = instance.functions();
   Candidate candidate;
@@ -135,6 +138,9 @@ Candidate examine(const Instance& instance, VkPhysicalDevice handle, bool for_wi
   }
   read_properties(f, device);
   candidate.lacks = missing_features(device.features);
+  // Light blocks are larger than the 16 KiB that Vulkan promises; every desktop device has 64 KiB or more.
+  if (device.limits.maxUniformBufferRange < kLeastUniformRange) add(candidate.lacks, "uniform buffers of 64 KiB");
+  if (device.limits.maxPushConstantsSize < kLeastPushConstants) add(candidate.lacks, "128 bytes of push constants");
   if (!has_extension(f, handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) {
     add(candidate.lacks, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
   }
