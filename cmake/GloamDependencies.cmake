@@ -17,6 +17,8 @@ if(GLOAM_SANDBOX)
   find_package(spdlog REQUIRED)
   find_package(benchmark REQUIRED)
   find_package(ZLIB REQUIRED)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)  # brings no CMake package
 endif()
 if(GLOAM_TESTS)
   find_package(GTest REQUIRED)

@@ -9,17 +9,21 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "sandbox/panel_input.h"
 
 namespace gloam {
 
 /// Keys and mouse of one frame.
 struct WindowInput {
-  double forward = 0.0;  ///< W, S
-  double right = 0.0;    ///< D, A
-  double up = 0.0;       ///< E, Q
-  double drag_x = 0.0;   ///< pixels the mouse moved with a button held, to the right
-  double drag_y = 0.0;   ///< downwards
-  bool fast = false;     ///< shift
+  double forward = 0.0;       ///< W, S
+  double right = 0.0;         ///< D, A
+  double up = 0.0;            ///< E, Q
+  double drag_x = 0.0;        ///< pixels the mouse moved with a button held, to the right
+  double drag_y = 0.0;        ///< downwards
+  bool fast = false;          ///< shift
+  bool leave = false;         ///< Escape was struck
+  bool toggle_panel = false;  ///< Tab or F1 was struck
+  PanelInput panel;           ///< the same mouse and keyboard, as a panel takes them
 };
 
 /// A window of the desktop, for Vulkan. One thread (the main one), one window at a time.
@@ -39,11 +43,13 @@ class Window {
 
   /// Takes events and returns what was held and moved since the last call. While minimised it waits for an event instead of spinning.
   [[nodiscard]] WindowInput poll();
-  /// Closed by the user, or Escape.
+  /// Closed by the user.
   [[nodiscard]] bool should_close() const;
   /// Pixels; 0 by 0 while minimised.
   [[nodiscard]] std::uint32_t width() const;
   [[nodiscard]] std::uint32_t height() const;
+  /// How much larger than usual the desktop shows letters; 1 when it does not say.
+  [[nodiscard]] double content_scale() const;
   void resize(std::uint32_t width, std::uint32_t height);
 
  private:

@@ -4,9 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/env.h"
 #include "engine/gpu/vulkan_device.h"
 #include "sandbox/commands/commands.h"
 #include "sandbox/fly_camera.h"
+#include "sandbox/play_panel.h"
 #include "sandbox/run_output.h"
 #include "sandbox/scene_loading.h"
 #include "sandbox/session.h"
@@ -23,7 +25,12 @@ constexpr double kLongestStep = 0.1;  // seconds: after a pause nothing leaps
 class Player {
  public:
   Player(const Options& options, Window& window, Session& session, gpu::Swapchain& swapchain)
-      : options_(options), window_(window), session_(session), swapchain_(swapchain), time_s_(options.time_s) {
+      : options_(options),
+        window_(window),
+        session_(session),
+        swapchain_(swapchain),
+        panel_(session, window.content_scale(), environment_text("GLOAM_PANEL") == "1"),
+        time_s_(options.time_s) {
     settings_ = session.view_settings(options.width, options.height, options.view);
     // From here on the user moves the camera, not the scene.
     settings_.camera_entity = kNoEntity;
@@ -34,8 +41,11 @@ class Player {
   [[nodiscard]] Status run() {
     std::uint32_t frames = 0;
     while (options_.frames == 0 || frames < options_.frames) {
-      move_camera(window_.poll());
-      if (window_.should_close()) break;
+      WindowInput input = window_.poll();
+      count_step();
+      GLOAM_TRY(panel_.update(input, {window_.width(), window_.height(), frame_s_}, settings_));
+      if (window_.should_close() || input.leave) break;
+      move_camera(input);
       const auto drawn = draw();
       if (!drawn) return drawn.error();
       if (*drawn) ++frames;
@@ -47,10 +57,14 @@ class Player {
   [[nodiscard]] const std::vector<FrameSample>& samples() const { return samples_; }
 
  private:
-  void move_camera(const WindowInput& input) {
+  void count_step() {
     const std::uint64_t now = session_.zones.now_ns();
-    step_s_ = std::min(static_cast<double>(now - last_ns_) * 1e-9, kLongestStep);
+    frame_s_ = static_cast<double>(now - last_ns_) * 1e-9;
+    step_s_ = std::min(frame_s_, kLongestStep);
     last_ns_ = now;
+  }
+
+  void move_camera(const WindowInput& input) {
     camera_.advance({.forward = input.forward,
                      .right = input.right,
                      .up = input.up,
@@ -79,7 +93,8 @@ class Player {
       fits_ = image.ok() && *image;
       return image;
     };
-    GLOAM_TRY(render({.settings = settings_, .target = {.after = gpu::Access::present, .acquire = acquire}}));
+    GLOAM_TRY(render({.settings = settings_,
+                      .target = {.after = gpu::Access::present, .acquire = acquire, .overlay = panel_.overlay()}}));
     GLOAM_TRY(swapchain_.present());
     if (!fits_) return false;
     time_s_ += dt_s;
@@ -104,9 +119,11 @@ class Player {
   gpu::Swapchain& swapchain_;
   ViewSettings settings_;
   FlyCamera camera_;
+  PlayPanel panel_;
   std::vector<FrameSample> samples_;
   double time_s_ = 0.0;
-  double step_s_ = 0.0;
+  double frame_s_ = 0.0;  ///< since the last frame
+  double step_s_ = 0.0;   ///< the same, or kLongestStep
   std::uint64_t last_ns_ = 0;
   bool fits_ = false;
 };

@@ -56,6 +56,15 @@ class Play(ProgramCase):
         self.assertEqual(self.read_json("stats.json")["scene"], "builtin:lanterns")
         self.assertTrue((self.folder / "last.png").exists())
 
+    def test_the_panel_is_drawn_over_the_picture_in_a_pass_of_its_own(self):
+        panel = {"GLOAM_PANEL": "1"}
+        self.expect(0, "play", "builtin:plain", "--size", "320x200", "--frames", "3", "--stats", "shown.json", "--validate",
+                    prefix=PREFIX, env=panel)
+        self.expect(0, "play", "builtin:plain", "--size", "320x200", "--frames", "3", "--stats", "hidden.json", prefix=PREFIX)
+        passes = [[one["name"] for one in self.read_json(name)["passes"]] for name in ("shown.json", "hidden.json")]
+        self.assertIn("panel", passes[0])
+        self.assertNotIn("panel", passes[1])
+
     def test_it_follows_the_window(self):
         server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"],
                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
