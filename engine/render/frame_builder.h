@@ -29,6 +29,7 @@ struct FrameServices {
   Pipelines& pipelines;
   UploadRing& uniforms;
   UploadRing& storage;
+  bool wait_for_pipelines = true;  ///< false: where there is a choice, take what is ready (Pipelines::request)
 };
 
 /// One view of one frame while its passes are declared: handed to the modules in turn. References are valid until the frame is

@@ -74,7 +74,8 @@ Renderer::State::~State() {
 }
 
 FrameServices Renderer::State::services() {
-  return {*options.device, *options.executor, *options.log, knobs, pipelines, uniforms, storage};
+  return {*options.device, *options.executor,  *options.log, knobs, pipelines, uniforms, storage,
+          options.readiness == Readiness::wait};
 }
 
 GpuScene& Renderer::State::scene_of(const World& world) {

@@ -6,14 +6,25 @@
 
 namespace gloam {
 
+namespace {
+
+gpu::GraphicsPipelineDesc deferred_pipeline(bool tiled) {
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(tiled ? "deferred/tiled" : "deferred/brute", "lighting",
+                                                       shaders::lighting::deferred_frag, gpu::Format::rgba16_float);
+  desc.constants = {{0, tiled ? 1u : 0u}};
+  return desc;
+}
+
+}  // namespace
+
 Status add_deferred_pass(FrameBuilder& frame) {
   const FrameServices& services = frame.services();
   auto inputs = shading_inputs(frame);
   if (!inputs.ok()) return inputs.error();
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(inputs->tiled ? "deferred/tiled" : "deferred/brute", "lighting",
-                                                       shaders::lighting::deferred_frag, gpu::Format::rgba16_float);
-  desc.constants = {{0, inputs->tiled ? 1u : 0u}};
-  auto pipeline = services.pipelines.get(desc);
+  // Brute force draws the same picture while the tiled pipeline is made.
+  if (inputs->tiled && !services.wait_for_pipelines)
+    inputs->tiled = services.pipelines.request({deferred_pipeline(true)}, services.log);
+  auto pipeline = services.pipelines.get(deferred_pipeline(inputs->tiled));
   if (!pipeline.ok()) return pipeline.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();

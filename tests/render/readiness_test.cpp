@@ -125,13 +125,31 @@ TEST_F(ReadinessFrames, essential_modules_are_in_the_first_frame) {
 }
 
 TEST_F(ReadinessFrames, modules_do_not_wait_for_each_other) {
-  static_cast<void>(call_for("lights"));
+  static_cast<void>(call_for("counting"));
   frames();
   ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
   gate_->let(1);
   static_cast<void>(call_for("fog"));
-  frames_until_there_are_passes_of("lights");
+  frames_until_there_are_passes_of("counting");
   EXPECT_EQ(seen("fog").passes, 0u);
+}
+
+TEST_F(ReadinessFrames, shading_is_brute_force_until_the_tiled_pipeline_is_made) {
+  static_cast<void>(call_for("lights"));
+  const std::uint32_t asked_before = gate_->asked_here("lighting");
+  frames();
+  ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
+  gate_->let(1);  // the masks': nobody reads them yet
+  for (int i = 0; i < 20000 && gate_->asked_elsewhere("lighting") == 0; ++i) {
+    frames();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_EQ(gate_->asked_elsewhere("lighting"), 1u);
+  frames(3);
+  EXPECT_EQ(seen("lights").passes, 0u);
+  gate_->open();
+  frames_until_there_are_passes_of("lights");
+  EXPECT_EQ(gate_->asked_here("lighting"), asked_before);
 }
 
 TEST_F(ReadinessFrames, a_pipeline_that_fails_is_told_once_and_the_next_frame_returns_the_error) {
