@@ -136,8 +136,8 @@ TEST_F(ReadinessFrames, modules_do_not_wait_for_each_other) {
 
 TEST_F(ReadinessFrames, shading_is_brute_force_until_the_tiled_pipeline_is_made) {
   static_cast<void>(call_for("lights"));
-  const std::uint32_t asked_before = gate_->asked_here("lighting");
   frames();
+  const std::uint32_t asked_before = gate_->asked_here("lighting");
   ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
   gate_->let(1);  // the masks': nobody reads them yet
   for (int i = 0; i < 20000 && gate_->asked_elsewhere("lighting") == 0; ++i) {
