@@ -175,10 +175,16 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   const bool external = static_cast<bool>(request.target.image);
   const gpu::ImageHandle picture = external ? request.target.image : own.picture;
   const gpu::Access after = external ? request.target.after : gpu::Access::transfer_read;
-  frame.put(TargetOutput{graph.import_image("picture", picture, gpu::Access::none, after), options.device->desc(picture).format});
-  frame.put(LitOutput{graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read)});
+  const ImageRef target = graph.import_image("picture", picture, gpu::Access::none, after);
+  const ImageRef lit = graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read);
+  frame.put(TargetOutput{target, options.device->desc(picture).format});
+  frame.put(LitOutput{lit});
   GLOAM_TRY(add_module_passes(frame));
   if (code != 0) GLOAM_TRY(add_debug_view_pass(frame, code));
+  GLOAM_ASSERT(frame.get<LitOutput>().color.resource == lit.resource,
+               "LitOutput is written in place: a module has put another image there");
+  GLOAM_ASSERT(frame.get<TargetOutput>().color.resource == target.resource,
+               "TargetOutput is written in place: a module has put another image there");
   if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
   if (pick && pick->view == view.id) {
     const GeometryOutputs& g = frame.get<GeometryOutputs>();

@@ -12,6 +12,7 @@
 
 #include "engine/ecs/view.h"
 #include "engine/gpu/recording_device.h"
+#include "engine/render/frame_builder.h"
 #include "engine/scene/gltf_import.h"
 #include "modules/module_list/module_list.h"
 #include "tests/render/small_scene.h"
@@ -91,6 +92,42 @@ TEST_F(RendererTest, five_frames_of_a_small_scene_break_no_rule) {
   for (const PassTime& pass : report.passes) passes.insert(pass.name);
   for (const char* name : {"deform", "geometry", "depth_bounds", "tile_masks", "deferred", "forward", "tone_map"})
     EXPECT_TRUE(passes.contains(name)) << name;
+}
+
+/// Puts another image where everybody expects the view's light or picture.
+class ReplacingModule final : public Module {
+ public:
+  explicit ReplacingModule(bool lit) : lit_(lit) {}
+  [[nodiscard]] std::string_view name() const override { return "replacing"; }
+  void register_components(World&) const override {}
+  void scene_keys(KeyRegistry&) const override {}
+  [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "always"}; }
+  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::post) return {};
+    const ImageRef other = create_view_image(frame, "other", "replacing", gpu::Format::rgba16_float);
+    (lit_ ? frame.get<LitOutput>().color : frame.get<TargetOutput>().color) = other;
+    return {};
+  }
+
+ private:
+  bool lit_;
+};
+
+TEST(RendererOutputs, are_written_in_place_and_never_replaced) {
+  for (const bool lit : {true, false}) {
+    const auto device = gpu::make_recording_device();
+    const auto executor = make_shuffled_executor(3);
+    RendererOptions options;
+    options.device = device.get();
+    options.executor = executor.get();
+    options.modules.push_back(std::make_unique<ReplacingModule>(lit));
+    const auto renderer = Renderer::create(std::move(options)).value();
+    World world;
+    renderer->prepare_world(world);
+    ViewRequest view;
+    view.settings = test::look_at(dvec3(2.0, 3.0, 9.0), dvec3(0.0), 64, 40);
+    EXPECT_ASSERT((void)renderer->render(world, {&view, 1}), lit ? "LitOutput is written in place" : "TargetOutput is written in place");
+  }
 }
 
 TEST_F(RendererTest, an_empty_world_and_no_view_at_all_are_frames_too) {
