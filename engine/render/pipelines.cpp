@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/pipelines.h"
 
+#include "engine/core/assert.h"
+#include "engine/core/hash.h"
+
 namespace gloam {
 namespace {
 
@@ -14,6 +17,41 @@ const std::string& module_of(const AnyDesc& desc) {
   return std::visit([](const auto& d) -> const std::string& { return d.module; }, desc);
 }
 
+/// Shaders live as long as the device uses them: their address stands for their words.
+void add_shader(Hasher& hash, const gpu::ShaderCode& shader) {
+  hash.text(shader.name).value(reinterpret_cast<std::uintptr_t>(shader.words.data())).value(shader.words.size());
+}
+void add_constants(Hasher& hash, const std::vector<gpu::SpecConstant>& constants) {
+  hash.value(constants.size());
+  for (const gpu::SpecConstant& constant : constants) hash.value(constant.id).value(constant.value);
+}
+
+std::uint64_t hash_of(const gpu::ComputePipelineDesc& desc) {
+  Hasher hash;
+  hash.text("compute").text(desc.module);
+  add_shader(hash, desc.shader);
+  add_constants(hash, desc.constants);
+  return hash.digest();
+}
+
+std::uint64_t hash_of(const gpu::GraphicsPipelineDesc& desc) {
+  Hasher hash;
+  hash.text("graphics").text(desc.module);
+  add_shader(hash, desc.vertex);
+  add_shader(hash, desc.fragment);
+  add_constants(hash, desc.constants);
+  hash.value(desc.attributes.size());
+  for (const gpu::VertexAttribute& attribute : desc.attributes)
+    hash.value(attribute.location).value(attribute.stream).value(attribute.format).value(attribute.offset);
+  hash.value(desc.stream_strides.size());
+  for (const std::uint32_t stride : desc.stream_strides) hash.value(stride);
+  hash.value(desc.color_formats.size());
+  for (const gpu::Format format : desc.color_formats) hash.value(format);
+  hash.value(desc.depth_format).value(desc.cull).value(desc.blend).value(desc.depth_compare);
+  hash.value(desc.depth_write).value(desc.depth_bias);
+  return hash.digest();
+}
+
 }  // namespace
 
 Pipelines::~Pipelines() {
@@ -23,14 +61,23 @@ Pipelines::~Pipelines() {
 
 template <class Desc>
 Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
-  if (const gpu::PipelineHandle found = find(desc.name)) return found;
+  const std::uint64_t description = hash_of(desc);
+  const auto checked = [&](const Entry& entry) {
+    GLOAM_ASSERT(entry.description == description,
+                 "pipeline " + desc.name + " was made from another description: a name must hold every constant, format and state that varies");
+    return entry.pipeline;
+  };
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = entries_.find(desc.name); found != entries_.end()) return checked(found->second);
+  }
   auto made = device_.create_pipeline(desc);  // outside the lock: compiling takes long
   if (!made.ok()) return made.error();
   const std::lock_guard lock(mutex_);
   failed_.erase(desc.name);
-  const auto [place, fresh] = entries_.try_emplace(desc.name, Entry{desc.module, *made});
+  const auto [place, fresh] = entries_.try_emplace(desc.name, Entry{desc.module, *made, description});
   if (!fresh) device_.destroy(*made);  // another thread was faster
-  return place->second.pipeline;
+  return checked(place->second);
 }
 
 template Result<gpu::PipelineHandle> Pipelines::find_or_make(const gpu::ComputePipelineDesc&);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <set>
@@ -23,7 +24,8 @@ namespace gloam {
 /// Descriptions of the pipelines a module will ask for.
 using PipelineList = std::vector<std::variant<gpu::ComputePipelineDesc, gpu::GraphicsPipelineDesc>>;
 
-/// Pipelines by name, made on first use. A name stands for one description. Safe from many threads.
+/// Pipelines by name, made on first use. A name stands for one description: it holds whatever varies (constants, formats, states).
+/// Safe from many threads.
 class Pipelines {
  public:
   explicit Pipelines(gpu::Device& device) : device_(device) {}
@@ -31,6 +33,7 @@ class Pipelines {
   Pipelines(const Pipelines&) = delete;
   Pipelines& operator=(const Pipelines&) = delete;
 
+  /// Asserts that a pipeline of that name was made from the same description.
   [[nodiscard]] Result<gpu::PipelineHandle> get(const gpu::ComputePipelineDesc& desc) { return find_or_make(desc); }
   [[nodiscard]] Result<gpu::PipelineHandle> get(const gpu::GraphicsPipelineDesc& desc) { return find_or_make(desc); }
   /// The pipeline of a name that was made before, or none.
@@ -50,6 +53,7 @@ class Pipelines {
   struct Entry {
     std::string module;
     gpu::PipelineHandle pipeline;
+    std::uint64_t description = 0;  ///< hash of all that it was made from
   };
   void run_worker(std::stop_token stop, LogSink& log);
 

@@ -14,6 +14,7 @@
 #include "engine/render/draw_pipelines.h"
 #include "engine/render/material_packing.h"
 #include "shaders/render/draw_shared.h"
+#include "tests/support/expect_assert.h"
 
 namespace gloam {
 namespace {
@@ -42,6 +43,66 @@ TEST_F(PipelinesTest, a_name_is_made_once) {
   EXPECT_EQ(device_->pipeline_count("lights"), 2u);
   EXPECT_EQ(pipelines.find("a"), *first);
   EXPECT_FALSE(pipelines.find("c"));
+}
+
+TEST_F(PipelinesTest, a_name_stands_for_one_compute_description) {
+  Pipelines pipelines(*device_);
+  gpu::ComputePipelineDesc desc = compute("a", "lights");
+  desc.constants = {{0, 4}, {1, 7}};
+  ASSERT_TRUE(pipelines.get(desc).ok());
+  EXPECT_TRUE(pipelines.get(gpu::ComputePipelineDesc(desc)).ok());
+  const auto refused = [&](const gpu::ComputePipelineDesc& other) {
+    EXPECT_ASSERT((void)pipelines.get(other), "pipeline a was made from another description");
+  };
+  auto other = desc;
+  other.constants[1].value = 8;
+  refused(other);
+  other = desc;
+  other.constants.pop_back();
+  refused(other);
+  other = desc;
+  other.module = "grass";
+  refused(other);
+  other = desc;
+  const std::uint32_t words[] = {1, 2, 3};
+  other.shader.words = words;
+  refused(other);
+  gpu::GraphicsPipelineDesc drawn;
+  drawn.name = "a";
+  drawn.module = "lights";
+  EXPECT_ASSERT((void)pipelines.get(drawn), "another description");
+  pipelines.release("lights");
+  EXPECT_TRUE(pipelines.get(other).ok()) << "a released name is free again";
+}
+
+TEST_F(PipelinesTest, a_name_stands_for_one_graphics_description) {
+  Pipelines pipelines(*device_);
+  gpu::GraphicsPipelineDesc desc;
+  desc.name = "a";
+  desc.module = "lights";
+  desc.color_formats = {gpu::Format::rgba16_float};
+  desc.attributes = {{0, 0, gpu::Format::rgba32_float, 0}};
+  desc.stream_strides = {16};
+  ASSERT_TRUE(pipelines.get(desc).ok());
+  EXPECT_TRUE(pipelines.get(gpu::GraphicsPipelineDesc(desc)).ok());
+  const auto refused = [&](auto change) {
+    gpu::GraphicsPipelineDesc other = desc;
+    change(other);
+    EXPECT_ASSERT((void)pipelines.get(other), "another description");
+  };
+  refused([](auto& d) { d.color_formats[0] = gpu::Format::rgba8_srgb; });
+  refused([](auto& d) { d.color_formats.clear(); });
+  refused([](auto& d) { d.depth_format = gpu::Format::d32_float; });
+  refused([](auto& d) { d.constants = {{0, 1}}; });
+  refused([](auto& d) { d.attributes[0].offset = 4; });
+  refused([](auto& d) { d.stream_strides[0] = 20; });
+  refused([](auto& d) { d.cull = gpu::CullMode::front; });
+  refused([](auto& d) { d.blend = gpu::BlendMode::additive; });
+  refused([](auto& d) { d.depth_compare = gpu::CompareOp::equal; });
+  refused([](auto& d) { d.depth_write = false; });
+  refused([](auto& d) { d.depth_bias = true; });
+  refused([](auto& d) { d.vertex.name = "other"; });
+  refused([](auto& d) { d.fragment.name = "other"; });
 }
 
 TEST_F(PipelinesTest, release_takes_one_modules_pipelines_only) {
