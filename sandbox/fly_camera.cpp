@@ -46,6 +46,18 @@ void FlyCamera::advance(const FlyInput& input, double dt_s) {
   position_ += movement * (kSpeed * input.speed * dt_s);
 }
 
+void ViewFlight::advance(const World& world, const FlyInput& input, double dt_s, ViewSettings& settings) {
+  if (!camera_) {
+    const bool moved = input.forward != 0.0 || input.right != 0.0 || input.up != 0.0 || input.turn != 0.0 || input.tilt != 0.0;
+    if (!moved) return;
+    follow_camera(world, settings);
+    settings.follow_camera = false;
+    camera_ = FlyCamera(settings.world_from_camera);
+  }
+  camera_->advance(input, dt_s);
+  settings.world_from_camera = camera_->world_from_camera();
+}
+
 dmat4 FlyCamera::world_from_camera() const {
   const Axes axes = axes_of(heading_, tilt_);
   return dmat4(dvec4(axes.right, 0.0), dvec4(axes.up, 0.0), dvec4(axes.back, 0.0), dvec4(position_, 1.0));

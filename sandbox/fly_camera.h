@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "engine/math/types.h"
+#include "engine/render/view.h"
 
 namespace gloam {
 
@@ -31,6 +34,16 @@ class FlyCamera {
   dvec3 position_ = dvec3(0.0);
   double heading_ = 0.0;  ///< radians about +Y, 0 looks along −Z
   double tilt_ = 0.0;     ///< radians above the horizon
+};
+
+/// The camera of a view that follows the scene's until the user flies, and then the user's; its lens and effects stay the scene's.
+class ViewFlight {
+ public:
+  /// Moves the view, from where the world's camera is now when this is the user's first movement.
+  void advance(const World& world, const FlyInput& input, double dt_s, ViewSettings& settings);
+
+ private:
+  std::optional<FlyCamera> camera_;  ///< none until the user flies
 };
 
 }  // namespace gloam

@@ -51,6 +51,7 @@ dmat4 rigid(const dmat4& m) {
 }  // namespace
 
 void follow_camera(const World& world, ViewSettings& settings) {
+  if (!settings.follow_camera) return;
   const Camera* camera = world.try_get<Camera>(settings.camera_entity);
   const WorldTransform* transform = world.try_get<WorldTransform>(settings.camera_entity);
   if (camera == nullptr || transform == nullptr) return;

@@ -18,8 +18,10 @@ struct ViewSettings {
   ViewId id{0};
   std::uint32_t width = 1280;   ///< pixels, > 0
   std::uint32_t height = 720;
-  /// A camera entity whose pose and lens are taken when the frame's systems have moved it; kNoEntity: the two below.
+  /// The camera that is looked through: its effects (focus, exposure) are the view's. kNoEntity: one without an entity.
   Entity camera_entity = kNoEntity;
+  /// Whether pose and lens are camera_entity's, taken when the frame's systems have moved it; else the two below.
+  bool follow_camera = true;
   dmat4 world_from_camera = dmat4(1.0);  ///< rigid; the camera looks along −Z
   Camera camera;
   std::string visualizer = "none";  ///< a name of Renderer::visualizers()
@@ -31,7 +33,7 @@ struct RenderView {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint64_t frame = 0;          ///< of its world, counted from 0
-  Entity camera_entity = kNoEntity; ///< the camera it follows, if any
+  Entity camera_entity = kNoEntity; ///< the camera whose effects it has, if any
   dvec3 position = dvec3(0.0);      ///< of the camera, world
   mat4 view_from_relative = mat4(1.0);  ///< rotation only
   mat4 clip_from_view = mat4(1.0);      ///< reversed Z
@@ -44,7 +46,7 @@ struct RenderView {
   [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }
 };
 
-/// Takes pose and lens of settings.camera_entity from the world as it is now, if one is named and alive.
+/// Takes pose and lens of settings.camera_entity from the world as it is now, if it is to be followed and alive.
 void follow_camera(const World& world, ViewSettings& settings);
 
 [[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame);

@@ -32,9 +32,6 @@ class Player {
         panel_(session, window.content_scale(), environment_text("GLOAM_PANEL") == "1"),
         time_s_(options.time_s) {
     settings_ = session.view_settings(options.width, options.height, options.view);
-    // From here on the user moves the camera, not the scene.
-    settings_.camera_entity = kNoEntity;
-    camera_ = FlyCamera(settings_.world_from_camera);
     last_ns_ = session.zones.now_ns();
   }
 
@@ -65,14 +62,13 @@ class Player {
   }
 
   void move_camera(const WindowInput& input) {
-    camera_.advance({.forward = input.forward,
-                     .right = input.right,
-                     .up = input.up,
-                     .turn = -input.drag_x * kRadiansPerPixel,
-                     .tilt = -input.drag_y * kRadiansPerPixel,
-                     .speed = input.fast ? kFastFactor : 1.0},
-                    step_s_);
-    settings_.world_from_camera = camera_.world_from_camera();
+    const FlyInput flight = {.forward = input.forward,
+                             .right = input.right,
+                             .up = input.up,
+                             .turn = -input.drag_x * kRadiansPerPixel,
+                             .tilt = -input.drag_y * kRadiansPerPixel,
+                             .speed = input.fast ? kFastFactor : 1.0};
+    flight_.advance(session_.world, flight, step_s_, settings_);
   }
 
   /// Whether a frame was drawn: not while the window is minimised or changes its size.
@@ -118,7 +114,7 @@ class Player {
   Session& session_;
   gpu::Swapchain& swapchain_;
   ViewSettings settings_;
-  FlyCamera camera_;
+  ViewFlight flight_;
   PlayPanel panel_;
   std::vector<FrameSample> samples_;
   double time_s_ = 0.0;

@@ -127,6 +127,17 @@ TEST_F(CameraWorld, following_takes_pose_and_lens) {
   EXPECT_EQ(make_view(settings, 0).near_m, 0.25f);
 }
 
+TEST_F(CameraWorld, a_view_that_does_not_follow_keeps_its_pose_and_its_cameras_effects) {
+  ViewSettings settings = looking(dvec3(1.0, 2.0, 3.0), dvec3(0.0));
+  const ViewSettings before = settings;
+  settings.camera_entity = camera_at(glm::translate(dmat4(1.0), dvec3(5.0, 6.0, 7.0)));
+  settings.follow_camera = false;
+  follow_camera(world_, settings);
+  EXPECT_EQ(settings.world_from_camera, before.world_from_camera);
+  EXPECT_EQ(settings.camera.fov_y, before.camera.fov_y);
+  EXPECT_EQ(make_view(settings, 0).camera_entity, settings.camera_entity);
+}
+
 TEST_F(CameraWorld, a_scaled_or_mirrored_camera_node_gives_a_rigid_pose) {
   for (const dvec3 scale : {dvec3(3.0), dvec3(0.01, 2.0, 5.0), dvec3(-1.0, 1.0, 1.0), dvec3(1.0, 1.0, 7.0)}) {
     const dmat4 rotation = glm::rotate(dmat4(1.0), 1.1, glm::normalize(dvec3(1.0, 2.0, 3.0)));

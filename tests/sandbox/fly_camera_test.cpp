@@ -7,6 +7,8 @@
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 
+#include "engine/scene/gltf_import.h"
+
 namespace gloam {
 namespace {
 
@@ -69,6 +71,50 @@ TEST(FlyCamera, never_tips_over) {
   const dmat4 pose = camera.world_from_camera();
   EXPECT_GT(pose[1].y, 0.0);
   EXPECT_LT(pose[2].y, -0.999);
+}
+
+struct Flight : ::testing::Test {
+  World world;
+  ViewSettings settings;
+  ViewFlight flight;
+
+  Flight() {
+    prepare_scene_world(world);
+    settings.camera_entity = world.create(Camera{.fov_y = 0.5f}, WorldTransform{});
+  }
+  void move_scene_camera(const dvec3& to) {
+    world.get<WorldTransform>(settings.camera_entity).matrix = glm::translate(dmat4(1.0), to);
+  }
+};
+
+TEST_F(Flight, follows_the_scenes_camera_until_the_user_moves) {
+  flight.advance(world, {.speed = 5.0}, 1.0, settings);
+  EXPECT_TRUE(settings.follow_camera);
+  for (const FlyInput& input : {FlyInput{.forward = 1.0}, FlyInput{.right = 1.0}, FlyInput{.up = 1.0}, FlyInput{.turn = 0.1},
+                                FlyInput{.tilt = 0.1}}) {
+    ViewSettings own = settings;
+    ViewFlight().advance(world, input, 1.0, own);
+    EXPECT_FALSE(own.follow_camera);
+  }
+}
+
+TEST_F(Flight, starts_where_the_scenes_camera_has_come_to_and_keeps_its_effects) {
+  const Entity camera = settings.camera_entity;
+  move_scene_camera({0, 5, 0});
+  flight.advance(world, {.forward = 1.0}, 1.0, settings);
+  expect_near(dvec3(settings.world_from_camera[3]), {0, 5, -3});
+  EXPECT_EQ(settings.camera.fov_y, 0.5f);
+  move_scene_camera({9, 9, 9});
+  flight.advance(world, {}, 1.0, settings);
+  expect_near(dvec3(settings.world_from_camera[3]), {0, 5, -3});
+  EXPECT_EQ(settings.camera_entity, camera);
+}
+
+TEST_F(Flight, needs_no_camera_in_the_scene) {
+  settings.camera_entity = kNoEntity;
+  settings.world_from_camera = glm::translate(dmat4(1.0), dvec3(1, 2, 3));
+  flight.advance(world, {.up = 1.0}, 1.0, settings);
+  expect_near(dvec3(settings.world_from_camera[3]), {1, 5, 3});
 }
 
 }  // namespace
