@@ -94,7 +94,8 @@ class Module {
     static_cast<void>(phase);
     return {};
   }
-  /// Only called when demanded, after the frame was submitted.
+  /// Once a frame, for its last view: if the module took part in that view (demanded by world and view, pipelines there), when its
+  /// passes have been recorded and before they are submitted. What counts here is known on the CPU.
   virtual void counters(const World& world, const RenderView& view, CounterSink& sink) const {
     static_cast<void>(world);
     static_cast<void>(view);

@@ -124,6 +124,7 @@ void Renderer::State::update_demand(const World& world) {
     const Module& module = *options.modules[i];
     runtimes[i].demand = module.demand(world, nullptr);
     runtimes[i].in_view = false;
+    runtimes[i].in_last_view = false;
     schedule.set_enabled(module.name(), module.built() && runtimes[i].demand.needed);
   }
 }
@@ -142,7 +143,7 @@ bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder)
 Status Renderer::State::add_module_passes(FrameBuilder& builder) {
   std::vector<Module*> taking_part;
   for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (takes_part(i, builder)) taking_part.push_back(options.modules[i].get());
+    if (runtimes[i].in_last_view = takes_part(i, builder); runtimes[i].in_last_view) taking_part.push_back(options.modules[i].get());
   for (const PassPhase phase : kAllPhases)
     for (Module* module : taking_part) GLOAM_TRY(module->add_passes(builder, phase));
   return {};
@@ -180,11 +181,11 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   frame.put(TargetOutput{target, options.device->desc(picture).format});
   frame.put(LitOutput{lit});
   GLOAM_TRY(add_module_passes(frame));
-  if (code != 0) GLOAM_TRY(add_debug_view_pass(frame, code));
   GLOAM_ASSERT(frame.get<LitOutput>().color.resource == lit.resource,
                "LitOutput is written in place: a module has put another image there");
   GLOAM_ASSERT(frame.get<TargetOutput>().color.resource == target.resource,
                "TargetOutput is written in place: a module has put another image there");
+  if (code != 0) GLOAM_TRY(add_debug_view_pass(frame, code));
   if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
   if (pick && pick->view == view.id) {
     const GeometryOutputs& g = frame.get<GeometryOutputs>();

@@ -48,7 +48,7 @@ void Renderer::State::collect_counters(const World& world) {
   sink.count("engine.draws", static_cast<double>(last.draws().solid.size() + last.draws().blended.size()));
   sink.count("engine.culled_primitives", last.draws().culled_instances);
   for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (options.modules[i]->built() && runtimes[i].demand.needed) options.modules[i]->counters(world, last.view(), sink);
+    if (runtimes[i].in_last_view) options.modules[i]->counters(world, last.view(), sink);
 }
 
 FrameReport Renderer::report() {

@@ -44,6 +44,7 @@ inline constexpr std::uint32_t kFramesUntilRelease = 120;
 struct ModuleRuntime {
   Demand demand;                    ///< of the world
   bool in_view = false;             ///< demanded by a view of the frame in the making
+  bool in_last_view = false;        ///< took part in the last view that was declared
   std::uint32_t idle_frames = 0;    ///< since a view demanded it last
   std::uint32_t absent_frames = 0;  ///< since a world called for it last
 };
@@ -66,6 +67,7 @@ struct Renderer::State {
   [[nodiscard]] bool takes_part(std::size_t module, const FrameBuilder& builder);
   /// After a frame: memory of modules that nobody has demanded for long goes back; pipelines too when the world has no call for them.
   void release_idle_modules();
+  /// Of the frame's last view and the modules that took part in it.
   void collect_counters(const World& world);
 
   RendererOptions options;

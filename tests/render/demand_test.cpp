@@ -226,6 +226,25 @@ TEST_F(DemandFrames, what_is_out_of_view_runs_its_systems_but_adds_no_passes) {
   EXPECT_EQ(world_->resource<test::CountedRuns>().view, 5u);
 }
 
+TEST_F(DemandFrames, counters_are_those_of_modules_that_took_part_in_the_last_view) {
+  const Entity counted = call_for("counting");
+  static_cast<void>(call_for("lights"));
+  frames();
+  EXPECT_EQ(calls_.counters, 1u);
+  EXPECT_TRUE(renderer_->report().counters.contains("lights.visible"));
+  show("counting", counted, false);
+  ViewRequest away = request(1);
+  away.settings.world_from_camera =
+      test::look_at(dvec3(2.0, 3.0, 9.0), dvec3(4.0, 6.0, 18.0), 64, 40).world_from_camera;
+  frames(1, {request(), away});
+  EXPECT_EQ(calls_.counters, 1u);
+  EXPECT_FALSE(renderer_->report().counters.contains("lights.visible"));
+  frames(1, {away, request()});
+  EXPECT_TRUE(renderer_->report().counters.contains("lights.visible"));
+  frames(1, {});
+  EXPECT_FALSE(renderer_->report().counters.contains("lights.visible"));
+}
+
 TEST_F(DemandFrames, lights_work_for_the_view_that_sees_them_alone) {
   static_cast<void>(call_for("lights"));
   ViewRequest away = request(1);
