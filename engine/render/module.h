@@ -32,8 +32,8 @@ enum class PassPhase {
   lists,        ///< after geometry and depth bounds: light lists, shadows
   shading,      ///< opaque surfaces and sky into linear light
   translucent,  ///< forward-lit things over them
-  post,         ///< on linear light: depth of field, bloom
-  output,       ///< linear light → picture
+  post,         ///< on linear light: depth of field, bloom. Automatic exposure meters what this phase leaves
+  output,       ///< linear light → picture: meters (where no exposure is set), then maps tones
   visualize,    ///< over the picture, when FrameBuilder::visualizer() names one of the module's
 };
 inline constexpr PassPhase kAllPhases[] = {PassPhase::lists, PassPhase::shading, PassPhase::translucent, PassPhase::post,
