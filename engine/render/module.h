@@ -73,7 +73,9 @@ class Module {
   virtual void add_systems(Schedule& schedule) { static_cast<void>(schedule); }
   [[nodiscard]] virtual std::vector<VisualizerInfo> visualizers() const { return {}; }
 
-  /// Asked every frame and view, and by `inspect` (without a view). Cheap: looks at counts, never at pixels.
+  /// Asked twice. Without a view (before a frame's systems, and by `inspect`) the world's answer: "no" means that no systems run and
+  /// that no view is asked, so it must cover every view's. With a view (after that view's systems) the view's answer: "no" means no
+  /// passes in this view; the systems ran all the same. Cheap: looks at counts, never at pixels.
   [[nodiscard]] virtual Demand demand(const World& world, const RenderView* view) const = 0;
 
   /// Before the systems of a view run, when the world demands the module: puts missing view resources in place.
@@ -88,7 +90,7 @@ class Module {
     static_cast<void>(knobs);
     static_cast<void>(list);
   }
-  /// Only called when demanded. Pipelines are made on first use.
+  /// Only called when world and view demand it, once a phase. Pipelines are made on first use.
   [[nodiscard]] virtual Status add_passes(FrameBuilder& frame, PassPhase phase) {
     static_cast<void>(frame);
     static_cast<void>(phase);
