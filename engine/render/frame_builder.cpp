@@ -97,10 +97,11 @@ ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string mo
   desc.height = (frame.view().height + divisor - 1) / divisor;
   return frame.graph().create_image(std::move(desc));
 }
+  if (!pass.constants.empty()) commands.push_constants(pass.constants);
 
 void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass) {
   gpu::RenderingDesc rendering;
-  rendering.colors.push_back({.view = {.image = pass.target}, .load = gpu::LoadOp::discard});
+  rendering.colors.push_back({.view = {.image = pass.target}, .load = pass.load});
   rendering.width = pass.width;
   rendering.height = pass.height;
   commands.begin_rendering(rendering);

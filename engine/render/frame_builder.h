@@ -3,6 +3,7 @@
 #pragma once
 
 #include <any>
+#include <cstddef>
 #include <span>
 #include <typeindex>
 #include <unordered_map>
@@ -115,6 +116,8 @@ struct FullscreenPass {
   gpu::ImageHandle target;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
+  gpu::LoadOp load = gpu::LoadOp::discard;  ///< load: what is in the target is kept or blended over
+  std::span<const std::byte> constants;     ///< pushed when there are any
 };
 void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass);
 [[nodiscard]] gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module, gpu::ShaderCode fragment,

@@ -19,30 +19,20 @@ struct FilterPass {
   std::vector<std::byte> constants;
 };
 
-void start_rendering(gpu::CommandList& commands, gpu::ImageHandle target, const gpu::ImageDesc& desc, gpu::LoadOp load) {
-  gpu::RenderingDesc rendering;
-  rendering.colors.push_back({.view = {.image = target}, .load = load});
-  rendering.width = desc.width;
-  rendering.height = desc.height;
-  commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(desc.width), static_cast<float>(desc.height));
-  commands.set_scissor(0, 0, desc.width, desc.height);
-}
-
 ImageRef add_filter_pass(FrameBuilder& frame, FilterPass filter, ImageRef source, ImageRef target) {
   FrameGraph& graph = frame.graph();
   PassBuilder pass = graph.add_pass(filter.name, "fog");
   pass.read(source, gpu::Access::fragment_read);
   target = pass.write(target, gpu::Access::color_target);
   pass.execute([&graph, filter = std::move(filter), source, target](PassContext& context) {
-    gpu::CommandList& commands = context.commands();
-    start_rendering(commands, context.image(target), graph.desc(target), gpu::LoadOp::discard);
-    commands.bind_pipeline(filter.pipeline);
-    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(source)}, filter.sampler}}};
-    commands.bind(bindings);
-    if (!filter.constants.empty()) commands.push_constants(filter.constants);
-    commands.draw(3, 1, 0, 0);
-    commands.end_rendering();
+    FullscreenPass draw;
+    draw.pipeline = filter.pipeline;
+    draw.bindings = {{0, gpu::Binding::Sampled{{.image = context.image(source)}, filter.sampler}}};
+    draw.target = context.image(target);
+    draw.width = graph.desc(target).width;
+    draw.height = graph.desc(target).height;
+    draw.constants = filter.constants;
+    record_fullscreen(context.commands(), draw);
   });
   return target;
 }
@@ -121,16 +111,17 @@ Status add_fog_passes(FrameBuilder& frame, const Fog& fog) {
   lit.color = pass.write(lit.color, gpu::Access::color_target);
   pass.execute([&frame, depth, glow = *glow, color = lit.color, range = *range, pipeline = *pipeline, nearest = *nearest,
                 linear = *linear](PassContext& context) {
-    gpu::CommandList& commands = context.commands();
-    start_rendering(commands, context.image(color), frame.graph().desc(color), gpu::LoadOp::load);
-    commands.bind_pipeline(pipeline);
-    const gpu::Binding bindings[] = {frame.view_binding(),
-                                     {1, range},
-                                     {2, gpu::Binding::Sampled{{.image = context.image(depth)}, nearest}},
-                                     {3, gpu::Binding::Sampled{{.image = context.image(glow)}, linear}}};
-    commands.bind(bindings);
-    commands.draw(3, 1, 0, 0);
-    commands.end_rendering();
+    FullscreenPass draw;
+    draw.pipeline = pipeline;
+    draw.bindings = {frame.view_binding(),
+                     {1, range},
+                     {2, gpu::Binding::Sampled{{.image = context.image(depth)}, nearest}},
+                     {3, gpu::Binding::Sampled{{.image = context.image(glow)}, linear}}};
+    draw.target = context.image(color);
+    draw.width = frame.view().width;
+    draw.height = frame.view().height;
+    draw.load = gpu::LoadOp::load;  // the fog is blended over the light
+    record_fullscreen(context.commands(), draw);
   });
   return {};
 }

@@ -76,24 +76,18 @@ void add_tone_map_pass(FrameBuilder& frame, const ToneMapPass& tone_map, BufferR
   if (tone_map.table) pass.read(tone_map.table, gpu::Access::fragment_read);
   target.color = pass.write(target.color, gpu::Access::color_target);
   pass.execute([&frame, lit, slots, tone_map, color = target.color](PassContext& context) {
-    gpu::CommandList& commands = context.commands();
-    gpu::RenderingDesc rendering;
-    rendering.colors.push_back({.view = {.image = context.image(color)}, .load = gpu::LoadOp::discard});
-    rendering.width = frame.view().width;
-    rendering.height = frame.view().height;
-    commands.begin_rendering(rendering);
-    commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
-    commands.set_scissor(0, 0, rendering.width, rendering.height);
-    commands.bind_pipeline(tone_map.pipeline);
     // Without a table the shader does not look at it, but every binding must be given.
     const ImageRef table = tone_map.table ? tone_map.table : lit;
-    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(lit)}, tone_map.nearest}},
-                                     {1, gpu::Binding::BufferRange{context.buffer(slots)}},
-                                     {2, gpu::Binding::Sampled{{.image = context.image(table)}, tone_map.linear}}};
-    commands.bind(bindings);
-    commands.push(tone_map.constants);
-    commands.draw(3, 1, 0, 0);
-    commands.end_rendering();
+    FullscreenPass draw;
+    draw.pipeline = tone_map.pipeline;
+    draw.bindings = {{0, gpu::Binding::Sampled{{.image = context.image(lit)}, tone_map.nearest}},
+                     {1, gpu::Binding::BufferRange{context.buffer(slots)}},
+                     {2, gpu::Binding::Sampled{{.image = context.image(table)}, tone_map.linear}}};
+    draw.target = context.image(color);
+    draw.width = frame.view().width;
+    draw.height = frame.view().height;
+    draw.constants = std::as_bytes(std::span(&tone_map.constants, 1));
+    record_fullscreen(context.commands(), draw);
   });
 }
 
