@@ -10,7 +10,7 @@
 #include "engine/scene/assets.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
-#include "modules/shadows/components.h"
+#include "modules/module_list/module_list.h"
 #include "sandbox/scenes/builtin.h"
 #include "sandbox/scenes/scene_builder.h"
 
@@ -23,8 +23,7 @@ struct BuiltWorld {
 
   explicit BuiltWorld(std::string_view name) {
     prepare_scene_world(world);
-    world.register_component<Light>("light");
-    world.register_component<ShadowCaster>("shadow_caster");
+    for (const auto& module : make_all_modules()) module->register_components(world);
     const auto scene = find_builtin_scene(name);
     EXPECT_TRUE(scene.ok());
     if (scene.ok()) scene.value()->build(world, info);
