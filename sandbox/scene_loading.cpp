@@ -69,13 +69,6 @@ Result<SceneInfo> load_scene(const SceneRequest& request, const ModuleList& modu
   return info;
 }
 
-KeyRegistry make_key_registry(const ModuleList& modules) {
-  KeyRegistry registry;
-  add_engine_keys(registry);
-  for (const auto& module : modules) module->scene_keys(registry);
-  return registry;
-}
-
 Result<Entity> find_camera(const World& world, const SceneInfo& info, const std::string& name) {
   if (!name.empty()) return world.resource<SceneNames>().find("camera", name);
   return info.cameras.empty() ? kNoEntity : info.cameras.front();

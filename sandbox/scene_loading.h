@@ -33,9 +33,6 @@ void prepare_world(World& world, const ModuleList& modules);
 [[nodiscard]] Result<SceneInfo> load_scene(const SceneRequest& request, const ModuleList& modules, World& world,
                                            JobExecutor& executor, LogSink& log);
 
-/// The keys of engine and modules.
-[[nodiscard]] KeyRegistry make_key_registry(const ModuleList& modules);
-
 /// The camera of that name, the scene's first when the name is empty, or kNoEntity when it has none.
 [[nodiscard]] Result<Entity> find_camera(const World& world, const SceneInfo& info, const std::string& name);
 

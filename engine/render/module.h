@@ -109,4 +109,7 @@ class Module {
 
 using ModuleList = std::vector<std::unique_ptr<Module>>;
 
+/// The scene keys of engine and modules: what import_gltf reads.
+[[nodiscard]] KeyRegistry make_key_registry(const ModuleList& modules);
+
 }  // namespace gloam

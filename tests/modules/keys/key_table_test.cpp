@@ -41,13 +41,8 @@ SceneValue parsed(const std::string& words) {
 
 struct KeyTable : ::testing::Test {
   ModuleList modules = make_all_modules();
-  KeyRegistry registry;
+  KeyRegistry registry = make_key_registry(modules);
   std::vector<Line> lines = test::scene_format_table();
-
-  KeyTable() {
-    add_engine_keys(registry);
-    for (const auto& module : modules) module->scene_keys(registry);
-  }
   static Status set(const SceneKey& key, const SceneValue& value, KeyTarget& target) {
     const auto converted = KeyRegistry::convert(key, value);
     return converted.ok() ? key.set(target, *converted) : Status(converted.error());
