@@ -42,7 +42,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/gloamConfig.cmake.in $
 # Below 1.0 a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/gloamConfig.cmake ${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake
-  DESTINATION ${gloam_package_dir} COMPONENT gloam)
+  ${PROJECT_SOURCE_DIR}/cmake/GloamShaders.cmake DESTINATION ${gloam_package_dir} COMPONENT gloam)
 
 # Headers keep their paths from the root. Of modules only what others may see; Vulkan stays behind engine/gpu.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION include COMPONENT gloam
@@ -50,6 +50,6 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION include COMPONENT glo
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION include COMPONENT gloam
   FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|module_list)\\.h$")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION include COMPONENT gloam
-  FILES_MATCHING REGEX "_shared\\.h$|/shaders/common/[a-z_]+\\.h$" PATTERN "*_test" EXCLUDE)
+  FILES_MATCHING REGEX "_(shared\\.h|api\\.glsl)$|/shaders/common/[a-z_]+\\.(h|glsl)$" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/shaders DESTINATION include COMPONENT gloam
   FILES_MATCHING PATTERN "shaders.h" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)

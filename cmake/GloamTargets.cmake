@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# Functions that make this project's targets: one library a layer, one test program a suite, one shader library a folder.
+# Functions that make this project's targets: one library a layer, one test program a suite; GloamShaders: one shader library a folder.
 
+include(GloamShaders)
 add_library(gloam_options INTERFACE)
+add_library(gloam::options ALIAS gloam_options)
 target_compile_features(gloam_options INTERFACE cxx_std_20)
 target_compile_options(gloam_options INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wno-missing-field-initializers>
@@ -27,57 +29,6 @@ function(gloam_add_layer name)
     $<INSTALL_INTERFACE:include>)
   target_link_libraries(gloam_${name} PUBLIC gloam_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_${name})
-endfunction()
-
-# gloam_add_shaders(<folder> <file.comp.glsl>…)
-# Compiles shaders/<folder>/<file> and embeds the words: library gloam_shaders_<folder>, header shaders/<folder>/shaders.h in the build
-# tree, which declares gloam::shaders::<folder>::<file with _ for .>. Names stay in the words: reflection finds structures by them.
-function(gloam_add_shaders folder)
-  set(out_dir ${PROJECT_BINARY_DIR}/generated/shaders/${folder})
-  file(MAKE_DIRECTORY ${out_dir})
-  set(declarations "")
-  set(definitions "")
-  set(includes "")
-  set(outputs "")
-  foreach(source IN LISTS ARGN)
-    string(REGEX REPLACE "\\.glsl$" "" stem ${source})
-    string(REPLACE "." "_" symbol ${stem})
-    string(REGEX REPLACE ".*\\.(comp|vert|frag)$" "\\1" stage ${stem})
-    set(output ${out_dir}/${stem}.spv.h)
-    add_custom_command(OUTPUT ${output}
-      COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.3 -S ${stage} -I${PROJECT_SOURCE_DIR} --vn ${symbol}_words
-        --depfile ${output}.d -o ${output} ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
-      DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
-      DEPFILE ${output}.d
-      COMMENT "Shader ${folder}/${source}" VERBATIM)
-    list(APPEND outputs ${output})
-    string(APPEND declarations "extern const gpu::ShaderCode ${symbol};\n")
-    string(APPEND includes "#include \"shaders/${folder}/${stem}.spv.h\"\n")
-    string(APPEND definitions "const gpu::ShaderCode ${symbol}{\"${folder}/${stem}\", ${symbol}_words};\n")
-  endforeach()
-  file(CONFIGURE OUTPUT ${out_dir}/shaders.h CONTENT
-"#pragma once
-#include \"engine/gpu/types.h\"
-namespace gloam::shaders::${folder} {
-${declarations}}
-")
-  file(CONFIGURE OUTPUT ${out_dir}/shaders.cpp CONTENT
-"#include \"shaders/${folder}/shaders.h\"
-#include <cstdint>
-namespace {
-${includes}}
-namespace gloam::shaders::${folder} {
-${definitions}}
-")
-  add_custom_target(gloam_shaders_${folder}_words DEPENDS ${outputs})
-  add_library(gloam_shaders_${folder} STATIC ${out_dir}/shaders.cpp ${outputs})
-  add_library(gloam::shaders_${folder} ALIAS gloam_shaders_${folder})
-  set_target_properties(gloam_shaders_${folder} PROPERTIES EXPORT_NAME shaders_${folder} POSITION_INDEPENDENT_CODE ON)
-  target_include_directories(gloam_shaders_${folder} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
-    $<INSTALL_INTERFACE:include>)
-  target_link_libraries(gloam_shaders_${folder} PUBLIC gloam_options)
-  set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_shaders_${folder})
 endfunction()
 
 # gloam_add_test(<suite> SOURCES … [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])

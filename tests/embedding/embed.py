@@ -43,6 +43,7 @@ def main(cmake, source, build, *arguments):
     run(cmake, "-S", source, "-B", work / "host", f"-DCMAKE_PREFIX_PATH={prefix}", *arguments)
     run(cmake, "--build", work / "host", "--parallel", "2")
     run(work / "host" / "host")
+    run(work / "host" / "host_module")
 
 
 if __name__ == "__main__":

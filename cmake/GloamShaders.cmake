@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+# gloam_add_shaders, for this project and for modules that are built against the installed package.
+
+# The root that gloam's own shaders are included from; gloamConfig.cmake sets it to the installed headers.
+if(NOT DEFINED GLOAM_SHADER_ROOT)
+  set(GLOAM_SHADER_ROOT ${PROJECT_SOURCE_DIR})
+endif()
+set_property(GLOBAL PROPERTY GLOAM_SHADER_ROOT "${GLOAM_SHADER_ROOT}")
+
+# gloam_add_shaders(<folder> <file.comp.glsl>…)
+# Compiles shaders/<folder>/<file> and embeds the words: library gloam_shaders_<folder>, header shaders/<folder>/shaders.h in the build
+# tree, which declares gloam::shaders::<folder>::<file with _ for ., without .glsl>: blur.frag.glsl is blur_frag. Names stay in the words:
+# reflection finds structures by them. Sources include by full path from the root of their project, or from gloam's.
+function(gloam_add_shaders folder)
+  if(NOT GLSLANG_VALIDATOR)
+    find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+  endif()
+  get_property(root GLOBAL PROPERTY GLOAM_SHADER_ROOT)
+  set(out_dir ${PROJECT_BINARY_DIR}/generated/shaders/${folder})
+  file(MAKE_DIRECTORY ${out_dir})
+  set(declarations "")
+  set(definitions "")
+  set(includes "")
+  set(outputs "")
+  foreach(source IN LISTS ARGN)
+    string(REGEX REPLACE "\\.glsl$" "" stem ${source})
+    string(REPLACE "." "_" symbol ${stem})
+    string(REGEX REPLACE ".*\\.(comp|vert|frag)$" "\\1" stage ${stem})
+    set(output ${out_dir}/${stem}.spv.h)
+    add_custom_command(OUTPUT ${output}
+      COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.3 -S ${stage} -I${PROJECT_SOURCE_DIR} -I${root}
+        --vn ${symbol}_words --depfile ${output}.d -o ${output} ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
+      DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
+      DEPFILE ${output}.d
+      COMMENT "Shader ${folder}/${source}" VERBATIM)
+    list(APPEND outputs ${output})
+    string(APPEND declarations "extern const gpu::ShaderCode ${symbol};\n")
+    string(APPEND includes "#include \"shaders/${folder}/${stem}.spv.h\"\n")
+    string(APPEND definitions "const gpu::ShaderCode ${symbol}{\"${folder}/${stem}\", ${symbol}_words};\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${out_dir}/shaders.h CONTENT
+"#pragma once
+#include \"engine/gpu/types.h\"
+namespace gloam::shaders::${folder} {
+${declarations}}
+")
+  file(CONFIGURE OUTPUT ${out_dir}/shaders.cpp CONTENT
+"#include \"shaders/${folder}/shaders.h\"
+#include <cstdint>
+namespace {
+${includes}}
+namespace gloam::shaders::${folder} {
+${definitions}}
+")
+  add_custom_target(gloam_shaders_${folder}_words DEPENDS ${outputs})
+  add_library(gloam_shaders_${folder} STATIC ${out_dir}/shaders.cpp ${outputs})
+  add_library(gloam::shaders_${folder} ALIAS gloam_shaders_${folder})
+  set_target_properties(gloam_shaders_${folder} PROPERTIES EXPORT_NAME shaders_${folder} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(gloam_shaders_${folder} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated> $<BUILD_INTERFACE:${root}>
+    $<INSTALL_INTERFACE:include>)
+  target_link_libraries(gloam_shaders_${folder} PUBLIC gloam::options)
+  set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_shaders_${folder})
+endfunction()
