@@ -2,24 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/frame_builder.h"
 
-#include <glm/ext/matrix_double4x4.hpp>
-
+#include "engine/render/view_constants.h"
 #include "shaders/render/shaders.h"
-#include "shaders/render/view_shared.h"
 
 namespace gloam {
 
 Status FrameBuilder::upload_view_constants(std::uint32_t visualizer_code) {
-  shaders::ViewConstants constants{};
-  constants.clip_from_relative = view_.clip_from_relative;
-  constants.relative_from_clip = mat4(glm::inverse(dmat4(view_.clip_from_relative)));
-  const mat4 rows = glm::transpose(view_.view_from_relative);
-  constants.view_row_z = rows[2];
-  constants.size = {view_.width, view_.height};
-  constants.inverse_size = 1.0f / vec2(static_cast<float>(view_.width), static_cast<float>(view_.height));
-  constants.near_m = view_.near_m;
-  constants.orthographic = view_.camera.orthographic ? 1 : 0;
-  constants.frame = static_cast<std::uint32_t>(view_.frame);
+  shaders::ViewConstants constants = view_constants(view_);
   constants.visualizer = visualizer_code;
   auto range = services_.uniforms.write_value(constants);
   if (!range.ok()) return range.error();
@@ -97,7 +86,6 @@ ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string mo
   desc.height = (frame.view().height + divisor - 1) / divisor;
   return frame.graph().create_image(std::move(desc));
 }
-  if (!pass.constants.empty()) commands.push_constants(pass.constants);
 
 void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass) {
   gpu::RenderingDesc rendering;
@@ -109,6 +97,7 @@ void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass) {
   commands.set_scissor(0, 0, pass.width, pass.height);
   commands.bind_pipeline(pass.pipeline);
   commands.bind(pass.bindings);
+  if (!pass.constants.empty()) commands.push_constants(pass.constants);
   commands.draw(3, 1, 0, 0);
   commands.end_rendering();
 }

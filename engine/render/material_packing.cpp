@@ -37,6 +37,12 @@ shaders::MaterialConstants pack_material(const Material& material) {
 
 std::uint32_t surface_features(const Material& material) {
   std::uint32_t features = 0;
+  for (const TextureSlot* slot : {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
+                                  &material.occlusion_texture, &material.emissive_texture}) {
+    const TextureSlot plain;
+    const bool moved = slot->uv_set != 0 || slot->transform_row0 != plain.transform_row0 || slot->transform_row1 != plain.transform_row1;
+    if (slot->texture != kNone && moved) features |= GLOAM_SURFACE_UV_TRANSFORM;
+  }
   if (material.base_color_texture.texture != kNone) features |= GLOAM_SURFACE_BASE_TEXTURE;
   if (material.normal_texture.texture != kNone) features |= GLOAM_SURFACE_NORMAL_TEXTURE;
   if (material.metallic_roughness_texture.texture != kNone) features |= GLOAM_SURFACE_METALLIC_ROUGHNESS_TEXTURE;

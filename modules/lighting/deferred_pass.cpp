@@ -8,10 +8,11 @@ namespace gloam {
 
 namespace {
 
-gpu::GraphicsPipelineDesc deferred_pipeline(bool tiled) {
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(tiled ? "deferred/tiled" : "deferred/brute", "lighting",
-                                                       shaders::lighting::deferred_frag, gpu::Format::rgba16_float);
-  desc.constants = {{0, tiled ? 1u : 0u}};
+gpu::GraphicsPipelineDesc deferred_pipeline(bool tiled, std::uint32_t directional_lights) {
+  gpu::GraphicsPipelineDesc desc =
+      fullscreen_pipeline((tiled ? "deferred/tiled/" : "deferred/brute/") + std::to_string(directional_lights), "lighting",
+                          shaders::lighting::deferred_frag, gpu::Format::rgba16_float);
+  desc.constants = {{0, tiled ? 1u : 0u}, {1, directional_lights}};
   return desc;
 }
 
@@ -23,8 +24,8 @@ Status add_deferred_pass(FrameBuilder& frame) {
   if (!inputs.ok()) return inputs.error();
   // Brute force draws the same picture while the tiled pipeline is made.
   if (inputs->tiled && !services.wait_for_pipelines)
-    inputs->tiled = services.pipelines.request({deferred_pipeline(true)}, services.log);
-  auto pipeline = services.pipelines.get(deferred_pipeline(inputs->tiled));
+    inputs->tiled = services.pipelines.request({deferred_pipeline(true, inputs->directional_count)}, services.log);
+  auto pipeline = services.pipelines.get(deferred_pipeline(inputs->tiled, inputs->directional_count));
   if (!pipeline.ok()) return pipeline.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();

@@ -17,6 +17,7 @@ Result<ShadingInputs> shading_inputs(FrameBuilder& frame) {
   inputs.environment = *environment;
   if (const LightsOutputs* lights = frame.find<LightsOutputs>()) {
     inputs.lights = lights->lights;
+    inputs.directional_count = lights->directional_count;
     inputs.tiled = static_cast<bool>(lights->tile_masks);
   } else {
     auto range = frame.services().uniforms.write(empty_light_block());

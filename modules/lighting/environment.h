@@ -12,6 +12,7 @@ namespace gloam {
 struct ShadingInputs {
   gpu::Binding::BufferRange lights;       ///< LightBlock; empty when the scene has no light
   gpu::Binding::BufferRange environment;  ///< EnvironmentConstants
+  std::uint32_t directional_count = 0;
   bool tiled = false;
 };
 

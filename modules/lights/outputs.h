@@ -17,6 +17,7 @@ struct LightsOutputs {
   gpu::Binding::BufferRange lights;  ///< a LightBlock (shaders/lights/lights_shared.h), uniform
   ImageRef tile_masks;               ///< r32ui, 33 layers, one texel an 8×8 tile; none when lights.culling = brute
   std::uint32_t local_count = 0;
+  std::uint32_t directional_count = 0;
 };
 
 /// Bytes of a LightBlock without lights, for shading a scene that has none.

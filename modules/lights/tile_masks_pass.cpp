@@ -13,6 +13,7 @@ Status add_tile_masks_pass(FrameBuilder& frame, const VisibleLights& visible) {
   const FrameServices& services = frame.services();
   LightsOutputs outputs;
   outputs.local_count = visible.block.local_count;
+  outputs.directional_count = visible.block.directional_count;
   auto lights = services.uniforms.write_value(visible.block);
   if (!lights.ok()) return lights.error();
   outputs.lights = *lights;

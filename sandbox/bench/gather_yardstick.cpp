@@ -48,7 +48,7 @@ Status GatherYardstick::prepare(std::uint32_t width, std::uint32_t height) {
   gpu::ImageDesc map;
   map.name = "yardstick_map";
   map.module = "engine";
-  map.format = gpu::Format::r32_float;
+  map.format = gpu::Format::d32_float;
   map.width = map.height = kMapSize;
   map.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
   auto made_map = device_.create_image(map);
@@ -56,6 +56,7 @@ Status GatherYardstick::prepare(std::uint32_t width, std::uint32_t height) {
   map_ = *made_map;
   gpu::ImageDesc target = map;
   target.name = "yardstick_target";
+  target.format = gpu::Format::r32_float;
   target.width = width;
   target.height = height;
   target.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::transfer_source;
@@ -64,6 +65,7 @@ Status GatherYardstick::prepare(std::uint32_t width, std::uint32_t height) {
   target_ = *made_target;
   gpu::SamplerDesc nearest;
   nearest.min_filter = nearest.mag_filter = nearest.mip_filter = gpu::Filter::nearest;
+  nearest.address_u = nearest.address_v = gpu::AddressMode::clamp_to_edge;
   auto sampler = device_.create_sampler(nearest);
   if (!sampler.ok()) return sampler.error();
   sampler_ = *sampler;

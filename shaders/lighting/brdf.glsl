@@ -14,7 +14,9 @@ struct ShadingPoint {
   vec3 diffuse;    // (1 - metallic) · base colour / π
   vec3 f0;
   float alpha2;    // roughness⁴
-  float n_dot_v;
+  float n_dot_v;   // kept off 0
+  float n_dot_v_raw;
+  float smith_v;   // the part of the visibility term that does not depend on the light
 };
 
 ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_color, float metallic, float roughness) {
@@ -26,25 +28,28 @@ ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_co
   p.f0 = mix(vec3(0.04), base_color, metallic);
   float alpha = max(roughness * roughness, 1e-3);
   p.alpha2 = alpha * alpha;
-  p.n_dot_v = max(dot(normal, to_eye), 1e-3);
+  p.n_dot_v_raw = dot(normal, to_eye);
+  p.n_dot_v = max(p.n_dot_v_raw, 1e-3);
+  p.smith_v = sqrt(p.n_dot_v * (p.n_dot_v - p.n_dot_v * p.alpha2) + p.alpha2);
   return p;
 }
 
 // Radiance towards the eye for an illuminance (on a plane facing the light) from a unit direction.
+// With unit l and v, h = (l + v) / |l + v| and |l + v|² = 2 + 2 l·v: its dot products need no vector.
 vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance) {
-  float n_dot_l = clamp(dot(p.normal, to_light), 0.0, 1.0);
-  vec3 sum = to_light + p.to_eye;
-  vec3 half_vector = sum * inversesqrt(max(dot(sum, sum), 1e-12));  // a light straight behind the surface: not NaN
-  float n_dot_h = clamp(dot(p.normal, half_vector), 0.0, 1.0);
-  float v_dot_h = clamp(dot(p.to_eye, half_vector), 0.0, 1.0);
+  float n_dot_l_raw = dot(p.normal, to_light);
+  float n_dot_l = clamp(n_dot_l_raw, 0.0, 1.0);
+  float sum2 = max(2.0 + 2.0 * dot(to_light, p.to_eye), 1e-6);  // a light straight behind the surface: not NaN
+  float inverse_sum = inversesqrt(sum2);
+  float n_dot_h = clamp((n_dot_l_raw + p.n_dot_v_raw) * inverse_sum, 0.0, 1.0);
+  float v_dot_h = min(0.5 * sum2 * inverse_sum, 1.0);
   float f = (n_dot_h * p.alpha2 - n_dot_h) * n_dot_h + 1.0;
-  float distribution = p.alpha2 / (kPi * f * f);
-  float visibility = 0.5 / (n_dot_l * sqrt(p.n_dot_v * (p.n_dot_v - p.n_dot_v * p.alpha2) + p.alpha2) +
-                            p.n_dot_v * sqrt(n_dot_l * (n_dot_l - n_dot_l * p.alpha2) + p.alpha2));
+  float smith = n_dot_l * p.smith_v + p.n_dot_v * sqrt(n_dot_l * (n_dot_l - n_dot_l * p.alpha2) + p.alpha2);
+  float specular = 0.5 * p.alpha2 / (kPi * f * f * smith);  // distribution · visibility
   float one = 1.0 - v_dot_h;
-  float schlick = one * one * one * one * one;
-  vec3 fresnel = p.f0 + (1.0 - p.f0) * schlick;
-  return illuminance * n_dot_l * ((1.0 - fresnel) * p.diffuse + fresnel * (distribution * visibility));
+  float one2 = one * one;
+  vec3 fresnel = p.f0 + (1.0 - p.f0) * (one2 * one2 * one);
+  return (illuminance * n_dot_l) * (p.diffuse + fresnel * (specular - p.diffuse));
 }
 
 #endif

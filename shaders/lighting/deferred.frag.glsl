@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_basic : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shaders/lighting/environment.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
 
 // Lights the geometry buffer: every light of the pixel's tile, or every light of the view (constant 0 = 0: brute force).
-// Loops run over the union of a subgroup's lights, so that the light's data is fetched once for all of them: a light too many adds
-// exactly nothing, because masks only leave out lights that do not reach.
+// Masks only leave out lights that do not reach: both give the same picture to the bit.
 
 layout(constant_id = 0) const uint kTiled = 1u;
+layout(constant_id = 1) const uint kDirectionalLights = 0u;  // known when the pipeline is made, so that the loop is unrolled
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -40,12 +37,10 @@ vec3 local_lights(ShadingPoint p, ivec2 tile) {
     for (uint i = 0u; i < lights.local_count; ++i) sum += add_local(p, i);
     return sum;
   }
-  uint own_groups = texelFetch(mask_image, ivec3(tile, GLOAM_LIGHT_GROUPS), 0).x;
-  for (uint groups = subgroupOr(own_groups); groups != 0u; groups &= groups - 1u) {
-    uint word = subgroupBroadcastFirst(uint(findLSB(groups)));
-    uint own = (own_groups >> word & 1u) != 0u ? texelFetch(mask_image, ivec3(tile, word), 0).x : 0u;
-    for (uint bits = subgroupOr(own); bits != 0u; bits &= bits - 1u)
-      sum += add_local(p, subgroupBroadcastFirst(word * 32u + uint(findLSB(bits))));
+  for (uint groups = texelFetch(mask_image, ivec3(tile, GLOAM_LIGHT_GROUPS), 0).x; groups != 0u; groups &= groups - 1u) {
+    uint word = uint(findLSB(groups));
+    for (uint bits = texelFetch(mask_image, ivec3(tile, word), 0).x; bits != 0u; bits &= bits - 1u)
+      sum += add_local(p, word * 32u + uint(findLSB(bits)));
   }
   return sum;
 }
@@ -59,8 +54,8 @@ void main() {
   vec3 to_eye = normalize(to_viewer(view, position));
   ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
   vec3 light = texelFetch(emissive_image, pixel, 0).rgb + ambient(environment, p, g.roughness, g.occlusion);
-  for (uint i = 0u; i < lights.directional_count; ++i) {
-    DirectionalLight d = lights.directional[subgroupBroadcastFirst(i)];
+  for (uint i = 0u; i < kDirectionalLights; ++i) {
+    DirectionalLight d = lights.directional[i];
     light += reflected(p, -d.direction, d.color);
   }
   light += local_lights(p, pixel / 8);

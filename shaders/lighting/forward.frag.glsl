@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_basic : require
-#extension GL_KHR_shader_subgroup_ballot : require
 #include "shaders/lighting/environment.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/surface_api.glsl"
@@ -23,12 +21,12 @@ void main() {
   ShadingPoint p = shading_point(in_relative, to_eye, s.normal, s.base_color.rgb, s.metallic, s.roughness);
   vec3 light = s.emissive + ambient(environment, p, s.roughness, s.occlusion);
   for (uint i = 0u; i < lights.directional_count; ++i) {
-    DirectionalLight d = lights.directional[subgroupBroadcastFirst(i)];
+    DirectionalLight d = lights.directional[i];
     light += reflected(p, -d.direction, d.color);
   }
   for (uint i = 0u; i < lights.local_count; ++i) {
     vec3 to_light;
-    vec3 illuminance = local_illuminance(lights.local[subgroupBroadcastFirst(i)], p.position, to_light);
+    vec3 illuminance = local_illuminance(lights.local[i], p.position, to_light);
     light += reflected(p, to_light, illuminance);
   }
   out_light = vec4(min(light, vec3(65504.0)), s.base_color.a);

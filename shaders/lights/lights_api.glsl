@@ -10,11 +10,12 @@
 vec3 local_illuminance(LocalLight light, vec3 point, out vec3 to_light) {
   vec3 offset = light.position - point;
   float d2 = max(dot(offset, offset), 1e-6);
-  to_light = offset * inversesqrt(d2);
+  float inverse_distance = inversesqrt(d2);
+  to_light = offset * inverse_distance;
   float ratio = d2 * light.inverse_range_squared;
   float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
   float cone = clamp(dot(-to_light, light.direction) * light.spot_scale + light.spot_offset, 0.0, 1.0);
-  return light.color * (window * window * cone * cone / d2);
+  return light.color * (window * window * cone * cone * inverse_distance * inverse_distance);
 }
 
 #endif

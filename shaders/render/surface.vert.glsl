@@ -34,6 +34,7 @@ void main() {
   vec3 c1 = cross(draw.row2.xyz, draw.row0.xyz);
   vec3 c2 = cross(draw.row0.xyz, draw.row1.xyz);
   vec3 turned = vec3(dot(c0, normal), dot(c1, normal), dot(c2, normal));
+  turned = normalize(turned);
   out_normal = (draw.flags & GLOAM_DRAW_MIRRORED) != 0u ? -turned : turned;
 
   out_tangent = vec4(0.0);
@@ -41,7 +42,8 @@ void main() {
     vec3 tangent = unpack_normal(in_frame.y & 0xFFFEFFFFu);
     float handedness = (in_frame.y & 0x10000u) != 0u ? -1.0 : 1.0;
     if ((draw.flags & GLOAM_DRAW_MIRRORED) != 0u) handedness = -handedness;
-    out_tangent = vec4(dot(draw.row0.xyz, tangent), dot(draw.row1.xyz, tangent), dot(draw.row2.xyz, tangent), handedness);
+    tangent = vec3(dot(draw.row0.xyz, tangent), dot(draw.row1.xyz, tangent), dot(draw.row2.xyz, tangent));
+    out_tangent = vec4(normalize(tangent), handedness);
   }
   out_uv = in_uv;
   out_color = (kSurface & GLOAM_SURFACE_VERTEX_COLOR) != 0u ? in_color : vec4(1.0);

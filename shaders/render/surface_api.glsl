@@ -36,6 +36,7 @@ struct Surface {
 };
 
 vec2 texture_uv(int slot) {
+  if ((kSurface & GLOAM_SURFACE_UV_TRANSFORM) == 0u) return in_uv.xy;
   vec4 row0 = material.uv_transform[2 * slot];
   vec4 row1 = material.uv_transform[2 * slot + 1];
   vec3 uv = vec3(row0.w < 0.5 ? in_uv.xy : in_uv.zw, 1.0);
@@ -45,7 +46,8 @@ vec2 texture_uv(int slot) {
 // `to_viewer`: towards the camera, any length (view_api.glsl).
 Surface fetch_surface(vec3 to_viewer) {
   Surface s;
-  s.base_color = material.base_color * in_color;
+  s.base_color = material.base_color;
+  if ((kSurface & GLOAM_SURFACE_VERTEX_COLOR) != 0u) s.base_color *= in_color;
   if ((kSurface & GLOAM_SURFACE_BASE_TEXTURE) != 0u) s.base_color *= texture(base_color_texture, texture_uv(0));
 
   // The visible side is the one towards the camera, whatever the winding and mirroring say.
@@ -53,14 +55,15 @@ Surface fetch_surface(vec3 to_viewer) {
   if (dot(s.face_normal, to_viewer) < 0.0) s.face_normal = -s.face_normal;
   if (!(dot(s.face_normal, s.face_normal) > 0.5)) s.face_normal = normalize(to_viewer);  // degenerate derivatives
 
-  s.normal = normalize(in_normal);
+  s.normal = in_normal;
   if ((kSurface & GLOAM_SURFACE_NORMAL_TEXTURE) != 0u) {
     vec3 t = texture(normal_texture, texture_uv(1)).xyz * 2.0 - 1.0;
     t.xy *= material.factors.z;
+    // The frame is unit length at vertices and used as it is interpolated, as normal maps are baked.
     vec3 bitangent = cross(in_normal, in_tangent.xyz) * in_tangent.w;
-    vec3 bumped = normalize(in_tangent.xyz) * t.x + normalize(bitangent) * t.y + s.normal * t.z;
-    s.normal = dot(bumped, bumped) > 0.0 && !any(isnan(bumped)) ? normalize(bumped) : s.normal;
+    s.normal = in_tangent.xyz * t.x + bitangent * t.y + in_normal * t.z;
   }
+  s.normal = normalize(s.normal);
   // Two-sided materials shade their back with the turned normal.
   if ((kSurface & GLOAM_SURFACE_DOUBLE_SIDED) != 0u && dot(in_normal, s.face_normal) < 0.0) s.normal = -s.normal;
   if (!(dot(s.normal, s.normal) > 0.5)) s.normal = s.face_normal;

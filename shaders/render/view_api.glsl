@@ -7,9 +7,9 @@
 
 // Camera-relative position of what lies at `depth` (reversed Z) under the pixel centre `pixel` + 0.5.
 vec3 relative_position(ViewConstants view, vec2 pixel, float depth) {
-  vec2 ndc = (pixel + 0.5) * view.inverse_size * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
-  vec4 p = view.relative_from_clip * vec4(ndc, depth, 1.0);
-  return p.xyz / p.w;
+  float scale = view.ray_base.w > 0.0 ? view.ray_base.w / depth : 1.0;
+  return (view.ray_base.xyz + pixel.x * view.ray_dx.xyz + pixel.y * view.ray_dy.xyz) * scale +
+         view.ray_forward.xyz * (view.ray_dx.w + depth * view.ray_dy.w);
 }
 
 // Direction from the camera through a pixel; not normalised.

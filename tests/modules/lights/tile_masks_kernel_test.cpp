@@ -14,6 +14,7 @@
 
 #include "engine/frame/upload.h"
 #include "engine/render/view.h"
+#include "engine/render/view_constants.h"
 #include "modules/lights/light_list.h"
 #include "modules/lights/outputs.h"
 #include "shaders/lights/shaders.h"
@@ -137,18 +138,6 @@ Picture random_picture(std::uint32_t width, std::uint32_t height, std::uint32_t 
 /// The kernel's answer: 33 words a tile, in the order of rows.
 using Masks = std::vector<std::array<std::uint32_t, kLayers>>;
 
-shaders::ViewConstants constants_of(const RenderView& view) {
-  shaders::ViewConstants constants{};
-  constants.clip_from_relative = view.clip_from_relative;
-  constants.relative_from_clip = mat4(glm::inverse(dmat4(view.clip_from_relative)));
-  constants.view_row_z = glm::transpose(view.view_from_relative)[2];
-  constants.size = {view.width, view.height};
-  constants.inverse_size = 1.0f / vec2(static_cast<float>(view.width), static_cast<float>(view.height));
-  constants.near_m = view.near_m;
-  constants.orthographic = view.camera.orthographic ? 1 : 0;
-  return constants;
-}
-
 /// The device of all tests of this program.
 gpu::Device* device() {
   static const std::unique_ptr<gpu::Device> made = test::make_test_device();
@@ -160,7 +149,7 @@ Masks run_kernel(gpu::Device& gpu, const Picture& picture) {
   using enum gpu::ImageUsage;
   const std::uint32_t columns = picture.columns();
   const std::uint32_t rows = picture.rows();
-  const auto view = test::make_upload(gpu, std::vector{constants_of(picture.view)});
+  const auto view = test::make_upload(gpu, std::vector{view_constants(picture.view)});
   const auto lights = test::make_upload(gpu, std::span<const shaders::LightBlock>(&picture.visible->block, 1));
   const auto bounds = test::value_of(gpu.create_image({.name = "bounds",
                                                        .module = "test",

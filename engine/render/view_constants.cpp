@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/view_constants.h"
+
+namespace gloam {
+
+shaders::ViewConstants view_constants(const RenderView& view) {
+  shaders::ViewConstants constants{};
+  constants.clip_from_relative = view.clip_from_relative;
+  const mat4 rows = glm::transpose(view.view_from_relative);
+  constants.view_row_z = rows[2];
+  constants.size = {view.width, view.height};
+  constants.inverse_size = 1.0f / vec2(static_cast<float>(view.width), static_cast<float>(view.height));
+  constants.near_m = view.near_m;
+  constants.orthographic = view.camera.orthographic ? 1 : 0;
+  constants.frame = static_cast<std::uint32_t>(view.frame);
+
+  const dvec3 right(rows[0]), up(rows[1]), forward = -dvec3(rows[2]);
+  const dmat4 clip(view.clip_from_view);
+  const dvec3 whole_width = right * (2.0 / clip[0][0]), whole_height = up * (2.0 / clip[1][1]);
+  const double width = view.width, height = view.height;
+  const dvec3 corner = whole_width * (0.5 / width - 0.5) + whole_height * (0.5 - 0.5 / height);
+  constants.ray_dx = vec4(vec3(whole_width / width), 0.0f);
+  constants.ray_dy = vec4(vec3(-whole_height / height), 0.0f);
+  if (view.camera.orthographic) {
+    constants.ray_base = vec4(vec3(corner), 0.0f);
+    constants.ray_forward = vec4(vec3(forward), 0.0f);
+    constants.ray_dx.w = static_cast<float>(clip[3][2] / clip[2][2]);
+    constants.ray_dy.w = static_cast<float>(-1.0 / clip[2][2]);
+  } else {
+    constants.ray_base = vec4(vec3(corner + forward), view.near_m);
+  }
+  return constants;
+}
+
+}  // namespace gloam
