@@ -31,13 +31,21 @@ def header_faults(include):
     return faults if headers else ["no headers were installed"]
 
 
+def guide_faults(host):
+    """docs/adding-a-module.md shows the host's module word by word."""
+    text = (host / "veil_module.cpp").read_text(encoding="utf-8")
+    shown = text[text.index("class VeilModule"):text.index("}  // namespace\n")].strip()
+    guide = (host.parents[2] / "docs/adding-a-module.md").read_text(encoding="utf-8")
+    return [] if shown in guide else ["docs/adding-a-module.md does not show veil_module.cpp as it is"]
+
+
 def main(cmake, source, build, *arguments):
     work = Path(build) / "embedding"
     prefix = work / "prefix"
     shutil.rmtree(prefix, ignore_errors=True)
     shutil.rmtree(work / "host", ignore_errors=True)
     run(cmake, "--install", build, "--prefix", prefix, "--component", "gloam")
-    faults = header_faults(prefix / "include")
+    faults = header_faults(prefix / "include") + guide_faults(Path(source))
     if faults:
         sys.exit("\n".join(faults))
     run(cmake, "-S", source, "-B", work / "host", f"-DCMAKE_PREFIX_PATH={prefix}", *arguments)

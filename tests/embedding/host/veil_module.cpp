@@ -20,7 +20,8 @@ class VeilModule final : public Module {
   void register_components(World& world) const override { world.register_component<Veil>("veil"); }
 
   void scene_keys(KeyRegistry& registry) const override {
-    registry.add(number_key(key_line("veil", KeyElement::node, "gloam.veil.density", "0", "1/m", "mist"), 0, 10, &Veil::density));
+    registry.add(number_key(key_line("veil", KeyElement::node, "gloam.veil.density", "0", "1/m", "mist"), 0, 10,
+                            &Veil::density));
   }
 
   // Without a view: whether any view may need it. This module's answer is the same for all views.
@@ -49,17 +50,18 @@ class VeilModule final : public Module {
     // A write gives a new version of the handle. It goes back to the board: later passes must not name the old one.
     lit.color = pass.write(lit.color, gpu::Access::color_target);
     // Runs later, when the frame is recorded: capture values and the builder, no references to locals.
-    pass.execute([&frame, depth, constants, color = lit.color, pipeline = *made, nearest = *nearest](PassContext& context) {
-      FullscreenPass draw;
-      draw.pipeline = pipeline;
-      draw.bindings = {frame.view_binding(), {1, gpu::Binding::Sampled{{.image = context.image(depth)}, nearest}}};
-      draw.target = context.image(color);
-      draw.width = frame.view().width;
-      draw.height = frame.view().height;
-      draw.load = gpu::LoadOp::load;  // blended over the light
-      draw.constants = std::as_bytes(std::span(&constants, 1));
-      record_fullscreen(context.commands(), draw);
-    });
+    pass.execute(
+        [&frame, depth, constants, color = lit.color, pipeline = *made, nearest = *nearest](PassContext& context) {
+          FullscreenPass draw;
+          draw.pipeline = pipeline;
+          draw.bindings = {frame.view_binding(), {1, gpu::Binding::Sampled{{.image = context.image(depth)}, nearest}}};
+          draw.target = context.image(color);
+          draw.width = frame.view().width;
+          draw.height = frame.view().height;
+          draw.load = gpu::LoadOp::load;  // blended over the light
+          draw.constants = std::as_bytes(std::span(&constants, 1));
+          record_fullscreen(context.commands(), draw);
+        });
     return {};
   }
 
@@ -76,7 +78,8 @@ class VeilModule final : public Module {
 
   // One function makes the description, so that list and use agree. A name holds every constant, format and state that varies.
   [[nodiscard]] static gpu::GraphicsPipelineDesc pipeline() {
-    gpu::GraphicsPipelineDesc desc = fullscreen_pipeline("veil", "veil", shaders::veil::veil_frag, gpu::Format::rgba16_float);
+    gpu::GraphicsPipelineDesc desc =
+        fullscreen_pipeline("veil", "veil", shaders::veil::veil_frag, gpu::Format::rgba16_float);
     desc.blend = gpu::BlendMode::premultiplied;
     return desc;
   }
