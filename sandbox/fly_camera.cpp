@@ -48,7 +48,8 @@ void FlyCamera::advance(const FlyInput& input, double dt_s) {
 
 void ViewFlight::advance(const World& world, const FlyInput& input, double dt_s, ViewSettings& settings) {
   if (!camera_) {
-    const bool moved = input.forward != 0.0 || input.right != 0.0 || input.up != 0.0 || input.turn != 0.0 || input.tilt != 0.0;
+    const bool moved =
+        input.forward != 0.0 || input.right != 0.0 || input.up != 0.0 || input.turn != 0.0 || input.tilt != 0.0;
     if (!moved) return;
     follow_camera(world, settings);
     settings.follow_camera = false;

@@ -63,8 +63,10 @@ template <class Desc>
 Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
   const std::uint64_t description = hash_of(desc);
   const auto checked = [&](const Entry& entry) {
-    GLOAM_ASSERT(entry.description == description,
-                 "pipeline " + desc.name + " was made from another description: a name must hold every constant, format and state that varies");
+    GLOAM_ASSERT(
+        entry.description == description,
+        "pipeline " + desc.name +
+            " was made from another description: a name must hold every constant, format and state that varies");
     return entry.pipeline;
   };
   {

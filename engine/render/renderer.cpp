@@ -143,7 +143,8 @@ bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder)
 Status Renderer::State::add_module_passes(FrameBuilder& builder) {
   std::vector<Module*> taking_part;
   for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (runtimes[i].in_last_view = takes_part(i, builder); runtimes[i].in_last_view) taking_part.push_back(options.modules[i].get());
+    if (runtimes[i].in_last_view = takes_part(i, builder); runtimes[i].in_last_view)
+      taking_part.push_back(options.modules[i].get());
   for (const PassPhase phase : kAllPhases)
     for (Module* module : taking_part) GLOAM_TRY(module->add_passes(builder, phase));
   return {};

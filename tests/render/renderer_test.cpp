@@ -126,7 +126,8 @@ TEST(RendererOutputs, are_written_in_place_and_never_replaced) {
     renderer->prepare_world(world);
     ViewRequest view;
     view.settings = test::look_at(dvec3(2.0, 3.0, 9.0), dvec3(0.0), 64, 40);
-    EXPECT_ASSERT((void)renderer->render(world, {&view, 1}), lit ? "LitOutput is written in place" : "TargetOutput is written in place");
+    EXPECT_ASSERT((void)renderer->render(world, {&view, 1}),
+                  lit ? "LitOutput is written in place" : "TargetOutput is written in place");
   }
 }
 

@@ -90,8 +90,8 @@ struct Flight : ::testing::Test {
 TEST_F(Flight, follows_the_scenes_camera_until_the_user_moves) {
   flight.advance(world, {.speed = 5.0}, 1.0, settings);
   EXPECT_TRUE(settings.follow_camera);
-  for (const FlyInput& input : {FlyInput{.forward = 1.0}, FlyInput{.right = 1.0}, FlyInput{.up = 1.0}, FlyInput{.turn = 0.1},
-                                FlyInput{.tilt = 0.1}}) {
+  for (const FlyInput& input : {FlyInput{.forward = 1.0}, FlyInput{.right = 1.0}, FlyInput{.up = 1.0},
+                                FlyInput{.turn = 0.1}, FlyInput{.tilt = 0.1}}) {
     ViewSettings own = settings;
     ViewFlight().advance(world, input, 1.0, own);
     EXPECT_FALSE(own.follow_camera);

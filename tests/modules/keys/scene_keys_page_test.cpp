@@ -16,12 +16,18 @@ namespace {
 
 std::string element_words(KeyElement element) {
   switch (element) {
-    case KeyElement::node: return "node";
-    case KeyElement::light_node: return "node with a light";
-    case KeyElement::mesh_node: return "node with a mesh";
-    case KeyElement::camera_node: return "node with a camera";
-    case KeyElement::material: return "material";
-    case KeyElement::scene: return "scene";
+    case KeyElement::node:
+      return "node";
+    case KeyElement::light_node:
+      return "node with a light";
+    case KeyElement::mesh_node:
+      return "node with a mesh";
+    case KeyElement::camera_node:
+      return "node with a camera";
+    case KeyElement::material:
+      return "material";
+    case KeyElement::scene:
+      return "scene";
   }
   return "";
 }
@@ -41,13 +47,20 @@ std::string range_words(const SceneKey& key) {
 
 std::string type_words(const SceneKey& key) {
   switch (key.type) {
-    case KeyType::boolean: return "boolean";
-    case KeyType::number: return "number" + range_words(key);
-    case KeyType::integer: return "integer" + range_words(key);
-    case KeyType::text: return "text";
-    case KeyType::vec2: return "2 numbers" + range_words(key);
-    case KeyType::vec3: return "3 numbers" + range_words(key);
-    case KeyType::choice: break;
+    case KeyType::boolean:
+      return "boolean";
+    case KeyType::number:
+      return "number" + range_words(key);
+    case KeyType::integer:
+      return "integer" + range_words(key);
+    case KeyType::text:
+      return "text";
+    case KeyType::vec2:
+      return "2 numbers" + range_words(key);
+    case KeyType::vec3:
+      return "3 numbers" + range_words(key);
+    case KeyType::choice:
+      break;
   }
   std::string words;
   for (const std::string& choice : key.choices) words += (words.empty() ? "" : ", ") + choice;
@@ -57,8 +70,8 @@ std::string type_words(const SceneKey& key) {
 std::string table_of(const KeyRegistry& registry) {
   std::string table;
   for (const SceneKey& key : registry.keys()) {
-    table += "| " + element_words(key.on) + " | `" + key.name + "` | " + type_words(key) + " | " + key.unit + " | " + key.default_text +
-             " | " + key.meaning + " |\n";
+    table += "| " + element_words(key.on) + " | `" + key.name + "` | " + type_words(key) + " | " + key.unit + " | " +
+             key.default_text + " | " + key.meaning + " |\n";
   }
   return table;
 }
