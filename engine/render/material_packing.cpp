@@ -67,7 +67,7 @@ const SurfacePass& geometry_surface_pass() {
     p.name = "geometry";
     p.module = "engine";
     p.fragment = shaders::render::geometry_frag;
-    p.color_formats = {gpu::Format::rgba8_srgb, gpu::Format::rg32_uint, gpu::Format::rgba8_unorm, gpu::Format::rg11b10_float};
+    p.color_formats = {gpu::Format::rgba8_unorm, gpu::Format::rg32_uint, gpu::Format::rgba8_unorm, gpu::Format::rgba16_float};
     return p;
   }();
   return pass;

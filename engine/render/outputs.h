@@ -46,7 +46,7 @@ struct GeometryTexel {
   float reflectivity = 0.0f;
 };
 
-/// base_color: rgba8_srgb bytes as 0xAABBGGRR; normals: the two words; material: rgba8_unorm as 0xAABBGGRR.
+/// base_color: rgba8_unorm square roots as 0xAABBGGRR; normals: the two words; material: rgba8_unorm as 0xAABBGGRR.
 [[nodiscard]] GeometryTexel decode_geometry(std::uint32_t base_color, glm::uvec2 normals, std::uint32_t material);
 
 }  // namespace gloam

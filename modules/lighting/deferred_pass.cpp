@@ -34,12 +34,14 @@ Status add_deferred_pass(FrameBuilder& frame) {
   const LightsOutputs* lights = frame.find<LightsOutputs>();
   // Without masks the shader does not look at the image, but every binding must be given.
   const ImageRef masks = inputs->tiled ? lights->tile_masks : g.normals;
+  const ImageRef texels = lights != nullptr ? lights->texels : g.base_color;
   LitOutput& lit = frame.get<LitOutput>();
   PassBuilder pass = frame.graph().add_pass("deferred", "lighting");
   for (const ImageRef ref : {g.base_color, g.normals, g.material, g.emissive, g.depth}) pass.read(ref, gpu::Access::fragment_read);
   if (inputs->tiled) pass.read(masks, gpu::Access::fragment_read);
+  if (lights != nullptr) pass.read(texels, gpu::Access::fragment_read);
   lit.color = pass.write(lit.color, gpu::Access::color_target);
-  pass.execute([&frame, g, masks, inputs = *inputs, color = lit.color, pipeline = *pipeline,
+  pass.execute([&frame, g, masks, texels, inputs = *inputs, color = lit.color, pipeline = *pipeline,
                 sampler = *sampler](PassContext& context) {
     const auto sampled = [&](std::uint32_t binding, ImageRef ref) {
       return gpu::Binding{binding, gpu::Binding::Sampled{{.image = context.image(ref)}, sampler}};
@@ -50,6 +52,7 @@ Status add_deferred_pass(FrameBuilder& frame) {
                      sampled(3, g.base_color), sampled(4, g.normals),  sampled(5, g.material),
                      sampled(6, g.emissive),   sampled(7, g.depth)};
     draw.bindings.push_back({8, gpu::Binding::Sampled{{.image = context.image(masks), .as_array = true}, sampler}});
+    draw.bindings.push_back(sampled(9, texels));
     draw.target = context.image(color);
     draw.width = frame.view().width;
     draw.height = frame.view().height;

@@ -65,6 +65,7 @@ class LightsModule final : public Module {
   }
 
   void pipelines(const KnobRegistry& knobs, PipelineList& list) const override {
+    list.push_back(light_texels_pipeline());
     if (knobs.is("lights.culling", "tiled")) list.push_back(tile_masks_pipeline());
   }
 

@@ -15,6 +15,7 @@ namespace gloam {
 /// What the lights module leaves for a view.
 struct LightsOutputs {
   gpu::Binding::BufferRange lights;  ///< a LightBlock (shaders/lights/lights_shared.h), uniform
+  ImageRef texels;                   ///< rgba32f, 3 × GLOAM_MAX_LOCAL_LIGHTS: local lights as light_texels.comp writes them
   ImageRef tile_masks;               ///< r32ui, 33 layers, one texel an 8×8 tile; none when lights.culling = brute
   std::uint32_t local_count = 0;
   std::uint32_t directional_count = 0;

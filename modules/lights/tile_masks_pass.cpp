@@ -9,6 +9,34 @@ namespace gloam {
 
 gpu::ComputePipelineDesc tile_masks_pipeline() { return {"tile_masks", "lights", shaders::lights::tile_masks_comp, {}}; }
 
+namespace {
+
+/// Local lights into an image, see light_texels.comp.
+Status add_light_texels_pass(FrameBuilder& frame, LightsOutputs& outputs) {
+  auto pipeline = frame.services().pipelines.get(light_texels_pipeline());
+  if (!pipeline.ok()) return pipeline.error();
+  gpu::ImageDesc desc;
+  desc.name = "light_texels";
+  desc.module = "lights";
+  desc.format = gpu::Format::rgba32_float;
+  desc.width = 3;
+  desc.height = GLOAM_MAX_LOCAL_LIGHTS;
+  PassBuilder pass = frame.graph().add_pass("light_texels", "lights");
+  outputs.texels = pass.write(frame.graph().create_image(desc), gpu::Access::compute_write);
+  pass.execute([outputs, pipeline = *pipeline](PassContext& context) {
+    gpu::CommandList& commands = context.commands();
+    commands.bind_pipeline(pipeline);
+    const gpu::Binding bindings[] = {{0, outputs.lights}, {1, gpu::Binding::Storage{{.image = context.image(outputs.texels)}}}};
+    commands.bind(bindings);
+    commands.dispatch((outputs.local_count + 63) / 64, 1, 1);
+  });
+  return {};
+}
+
+}  // namespace
+
+gpu::ComputePipelineDesc light_texels_pipeline() { return {"light_texels", "lights", shaders::lights::light_texels_comp, {}}; }
+
 Status add_tile_masks_pass(FrameBuilder& frame, const VisibleLights& visible) {
   const FrameServices& services = frame.services();
   LightsOutputs outputs;
@@ -17,6 +45,7 @@ Status add_tile_masks_pass(FrameBuilder& frame, const VisibleLights& visible) {
   auto lights = services.uniforms.write_value(visible.block);
   if (!lights.ok()) return lights.error();
   outputs.lights = *lights;
+  GLOAM_TRY(add_light_texels_pass(frame, outputs));
   if (frame.knobs().is("lights.culling", "brute")) {
     frame.put(outputs);
     return {};

@@ -8,6 +8,7 @@
 namespace gloam {
 
 [[nodiscard]] gpu::ComputePipelineDesc tile_masks_pipeline();
+[[nodiscard]] gpu::ComputePipelineDesc light_texels_pipeline();
 
 /// Uploads the view's lights and, when lights.culling = tiled, finds which may touch each tile; puts LightsOutputs.
 [[nodiscard]] Status add_tile_masks_pass(FrameBuilder& frame, const VisibleLights& visible);

@@ -22,12 +22,13 @@ layout(set = 0, binding = 5) uniform sampler2D material_image;
 layout(set = 0, binding = 6) uniform sampler2D emissive_image;
 layout(set = 0, binding = 7) uniform sampler2D depth_image;
 layout(set = 0, binding = 8) uniform usampler2DArray mask_image;
+layout(set = 0, binding = 9) uniform sampler2D light_texels;
 
 layout(location = 0) out vec4 out_light;
 
 vec3 add_local(ShadingPoint p, uint index) {
   vec3 to_light;
-  vec3 illuminance = local_illuminance(lights.local[index], p.position, to_light);
+  vec3 illuminance = local_illuminance(fetch_light(light_texels, index), p.position, to_light);
   return reflected(p, to_light, illuminance);
 }
 

@@ -5,6 +5,14 @@
 
 #include "shaders/lights/lights_shared.h"
 
+// A light from its three texels (light_texels.comp).
+LocalLight fetch_light(sampler2D texels, uint index) {
+  vec4 a = texelFetch(texels, ivec2(0, index), 0);
+  vec4 b = texelFetch(texels, ivec2(1, index), 0);
+  vec4 c = texelFetch(texels, ivec2(2, index), 0);
+  return LocalLight(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w);
+}
+
 // Illuminance a local light gives at a camera-relative point on a plane that faces it, in lux; `to_light` gets the unit direction.
 // Inverse square, windowed so that it ends at the range: (1 - (d/range)^4)^2, as KHR_lights_punctual recommends.
 vec3 local_illuminance(LocalLight light, vec3 point, out vec3 to_light) {

@@ -21,7 +21,7 @@ void main() {
   float depth = texelFetch(depth_image, pixel, 0).r;
   vec3 shown = vec3(0.0);
   if (depth > 0.0) {
-    if (view.visualizer == 1u) shown = texelFetch(base_color_image, pixel, 0).rgb;
+    if (view.visualizer == 1u) shown = pow(texelFetch(base_color_image, pixel, 0).rgb, vec3(2.0));
     if (view.visualizer == 2u) {
       vec3 coded = unpack_normal(texelFetch(normal_image, pixel, 0).x) * 0.5 + 0.5;
       shown = coded * coded;  // so that the encoded picture looks even

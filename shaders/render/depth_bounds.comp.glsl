@@ -15,15 +15,15 @@ void main() {
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   ivec2 tiles = imageSize(bounds_image);
   if (any(greaterThanEqual(tile, tiles))) return;
-  ivec2 size = textureSize(depth_image, 0);
+  vec2 texel = 1.0 / vec2(textureSize(depth_image, 0));
   float nearest = 0.0, farthest = 1.0;
-  for (int y = 0; y < 8; ++y) {
-    for (int x = 0; x < 8; ++x) {
-      ivec2 texel = min(tile * 8 + ivec2(x, y), size - 1);
-      float d = texelFetch(depth_image, texel, 0).r;
-      nearest = max(nearest, d);
-      farthest = min(farthest, d > 0.0 ? d : 1.0);
-    }
+  for (int i = 0; i < 16; ++i) {
+    // The corner of four texels; the sampler repeats the border's where the tile hangs over.
+    vec2 corner = vec2(tile * 8 + ivec2(i & 3, i >> 2) * 2 + 1);
+    vec4 d = textureGather(depth_image, corner * texel);
+    vec4 surface = mix(vec4(1.0), d, greaterThan(d, vec4(0.0)));
+    nearest = max(nearest, max(max(d.x, d.y), max(d.z, d.w)));
+    farthest = min(farthest, min(min(surface.x, surface.y), min(surface.z, surface.w)));
   }
   imageStore(bounds_image, tile, vec4(farthest, nearest, 0.0, 0.0));
 }

@@ -84,10 +84,10 @@ TEST(SamplerOfATexture, follows_filter_and_wrapping) {
 TEST(GeometrySurfacePass, writes_the_formats_the_decoder_reads) {
   const SurfacePass& pass = geometry_surface_pass();
   ASSERT_EQ(pass.color_formats.size(), 4u);
-  EXPECT_EQ(pass.color_formats[0], gpu::Format::rgba8_srgb);
+  EXPECT_EQ(pass.color_formats[0], gpu::Format::rgba8_unorm);
   EXPECT_EQ(pass.color_formats[1], gpu::Format::rg32_uint);
   EXPECT_EQ(pass.color_formats[2], gpu::Format::rgba8_unorm);
-  EXPECT_EQ(pass.color_formats[3], gpu::Format::rg11b10_float);
+  EXPECT_EQ(pass.color_formats[3], gpu::Format::rgba16_float);
   EXPECT_TRUE(pass.depth_write);
   EXPECT_EQ(pass.blend, gpu::BlendMode::opaque);
 }

@@ -14,8 +14,8 @@ namespace {
 TEST(DecodeGeometry, takes_channels_from_the_low_byte_up) {
   const GeometryTexel texel = decode_geometry(0xFF80'40FFu, {0, 0}, 0xFF00'80FFu);
   EXPECT_FLOAT_EQ(texel.base_color.r, 1.0f);
-  EXPECT_NEAR(texel.base_color.g, std::pow((64.0 / 255.0 + 0.055) / 1.055, 2.4), 1e-6);
-  EXPECT_NEAR(texel.base_color.b, std::pow((128.0 / 255.0 + 0.055) / 1.055, 2.4), 1e-6);
+  EXPECT_NEAR(texel.base_color.g, std::pow(64.0 / 255.0, 2.0), 1e-6);
+  EXPECT_NEAR(texel.base_color.b, std::pow(128.0 / 255.0, 2.0), 1e-6);
   EXPECT_TRUE(texel.subsurface);
   EXPECT_FLOAT_EQ(texel.roughness, 1.0f);
   EXPECT_NEAR(texel.metallic, 128.0 / 255.0, 1e-6);
