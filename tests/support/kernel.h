@@ -63,6 +63,7 @@ class Kernel {
     const Status uploaded = uploader.flush();
     EXPECT_TRUE(uploaded.ok()) << (uploaded.ok() ? "" : uploaded.error().message);
     gpu::SamplerDesc nearest;
+    nearest.address_u = nearest.address_v = gpu::AddressMode::clamp_to_edge;
     nearest.min_filter = nearest.mag_filter = nearest.mip_filter = gpu::Filter::nearest;
     bindings_.push_back({binding, gpu::Binding::Sampled{{.image = image}, value_of(device_.create_sampler(nearest))}});
   }
