@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""Fails on a header that does not compile alone. usage: headers_alone.py ROOT BUILD
+"""Fails on a header that does not compile alone. usage: headers_alone.py ROOT BUILD [FOLDER | -FOLDER]
+
+FOLDER checks the headers below it alone, -FOLDER all the others.
 
 A header that some built source includes first has been compiled alone already. The others are compiled here, twice in one file
 (so that a missing guard shows), with the flags of the nearest source in BUILD/compile_commands.json and with the standard
@@ -159,11 +161,17 @@ class Build:
         return f"{header}: does not compile alone: {(errors or [done.stderr.strip()])[0]}"
 
 
-def check(root, build):
+def in_share(header, share):
+    if not share:
+        return True
+    return header.startswith(share.lstrip("-") + "/") != share.startswith("-")
+
+
+def check(root, build, share=""):
     build = Build(Path(root).resolve(), Path(build).resolve())
-    memory = build.build / "hygiene" / "headers_alone.json"
+    memory = build.build / "hygiene" / f"headers_alone{share}.json"
     known = json.loads(memory.read_text(encoding="utf-8")) if memory.is_file() else {}
-    headers = source_text.files(build.root, (".h",))
+    headers = [header for header in source_text.files(build.root, (".h",)) if in_share(header, share)]
     proven = build.first_includes()
     passed, todo = {}, []
     for header in headers:
@@ -185,6 +193,6 @@ def check(root, build):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit("usage: headers_alone.py ROOT BUILD")
-    sys.exit(source_text.report("headers_alone", *check(sys.argv[1], sys.argv[2])))
+    if len(sys.argv) not in (3, 4):
+        sys.exit("usage: headers_alone.py ROOT BUILD [FOLDER | -FOLDER]")
+    sys.exit(source_text.report("headers_alone", *check(*sys.argv[1:])))
