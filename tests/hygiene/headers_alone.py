@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""Fails on a header that does not compile alone. usage: headers_alone.py ROOT BUILD [FOLDER | -FOLDER]
+"""Fails on a header that does not compile alone. usage: headers_alone.py ROOT BUILD [FOLDER]
 
-FOLDER checks the headers below it alone, -FOLDER all the others.
+FOLDER checks the headers below it alone.
 
 A header that some built source includes first has been compiled alone already. The others are compiled here, twice in one file
 (so that a missing guard shows), with the flags of the nearest source in BUILD/compile_commands.json and with the standard
@@ -162,9 +162,7 @@ class Build:
 
 
 def in_share(header, share):
-    if not share:
-        return True
-    return header.startswith(share.lstrip("-") + "/") != share.startswith("-")
+    return not share or header.startswith(share + "/")
 
 
 def check(root, build, share=""):
@@ -194,5 +192,5 @@ def check(root, build, share=""):
 
 if __name__ == "__main__":
     if len(sys.argv) not in (3, 4):
-        sys.exit("usage: headers_alone.py ROOT BUILD [FOLDER | -FOLDER]")
+        sys.exit("usage: headers_alone.py ROOT BUILD [FOLDER]")
     sys.exit(source_text.report("headers_alone", *check(*sys.argv[1:])))
