@@ -106,6 +106,11 @@ bool Pipelines::request(const PipelineList& list, LogSink& log) {
   return ready;
 }
 
+std::size_t Pipelines::pending() const {
+  const std::lock_guard lock(mutex_);
+  return begun_.size();
+}
+
 void Pipelines::run_worker(std::stop_token stop, LogSink& log) {
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [&] { return !queue_.empty(); }) && !stop.stop_requested()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -42,6 +43,8 @@ class Pipelines {
   /// Whether all pipelines of a list are made. Those that are not are begun in the background, each once; one that fails there is told
   /// to the log and counts as ready, so that `get` meets the error.
   [[nodiscard]] bool request(const PipelineList& list, LogSink& log);
+  /// Pipelines that are made in the background, or wait for their turn there.
+  [[nodiscard]] std::size_t pending() const;
   /// Destroys all pipelines of a module, drops those that wait for their turn in the background and forgets failures. One that is
   /// being compiled in the background stays.
   void release(std::string_view module);

@@ -73,6 +73,7 @@ struct FrameReport {
   std::vector<PassTime> passes;
   std::vector<ModuleState> modules;          ///< "engine" first, then the list's order
   std::map<std::string, double> counters;    ///< of the last view
+  std::size_t pipelines_pending = 0;         ///< made in the background; frames stand in for them with less or slower passes
 };
 
 /// Draws worlds. Owns modules, knobs, the schedule and all GPU state; one thread at a time.

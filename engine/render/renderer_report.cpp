@@ -58,6 +58,7 @@ FrameReport Renderer::report() {
   report.passes = s.graph.pass_times();
   report.gpu_ms = s.graph.gpu_ms();
   report.counters = s.counters;
+  report.pipelines_pending = s.pipelines.pending();
   const std::vector<gpu::ModuleMemory> memory = s.options.device->memory();
   const auto state_of = [&](std::string_view name) {
     ModuleState state;

@@ -121,6 +121,16 @@ class DemandTest : public ::testing::Test {
     }
   }
 
+  /// Renders until no pipeline is made in the background any more: an effect's passes may come before those of others it hastens.
+  void frames_until_nothing_is_pending() {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (renderer_->report().pipelines_pending > 0) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "pipelines are pending for ever";
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      frames();
+    }
+  }
+
   [[nodiscard]] Seen seen(std::string_view name) {
     Seen seen;
     const FrameReport report = renderer_->report();

@@ -74,6 +74,7 @@ TEST_P(ReadinessOf, once_ready_its_frames_are_those_of_a_renderer_that_waits) {
   frames(2);
   gate_->open();
   frames_until_there_are_passes_of(GetParam());
+  frames_until_nothing_is_pending();
   frames(10);
   const std::vector<std::string> background = last_commands();
   make_renderer(Readiness::wait);
@@ -89,6 +90,7 @@ TEST_P(ReadinessOf, toggling_grows_nothing) {
     const Entity cause = call_for(GetParam());
     frames();
     frames_until_there_are_passes_of(GetParam());
+    frames_until_nothing_is_pending();
     frames(kFramesKept);
     if (toggle == 0) with = belongings();
     EXPECT_EQ(belongings(), with);
