@@ -17,6 +17,16 @@ struct LightsOutputs {
   gpu::Binding::BufferRange lights;  ///< a LightBlock (shaders/lights/lights_shared.h), uniform
   ImageRef texels;                   ///< rgba32f, 3 × GLOAM_MAX_LOCAL_LIGHTS: local lights as light_texels.comp writes them
   ImageRef tile_masks;               ///< r32ui, 33 layers, one texel an 8×8 tile; none when lights.culling = brute
+  gpu::Binding::BufferRange grid;        ///< a LightGrid, uniform
+  gpu::Binding::BufferRange z_bins;      ///< one word a bin: the standard set, then the ranged one; storage
+  gpu::Binding::BufferRange mask_tiles;  ///< GLOAM_MASK_WORDS a tile of 32×32 pixels, as the CPU made them; storage
+  /// What follows exists when lights.culling = tiled.
+  BufferRef group_masks;  ///< GLOAM_MASK_WORDS a tile group: lights of the approximate search
+  ImageRef tile_lists;    ///< rg32ui, one texel a shadow tile: slot (first list entry, a multiple of 3) or GLOAM_NO_SLOT; lights in
+                          ///< the low 16 bits by the accurate search, in the high 16 by the approximate one
+  BufferRef early_lists;  ///< list entry e: 10 bits at bit 10 · (e % 3) of word e / 3
+  BufferRef counters;     ///< a LightCounters
+  std::uint32_t slot_capacity = 0;  ///< list entries early_lists holds
   std::uint32_t local_count = 0;
   std::uint32_t directional_count = 0;
 };
