@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/frame_builder.h"
 
+#include "engine/render/renderer_state.h"
 #include "engine/render/view_constants.h"
 #include "shaders/render/shaders.h"
 
@@ -62,6 +63,11 @@ void FrameBuilder::read_vertices(PassBuilder& pass) {
     pass.read(deformed->positions, gpu::Access::vertex_input);
     pass.read(deformed->frames, gpu::Access::vertex_input);
   }
+}
+
+void FrameBuilder::keep_result(std::string module, std::string name, BufferRef buffer, std::any note) {
+  ResultKey key{std::move(module), std::move(name), world_.resource<RenderSlot>().value, view_.id.value};
+  services_.results.keep(std::move(key), buffer, 0, graph_.desc(buffer).size, std::move(note));
 }
 
 Result<gpu::SamplerHandle> FrameBuilder::nearest_sampler() const {

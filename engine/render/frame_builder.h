@@ -11,6 +11,7 @@
 
 #include "engine/core/log.h"
 #include "engine/frame/frame_graph.h"
+#include "engine/frame/frame_results.h"
 #include "engine/frame/upload.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/draw_lists.h"
@@ -30,6 +31,7 @@ struct FrameServices {
   Pipelines& pipelines;
   UploadRing& uniforms;
   UploadRing& storage;
+  FrameResults& results;
   bool wait_for_pipelines = true;  ///< false: where there is a choice, take what is ready (Pipelines::request)
 };
 
@@ -82,6 +84,10 @@ class FrameBuilder {
   [[nodiscard]] Status prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
   /// Declares that a pass draws meshes: reads deformed vertices.
   void read_vertices(PassBuilder& pass);
+
+  /// Keeps what a buffer holds at the end of the frame for the CPU to look at later (Module::take_result, Module::result_counters).
+  /// `buffer`: the version that no later pass writes.
+  void keep_result(std::string module, std::string name, BufferRef buffer, std::any note = {});
 
   /// Nearest and linear clamped samplers for full-screen passes.
   [[nodiscard]] Result<gpu::SamplerHandle> nearest_sampler() const;

@@ -10,6 +10,7 @@
 
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
+#include "engine/frame/frame_results.h"
 #include "engine/render/knobs.h"
 #include "engine/render/reference.h"
 #include "engine/render/pipelines.h"
@@ -113,3 +114,30 @@ using ModuleList = std::vector<std::unique_ptr<Module>>;
 [[nodiscard]] KeyRegistry make_key_registry(const ModuleList& modules);
 
 }  // namespace gloam
+  /// In a frame drawn for Renderer::pick, after all phases: copies out what `pick` will look at. Names begin with the module's.
+  [[nodiscard]] virtual Status add_pick_copies(FrameBuilder& frame, Captures& copies) {
+    static_cast<void>(frame);
+    static_cast<void>(copies);
+    return {};
+  }
+  /// When that frame has ended on the GPU: what the module knows of the pixel, in lines for people.
+  [[nodiscard]] virtual std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel, const Captures& copies) const {
+    static_cast<void>(frame);
+    static_cast<void>(pixel);
+    static_cast<void>(copies);
+    return {};
+  }
+  /// Before the systems of a view run, when the world demands the module, for each of its results (FrameBuilder::keep_result) of that
+  /// view: the newest of those that are Device::kFramesInFlight or more frames old. The same one may come again.
+  virtual void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const {
+    static_cast<void>(world);
+    static_cast<void>(view);
+    static_cast<void>(name);
+    static_cast<void>(result);
+  }
+  /// Counters that the GPU counted, for reports: from a result of the newest frame that has ended.
+  virtual void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const {
+    static_cast<void>(name);
+    static_cast<void>(result);
+    static_cast<void>(sink);
+  }

@@ -55,6 +55,7 @@ Renderer::State::State(RendererOptions given)
       pipelines(*options.device),
       uniforms(*options.device, "engine", gpu::BufferUsage::uniform),
       storage(*options.device, "engine", gpu::BufferUsage::storage),
+      results(*options.device),
       graph(*options.device),
       runtimes(options.modules.size()) {
   add_scene_systems(schedule);
@@ -74,7 +75,7 @@ Renderer::State::~State() {
 }
 
 FrameServices Renderer::State::services() {
-  return {*options.device, *options.executor,  *options.log, knobs, pipelines, uniforms, storage,
+  return {*options.device, *options.executor, *options.log, knobs, pipelines, uniforms, storage, results,
           options.readiness == Readiness::wait};
 }
 
@@ -155,7 +156,10 @@ void Renderer::State::release_idle_modules() {
     ModuleRuntime& runtime = runtimes[i];
     runtime.idle_frames = runtime.in_view ? 0 : runtime.idle_frames + 1;
     runtime.absent_frames = runtime.demand.needed ? 0 : runtime.absent_frames + 1;
-    if (runtime.idle_frames == kFramesUntilRelease) options.modules[i]->release();
+    if (runtime.idle_frames == kFramesUntilRelease) {
+      options.modules[i]->release();
+      results.forget_module(options.modules[i]->name());
+    }
     // Time and again: one that was being compiled may have come since.
     if (runtime.absent_frames != 0 && runtime.absent_frames % kFramesUntilRelease == 0) pipelines.release(options.modules[i]->name());
   }
@@ -192,9 +196,18 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
     const GeometryOutputs& g = frame.get<GeometryOutputs>();
     for (const ImageRef ref : {g.base_color, g.normals, g.material, g.depth}) {
       auto capture = capture_image(graph, *options.device, ref);
+void Renderer::State::hand_out_results(World& world, ViewId view) {
+  results.for_each_settled(world.resource<RenderSlot>().value, view.value, [&](const ResultKey& key, const FrameResult& result) {
+    for (std::size_t i = 0; i < options.modules.size(); ++i)
+      if (runtimes[i].demand.needed && options.modules[i]->name() == key.module)
+        options.modules[i]->take_result(world, view, key.name, result);
+  });
+}
+
       if (!capture.ok()) return capture.error();
       captures.push_back(*capture);
     }
+  results.begin_frame();
   }
   return {};
 }
@@ -210,9 +223,11 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
     ViewRequest request = requested;
     GLOAM_TRY(acquire_target(*options.device, request));
     ViewSettings& settings = request.settings;
+    hand_out_results(world, settings.id);
     check_target(*options.device, request);
     follow_camera(world, settings);
     GLOAM_TRY(prepare_images(request));
+  GLOAM_TRY(results.add_pass(graph));
     views.push_back(std::make_unique<RenderView>(make_view(settings, frame)));
     world.set_view_resource(settings.id, *views.back());
     for (std::size_t i = 0; i < options.modules.size(); ++i)
@@ -281,7 +296,10 @@ void Renderer::prepare_world(World& world) const {
 }
 
 void Renderer::release_world(const World& world) {
-  if (const RenderSlot* slot = world.try_resource<RenderSlot>(); slot != nullptr) state_->scenes.erase(slot->value);
+  const RenderSlot* slot = world.try_resource<RenderSlot>();
+  if (slot == nullptr) return;
+  state_->scenes.erase(slot->value);
+  state_->results.forget_world(slot->value);
 }
 
 Status Renderer::render(World& world, std::span<const ViewRequest> requests) {

@@ -72,7 +72,7 @@ struct FrameReport {
   double gpu_ms = 0.0;
   std::vector<PassTime> passes;
   std::vector<ModuleState> modules;          ///< "engine" first, then the list's order
-  std::map<std::string, double> counters;    ///< of the last view
+  std::map<std::string, double> counters;    ///< of the last view; those the GPU counts are GPU figures
   std::size_t pipelines_pending = 0;         ///< made in the background; frames stand in for them with less or slower passes
 };
 

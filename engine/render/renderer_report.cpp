@@ -28,6 +28,7 @@ T texel(std::span<const std::byte> bytes, std::size_t index) {
 }
 
 /// Metres in front of the camera of what has this depth.
+  counted_results.clear();
 float view_depth(const mat4& clip_from_view, float depth) {
   return (clip_from_view[3][2] - depth * clip_from_view[3][3]) / (clip_from_view[2][2] - depth * clip_from_view[2][3]);
 }
@@ -35,6 +36,18 @@ float view_depth(const mat4& clip_from_view, float depth) {
 std::string vector_text(const vec3& v) {
   char line[96];
   std::snprintf(line, sizeof(line), "%.4f %.4f %.4f", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  counted_results = results.kept_keys();
+  std::erase_if(counted_results, [&](const ResultKey& key) { return key.view != last.view().id.value; });
+}
+
+void Renderer::State::add_result_counters(std::map<std::string, double>& all) const {
+  MapSink sink(all);
+  for (const ResultKey& key : counted_results) {
+    const std::optional<FrameResult> result = results.newest(key);
+    if (!result) continue;
+    for (const auto& module : options.modules)
+      if (module->name() == key.module) module->result_counters(key.name, *result, sink);
+  }
   return line;
 }
 
@@ -44,6 +57,7 @@ void Renderer::State::collect_counters(const World& world) {
   counters.clear();
   if (builders.empty()) return;
   const FrameBuilder& last = *builders.back();
+  s.add_result_counters(report.counters);
   MapSink sink(counters);
   sink.count("engine.draws", static_cast<double>(last.draws().solid.size() + last.draws().blended.size()));
   sink.count("engine.culled_primitives", last.draws().culled_instances);
@@ -108,50 +122,6 @@ Result<LinearPicture> Renderer::read_linear(ViewId view) {
   picture.rgba.resize(bytes->size() / sizeof(std::uint16_t));
   for (std::size_t i = 0; i < picture.rgba.size(); ++i) picture.rgba[i] = half_to_float(texel<std::uint16_t>(*bytes, i));
   return picture;
-}
-
-Result<std::vector<std::string>> Renderer::pick(World& world, ViewId view, std::uint32_t x, std::uint32_t y) {
-  State& s = *state_;
-  const auto last = std::find_if(s.last_requests.begin(), s.last_requests.end(),
-                                 [&](const ViewRequest& r) { return r.settings.id == view; });
-  GLOAM_ASSERT(last != s.last_requests.end(), "pick needs a view of the last frame");
-  // The same frame once more, with its geometry copied out; into a picture of the renderer's own, since a window's is gone.
-  ViewRequest again = *last;
-  again.target = {};
-  again.settings.width = s.images.at(view.value).width;
-  again.settings.height = s.images.at(view.value).height;
-  const std::uint32_t width = again.settings.width;
-  if (x >= width || y >= again.settings.height) return Error{ErrorKind::usage, "the picked pixel lies outside the picture"};
-  const std::vector<ViewRequest> all = s.last_requests;
-  s.pick = PickRequest{view, x, y};
-  const Status drawn = render(world, std::span(&again, 1));
-  s.pick.reset();
-  s.last_requests = all;
-  if (!drawn.ok()) {
-    for (const Capture& capture : s.captures) s.options.device->destroy(capture.buffer);
-    s.captures.clear();
-    return drawn.error();
-  }
-  GLOAM_TRY(wait());
-  std::vector<std::vector<std::byte>> bytes;
-  for (const Capture& capture : s.captures) bytes.push_back(take_capture(*s.options.device, capture));
-  s.captures.clear();
-
-  const std::size_t at = std::size_t{y} * width + x;
-  std::vector<std::string> lines = {"pixel " + std::to_string(x) + "," + std::to_string(y) + " of tile " +
-                                    std::to_string(x / kTileSize) + "," + std::to_string(y / kTileSize)};
-  const float depth = texel<float>(bytes[3], at);
-  if (depth <= 0.0f) {
-    lines.push_back("sky");
-    return lines;
-  }
-  const GeometryTexel g =
-      decode_geometry(texel<std::uint32_t>(bytes[0], at), texel<glm::uvec2>(bytes[1], at), texel<std::uint32_t>(bytes[2], at));
-  lines.push_back("view depth " + std::to_string(view_depth(s.views.back()->clip_from_view, depth)) + " m");
-  lines.push_back("base colour " + vector_text(g.base_color) + (g.subsurface ? ", subsurface" : ""));
-  lines.push_back("normal " + vector_text(g.normal) + ", face normal " + vector_text(g.face_normal));
-  lines.push_back("roughness, metallic, occlusion " + vector_text({g.roughness, g.metallic, g.occlusion}));
-  return lines;
 }
 
 std::string Renderer::describe() const { return state_->schedule.describe() + state_->graph.describe(); }

@@ -69,10 +69,14 @@ struct Renderer::State {
   void release_idle_modules();
   /// Of the frame's last view and the modules that took part in it.
   void collect_counters(const World& world);
+  /// Hands a view's settled results to the modules that the world demands.
+  void hand_out_results(World& world, ViewId view);
 
   RendererOptions options;
   KnobRegistry knobs;
   Schedule schedule;
+  /// From results of the last view, of the newest frame that has ended.
+  void add_result_counters(std::map<std::string, double>& all) const;
   Pipelines pipelines;
   UploadRing uniforms;
   UploadRing storage;
@@ -80,6 +84,7 @@ struct Renderer::State {
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
   std::uint64_t next_slot = 1;
   std::map<std::uint32_t, ViewImages> images;
+  FrameResults results;
   std::vector<std::unique_ptr<FrameBuilder>> builders;  ///< of the frame in the making; pass functions refer to them
   std::vector<std::unique_ptr<RenderView>> views;
   std::vector<ModuleRuntime> runtimes;  ///< by module
@@ -89,5 +94,6 @@ struct Renderer::State {
   std::vector<Capture> captures;
   double cpu_ms = 0.0;
 };
+  std::vector<ResultKey> counted_results;  ///< of the last view
 
 }  // namespace gloam
