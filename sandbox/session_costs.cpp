@@ -5,6 +5,23 @@
 #include <utility>
 
 namespace gloam {
+namespace {
+
+ModuleCost& share_of(std::vector<ModuleCost>& modules, const std::string& name) {
+  for (ModuleCost& cost : modules)
+    if (cost.module == name) return cost;
+  return modules.emplace_back(ModuleCost{.module = name});
+}
+
+std::vector<ModuleCost> module_costs(const FrameSample& sample) {
+  std::vector<ModuleCost> modules;
+  for (const Zone& zone : sample.zones)
+    share_of(modules, zone.module).cpu_ms += static_cast<double>(zone.end_ns - zone.begin_ns) * 1e-6;
+  for (const PassTime& pass : sample.report.passes) share_of(modules, pass.module).gpu_ms += pass.ms;
+  return modules;
+}
+
+}  // namespace
 
 SessionCosts::SessionCosts(Session& session, const Options& options)
     : session_(session),
@@ -19,12 +36,20 @@ std::vector<ReferenceInfo> SessionCosts::references() const {
   return all;
 }
 
+std::vector<MeasureInfo> SessionCosts::measures() const {
+  std::vector<MeasureInfo> all;
+  for (const auto& module : session_.renderer->modules()) {
+    for (MeasureInfo& measure : module->measures()) all.push_back(std::move(measure));
+  }
+  return all;
+}
+
 Result<FrameCost> SessionCosts::draw(std::uint32_t index) {
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
   index_ = index;
-  return FrameCost{.cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms};
+  return FrameCost{.cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms, .modules = module_costs(*sample)};
 }
 
 Result<std::uint64_t> SessionCosts::gpu_bytes() {

@@ -16,8 +16,10 @@ class SessionCosts final : public CostSubject {
 
   [[nodiscard]] KnobRegistry& knobs() override { return session_.renderer->knobs(); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override;
+  [[nodiscard]] std::vector<MeasureInfo> measures() const override;
   [[nodiscard]] Result<FrameCost> draw(std::uint32_t index) override;
   [[nodiscard]] Result<std::uint64_t> gpu_bytes() override;
+  [[nodiscard]] FrameCounters counters() override { return session_.renderer->report().counters; }
   [[nodiscard]] Result<FramePictures> read() override;
   [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo& reference, const FramePictures& frame,
                                                      std::uint32_t samples) override;

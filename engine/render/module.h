@@ -12,6 +12,7 @@
 #include "engine/ecs/world.h"
 #include "engine/frame/frame_results.h"
 #include "engine/render/knobs.h"
+#include "engine/render/measure.h"
 #include "engine/render/reference.h"
 #include "engine/render/pipelines.h"
 #include "engine/render/view.h"
@@ -71,6 +72,8 @@ class Module {
   virtual void knobs(KnobRegistry& registry) const { static_cast<void>(registry); }
   /// For knobs that are judged by more than their most exact value; at most one a knob.
   [[nodiscard]] virtual std::vector<ReferenceInfo> references() const { return {}; }
+  /// For knobs whose values all give the same picture: what else tells them apart; at most one a knob, which then needs no reference.
+  [[nodiscard]] virtual std::vector<MeasureInfo> measures() const { return {}; }
   virtual void add_systems(Schedule& schedule) { static_cast<void>(schedule); }
   [[nodiscard]] virtual std::vector<VisualizerInfo> visualizers() const { return {}; }
 

@@ -9,6 +9,7 @@
 
 #include "engine/core/result.h"
 #include "engine/render/knobs.h"
+#include "engine/render/measure.h"
 #include "engine/render/reference.h"
 #include "modules/accuracy/outputs.h"
 
@@ -16,11 +17,25 @@
 
 namespace gloam {
 
+/// What the systems and passes of one module took in a frame.
+struct ModuleCost {
+  std::string module;
+  double cpu_ms = 0.0;  ///< summed over threads
+  double gpu_ms = 0.0;
+};
+
 /// What one frame took.
 struct FrameCost {
   double cpu_ms = 0.0;
   double gpu_ms = 0.0;
+  std::vector<ModuleCost> modules;  ///< those that had systems or passes
   [[nodiscard]] double ms() const { return cpu_ms + gpu_ms; }
+  /// Nothing, for a module that took no part.
+  [[nodiscard]] ModuleCost of(std::string_view module) const {
+    for (const ModuleCost& cost : modules)
+      if (cost.module == module) return cost;
+    return {.module = std::string(module)};
+  }
 };
 
 /// The frames that are measured: a scene, a camera and a device behind an interface.
@@ -32,10 +47,14 @@ class CostSubject {
   [[nodiscard]] virtual KnobRegistry& knobs() = 0;
   /// References of all modules.
   [[nodiscard]] virtual std::vector<ReferenceInfo> references() const = 0;
+  /// Measures of all modules.
+  [[nodiscard]] virtual std::vector<MeasureInfo> measures() const = 0;
   /// Draws frame `index` (from 0) of the measured sequence and waits for it. The same index shows the same moment.
   [[nodiscard]] virtual Result<FrameCost> draw(std::uint32_t index) = 0;
   /// Memory of all modules that frames like the last one need, and none that others left behind. May draw.
   [[nodiscard]] virtual Result<std::uint64_t> gpu_bytes() = 0;
+  /// What the last frame counted.
+  [[nodiscard]] virtual FrameCounters counters() = 0;
   /// What the last frame looks like, both sides.
   [[nodiscard]] virtual Result<FramePictures> read() = 0;
   /// Calls reference.draw for the last frame, which is `frame`.
@@ -74,7 +93,8 @@ inline constexpr std::uint32_t kQuickHeight = 180;
 /// Texts of the values that get a row, in order, each once: Knob::ledger_values or all choices, the default and the exact one among them.
 [[nodiscard]] std::vector<std::string> ledger_values(const Knob& knob);
 
-/// Measures every value of every knob of the request: its picture against the knob's reference, its time alternating with the default's.
+/// Measures every value of every knob of the request: its picture against the knob's reference (what it counts, where the knob has a
+/// measure of its own), its time alternating with the default's.
 /// Rows that an earlier run finished are not measured again. Knobs are left as they were.
 [[nodiscard]] Result<Ledger> measure_costs(const CostRequest& request, CostSubject& subject, CostProgress& progress);
 

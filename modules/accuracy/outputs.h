@@ -28,6 +28,13 @@ struct ErrorPair {
   bool operator==(const ErrorPair&) const = default;
 };
 
+/// An error that is a number of things and not a difference of pictures.
+struct CountedError {
+  double value = 0.0;
+  std::string unit;  ///< "false positives a tile"
+  bool operator==(const CountedError&) const = default;
+};
+
 /// One value of one knob, all other knobs as the user set them.
 struct LedgerRow {
   std::string knob;
@@ -40,6 +47,9 @@ struct LedgerRow {
       0.0;  ///< mean FLIP between half and all samples of the reference (RMSE where it has no picture); 0: exact
   bool below_noise = false;  ///< the error is smaller than the reference's own: not a number to go by
 
+  std::optional<CountedError>
+      counted;        ///< of knobs that are told apart by more than their pictures; those below stay with it
+  std::string wrong;  ///< why the value is wrong however small its error, as a frame counted; empty: it is not
   std::optional<ErrorPair> flip;      ///< 0…1
   std::optional<double> rmse;         ///< linear light, cd/m², over all pixels and channels
   std::optional<double> rmse_p99;     ///< of a pixel's RMSE
@@ -49,12 +59,15 @@ struct LedgerRow {
   TimeSummary ms;       ///< of a frame: its CPU and GPU work, one after the other
   double cpu_ms = 0.0;  ///< medians of the two
   double gpu_ms = 0.0;
+  double module_cpu_ms =
+      0.0;  ///< medians of what the knob's module took: its systems, summed over threads, and its passes
+  double module_gpu_ms = 0.0;
   double ratio = 1.0;  ///< to the default's time: median over pairs of neighbouring frames; the default's own is 1
   std::uint64_t gpu_bytes = 0;  ///< of all modules
   bool on_front =
       false;  ///< no other value of the knob is both as cheap (by ratio) and as right, and better in one of the two
 
-  /// What the front and people go by: mean FLIP, else RMSE; never less than the reference's noise.
+  /// What the front and people go by: what was counted, else mean FLIP, else RMSE; never less than the reference's noise.
   [[nodiscard]] std::optional<double> error() const;
   bool operator==(const LedgerRow&) const = default;
 };
@@ -91,10 +104,10 @@ struct Ledger {
   std::vector<SkippedKnob> skipped;
 };
 
-/// Sets on_front of every row, knob by knob. Rows without an error are on no front.
+/// Sets on_front of every row, knob by knob. Rows without an error, and wrong ones, are on no front.
 void mark_pareto_front(std::vector<LedgerRow>& rows);
 
-/// For people: a head and one aligned line a row; `*` marks the front.
+/// For people: a head and one aligned line a row; `*` marks the front, `!` what is wrong.
 [[nodiscard]] std::string ledger_table(const Ledger& ledger);
 
 /// Schema version 1. Numbers read back as they were.

@@ -9,6 +9,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
+#include "modules/accuracy/cost/knob_overrides.h"
 #include "modules/accuracy/cost/timing.h"
 
 namespace gloam {
@@ -18,7 +19,7 @@ namespace {
 constexpr std::uint32_t kSettlingFrames = 3;
 
 /// Grows when metrics or protocol change: rows of an older program are measured again.
-constexpr int kMethod = 1;
+constexpr int kMethod = 2;
 
 std::string exact_text(double value) {
   char buffer[32];
@@ -50,6 +51,9 @@ KnobMeasurement::KnobMeasurement(const CostRequest& request, CostSubject& subjec
       cache_(request.folder + "/references") {
   for (ReferenceInfo& reference : subject.references()) {
     if (reference.knob == knob.name) reference_ = std::move(reference);
+  }
+  for (MeasureInfo& measure : subject.measures()) {
+    if (measure.knob == knob.name) measure_ = std::move(measure);
   }
 }
 
@@ -96,6 +100,10 @@ Status KnobMeasurement::settle() {
 
 Result<KnobMeasurement::Drawn> KnobMeasurement::draw(const std::string& value) {
   GLOAM_TRY(set(value));
+  return draw();
+}
+
+Result<KnobMeasurement::Drawn> KnobMeasurement::draw() {
   Drawn drawn;
   if (request_.sequence >= 2) {
     GLOAM_TRY(settle());
@@ -114,6 +122,7 @@ Result<KnobMeasurement::Drawn> KnobMeasurement::draw(const std::string& value) {
 }
 
 Status KnobMeasurement::judge(const std::string& value, LedgerRow& row) {
+  if (measure_) return judge_by_measure(value, row);
   if (!reference_ && knob_.exact.empty()) return {};
   const bool serves_all = !reference_ || !reference_->follows_value;
   if (serves_all && !held_) GLOAM_TRY(hold_reference());
@@ -134,6 +143,39 @@ Status KnobMeasurement::hold_reference() {
   if (!held) return held.error();
   held_.emplace(std::move(held).value());
   return {};
+}
+
+Status KnobMeasurement::hold_standard() {
+  GLOAM_TRY(set(default_));
+  {
+    KnobOverrides overrides(subject_.knobs());
+    GLOAM_TRY(overrides.set(measure_->picture));
+    auto right = draw();
+    if (!right) return right.error();
+    exact_sequence_ = std::move(right->sequence);
+    held_.emplace(Held{PictureJudge(std::move(right->frame))});
+  }
+  KnobOverrides overrides(subject_.knobs());
+  GLOAM_TRY(overrides.set(measure_->judged_with));
+  GLOAM_TRY(settle());
+  standard_ = subject_.counters();
+  return {};
+}
+
+Status KnobMeasurement::judge_by_measure(const std::string& value, LedgerRow& row) {
+  row.reference_kind = measure_->kind;
+  row.reference_name = measure_->name;
+  if (!held_) GLOAM_TRY(hold_standard());
+  GLOAM_TRY(set(value));
+  KnobOverrides overrides(subject_.knobs());
+  GLOAM_TRY(overrides.set(measure_->judged_with));
+  const auto drawn = draw();
+  if (!drawn) return drawn.error();
+  const FrameCounters counters = subject_.counters();
+  if (const auto error = measure_->error(counters, standard_)) row.counted = CountedError{*error, measure_->unit};
+  row.wrong = measure_->fault(counters);
+  GLOAM_TRY(held_->judge.judge(drawn->frame, row));
+  return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn->sequence, row);
 }
 
 Status KnobMeasurement::judge_by_exact(const Drawn& drawn, LedgerRow& row) {
@@ -195,10 +237,12 @@ Status KnobMeasurement::time(const std::string& value, LedgerRow& row) {
   };
   const auto times = time_alternating({.pairs = request_.header.frames}, run);
   if (!times) return times.error();
-  const TimedValue timed = summarize_times(*times);
+  const TimedValue timed = summarize_times(*times, knob_.module);
   row.ms = timed.ms;
   row.cpu_ms = timed.cpu_ms;
   row.gpu_ms = timed.gpu_ms;
+  row.module_cpu_ms = timed.module_cpu_ms;
+  row.module_gpu_ms = timed.module_gpu_ms;
   row.ratio = row.is_default ? 1.0 : timed.ratio;
   const auto bytes = subject_.gpu_bytes();
   if (!bytes) return bytes.error();

@@ -39,11 +39,15 @@ class KnobMeasurement {
   [[nodiscard]] std::string frame_identity(const std::string& value) const;
   [[nodiscard]] Status set(const std::string& value);
   [[nodiscard]] Status settle();
-  /// Leaves frame 0 as the last one drawn.
+  /// With the knobs as they are; leaves frame 0 as the last one drawn.
+  [[nodiscard]] Result<Drawn> draw();
   [[nodiscard]] Result<Drawn> draw(const std::string& value);
   [[nodiscard]] Status judge(const std::string& value, LedgerRow& row);
   /// Draws the reference that all values are held against.
   [[nodiscard]] Status hold_reference();
+  /// Draws what a measure holds all values against: the right picture, and what the default counts.
+  [[nodiscard]] Status hold_standard();
+  [[nodiscard]] Status judge_by_measure(const std::string& value, LedgerRow& row);
   [[nodiscard]] Status judge_by_exact(const Drawn& drawn, LedgerRow& row);
   [[nodiscard]] Status judge_by_module(const std::string& value, const Drawn& drawn, LedgerRow& row);
   [[nodiscard]] Result<Held> module_reference(const std::string& value, const FramePictures& frame);
@@ -55,6 +59,8 @@ class KnobMeasurement {
   const Knob& knob_;
   std::string users_;  ///< the knob's value before
   std::string default_;
+  std::optional<MeasureInfo> measure_;      ///< of the module; goes before a reference
+  FrameCounters standard_;                  ///< what the measure's default counts
   std::optional<ReferenceInfo> reference_;  ///< of the module; none: the exact value, if there is one
   ReferenceCache cache_;
   std::optional<Held> held_;  ///< of references that serve all values

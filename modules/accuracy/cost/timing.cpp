@@ -38,7 +38,7 @@ Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame
   return times;
 }
 
-TimedValue summarize_times(const AlternatingTimes& times) {
+TimedValue summarize_times(const AlternatingTimes& times, std::string_view module) {
   GLOAM_ASSERT(!times.candidate.empty(), "times are of at least one frame");
   GLOAM_ASSERT(times.standard.size() == times.candidate.size(), "times come in pairs");
   std::vector<double> ms;
@@ -51,6 +51,8 @@ TimedValue summarize_times(const AlternatingTimes& times) {
   value.ms = {.median_ms = quantile(ms, 0.5), .p10_ms = quantile(ms, 0.1), .p90_ms = quantile(ms, 0.9)};
   value.cpu_ms = median_of(times.candidate, [](const FrameCost& cost) { return cost.cpu_ms; });
   value.gpu_ms = median_of(times.candidate, [](const FrameCost& cost) { return cost.gpu_ms; });
+  value.module_cpu_ms = median_of(times.candidate, [&](const FrameCost& cost) { return cost.of(module).cpu_ms; });
+  value.module_gpu_ms = median_of(times.candidate, [&](const FrameCost& cost) { return cost.of(module).gpu_ms; });
   if (!ratios.empty()) value.ratio = quantile(ratios, 0.5);
   return value;
 }

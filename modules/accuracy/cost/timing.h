@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -35,10 +36,12 @@ struct TimedValue {
   TimeSummary ms;
   double cpu_ms = 0.0;  ///< medians
   double gpu_ms = 0.0;
+  double module_cpu_ms = 0.0;  ///< medians of one module's share
+  double module_gpu_ms = 0.0;
   double ratio = 1.0;  ///< candidate over standard, median over pairs; pairs without a time are left out
 };
 
-/// Of the candidate.
-[[nodiscard]] TimedValue summarize_times(const AlternatingTimes& times);
+/// Of the candidate. module: whose share is told.
+[[nodiscard]] TimedValue summarize_times(const AlternatingTimes& times, std::string_view module = {});
 
 }  // namespace gloam

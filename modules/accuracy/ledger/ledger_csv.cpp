@@ -42,8 +42,10 @@ class CsvLine {
 };
 
 constexpr const char* kColumns =
-    "knob,value,default,reference_kind,reference,reference_noise,below_noise,flip_mean,flip_p99,rmse,rmse_p99,psnr_db,"
-    "temporal_mean,temporal_p99,median_ms,p10_ms,p90_ms,cpu_ms,gpu_ms,ratio,gpu_bytes,front\n";
+    "knob,value,default,reference_kind,reference,reference_noise,below_noise,counted,counted_unit,wrong,flip_mean,flip_"
+    "p99,rmse,"
+    "rmse_p99,psnr_db,temporal_mean,temporal_p99,median_ms,p10_ms,p90_ms,cpu_ms,gpu_ms,module_cpu_ms,module_gpu_ms,"
+    "ratio,gpu_bytes,front\n";
 
 }  // namespace
 
@@ -53,8 +55,11 @@ std::string ledger_csv(const Ledger& ledger) {
     CsvLine line;
     line.text(row.knob).text(row.value).flag(row.is_default);
     line.text(row.reference_kind).text(row.reference_name).number(row.reference_noise).flag(row.below_noise);
+    line.number(row.counted ? std::optional(row.counted->value) : std::nullopt);
+    line.text(row.counted ? row.counted->unit : "").text(row.wrong);
     line.pair(row.flip).number(row.rmse).number(row.rmse_p99).number(row.psnr_db).pair(row.temporal);
     line.number(row.ms.median_ms).number(row.ms.p10_ms).number(row.ms.p90_ms).number(row.cpu_ms).number(row.gpu_ms);
+    line.number(row.module_cpu_ms).number(row.module_gpu_ms);
     line.number(row.ratio).integer(row.gpu_bytes).flag(row.on_front);
     text += line.finish();
   }

@@ -17,6 +17,7 @@ ErrorPair pair_of(const Json& json) { return {json.at("mean").get<double>(), jso
 /// An absent error has no key; an infinite PSNR (the same picture) is null.
 Json errors_json(const LedgerRow& row) {
   Json json = Json::object();
+  if (row.counted) json["counted"] = {{"value", row.counted->value}, {"unit", row.counted->unit}};
   if (row.flip) json["flip"] = pair_json(*row.flip);
   if (row.rmse) json["rmse"] = *row.rmse;
   if (row.rmse_p99) json["rmse_p99"] = *row.rmse_p99;
@@ -26,6 +27,9 @@ Json errors_json(const LedgerRow& row) {
 }
 
 void read_errors(const Json& json, LedgerRow& row) {
+  if (json.contains("counted"))
+    row.counted =
+        CountedError{json["counted"].at("value").get<double>(), json["counted"].at("unit").get<std::string>()};
   if (json.contains("flip")) row.flip = pair_of(json["flip"]);
   if (json.contains("rmse")) row.rmse = json["rmse"].get<double>();
   if (json.contains("rmse_p99")) row.rmse_p99 = json["rmse_p99"].get<double>();
@@ -39,9 +43,11 @@ Json json_of(const LedgerRow& row) {
   json["reference"] = {{"kind", row.reference_kind}, {"name", row.reference_name}, {"noise", row.reference_noise}};
   json["error"] = errors_json(row);
   json["below_noise"] = row.below_noise;
+  json["wrong"] = row.wrong;
   json["ms"] = {{"median", row.ms.median_ms}, {"p10", row.ms.p10_ms}, {"p90", row.ms.p90_ms}};
   json["cpu_ms"] = row.cpu_ms;
   json["gpu_ms"] = row.gpu_ms;
+  json["module_ms"] = {{"cpu", row.module_cpu_ms}, {"gpu", row.module_gpu_ms}};
   json["ratio"] = row.ratio;
   json["gpu_bytes"] = row.gpu_bytes;
   json["front"] = row.on_front;
@@ -59,10 +65,13 @@ LedgerRow row_of(const Json& json) {
   row.reference_noise = reference.at("noise").get<double>();
   read_errors(json.at("error"), row);
   row.below_noise = json.at("below_noise").get<bool>();
+  row.wrong = json.at("wrong").get<std::string>();
   const Json& ms = json.at("ms");
   row.ms = {ms.at("median").get<double>(), ms.at("p10").get<double>(), ms.at("p90").get<double>()};
   row.cpu_ms = json.at("cpu_ms").get<double>();
   row.gpu_ms = json.at("gpu_ms").get<double>();
+  row.module_cpu_ms = json.at("module_ms").at("cpu").get<double>();
+  row.module_gpu_ms = json.at("module_ms").at("gpu").get<double>();
   row.ratio = json.at("ratio").get<double>();
   row.gpu_bytes = json.at("gpu_bytes").get<std::uint64_t>();
   row.on_front = json.at("front").get<bool>();

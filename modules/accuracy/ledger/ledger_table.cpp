@@ -10,10 +10,12 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kColumns = 10;
+constexpr std::size_t kColumns = 12;
 using Line = std::array<std::string, kColumns>;
-const Line kTitles = {"", "knob", "value", "FLIP mean", "FLIP p99", "RMSE", "ms", "p10-p90", "ratio", "MiB"};
-constexpr std::size_t kTextColumns = 3;  // aligned to the left
+const Line kTitles = {"",     "knob", "value",   "counted", "FLIP mean", "FLIP p99",
+                      "RMSE", "ms",   "p10-p90", "ratio",   "module ms", "MiB"};
+constexpr std::size_t kCountedColumn = 3;  // only where a row has one
+constexpr std::size_t kTextColumns = 3;    // aligned to the left
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
@@ -30,21 +32,26 @@ std::string error_text(const LedgerRow& row, const std::optional<double>& value)
 Line line_of(const LedgerRow& row) {
   const auto mean = row.flip ? std::optional(row.flip->mean) : std::nullopt;
   const auto p99 = row.flip ? std::optional(row.flip->p99) : std::nullopt;
-  return {row.on_front ? "*" : "",
+  return {!row.wrong.empty() ? "!"
+          : row.on_front     ? "*"
+                             : "",
           row.knob,
           row.value + (row.is_default ? " (default)" : ""),
+          row.counted ? formatted("%.3f", row.counted->value) : "",
           error_text(row, mean),
           error_text(row, p99),
           error_text(row, row.rmse),
           formatted("%.3f", row.ms.median_ms),
           formatted("%.3f-%.3f", row.ms.p10_ms, row.ms.p90_ms),
           formatted("%.2f", row.ratio),
+          formatted("%.3f", row.module_cpu_ms + row.module_gpu_ms),
           formatted("%.1f", static_cast<double>(row.gpu_bytes) / (1024.0 * 1024.0))};
 }
 
 std::string aligned(const Line& line, const std::array<std::size_t, kColumns>& widths) {
   std::string text;
   for (std::size_t i = 0; i < kColumns; ++i) {
+    if (i == kCountedColumn && widths[i] == 0) continue;
     const std::string gap(widths[i] - line[i].size(), ' ');
     text += (i > 0 ? "  " : "") + (i < kTextColumns ? line[i] + gap : gap + line[i]);
   }
@@ -62,28 +69,41 @@ std::string head(const LedgerHeader& header) {
   return text;
 }
 
+/// By what the rows of each knob were judged, and which are wrong.
+std::string judgements(const std::vector<LedgerRow>& rows) {
+  std::string text;
+  for (const LedgerRow& row : rows) {
+    std::string line = row.knob + ": " +
+                       (row.reference_kind.empty() ? "no reference: no value is more right than another"
+                                                   : row.reference_kind + ", " + row.reference_name);
+    if (row.counted) line += "; counted: " + row.counted->unit;
+    if (text.find(line + "\n") == std::string::npos) text += line + "\n";
+  }
+  for (const LedgerRow& row : rows) {
+    if (!row.wrong.empty()) text += "! " + row.knob + "=" + row.value + " is wrong: " + row.wrong + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string ledger_table(const Ledger& ledger) {
   std::vector<Line> lines = {kTitles};
   for (const LedgerRow& row : ledger.rows) lines.push_back(line_of(row));
+  const bool counts = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.counted.has_value(); });
+  if (!counts) lines.front()[kCountedColumn].clear();
   std::array<std::size_t, kColumns> widths{};
   for (const Line& line : lines) {
     for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], line[i].size());
   }
   std::string text = head(ledger.header);
   for (const Line& line : lines) text += aligned(line, widths);
-  std::string judged;
-  for (const LedgerRow& row : ledger.rows) {
-    const std::string by = row.reference_kind.empty() ? "no reference: no value is more right than another"
-                                                      : row.reference_kind + ", " + row.reference_name;
-    const std::string line = row.knob + ": " + by + "\n";
-    if (judged.find(line) == std::string::npos) judged += line;
-  }
-  text += judged;
+  text += judgements(ledger.rows);
   for (const SkippedKnob& skipped : ledger.skipped) text += skipped.knob + ": not measured: " + skipped.reason + "\n";
   return text +
-         "* no other value of the knob is as cheap and as right; RMSE in cd/m²; ms is CPU and GPU work of a frame\n";
+         "* no other value of the knob is as cheap and as right; RMSE in cd/m²; ms is CPU and GPU work of a frame, "
+         "module ms "
+         "that of the knob's module alone\n";
 }
 
 }  // namespace gloam

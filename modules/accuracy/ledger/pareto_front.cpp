@@ -16,17 +16,21 @@ bool dominates(const LedgerRow& a, const LedgerRow& b) {
   return no_worse && (error_a < error_b || a.ratio < b.ratio);
 }
 
+/// Whether a row can stand on a front, or keep others off it.
+bool counts(const LedgerRow& row) { return row.error() && row.wrong.empty(); }
+
 }  // namespace
 
 std::optional<double> LedgerRow::error() const {
+  if (counted) return counted->value;
   if (!flip && !rmse) return std::nullopt;
   return std::max(flip ? flip->mean : *rmse, reference_noise);
 }
 
 void mark_pareto_front(std::vector<LedgerRow>& rows) {
   for (LedgerRow& row : rows) {
-    row.on_front = row.error() && std::none_of(rows.begin(), rows.end(), [&](const LedgerRow& other) {
-                     return other.knob == row.knob && other.error() && dominates(other, row);
+    row.on_front = counts(row) && std::none_of(rows.begin(), rows.end(), [&](const LedgerRow& other) {
+                     return other.knob == row.knob && counts(other) && dominates(other, row);
                    });
   }
 }

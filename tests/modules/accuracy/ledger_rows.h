@@ -19,6 +19,8 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
   row.reference_name = "visibility, traced\nin jobs";
   row.reference_noise = number(random) * 1e-4;
   row.below_noise = seed % 3 == 0;
+  if (seed % 4 == 1) row.counted = CountedError{number(random) * 100.0, "false positives a tile, \"all\""};
+  if (seed % 5 == 4) row.wrong = "3 lights, missing";
   row.flip = ErrorPair{number(random), number(random)};
   row.rmse = number(random) * 1e3;
   row.rmse_p99 = number(random) * 1e-9;
@@ -27,6 +29,8 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
   row.ms = {number(random) * 10.0, number(random), number(random) * 100.0};
   row.cpu_ms = number(random);
   row.gpu_ms = number(random);
+  row.module_cpu_ms = number(random);
+  row.module_gpu_ms = number(random);
   row.ratio = number(random) * 2.0;
   row.gpu_bytes = 0x1234567890abcull + seed;
   row.on_front = seed % 2 == 1;

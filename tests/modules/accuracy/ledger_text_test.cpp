@@ -115,6 +115,9 @@ TEST(ledger_csv, reads_back_what_it_wrote) {
     EXPECT_EQ(cell("below_noise"), row.below_noise ? "1" : "0");
     EXPECT_EQ(cell("front"), row.on_front ? "1" : "0");
     EXPECT_EQ(cell("gpu_bytes"), std::to_string(row.gpu_bytes));
+    EXPECT_EQ(cell("counted_unit"), row.counted ? row.counted->unit : "");
+    EXPECT_EQ(cell("wrong"), row.wrong);
+    expect_number("counted", row.counted ? std::optional(row.counted->value) : std::nullopt);
     expect_number("reference_noise", row.reference_noise);
     expect_number("flip_mean", row.flip ? std::optional(row.flip->mean) : std::nullopt);
     expect_number("flip_p99", row.flip ? std::optional(row.flip->p99) : std::nullopt);
@@ -128,6 +131,8 @@ TEST(ledger_csv, reads_back_what_it_wrote) {
     expect_number("p90_ms", row.ms.p90_ms);
     expect_number("cpu_ms", row.cpu_ms);
     expect_number("gpu_ms", row.gpu_ms);
+    expect_number("module_cpu_ms", row.module_cpu_ms);
+    expect_number("module_gpu_ms", row.module_gpu_ms);
     expect_number("ratio", row.ratio);
   }
 }
@@ -145,6 +150,27 @@ TEST(ledger_table, has_a_line_a_row_and_marks_the_front) {
   EXPECT_THAT(table, HasSubstr("quick: 320x180, 5 frames a value, 64 reference samples"));
   ledger.header.quick = false;
   EXPECT_THAT(ledger_table(ledger), Not(HasSubstr("quick")));
+}
+
+TEST(ledger_table, tells_what_was_counted_and_what_is_wrong) {
+  LedgerRow row = bare_row();
+  row.reference_kind = "brute force";
+  row.reference_name = "exact lists";
+  row.flip = ErrorPair{};
+  Ledger ledger = {.rows = {row}};
+  EXPECT_THAT(ledger_table(ledger), Not(HasSubstr("counted"))) << "no row counts anything";
+  row.counted = CountedError{12.3456, "false positives a tile"};
+  row.on_front = true;
+  ledger.rows.push_back(row);
+  row.value = "fast";
+  row.wrong = "3 lights missing";
+  ledger.rows.push_back(row);
+  const std::string table = ledger_table(ledger);
+  EXPECT_THAT(table, HasSubstr("value             counted  FLIP mean"));
+  EXPECT_THAT(table, HasSubstr("*  lighting.tone_map  filmic (default)   12.346   0.000000"));
+  EXPECT_THAT(table, HasSubstr("!  lighting.tone_map  fast"));
+  EXPECT_THAT(table, HasSubstr("brute force, exact lists; counted: false positives a tile\n"));
+  EXPECT_THAT(table, HasSubstr("! lighting.tone_map=fast is wrong: 3 lights missing\n"));
 }
 
 TEST(ledger_table, of_nothing_is_a_head) { EXPECT_THAT(ledger_table({}), HasSubstr("knob")); }

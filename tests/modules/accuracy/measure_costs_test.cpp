@@ -30,15 +30,23 @@ class FakeSubject final : public CostSubject {
     samples.exact = "64";
     knobs_.add(samples);
     knobs_.add({.name = "fake.look", .module = "fake", .choices = {"warm", "cold"}});
+    knobs_.add({.name = "fake.count", .module = "fake", .choices = {"off", "on"}});
   }
 
   [[nodiscard]] KnobRegistry& knobs() override { return knobs_; }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override { return references_; }
+  [[nodiscard]] std::vector<MeasureInfo> measures() const override { return measures_; }
+  [[nodiscard]] FrameCounters counters() override {
+    if (!knobs_.is("fake.count", "on")) return {};
+    return {{"fake.work", knobs_.number("fake.samples")}};
+  }
   [[nodiscard]] Result<FrameCost> draw(std::uint32_t index) override {
     ++frames_drawn;
     index_ = index;
     if (fail_after > 0 && frames_drawn > fail_after) return Error{ErrorKind::failed, "the device is lost"};
-    return FrameCost{.cpu_ms = 1.0, .gpu_ms = knobs_.number("fake.samples")};
+    counted_frames += knobs_.is("fake.count", "on") ? 1 : 0;
+    const double gpu_ms = knobs_.number("fake.samples");
+    return FrameCost{.cpu_ms = 1.0, .gpu_ms = gpu_ms, .modules = {{"other", 7.0, 7.0}, {"fake", 0.5, gpu_ms / 2.0}}};
   }
   [[nodiscard]] Result<std::uint64_t> gpu_bytes() override {
     return static_cast<std::uint64_t>(knobs_.number("fake.samples")) * 100;
@@ -62,9 +70,11 @@ class FakeSubject final : public CostSubject {
   }
 
   int frames_drawn = 0;
+  int counted_frames = 0;
   int references_drawn = 0;
   int fail_after = 0;
   std::vector<ReferenceInfo> references_;
+  std::vector<MeasureInfo> measures_;
   std::function<Result<FramePictures>(const FramePictures&, std::uint32_t)> reference;
 
  private:
@@ -115,6 +125,9 @@ TEST_F(MeasureCosts, holds_every_value_against_the_most_exact_one) {
     EXPECT_NEAR(*row.rmse, row.value == "64" ? 0.0 : 0.5 / samples, 1e-6) << row.value;
     EXPECT_DOUBLE_EQ(row.ms.median_ms, 1.0 + samples);
     EXPECT_DOUBLE_EQ(row.gpu_ms, samples);
+    EXPECT_DOUBLE_EQ(row.module_cpu_ms, 0.5) << "of the knob's module alone";
+    EXPECT_DOUBLE_EQ(row.module_gpu_ms, samples / 2.0);
+    EXPECT_FALSE(row.counted);
     EXPECT_DOUBLE_EQ(row.ratio, (1.0 + samples) / 5.0);
     EXPECT_EQ(row.is_default, row.value == "4");
     EXPECT_EQ(row.gpu_bytes, std::stoull(row.value) * 100) << "of the value, not of the default";
@@ -264,6 +277,57 @@ TEST_F(MeasureCosts, a_reference_that_fails_names_the_row) {
   EXPECT_EQ(ledger.error().message, "fake.samples=1: out of memory");
 }
 
+/// How much more work than the default; wrong when it is 16.
+MeasureInfo work_measure() {
+  MeasureInfo info = {.knob = "fake.samples", .kind = "brute force", .name = "the least work", .unit = "steps"};
+  info.judged_with = {"fake.count=on"};
+  info.picture = {"fake.samples=64"};
+  info.error = [](const FrameCounters& frame, const FrameCounters& standard) -> std::optional<double> {
+    if (!frame.contains("fake.work") || frame.at("fake.work") == 1.0) return std::nullopt;
+    return frame.at("fake.work") - standard.at("fake.work");
+  };
+  info.fault = [](const FrameCounters& frame) {
+    return frame.at("fake.work") == 16.0 ? std::string("16 of them") : std::string();
+  };
+  return info;
+}
+
+TEST_F(MeasureCosts, a_measure_counts_in_place_of_pictures) {
+  subject_.measures_ = {work_measure()};
+  request_.sequence = 2;
+  const Ledger ledger = measure();
+  ASSERT_EQ(ledger.rows.size(), 4u);
+  EXPECT_FALSE(ledger.rows[0].counted) << "not counted this time";
+  EXPECT_EQ(ledger.rows[1].counted, (CountedError{0.0, "steps"}));
+  EXPECT_EQ(ledger.rows[3].counted, (CountedError{60.0, "steps"}));
+  for (const LedgerRow& row : ledger.rows) {
+    EXPECT_EQ(row.reference_name, "the least work");
+    EXPECT_EQ(row.wrong, row.value == "16" ? "16 of them" : "");
+    EXPECT_NEAR(*row.rmse, row.value == "64" ? 0.0 : 0.5 / std::stod(row.value), 1e-6) << "against the right picture";
+    EXPECT_TRUE(row.flip && row.temporal) << "pictures are compared all the same";
+  }
+  EXPECT_FALSE(ledger.rows[2].on_front) << "wrong";
+  EXPECT_EQ(ledger.rows[0].error(), ledger.rows[0].flip->mean);
+  EXPECT_EQ(ledger.rows[3].error(), 60.0);
+}
+
+TEST_F(MeasureCosts, what_counting_needs_is_set_for_judging_alone) {
+  subject_.measures_ = {work_measure()};
+  static_cast<void>(measure());
+  EXPECT_EQ(subject_.counted_frames, 3 * 5) << "one standard and four values, three frames each to settle";
+  EXPECT_EQ(subject_.knobs().text("fake.count"), "off");
+  EXPECT_EQ(subject_.knobs().text("fake.samples"), "4");
+}
+
+TEST_F(MeasureCosts, a_measure_that_needs_an_unknown_knob_fails) {
+  subject_.measures_ = {work_measure()};
+  subject_.measures_[0].judged_with.push_back("fake.nothing=1");
+  const auto ledger = measure_costs(request_, subject_, progress_);
+  ASSERT_FALSE(ledger.ok());
+  EXPECT_THAT(ledger.error().message, HasSubstr("fake.nothing"));
+  EXPECT_EQ(subject_.knobs().text("fake.count"), "off") << "put back after a failure, too";
+}
+
 TEST_F(MeasureCosts, of_no_knobs_is_an_empty_ledger) {
   request_.knobs = {};
   request_.skipped = {{"fake.look", "not called for"}};
@@ -282,7 +346,7 @@ TEST_F(MeasureCosts, values_of_a_ledger_hold_the_default_and_the_exact_one_once)
 
 TEST_F(MeasureCosts, knobs_are_chosen_by_name) {
   const KnobRegistry& knobs = subject_.knobs();
-  EXPECT_THAT(*choose_knobs(knobs, ""), ElementsAre("fake.samples", "fake.look"));
+  EXPECT_THAT(*choose_knobs(knobs, ""), ElementsAre("fake.samples", "fake.look", "fake.count"));
   EXPECT_THAT(*choose_knobs(knobs, "fake.look,fake.samples,fake.look"), ElementsAre("fake.look", "fake.samples"));
   for (const char* list : {"nope", "fake.look,", ",fake.look", "fake.look,,fake.samples", "fake.look fake.samples"}) {
     const auto chosen = choose_knobs(knobs, list);

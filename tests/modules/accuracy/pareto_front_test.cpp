@@ -56,6 +56,19 @@ TEST(pareto_front, leaves_out_rows_that_nobody_judged) {
   EXPECT_TRUE(front_of({}).empty());
 }
 
+TEST(pareto_front, goes_by_what_was_counted_before_pictures) {
+  std::vector<LedgerRow> rows = {point("a", 0.0, 2.0), point("a", 0.0, 1.0), point("a", 0.0, 3.0)};
+  const double counted[] = {1.0, 5.0, 2.0};
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].counted = CountedError{counted[i], "lights"};
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{true, true, false}));
+}
+
+TEST(pareto_front, a_wrong_row_is_on_none_and_keeps_no_other_off) {
+  std::vector<LedgerRow> rows = {point("a", 0.0, 1.0), point("a", 0.1, 2.0)};
+  rows[0].wrong = "lights are missing";
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{false, true}));
+}
+
 TEST(pareto_front, goes_by_linear_light_where_there_is_no_picture) {
   LedgerRow right = {.knob = "a", .rmse = 0.1};
   LedgerRow wrong = {.knob = "a", .rmse = 0.2};
