@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -11,10 +16,10 @@
 
 namespace gloam {
 
-/// Bytes of an image, read back at once.
+/// Bytes of an image or a buffer, read back at once.
 struct Capture {
   gpu::BufferHandle buffer;
-  std::uint32_t width = 0;
+  std::uint32_t width = 0;  ///< of a buffer: 0
   std::uint32_t height = 0;
   std::uint32_t texel_bytes = 0;
 };
@@ -22,8 +27,43 @@ struct Capture {
 /// Declares a copy of an image's first mip and layer into a readback buffer.
 [[nodiscard]] Result<Capture> capture_image(FrameGraph& graph, gpu::Device& device, ImageRef image);
 
+/// Declares a copy of a whole buffer; one that is owned outside the graph was made as a transfer_source.
+[[nodiscard]] Result<Capture> capture_buffer(FrameGraph& graph, gpu::Device& device, BufferRef buffer);
+
 /// The bytes after the frame has ended; destroys the buffer.
 [[nodiscard]] std::vector<std::byte> take_capture(gpu::Device& device, const Capture& capture);
+
+/// Copies out of one frame, by name.
+class Captures {
+ public:
+  explicit Captures(gpu::Device& device) : device_(device) {}
+  ~Captures();
+  Captures(const Captures&) = delete;
+  Captures& operator=(const Captures&) = delete;
+
+  /// Declares a copy of an image's first mip and layer.
+  [[nodiscard]] Status add(FrameGraph& graph, std::string_view name, ImageRef image);
+  [[nodiscard]] Status add(FrameGraph& graph, std::string_view name, BufferRef buffer);
+
+  /// Brings the bytes to the CPU; the frame has ended.
+  void finish();
+  /// The bytes of a finished copy; none when there is no copy of that name.
+  [[nodiscard]] std::span<const std::byte> bytes(std::string_view name) const;
+  /// Item `index` of a copy that holds items of this type.
+  template <class T>
+  [[nodiscard]] T item(std::string_view name, std::size_t index) const {
+    T value;
+    copy_item(name, index * sizeof(T), std::as_writable_bytes(std::span(&value, 1)));
+    return value;
+  }
+
+ private:
+  void copy_item(std::string_view name, std::size_t offset, std::span<std::byte> target) const;
+
+  gpu::Device& device_;
+  std::map<std::string, Capture, std::less<>> open_;
+  std::map<std::string, std::vector<std::byte>, std::less<>> done_;
+};
 
 /// Copies an image that is ready for Access::transfer_read, in a frame of its own, and waits.
 [[nodiscard]] Result<std::vector<std::byte>> read_image_now(gpu::Device& device, gpu::ImageHandle image);

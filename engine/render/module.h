@@ -21,6 +21,7 @@
 
 namespace gloam {
 
+class Captures;
 class FrameBuilder;
 
 /// Whether a world and view call for an effect, and why (or why not), in a few words for people.
@@ -48,6 +49,14 @@ struct VisualizerInfo {
   std::string argument;  ///< "LIGHT"
   std::string legend;    ///< what colours mean, one line
   bool built = true;     ///< false: known, not built yet
+};
+
+/// A pixel that Renderer::pick was asked about, and what lies there.
+struct PickedPixel {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+  float depth = 0.0f;         ///< reversed Z; 0 is sky
+  float view_depth_m = 0.0f;  ///< 0 for sky
 };
 
 /// Named numbers of a frame ("lights.visible").
@@ -107,16 +116,6 @@ class Module {
     static_cast<void>(view);
     static_cast<void>(sink);
   }
-  /// Gives back GPU memory, after 120 frames without demand and at the end; the next demand makes it anew. Pipelines are the renderer's.
-  virtual void release() {}
-};
-
-using ModuleList = std::vector<std::unique_ptr<Module>>;
-
-/// The scene keys of engine and modules: what import_gltf reads.
-[[nodiscard]] KeyRegistry make_key_registry(const ModuleList& modules);
-
-}  // namespace gloam
   /// In a frame drawn for Renderer::pick, after all phases: copies out what `pick` will look at. Names begin with the module's.
   [[nodiscard]] virtual Status add_pick_copies(FrameBuilder& frame, Captures& copies) {
     static_cast<void>(frame);
@@ -144,3 +143,13 @@ using ModuleList = std::vector<std::unique_ptr<Module>>;
     static_cast<void>(result);
     static_cast<void>(sink);
   }
+  /// Gives back GPU memory, after 120 frames without demand and at the end; the next demand makes it anew. Pipelines are the renderer's.
+  virtual void release() {}
+};
+
+using ModuleList = std::vector<std::unique_ptr<Module>>;
+
+/// The scene keys of engine and modules: what import_gltf reads.
+[[nodiscard]] KeyRegistry make_key_registry(const ModuleList& modules);
+
+}  // namespace gloam

@@ -192,10 +192,10 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
                "TargetOutput is written in place: a module has put another image there");
   if (code != 0) GLOAM_TRY(add_debug_view_pass(frame, code));
   if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
-  if (pick && pick->view == view.id) {
-    const GeometryOutputs& g = frame.get<GeometryOutputs>();
-    for (const ImageRef ref : {g.base_color, g.normals, g.material, g.depth}) {
-      auto capture = capture_image(graph, *options.device, ref);
+  if (pick && pick->view == view.id) GLOAM_TRY(add_pick_copies(frame));
+  return {};
+}
+
 void Renderer::State::hand_out_results(World& world, ViewId view) {
   results.for_each_settled(world.resource<RenderSlot>().value, view.value, [&](const ResultKey& key, const FrameResult& result) {
     for (std::size_t i = 0; i < options.modules.size(); ++i)
@@ -204,17 +204,10 @@ void Renderer::State::hand_out_results(World& world, ViewId view) {
   });
 }
 
-      if (!capture.ok()) return capture.error();
-      captures.push_back(*capture);
-    }
-  results.begin_frame();
-  }
-  return {};
-}
-
 Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands) {
   uniforms.begin_frame();
   storage.begin_frame();
+  results.begin_frame();
   graph.begin();
   builders.clear();
   views.clear();
@@ -223,18 +216,18 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
     ViewRequest request = requested;
     GLOAM_TRY(acquire_target(*options.device, request));
     ViewSettings& settings = request.settings;
-    hand_out_results(world, settings.id);
     check_target(*options.device, request);
     follow_camera(world, settings);
     GLOAM_TRY(prepare_images(request));
-  GLOAM_TRY(results.add_pass(graph));
     views.push_back(std::make_unique<RenderView>(make_view(settings, frame)));
     world.set_view_resource(settings.id, *views.back());
     for (std::size_t i = 0; i < options.modules.size(); ++i)
       if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id);
+    hand_out_results(world, settings.id);
     schedule.run_view(settings.id, world, *options.executor, options.zones);
     GLOAM_TRY(add_view(world, request, *views.back()));
   }
+  GLOAM_TRY(results.add_pass(graph));
   {
     const ScopedZone zone(options.zones, "compile_frame_graph", "engine");
     GLOAM_TRY(graph.compile());

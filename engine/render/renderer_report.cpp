@@ -1,8 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <cstring>
 
 #include "engine/math/packing.h"
@@ -27,15 +24,18 @@ T texel(std::span<const std::byte> bytes, std::size_t index) {
   return value;
 }
 
-/// Metres in front of the camera of what has this depth.
-  counted_results.clear();
-float view_depth(const mat4& clip_from_view, float depth) {
-  return (clip_from_view[3][2] - depth * clip_from_view[3][3]) / (clip_from_view[2][2] - depth * clip_from_view[2][3]);
-}
+}  // namespace
 
-std::string vector_text(const vec3& v) {
-  char line[96];
-  std::snprintf(line, sizeof(line), "%.4f %.4f %.4f", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+void Renderer::State::collect_counters(const World& world) {
+  counters.clear();
+  counted_results.clear();
+  if (builders.empty()) return;
+  const FrameBuilder& last = *builders.back();
+  MapSink sink(counters);
+  sink.count("engine.draws", static_cast<double>(last.draws().solid.size() + last.draws().blended.size()));
+  sink.count("engine.culled_primitives", last.draws().culled_instances);
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (runtimes[i].in_last_view) options.modules[i]->counters(world, last.view(), sink);
   counted_results = results.kept_keys();
   std::erase_if(counted_results, [&](const ResultKey& key) { return key.view != last.view().id.value; });
 }
@@ -48,21 +48,6 @@ void Renderer::State::add_result_counters(std::map<std::string, double>& all) co
     for (const auto& module : options.modules)
       if (module->name() == key.module) module->result_counters(key.name, *result, sink);
   }
-  return line;
-}
-
-}  // namespace
-
-void Renderer::State::collect_counters(const World& world) {
-  counters.clear();
-  if (builders.empty()) return;
-  const FrameBuilder& last = *builders.back();
-  s.add_result_counters(report.counters);
-  MapSink sink(counters);
-  sink.count("engine.draws", static_cast<double>(last.draws().solid.size() + last.draws().blended.size()));
-  sink.count("engine.culled_primitives", last.draws().culled_instances);
-  for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (runtimes[i].in_last_view) options.modules[i]->counters(world, last.view(), sink);
 }
 
 FrameReport Renderer::report() {
@@ -72,6 +57,7 @@ FrameReport Renderer::report() {
   report.passes = s.graph.pass_times();
   report.gpu_ms = s.graph.gpu_ms();
   report.counters = s.counters;
+  s.add_result_counters(report.counters);
   report.pipelines_pending = s.pipelines.pending();
   const std::vector<gpu::ModuleMemory> memory = s.options.device->memory();
   const auto state_of = [&](std::string_view name) {

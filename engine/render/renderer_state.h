@@ -63,37 +63,41 @@ struct Renderer::State {
   /// Declares one view's passes.
   [[nodiscard]] Status add_view(World& world, const ViewRequest& request, const RenderView& view);
   [[nodiscard]] Status add_module_passes(FrameBuilder& builder);
+  /// Copies what a picked pixel's texels and modules' facts are read from.
+  [[nodiscard]] Status add_pick_copies(FrameBuilder& builder);
+  /// What engine and modules know about the pixel of the request, from copies of a frame that has ended.
+  [[nodiscard]] std::vector<std::string> picked_lines(const PickRequest& request);
   /// Whether a module takes part in a view: built, demanded, and its pipelines made where they are not waited for.
   [[nodiscard]] bool takes_part(std::size_t module, const FrameBuilder& builder);
+  /// Hands a view's settled results to the modules that the world demands.
+  void hand_out_results(World& world, ViewId view);
   /// After a frame: memory of modules that nobody has demanded for long goes back; pipelines too when the world has no call for them.
   void release_idle_modules();
   /// Of the frame's last view and the modules that took part in it.
   void collect_counters(const World& world);
-  /// Hands a view's settled results to the modules that the world demands.
-  void hand_out_results(World& world, ViewId view);
+  /// From results of the last view, of the newest frame that has ended.
+  void add_result_counters(std::map<std::string, double>& all) const;
 
   RendererOptions options;
   KnobRegistry knobs;
   Schedule schedule;
-  /// From results of the last view, of the newest frame that has ended.
-  void add_result_counters(std::map<std::string, double>& all) const;
   Pipelines pipelines;
   UploadRing uniforms;
   UploadRing storage;
+  FrameResults results;
   FrameGraph graph;
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
   std::uint64_t next_slot = 1;
   std::map<std::uint32_t, ViewImages> images;
-  FrameResults results;
   std::vector<std::unique_ptr<FrameBuilder>> builders;  ///< of the frame in the making; pass functions refer to them
   std::vector<std::unique_ptr<RenderView>> views;
   std::vector<ModuleRuntime> runtimes;  ///< by module
   std::vector<ViewRequest> last_requests;
   std::map<std::string, double> counters;
+  std::vector<ResultKey> counted_results;  ///< of the last view
   std::optional<PickRequest> pick;
-  std::vector<Capture> captures;
+  std::unique_ptr<Captures> copies;  ///< of the frame in the making, when a pixel of it is picked
   double cpu_ms = 0.0;
 };
-  std::vector<ResultKey> counted_results;  ///< of the last view
 
 }  // namespace gloam
