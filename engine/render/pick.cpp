@@ -9,11 +9,6 @@
 namespace gloam {
 namespace {
 
-/// Metres in front of the camera of what has this depth.
-float view_depth(const mat4& clip_from_view, float depth) {
-  return (clip_from_view[3][2] - depth * clip_from_view[3][3]) / (clip_from_view[2][2] - depth * clip_from_view[2][3]);
-}
-
 std::string vector_text(const vec3& v) {
   char line[96];
   std::snprintf(line, sizeof(line), "%.4f %.4f %.4f", static_cast<double>(v.x), static_cast<double>(v.y),
@@ -53,7 +48,7 @@ std::vector<std::string> Renderer::State::picked_lines(const PickRequest& reques
   std::vector<std::string> lines = {"pixel " + std::to_string(pixel.x) + "," + std::to_string(pixel.y) + " of tile " +
                                     std::to_string(pixel.x / kTileSize) + "," + std::to_string(pixel.y / kTileSize)};
   if (pixel.depth > 0.0f) {
-    pixel.view_depth_m = view_depth(view.clip_from_view, pixel.depth);
+    pixel.view_depth_m = view.view_depth(pixel.depth);
     add_surface_lines(*copies, at, pixel.view_depth_m, lines);
   } else {
     lines.emplace_back("sky");

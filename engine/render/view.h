@@ -44,6 +44,11 @@ struct RenderView {
 
   /// Camera-relative float position of a world position.
   [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }
+  /// Metres in front of the camera of what has this depth (reversed Z); not for the sky's 0.
+  [[nodiscard]] float view_depth(float depth) const {
+    const mat4& m = clip_from_view;
+    return (m[3][2] - depth * m[3][3]) / (m[2][2] - depth * m[2][3]);
+  }
 };
 
 /// Takes pose and lens of settings.camera_entity from the world as it is now, if it is to be followed and alive.

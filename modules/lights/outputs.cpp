@@ -15,13 +15,33 @@ std::span<const std::byte> empty_light_block() {
 }
 
 std::vector<std::uint32_t> decode_tile_mask(std::span<const std::uint32_t> layers) {
-  GLOAM_ASSERT(layers.size() == GLOAM_LIGHT_GROUPS + 1, "a tile mask has a word a group of lights and one for the groups");
+  GLOAM_ASSERT(layers.size() == GLOAM_LIGHT_GROUPS + 1,
+               "a tile mask has a word a group of lights and one for the groups");
   std::vector<std::uint32_t> lights;
   for (std::uint32_t groups = layers[GLOAM_LIGHT_GROUPS]; groups != 0; groups &= groups - 1) {
     const auto word = static_cast<std::uint32_t>(std::countr_zero(groups));
     for (std::uint32_t bits = layers[word]; bits != 0; bits &= bits - 1)
       lights.push_back(word * 32 + static_cast<std::uint32_t>(std::countr_zero(bits)));
   }
+  return lights;
+}
+
+std::vector<std::uint32_t> decode_light_mask(std::span<const std::uint32_t> words) {
+  GLOAM_ASSERT(words.size() == GLOAM_MASK_WORDS, "a light mask has a word for the groups and one a group of lights");
+  std::vector<std::uint32_t> lights;
+  for (std::uint32_t groups = words[0]; groups != 0; groups &= groups - 1) {
+    const auto group = static_cast<std::uint32_t>(std::countr_zero(groups));
+    for (std::uint32_t bits = words[group + 1]; bits != 0; bits &= bits - 1)
+      lights.push_back(group * 32 + static_cast<std::uint32_t>(std::countr_zero(bits)));
+  }
+  return lights;
+}
+
+std::vector<std::uint32_t> decode_light_list(std::span<const std::uint32_t> early_lists, std::uint32_t slot,
+                                             std::uint32_t count) {
+  std::vector<std::uint32_t> lights;
+  for (std::uint64_t entry = slot; entry < std::uint64_t{slot} + count && entry / 3 < early_lists.size(); ++entry)
+    lights.push_back(early_lists[entry / 3] >> (10 * (entry % 3)) & 1023u);
   return lights;
 }
 

@@ -37,4 +37,11 @@ struct LightsOutputs {
 /// Indices of the lights in one tile's mask. `layers`: the 33 words of one texel; words whose group bit is 0 are not looked at.
 [[nodiscard]] std::vector<std::uint32_t> decode_tile_mask(std::span<const std::uint32_t> layers);
 
+/// Indices of the lights in one mask of mask_tiles or group_masks. `words`: its GLOAM_MASK_WORDS words; words whose group bit is 0 are not
+/// looked at.
+[[nodiscard]] std::vector<std::uint32_t> decode_light_mask(std::span<const std::uint32_t> words);
+
+/// Light indices of `count` list entries from `slot` on. `early_lists`: the buffer's words. Entries beyond the buffer are left out.
+[[nodiscard]] std::vector<std::uint32_t> decode_light_list(std::span<const std::uint32_t> early_lists, std::uint32_t slot, std::uint32_t count);
+
 }  // namespace gloam

@@ -8,6 +8,7 @@
 #include <array>
 #include <random>
 
+#include "shaders/lights/lights_shared.h"
 #include "tests/support/expect_assert.h"
 
 namespace gloam {
@@ -53,6 +54,36 @@ TEST(DecodeTileMask, turns_any_set_back_into_its_indices) {
 TEST(DecodeTileMask, needs_all_words) {
   const std::array<std::uint32_t, 32> layers{};
   EXPECT_NE(test::assertion_of([&] { static_cast<void>(decode_tile_mask(layers)); }), "(no assertion failed)");
+}
+
+TEST(DecodeLightMask, lists_set_bits_of_words_whose_group_bit_is_set) {
+  std::array<std::uint32_t, GLOAM_MASK_WORDS> words;
+  words.fill(0xDEADBEEFu);
+  words[0] = 0;
+  EXPECT_THAT(decode_light_mask(words), IsEmpty());
+  words[0] = 1u | 2u | 1u << 31;
+  words[1] = 0x80000001u;
+  words[2] = 0x2u;
+  words[32] = 0x80000000u;
+  EXPECT_THAT(decode_light_mask(words), ElementsAre(0u, 31u, 33u, 1023u));
+}
+
+TEST(DecodeLightMask, needs_all_words) {
+  const std::array<std::uint32_t, 32> words{};
+  EXPECT_NE(test::assertion_of([&] { static_cast<void>(decode_light_mask(words)); }), "(no assertion failed)");
+}
+
+TEST(DecodeLightList, reads_three_lights_a_word_from_any_entry_on) {
+  const std::array<std::uint32_t, 2> words = {5u | 1023u << 10 | 0u << 20, 7u | 8u << 10 | 512u << 20};
+  EXPECT_THAT(decode_light_list(words, 0, 6), ElementsAre(5u, 1023u, 0u, 7u, 8u, 512u));
+  EXPECT_THAT(decode_light_list(words, 2, 2), ElementsAre(0u, 7u));
+  EXPECT_THAT(decode_light_list(words, 3, 0), IsEmpty());
+}
+
+TEST(DecodeLightList, leaves_out_entries_beyond_the_buffer) {
+  const std::array<std::uint32_t, 1> words = {1u | 2u << 10 | 3u << 20};
+  EXPECT_THAT(decode_light_list(words, 1, 9), ElementsAre(2u, 3u));
+  EXPECT_THAT(decode_light_list(words, GLOAM_NO_SLOT, 0xFFFFu), IsEmpty());
 }
 
 }  // namespace

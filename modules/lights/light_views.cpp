@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lights/light_views.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "engine/scene/resources.h"
+#include "modules/lights/light_list.h"
+#include "modules/lights/outputs.h"
+#include "shaders/lights/shaders.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kNoLight = ~0u;
+
+enum class LightView { mask_counts, approx_counts, accurate_counts, difference_counts, culling, list };
+
+struct NamedView {
+  std::string_view name;
+  LightView view;
+};
+constexpr NamedView kViews[] = {
+    {"tile_masks", LightView::mask_counts},          {"lights_approx", LightView::approx_counts},
+    {"lights_accurate", LightView::accurate_counts}, {"lights_difference", LightView::difference_counts},
+    {"light_culling", LightView::culling},           {"light_list", LightView::list},
+};
+
+bool shows_one_light(LightView view) { return view >= LightView::culling; }
+
+gpu::GraphicsPipelineDesc view_pipeline(LightView view, gpu::Format format) {
+  const std::string_view stem = view == LightView::culling ? "light_culling_view"
+                                : view == LightView::list  ? "light_list_view"
+                                                           : "light_count_view";
+  const gpu::ShaderCode fragment = view == LightView::culling ? shaders::lights::light_culling_view_frag
+                                   : view == LightView::list  ? shaders::lights::light_list_view_frag
+                                                              : shaders::lights::light_count_view_frag;
+  std::string name = std::string(stem) + "/" + std::string(gpu::name_of(format));
+  if (!shows_one_light(view)) name += "/" + std::to_string(static_cast<std::uint32_t>(view));
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(std::move(name), "lights", fragment, format);
+  desc.color_formats.push_back(gpu::Format::rgba8_unorm);
+  desc.blend = gpu::BlendMode::alpha;
+  desc.constants = {{0, gpu::encodes_srgb(format) ? 0u : 1u}};
+  if (!shows_one_light(view)) desc.constants.push_back({1, static_cast<std::uint32_t>(view)});
+  return desc;
+}
+
+/// What a view pass records with.
+struct ViewDraw {
+  LightView view = LightView::mask_counts;
+  gpu::PipelineHandle pipeline;
+  gpu::SamplerHandle sampler;
+  LightsOutputs lights;
+  GeometryOutputs geometry;
+  std::uint32_t light = kNoLight;
+  ImageRef picture;
+  ImageRef named;
+};
+
+void declare_reads(PassBuilder& pass, const ViewDraw& draw) {
+  pass.read(draw.lights.tile_lists, gpu::Access::fragment_read);
+  if (!shows_one_light(draw.view)) return;
+  pass.read(draw.geometry.depth, gpu::Access::fragment_read);
+  pass.read(draw.lights.texels, gpu::Access::fragment_read);
+  pass.read(draw.lights.group_masks, gpu::Access::fragment_read);
+  pass.read(draw.lights.early_lists, gpu::Access::fragment_read);
+  if (draw.view == LightView::culling) pass.read(draw.geometry.depth_bounds, gpu::Access::fragment_read);
+}
+
+std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context, const ViewDraw& draw) {
+  const auto sampled = [&](ImageRef image) {
+    return gpu::Binding::Sampled{{.image = context.image(image)}, draw.sampler};
+  };
+  const auto whole = [&](BufferRef buffer) { return gpu::Binding::BufferRange{context.buffer(buffer)}; };
+  const LightsOutputs& lights = draw.lights;
+  if (!shows_one_light(draw.view)) return {{0, lights.grid}, {1, lights.mask_tiles}, {2, sampled(lights.tile_lists)}};
+  std::vector<gpu::Binding> bindings = {frame.view_binding(),
+                                        {1, lights.grid},
+                                        {2, sampled(draw.geometry.depth)},
+                                        {3, sampled(lights.texels)},
+                                        {4, whole(lights.group_masks)},
+                                        {5, sampled(lights.tile_lists)},
+                                        {6, whole(lights.early_lists)}};
+  if (draw.view == LightView::culling) {
+    bindings.push_back({7, sampled(draw.geometry.depth_bounds)});
+    bindings.push_back({8, lights.z_bins});
+    bindings.push_back({9, lights.mask_tiles});
+  }
+  return bindings;
+}
+
+void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& draw) {
+  gpu::CommandList& commands = context.commands();
+  const std::uint32_t width = frame.view().width, height = frame.view().height;
+  gpu::RenderingDesc rendering;
+  rendering.colors.push_back({.view = {.image = context.image(draw.picture)}, .load = gpu::LoadOp::load});
+  rendering.colors.push_back({.view = {.image = context.image(draw.named)}, .load = gpu::LoadOp::clear});
+  rendering.width = width;
+  rendering.height = height;
+  commands.begin_rendering(rendering);
+  commands.set_viewport(0.0f, 0.0f, static_cast<float>(width), static_cast<float>(height));
+  commands.set_scissor(0, 0, width, height);
+  commands.bind_pipeline(draw.pipeline);
+  commands.bind(bindings_of(frame, context, draw));
+  if (shows_one_light(draw.view)) commands.push(draw.light);
+  commands.draw(3, 1, 0, 0);
+  commands.end_rendering();
+}
+
+}  // namespace
+
+std::vector<VisualizerInfo> light_visualizers() {
+  const std::string heat = ": black 0, blue 6, cyan 12, green 19, yellow 25, red 31, white 32 and more";
+  return {{"tile_masks", "lights", "", "lights that the CPU finds for each 32x32 tile" + heat},
+          {"light_culling", "lights", "LIGHT",
+           "tiles where the light passed the CPU's tile mask (grey), the zBins too (blue), the tile group's mask too "
+           "(orange), and is in the "
+           "tile's list (green); red: it is not, though it reaches a pixel of the tile"},
+          {"light_list", "lights", "LIGHT",
+           "pixels whose tile's list holds the light: blue, those that it reaches yellow; red: reached, but not in the "
+           "list"},
+          {"lights_approx", "lights", "", "lights of each 8x8 tile after the approximate search" + heat},
+          {"lights_accurate", "lights", "", "lights of each 8x8 tile after the accurate search" + heat},
+          {"lights_difference", "lights", "", "lights of each 8x8 tile that only the approximate search finds" + heat},
+          {"lights_final", "lights", "", "lights a tile in the final list", false}};
+}
+
+std::uint32_t LightViews::shown_light(const FrameBuilder& frame, std::string_view name) {
+  const auto found = frame.world().resource<SceneNames>().find("light", name);
+  const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
+  const auto at = found.ok() ? std::find(visible.local_entities.begin(), visible.local_entities.end(), *found)
+                             : visible.local_entities.end();
+  if (at != visible.local_entities.end()) return static_cast<std::uint32_t>(at - visible.local_entities.begin());
+  const Light* light = found.ok() ? frame.world().try_get<Light>(*found) : nullptr;
+  const bool directional = light != nullptr && light->kind == LightKind::directional;
+  std::string sentence = "view " + std::string(frame.visualizer()) + " shows no tile: the light " +
+                         (directional ? "is directional and in no tile's list" : "reaches nothing in the picture");
+  if (const auto [place, fresh] = told_.insert(std::move(sentence)); fresh) frame.services().log.warning(*place);
+  return kNoLight;
+}
+
+Status LightViews::add_pass(FrameBuilder& frame) {
+  const std::string_view shown = frame.visualizer();
+  const std::size_t colon = shown.find(':');
+  const std::string stem(shown.substr(0, colon));
+  const auto* named =
+      std::find_if(std::begin(kViews), std::end(kViews), [&](const NamedView& v) { return v.name == stem; });
+  if (named == std::end(kViews)) return {};
+  ViewDraw draw;
+  draw.view = named->view;
+  draw.lights = frame.get<LightsOutputs>();
+  draw.geometry = frame.get<GeometryOutputs>();
+  if (!draw.lights.tile_lists) return Error{ErrorKind::usage, "view " + stem + " needs lights.culling=tiled"};
+  TargetOutput& target = frame.get<TargetOutput>();
+  auto pipeline = frame.services().pipelines.get(view_pipeline(draw.view, target.format));
+  if (!pipeline.ok()) return pipeline.error();
+  auto sampler = frame.nearest_sampler();
+  if (!sampler.ok()) return sampler.error();
+  draw.pipeline = *pipeline;
+  draw.sampler = *sampler;
+  if (shows_one_light(draw.view))
+    draw.light = shown_light(frame, shown.substr(std::min(shown.size(), stem.size() + 1)));
+
+  const ImageRef image = create_view_image(frame, stem, "lights", gpu::Format::rgba8_unorm);
+  PassBuilder pass = frame.graph().add_pass(stem + "_view", "lights");
+  declare_reads(pass, draw);
+  draw.named = pass.write(image, gpu::Access::color_target);
+  target.color = draw.picture = pass.write(target.color, gpu::Access::color_target);
+  pass.execute([&frame, draw](PassContext& context) { record(frame, context, draw); });
+  return {};
+}
+
+}  // namespace gloam

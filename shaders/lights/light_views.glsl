@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_LIGHTS_LIGHT_VIEWS_GLSL
+#define GLOAM_SHADERS_LIGHTS_LIGHT_VIEWS_GLSL
+
+// What the fragment shaders of the light views share: the two targets, colours and the tile grid.
+
+#include "shaders/common/math.glsl"
+#include "shaders/lights/lights_shared.h"
+
+layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture does not encode sRGB by itself
+
+layout(location = 0) out vec4 out_color;  // over the picture
+layout(location = 1) out vec4 out_named;  // an image of the view's name, for captures; sRGB-encoded
+
+const vec3 kLoud = vec3(1.0, 0.0, 0.25);  // what must not be
+
+// A linear colour that hides `opacity` of the picture.
+void show(vec3 color, float opacity) {
+  vec3 encoded = linear_to_srgb(color);
+  out_color = vec4(kEncodeSrgb != 0u ? encoded : color, opacity);
+  out_named = vec4(encoded, opacity);
+}
+
+// Darker along the upper and left border of tiles of `side` pixels.
+vec3 with_grid(vec3 color, ivec2 pixel, int side) {
+  return any(equal(pixel % side, ivec2(0))) ? color * 0.6 : color;
+}
+
+#endif
