@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "engine/scene/resources.h"
 #include "modules/lights/light_list.h"
@@ -13,9 +14,16 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kNoLight = ~0u;
-
-enum class LightView { mask_counts, approx_counts, accurate_counts, difference_counts, culling, list };
+/// The first four in the order of kCount of light_count_view.frag. `nothing` stands in where there is no list to show.
+enum class LightView : std::uint32_t {
+  mask_counts,
+  approx_counts,
+  accurate_counts,
+  difference_counts,
+  culling,
+  list,
+  nothing
+};
 
 struct NamedView {
   std::string_view name;
@@ -27,40 +35,50 @@ constexpr NamedView kViews[] = {
     {"light_culling", LightView::culling},           {"light_list", LightView::list},
 };
 
-bool shows_one_light(LightView view) { return view >= LightView::culling; }
+bool shows_one_light(LightView view) { return view == LightView::culling || view == LightView::list; }
+bool shows_counts(LightView view) { return view < LightView::culling; }
+
+struct ViewShader {
+  std::string_view name;
+  gpu::ShaderCode fragment;
+};
+ViewShader shader_of(LightView view) {
+  if (view == LightView::culling) return {"light_culling_view", shaders::lights::light_culling_view_frag};
+  if (view == LightView::list) return {"light_list_view", shaders::lights::light_list_view_frag};
+  if (view == LightView::nothing) return {"light_nothing_view", shaders::lights::light_nothing_view_frag};
+  return {"light_count_view", shaders::lights::light_count_view_frag};
+}
 
 gpu::GraphicsPipelineDesc view_pipeline(LightView view, gpu::Format format) {
-  const std::string_view stem = view == LightView::culling ? "light_culling_view"
-                                : view == LightView::list  ? "light_list_view"
-                                                           : "light_count_view";
-  const gpu::ShaderCode fragment = view == LightView::culling ? shaders::lights::light_culling_view_frag
-                                   : view == LightView::list  ? shaders::lights::light_list_view_frag
-                                                              : shaders::lights::light_count_view_frag;
-  std::string name = std::string(stem) + "/" + std::string(gpu::name_of(format));
-  if (!shows_one_light(view)) name += "/" + std::to_string(static_cast<std::uint32_t>(view));
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(std::move(name), "lights", fragment, format);
+  const ViewShader shader = shader_of(view);
+  const auto count = static_cast<std::uint32_t>(view);
+  std::string name = std::string(shader.name) + "/" + std::string(gpu::name_of(format));
+  if (shows_counts(view)) name += "/" + std::to_string(count);
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(std::move(name), "lights", shader.fragment, format);
   desc.color_formats.push_back(gpu::Format::rgba8_unorm);
   desc.blend = gpu::BlendMode::alpha;
   desc.constants = {{0, gpu::encodes_srgb(format) ? 0u : 1u}};
-  if (!shows_one_light(view)) desc.constants.push_back({1, static_cast<std::uint32_t>(view)});
+  if (shows_counts(view)) desc.constants.push_back({1, count});
   return desc;
 }
 
 /// What a view pass records with.
 struct ViewDraw {
-  LightView view = LightView::mask_counts;
+  LightView view = LightView::nothing;
   gpu::PipelineHandle pipeline;
   gpu::SamplerHandle sampler;
   LightsOutputs lights;
   GeometryOutputs geometry;
-  std::uint32_t light = kNoLight;
+  std::uint32_t light = 0;  ///< that is shown, of the sorted ones
+  float opacity = 1.0f;     ///< of nothing over the picture
   ImageRef picture;
   ImageRef named;
 };
 
 void declare_reads(PassBuilder& pass, const ViewDraw& draw) {
+  if (draw.view == LightView::nothing) return;
   pass.read(draw.lights.tile_lists, gpu::Access::fragment_read);
-  if (!shows_one_light(draw.view)) return;
+  if (shows_counts(draw.view)) return;
   pass.read(draw.geometry.depth, gpu::Access::fragment_read);
   pass.read(draw.lights.texels, gpu::Access::fragment_read);
   pass.read(draw.lights.group_masks, gpu::Access::fragment_read);
@@ -74,7 +92,8 @@ std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassConte
   };
   const auto whole = [&](BufferRef buffer) { return gpu::Binding::BufferRange{context.buffer(buffer)}; };
   const LightsOutputs& lights = draw.lights;
-  if (!shows_one_light(draw.view)) return {{0, lights.grid}, {1, lights.mask_tiles}, {2, sampled(lights.tile_lists)}};
+  if (draw.view == LightView::nothing) return {};
+  if (shows_counts(draw.view)) return {{0, lights.grid}, {1, lights.mask_tiles}, {2, sampled(lights.tile_lists)}};
   std::vector<gpu::Binding> bindings = {frame.view_binding(),
                                         {1, lights.grid},
                                         {2, sampled(draw.geometry.depth)},
@@ -104,6 +123,7 @@ void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& dra
   commands.bind_pipeline(draw.pipeline);
   commands.bind(bindings_of(frame, context, draw));
   if (shows_one_light(draw.view)) commands.push(draw.light);
+  if (draw.view == LightView::nothing) commands.push(draw.opacity);
   commands.draw(3, 1, 0, 0);
   commands.end_rendering();
 }
@@ -126,41 +146,47 @@ std::vector<VisualizerInfo> light_visualizers() {
           {"lights_final", "lights", "", "lights a tile in the final list", false}};
 }
 
-std::uint32_t LightViews::shown_light(const FrameBuilder& frame, std::string_view name) {
-  const auto found = frame.world().resource<SceneNames>().find("light", name);
-  const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
-  const auto at = found.ok() ? std::find(visible.local_entities.begin(), visible.local_entities.end(), *found)
-                             : visible.local_entities.end();
-  if (at != visible.local_entities.end()) return static_cast<std::uint32_t>(at - visible.local_entities.begin());
-  const Light* light = found.ok() ? frame.world().try_get<Light>(*found) : nullptr;
+std::optional<std::uint32_t> LightViews::shown_light(const FrameBuilder& frame, std::string_view name) {
+  const World& world = frame.world();
+  const auto entity = world.resource<SceneNames>().find("light", name);
+  if (!entity.ok()) return std::nullopt;
+  const std::vector<Entity>& lights = world.view_resource<VisibleLights>(frame.view().id).local_entities;
+  const auto at = std::find(lights.begin(), lights.end(), *entity);
+  if (at != lights.end()) return static_cast<std::uint32_t>(at - lights.begin());
+  const Light* light = world.try_get<Light>(*entity);
   const bool directional = light != nullptr && light->kind == LightKind::directional;
-  std::string sentence = "view " + std::string(frame.visualizer()) + " shows no tile: the light " +
-                         (directional ? "is directional and in no tile's list" : "reaches nothing in the picture");
-  if (const auto [place, fresh] = told_.insert(std::move(sentence)); fresh) frame.services().log.warning(*place);
-  return kNoLight;
+  const auto [sentence, fresh] =
+      told_.insert("view " + std::string(frame.visualizer()) + " shows no tile: the light " +
+                   (directional ? "is directional and in no tile's list" : "reaches nothing in view"));
+  if (fresh) frame.services().log.warning(*sentence);
+  return std::nullopt;
 }
 
 Status LightViews::add_pass(FrameBuilder& frame) {
   const std::string_view shown = frame.visualizer();
-  const std::size_t colon = shown.find(':');
-  const std::string stem(shown.substr(0, colon));
+  const std::string stem(shown.substr(0, shown.find(':')));
   const auto* named =
       std::find_if(std::begin(kViews), std::end(kViews), [&](const NamedView& v) { return v.name == stem; });
   if (named == std::end(kViews)) return {};
+  if (frame.knobs().is("lights.culling", "brute"))
+    return Error{ErrorKind::usage, "view " + stem + " needs lights.culling=tiled"};
+  TargetOutput& target = frame.get<TargetOutput>();
   ViewDraw draw;
-  draw.view = named->view;
   draw.lights = frame.get<LightsOutputs>();
   draw.geometry = frame.get<GeometryOutputs>();
-  if (!draw.lights.tile_lists) return Error{ErrorKind::usage, "view " + stem + " needs lights.culling=tiled"};
-  TargetOutput& target = frame.get<TargetOutput>();
+  draw.view = draw.lights.tile_lists ? named->view : LightView::nothing;
+  if (shows_one_light(named->view)) {
+    const std::optional<std::uint32_t> light = shown_light(frame, shown.substr(stem.size() + 1));
+    if (!light) draw.view = LightView::nothing;
+    draw.light = light.value_or(0);
+    draw.opacity = 0.75f;
+  }
   auto pipeline = frame.services().pipelines.get(view_pipeline(draw.view, target.format));
   if (!pipeline.ok()) return pipeline.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
   draw.pipeline = *pipeline;
   draw.sampler = *sampler;
-  if (shows_one_light(draw.view))
-    draw.light = shown_light(frame, shown.substr(std::min(shown.size(), stem.size() + 1)));
 
   const ImageRef image = create_view_image(frame, stem, "lights", gpu::Format::rgba8_unorm);
   PassBuilder pass = frame.graph().add_pass(stem + "_view", "lights");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,10 +24,10 @@ class LightViews {
   [[nodiscard]] Status add_pass(FrameBuilder& frame);
 
  private:
-  /// Place of the named light among the view's sorted local lights; one that none has when it is not there.
-  [[nodiscard]] std::uint32_t shown_light(const FrameBuilder& frame, std::string_view name);
+  /// Place of the named light among the view's sorted local lights, if it is there.
+  [[nodiscard]] std::optional<std::uint32_t> shown_light(const FrameBuilder& frame, std::string_view name);
 
-  std::set<std::string, std::less<>> told_;
+  std::set<std::string> told_;  ///< warnings
 };
 
 }  // namespace gloam

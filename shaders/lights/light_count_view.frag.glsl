@@ -13,23 +13,22 @@ layout(set = 0, binding = 0, scalar) uniform Grid { LightGrid grid; };
 layout(set = 0, binding = 1, scalar) readonly buffer MaskTiles { uint mask_tiles[]; };
 layout(set = 0, binding = 2) uniform usampler2D tile_lists;
 
-int mask_count(ivec2 mask_tile) {
-  uint at = (uint(mask_tile.y) * grid.mask_tiles.x + uint(mask_tile.x)) * GLOAM_MASK_WORDS;
+int mask_count(uvec2 pixel) {
+  uvec2 tile = pixel / GLOAM_LIGHT_TILE;
+  uint at = (tile.y * grid.mask_tiles.x + tile.x) * GLOAM_MASK_WORDS;
   int count = 0;
   for (uint groups = mask_tiles[at]; groups != 0u; groups &= groups - 1u) count += bitCount(mask_tiles[at + 1u + uint(findLSB(groups))]);
   return count;
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  uvec2 pixel = uvec2(gl_FragCoord.xy);
   if (kCount == 0u) {
-    vec3 color = heat(float(mask_count(pixel / GLOAM_LIGHT_TILE)) / 31.0);
-    show(with_grid(color, pixel, GLOAM_LIGHT_TILE), 1.0);
+    show(with_grid(heat(float(mask_count(pixel)) / 31.0), pixel, GLOAM_LIGHT_TILE), 1.0);
     return;
   }
-  uint counts = texelFetch(tile_lists, pixel / GLOAM_SHADOW_TILE, 0).y;
+  uint counts = texelFetch(tile_lists, ivec2(pixel / GLOAM_SHADOW_TILE), 0).y;
   int approx = int(counts >> 16), accurate = int(counts & 0xFFFFu);
   int count = kCount == 1u ? approx : kCount == 2u ? accurate : approx - accurate;
-  vec3 color = count < 0 ? kLoud : heat(float(count) / 31.0);
-  show(with_grid(color, pixel, GLOAM_SHADOW_TILE), 1.0);
+  show(with_grid(count < 0 ? kLoud : heat(float(count) / 31.0), pixel, GLOAM_SHADOW_TILE), 1.0);
 }

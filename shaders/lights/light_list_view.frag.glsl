@@ -8,16 +8,12 @@
 // where it reaches a pixel whose list does not hold it.
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  if (shown_light >= grid.local_count) {
-    show(vec3(0.0), kDarkened);
-    return;
-  }
-  bool held = list_holds(pixel / GLOAM_SHADOW_TILE);
+  uvec2 pixel = uvec2(gl_FragCoord.xy);
+  bool held = list_holds(pixel);
   bool lit = lights_pixel(fetch_light(light_texels, shown_light), pixel);
-  if (!held) {
-    show(lit ? kLoud : vec3(0.0), lit ? 0.95 : kDarkened);
-    return;
+  if (held) {
+    show(with_grid(lit ? vec3(0.75, 0.9, 0.2) : vec3(0.02, 0.1, 0.6), pixel, GLOAM_SHADOW_TILE), kDarkened);
+  } else {
+    show(lit ? kLoud : vec3(0.0), lit ? kLoudOpacity : kDarkened);
   }
-  show(with_grid(lit ? vec3(0.75, 0.9, 0.2) : vec3(0.02, 0.1, 0.6), pixel, GLOAM_SHADOW_TILE), kDarkened);
 }

@@ -14,6 +14,8 @@ layout(location = 0) out vec4 out_color;  // over the picture
 layout(location = 1) out vec4 out_named;  // an image of the view's name, for captures; sRGB-encoded
 
 const vec3 kLoud = vec3(1.0, 0.0, 0.25);  // what must not be
+const float kLoudOpacity = 0.95;
+const float kDarkened = 0.75;  // opacity of all else where the picture shall shine through
 
 // A linear colour that hides `opacity` of the picture.
 void show(vec3 color, float opacity) {
@@ -23,8 +25,8 @@ void show(vec3 color, float opacity) {
 }
 
 // Darker along the upper and left border of tiles of `side` pixels.
-vec3 with_grid(vec3 color, ivec2 pixel, int side) {
-  return any(equal(pixel % side, ivec2(0))) ? color * 0.6 : color;
+vec3 with_grid(vec3 color, uvec2 pixel, uint side) {
+  return any(equal(pixel % side, uvec2(0))) ? color * 0.6 : color;
 }
 
 #endif
