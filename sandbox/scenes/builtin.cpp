@@ -3,6 +3,7 @@
 #include "sandbox/scenes/builtin.h"
 
 #include "sandbox/scenes/lanterns.h"
+#include "sandbox/scenes/many_lights.h"
 #include "sandbox/scenes/plain.h"
 
 namespace gloam {
@@ -11,6 +12,7 @@ namespace {
 constexpr BuiltinScene kScenes[] = {
     {"plain", "geometry and materials under one sun", &build_plain_scene},
     {"lanterns", "256 coloured point and spot lights between arches", &build_lanterns_scene},
+    {"many_lights", "1024 small lights among stones and glass on hills, and a moon", &build_many_lights_scene},
 };
 
 }  // namespace

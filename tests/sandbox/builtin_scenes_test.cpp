@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 #include "modules/lights/components.h"
 #include "modules/module_list/module_list.h"
 #include "sandbox/scenes/builtin.h"
+#include "sandbox/scenes/many_lights.h"
 #include "sandbox/scenes/scene_builder.h"
 
 namespace gloam {
@@ -95,6 +97,45 @@ TEST(LanternsScene, has_256_coloured_point_and_spot_lights) {
     EXPECT_GT(light.intensity, 0.0f);
     EXPECT_LE(light.inner_angle, light.outer_angle);
   });
+}
+
+TEST(ManyLightsScene, has_1024_point_and_spot_lights_that_reach_1_to_5_m_and_a_moon) {
+  BuiltWorld built("many_lights");
+  EXPECT_EQ(lights_by_kind(built.world),
+            (std::map<LightKind, int>{{LightKind::point, 608}, {LightKind::spot, 416}, {LightKind::directional, 1}}));
+  built.world.view<const Light>().each([](const Light& light) {
+    if (light.kind == LightKind::directional) return;
+    EXPECT_GE(light.range_m, 1.0f);
+    EXPECT_LE(light.range_m, 5.0f);
+    EXPECT_GT(light.intensity, 0.0f);
+  });
+}
+
+TEST(ManyLightsScene, has_glass) {
+  BuiltWorld built("many_lights");
+  std::size_t panes = 0;
+  const auto& assets = built.world.resource<SceneAssets>();
+  built.world.view<const MeshInstance>().each([&](const MeshInstance& instance) {
+    const std::uint32_t material = assets.meshes[instance.mesh].primitives[0].material;
+    panes += assets.materials[material].alpha_mode == AlphaMode::blend ? 1 : 0;
+  });
+  EXPECT_GE(panes, 20u);
+}
+
+TEST(ManyLightsScene, can_be_thinned_out) {
+  BuiltWorld built("many_lights");
+  for (const std::size_t count : {2000u, 1000u, 256u, 8u, 0u}) {
+    thin_out_lights(built.world, count);
+    std::size_t left = 0;
+    double reach = 0.0;
+    built.world.view<const Light, const LocalTransform>().each([&](const Light& light, const LocalTransform& local) {
+      if (light.kind == LightKind::directional) return;
+      ++left;
+      reach = std::max(reach, glm::length(local.translation));
+    });
+    EXPECT_EQ(left, std::min<std::size_t>(count, 1024));
+    EXPECT_TRUE(count < 8 || reach > 15.0) << "they are not all at one end";
+  }
 }
 
 TEST(SceneBuilder, a_rotation_towards_a_direction_turns_minus_z_there) {
