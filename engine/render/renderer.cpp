@@ -151,6 +151,20 @@ Status Renderer::State::add_module_passes(FrameBuilder& builder) {
   return {};
 }
 
+void Renderer::State::warn_of_idle_visualizer(const FrameBuilder& builder) {
+  const std::string_view stem = builder.visualizer().substr(0, builder.visualizer().find(':'));
+  for (std::size_t i = 0; i < options.modules.size(); ++i) {
+    const Module& module = *options.modules[i];
+    const Demand demand = runtimes[i].demand.needed ? module.demand(builder.world(), &builder.view()) : runtimes[i].demand;
+    if (runtimes[i].in_last_view || demand.needed) continue;
+    for (const VisualizerInfo& info : module.visualizers()) {
+      if (info.name != stem) continue;
+      const auto [sentence, fresh] = told.insert("view " + info.name + " shows the picture as it is: " + demand.reason);
+      if (fresh) options.log->warning(*sentence);
+    }
+  }
+}
+
 void Renderer::State::release_idle_modules() {
   for (std::size_t i = 0; i < options.modules.size(); ++i) {
     ModuleRuntime& runtime = runtimes[i];
@@ -186,6 +200,7 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   frame.put(TargetOutput{target, options.device->desc(picture).format});
   frame.put(LitOutput{lit});
   GLOAM_TRY(add_module_passes(frame));
+  if (code == 0 && frame.visualizer() != "none") warn_of_idle_visualizer(frame);
   GLOAM_ASSERT(frame.get<LitOutput>().color.resource == lit.resource,
                "LitOutput is written in place: a module has put another image there");
   GLOAM_ASSERT(frame.get<TargetOutput>().color.resource == target.resource,

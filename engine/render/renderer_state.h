@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "engine/frame/upload.h"
@@ -71,6 +73,8 @@ struct Renderer::State {
   [[nodiscard]] bool takes_part(std::size_t module, const FrameBuilder& builder);
   /// Hands a view's settled results to the modules that the world demands.
   void hand_out_results(World& world, ViewId view);
+  /// Says once that a view is asked for whose module has nothing to do, so that the picture is shown as it is.
+  void warn_of_idle_visualizer(const FrameBuilder& builder);
   /// After a frame: memory of modules that nobody has demanded for long goes back; pipelines too when the world has no call for them.
   void release_idle_modules();
   /// Of the frame's last view and the modules that took part in it.
@@ -92,6 +96,7 @@ struct Renderer::State {
   std::vector<std::unique_ptr<FrameBuilder>> builders;  ///< of the frame in the making; pass functions refer to them
   std::vector<std::unique_ptr<RenderView>> views;
   std::vector<ModuleRuntime> runtimes;  ///< by module
+  std::set<std::string> told;           ///< warnings that are said once
   std::vector<ViewRequest> last_requests;
   std::map<std::string, double> counters;
   std::vector<ResultKey> counted_results;  ///< of the last view
