@@ -51,8 +51,8 @@ struct FrameResult {
 /// one pass copies all of a frame's results to mapped memory, of which there is a piece a frame in flight. One thread.
 class FrameResults {
  public:
-  /// Results and memory nobody renews for so many frames are given back.
-  static constexpr std::uint64_t kFramesKept = 120;
+  /// Results and memory that nobody renews for so many frames are given back.
+  static constexpr std::uint64_t kFramesKept = 60;
 
   explicit FrameResults(gpu::Device& device) : device_(device) {}
   ~FrameResults();

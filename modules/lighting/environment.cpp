@@ -11,14 +11,15 @@ Result<ShadingInputs> shading_inputs(FrameBuilder& frame) {
   if (const ShadingInputs* there = frame.find<ShadingInputs>()) return *there;
   ShadingInputs inputs;
   const auto& sky = frame.world().resource<SceneEnvironment>();
-  const shaders::EnvironmentConstants constants{vec4(sky.sky_zenith, 0.0f), vec4(sky.sky_horizon, 0.0f), vec4(sky.sky_ground, 0.0f)};
+  const shaders::EnvironmentConstants constants{vec4(sky.sky_zenith, 0.0f), vec4(sky.sky_horizon, 0.0f),
+                                                vec4(sky.sky_ground, 0.0f)};
   auto environment = frame.services().uniforms.write_value(constants);
   if (!environment.ok()) return environment.error();
   inputs.environment = *environment;
   if (const LightsOutputs* lights = frame.find<LightsOutputs>()) {
     inputs.lights = lights->lights;
     inputs.directional_count = lights->directional_count;
-    inputs.tiled = static_cast<bool>(lights->tile_masks);
+    inputs.outputs = *lights;
   } else {
     auto range = frame.services().uniforms.write(empty_light_block());
     if (!range.ok()) return range.error();

@@ -13,7 +13,7 @@ struct ShadingInputs {
   gpu::Binding::BufferRange lights;       ///< LightBlock; empty when the scene has no light
   gpu::Binding::BufferRange environment;  ///< EnvironmentConstants
   std::uint32_t directional_count = 0;
-  bool tiled = false;
+  LightsOutputs outputs;  ///< of the lights module; without anything when the scene has no light
 };
 
 [[nodiscard]] Result<ShadingInputs> shading_inputs(FrameBuilder& frame);

@@ -7,10 +7,14 @@
 
 #include "engine/ecs/view.h"
 #include "engine/render/frame_builder.h"
+#include "modules/lights/find_lights_passes.h"
+#include "modules/lights/light_buffers.h"
 #include "modules/lights/light_keys.h"
 #include "modules/lights/light_list.h"
+#include "modules/lights/light_measures.h"
+#include "modules/lights/light_pick.h"
+#include "modules/lights/light_views.h"
 #include "modules/lights/outputs.h"
-#include "modules/lights/tile_masks_pass.h"
 
 namespace gloam {
 namespace {
@@ -24,7 +28,8 @@ void gather_lights_system(View<const Light, const WorldTransform> lights, Resour
             [](const PlacedLight& a, const PlacedLight& b) { return a.entity.index < b.entity.index; });
 }
 
-void select_lights_system(Resource<const LightSet> set, ViewResource<const RenderView> view, ViewResource<VisibleLights> visible) {
+void select_lights_system(Resource<const LightSet> set, ViewResource<const RenderView> view,
+                          ViewResource<VisibleLights> visible) {
   select_lights(set->lights, *view, *visible);
 }
 
@@ -47,7 +52,23 @@ class LightsModule final : public Module {
     culling.default_number = 1;
     culling.exact = "brute";
     registry.add(culling);
+    Knob fixed;
+    fixed.name = "lights.fixed_slots";
+    fixed.module = "lights";
+    fixed.meaning = "list entries every shadow tile gets, so that addresses are known; 0: as many as it needs";
+    fixed.type = Knob::Type::integer;
+    fixed.max = GLOAM_MAX_LOCAL_LIGHTS;
+    registry.add(fixed);
+    Knob check;
+    check.name = "lights.check";
+    check.module = "lights";
+    check.meaning =
+        "ask every pixel about every light, and count what the light lists leave out (lights.culling_errors)";
+    check.choices = {"off", "on"};
+    registry.add(check);
   }
+
+  [[nodiscard]] std::vector<MeasureInfo> measures() const override { return light_measures(); }
 
   void add_systems(Schedule& schedule) override {
     schedule.add_system("gather_lights", "lights", Stage::world, &gather_lights_system);
@@ -64,46 +85,68 @@ class LightsModule final : public Module {
     return {true, lights};
   }
 
-  void pipelines(const KnobRegistry& knobs, PipelineList& list) const override {
-    list.push_back(light_texels_pipeline());
-    if (knobs.is("lights.culling", "tiled")) list.push_back(tile_masks_pipeline());
-  }
+  void pipelines(const KnobRegistry& knobs, PipelineList& list) const override { list_light_pipelines(knobs, list); }
 
-  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
-    return {{"tile_masks", "lights", "", "lights of each 8x8 tile: black 0, blue 6, cyan 12, green 19, yellow 25, red 31, white more"},
-            {"light_culling", "lights", "LIGHT", "tiles a light may touch", false},
-            {"light_list", "lights", "LIGHT", "pixels a light's lists hold", false},
-            {"lights_approx", "lights", "", "lights a tile after the approximate search", false},
-            {"lights_accurate", "lights", "", "lights a tile after the accurate search", false},
-            {"lights_difference", "lights", "", "lights a tile the accurate search dropped", false},
-            {"lights_final", "lights", "", "lights a tile in the final list", false}};
-  }
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return light_visualizers(); }
 
   void prepare_view(World& world, ViewId view) const override {
     if (world.try_view_resource<VisibleLights>(view) == nullptr) world.set_view_resource(view, VisibleLights{});
   }
 
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase == PassPhase::visualize && frame.visualizer() == "tile_masks") return add_tile_masks_view_pass(frame);
+    if (phase == PassPhase::visualize) return views_.add_pass(frame);
     if (phase != PassPhase::lists) return {};
     const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
     if (visible.dropped > 0 && !warned_.exchange(true)) {
-      frame.services().log.warning("more lights are visible than fit (" + std::to_string(GLOAM_MAX_LOCAL_LIGHTS) + " local, " +
-                                   std::to_string(GLOAM_MAX_DIRECTIONAL_LIGHTS) + " directional): the " +
-                                   std::to_string(visible.dropped) + " least important are left out (counter lights.dropped)");
+      frame.services().log.warning("more lights are visible than fit (" + std::to_string(GLOAM_MAX_LOCAL_LIGHTS) +
+                                   " local, " + std::to_string(GLOAM_MAX_DIRECTIONAL_LIGHTS) + " directional): the " +
+                                   std::to_string(visible.dropped) +
+                                   " least important are left out (counter lights.dropped)");
     }
-    return add_tile_masks_pass(frame, visible);
+    static ZBins bins;
+    static TileLightMasks masks;
+    bins.bins.assign(2048, ZBin{0, static_cast<std::uint16_t>(visible.block.local_count)});
+    masks.tiles = mask_tiles_of(frame.view().width, frame.view().height);
+    masks.words.assign(std::size_t{masks.tiles.x} * masks.tiles.y * GLOAM_MASK_WORDS, 0);
+    for (std::size_t t = 0; t < masks.words.size(); t += GLOAM_MASK_WORDS)
+      for (std::uint32_t i = 0; i < visible.block.local_count; ++i) {
+        masks.words[t] |= 1u << i / 32;
+        masks.words[t + 1 + i / 32] |= 1u << i % 32;
+      }
+    return add_find_lights_passes(frame, visible, bins, masks);
+  }
+
+  [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {
+    return add_light_pick_copies(frame, copies);
+  }
+
+  [[nodiscard]] std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
+                                              const Captures& copies) const override {
+    return light_pick_lines(frame, pixel, copies);
+  }
+
+  void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {
+    if (name != kLightCountersResult) return;
+    const auto& note = std::any_cast<const LightCountersNote&>(result.note);
+    world.set_view_resource(view, light_feedback(result.value<shaders::LightCounters>(), note));
+  }
+
+  void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
+    if (name == kLightCountersResult)
+      count_lights(result.value<shaders::LightCounters>(), std::any_cast<const LightCountersNote&>(result.note), sink);
   }
 
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
     const auto& visible = world.view_resource<VisibleLights>(view.id);
     sink.count("lights.total", visible.total);
     sink.count("lights.visible", visible.block.local_count + visible.block.directional_count);
+    sink.count("lights.local", visible.block.local_count);
     sink.count("lights.dropped", visible.dropped);
   }
 
  private:
   std::atomic<bool> warned_ = false;
+  LightViews views_;
 };
 
 }  // namespace

@@ -14,16 +14,13 @@ std::span<const std::byte> empty_light_block() {
   return std::as_bytes(std::span(&block, 1));
 }
 
-std::vector<std::uint32_t> decode_tile_mask(std::span<const std::uint32_t> layers) {
-  GLOAM_ASSERT(layers.size() == GLOAM_LIGHT_GROUPS + 1,
-               "a tile mask has a word a group of lights and one for the groups");
-  std::vector<std::uint32_t> lights;
-  for (std::uint32_t groups = layers[GLOAM_LIGHT_GROUPS]; groups != 0; groups &= groups - 1) {
-    const auto word = static_cast<std::uint32_t>(std::countr_zero(groups));
-    for (std::uint32_t bits = layers[word]; bits != 0; bits &= bits - 1)
-      lights.push_back(word * 32 + static_cast<std::uint32_t>(std::countr_zero(bits)));
-  }
-  return lights;
+TileList decode_tile_list(uvec2 texel) {
+  TileList tile;
+  tile.has_list = texel.x != GLOAM_NO_SLOT;
+  tile.slot = tile.has_list ? texel.x : 0;
+  tile.count = texel.y & 0xFFFFu;
+  tile.approx_count = texel.y >> 16;
+  return tile;
 }
 
 std::vector<std::uint32_t> decode_light_mask(std::span<const std::uint32_t> words) {

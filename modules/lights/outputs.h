@@ -9,39 +9,50 @@
 
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
+#include "engine/math/types.h"
 
 namespace gloam {
 
 /// What the lights module leaves for a view.
 struct LightsOutputs {
   gpu::Binding::BufferRange lights;  ///< a LightBlock (shaders/lights/lights_shared.h), uniform
-  ImageRef texels;                   ///< rgba32f, 3 × GLOAM_MAX_LOCAL_LIGHTS: local lights as light_texels.comp writes them
-  ImageRef tile_masks;               ///< r32ui, 33 layers, one texel an 8×8 tile; none when lights.culling = brute
+  std::uint32_t local_count = 0;
+  std::uint32_t directional_count = 0;
+  ImageRef
+      texels;  ///< rgba32f, 3 × GLOAM_MAX_LOCAL_LIGHTS: local lights as light_texels.comp writes them; none without local lights
+
+  /// What follows exists with local lights and lights.culling = tiled.
   gpu::Binding::BufferRange grid;        ///< a LightGrid, uniform
   gpu::Binding::BufferRange z_bins;      ///< one word a bin: the standard set, then the ranged one; storage
   gpu::Binding::BufferRange mask_tiles;  ///< GLOAM_MASK_WORDS a tile of 32×32 pixels, as the CPU made them; storage
-  /// What follows exists when lights.culling = tiled.
-  BufferRef group_masks;  ///< GLOAM_MASK_WORDS a tile group: lights of the approximate search
-  ImageRef tile_lists;    ///< rg32ui, one texel a shadow tile: slot (first list entry, a multiple of 3) or GLOAM_NO_SLOT; lights in
-                          ///< the low 16 bits by the accurate search, in the high 16 by the approximate one
-  BufferRef early_lists;  ///< list entry e: 10 bits at bit 10 · (e % 3) of word e / 3
-  BufferRef counters;     ///< a LightCounters
+  BufferRef group_masks;                 ///< GLOAM_MASK_WORDS a tile group: lights of the approximate search
+  ImageRef
+      tile_lists;  ///< rg32ui, one texel a shadow tile: slot (first list entry, a multiple of 3) or GLOAM_NO_SLOT; lights in
+                   ///< the low 16 bits by the accurate search, in the high 16 by the approximate one
+  BufferRef early_lists;            ///< list entry e: 10 bits at bit 10 · (e % 3) of word e / 3
+  BufferRef counters;               ///< a LightCounters
   std::uint32_t slot_capacity = 0;  ///< list entries early_lists holds
-  std::uint32_t local_count = 0;
-  std::uint32_t directional_count = 0;
+  [[nodiscard]] bool has_lists() const { return static_cast<bool>(tile_lists); }
 };
 
 /// Bytes of a LightBlock without lights, for shading a scene that has none.
 [[nodiscard]] std::span<const std::byte> empty_light_block();
 
-/// Indices of the lights in one tile's mask. `layers`: the 33 words of one texel; words whose group bit is 0 are not looked at.
-[[nodiscard]] std::vector<std::uint32_t> decode_tile_mask(std::span<const std::uint32_t> layers);
+/// One texel of LightsOutputs::tile_lists.
+struct TileList {
+  bool has_list = true;            ///< false: no room was left, the tile's lights are those of its group's mask
+  std::uint32_t slot = 0;          ///< its first list entry
+  std::uint32_t count = 0;         ///< lights with a pixel of the tile in their volume
+  std::uint32_t approx_count = 0;  ///< lights that touch the tile's froxel
+};
+[[nodiscard]] TileList decode_tile_list(uvec2 texel);
 
 /// Indices of the lights in one mask of mask_tiles or group_masks. `words`: its GLOAM_MASK_WORDS words; words whose group bit is 0 are not
 /// looked at.
 [[nodiscard]] std::vector<std::uint32_t> decode_light_mask(std::span<const std::uint32_t> words);
 
 /// Light indices of `count` list entries from `slot` on. `early_lists`: the buffer's words. Entries beyond the buffer are left out.
-[[nodiscard]] std::vector<std::uint32_t> decode_light_list(std::span<const std::uint32_t> early_lists, std::uint32_t slot, std::uint32_t count);
+[[nodiscard]] std::vector<std::uint32_t> decode_light_list(std::span<const std::uint32_t> early_lists,
+                                                           std::uint32_t slot, std::uint32_t count);
 
 }  // namespace gloam

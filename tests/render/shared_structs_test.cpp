@@ -61,7 +61,7 @@ TEST(SharedStructs, view_constants) {
   using T = shaders::ViewConstants;
   for (const gpu::ShaderCode& shader :
        {shaders::render::surface_vert, shaders::render::geometry_frag, shaders::render::debug_view_frag,
-        shaders::lights::tile_masks_comp, shaders::lighting::deferred_frag}) {
+        shaders::lights::find_lights_approx_comp, shaders::lighting::deferred_frag}) {
     expect_same_layout(
         shader, "ViewConstants", sizeof(T),
         {GLOAM_MEMBER(T, clip_from_relative), GLOAM_MEMBER(T, ray_base), GLOAM_MEMBER(T, ray_dx),
@@ -110,7 +110,7 @@ TEST(SharedStructs, lights) {
   using D = shaders::DirectionalLight;
   using B = shaders::LightBlock;
   for (const gpu::ShaderCode& shader :
-       {shaders::lights::tile_masks_comp, shaders::lighting::deferred_frag, shaders::lighting::forward_frag}) {
+       {shaders::lights::find_lights_approx_comp, shaders::lighting::deferred_frag, shaders::lighting::forward_frag}) {
     expect_same_layout(shader, "LocalLight", sizeof(L),
                        {GLOAM_MEMBER(L, position), GLOAM_MEMBER(L, inverse_range_squared), GLOAM_MEMBER(L, color),
                         GLOAM_MEMBER(L, spot_scale), GLOAM_MEMBER(L, direction), GLOAM_MEMBER(L, spot_offset)});

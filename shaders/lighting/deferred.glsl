@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_LIGHTING_DEFERRED_GLSL
+#define GLOAM_SHADERS_LIGHTING_DEFERRED_GLSL
+
+#include "shaders/lighting/environment.glsl"
+#include "shaders/lights/lights_api.glsl"
+#include "shaders/render/gbuffer_api.glsl"
+#include "shaders/render/view_api.glsl"
+
+// Lights the geometry buffer: what deferred.frag and deferred_tiled.frag share. They define local_lights.
+
+layout(constant_id = 1) const uint kDirectionalLights = 0u;  // known when the pipeline is made, so that the loop is unrolled
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
+layout(set = 0, binding = 2, scalar) uniform Environment { EnvironmentConstants environment; };
+layout(set = 0, binding = 3) uniform sampler2D base_color_image;
+layout(set = 0, binding = 4) uniform usampler2D normal_image;
+layout(set = 0, binding = 5) uniform sampler2D material_image;
+layout(set = 0, binding = 6) uniform sampler2D emissive_image;
+layout(set = 0, binding = 7) uniform sampler2D depth_image;
+layout(set = 0, binding = 8) uniform sampler2D light_texels;
+
+layout(location = 0) out vec4 out_light;
+
+vec3 add_local(ShadingPoint p, uint index) {
+  vec3 to_light;
+  vec3 illuminance = local_illuminance(fetch_light(light_texels, index), p.position, to_light);
+  return reflected(p, to_light, illuminance);
+}
+
+// What local lights give the surface under a pixel. Lights in ascending order: whoever leaves out only lights that do not reach gets the
+// same sum to the bit.
+vec3 local_lights(ShadingPoint p, uvec2 pixel);
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = texelFetch(depth_image, pixel, 0).r;
+  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  GBufferTexel g = decode_gbuffer(texelFetch(base_color_image, pixel, 0), texelFetch(normal_image, pixel, 0).xy,
+                                  texelFetch(material_image, pixel, 0));
+  vec3 to_eye = normalize(to_viewer(view, position));
+  ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
+  vec3 light = texelFetch(emissive_image, pixel, 0).rgb + ambient(environment, p, g.roughness, g.occlusion);
+  for (uint i = 0u; i < kDirectionalLights; ++i) {
+    DirectionalLight d = lights.directional[i];
+    light += reflected(p, -d.direction, d.color);
+  }
+  light += local_lights(p, uvec2(pixel));
+  if (depth <= 0.0) light = sky_radiance(environment, -p.to_eye);
+  out_light = vec4(min(light, vec3(65504.0)), 1.0);
+}
+
+#endif

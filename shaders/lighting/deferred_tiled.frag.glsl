@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define GLOAM_EARLY_LISTS_BINDING 11
+#include "shaders/lighting/deferred.glsl"
+#include "shaders/lights/light_lists_api.glsl"
+
+// Every pixel looks at the lights of its shadow tile's list; in a tile whose list found no room, at those of its tile group's mask.
+
+layout(set = 0, binding = 9, scalar) uniform Grid { LightGrid grid; };
+layout(set = 0, binding = 10) uniform usampler2D tile_lists;
+layout(set = 0, binding = 12, scalar) readonly buffer GroupMasks { uint group_masks[]; };
+
+vec3 local_lights(ShadingPoint p, uvec2 pixel) {
+  vec3 sum = vec3(0.0);
+  uvec2 tile_list = texelFetch(tile_lists, ivec2(pixel / uint(GLOAM_SHADOW_TILE)), 0).xy;
+  uint count = has_list(tile_list) ? list_count(tile_list) : 0u;
+  for (uint i = 0u; i < count; ++i) sum += add_local(p, list_light(tile_list.x, i));
+  uint mask = group_mask_of(grid, pixel);
+  for (uint groups = has_list(tile_list) ? 0u : group_masks[mask]; groups != 0u; groups &= groups - 1u) {
+    uint word = uint(findLSB(groups));
+    for (uint bits = group_masks[mask + 1u + word]; bits != 0u; bits &= bits - 1u)
+      sum += add_local(p, word * 32u + uint(findLSB(bits)));
+  }
+  return sum;
+}

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_LIGHTING_FORWARD_GLSL
+#define GLOAM_SHADERS_LIGHTING_FORWARD_GLSL
+
+#include "shaders/lighting/environment.glsl"
+#include "shaders/lights/lights_api.glsl"
+#include "shaders/render/surface_api.glsl"
+#include "shaders/render/view_api.glsl"
+
+// Lights blended surfaces where they are drawn: what forward.frag and forward_tiled.frag share. They define local_lights.
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
+layout(set = 0, binding = 2, scalar) uniform Environment { EnvironmentConstants environment; };
+
+layout(location = 0) out vec4 out_light;
+
+vec3 add_local(ShadingPoint p, LocalLight light) {
+  vec3 to_light;
+  vec3 illuminance = local_illuminance(light, p.position, to_light);
+  return reflected(p, to_light, illuminance);
+}
+
+// What local lights give the surface, in ascending order, see deferred.glsl.
+vec3 local_lights(ShadingPoint p);
+
+void main() {
+  vec3 to_eye = normalize(to_viewer(view, in_relative));
+  Surface s = fetch_surface(to_eye);
+  ShadingPoint p = shading_point(in_relative, to_eye, s.normal, s.base_color.rgb, s.metallic, s.roughness);
+  vec3 light = s.emissive + ambient(environment, p, s.roughness, s.occlusion);
+  for (uint i = 0u; i < lights.directional_count; ++i) {
+    DirectionalLight d = lights.directional[i];
+    light += reflected(p, -d.direction, d.color);
+  }
+  light += local_lights(p);
+  out_light = vec4(min(light, vec3(65504.0)), s.base_color.a);
+}
+
+#endif
