@@ -193,8 +193,10 @@ Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::
   if (options.command == Command::play && chosen->count("--frames") == 0) options.frames = 0;
   options.fixed_step = options.command != Command::play || chosen->count("--dt") > 0;
   if (chosen->count("--cache-dir") == 0) options.cache_dir = default_cache_directory();
-  if (options.scene.empty() && (options.command == Command::play || options.command == Command::bench))
+  if (options.scene.empty() && (options.command == Command::play || options.command == Command::bench)) {
     options.scene = "builtin:lanterns";
+    options.scene_is_default = true;
+  }
   GLOAM_TRY(check_texts(options, raw));
   GLOAM_TRY(check_values(options));
   return Outcome(std::move(options));

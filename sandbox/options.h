@@ -23,7 +23,8 @@ struct PixelPosition {
 /// What a user asked for; every number is in its documented range.
 struct Options {
   Command command = Command::render;
-  std::string scene;  ///< path or "builtin:NAME"
+  std::string scene;              ///< path or "builtin:NAME"
+  bool scene_is_default = false;  ///< the user named none
 
   std::uint32_t width = 1280;  ///< pixels, 1…kMaxSize
   std::uint32_t height = 720;

@@ -10,6 +10,10 @@ namespace gloam {
 void add_ecs_benches(BenchRegistry& registry);
 /// Whole frames of the scene against a pass of 48 gathers a pixel.
 void add_frame_benches(BenchRegistry& registry);
+/// What finding the lights of tiles costs and saves: against brute force, against the yardstick, by number of lights.
+void add_light_gpu_benches(BenchRegistry& registry);
+/// Lights a tile that each phase keeps beyond those that reach a pixel of it.
+void add_light_false_positive_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 
 #include "engine/core/log.h"
 #include "engine/core/result.h"
@@ -12,7 +14,7 @@
 
 namespace gloam {
 
-/// What benches share. The session is opened by the first bench that asks for it: benches of the CPU never touch Vulkan.
+/// What benches share. Sessions are opened by the first bench that asks for them: benches of the CPU never touch Vulkan.
 class BenchContext {
  public:
   BenchContext(const Options& options, LogSink& log) : options_(options), log_(log) {}
@@ -21,13 +23,20 @@ class BenchContext {
   [[nodiscard]] LogSink& log() const { return log_; }
   /// Of the chosen scene and size.
   [[nodiscard]] Result<Session*> session();
-  /// Of the session; empty while there is none.
-  [[nodiscard]] gpu::DeviceInfo device_info() const;
+  /// Of a scene made by code ("builtin:NAME") whatever was chosen, with its first camera; one that is the caller's to change.
+  [[nodiscard]] Result<std::unique_ptr<Session>> open_builtin(const std::string& scene);
+  /// The scene the user named, or `scene` if he named none.
+  [[nodiscard]] const std::string& scene_or(const std::string& scene) const;
+  /// Of scene_or(scene).
+  [[nodiscard]] Result<Session*> session_or(const std::string& scene);
+  /// Of the sessions; empty while there is none.
+  [[nodiscard]] const gpu::DeviceInfo& device_info() const { return device_info_; }
 
  private:
   const Options& options_;
   LogSink& log_;
-  std::unique_ptr<Session> session_;
+  std::map<std::string, std::unique_ptr<Session>> sessions_;  ///< by scene
+  gpu::DeviceInfo device_info_;
 };
 
 }  // namespace gloam

@@ -22,6 +22,7 @@ struct BenchValue {
   std::optional<double> p10;
   std::optional<double> p90;
   std::optional<std::string> hash;  ///< of what was computed, so that a fast wrong answer shows
+  std::optional<std::string> scene;  ///< it was measured on, where that is not the run's
 };
 
 enum class Better { lower, higher };

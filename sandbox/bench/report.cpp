@@ -52,6 +52,7 @@ std::string bench_json(const RunDescription& run, std::span<const MeasuredRow> r
     } else {
       json.null();
     }
+    if (value.scene && *value.scene != run.scene) json.key("scene").text(*value.scene);
     json.end_object();
   }
   json.end_array().end_object();

@@ -18,7 +18,7 @@ namespace {
 
 // The garden's middle is the origin; things lie on Vogel's spiral, as seeds in a sunflower do. Metres.
 constexpr double kGroundSize = 84.0;
-constexpr int kGroundCells = 84;  // along one side
+constexpr int kGroundCells = 56;  // along one side
 constexpr double kGardenRadius = 30.0;
 constexpr double kGoldenAngle = 2.399963229728653;
 constexpr int kLanterns = 640;
@@ -144,8 +144,9 @@ std::string next_name(int& count) { return "light " + std::to_string(count++); }
 /// Lanterns on posts of different heights. Every fourth is a spot light that shines down.
 void add_lanterns(SceneBuilder& builder, const Materials& materials, int& count) {
   const vec2 outline[] = {{0.0f, -0.16f}, {0.11f, -0.03f}, {0.0f, 0.16f}};
-  const Primitive lantern = turned_shape(outline, 6);
-  const Primitive post = box_shape({0.035f, 1.0f, 0.035f});
+  const Primitive lantern = turned_shape(outline, 5);
+  const vec2 post_outline[] = {{0.022f, 0.0f}, {0.022f, 1.0f}};
+  const Primitive post = turned_shape(post_outline, 4);
   ColoredShapes lanterns;
   Primitive posts;
   for (int i = 0; i < kLanterns; ++i) {
@@ -195,7 +196,7 @@ void add_stones(SceneBuilder& builder, const Materials& materials, int& count) {
 }
 
 void add_fireflies(SceneBuilder& builder, int& count) {
-  const Primitive body = sphere_shape(0.03f, 6);
+  const Primitive body = sphere_shape(0.03f, 5);
   ColoredShapes bodies;
   for (int i = 0; i < kFireflies; ++i) {
     const dvec3 place = spiral_place(i, kFireflies, 2.3, 0.5 + 2.8 * spread(i, 0.819172513));

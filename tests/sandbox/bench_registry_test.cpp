@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -79,6 +80,31 @@ TEST(BenchRegistry, the_programs_own_benches_have_the_documented_ids) {
     EXPECT_TRUE(ids.contains("jobs." + std::string(id))) << id;
   for (const char* id : {"scene", "gather48", "scene_over_gather48"})
     EXPECT_TRUE(ids.contains("frame." + std::string(id))) << id;
+}
+
+TEST(BenchRegistry, has_the_rows_of_lights_on_the_gpu) {
+  std::map<std::string, BenchRow> rows;
+  const BenchRegistry registry = make_bench_registry();
+  for (const BenchRow& each : registry.rows()) rows[each.id] = each;
+  EXPECT_EQ(rows["lights.brute_over_tiled"].bar, 6.0);
+  EXPECT_EQ(rows["lights.brute_over_tiled"].better, Better::higher);
+  EXPECT_EQ(rows["lights.frame_1024_over_gather48"].bar, 3.2);
+  EXPECT_EQ(rows["lights.culling_errors"].bar, 0.0);
+  for (const char* id :
+       {"gpu.approx_ms.64", "gpu.accurate_ms.256", "gpu.deferred_ms.1024", "false_positives.rect.mask",
+        "false_positives.row_interval.candidates", "false_positives.cone.approx", "false_positives.z_bins.4096"})
+    EXPECT_TRUE(rows.contains("lights." + std::string(id))) << id;
+}
+
+TEST(BenchReport, a_row_of_another_scene_names_it) {
+  const BenchRow each = row("a.b");
+  const std::vector<MeasuredRow> rows = {
+      {&each, {.value = 1.0, .p10 = {}, .p90 = {}, .hash = {}, .scene = "builtin:other"}},
+      {&each, {.value = 1.0, .p10 = {}, .p90 = {}, .hash = {}, .scene = "builtin:plain"}}};
+  const auto json =
+      nlohmann::json::parse(bench_json({.scene = "builtin:plain", .device = {}, .width = 64, .height = 32}, rows));
+  EXPECT_EQ(json["rows"][0]["scene"], "builtin:other");
+  EXPECT_FALSE(json["rows"][1].contains("scene"));
 }
 
 TEST(BenchReport, json_has_the_documented_fields) {

@@ -100,6 +100,8 @@ TEST(Options, bench_takes_names_and_a_scene) {
   const Options options = parsed({"bench", "ecs", "jobs", "--strict", "--json", "rows.json"});
   EXPECT_EQ(options.names, (Arguments{"ecs", "jobs"}));
   EXPECT_EQ(options.scene, "builtin:lanterns");
+  EXPECT_TRUE(options.scene_is_default);
+  EXPECT_FALSE(parsed({"bench", "ecs", "--scene", "builtin:lanterns"}).scene_is_default);
   EXPECT_TRUE(options.strict);
   EXPECT_EQ(options.json_file, "rows.json");
   EXPECT_TRUE(parsed({"bench", "--list"}).list);

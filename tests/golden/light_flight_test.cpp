@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sandbox/scenes/many_lights.h"
+#include "sandbox/session.h"
+#include "tests/golden/flight_path.h"
+#include "tests/support/gpu_device.h"
+#include "tests/support/scale.h"
+
+// Light lists while the camera moves: what a frame learns from the one before it (the zBins' range, the lists' size) must never show.
+
+namespace gloam::test {
+namespace {
+
+struct FlightSize {
+  std::uint32_t width = 96;
+  std::uint32_t height = 54;
+  std::size_t frames = 300;
+  std::size_t check_every = 5;  ///< frames: lists are compared with what each pixel is in range of
+};
+
+/// One frame after the other, as a player flies: nothing is settled before it is looked at.
+class Flight {
+ public:
+  Flight(Session& session, std::span<const FlightKey> keys, const FlightSize& size)
+      : session_(session),
+        keys_(keys),
+        frames_(size.frames),
+        request_{session.view_settings(size.width, size.height, "none"), {}} {
+    request_.settings.follow_camera = false;
+  }
+
+  [[nodiscard]] Result<Picture> draw(std::size_t frame) {
+    request_.settings.world_from_camera = flight_pose(keys_, frame, frames_);
+    session_.set_clock(static_cast<double>(frame) / 60.0, 1.0 / 60.0);
+    const auto sample = session_.render_frame(request_);
+    if (!sample) return sample.error();
+    counters_ = sample->report.counters;
+    return session_.renderer->read_picture(request_.settings.id);
+  }
+  /// Of the last frame; 0 where it was not counted.
+  [[nodiscard]] double counter(const char* name) const {
+    const auto found = counters_.find(name);
+    return found == counters_.end() ? 0.0 : found->second;
+  }
+  [[nodiscard]] bool counts(const char* name) const { return counters_.contains(name); }
+
+ private:
+  Session& session_;
+  std::span<const FlightKey> keys_;
+  std::size_t frames_;
+  ViewRequest request_;
+  FrameCounters counters_;
+};
+
+std::size_t differing_pixels(const Picture& a, const Picture& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); i += 4)
+    count +=
+        std::equal(a.rgba.begin() + static_cast<std::ptrdiff_t>(i), a.rgba.begin() + static_cast<std::ptrdiff_t>(i + 4),
+                   b.rgba.begin() + static_cast<std::ptrdiff_t>(i))
+            ? 0
+            : 1;
+  return count;
+}
+
+/// Flies once with brute force and once with light lists.
+void expect_flight_without_flicker(Session& session, std::span<const FlightKey> keys, const FlightSize& size) {
+  KnobRegistry& knobs = session.renderer->knobs();
+  std::vector<Picture> brute;
+  ASSERT_TRUE(knobs.set("lights.culling", "brute").ok());
+  Flight flight(session, keys, size);
+  for (std::size_t frame = 0; frame < size.frames; ++frame) {
+    auto picture = flight.draw(frame);
+    ASSERT_TRUE(picture.ok()) << picture.error().message;
+    brute.push_back(std::move(*picture));
+  }
+  ASSERT_TRUE(knobs.set("lights.culling", "tiled").ok());
+  double most_lights = 0.0;
+  for (std::size_t frame = 0; frame < size.frames; ++frame) {
+    const bool checks = frame % size.check_every == 0;
+    ASSERT_TRUE(knobs.set("lights.check", checks ? "on" : "off").ok());
+    const auto picture = flight.draw(frame);
+    ASSERT_TRUE(picture.ok()) << picture.error().message;
+    ASSERT_EQ(differing_pixels(*picture, brute[frame]), 0u) << "frame " << frame;
+    ASSERT_EQ(flight.counter("lights.capacity_violations"), 0.0) << "frame " << frame;
+    ASSERT_EQ(flight.counter("lights.culling_errors"), 0.0) << "frame " << frame;
+    ASSERT_TRUE(!checks || flight.counter("lights.local") == 0.0 || flight.counts("lights.culling_errors"))
+        << "frame " << frame;
+    most_lights = std::max(most_lights, flight.counter("lights.per_tile_accurate_mean"));
+  }
+  EXPECT_GT(most_lights, 4.0) << "lights a tile of the fullest frame: this flight saw nothing";
+}
+
+class LightFlight : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+    if (width != nullptr && std::string(width) == "512")
+      GTEST_SKIP() << "lavapipe 22.3 crashes at this width when fragments sample";
+    GLOAM_REQUIRE_GPU(make_test_device(false));
+  }
+
+  std::unique_ptr<Session> open(const std::string& scene) {
+    Options options;
+    options.scene = scene;
+    auto session = open_session(options, gpu_log());
+    EXPECT_TRUE(session.ok()) << session.error().message;
+    return session.ok() ? std::move(*session) : nullptr;
+  }
+};
+
+/// GLOAM_TEST_SCALE=4 flies through all 1024 lights, in a larger picture.
+TEST_F(LightFlight, each_of_300_frames_through_many_lights_equals_brute_force) {
+  const auto session = open("builtin:many_lights");
+  ASSERT_NE(session, nullptr);
+  const auto lights = static_cast<std::size_t>(scaled(256));
+  thin_out_lights(session->world, lights);
+  expect_flight_without_flicker(
+      *session, kManyLightsFlight,
+      lights < 1024 ? FlightSize{} : FlightSize{.width = 160, .height = 90, .check_every = 1});
+}
+
+TEST_F(LightFlight, each_frame_through_the_courtyard_equals_brute_force) {
+  const std::string scene = GLOAM_SHARED_DIR "/scenes/courtyard/courtyard-1024.gltf";
+  if (!std::filesystem::exists(scene)) GTEST_SKIP() << "the shared scene " << scene << " is absent";
+  const auto session = open(scene);
+  ASSERT_NE(session, nullptr);
+  const std::vector<FlightKey> keys = camera_flight(session->world, session->info);
+  expect_flight_without_flicker(*session, keys, {.frames = 40});
+}
+
+}  // namespace
+}  // namespace gloam::test
