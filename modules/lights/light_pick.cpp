@@ -58,8 +58,7 @@ class PickLines {
       add_cpu_lists();
       add_gpu_lists();
     } else {
-      say("lights.culling=brute: every pixel looks at all " + std::to_string(visible_.block.local_count) +
-          " local lights");
+      say("no light lists: every pixel looks at all " + std::to_string(visible_.block.local_count) + " local lights");
     }
     if (pixel_.depth > 0.0f) add_reaching();
     if (!visible_.directional_entities.empty()) {
@@ -127,22 +126,22 @@ class PickLines {
 
   void add_gpu_lists() {
     if (!range_) return;
-    const uvec2 list = copies_.item<uvec2>("lights.tile_lists", tile_at_);
-    const std::uint32_t group_columns =
-        (view_.width + GLOAM_SHADOW_TILE * GLOAM_TILE_GROUP - 1) / (GLOAM_SHADOW_TILE * GLOAM_TILE_GROUP);
+    const TileList list = decode_tile_list(copies_.item<uvec2>("lights.tile_lists", tile_at_));
+    constexpr std::uint32_t kGroupPixels = GLOAM_SHADOW_TILE * GLOAM_TILE_GROUP;
+    const std::uint32_t group_columns = (view_.width + kGroupPixels - 1) / kGroupPixels;
     const uvec2 group = tile_ / uvec2(GLOAM_TILE_GROUP);
     const std::vector<std::uint32_t> masks = words_of(copies_, "lights.group_masks");
     const std::size_t first = (std::size_t{group.y} * group_columns + group.x) * GLOAM_MASK_WORDS;
     say("approximate search, tile group: " +
         list_text(decode_light_mask(std::span(masks).subspan(first, GLOAM_MASK_WORDS))));
-    say("approximate search, tile: " + std::to_string(list.y >> 16));
-    const std::uint32_t count = list.y & 0xFFFFu;
-    if (list.x == GLOAM_NO_SLOT) {
-      say("accurate search: " + std::to_string(count) + " lights; slot: none was left, the group's mask is used");
-      return;
+    say("approximate search, tile: " + std::to_string(list.approx_count));
+    if (list.has_list) {
+      say("accurate search: " +
+          list_text(decode_light_list(words_of(copies_, "lights.early_lists"), list.slot, list.count)));
+      say("slot " + std::to_string(list.slot));
+    } else {
+      say("accurate search: " + std::to_string(list.count) + " lights; slot: none was left, the group's mask is used");
     }
-    say("accurate search: " + list_text(decode_light_list(words_of(copies_, "lights.early_lists"), list.x, count)));
-    say("slot " + std::to_string(list.x));
   }
 
   void add_reaching() {
@@ -172,7 +171,7 @@ class PickLines {
 
 Status add_light_pick_copies(FrameBuilder& frame, Captures& copies) {
   const LightsOutputs* lights = frame.find<LightsOutputs>();
-  if (lights == nullptr || !lights->tile_lists) return {};
+  if (lights == nullptr || !lights->has_lists()) return {};
   GLOAM_TRY(copies.add(frame.graph(), "lights.depth_bounds", frame.get<GeometryOutputs>().depth_bounds));
   GLOAM_TRY(copies.add(frame.graph(), "lights.group_masks", lights->group_masks));
   GLOAM_TRY(copies.add(frame.graph(), "lights.tile_lists", lights->tile_lists));
@@ -181,7 +180,7 @@ Status add_light_pick_copies(FrameBuilder& frame, Captures& copies) {
 
 std::vector<std::string> light_pick_lines(FrameBuilder& frame, const PickedPixel& pixel, const Captures& copies) {
   const LightsOutputs* lights = frame.find<LightsOutputs>();
-  return PickLines(frame, pixel, copies).take(lights != nullptr && static_cast<bool>(lights->tile_lists));
+  return PickLines(frame, pixel, copies).take(lights != nullptr && lights->has_lists());
 }
 
 }  // namespace gloam

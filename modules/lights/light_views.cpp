@@ -174,7 +174,7 @@ Status LightViews::add_pass(FrameBuilder& frame) {
   ViewDraw draw;
   draw.lights = frame.get<LightsOutputs>();
   draw.geometry = frame.get<GeometryOutputs>();
-  draw.view = draw.lights.tile_lists ? named->view : LightView::nothing;
+  draw.view = draw.lights.has_lists() ? named->view : LightView::nothing;
   if (shows_one_light(named->view)) {
     const std::optional<std::uint32_t> light = shown_light(frame, shown.substr(stem.size() + 1));
     if (!light) draw.view = LightView::nothing;

@@ -40,12 +40,14 @@ class LitSceneTest : public ::testing::Test {
     options.device = shared_device();
     options.executor = executor.get();
     options.log = &log;
-    options.modules = make_all_modules();
+    options.modules = make_modules();
     renderer = value_of(Renderer::create(std::move(options)));
     renderer->prepare_world(world);
     settings.width = 61;
     settings.height = 43;
   }
+  /// What the renderer is made of.
+  [[nodiscard]] virtual ModuleList make_modules() { return make_all_modules(); }
   void TearDown() override {
     renderer.reset();
     if (shared_device() != nullptr) {
