@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: MIT
 """`render`: pictures, stats, traces, reproducibility, faults. Needs a Vulkan device."""
 import os
+import re
 
 from program_case import ProgramCase, main
 
 SMALL = ("--size", "160x90")
+LIGHT_VIEWS = ("tile_masks", "lights_approx", "lights_accurate", "lights_difference", "light_culling:light 0", "light_list:light 0")
 STATS = {"version", "scene", "device", "size", "frames", "frame_ms", "systems", "passes", "memory", "modules", "counters", "knobs"}
 
 
@@ -78,6 +80,32 @@ class Render(ProgramCase):
 
     def test_a_pixel_can_be_asked_about(self):
         self.assertTrue(self.expect(0, "render", "builtin:plain", *SMALL, "--pick", "80,80", "--quiet").stdout.strip())
+
+    def test_a_pixel_tells_its_tile_bins_and_light_lists(self):
+        picked = self.expect(0, "render", "builtin:lanterns", *SMALL, "--pick", "80,80", "--quiet").stdout
+        for line in (r"^pixel 80,80 of tile 10,10$", r"^shadow tile 10,10 of tile group 1,1, mask tile 2,2$",
+                     r"^zBin \d+ of the pixel: standard .*, ranged .*$", r"^view depths of the tile [\d.]+ to [\d.]+ m$",
+                     r"^zBins \d+ to \d+ of the tile: (standard|ranged) \[\d+,\d+\)$", r"^mask tile: \d+ lights: \d+ light \d+",
+                     r"^candidates \(mask and zBins\): \d+ lights?", r"^approximate search, tile group: \d+ lights?",
+                     r"^approximate search, tile: \d+$", r"^accurate search: \d+ lights?", r"^slot \d+$",
+                     r"^in whose range the pixel is: \d+ lights?"):
+            self.assertRegex(picked, re.compile(line, re.MULTILINE))
+
+    def test_light_views_are_drawn_without_a_word_of_the_validation(self):
+        pictures = set()
+        for view in LIGHT_VIEWS:
+            run = self.run_program("render", "builtin:lanterns", *SMALL, "--view", view, "--validate", "--out", "view.png")
+            if run.returncode != 0 and "layer" in run.stderr:
+                self.skipTest(run.stderr.strip())
+            self.assertEqual((run.returncode, run.stderr), (0, ""), view)
+            pictures.add(self.bytes_of("view.png"))
+        self.assertEqual(len(pictures), len(LIGHT_VIEWS))
+
+    def test_views_of_lights_need_a_light_and_lists(self):
+        self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", "light_list:nobody", says="nobody")
+        self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", "light_culling", says="light_culling")
+        for view in LIGHT_VIEWS:
+            self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", view, "--set", "lights.culling=brute", says="tiled")
 
     def test_unknown_knobs_views_and_cameras_are_wrong_usage(self):
         (self.folder / "bad.json").write_text('{"no.such": 1}')
