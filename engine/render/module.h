@@ -91,10 +91,12 @@ class Module {
   /// passes in this view; the systems ran all the same. Cheap: looks at counts, never at pixels.
   [[nodiscard]] virtual Demand demand(const World& world, const RenderView* view) const = 0;
 
-  /// Before the systems of a view run, when the world demands the module: puts missing view resources in place.
-  virtual void prepare_view(World& world, ViewId view) const {
+  /// Before the systems of a view run, when the world demands the module: puts missing view resources in place, and what systems need to
+  /// know of knobs into them.
+  virtual void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const {
     static_cast<void>(world);
     static_cast<void>(view);
+    static_cast<void>(knobs);
   }
   /// Whether a frame without the module makes no sense: then its pipelines are waited for even under Readiness::background.
   [[nodiscard]] virtual bool essential() const { return false; }

@@ -237,7 +237,7 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
     views.push_back(std::make_unique<RenderView>(make_view(settings, frame)));
     world.set_view_resource(settings.id, *views.back());
     for (std::size_t i = 0; i < options.modules.size(); ++i)
-      if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id);
+      if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs);
     hand_out_results(world, settings.id);
     schedule.run_view(settings.id, world, *options.executor, options.zones);
     GLOAM_TRY(add_view(world, request, *views.back()));

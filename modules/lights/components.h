@@ -27,6 +27,13 @@ struct Light {
   std::uint32_t cookie = 0;     ///< spot: image file in SceneStrings, 0: none
 };
 
+/// Sphere around everything the entity's Light can light, in the world; kept by system light_bounds, which adds it. A change tick marks
+/// where it has changed.
+struct LightBounds {
+  dvec3 center = dvec3(0.0);
+  float radius_m = 0.0f;  ///< 0 for directional lights and for those that give nothing
+};
+
 /// Distance in metres beyond which a light gives nothing: its range, or √(intensity / 0.01 lx); in 0.001…1e9 for any light.
 [[nodiscard]] float effective_range(const Light& light);
 

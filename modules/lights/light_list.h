@@ -9,7 +9,11 @@
 #include "engine/ecs/entity.h"
 #include "engine/math/bounds.h"
 #include "engine/render/view.h"
+#include "engine/scene/components.h"
 #include "modules/lights/components.h"
+#include "modules/lights/light_table.h"
+#include "modules/lights/tile_light_masks.h"
+#include "modules/lights/z_bins.h"
 #include "shaders/lights/lights_shared.h"
 
 namespace gloam {
@@ -22,19 +26,55 @@ struct PlacedLight {
   vec3 direction = vec3(0.0f, 0.0f, -1.0f);  ///< where it shines, unit
 };
 
-/// Every light of the world, ordered by entity index; a resource of the world.
+/// A stretch of lights of one archetype.
+struct LightRows {
+  std::span<const Entity> entities;
+  std::span<const Light> lights;
+  std::span<const WorldTransform> transforms;
+  std::span<LightBounds> bounds;  ///< empty: they have none yet
+  std::size_t first = 0;          ///< row number of the first
+};
+
+/// Every light of the world that has a place, ordered by entity index; a resource of the world, kept by system light_bounds.
 struct LightSet {
   std::vector<PlacedLight> lights;
+  LightTable table;           ///< of `lights`, in their order
+  std::uint64_t version = 1;  ///< another one whenever anything of this changed
+  std::uint32_t updated = 0;  ///< lights that the last run found changed or new
+
+  /// How the last run found them: rows of archetypes in the order of views. The chunks' spans have ended since.
+  std::vector<LightRows> chunks;
+  std::vector<Entity> rows;
+  std::vector<std::uint32_t> slot_of_row;  ///< index into `lights`
+  std::vector<dvec3> axes;                 ///< of `lights`: the nodes' third columns, to see whether one has turned
+};
+
+/// Memory that choosing lights keeps from one frame to the next.
+struct LightSelection {
+  std::vector<float> nearest, farthest;  ///< view depths of each light of the world
+  std::vector<std::uint32_t> kind;       ///< of each light of the world: 1 a visible local one, 2 a directional one
+  std::vector<std::uint32_t> local, directional;  ///< indices of those that are visible
+  std::vector<std::uint64_t> keys, sorted;
 };
 
 /// The lights of one view, packed for the GPU; a view resource.
 struct VisibleLights {
   shaders::LightBlock block{};
-  std::vector<Entity> local_entities;        ///< of block.local, in its order
+  std::vector<Entity> local_entities;  ///< of block.local, in its order
   std::vector<Entity> directional_entities;
-  std::uint32_t total = 0;                   ///< lights of the world
-  std::uint32_t dropped = 0;                 ///< visible, but beyond the capacity
+  std::vector<LightDepth> depths;      ///< of block.local, in its order: what its bound covers, from the near plane on
+  std::vector<MaskLight> mask_lights;  ///< of block.local, in its order
+  std::uint32_t total = 0;             ///< lights of the world
+  std::uint32_t dropped = 0;           ///< visible, but beyond the capacity
+  std::uint64_t version = 0;           ///< another one whenever the lists were made anew
+
+  std::uint64_t set_version = 0;  ///< LightSet::version they were made from
+  RenderView view;                ///< that they were made for
+  LightSelection selection;
 };
+
+/// Where a node's light shines, given the node's third column; −Z for a node without size.
+[[nodiscard]] vec3 light_direction(const dvec3& node_z);
 
 /// Places one light. The matrix's scale does not change the light.
 [[nodiscard]] PlacedLight place_light(Entity entity, const Light& light, const dmat4& world_from_node);
@@ -49,5 +89,8 @@ struct VisibleLights {
 /// ties by place in `lights`. Lights that give nothing, or have NaN or infinity where no sense can be made of it, are left out. Local
 /// lights come ordered by nearest view depth of their bounds, then by place in `lights` (which a LightSet orders by entity).
 void select_lights(std::span<const PlacedLight> lights, const RenderView& view, VisibleLights& visible);
+/// The same from lights that were prepared; `table` is of `lights`. Allocates only when there are more than ever before.
+void select_lights(std::span<const PlacedLight> lights, const LightTable& table, const RenderView& view,
+                   JobExecutor& executor, VisibleLights& visible);
 
 }  // namespace gloam

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lights/module.h"
 
-#include <algorithm>
 #include <atomic>
 
 #include "engine/ecs/view.h"
@@ -13,25 +12,14 @@
 #include "modules/lights/light_list.h"
 #include "modules/lights/light_measures.h"
 #include "modules/lights/light_pick.h"
+#include "modules/lights/light_systems.h"
 #include "modules/lights/light_views.h"
 #include "modules/lights/outputs.h"
 
 namespace gloam {
 namespace {
 
-void gather_lights_system(View<const Light, const WorldTransform> lights, Resource<LightSet> set) {
-  set->lights.clear();
-  lights.each([&](Entity entity, const Light& light, const WorldTransform& transform) {
-    set->lights.push_back(place_light(entity, light, transform.matrix));
-  });
-  std::sort(set->lights.begin(), set->lights.end(),
-            [](const PlacedLight& a, const PlacedLight& b) { return a.entity.index < b.entity.index; });
-}
-
-void select_lights_system(Resource<const LightSet> set, ViewResource<const RenderView> view,
-                          ViewResource<VisibleLights> visible) {
-  select_lights(set->lights, *view, *visible);
-}
+constexpr std::uint32_t kFewestZBins = 256;  // the first choice of lights.z_bins; each has twice as many as the one before
 
 class LightsModule final : public Module {
  public:
@@ -39,6 +27,7 @@ class LightsModule final : public Module {
 
   void register_components(World& world) const override {
     world.register_component<Light>("light");
+    world.register_component<LightBounds>("light_bounds");
     world.set_resource(LightSet{});
   }
   void scene_keys(KeyRegistry& registry) const override { add_light_keys(registry); }
@@ -52,6 +41,23 @@ class LightsModule final : public Module {
     culling.default_number = 1;
     culling.exact = "brute";
     registry.add(culling);
+    Knob bound;
+    bound.name = "lights.tile_bound";
+    bound.module = "lights";
+    bound.meaning = "how closely the CPU's masks of 32x32 pixels bound a light";
+    bound.choices = {"rect", "row_interval", "cone"};
+    bound.default_number = static_cast<double>(TileBound::cone);
+    bound.exact = "cone";
+    registry.add(bound);
+    Knob bins;
+    bins.name = "lights.z_bins";
+    bins.module = "lights";
+    bins.meaning = "ranges of view depth that lights are sorted into";
+    bins.choices = {"256", "512", "1024", "2048", "4096"};
+    bins.default_number = 2;
+    bins.unit = "bins";
+    bins.exact = "4096";
+    registry.add(bins);
     Knob fixed;
     fixed.name = "lights.fixed_slots";
     fixed.module = "lights";
@@ -71,8 +77,7 @@ class LightsModule final : public Module {
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return light_measures(); }
 
   void add_systems(Schedule& schedule) override {
-    schedule.add_system("gather_lights", "lights", Stage::world, &gather_lights_system);
-    schedule.add_system("select_lights", "lights", Stage::view, &select_lights_system);
+    add_light_systems(schedule);
   }
 
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
@@ -89,8 +94,10 @@ class LightsModule final : public Module {
 
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return light_visualizers(); }
 
-  void prepare_view(World& world, ViewId view) const override {
-    if (world.try_view_resource<VisibleLights>(view) == nullptr) world.set_view_resource(view, VisibleLights{});
+  void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
+    prepare_light_view(world, view);
+    world.view_resource<TileBound>(view) = static_cast<TileBound>(knobs.choice("lights.tile_bound"));
+    world.view_resource<ZBinSettings>(view).count = kFewestZBins << knobs.choice("lights.z_bins");
   }
 
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
@@ -103,16 +110,8 @@ class LightsModule final : public Module {
                                    std::to_string(visible.dropped) +
                                    " least important are left out (counter lights.dropped)");
     }
-    static ZBins bins;
-    static TileLightMasks masks;
-    bins.bins.assign(2048, ZBin{0, static_cast<std::uint16_t>(visible.block.local_count)});
-    masks.tiles = mask_tiles_of(frame.view().width, frame.view().height);
-    masks.words.assign(std::size_t{masks.tiles.x} * masks.tiles.y * GLOAM_MASK_WORDS, 0);
-    for (std::size_t t = 0; t < masks.words.size(); t += GLOAM_MASK_WORDS)
-      for (std::uint32_t i = 0; i < visible.block.local_count; ++i) {
-        masks.words[t] |= 1u << i / 32;
-        masks.words[t + 1 + i / 32] |= 1u << i % 32;
-      }
+    const auto& bins = frame.world().view_resource<ZBins>(frame.view().id);
+    const auto& masks = frame.world().view_resource<TileLightMasks>(frame.view().id);
     return add_find_lights_passes(frame, visible, bins, masks);
   }
 
@@ -128,7 +127,9 @@ class LightsModule final : public Module {
   void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {
     if (name != kLightCountersResult) return;
     const auto& note = std::any_cast<const LightCountersNote&>(result.note);
-    world.set_view_resource(view, light_feedback(result.value<shaders::LightCounters>(), note));
+    const LightFeedback feedback = light_feedback(result.value<shaders::LightCounters>(), note);
+    world.set_view_resource(view, feedback);
+    if (auto* bins = world.try_view_resource<ZBinSettings>(view)) bins->farthest_opaque_m = feedback.farthest_m;
   }
 
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {

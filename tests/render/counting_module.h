@@ -58,7 +58,7 @@ class CountingModule final : public Module {
     if (!any) return {false, "nothing to count"};
     return {view == nullptr || seen, seen ? "something to count" : "nothing to count in view"};
   }
-  void prepare_view(World&, ViewId) const override { ++calls_.prepared; }
+  void prepare_view(World&, ViewId, const KnobRegistry&) const override { ++calls_.prepared; }
   void pipelines(const KnobRegistry&, PipelineList& list) const override { list.push_back(pipeline()); }
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
     ++calls_.passes;

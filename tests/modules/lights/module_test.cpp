@@ -22,12 +22,14 @@ struct LitWorld {
   World world;
   std::unique_ptr<Module> module = make_lights_module();
   Schedule schedule;
+  KnobRegistry knobs;
   std::vector<Entity> entities;
 
   LitWorld(std::uint32_t count, std::uint32_t seed) {
     prepare_scene_world(world);
     module->register_components(world);
     module->add_systems(schedule);
+    module->knobs(knobs);
     schedule.set_checked(true);
     for (std::uint32_t i = 0; i < count; ++i) entities.push_back(world.create());
     std::vector<std::uint32_t> order(count);
@@ -49,7 +51,7 @@ struct LitWorld {
     ViewSettings settings;
     settings.id = ViewId{0};
     world.set_view_resource(settings.id, make_view(settings, 0));
-    module->prepare_view(world, settings.id);
+    module->prepare_view(world, settings.id, knobs);
     schedule.run_view(settings.id, world, executor);
   }
   [[nodiscard]] const VisibleLights& visible() const { return world.view_resource<VisibleLights>(ViewId{0}); }
@@ -94,7 +96,7 @@ TEST(LightsModule, keeps_what_a_view_has_when_it_is_prepared_again) {
   LitWorld lit(4, 0);
   lit.run(*make_serial_executor());
   const VisibleLights* before = &lit.visible();
-  lit.module->prepare_view(lit.world, ViewId{0});
+  lit.module->prepare_view(lit.world, ViewId{0}, lit.knobs);
   EXPECT_EQ(&lit.visible(), before);
   EXPECT_FALSE(lit.visible().local_entities.empty());
 }
