@@ -3,6 +3,7 @@
 #include "engine/ecs/archetype.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <utility>
@@ -21,33 +22,26 @@ std::size_t colour_offset(std::uint32_t archetype, std::size_t column) {
 
 constexpr std::uint32_t kFirstRows = 32;
 
-template <std::size_t Size>
-void copy_fixed(std::byte* to, const std::byte* from) {
-  std::memcpy(to, from, Size);
+/// A component id is an index into each archetype's table, which grows by so many.
+constexpr std::size_t kIdStep = 64;
+
+/// Two copies of `Part` bytes that overlap where size < 2 · Part.
+template <std::size_t Part>
+void copy_both_ends(std::byte* to, const std::byte* from, std::size_t size) {
+  std::array<std::byte, Part> head;
+  std::array<std::byte, Part> tail;
+  std::memcpy(head.data(), from, Part);
+  std::memcpy(tail.data(), from + size - Part, Part);
+  std::memcpy(to, head.data(), Part);
+  std::memcpy(to + size - Part, tail.data(), Part);
 }
 
-/// The usual sizes without a call.
-void copy_value(std::byte* to, const std::byte* from, std::uint32_t size) {
-  switch (size) {
-    case 4:
-      return copy_fixed<4>(to, from);
-    case 8:
-      return copy_fixed<8>(to, from);
-    case 12:
-      return copy_fixed<12>(to, from);
-    case 16:
-      return copy_fixed<16>(to, from);
-    case 24:
-      return copy_fixed<24>(to, from);
-    case 32:
-      return copy_fixed<32>(to, from);
-    case 48:
-      return copy_fixed<48>(to, from);
-    case 64:
-      return copy_fixed<64>(to, from);
-    default:
-      std::memcpy(to, from, size);
-  }
+/// The usual sizes without a call. The two do not overlap.
+inline void copy_value(std::byte* to, const std::byte* from, std::size_t size) {
+  if (size >= 8 && size <= 16) return copy_both_ends<8>(to, from, size);
+  if (size >= 4 && size < 8) return copy_both_ends<4>(to, from, size);
+  if (size > 16 && size <= 32) return copy_both_ends<16>(to, from, size);
+  std::memcpy(to, from, size);
 }
 
 }  // namespace
@@ -63,24 +57,34 @@ Archetype::Archetype(std::uint32_t index, std::vector<ComponentId> components, s
   const std::size_t page = ReservedMemory::page_size();
   std::size_t end = 0;
   const auto place = [&](Column& column) {
-    column.committed = end;
-    end += round_up(kColours * kColumnAlignment + std::size_t{column.size} * max_rows_, page);
+    const std::size_t bytes = round_up(kColours * kColumnAlignment + std::size_t{column.size} * max_rows_, page);
+    if (bytes >= ReservedMemory::kLargePage) end = round_up(end, ReservedMemory::kLargePage);
+    column.stretch = {.begin = end, .limit = end + bytes, .committed = end};
+    end += bytes;
   };
   place(entity_column_);
   for (Column& column : columns_) place(column);
 
   memory_ = ReservedMemory(end);
   const auto locate = [&](Column& column, std::size_t number) {
-    column.data = memory_.data() + column.committed + colour_offset(index, number);
+    column.data = memory_.data() + column.stretch.begin + colour_offset(index, number);
   };
   locate(entity_column_, 0);
   for (std::size_t i = 0; i < columns_.size(); ++i) locate(columns_[i], i + 1);
 
   entities_ = reinterpret_cast<Entity*>(entity_column_.data);
-  id_end_ = components_.empty() ? 0 : components_.back() + 1u;
-  data_ = std::make_unique<std::byte*[]>(id_end_);
+  cover_ids(infos.size());
   for (const ComponentId id : components_) data_[id] = entity_column_.data;  // stays so for tags
   for (const Column& column : columns_) data_[column.id] = column.data;
+}
+
+void Archetype::cover_ids(std::size_t component_count) {
+  if (component_count <= id_end_) return;
+  const std::size_t count = round_up(component_count, kIdStep);
+  auto data = std::make_unique<std::byte*[]>(count);
+  std::copy_n(data_.get(), id_end_, data.get());
+  data_ = std::move(data);
+  id_end_ = static_cast<std::uint32_t>(count);
 }
 
 void Archetype::grow(std::uint32_t more_rows) {
@@ -100,36 +104,44 @@ void Archetype::grow(std::uint32_t more_rows) {
 
 void Archetype::commit(Column& column, std::uint32_t rows) {
   const auto begin = static_cast<std::size_t>(column.data - memory_.data());
-  const std::size_t end = round_up(begin + std::size_t{column.size} * rows, ReservedMemory::page_size());
-  if (end <= column.committed) return;
-  memory_.commit(column.committed, end);
-  column.committed = end;
+  memory_.extend(column.stretch, begin + std::size_t{column.size} * rows);
 }
 
 Entity Archetype::remove_row(std::uint32_t row, Tick now) {
-  const std::uint32_t last = rows_ - 1;
-  rows_ = last;
+  const std::uint32_t last = --rows_;
   if (row == last) return kNoEntity;
   for (const Column& column : columns_) {
     copy_value(column.data + std::size_t{row} * column.size, column.data + std::size_t{last} * column.size,
                column.size);
   }
-  entities_[row] = entities_[last];
+  const Entity moved = entities_[last];
+  entities_[row] = moved;
   stamp(row_ticks_, row, 1, now);
-  return entities_[row];
+  return moved;
 }
 
-void Archetype::copy_row_to(std::uint32_t row, Archetype& to, std::uint32_t to_row) const {
-  for (const Column& column : columns_) {
-    std::byte* target = to.data(column.id);
-    if (target == nullptr) continue;
-    copy_value(target + std::size_t{to_row} * column.size, column.data + std::size_t{row} * column.size, column.size);
+Entity Archetype::move_row(std::uint32_t row, const Edge& edge, std::uint32_t to_row, Tick now) {
+  edge.to->entities_[to_row] = entities_[row];
+  const std::uint32_t last = --rows_;
+  for (const Edge::Column& column : edge.columns) {
+    std::byte* value = column.from + std::size_t{row} * column.size;
+    if (column.to != nullptr) copy_value(column.to + std::size_t{to_row} * column.size, value, column.size);
+    if (row != last) copy_value(value, column.from + std::size_t{last} * column.size, column.size);
   }
+  if (row == last) return kNoEntity;
+  const Entity moved = entities_[last];
+  entities_[row] = moved;
+  stamp(row_ticks_, row, 1, now);
+  return moved;
 }
 
-void Archetype::set_edge(ComponentId id, Archetype* neighbour) {
-  if (id >= edges_.size()) edges_.resize(id + std::size_t{1}, nullptr);
-  edges_[id] = neighbour;
+const Archetype::Edge& Archetype::set_edge(ComponentId id, Archetype& neighbour) {
+  if (id >= edges_.size()) edges_.resize(id + std::size_t{1});
+  auto edge = std::make_unique<Edge>();
+  edge->to = &neighbour;
+  for (const Column& column : columns_) edge->columns.push_back({column.data, neighbour.data(column.id), column.size});
+  edges_[id] = std::move(edge);
+  return *edges_[id];
 }
 
 void Archetype::mark_changed(ComponentId id, std::uint32_t first, std::uint32_t count, Tick now) {

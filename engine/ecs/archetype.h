@@ -28,8 +28,9 @@ class Archetype {
   [[nodiscard]] bool has(ComponentId id) const { return data(id) != nullptr; }
 
   /// First byte of a component's column; null when the archetype lacks it. A tag's is not null, but has no bytes behind
-  /// it.
-  [[nodiscard]] std::byte* data(ComponentId id) const { return id < id_end_ ? data_[id] : nullptr; }
+  /// it. `id`: below the number of components that there were when the archetype was made, or cover_ids was told of.
+  [[nodiscard]] std::byte* data(ComponentId id) const { return data_[id]; }
+  void cover_ids(std::size_t component_count);
 
   /// Appends `count` rows and returns the first. Entities and values are the caller's to write.
   std::uint32_t push_rows(std::uint32_t count, Tick now) {
@@ -44,12 +45,22 @@ class Archetype {
   /// Moves the last row into `row` and drops the last. Returns the entity that lives in `row` afterwards, or kNoEntity.
   Entity remove_row(std::uint32_t row, Tick now);
 
-  /// Copies the values both archetypes have.
-  void copy_row_to(std::uint32_t row, Archetype& to, std::uint32_t to_row) const;
+  /// The way to another archetype.
+  struct Edge {
+    struct Column {
+      std::byte* from = nullptr;
+      std::byte* to = nullptr;  ///< null where the other one lacks the component
+      std::uint32_t size = 0;
+    };
+    Archetype* to = nullptr;
+    std::vector<Column> columns;  ///< all that have bytes
+  };
+  /// Copies the entity and the values both archetypes have to a row of the other, and removes the row as remove_row does.
+  Entity move_row(std::uint32_t row, const Edge& edge, std::uint32_t to_row, Tick now);
 
-  /// The archetype one component away: with `id` if this one lacks it, without if it has it. Null until set.
-  [[nodiscard]] Archetype* edge(ComponentId id) const { return id < edges_.size() ? edges_[id] : nullptr; }
-  void set_edge(ComponentId id, Archetype* neighbour);
+  /// The way to the archetype one component away: with `id` if this one lacks it, without if it has it. Null until set.
+  [[nodiscard]] const Edge* edge(ComponentId id) const { return id < edges_.size() ? edges_[id].get() : nullptr; }
+  const Edge& set_edge(ComponentId id, Archetype& neighbour);
 
   /// Stamps the blocks of a column that hold these rows. Safe from many threads at once.
   void mark_changed(ComponentId id, std::uint32_t first, std::uint32_t count, Tick now);
@@ -62,8 +73,8 @@ class Archetype {
     std::byte* data = nullptr;
     std::uint32_t size = 0;  ///< bytes a row, > 0
     ComponentId id = kNoComponent;
-    std::size_t committed = 0;  ///< bytes of the reservation up to which this column's pages are there
-    std::vector<Tick> ticks;    ///< one a block
+    ReservedMemory::Stretch stretch;
+    std::vector<Tick> ticks;  ///< one a block
   };
 
   static void stamp(std::vector<Tick>& ticks, std::uint32_t first, std::uint32_t count, Tick now) {
@@ -77,12 +88,12 @@ class Archetype {
   // What access to single entities needs comes first, on one cache line.
   std::uint32_t rows_ = 0;
   std::uint32_t capacity_ = 0;  ///< rows that fit what is committed
-  std::uint32_t id_end_ = 0;    ///< highest component id + 1
+  std::uint32_t id_end_ = 0;    ///< ids that `data_` covers
   Entity* entities_ = nullptr;
   std::unique_ptr<std::byte*[]> data_;  ///< by component id
   std::vector<Column> columns_;         ///< of components that have bytes, by ascending id
   std::vector<Tick> row_ticks_;         ///< one a block: rows came or moved
-  std::vector<Archetype*> edges_;
+  std::vector<std::unique_ptr<Edge>> edges_;
   Column entity_column_;
   std::vector<ComponentId> components_;
   std::uint32_t max_rows_ = 0;

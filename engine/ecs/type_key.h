@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 namespace gloam {
@@ -41,6 +42,14 @@ constexpr std::string_view cut_type_name() {
 
 template <class T>
 inline constexpr std::string_view kTypeName = cut_type_name<T>();
+
+/// FNV-1a of the name, for places in tables: two types may share one.
+template <class T>
+inline constexpr std::uint32_t kTypeNameHash = [] {
+  std::uint32_t hash = 2166136261u;
+  for (const char c : kTypeName<T>) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return hash ^ (hash >> 16);
+}();
 
 }  // namespace detail
 

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "engine/ecs/type_key.h"
 
 namespace gloam {
 
@@ -39,6 +42,32 @@ class TypeTable {
   std::vector<Slot> slots_;
   std::size_t used_ = 0;
   int shift_ = 0;  ///< 64 - log2(slots_.size())
+};
+
+/// The numbers of some types, at places that the compiler knows: finding one is a comparison. Of types that share a place only the
+/// first is found, so a TypeTable stands behind it.
+class TypeCache {
+ public:
+  /// TypeTable::kAbsent unless T is held.
+  template <class T>
+  [[nodiscard]] std::uint32_t find() const {
+    const Slot& slot = slots_[detail::kTypeNameHash<T> % kPlaces];
+    return slot.key == type_key<T>() ? slot.value : TypeTable::kAbsent;
+  }
+  /// `name_hash`: detail::kTypeNameHash of the type.
+  void insert(const void* key, std::uint32_t name_hash, std::uint32_t value);
+  /// A cache that is off holds what was inserted, but finds nothing.
+  void set_on(bool on);
+
+ private:
+  static constexpr std::size_t kPlaces = 256;
+  struct Slot {
+    const void* key = nullptr;
+    std::uint32_t value = TypeTable::kAbsent;
+  };
+  std::array<Slot, kPlaces> slots_;  ///< all empty while the cache is off
+  std::array<Slot, kPlaces> held_;
+  bool on_ = true;
 };
 
 }  // namespace gloam

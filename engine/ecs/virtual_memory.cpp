@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <new>
 
 // POSIX. The same three calls on Windows are VirtualAlloc with MEM_RESERVE, VirtualAlloc with MEM_COMMIT, and
@@ -18,13 +19,20 @@ std::size_t ReservedMemory::page_size() {
 }
 
 ReservedMemory::ReservedMemory(std::size_t bytes) : bytes_(round_up(bytes, page_size())) {
-  void* address = mmap(nullptr, bytes_, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  const std::size_t slack = bytes_ >= kLargePage ? kLargePage : 0;
+  void* address = mmap(nullptr, bytes_ + slack, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (address == MAP_FAILED) throw std::bad_alloc();
   data_ = static_cast<std::byte*>(address);
+  if (slack > 0) {
+    const auto begin = reinterpret_cast<std::uintptr_t>(address);
+    const std::size_t before = round_up(begin, kLargePage) - begin;
+    if (before > 0) munmap(data_, before);
+    data_ += before;
+    if (before < slack) munmap(data_ + bytes_, slack - before);
+  }
 #ifdef MADV_HUGEPAGE
-  // Long columns are walked from end to end: large pages save faults on filling and misses on walking. Advice only, and without
-  // effect on stretches of which less than a large page is committed.
-  madvise(address, bytes_, MADV_HUGEPAGE);
+  // Advice only, and without effect on stretches of which less than a large page is committed.
+  madvise(data_, bytes_, MADV_HUGEPAGE);
 #endif
 }
 
@@ -37,6 +45,21 @@ void ReservedMemory::commit(std::size_t begin, std::size_t end) {
   GLOAM_ASSERT(begin % page_size() == 0 && end % page_size() == 0, "memory is committed by whole pages");
   if (begin == end) return;
   if (mprotect(data_ + begin, end - begin, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
+}
+
+void ReservedMemory::extend(Stretch& stretch, std::size_t end) {
+  if (end <= stretch.committed) return;
+  const std::size_t large = stretch.begin + kLargePage;
+  const bool by_large_pages = end - stretch.begin >= kLargePage / 2 && large <= stretch.limit;
+  const std::size_t old_end = stretch.committed;
+  const std::size_t new_end =
+      std::min(stretch.begin + round_up(end - stretch.begin, by_large_pages ? kLargePage : page_size()), stretch.limit);
+  commit(old_end, new_end);
+  stretch.committed = new_end;
+#ifdef MADV_COLLAPSE
+  // What follows the first large page is backed by large ones on its first touch; the first was touched page by page.
+  if (old_end < large && large <= new_end) madvise(data_ + stretch.begin, kLargePage, MADV_COLLAPSE);
+#endif
 }
 
 }  // namespace gloam

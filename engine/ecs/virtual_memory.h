@@ -34,7 +34,21 @@ class ReservedMemory {
   /// committed. Throws std::bad_alloc when memory is used up.
   void commit(std::size_t begin, std::size_t end);
 
+  /// A part of the reservation that fills from its begin. Borders are multiples of page_size().
+  struct Stretch {
+    std::size_t begin = 0;
+    std::size_t limit = 0;      ///< it may be committed up to here
+    std::size_t committed = 0;  ///< it is committed from `begin` up to here
+  };
+  /// Commits a stretch at least up to `end`, by whole pages; by large pages from about half of one on, and the system is asked to put
+  /// large pages behind what is there already: long columns then miss the TLB no more.
+  void extend(Stretch& stretch, std::size_t end);
+
   [[nodiscard]] static std::size_t page_size();
+
+  /// Reservations of at least so much begin at a multiple of it. A guess at what the system calls a large page: a wrong one costs
+  /// speed only.
+  static constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
  private:
   std::byte* data_ = nullptr;
@@ -51,7 +65,8 @@ class VirtualArray {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  explicit VirtualArray(std::size_t max_items) : memory_(max_items * sizeof(T)), max_items_(max_items) {}
+  explicit VirtualArray(std::size_t max_items)
+      : memory_(max_items * sizeof(T)), stretch_{.limit = memory_.size()}, max_items_(max_items) {}
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] T& operator[](std::size_t i) { return items()[i]; }
@@ -72,18 +87,15 @@ class VirtualArray {
   void grow(std::size_t count) {
     GLOAM_ASSERT(count <= max_items_, "an array of fixed reservation is full: raise its limit");
     const std::size_t bytes = (count > capacity_ * 2 ? count : capacity_ * 2) * sizeof(T);
-    const std::size_t page = ReservedMemory::page_size();
-    const std::size_t end = bytes < memory_.size() ? round_up(bytes, page) : memory_.size();
-    memory_.commit(committed_, end);
-    committed_ = end;
-    capacity_ = end / sizeof(T) < max_items_ ? end / sizeof(T) : max_items_;
+    memory_.extend(stretch_, bytes < memory_.size() ? bytes : memory_.size());
+    capacity_ = stretch_.committed / sizeof(T) < max_items_ ? stretch_.committed / sizeof(T) : max_items_;
   }
 
   ReservedMemory memory_;
+  ReservedMemory::Stretch stretch_;
   std::size_t max_items_ = 0;
   std::size_t size_ = 0;
-  std::size_t capacity_ = 0;   ///< items that fit what is committed
-  std::size_t committed_ = 0;  ///< bytes
+  std::size_t capacity_ = 0;  ///< items that fit what is committed
 };
 
 }  // namespace gloam

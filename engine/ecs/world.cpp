@@ -26,7 +26,7 @@ std::size_t World::ComponentsHash::operator()(const std::vector<ComponentId>& id
   return static_cast<std::size_t>(hasher.digest());
 }
 
-ComponentId World::register_type(const void* key, std::string_view name, std::uint32_t size) {
+ComponentId World::register_type(const void* key, std::uint32_t name_hash, std::string_view name, std::uint32_t size) {
   const std::uint32_t known = types_.find(key);
   if (known != TypeTable::kAbsent) return static_cast<ComponentId>(known);
   GLOAM_ASSERT(iterations_.load(std::memory_order_relaxed) == 0, "components are registered while no view iterates");
@@ -36,6 +36,20 @@ ComponentId World::register_type(const void* key, std::string_view name, std::ui
   const auto id = static_cast<ComponentId>(infos_.size());
   infos_.push_back({std::string(name), key, size});
   types_.insert(key, id);
+  fast_ids_.insert(key, name_hash, id);
+  for (const auto& archetype : archetypes_) archetype->cover_ids(infos_.size());
+  return id;
+}
+
+ComponentId World::find_id(const void* key, std::string_view type) const {
+  const std::uint32_t id = types_.find(key);
+  GLOAM_ASSERT(id != TypeTable::kAbsent, unregistered_sentence(type));
+  return static_cast<ComponentId>(id);
+}
+
+ComponentId World::find_accessed_id(const void* key, std::string_view type, bool write) const {
+  const ComponentId id = find_id(key, type);
+  check_component(id, write);
   return id;
 }
 
@@ -49,8 +63,8 @@ Archetype& World::archetype_of(std::vector<ComponentId> sorted) {
   return archetype;
 }
 
-Archetype& World::neighbour(Archetype& from, ComponentId id) {
-  if (Archetype* known = from.edge(id)) return *known;
+const Archetype::Edge& World::edge_of(Archetype& from, ComponentId id) {
+  if (const Archetype::Edge* known = from.edge(id)) return *known;
   std::vector<ComponentId> ids(from.components().begin(), from.components().end());
   const auto place = std::ranges::lower_bound(ids, id);
   if (place != ids.end() && *place == id) {
@@ -59,9 +73,8 @@ Archetype& World::neighbour(Archetype& from, ComponentId id) {
     ids.insert(place, id);
   }
   Archetype& to = archetype_of(std::move(ids));
-  from.set_edge(id, &to);
-  to.set_edge(id, &from);
-  return to;
+  to.set_edge(id, from);
+  return from.set_edge(id, to);
 }
 
 const World::Bundle& World::add_bundle(const void* key, std::span<const ComponentId> ids) {
@@ -136,27 +149,26 @@ void World::destroy(Entity e) {
   ++structure_version_;
 }
 
-void World::move_entity(Record& record, Archetype& to) {
-  Archetype& from = *record.archetype;
-  const std::uint32_t row = to.push_rows(1, tick());
-  to.set_entity(row, from.entities()[record.row]);
-  from.copy_row_to(record.row, to, row);
-  close_row(from, record.row);
-  record.archetype = &to;
-  record.row = row;
+void World::move_entity(Record& record, const Archetype::Edge& edge) {
+  const std::uint32_t from_row = record.row;
+  const std::uint32_t to_row = edge.to->push_rows(1, tick());
+  const Entity moved = record.archetype->move_row(from_row, edge, to_row, tick());
+  if (moved != kNoEntity) records_[moved.index].row = from_row;
+  record.archetype = edge.to;
+  record.row = to_row;
   ++structure_version_;
 }
 
-std::byte* World::add_cell(Entity e, ComponentId id) {
+std::byte* World::add_cell(Entity e, ComponentId id, std::uint32_t size) {
   begin_structural_change();
   static_cast<void>(living(e));
   Record& record = records_[e.index];
   if (record.archetype->has(id)) {
     record.archetype->mark_changed(id, record.row, 1, tick());
   } else {
-    move_entity(record, neighbour(*record.archetype, id));
+    move_entity(record, edge_of(*record.archetype, id));
   }
-  return record.archetype->data(id) + std::size_t{infos_[id].size} * record.row;
+  return record.archetype->data(id) + std::size_t{size} * record.row;
 }
 
 bool World::remove_component(Entity e, ComponentId id) {
@@ -164,7 +176,7 @@ bool World::remove_component(Entity e, ComponentId id) {
   static_cast<void>(living(e));
   Record& record = records_[e.index];
   if (!record.archetype->has(id)) return false;
-  move_entity(record, neighbour(*record.archetype, id));
+  move_entity(record, edge_of(*record.archetype, id));
   return true;
 }
 

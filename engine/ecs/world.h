@@ -64,7 +64,7 @@ class World {
   template <class T>
   ComponentId register_component(std::string_view name = type_name<T>()) {
     require_component<T>();
-    return register_type(type_key<T>(), name, kComponentSize<T>);
+    return register_type(type_key<T>(), detail::kTypeNameHash<T>, name, kComponentSize<T>);
   }
   template <class T>
   [[nodiscard]] bool is_registered() const {
@@ -73,9 +73,8 @@ class World {
   template <class T>
   [[nodiscard]] ComponentId component_id() const {
     require_component<T>();
-    const std::uint32_t id = types_.find(type_key<T>());
-    GLOAM_ASSERT(id != TypeTable::kAbsent, unregistered_sentence(type_name<T>()));
-    return static_cast<ComponentId>(id);
+    const std::uint32_t id = fast_ids_.find<T>();
+    return id != TypeTable::kAbsent ? static_cast<ComponentId>(id) : find_id(type_key<T>(), type_name<T>());
   }
   /// Every registered component, by id.
   [[nodiscard]] std::span<const ComponentInfo> components() const { return infos_; }
@@ -109,7 +108,7 @@ class World {
   /// Overwrites the value if `e` has one already. `e` must be alive.
   template <class T>
   T& add(Entity e, T value = T{}) {
-    T* cell = reinterpret_cast<T*>(add_cell(e, component_id<T>()));
+    T* cell = reinterpret_cast<T*>(add_cell(e, component_id<T>(), kComponentSize<T>));
     if constexpr (!std::is_empty_v<T>) ::new (static_cast<void*>(cell)) T(value);
     return *cell;
   }
@@ -230,7 +229,10 @@ class World {
   }
 
   /// Null: no checks. The checker must outlive its time here. Not while another thread uses the world.
-  void set_access_checker(AccessChecker* checker) { checker_ = checker; }
+  void set_access_checker(AccessChecker* checker) {
+    checker_ = checker;
+    fast_ids_.set_on(checker == nullptr);  // so that access to single entities passes the checker
+  }
 
   /// For statistics.
   [[nodiscard]] std::span<const std::unique_ptr<Archetype>> archetypes() const { return archetypes_; }
@@ -261,9 +263,11 @@ class World {
   static std::string unregistered_sentence(std::string_view type);
   static std::string absent_sentence(std::string_view type, std::string_view where);
 
-  ComponentId register_type(const void* key, std::string_view name, std::uint32_t size);
+  ComponentId register_type(const void* key, std::uint32_t name_hash, std::string_view name, std::uint32_t size);
+  [[nodiscard]] ComponentId find_id(const void* key, std::string_view type) const;
+  [[nodiscard]] ComponentId find_accessed_id(const void* key, std::string_view type, bool write) const;
   Archetype& archetype_of(std::vector<ComponentId> sorted);
-  Archetype& neighbour(Archetype& from, ComponentId id);
+  const Archetype::Edge& edge_of(Archetype& from, ComponentId id);
   const Bundle& add_bundle(const void* key, std::span<const ComponentId> ids);
 
   void begin_structural_change();
@@ -271,8 +275,8 @@ class World {
   NewRows create_one(Archetype& archetype);
   std::uint32_t create_many(Archetype& archetype, std::span<Entity> out);
   void close_row(Archetype& archetype, std::uint32_t row);
-  void move_entity(Record& record, Archetype& to);
-  std::byte* add_cell(Entity e, ComponentId id);
+  void move_entity(Record& record, const Archetype::Edge& edge);
+  std::byte* add_cell(Entity e, ComponentId id, std::uint32_t size);
   bool remove_component(Entity e, ComponentId id);
 
   [[nodiscard]] const Record& living(Entity e) const {
@@ -288,18 +292,24 @@ class World {
       return column == nullptr ? nullptr : reinterpret_cast<T*>(column) + record.row;
     }
   }
+  /// The id of a component that is about to be read or written.
+  template <class T>
+  [[nodiscard]] ComponentId accessed_id(bool write) const {
+    require_component<T>();
+    const std::uint32_t id = fast_ids_.find<T>();
+    return id != TypeTable::kAbsent ? static_cast<ComponentId>(id)
+                                    : find_accessed_id(type_key<T>(), type_name<T>(), write);
+  }
   template <class T>
   [[nodiscard]] T* get_cell(Entity e, bool write) const {
-    const ComponentId id = component_id<T>();
-    check_component(id, write);
+    const ComponentId id = accessed_id<T>(write);
     T* cell = cell_at<T>(living(e), id);
     GLOAM_ASSERT(cell != nullptr, absent_sentence(type_name<T>(), "the entity has no component "));
     return cell;
   }
   template <class T>
   [[nodiscard]] T* try_cell(Entity e, bool write) const {
-    const ComponentId id = component_id<T>();
-    check_component(id, write);
+    const ComponentId id = accessed_id<T>(write);
     return alive(e) ? cell_at<T>(records_[e.index], id) : nullptr;
   }
 
@@ -357,6 +367,7 @@ class World {
   AccessChecker* checker_ = nullptr;
 
   TypeTable types_;
+  TypeCache fast_ids_;  ///< off while there is a checker
   std::vector<ComponentInfo> infos_;
   std::vector<std::unique_ptr<Archetype>> archetypes_;
   std::unordered_map<std::vector<ComponentId>, Archetype*, ComponentsHash> archetype_by_components_;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <vector>
 
 namespace gloam::bench {
@@ -23,8 +24,12 @@ struct Mass {
 };
 
 /// What a program without an ECS would write: plain columns, the row of each thing, swap-remove. A thing with a mass lives in a second
-/// set of columns, as an archetype would hold it.
+/// set of columns, as an archetype would hold it. Things are named by index and generation, which only `position` checks.
 struct BareTable {
+  struct Handle {
+    std::uint32_t index = 0;
+    std::uint32_t generation = 1;
+  };
   struct Columns {
     std::vector<std::uint32_t> things;
     std::vector<Position> positions;
@@ -46,6 +51,7 @@ struct BareTable {
   struct Record {
     Columns* columns = nullptr;
     std::uint32_t row = 0;
+    std::uint32_t generation = 1;
   };
   Columns plain;
   Columns heavy;
@@ -61,16 +67,22 @@ struct BareTable {
     records.push_back({&plain, static_cast<std::uint32_t>(plain.things.size())});
     plain.push(static_cast<std::uint32_t>(records.size() - 1), position, velocity);
   }
-  void create_bulk(std::size_t count, const Position& position, const Velocity& velocity) {
-    const std::size_t first = plain.things.size();
+  void create_heavy(const Position& position, const Velocity& velocity, const Mass& mass) {
+    records.push_back({&heavy, static_cast<std::uint32_t>(heavy.things.size())});
+    heavy.push(static_cast<std::uint32_t>(records.size() - 1), position, velocity);
+    heavy.masses.push_back(mass);
+  }
+  void create_heavy_bulk(std::size_t count, const Position& position, const Velocity& velocity, const Mass& mass) {
+    const std::size_t first = heavy.things.size();
     const std::size_t first_thing = records.size();
-    plain.positions.resize(first + count, position);
-    plain.velocities.resize(first + count, velocity);
-    plain.things.resize(first + count);
+    heavy.positions.resize(first + count, position);
+    heavy.velocities.resize(first + count, velocity);
+    heavy.masses.resize(first + count, mass);
+    heavy.things.resize(first + count);
     records.resize(first_thing + count);
     for (std::size_t i = 0; i < count; ++i) {
-      plain.things[first + i] = static_cast<std::uint32_t>(first_thing + i);
-      records[first_thing + i] = {&plain, static_cast<std::uint32_t>(first + i)};
+      heavy.things[first + i] = static_cast<std::uint32_t>(first_thing + i);
+      records[first_thing + i] = {&heavy, static_cast<std::uint32_t>(first + i)};
     }
   }
   void destroy(std::uint32_t thing) {
@@ -89,6 +101,15 @@ struct BareTable {
     records[thing] = {&plain, static_cast<std::uint32_t>(plain.things.size())};
     plain.push(thing, heavy.positions[from.row], heavy.velocities[from.row]);
     take_row(from);
+  }
+  /// With the checks of World::get: the thing exists, is the one that was meant, is alive, and its set has positions.
+  [[nodiscard]] Position& position(Handle handle) {
+    if (handle.index >= records.size()) std::terminate();
+    const Record& record = records[handle.index];
+    if (record.generation != handle.generation || record.columns == nullptr) std::terminate();
+    Position* column = record.columns->positions.data();
+    if (column == nullptr) std::terminate();
+    return column[record.row];
   }
 
  private:

@@ -5,8 +5,9 @@
 #include <bit>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
@@ -16,20 +17,24 @@
 
 namespace gloam::bench {
 
-inline constexpr int kRepetitions = 11;
-
-/// Times of one side of a comparison and what it computed.
-struct Timing {
-  std::vector<double> ns;
-  std::uint64_t hash = 0;
+/// One side of a comparison: holds its data, does the work, hashes the outcome.
+class Contender {
+ public:
+  virtual ~Contender() = default;
+  /// Untimed, before each run.
+  virtual void prepare() {}
+  virtual void run() = 0;
+  [[nodiscard]] virtual std::uint64_t hash() const = 0;
 };
 
-/// The same work done by a World and by plain arrays; both must compute the same.
+/// The same work done by a World and by plain arrays; both must compute the same. Both live at once and run turn about.
 struct EcsCase {
   std::string id;
-  double entities = 0.0;  ///< that one repetition touches
-  std::function<Timing()> world;
-  std::function<Timing()> bare;
+  double entities = 0.0;            ///< that one run touches
+  std::optional<double> bar_ns;     ///< of the world, an entity
+  std::optional<double> bar_ratio;  ///< of the world over plain arrays
+  std::function<std::unique_ptr<Contender>()> world;
+  std::function<std::unique_ptr<Contender>()> bare;
 };
 
 /// Two rows: `id` in ns/entity and `id_over_bare` as a ratio. A difference in what they computed is an error.

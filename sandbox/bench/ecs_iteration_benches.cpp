@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -8,6 +7,14 @@
 
 #include "sandbox/bench/ecs_case.h"
 #include "sandbox/bench/measure.h"
+
+// The loops of both sides are functions of their own that are never inlined, as the loop of a system is: the compiler may neither
+// merge the passes of a repetition nor move what they have in common out of them.
+#if defined(__GNUC__)
+#define GLOAM_BENCH_PASS [[gnu::noinline]]
+#else
+#define GLOAM_BENCH_PASS __declspec(noinline)
+#endif
 
 namespace gloam::bench {
 namespace {
@@ -26,38 +33,47 @@ void move_heavy(Position& p, const Velocity& v, const Mass& m) {
   p.z += v.z * m.kg * kStep;
 }
 
-/// Repetitions run over the same world, so that short ones are not swamped by the clock.
-int passes_for(std::size_t entities) { return entities < 100000 ? 50 : 1; }
+/// A repetition makes so many passes over the same data, so that short ones are not swamped by the clock.
+int passes_for(std::size_t entities) { return static_cast<int>(1000000 / entities) + 1; }
 
-Timing iterate2_world(std::size_t count) {
-  World world;
-  register_components(world);
-  for (std::size_t i = 0; i < count; ++i) world.create(start_of(i), Velocity{});
-  const auto view = world.view<Position, const Velocity>();
-  const int passes = passes_for(count);
-  Timing timing;
-  timing.ns = time_ns(kRepetitions, {}, [&] {
-    for (int pass = 0; pass < passes; ++pass) view.each([](Position& p, const Velocity& v) { move(p, v); });
-  });
-  timing.hash = content_hash(world);
-  return timing;
+GLOAM_BENCH_PASS void move_world(const View<Position, const Velocity>& view) {
+  view.each([](Position& p, const Velocity& v) { move(p, v); });
+}
+GLOAM_BENCH_PASS void move_bare(std::vector<Position>& positions, const std::vector<Velocity>& velocities) {
+  for (std::size_t i = 0; i < positions.size(); ++i) move(positions[i], velocities[i]);
 }
 
-Timing iterate2_bare(std::size_t count) {
-  BareTable table;
-  for (std::size_t i = 0; i < count; ++i) table.create(start_of(i), Velocity{});
-  auto& [things, positions, velocities, masses] = table.plain;
-  const int passes = passes_for(count);
-  Timing timing;
-  timing.ns = time_ns(kRepetitions, {}, [&] {
-    for (int pass = 0; pass < passes; ++pass) {
-      for (std::size_t i = 0; i < positions.size(); ++i) move(positions[i], velocities[i]);
-      keep(positions.size());
-    }
-  });
-  timing.hash = content_hash(table);
-  return timing;
-}
+class MoveWorld final : public Contender {
+ public:
+  explicit MoveWorld(std::size_t count) : passes_(passes_for(count)) {
+    register_components(world_);
+    for (std::size_t i = 0; i < count; ++i) world_.create(start_of(i), Velocity{});
+  }
+  void run() override {
+    const auto view = world_.view<Position, const Velocity>();
+    for (int pass = 0; pass < passes_; ++pass) move_world(view);
+  }
+  [[nodiscard]] std::uint64_t hash() const override { return content_hash(world_); }
+
+ private:
+  int passes_;
+  World world_;
+};
+
+class MoveBare final : public Contender {
+ public:
+  explicit MoveBare(std::size_t count) : passes_(passes_for(count)) {
+    for (std::size_t i = 0; i < count; ++i) table_.create(start_of(i), Velocity{});
+  }
+  void run() override {
+    for (int pass = 0; pass < passes_; ++pass) move_bare(table_.plain.positions, table_.plain.velocities);
+  }
+  [[nodiscard]] std::uint64_t hash() const override { return content_hash(table_); }
+
+ private:
+  int passes_;
+  BareTable table_;
+};
 
 template <int N>
 struct Tag {};
@@ -77,35 +93,56 @@ void fill_fragments(World& world, std::size_t fragments, std::size_t count, std:
   }
 }
 
-Timing fragmented_world(std::size_t fragments, std::size_t count) {
-  World world({.max_rows_per_archetype = 1u << 20, .max_entities = 1u << 20});
-  register_components(world);
-  fill_fragments(world, fragments, count, std::make_integer_sequence<int, 10>{});
-  const auto view = world.view<Position, const Velocity, const Mass>();
-  Timing timing;
-  timing.ns = time_ns(kRepetitions, {},
-                      [&] { view.each([](Position& p, const Velocity& v, const Mass& m) { move_heavy(p, v, m); }); });
-  timing.hash = content_hash(world);
-  return timing;
+GLOAM_BENCH_PASS void move_fragments_world(const View<Position, const Velocity, const Mass>& view) {
+  view.each([](Position& p, const Velocity& v, const Mass& m) { move_heavy(p, v, m); });
+}
+GLOAM_BENCH_PASS void move_fragments_bare(std::vector<BareTable::Columns>& chunks) {
+  for (BareTable::Columns& c : chunks) {
+    for (std::size_t i = 0; i < c.positions.size(); ++i) move_heavy(c.positions[i], c.velocities[i], c.masses[i]);
+  }
 }
 
-Timing fragmented_bare(std::size_t fragments, std::size_t count) {
-  std::vector<BareTable::Columns> tables(fragments);
-  for (std::size_t i = 0; i < count; ++i) {
-    BareTable::Columns& table = tables[i % fragments];
-    table.push(static_cast<std::uint32_t>(i), start_of(i), Velocity{});
-    table.masses.push_back(Mass{});
+class FragmentsWorld final : public Contender {
+ public:
+  FragmentsWorld(std::size_t fragments, std::size_t count)
+      : passes_(passes_for(count)), world_({.max_rows_per_archetype = 1u << 20, .max_entities = 1u << 20}) {
+    register_components(world_);
+    fill_fragments(world_, fragments, count, std::make_integer_sequence<int, 10>{});
   }
-  Timing timing;
-  timing.ns = time_ns(kRepetitions, {}, [&] {
-    for (BareTable::Columns& t : tables) {
-      for (std::size_t i = 0; i < t.positions.size(); ++i) move_heavy(t.positions[i], t.velocities[i], t.masses[i]);
+  void run() override {
+    const auto view = world_.view<Position, const Velocity, const Mass>();
+    for (int pass = 0; pass < passes_; ++pass) move_fragments_world(view);
+  }
+  [[nodiscard]] std::uint64_t hash() const override { return content_hash(world_); }
+
+ private:
+  int passes_;
+  World world_;
+};
+
+/// A chunk is what the world's archetype is: a column of things and one of each component, as vectors that grew with their rows.
+class FragmentsBare final : public Contender {
+ public:
+  FragmentsBare(std::size_t fragments, std::size_t count) : passes_(passes_for(count)), chunks_(fragments) {
+    for (std::size_t i = 0; i < count; ++i) {
+      BareTable::Columns& chunk = chunks_[i % fragments];
+      chunk.push(static_cast<std::uint32_t>(i), start_of(i), Velocity{});
+      chunk.masses.push_back(Mass{});
     }
-    keep(tables.size());
-  });
-  for (const BareTable::Columns& table : tables) timing.hash += content_hash(table);
-  return timing;
-}
+  }
+  void run() override {
+    for (int pass = 0; pass < passes_; ++pass) move_fragments_bare(chunks_);
+  }
+  [[nodiscard]] std::uint64_t hash() const override {
+    std::uint64_t sum = 0;
+    for (const BareTable::Columns& chunk : chunks_) sum += content_hash(chunk);
+    return sum;
+  }
+
+ private:
+  int passes_;
+  std::vector<BareTable::Columns> chunks_;
+};
 
 }  // namespace
 
@@ -114,15 +151,19 @@ void add_iteration_cases(BenchRegistry& registry) {
   for (const auto& [id, count] : counts) {
     add_case(registry, {.id = id,
                         .entities = static_cast<double>(count) * passes_for(count),
-                        .world = [count = count] { return iterate2_world(count); },
-                        .bare = [count = count] { return iterate2_bare(count); }});
+                        .bar_ns = {},
+                        .bar_ratio = 1.10,
+                        .world = [count = count] { return std::make_unique<MoveWorld>(count); },
+                        .bare = [count = count] { return std::make_unique<MoveBare>(count); }});
   }
-  constexpr std::size_t kEntities = 102400;
+  static constexpr std::size_t kEntities = 102400;
   for (const std::size_t fragments : {std::size_t{10}, std::size_t{1024}}) {
     add_case(registry, {.id = "ecs.iterate3_fragmented." + std::to_string(fragments),
-                        .entities = kEntities,
-                        .world = [fragments] { return fragmented_world(fragments, kEntities); },
-                        .bare = [fragments] { return fragmented_bare(fragments, kEntities); }});
+                        .entities = static_cast<double>(kEntities) * passes_for(kEntities),
+                        .bar_ns = {},
+                        .bar_ratio = 1.15,
+                        .world = [fragments] { return std::make_unique<FragmentsWorld>(fragments, kEntities); },
+                        .bare = [fragments] { return std::make_unique<FragmentsBare>(fragments, kEntities); }});
   }
 }
 

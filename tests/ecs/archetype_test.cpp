@@ -71,14 +71,54 @@ TEST(Archetype, the_last_row_fills_the_gap) {
   EXPECT_EQ(archetype.row_count(), 1u);
 }
 
-TEST(Archetype, copies_what_both_have) {
+TEST(Archetype, a_row_that_moves_takes_along_what_both_have) {
   Archetype from = make_all();
   Archetype to(4, {1, 4, 8}, infos(), 100);
   from.push_rows(2, 1);
   write_row(from, 1, 7);
   to.push_rows(5, 1);
-  from.copy_row_to(1, to, 4);
+  EXPECT_EQ(from.move_row(1, from.set_edge(0, to), 4, 2), kNoEntity) << "it was the last";
   EXPECT_TRUE(row_holds(to, 4, 7));
+  EXPECT_EQ(to.entities()[4], (Entity{1, 1}));
+  EXPECT_EQ(from.row_count(), 1u);
+}
+
+TEST(Archetype, the_last_row_fills_the_gap_of_one_that_moves) {
+  Archetype from = make_all();
+  Archetype to(4, {1, 4, 8}, infos(), 100);
+  from.push_rows(3, 1);
+  for (std::uint32_t row = 0; row < 3; ++row) write_row(from, row, static_cast<int>(row) * 20);
+  to.push_rows(1, 1);
+  EXPECT_EQ(from.move_row(0, from.set_edge(0, to), 0, 5), (Entity{2, 1}));
+  EXPECT_TRUE(row_holds(to, 0, 0));
+  EXPECT_TRUE(row_holds(from, 0, 40));
+  EXPECT_TRUE(row_holds(from, 1, 20));
+  EXPECT_TRUE(from.changed(0, 0, 4));
+}
+
+TEST(Archetype, rows_of_any_size_move_whole) {
+  for (std::uint32_t size = 1; size <= 80; ++size) {
+    const std::vector<ComponentInfo> sized = {{"", nullptr, size}};
+    Archetype from(0, {0}, sized, 10);
+    Archetype to(1, {0}, sized, 10);
+    from.push_rows(2, 1);
+    to.push_rows(2, 1);
+    for (std::uint32_t i = 0; i < 2 * size; ++i) from.data(0)[i] = static_cast<std::byte>(i + 1);
+    static_cast<void>(from.move_row(0, from.set_edge(0, to), 0, 1));
+    for (std::uint32_t i = 0; i < size; ++i) {
+      ASSERT_EQ(to.data(0)[i], static_cast<std::byte>(i + 1)) << size;
+      ASSERT_EQ(to.data(0)[size + i], std::byte{0}) << size;
+      ASSERT_EQ(from.data(0)[i], static_cast<std::byte>(size + i + 1)) << size;
+    }
+  }
+}
+
+TEST(Archetype, knows_ids_that_came_later) {
+  Archetype archetype = make_all();
+  std::byte* const column = archetype.data(3);
+  archetype.cover_ids(1000);
+  EXPECT_FALSE(archetype.has(999));
+  EXPECT_EQ(archetype.data(3), column);
 }
 
 TEST(Archetype, a_tag_is_there_without_bytes) {
@@ -111,8 +151,9 @@ TEST(Archetype, remembers_its_neighbours) {
   Archetype a(0, {}, infos(), 10);
   Archetype b(1, {5}, infos(), 10);
   EXPECT_EQ(a.edge(5), nullptr);
-  a.set_edge(5, &b);
-  EXPECT_EQ(a.edge(5), &b);
+  a.set_edge(5, b);
+  ASSERT_NE(a.edge(5), nullptr);
+  EXPECT_EQ(a.edge(5)->to, &b);
   EXPECT_EQ(a.edge(4), nullptr);
 }
 

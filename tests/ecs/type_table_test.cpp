@@ -28,6 +28,29 @@ TEST(TypeTable, refuses_a_key_twice) {
   EXPECT_ASSERT(table.insert(&table, 2), "entered into a table once");
 }
 
+TEST(TypeCache, finds_what_it_holds_while_it_is_on) {
+  TypeCache cache;
+  EXPECT_EQ(cache.find<int>(), TypeTable::kAbsent);
+  cache.insert(type_key<int>(), detail::kTypeNameHash<int>, 7);
+  EXPECT_EQ(cache.find<int>(), 7u);
+  EXPECT_EQ(cache.find<float>(), TypeTable::kAbsent);
+  cache.set_on(false);
+  EXPECT_EQ(cache.find<int>(), TypeTable::kAbsent);
+  cache.insert(type_key<float>(), detail::kTypeNameHash<float>, 8);
+  EXPECT_EQ(cache.find<float>(), TypeTable::kAbsent);
+  cache.set_on(true);
+  EXPECT_EQ(cache.find<int>(), 7u);
+  EXPECT_EQ(cache.find<float>(), 8u);
+}
+
+TEST(TypeCache, keeps_the_first_of_types_that_share_a_place) {
+  TypeCache cache;
+  const int other = 0;
+  cache.insert(type_key<int>(), detail::kTypeNameHash<int>, 7);
+  cache.insert(&other, detail::kTypeNameHash<int>, 8);
+  EXPECT_EQ(cache.find<int>(), 7u);
+}
+
 const void* key_of_a_local_type() {
   struct Local {};
   return type_key<Local>();

@@ -52,6 +52,33 @@ TEST(ReservedMemory, commits_whole_pages_within_the_reservation) {
   EXPECT_ASSERT(memory.commit(1, page), "by whole pages");
 }
 
+TEST(ReservedMemory, extends_a_stretch_by_pages_and_a_long_one_by_large_pages) {
+  const std::size_t page = ReservedMemory::page_size();
+  const std::size_t large = ReservedMemory::kLargePage;
+  ReservedMemory memory(large * 5);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory.data()) % large, 0u);
+  ReservedMemory::Stretch stretch{.begin = large, .limit = large * 3 + page, .committed = large};
+  memory.extend(stretch, large + 1);
+  EXPECT_EQ(stretch.committed, large + page);
+  std::byte* const bytes = memory.data() + large;
+  bytes[0] = std::byte{1};
+  bytes[page - 1] = std::byte{2};
+  memory.extend(stretch, large + page * 2 + 5);
+  EXPECT_EQ(stretch.committed, large + page * 3);
+  memory.extend(stretch, large + large / 2);
+  EXPECT_EQ(stretch.committed, large * 2);
+  EXPECT_EQ(bytes[0], std::byte{1}) << "values outlive a change of pages";
+  EXPECT_EQ(bytes[page - 1], std::byte{2});
+  EXPECT_EQ(bytes[large - 1], std::byte{0});
+  bytes[large - 1] = std::byte{3};
+  memory.extend(stretch, large * 2 + 1);
+  EXPECT_EQ(stretch.committed, large * 3);
+  memory.extend(stretch, stretch.limit);
+  EXPECT_EQ(stretch.committed, stretch.limit);
+  memory.data()[stretch.limit - 1] = std::byte{4};
+  EXPECT_EQ(bytes[large - 1], std::byte{3});
+}
+
 TEST(VirtualArray, grows_without_moving) {
   VirtualArray<int> array(1'000'000);
   array.push_back(0);
