@@ -3,6 +3,7 @@
 #include "engine/frame/upload.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "engine/core/assert.h"
@@ -13,11 +14,15 @@ namespace gloam {
 namespace {
 
 constexpr std::uint64_t kAlignment = 256;
-constexpr std::uint64_t kStagingBytes = std::uint64_t{64}
-                                        << 20;  ///< of one submission of the Uploader, unless one job is larger
+/// Of one submission of the Uploader, unless one job is larger. Two of them take turns: one is filled while the GPU copies the other.
+constexpr std::uint64_t kStagingBytes = std::uint64_t{16} << 20;
 
 constexpr std::uint64_t align_up(std::uint64_t bytes, std::uint64_t alignment) {
   return (bytes + alignment - 1) / alignment * alignment;
+}
+
+Uploader::Fill copy_of(std::vector<std::byte> bytes) {
+  return [bytes = std::move(bytes)](std::span<std::byte> staging) { std::ranges::copy(bytes, staging.begin()); };
 }
 
 }  // namespace
@@ -84,52 +89,89 @@ Result<gpu::Binding::BufferRange> UploadRing::write(std::span<const std::byte> d
 void Uploader::buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after) {
   GLOAM_ASSERT(!bytes.empty() && bytes.size() <= device_.desc(target).size,
                "an upload fits its buffer '" + device_.desc(target).name + "' and has at least one byte");
-  jobs_.push_back({.buffer = target, .image = {}, .bytes = std::move(bytes), .after = after});
+  const std::uint64_t size = bytes.size();
+  jobs_.push_back({target, {}, copy_of(std::move(bytes)), size, after});
 }
 
 void Uploader::image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after) {
-  const gpu::ImageDesc& desc = device_.desc(target);
-  GLOAM_ASSERT(texels.size() == gpu::image_bytes(desc),
-               "an upload gives all mips of all layers of its image '" + desc.name + "'");
-  jobs_.push_back({.buffer = {}, .image = target, .bytes = std::move(texels), .after = after});
+  const std::uint64_t size = texels.size();
+  add_image(target, size, copy_of(std::move(texels)), after);
 }
 
-Status Uploader::flush() {
+void Uploader::image(gpu::ImageHandle target, Fill fill, gpu::Access after) {
+  add_image(target, gpu::image_bytes(device_.desc(target)), std::move(fill), after);
+}
+
+void Uploader::add_image(gpu::ImageHandle target, std::uint64_t size, Fill fill, gpu::Access after) {
+  const gpu::ImageDesc& desc = device_.desc(target);
+  GLOAM_ASSERT(size == gpu::image_bytes(desc),
+               "an upload gives all mips of all layers of its image '" + desc.name + "'");
+  jobs_.push_back({{}, target, std::move(fill), size, after});
+}
+
+Status Uploader::flush() { return flush(*make_serial_executor()); }
+
+Status Uploader::flush(JobExecutor& executor) {
   const std::vector<Job> jobs = std::exchange(jobs_, {});
+  const std::vector<Batch> batches = batches_of(jobs);
+  std::array<std::uint64_t, gpu::Device::kFramesInFlight> sizes{};  // of the staging buffers that take turns
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    std::uint64_t& size = sizes[i % sizes.size()];
+    size = std::max(size, batches[i].bytes);
+  }
+  std::vector<gpu::BufferHandle> staging;
+  Status done;
+  for (const std::uint64_t size : sizes) {
+    if (size == 0 || !done.ok()) continue;
+    Result<gpu::BufferHandle> buffer = device_.create_buffer({.name = "upload staging",
+                                                              .module = "engine",
+                                                              .size = size,
+                                                              .usage = gpu::BufferUsage::transfer_source,
+                                                              .memory = gpu::MemoryKind::upload});
+    if (buffer.ok())
+      staging.push_back(*buffer);
+    else
+      done = buffer.error();
+  }
+  if (done.ok()) done = submit(batches, staging, executor);
+  for (const gpu::BufferHandle buffer : staging) device_.destroy(buffer);
+  return done;
+}
+
+std::vector<Uploader::Batch> Uploader::batches_of(std::span<const Job> jobs) {
+  std::vector<Batch> batches;
   for (std::size_t first = 0; first < jobs.size();) {
-    std::uint64_t bytes = align_up(jobs[first].bytes.size(), kAlignment);
+    std::uint64_t bytes = align_up(jobs[first].size, kAlignment);
     std::size_t end = first + 1;
-    while (end < jobs.size() && bytes + align_up(jobs[end].bytes.size(), kAlignment) <= kStagingBytes) {
-      bytes += align_up(jobs[end++].bytes.size(), kAlignment);
-    }
-    GLOAM_TRY(submit(std::span(jobs).subspan(first, end - first), bytes));
+    while (end < jobs.size() && bytes + align_up(jobs[end].size, kAlignment) <= kStagingBytes)
+      bytes += align_up(jobs[end++].size, kAlignment);
+    batches.push_back({jobs.subspan(first, end - first), bytes});
     first = end;
   }
-  return {};
+  return batches;
 }
 
-Status Uploader::submit(std::span<const Job> jobs, std::uint64_t staging_bytes) {
-  Result<gpu::BufferHandle> staging = device_.create_buffer({.name = "upload staging",
-                                                             .module = "engine",
-                                                             .size = staging_bytes,
-                                                             .usage = gpu::BufferUsage::transfer_source,
-                                                             .memory = gpu::MemoryKind::upload});
-  if (!staging.ok()) return staging.error();
-  const std::span<std::byte> mapped = device_.mapped(*staging);
-  std::uint64_t offset = 0;
-  for (const Job& job : jobs) {
-    std::ranges::copy(job.bytes, mapped.begin() + static_cast<std::ptrdiff_t>(offset));
-    offset += align_up(job.bytes.size(), kAlignment);
+Status Uploader::submit(std::span<const Batch> batches, std::span<const gpu::BufferHandle> staging,
+                        JobExecutor& executor) {
+  if (batches.empty()) return {};
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    // Waits for the frame that used this staging buffer before: as many are in flight as there are buffers.
+    Result<gpu::CommandList*> commands = device_.begin_frame();
+    if (!commands.ok()) return commands.error();
+    const gpu::BufferHandle buffer = staging[i % staging.size()];
+    const std::span<std::byte> mapped = device_.mapped(buffer);
+    const std::span<const Job> jobs = batches[i].jobs;
+    std::vector<std::function<void()>> fills;
+    std::uint64_t offset = 0;
+    for (const Job& job : jobs) {
+      fills.emplace_back([&job, memory = mapped.subspan(offset, job.size)] { job.fill(memory); });
+      offset += align_up(job.size, kAlignment);
+    }
+    executor.run(fills);
+    record(**commands, jobs, buffer);
+    GLOAM_TRY(device_.submit_frame());
   }
-  Result<gpu::CommandList*> commands = device_.begin_frame();
-  Status done = commands.ok() ? Status() : Status(commands.error());
-  if (done.ok()) {
-    record(**commands, jobs, *staging);
-    done = device_.submit_frame();
-  }
-  if (done.ok()) done = device_.wait_idle();
-  device_.destroy(*staging);
-  return done;
+  return device_.wait_idle();
 }
 
 void Uploader::record(gpu::CommandList& commands, std::span<const Job> jobs, gpu::BufferHandle staging) {
@@ -150,7 +192,7 @@ void Uploader::record(gpu::CommandList& commands, std::span<const Job> jobs, gpu
   std::uint64_t job_offset = 0;
   for (const Job& job : jobs) {
     if (job.buffer) {
-      commands.copy_buffer(staging, job_offset, job.buffer, 0, job.bytes.size());
+      commands.copy_buffer(staging, job_offset, job.buffer, 0, job.size);
     } else {
       const gpu::ImageDesc& desc = device_.desc(job.image);
       std::uint64_t offset = job_offset;
@@ -161,7 +203,7 @@ void Uploader::record(gpu::CommandList& commands, std::span<const Job> jobs, gpu
         }
       }
     }
-    job_offset += align_up(job.bytes.size(), kAlignment);
+    job_offset += align_up(job.size, kAlignment);
   }
   barriers(false);
 }

@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/jobs/executor.h"
 
 namespace gloam {
 
@@ -56,22 +58,38 @@ class UploadRing {
 /// per-frame use.
 class Uploader {
  public:
+  /// Writes every byte of the staging memory it is given, which may be slow to read. Runs in a job.
+  using Fill = std::function<void(std::span<std::byte>)>;
+
   explicit Uploader(gpu::Device& device) : device_(device) {}
   void buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after);
   /// All mips of all layers, tightly packed, layer by layer and inside a layer mip by mip.
   void image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after);
+  /// The same, made in staging memory when its turn comes.
+  void image(gpu::ImageHandle target, Fill fill, gpu::Access after);
   /// Does all that was asked for since the last call; not between begin_frame and submit_frame. One upload a target and
   /// call. After a fault nothing of it is tried again.
   [[nodiscard]] Status flush();
+  /// The same, filling in jobs.
+  [[nodiscard]] Status flush(JobExecutor& executor);
 
  private:
   struct Job {
     gpu::BufferHandle buffer;
     gpu::ImageHandle image;
-    std::vector<std::byte> bytes;
+    Fill fill;
+    std::uint64_t size = 0;
     gpu::Access after = gpu::Access::none;
   };
-  [[nodiscard]] Status submit(std::span<const Job> jobs, std::uint64_t staging_bytes);
+  /// Jobs that one frame copies from one staging buffer.
+  struct Batch {
+    std::span<const Job> jobs;
+    std::uint64_t bytes = 0;
+  };
+  void add_image(gpu::ImageHandle target, std::uint64_t size, Fill fill, gpu::Access after);
+  [[nodiscard]] static std::vector<Batch> batches_of(std::span<const Job> jobs);
+  [[nodiscard]] Status submit(std::span<const Batch> batches, std::span<const gpu::BufferHandle> staging,
+                              JobExecutor& executor);
   void record(gpu::CommandList& commands, std::span<const Job> jobs, gpu::BufferHandle staging);
 
   gpu::Device& device_;

@@ -45,18 +45,20 @@ std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primit
 /// One primitive, packed by a job of its own.
 struct GpuScene::Streams {
   GpuPrimitive primitive;
+  std::vector<vec3> positions;
   std::vector<PackedFrame> frames;
   std::vector<PackedSurface> surfaces;
   std::vector<std::uint32_t> indices;
   std::vector<PackedInfluence> influences;
   std::vector<float> morph_offsets;
 
-  void pack(const Primitive& source, std::uint32_t default_material) {
+  void pack(const Primitive& imported, std::uint32_t default_material) {
+    primitive.clusters = build_clusters(imported, indices);
+    Primitive source = in_fetch_order(imported, indices);
     frames = pack_frames(source);
     surfaces = pack_surfaces(source);
     influences = pack_influences(source);
     morph_offsets = pack_morph_offsets(source, primitive.morph_has_normals);
-    primitive.clusters = build_clusters(source, indices);
     primitive.material = source.material == kNone ? default_material : source.material;
     primitive.vertex_count = static_cast<std::uint32_t>(source.positions.size());
     primitive.index_count = static_cast<std::uint32_t>(indices.size());
@@ -65,6 +67,7 @@ struct GpuScene::Streams {
     primitive.colored = !source.colors.empty();
     primitive.bounds = source.bounds;
     primitive.joint_bounds = joint_bounds(source, influences);
+    positions = std::move(source.positions);
   }
 };
 
@@ -87,9 +90,9 @@ Status GpuScene::sync(const SceneAssets& assets, JobExecutor& executor) {
   release();
   Uploader uploader(device_);
   GLOAM_TRY(upload_meshes(assets, executor, uploader));
-  GLOAM_TRY(upload_textures(assets, executor, uploader));
+  GLOAM_TRY(upload_textures(assets, uploader));
   GLOAM_TRY(upload_materials(assets, uploader));
-  GLOAM_TRY(uploader.flush());
+  GLOAM_TRY(uploader.flush(executor));
   version_ = assets.version;
   return {};
 }
@@ -114,7 +117,7 @@ Status GpuScene::upload_meshes(const SceneAssets& assets, JobExecutor& executor,
       s.primitive.first_index = static_cast<std::uint32_t>(streams[3].size() / sizeof(std::uint32_t));
       s.primitive.first_influence = static_cast<std::uint32_t>(streams[4].size() / sizeof(PackedInfluence));
       s.primitive.first_morph = static_cast<std::uint32_t>(streams[5].size() / sizeof(float));
-      append(streams[0], mesh.primitives[p].positions);
+      append(streams[0], s.positions);
       append(streams[1], s.frames);
       append(streams[2], s.surfaces);
       append(streams[3], s.indices);
@@ -139,34 +142,39 @@ Status GpuScene::upload_meshes(const SceneAssets& assets, JobExecutor& executor,
   return {};
 }
 
-Status GpuScene::upload_textures(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader) {
-  std::vector<std::vector<std::byte>> chains(assets.textures.size());
-  executor.parallel_for(chains.size(), 1, [&](JobRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      const Texture& texture = assets.textures[i];
-      if (texture.image == kNone) continue;
-      const Image& image = assets.images[texture.image];
-      chains[i] = build_mip_chain(image.rgba, image.width, image.height, texture.srgb);
+Status GpuScene::upload_textures(const SceneAssets& assets, Uploader& uploader) {
+  for (const Texture& texture : assets.textures) {
+    if (texture.image == kNone) {
+      GLOAM_TRY(add_white_texel(uploader));
+      continue;
     }
-  });
-  for (std::size_t i = 0; i <= chains.size(); ++i) {
-    gpu::ImageDesc desc{.name = "white", .module = "engine", .format = gpu::Format::rgba8_unorm};
+    const Image& image = assets.images[texture.image];
+    gpu::ImageDesc desc{.name = "texture." + image.name, .module = "engine"};
+    desc.format = texture.srgb ? gpu::Format::rgba8_srgb : gpu::Format::rgba8_unorm;
+    desc.width = image.width;
+    desc.height = image.height;
+    desc.mips = mip_count(image.width, image.height);
     desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
-    std::vector<std::byte> texels(4, std::byte{255});
-    if (i < chains.size() && !chains[i].empty()) {
-      const Image& image = assets.images[assets.textures[i].image];
-      desc.name = "texture." + image.name;
-      desc.format = assets.textures[i].srgb ? gpu::Format::rgba8_srgb : gpu::Format::rgba8_unorm;
-      desc.width = image.width;
-      desc.height = image.height;
-      desc.mips = mip_count(image.width, image.height);
-      texels = std::move(chains[i]);
-    }
-    auto image = device_.create_image(desc);
-    if (!image.ok()) return image.error();
-    textures_.push_back(*image);
-    uploader.image(*image, std::move(texels), gpu::Access::fragment_read);
+    auto made = device_.create_image(desc);
+    if (!made.ok()) return made.error();
+    textures_.push_back(*made);
+    uploader.image(
+        *made,
+        [&image, srgb = texture.srgb](std::span<std::byte> chain) {
+          build_mip_chain(image.rgba, image.width, image.height, srgb, chain);
+        },
+        gpu::Access::fragment_read);
   }
+  return add_white_texel(uploader);
+}
+
+Status GpuScene::add_white_texel(Uploader& uploader) {
+  gpu::ImageDesc desc{.name = "white", .module = "engine", .format = gpu::Format::rgba8_unorm};
+  desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
+  auto image = device_.create_image(desc);
+  if (!image.ok()) return image.error();
+  textures_.push_back(*image);
+  uploader.image(*image, std::vector<std::byte>(4, std::byte{255}), gpu::Access::fragment_read);
   return {};
 }
 

@@ -21,7 +21,7 @@ namespace gloam {
 struct GpuPrimitive {
   std::uint32_t material = 0;  ///< index into GpuScene::materials()
   std::uint32_t vertex_count = 0;
-  std::uint32_t first_vertex = 0;     ///< a multiple of 64, so that every stream's byte offset may be bound
+  std::uint32_t first_vertex = 0;  ///< a multiple of 64, so that every stream's byte offset may be bound
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
   std::uint32_t first_influence = 0;  ///< a multiple of 64
@@ -68,7 +68,9 @@ class GpuScene {
   struct Streams;
   void release();
   [[nodiscard]] Status upload_meshes(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader);
-  [[nodiscard]] Status upload_textures(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader);
+  [[nodiscard]] Status upload_textures(const SceneAssets& assets, Uploader& uploader);
+  /// Adds the texture that stands where a material names none.
+  [[nodiscard]] Status add_white_texel(Uploader& uploader);
   [[nodiscard]] Status upload_materials(const SceneAssets& assets, Uploader& uploader);
   [[nodiscard]] Result<gpu::ResourceSetHandle> material_set(const SceneAssets& assets, const Material& material,
                                                             std::uint32_t index, std::uint32_t features);

@@ -29,6 +29,16 @@ vec4 normalised(vec4 weights) {
   return weights / sum;
 }
 
+/// values[v] goes to place[v]; kNone: nowhere.
+template <class T>
+std::vector<T> moved(const std::vector<T>& values, std::span<const std::uint32_t> place, std::size_t count) {
+  if (values.empty()) return {};
+  std::vector<T> result(count);
+  for (std::size_t v = 0; v < std::min(values.size(), place.size()); ++v)
+    if (place[v] != kNone) result[place[v]] = values[v];
+  return result;
+}
+
 }  // namespace
 
 std::vector<PackedFrame> pack_frames(const Primitive& primitive) {
@@ -112,6 +122,30 @@ std::vector<Cluster> build_clusters(const Primitive& primitive, std::vector<std:
     clusters.push_back(cluster);
   }
   return clusters;
+}
+
+Primitive in_fetch_order(const Primitive& primitive, std::span<std::uint32_t> indices) {
+  std::vector<std::uint32_t> place(primitive.positions.size(), kNone);
+  std::uint32_t count = 0;
+  for (std::uint32_t& index : indices) {
+    std::uint32_t& at = place[index];
+    if (at == kNone) at = count++;
+    index = at;
+  }
+  Primitive ordered;
+  ordered.material = primitive.material;
+  ordered.bounds = primitive.bounds;
+  ordered.positions = moved(primitive.positions, place, count);
+  ordered.normals = moved(primitive.normals, place, count);
+  ordered.tangents = moved(primitive.tangents, place, count);
+  ordered.uv0 = moved(primitive.uv0, place, count);
+  ordered.uv1 = moved(primitive.uv1, place, count);
+  ordered.colors = moved(primitive.colors, place, count);
+  ordered.joints = moved(primitive.joints, place, count);
+  ordered.weights = moved(primitive.weights, place, count);
+  for (const Primitive::MorphTarget& target : primitive.morph_targets)
+    ordered.morph_targets.push_back({moved(target.positions, place, count), moved(target.normals, place, count)});
+  return ordered;
 }
 
 }  // namespace gloam

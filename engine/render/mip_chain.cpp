@@ -7,7 +7,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <memory>
 
+#include "engine/core/assert.h"
 #include "engine/math/packing.h"
 
 namespace gloam {
@@ -24,7 +26,8 @@ const SrgbTables& srgb_tables() {
   static const SrgbTables tables = [] {
     SrgbTables t{};
     for (std::size_t i = 0; i < t.to_linear.size(); ++i)
-      t.to_linear[i] = static_cast<std::uint16_t>(std::lround(srgb_to_linear(static_cast<float>(i) / 255.0f) * kLinearOne));
+      t.to_linear[i] =
+          static_cast<std::uint16_t>(std::lround(srgb_to_linear(static_cast<float>(i) / 255.0f) * kLinearOne));
     for (std::size_t i = 0; i < t.sum_to_srgb.size(); ++i)
       t.sum_to_srgb[i] =
           static_cast<std::uint8_t>(std::lround(linear_to_srgb(static_cast<float>(i) / (4.0f * kLinearOne)) * 255.0f));
@@ -47,7 +50,8 @@ void halve(const std::uint8_t* source, std::uint32_t width, std::uint32_t height
       for (std::size_t c = 0; c < 4; ++c, ++target) {
         const std::uint8_t a = row0[x0 + c], b = row0[x1 + c], d = row1[x0 + c], e = row1[x1 + c];
         if (kSrgb && c < 3)
-          *target = tables.sum_to_srgb[tables.to_linear[a] + tables.to_linear[b] + tables.to_linear[d] + tables.to_linear[e]];
+          *target =
+              tables.sum_to_srgb[tables.to_linear[a] + tables.to_linear[b] + tables.to_linear[d] + tables.to_linear[e]];
         else
           *target = static_cast<std::uint8_t>((a + b + d + e + 2) / 4);
       }
@@ -61,23 +65,33 @@ std::uint32_t mip_count(std::uint32_t width, std::uint32_t height) {
   return static_cast<std::uint32_t>(std::bit_width(std::max({width, height, 1u})));
 }
 
-std::vector<std::byte> build_mip_chain(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height, bool srgb) {
-  const std::uint32_t mips = mip_count(width, height);
+std::size_t mip_chain_bytes(std::uint32_t width, std::uint32_t height) {
   std::size_t total = 0;
-  for (std::uint32_t m = 0; m < mips; ++m) total += std::size_t{4} * std::max(width >> m, 1u) * std::max(height >> m, 1u);
-  std::vector<std::byte> chain(total);
+  for (std::uint32_t m = 0; m < mip_count(width, height); ++m)
+    total += std::size_t{4} * std::max(width >> m, 1u) * std::max(height >> m, 1u);
+  return total;
+}
+
+void build_mip_chain(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height, bool srgb,
+                     std::span<std::byte> chain) {
+  GLOAM_ASSERT(rgba.size() == std::size_t{4} * width * height && chain.size() == mip_chain_bytes(width, height),
+               "an image and room for its mips");
   std::memcpy(chain.data(), rgba.data(), rgba.size());
-  auto* level = reinterpret_cast<std::uint8_t*>(chain.data());
-  for (std::uint32_t m = 1; m < mips; ++m) {
+  const std::size_t below = chain.size() - rgba.size();
+  if (below == 0) return;
+  const auto mips = std::make_unique_for_overwrite<std::uint8_t[]>(below);
+  const std::uint8_t* source = rgba.data();
+  std::uint8_t* target = mips.get();
+  for (std::uint32_t m = 1; m < mip_count(width, height); ++m) {
     const std::uint32_t w = std::max(width >> (m - 1), 1u), h = std::max(height >> (m - 1), 1u);
-    std::uint8_t* next = level + std::size_t{4} * w * h;
     if (srgb)
-      halve<true>(level, w, h, next);
+      halve<true>(source, w, h, target);
     else
-      halve<false>(level, w, h, next);
-    level = next;
+      halve<false>(source, w, h, target);
+    source = target;
+    target += std::size_t{4} * std::max(w / 2, 1u) * std::max(h / 2, 1u);
   }
-  return chain;
+  std::memcpy(chain.data() + rgba.size(), mips.get(), below);
 }
 
 }  // namespace gloam

@@ -104,6 +104,37 @@ TEST_F(UploadTest, the_uploader_fills_every_mip_of_every_layer) {
   EXPECT_ASSERT(uploader.image(target, counting_bytes(3), Access::fragment_read), "all mips of all layers");
 }
 
+TEST_F(UploadTest, uploads_that_do_not_fit_one_submission_take_turns_in_two_staging_buffers) {
+  constexpr std::uint64_t kBytes = 10u << 20;  // two do not fit one submission
+  std::vector<gpu::BufferHandle> targets;
+  Uploader uploader(*device);
+  for (int i = 0; i < 5; ++i) {
+    targets.push_back(
+        make_buffer({.name = "target", .module = "test", .size = kBytes, .memory = gpu::MemoryKind::readback},
+                    gpu::BufferUsage::transfer_target));
+    uploader.buffer(targets.back(), std::vector<std::byte>(kBytes, static_cast<std::byte>(i + 1)), Access::host_read);
+  }
+  const auto executor = make_shuffled_executor(3);
+  ASSERT_TRUE(uploader.flush(*executor).ok());
+  EXPECT_EQ(device->frame_number(), 5u);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(device->mapped(targets[static_cast<std::size_t>(i)]).front(), static_cast<std::byte>(i + 1));
+    EXPECT_EQ(device->mapped(targets[static_cast<std::size_t>(i)]).back(), static_cast<std::byte>(i + 1));
+  }
+}
+
+TEST_F(UploadTest, texels_may_be_made_in_staging_memory) {
+  const gpu::ImageHandle target =
+      make_image(image_desc("target", 4), gpu::ImageUsage::transfer_target | gpu::ImageUsage::sampled);
+  std::size_t given = 0;
+  Uploader uploader(*device);
+  uploader.image(
+      target, [&](std::span<std::byte> texels) { given = texels.size(); }, Access::fragment_read);
+  EXPECT_EQ(given, 0u) << "not before its turn";
+  ASSERT_TRUE(uploader.flush().ok());
+  EXPECT_EQ(given, 64u);
+}
+
 TEST_F(UploadTest, an_upload_that_finds_no_memory_says_so) {
   const gpu::BufferHandle target = make_buffer(buffer_desc("target"), gpu::BufferUsage::transfer_target);
   Uploader uploader(*device);

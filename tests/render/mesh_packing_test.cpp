@@ -279,5 +279,39 @@ TEST(BuildClusters, nothing_gives_none) {
   EXPECT_TRUE(indices.empty());
 }
 
+TEST(FetchOrder, keeps_every_corner_and_names_vertices_in_order) {
+  Random random(9);
+  Primitive primitive;
+  primitive.material = 3;
+  for (int i = 0; i < 500; ++i) {
+    primitive.positions.push_back(random.point(10.0f));
+    primitive.normals.push_back(random.direction());
+    primitive.uv1.push_back(vec2(static_cast<float>(i), 0.0f));
+    primitive.joints.push_back({static_cast<std::uint16_t>(i), 0, 0, 0});
+    primitive.weights.push_back(vec4(1.0f, 0.0f, 0.0f, 0.0f));
+  }
+  primitive.morph_targets.push_back({primitive.normals, {}});
+  std::vector<std::uint32_t> before(900);
+  for (std::uint32_t& index : before) index = random.below(400);  // the last hundred are never named
+  std::vector<std::uint32_t> after = before;
+  const Primitive ordered = in_fetch_order(primitive, after);
+  EXPECT_LT(ordered.positions.size(), 401u);
+  EXPECT_EQ(ordered.material, 3u);
+  EXPECT_TRUE(ordered.uv0.empty());
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const std::uint32_t from = before[i], to = after[i];
+    ASSERT_LE(to, next);
+    if (to == next) ++next;
+    ASSERT_EQ(ordered.positions[to], primitive.positions[from]);
+    ASSERT_EQ(ordered.normals[to], primitive.normals[from]);
+    ASSERT_EQ(ordered.uv1[to], primitive.uv1[from]);
+    ASSERT_EQ(ordered.joints[to], primitive.joints[from]);
+    ASSERT_EQ(ordered.weights[to], primitive.weights[from]);
+    ASSERT_EQ(ordered.morph_targets[0].positions[to], primitive.morph_targets[0].positions[from]);
+  }
+  EXPECT_EQ(next, ordered.positions.size());
+}
+
 }  // namespace
 }  // namespace gloam

@@ -32,6 +32,13 @@ std::vector<std::uint8_t> random_texels(Size size, std::uint32_t seed) {
   return texels;
 }
 
+std::vector<std::byte> chain_of(const std::vector<std::uint8_t>& texels, std::uint32_t width, std::uint32_t height,
+                                bool srgb) {
+  std::vector<std::byte> chain(mip_chain_bytes(width, height));
+  build_mip_chain(texels, width, height, srgb, chain);
+  return chain;
+}
+
 /// One level of a chain.
 struct Level {
   Size size;
@@ -79,7 +86,7 @@ TEST(MipCount, reaches_one_texel) {
 TEST(MipChain, begins_with_the_image_itself_and_ends_with_one_texel) {
   for (const Size size : kSizes) {
     const auto texels = random_texels(size, 3);
-    const auto chain = build_mip_chain(texels, size.width, size.height, true);
+    const auto chain = chain_of(texels, size.width, size.height, true);
     const auto levels = levels_of(chain, size);
     EXPECT_TRUE(std::equal(texels.begin(), texels.end(), levels.front().texels));
     EXPECT_EQ(levels.back().size.width, 1u);
@@ -90,8 +97,7 @@ TEST(MipChain, begins_with_the_image_itself_and_ends_with_one_texel) {
 TEST(MipChain, every_texel_is_the_mean_of_the_four_above_it) {
   for (const bool srgb : {false, true}) {
     for (const Size size : kSizes) {
-      const auto chain =
-          build_mip_chain(random_texels(size, size.width * 77 + size.height), size.width, size.height, srgb);
+      const auto chain = chain_of(random_texels(size, size.width * 77 + size.height), size.width, size.height, srgb);
       const auto levels = levels_of(chain, size);
       for (std::size_t m = 1; m < levels.size(); ++m) {
         for (std::uint32_t y = 0; y < levels[m].size.height; ++y) {
@@ -113,7 +119,7 @@ TEST(MipChain, every_texel_is_the_mean_of_the_four_above_it) {
 
 TEST(MipChain, halves_are_rounded_up_like_everywhere) {
   const std::vector<std::uint8_t> texels = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1};
-  const auto chain = build_mip_chain(texels, 2, 2, false);
+  const auto chain = chain_of(texels, 2, 2, false);
   EXPECT_EQ(static_cast<int>(chain.back()), 1);
 }
 
@@ -121,7 +127,7 @@ TEST(MipChain, an_even_colour_stays_as_it_is) {
   for (const bool srgb : {false, true}) {
     for (int value = 0; value < 256; ++value) {
       const std::vector<std::uint8_t> texels(std::size_t{4} * 5 * 4, static_cast<std::uint8_t>(value));
-      const auto chain = build_mip_chain(texels, 5, 4, srgb);
+      const auto chain = chain_of(texels, 5, 4, srgb);
       for (const std::byte byte : chain) ASSERT_EQ(static_cast<int>(byte), value) << (srgb ? "srgb" : "linear");
     }
   }
@@ -130,10 +136,10 @@ TEST(MipChain, an_even_colour_stays_as_it_is) {
 TEST(MipChain, black_and_white_mix_to_the_grey_of_half_the_light) {
   std::vector<std::uint8_t> texels(16, 0);
   for (std::size_t i = 0; i < 8; ++i) texels[i] = 255;  // upper row white
-  const auto in_light = build_mip_chain(texels, 2, 2, true);
+  const auto in_light = chain_of(texels, 2, 2, true);
   EXPECT_EQ(static_cast<int>(in_light[16]), 188);
   EXPECT_EQ(static_cast<int>(in_light[19]), 128) << "alpha is no colour";
-  const auto in_numbers = build_mip_chain(texels, 2, 2, false);
+  const auto in_numbers = chain_of(texels, 2, 2, false);
   EXPECT_EQ(static_cast<int>(in_numbers[16]), 128);
 }
 
