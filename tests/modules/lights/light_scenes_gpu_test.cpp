@@ -259,6 +259,38 @@ TEST_F(LightScenesTest, of_one_far_light_are_the_same) {
   EXPECT_GT(brightest(frame.light), 0.5f);
 }
 
+/// What rasterising interpolates over a pane of this size is off by many of its pixels near the camera.
+TEST_F(LightScenesTest, through_glass_of_100_kilometres_are_the_same) {
+  for (const double roll : {0.0, 0.7}) {
+    LightScene s = stage();
+    Material glass;
+    glass.alpha_mode = AlphaMode::blend;
+    glass.metallic = 0.0f;
+    glass.base_color = vec4(0.5f, 0.7f, 0.5f, 0.5f);
+    const dmat4 flat = glm::rotate(dmat4(1.0), glm::radians(-90.0), dvec3(1.0, 0.0, 0.0));
+    s.draw(s.make.mesh(test::quad(1e5f, s.make.material(glass))),
+           glm::translate(dmat4(1.0), dvec3(0.0, 1.0, 0.0)) * flat);
+    scatter(s, 300, 43, 0.7);
+    s.view.width = 257;
+    s.view.height = 129;
+    s.view.world_from_camera = s.view.world_from_camera * glm::rotate(dmat4(1.0), roll, dvec3(0.0, 0.0, 1.0));
+    expect_tiled_is_brute_and_release(std::move(s), "glass of 100 kilometres");
+  }
+}
+
+TEST_F(LightScenesTest, of_4095_columns_lose_no_light) {
+  LightScene s = stage();
+  scatter(s, 9, 47, 2.0);
+  s.view.width = 4095;
+  s.view.height = 2161;
+  draw(*s.world, s.view);  // its pictures would take longer than all the others
+  const std::map<std::string, double> counters = renderer->report().counters;
+  EXPECT_EQ(counters.at("lights.culling_errors"), 0.0);
+  EXPECT_EQ(counters.at("lights.capacity_violations"), 0.0);
+  EXPECT_GT(counters.at("lights.list_entries"), 10000.0);
+  renderer->release_world(*s.world);
+}
+
 TEST_F(LightScenesTest, of_nothing_but_sky_have_no_light_in_any_list) {
   LightScene s = empty_scene();
   scatter(s, 100, 17, 2.0);

@@ -67,7 +67,7 @@ inline RenderView draw_view(SceneRandom& random) {
   static constexpr uvec2 kSizes[] = {{1, 1},     {7, 5},     {33, 31},  {32, 32},  {64, 33},
                                      {257, 129}, {320, 180}, {97, 500}, {500, 97}, {640, 360}};
   ViewSettings settings;
-  const uvec2 size = kSizes[random.index(10)];
+  const uvec2 size = random.one_in(80) ? uvec2(4095, 2161) : kSizes[random.index(10)];
   settings.width = size.x;
   settings.height = size.y;
   settings.world_from_camera = draw_pose(random, random.direction() * random.length(-1.0, 5.0));

@@ -273,7 +273,7 @@ TEST(TileLightMasksHard, hold_no_tile_farther_than_a_pixel_from_the_light) {
     const RenderView view = view_with(lens);
     SceneRandom random(17);
     std::vector<MaskLight> lights;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 25; ++i) {
       const double depth = random.between(1.0, 30.0);
       const dvec3 in_view(random.between(-0.8, 0.8) * depth, random.between(-0.6, 0.6) * depth, -depth);
       lights.push_back(
