@@ -70,7 +70,8 @@ void expect_golden(const Picture& picture, const std::string& name) {
   std::filesystem::create_directories(folder);
   const std::string drawn = (folder / (name + ".png")).string();
   ASSERT_TRUE(write_png(drawn, picture.width, picture.height, picture.rgba).ok());
-  const auto golden = decode_image(file_bytes(std::filesystem::path(GLOAM_SOURCE_DIR) / "tests/golden" / (name + ".png")));
+  const auto golden =
+      decode_image(file_bytes(std::filesystem::path(GLOAM_SOURCE_DIR) / "tests/golden" / (name + ".png")));
   ASSERT_TRUE(golden.ok()) << golden.error().message << "; the drawn picture is " << drawn;
   ASSERT_EQ(golden->width, picture.width);
   ASSERT_EQ(golden->height, picture.height);
@@ -82,14 +83,17 @@ class Golden : public testing::Test {
  protected:
   void SetUp() override {
     const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
-    if (width != nullptr && std::string(width) == "512") GTEST_SKIP() << "lavapipe 22.3 crashes at this width when fragments sample";
+    if (width != nullptr && std::string(width) == "512")
+      GTEST_SKIP() << "lavapipe 22.3 crashes at this width when fragments sample";
     GLOAM_REQUIRE_GPU(make_test_device(false));
   }
 };
 
 TEST_F(Golden, plain_looks_as_it_did) { expect_golden(draw(golden_options("builtin:plain", "")), "plain"); }
 
-TEST_F(Golden, lanterns_look_as_they_did) { expect_golden(draw(golden_options("builtin:lanterns", "main")), "lanterns"); }
+TEST_F(Golden, lanterns_look_as_they_did) {
+  expect_golden(draw(golden_options("builtin:lanterns", "main")), "lanterns");
+}
 
 class Courtyard : public Golden {
  protected:

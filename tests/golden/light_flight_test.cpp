@@ -119,11 +119,11 @@ class LightFlight : public testing::Test {
   }
 };
 
-/// GLOAM_TEST_SCALE=4 flies through all 1024 lights, in a larger picture.
+/// GLOAM_TEST_SCALE=2 flies through all 1024 lights, in a larger picture.
 TEST_F(LightFlight, each_of_300_frames_through_many_lights_equals_brute_force) {
   const auto session = open("builtin:many_lights");
   ASSERT_NE(session, nullptr);
-  const auto lights = static_cast<std::size_t>(scaled(256));
+  const auto lights = static_cast<std::size_t>(scaled(512));
   thin_out_lights(session->world, lights);
   expect_flight_without_flicker(
       *session, kManyLightsFlight,

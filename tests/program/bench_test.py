@@ -34,6 +34,19 @@ class Bench(ProgramCase):
             hashes.append([row["hash"] for row in self.read_json("rows.json")["rows"]])
         self.assertEqual(hashes[0], hashes[1])
 
+    def test_rows_of_lights_have_a_scene_of_their_own_unless_one_is_named(self):
+        self.require_device()
+        names = ("lights.culling_errors", "lights.capacity_violations", "lights.false_positives.rect")
+        self.expect(0, "bench", *names, "--size", "96x54", "--strict", "--json", "rows.json")
+        rows = {row["id"]: row for row in self.read_json("rows.json")["rows"]}
+        self.assertEqual({row["scene"] for row in rows.values()}, {"builtin:many_lights"})
+        self.assertEqual(rows["lights.culling_errors"]["value"], 0)
+        phases = [rows[f"lights.false_positives.rect.{phase}"]["value"] for phase in ("mask", "candidates", "approx")]
+        self.assertEqual(phases, sorted(phases, reverse=True), "each phase drops lights")
+        self.assertGreaterEqual(phases[-1], 0)
+        self.expect(0, "bench", names[0], "--size", "96x54", "--scene", "builtin:lanterns", "--json", "rows.json")
+        self.assertNotIn("scene", self.read_json("rows.json")["rows"][0])
+
     def test_quiet_prints_nothing(self):
         self.assertEqual(self.expect(0, "bench", "jobs.fork_join", "--quiet").stdout, "")
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kColumns = 12;
 using Line = std::array<std::string, kColumns>;
-const Line kTitles = {"",     "knob", "value",   "counted", "FLIP mean", "FLIP p99",
-                      "RMSE", "ms",   "p10-p90", "ratio",   "module ms", "MiB"};
+const Line kTitles = {"",     "knob", "value",   "counted", "FLIP mean",      "FLIP p99",
+                      "RMSE", "ms",   "p10-p90", "ratio",   "module CPU+GPU", "MiB"};
 constexpr std::size_t kCountedColumn = 3;  // only where a row has one
 constexpr std::size_t kTextColumns = 3;    // aligned to the left
 
@@ -44,7 +44,7 @@ Line line_of(const LedgerRow& row) {
           formatted("%.3f", row.ms.median_ms),
           formatted("%.3f-%.3f", row.ms.p10_ms, row.ms.p90_ms),
           formatted("%.2f", row.ratio),
-          formatted("%.3f", row.module_cpu_ms + row.module_gpu_ms),
+          formatted("%.3f+%.3f", row.module_cpu_ms, row.module_gpu_ms),
           formatted("%.1f", static_cast<double>(row.gpu_bytes) / (1024.0 * 1024.0))};
 }
 
@@ -102,7 +102,7 @@ std::string ledger_table(const Ledger& ledger) {
   for (const SkippedKnob& skipped : ledger.skipped) text += skipped.knob + ": not measured: " + skipped.reason + "\n";
   return text +
          "* no other value of the knob is as cheap and as right; RMSE in cd/m²; ms is CPU and GPU work of a frame, "
-         "module ms "
+         "module CPU+GPU "
          "that of the knob's module alone\n";
 }
 
