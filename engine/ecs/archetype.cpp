@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cstring>
+#include <ranges>
 #include <utility>
 
 #include "engine/core/assert.h"
@@ -13,14 +14,12 @@
 namespace gloam {
 namespace {
 
-/// Columns begin on pages of their own. Were they to begin at the same place of each page, the first rows of many small
-/// archetypes would fight for the same few cache sets; so column c of archetype a starts this many lines into its page.
+/// The rests of columns begin on pages of their own. Were they to begin at the same place of each page, their first rows would fight
+/// for the same few cache sets; so column c of archetype a starts this many lines into its page.
 constexpr std::uint32_t kColours = 32;
 std::size_t colour_offset(std::uint32_t archetype, std::size_t column) {
   return (archetype * 11 + column * 7) % kColours * kColumnAlignment;
 }
-
-constexpr std::uint32_t kFirstRows = 32;
 
 /// A component id is an index into each archetype's table, which grows by so many.
 constexpr std::size_t kIdStep = 64;
@@ -47,99 +46,120 @@ inline void copy_value(std::byte* to, const std::byte* from, std::size_t size) {
 }  // namespace
 
 Archetype::Archetype(std::uint32_t index, std::vector<ComponentId> components, std::span<const ComponentInfo> infos,
-                     std::uint32_t max_rows)
-    : components_(std::move(components)), max_rows_(max_rows) {
-  entity_column_.size = sizeof(Entity);
+                     std::uint32_t max_rows, PackedMemory& fronts)
+    : index_(index), components_(std::move(components)), max_rows_(max_rows) {
+  columns_.push_back({.bases = {}, .size = sizeof(Entity), .id = kNoComponent, .stretch = {}, .ticks = {}});
+  std::size_t row_bytes = sizeof(Entity);
   for (const ComponentId id : components_) {
-    if (infos[id].size > 0) columns_.push_back({nullptr, infos[id].size, id, 0, {}});
+    if (infos[id].size == 0) continue;
+    columns_.push_back({.bases = {}, .size = infos[id].size, .id = id, .stretch = {}, .ticks = {}});
+    row_bytes += infos[id].size;
+  }
+  front_room_ = std::min({kFrontRows, static_cast<std::uint32_t>(kFrontBytes / row_bytes), max_rows_});
+
+  // One line more: where fronts are as long as a way of the cache, their first rows would fight for the same sets.
+  std::size_t bytes = kColumnAlignment;
+  for (const Column& column : columns_) bytes += round_up(std::size_t{column.size} * front_room_, kColumnAlignment);
+  std::byte* front = fronts.take(bytes);
+  for (Column& column : columns_) {
+    column.bases[0] = front;
+    front += round_up(std::size_t{column.size} * front_room_, kColumnAlignment);
   }
 
-  const std::size_t page = ReservedMemory::page_size();
-  std::size_t end = 0;
-  const auto place = [&](Column& column) {
-    const std::size_t bytes = round_up(kColours * kColumnAlignment + std::size_t{column.size} * max_rows_, page);
-    if (bytes >= ReservedMemory::kLargePage) end = round_up(end, ReservedMemory::kLargePage);
-    column.stretch = {.begin = end, .limit = end + bytes, .committed = end};
-    end += bytes;
-  };
-  place(entity_column_);
-  for (Column& column : columns_) place(column);
-
-  memory_ = ReservedMemory(end);
-  const auto locate = [&](Column& column, std::size_t number) {
-    column.data = memory_.data() + column.stretch.begin + colour_offset(index, number);
-  };
-  locate(entity_column_, 0);
-  for (std::size_t i = 0; i < columns_.size(); ++i) locate(columns_[i], i + 1);
-
-  entities_ = reinterpret_cast<Entity*>(entity_column_.data);
   cover_ids(infos.size());
-  for (const ComponentId id : components_) data_[id] = entity_column_.data;  // stays so for tags
-  for (const Column& column : columns_) data_[column.id] = column.data;
+  entity_bases_ = columns_[0].bases;
+  for (const ComponentId id : components_) bases_[id] = {entity_bases_[0], entity_bases_[0]};  // stays so for tags
+  for (const Column& column : columns_ | std::views::drop(1)) bases_[column.id] = column.bases;
 }
 
 void Archetype::cover_ids(std::size_t component_count) {
   if (component_count <= id_end_) return;
   const std::size_t count = round_up(component_count, kIdStep);
-  auto data = std::make_unique<std::byte*[]>(count);
-  std::copy_n(data_.get(), id_end_, data.get());
-  data_ = std::move(data);
-  id_end_ = static_cast<std::uint32_t>(count);
+  auto bases = std::make_unique<Bases[]>(count);
+  std::copy_n(bases_.get(), id_end_, bases.get());
+  bases_ = std::move(bases);
+  id_end_ = count;
 }
 
 void Archetype::grow(std::uint32_t more_rows) {
   GLOAM_ASSERT(more_rows <= max_rows_ - rows_, "an archetype is full: raise WorldLimits::max_rows_per_archetype");
-  const std::uint64_t doubled = std::max<std::uint64_t>(kFirstRows, std::uint64_t{capacity_} * 2);
-  const auto capacity =
-      std::max(rows_ + more_rows, static_cast<std::uint32_t>(std::min<std::uint64_t>(doubled, max_rows_)));
-  commit(entity_column_, capacity);
-  const std::size_t blocks = (std::size_t{capacity} + kTickBlockRows - 1) / kTickBlockRows;
-  for (Column& column : columns_) {
-    commit(column, capacity);
-    column.ticks.resize(blocks);
-  }
+  const std::uint32_t needed = rows_ + more_rows;
+  if (rows_ <= front_rows_) front_rows_ = needed <= front_room_ ? front_room_ : rows_;
+  if (needed > std::max(front_rows_, rest_capacity_)) extend_rest(needed);
+  capacity_ = std::max(front_rows_, rest_capacity_);
+  const std::size_t blocks = (std::size_t{capacity_} + kTickBlockRows - 1) / kTickBlockRows;
+  if (blocks <= row_ticks_.size()) return;
+  for (Column& column : columns_) column.ticks.resize(blocks);
   row_ticks_.resize(blocks);
-  capacity_ = capacity;
 }
 
-void Archetype::commit(Column& column, std::uint32_t rows) {
-  const auto begin = static_cast<std::size_t>(column.data - memory_.data());
-  memory_.extend(column.stretch, begin + std::size_t{column.size} * rows);
+void Archetype::reserve_rest() {
+  // The rests have room for the rows in front of them too, so that both are indexed alike.
+  std::size_t end = 0;
+  for (Column& column : columns_) {
+    const std::size_t bytes =
+        round_up(kColours * kColumnAlignment + std::size_t{column.size} * max_rows_, ReservedMemory::page_size());
+    if (bytes >= ReservedMemory::kLargePage) end = round_up(end, ReservedMemory::kLargePage);
+    column.stretch = {.begin = end, .limit = end + bytes, .committed = end};
+    end += bytes;
+  }
+  rest_ = ReservedMemory(end);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    Column& column = columns_[i];
+    column.bases[1] = rest_.data() + column.stretch.begin + colour_offset(index_, i);
+    (i == 0 ? entity_bases_ : bases_[column.id]) = column.bases;
+  }
+}
+
+void Archetype::extend_rest(std::uint32_t rows) {
+  if (rest_.data() == nullptr) reserve_rest();
+  const std::uint64_t doubled = std::max<std::uint64_t>(2 * kFrontRows, std::uint64_t{rest_capacity_} * 2);
+  const auto capacity = std::max(rows, static_cast<std::uint32_t>(std::min<std::uint64_t>(doubled, max_rows_)));
+  for (Column& column : columns_) {
+    const auto begin = static_cast<std::size_t>(column.bases[1] - rest_.data());
+    rest_.extend(column.stretch, begin + std::size_t{column.size} * capacity);
+  }
+  rest_capacity_ = capacity;
 }
 
 Entity Archetype::remove_row(std::uint32_t row, Tick now) {
   const std::uint32_t last = --rows_;
   if (row == last) return kNoEntity;
+  const std::size_t row_part = part(row);
+  const std::size_t last_part = part(last);
   for (const Column& column : columns_) {
-    copy_value(column.data + std::size_t{row} * column.size, column.data + std::size_t{last} * column.size,
-               column.size);
+    const std::size_t size = column.size;
+    copy_value(column.bases[row_part] + row * size, column.bases[last_part] + last * size, size);
   }
-  const Entity moved = entities_[last];
-  entities_[row] = moved;
   stamp(row_ticks_, row, 1, now);
-  return moved;
+  return entities(row)[row];
 }
 
 Entity Archetype::move_row(std::uint32_t row, const Edge& edge, std::uint32_t to_row, Tick now) {
-  edge.to->entities_[to_row] = entities_[row];
   const std::uint32_t last = --rows_;
+  const std::size_t row_part = part(row);
+  const std::size_t last_part = part(last);
+  const std::size_t to_part = edge.to->part(to_row);
   for (const Edge::Column& column : edge.columns) {
-    std::byte* value = column.from + std::size_t{row} * column.size;
-    if (column.to != nullptr) copy_value(column.to + std::size_t{to_row} * column.size, value, column.size);
-    if (row != last) copy_value(value, column.from + std::size_t{last} * column.size, column.size);
+    const std::size_t size = column.size;
+    const Bases& from = *column.from;
+    std::byte* value = from[row_part] + row * size;
+    if (column.to != nullptr) copy_value((*column.to)[to_part] + to_row * size, value, size);
+    if (row != last) copy_value(value, from[last_part] + last * size, size);
   }
   if (row == last) return kNoEntity;
-  const Entity moved = entities_[last];
-  entities_[row] = moved;
   stamp(row_ticks_, row, 1, now);
-  return moved;
+  return entities(row)[row];
 }
 
 const Archetype::Edge& Archetype::set_edge(ComponentId id, Archetype& neighbour) {
   if (id >= edges_.size()) edges_.resize(id + std::size_t{1});
   auto edge = std::make_unique<Edge>();
   edge->to = &neighbour;
-  for (const Column& column : columns_) edge->columns.push_back({column.data, neighbour.data(column.id), column.size});
+  for (const Column& column : columns_) {
+    const auto other = std::ranges::find(neighbour.columns_, column.id, &Column::id);
+    edge->columns.push_back({&column.bases, other == neighbour.columns_.end() ? nullptr : &other->bases, column.size});
+  }
   edges_[id] = std::move(edge);
   return *edges_[id];
 }

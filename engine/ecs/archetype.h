@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -14,33 +15,53 @@
 
 namespace gloam {
 
-/// All entities that have exactly one set of components: a column of entities and one contiguous column a component,
-/// row beside row. Columns reserve the address space for `max_rows` and commit pages as rows come, so they never move.
+/// All entities that have exactly one set of components: a column of entities and a column a component, row beside row.
+///
+/// Rows never move while others come. The first front_rows() of them lie in a piece of memory shared with other archetypes, so that
+/// many small archetypes fill pages and not each a page a column. What follows lies in address space that each column has for
+/// itself, reserved for `max_rows` and filled by pages. So a column is contiguous but for one joint. Rows that come at once are never
+/// torn: those that do not fit the front lie behind it.
 class Archetype {
+  using Bases = std::array<std::byte*, 2>;  ///< of the front and of the rest
+
  public:
-  /// `components`: sorted, without duplicates, indices into `infos`. `index` numbers the archetypes of a world.
+  /// `components`: sorted, without duplicates, indices into `infos`. `index` numbers the archetypes of a world. `fronts` outlives
+  /// the archetype.
   Archetype(std::uint32_t index, std::vector<ComponentId> components, std::span<const ComponentInfo> infos,
-            std::uint32_t max_rows);
+            std::uint32_t max_rows, PackedMemory& fronts);
 
   [[nodiscard]] std::uint32_t row_count() const { return rows_; }
-  [[nodiscard]] const Entity* entities() const { return entities_; }
   [[nodiscard]] std::span<const ComponentId> components() const { return components_; }
-  [[nodiscard]] bool has(ComponentId id) const { return data(id) != nullptr; }
-
-  /// First byte of a component's column; null when the archetype lacks it. A tag's is not null, but has no bytes behind
-  /// it. `id`: below the number of components that there were when the archetype was made, or cover_ids was told of.
-  [[nodiscard]] std::byte* data(ComponentId id) const { return data_[id]; }
+  /// `id`: below the number of components that there were when the archetype was made, or cover_ids was told of.
+  [[nodiscard]] bool has(ComponentId id) const { return front(id) != nullptr; }
   void cover_ids(std::size_t component_count);
+
+  /// Rows below this are in the front, or will be. Changes only while no row lies behind it.
+  [[nodiscard]] std::uint32_t front_rows() const { return front_rows_; }
+  /// End of the contiguous range of rows that begins at `first` and ends at `last` at the latest.
+  [[nodiscard]] std::uint32_t range_end(std::uint32_t first, std::uint32_t last) const {
+    return first < front_rows_ && last > front_rows_ ? front_rows_ : last;
+  }
+
+  /// What to add row · size to, for rows in the same range as `row`; null when the archetype lacks the component. A tag's is not
+  /// null, but has no bytes behind it. Stays the same once there was a row in the range.
+  [[nodiscard]] std::byte* base(ComponentId id, std::uint32_t row) const { return bases_[id][part(row)]; }
+  /// The same for rows in the front; is there from the beginning.
+  [[nodiscard]] std::byte* front(ComponentId id) const { return bases_[id][0]; }
+  /// What to index with a row in the same range as `row`.
+  [[nodiscard]] Entity* entities(std::uint32_t row) const {
+    return reinterpret_cast<Entity*>(entity_bases_[part(row)]);
+  }
 
   /// Appends `count` rows and returns the first. Entities and values are the caller's to write.
   std::uint32_t push_rows(std::uint32_t count, Tick now) {
-    if (count > capacity_ - rows_) grow(count);
+    if (rows_ <= front_rows_ || count > capacity_ - rows_) grow(count);
     const std::uint32_t first = rows_;
     rows_ += count;
     stamp(row_ticks_, first, count, now);
     return first;
   }
-  void set_entity(std::uint32_t row, Entity e) { entities_[row] = e; }
+  void set_entity(std::uint32_t row, Entity e) { entities(row)[row] = e; }
 
   /// Moves the last row into `row` and drops the last. Returns the entity that lives in `row` afterwards, or kNoEntity.
   Entity remove_row(std::uint32_t row, Tick now);
@@ -48,8 +69,8 @@ class Archetype {
   /// The way to another archetype.
   struct Edge {
     struct Column {
-      std::byte* from = nullptr;
-      std::byte* to = nullptr;  ///< null where the other one lacks the component
+      const Bases* from = nullptr;
+      const Bases* to = nullptr;  ///< null where the other one lacks the component
       std::uint32_t size = 0;
     };
     Archetype* to = nullptr;
@@ -70,34 +91,39 @@ class Archetype {
 
  private:
   struct Column {
-    std::byte* data = nullptr;
+    Bases bases{};
     std::uint32_t size = 0;  ///< bytes a row, > 0
     ComponentId id = kNoComponent;
-    ReservedMemory::Stretch stretch;
-    std::vector<Tick> ticks;  ///< one a block
+    ReservedMemory::Stretch stretch;  ///< of the rest
+    std::vector<Tick> ticks;          ///< one a block
   };
 
+  [[nodiscard]] std::size_t part(std::uint32_t row) const { return row < front_rows_ ? 0 : 1; }
   static void stamp(std::vector<Tick>& ticks, std::uint32_t first, std::uint32_t count, Tick now) {
     if (count == 0) return;
     const std::uint32_t last = (first + count - 1) / kTickBlockRows;
     for (std::uint32_t block = first / kTickBlockRows; block <= last; ++block) ticks[block] = now;
   }
   void grow(std::uint32_t more_rows);
-  void commit(Column& column, std::uint32_t rows);
+  void reserve_rest();
+  void extend_rest(std::uint32_t rows);
 
   // What access to single entities needs comes first, on one cache line.
   std::uint32_t rows_ = 0;
-  std::uint32_t capacity_ = 0;  ///< rows that fit what is committed
-  std::uint32_t id_end_ = 0;    ///< ids that `data_` covers
-  Entity* entities_ = nullptr;
-  std::unique_ptr<std::byte*[]> data_;  ///< by component id
-  std::vector<Column> columns_;         ///< of components that have bytes, by ascending id
-  std::vector<Tick> row_ticks_;         ///< one a block: rows came or moved
+  std::uint32_t capacity_ = 0;    ///< rows that fit what is there
+  std::uint32_t front_rows_ = 0;  ///< ≤ front_room_
+  std::uint32_t index_ = 0;
+  std::unique_ptr<Bases[]> bases_;  ///< by component id
+  Bases entity_bases_{};
+  std::vector<Column> columns_;  ///< the entities, and components that have bytes by ascending id; stays as it was made
+  std::vector<Tick> row_ticks_;  ///< one a block: rows came or moved
   std::vector<std::unique_ptr<Edge>> edges_;
-  Column entity_column_;
   std::vector<ComponentId> components_;
+  std::size_t id_end_ = 0;  ///< ids that `bases_` covers
+  std::uint32_t front_room_ = 0;
+  std::uint32_t rest_capacity_ = 0;  ///< rows that fit what is committed of the rest
   std::uint32_t max_rows_ = 0;
-  ReservedMemory memory_;
+  ReservedMemory rest_;
 };
 
 }  // namespace gloam

@@ -19,6 +19,10 @@ using Tick = std::uint64_t;
 /// Changes are stamped a block of so many rows.
 inline constexpr std::uint32_t kTickBlockRows = 4096;
 
+/// So many first rows of an archetype, or as many as fit kFrontBytes, lie packed beside those of other archetypes.
+inline constexpr std::uint32_t kFrontRows = 128;
+inline constexpr std::size_t kFrontBytes = 16384;
+
 /// Every column begins at a multiple of this, so no component may ask for more.
 inline constexpr std::size_t kColumnAlignment = 64;
 

@@ -7,6 +7,11 @@
 #include "engine/core/assert.h"
 
 namespace gloam {
+namespace {
+
+std::size_t ranges_of(std::size_t rows, std::size_t grain) { return rows / grain + (rows % grain != 0 ? 1 : 0); }
+
+}  // namespace
 
 bool Query::accepts(const Archetype& archetype) const {
   const auto has = [&](ComponentId id) { return archetype.has(id); };
@@ -24,7 +29,7 @@ void Query::extend(std::span<const std::unique_ptr<Archetype>> archetypes) {
     Archetype& archetype = *archetypes[i];
     if (!accepts(archetype)) continue;
     matches_.push_back(&archetype);
-    for (const ComponentId id : terms_.columns) match_columns_.push_back(archetype.data(id));
+    for (const ComponentId id : terms_.columns) fronts_.push_back(archetype.front(id));
   }
   seen_.store(archetypes.size(), std::memory_order_release);
 }
@@ -34,11 +39,13 @@ ChunkPlan plan_chunks(const Query& query, std::size_t grain_rows) {
   ChunkPlan plan;
   std::size_t job_rows = 0;
   for (std::uint32_t match = 0; match < query.match_count(); ++match) {
-    const std::size_t rows = query.match(match).row_count();
-    for (std::size_t first = 0; first < rows; first += grain_rows) {
-      const std::size_t count = std::min(grain_rows, rows - first);
-      plan.chunks.push_back({match, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)});
-      job_rows += count;
+    const Archetype& archetype = query.match(match);
+    const std::uint32_t rows = archetype.row_count();
+    for (std::uint32_t first = 0, end = 0; first < rows; first = end) {
+      end = archetype.range_end(first,
+                                static_cast<std::uint32_t>(first + std::min<std::size_t>(grain_rows, rows - first)));
+      plan.chunks.push_back({match, first, end - first});
+      job_rows += end - first;
       if (job_rows < grain_rows) continue;
       plan.job_ends.push_back(static_cast<std::uint32_t>(plan.chunks.size()));
       job_rows = 0;
@@ -52,8 +59,10 @@ std::size_t count_chunks(const Query& query, std::size_t grain_rows) {
   GLOAM_ASSERT(grain_rows >= 1, "a parallel range has at least one row");
   std::size_t chunks = 0;
   for (std::size_t match = 0; match < query.match_count(); ++match) {
-    const std::size_t rows = query.match(match).row_count();
-    chunks += rows / grain_rows + (rows % grain_rows != 0 ? 1 : 0);
+    const Archetype& archetype = query.match(match);
+    const std::size_t rows = archetype.row_count();
+    const std::size_t front = std::min<std::size_t>(archetype.front_rows(), rows);
+    chunks += ranges_of(front, grain_rows) + ranges_of(rows - front, grain_rows);
   }
   return chunks;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -38,15 +39,12 @@ class View {
     for (std::size_t m = 0; m < query_->match_count(); ++m) rows(f, m, 0, query_->match(m).row_count(), kColumns);
   }
 
-  /// f([span<const Entity>,] span<A>, span<const B>, …), one call an archetype that has rows; an absent Maybe is an
-  /// empty span.
+  /// f([span<const Entity>,] span<A>, span<const B>, …), one call a contiguous range of rows: an archetype's are one or two (its
+  /// front and the rest; see archetype.h). An absent Maybe is an empty span.
   template <class F>
   void each_chunk(F&& f) const {
     const Iteration iteration(*this);
-    for (std::size_t m = 0; m < query_->match_count(); ++m) {
-      const std::uint32_t count = query_->match(m).row_count();
-      if (count > 0) chunk(f, m, 0, count, kColumns);
-    }
+    for (std::size_t m = 0; m < query_->match_count(); ++m) chunks(f, m, 0, query_->match(m).row_count(), kColumns);
   }
 
   /// As each, from many threads at once, about grain_rows (≥ 1) a job. Each row once.
@@ -112,7 +110,7 @@ class View {
     const ComponentId id = writable_column<T>();
     if (range.empty()) return;
     const World::Record& record = world_->living(range.front());
-    GLOAM_ASSERT(&record.archetype->entities()[record.row] == range.data(),
+    GLOAM_ASSERT(record.archetype->entities(record.row) + record.row == range.data(),
                  "changes are marked on a range of a view's own entities");
     record.archetype->mark_changed(id, record.row, static_cast<std::uint32_t>(range.size()), world_->tick());
   }
@@ -140,7 +138,7 @@ class View {
         const std::uint32_t first = block * kTickBlockRows;
         while (block + 1 < archetype.block_count() && archetype.changed(id, block + 1, since)) ++block;
         const std::uint32_t last = std::min((block + 1) * kTickBlockRows, archetype.row_count());
-        chunk(f, m, first, last - first, kColumns);
+        chunks(f, m, first, last, kColumns);
       }
     }
     return seen;
@@ -190,34 +188,49 @@ class View {
     return id;
   }
 
-  /// Hands use(cursor of each column …) the columns of a match.
+  /// Calls use(first, end, entities, cursor of each column …) for the contiguous ranges of the rows [first, last) of a match;
+  /// entities and cursors are indexed by row.
   template <class Use, class... Cs>
-  void with_cursors(std::size_t m, Use&& use, TypeList<Cs...>) const {
-    std::byte* const* columns = query_->match_columns(m);
-    [&]<std::size_t... I>(std::index_sequence<I...>) { use(detail::ViewTerm<Cs>::cursor(columns[I])...); }
-    (std::index_sequence_for<Cs...>{});
-    static_cast<void>(columns);
+  void for_ranges(std::size_t m, std::uint32_t first, std::uint32_t last, Use&& use, TypeList<Cs...>) const {
+    const Archetype& archetype = query_->match(m);
+    std::array<std::byte*, sizeof...(Cs) + 1> storage{};
+    while (first < last) {
+      const std::uint32_t end = archetype.range_end(first, last);
+      std::byte* const* columns = query_->match_columns(m, first, storage.data());
+      [&]<std::size_t... I>(std::index_sequence<I...>) {
+        use(first, end, archetype.entities(first), detail::ViewTerm<Cs>::cursor(columns[I])...);
+      }
+      (std::index_sequence_for<Cs...>{});
+      static_cast<void>(columns);
+      first = end;
+    }
   }
   template <class F, class... Cs>
-  void rows(F& f, std::size_t m, std::size_t first, std::size_t last, TypeList<Cs...> list) const {
-    const Entity* entities = query_->match(m).entities();
-    with_cursors(
-        m, [&](auto... cursors) { detail::call_rows<Cs...>(f, entities, first, last, cursors...); }, list);
+  void rows(F& f, std::size_t m, std::uint32_t first, std::uint32_t last, TypeList<Cs...> list) const {
+    for_ranges(
+        m, first, last,
+        [&](std::size_t begin, std::size_t end, const Entity* entities, auto... cursors) {
+          detail::call_rows<Cs...>(f, entities, begin, end, cursors...);
+        },
+        list);
   }
   template <class F>
-  void chunk(F& f, std::size_t m, std::size_t first, std::size_t count, Columns list) const {
-    const std::span<const Entity> entities(query_->match(m).entities() + first, count);
-    with_cursors(
-        m, [&](auto... cursors) { detail::call_chunk(f, entities, detail::chunk_span(cursors, first, count)...); },
+  void chunks(F& f, std::size_t m, std::uint32_t first, std::uint32_t last, Columns list) const {
+    for_ranges(
+        m, first, last,
+        [&](std::size_t begin, std::size_t end, const Entity* entities, auto... cursors) {
+          detail::call_chunk(f, std::span<const Entity>(entities + begin, end - begin),
+                             detail::chunk_span(cursors, begin, end - begin)...);
+        },
         list);
   }
   template <class F>
   void numbered_chunk(F& f, std::size_t ordinal, const ViewChunk& c, Columns list) const {
-    const std::span<const Entity> entities(query_->match(c.match).entities() + c.first, c.count);
-    with_cursors(
-        c.match,
-        [&](auto... cursors) {
-          detail::call_numbered_chunk(f, ordinal, entities, detail::chunk_span(cursors, c.first, c.count)...);
+    for_ranges(
+        c.match, c.first, c.first + c.count,
+        [&](std::size_t begin, std::size_t end, const Entity* entities, auto... cursors) {
+          detail::call_numbered_chunk(f, ordinal, std::span<const Entity>(entities + begin, end - begin),
+                                      detail::chunk_span(cursors, begin, end - begin)...);
         },
         list);
   }

@@ -62,4 +62,22 @@ void ReservedMemory::extend(Stretch& stretch, std::size_t end) {
 #endif
 }
 
+std::byte* PackedMemory::take(std::size_t bytes) {
+  constexpr std::size_t kAlignment = 64;
+  constexpr std::size_t kStep = std::size_t{64} << 10;
+  constexpr std::size_t kBlock = std::size_t{64} << 20;
+  bytes = round_up(bytes, kAlignment);
+  if (blocks_.empty() || bytes > blocks_.back().memory.size() - used_) {
+    ReservedMemory memory(std::max(kBlock, bytes));
+    const std::size_t size = memory.size();
+    blocks_.push_back({std::move(memory), {.limit = size}});
+    used_ = 0;
+  }
+  Block& block = blocks_.back();
+  std::byte* const piece = block.memory.data() + used_;
+  used_ += bytes;
+  block.memory.extend(block.stretch, std::min(round_up(used_, kStep), block.memory.size()));
+  return piece;
+}
+
 }  // namespace gloam

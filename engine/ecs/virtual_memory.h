@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "engine/core/assert.h"
 
@@ -58,6 +59,21 @@ class ReservedMemory {
 [[nodiscard]] constexpr std::size_t round_up(std::size_t value, std::size_t multiple) {
   return (value + multiple - 1) / multiple * multiple;
 }
+
+/// Hands out small pieces of memory that lie side by side and stay where they are until all are given back at once.
+class PackedMemory {
+ public:
+  /// Zero bytes, aligned to 64.
+  [[nodiscard]] std::byte* take(std::size_t bytes);
+
+ private:
+  struct Block {
+    ReservedMemory memory;
+    ReservedMemory::Stretch stretch;
+  };
+  std::vector<Block> blocks_;
+  std::size_t used_ = 0;  ///< bytes of the last block
+};
 
 /// An array that grows up to a fixed limit without moving its items. Items are trivially copyable.
 template <class T>

@@ -57,7 +57,7 @@ Archetype& World::archetype_of(std::vector<ComponentId> sorted) {
   const auto known = archetype_by_components_.find(sorted);
   if (known != archetype_by_components_.end()) return *known->second;
   archetypes_.push_back(std::make_unique<Archetype>(static_cast<std::uint32_t>(archetypes_.size()), sorted, infos_,
-                                                    limits_.max_rows_per_archetype));
+                                                    limits_.max_rows_per_archetype, fronts_));
   Archetype& archetype = *archetypes_.back();
   archetype_by_components_.emplace(std::move(sorted), &archetype);
   return archetype;
@@ -81,8 +81,7 @@ const World::Bundle& World::add_bundle(const void* key, std::span<const Componen
   std::vector<ComponentId> sorted(ids.begin(), ids.end());
   std::ranges::sort(sorted);
   GLOAM_ASSERT(std::ranges::adjacent_find(sorted) == sorted.end(), "an entity has each component once");
-  Bundle bundle{&archetype_of(std::move(sorted)), {}};
-  for (const ComponentId id : ids) bundle.columns.push_back(bundle.archetype->data(id));
+  Bundle bundle{&archetype_of(std::move(sorted)), {ids.begin(), ids.end()}};
   bundle_table_.insert(key, static_cast<std::uint32_t>(bundles_.size()));
   bundles_.push_back(std::move(bundle));
   return bundles_.back();
@@ -168,7 +167,7 @@ std::byte* World::add_cell(Entity e, ComponentId id, std::uint32_t size) {
   } else {
     move_entity(record, edge_of(*record.archetype, id));
   }
-  return record.archetype->data(id) + std::size_t{size} * record.row;
+  return record.archetype->base(id, record.row) + std::size_t{size} * record.row;
 }
 
 bool World::remove_component(Entity e, ComponentId id) {

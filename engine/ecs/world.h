@@ -45,7 +45,7 @@ struct WorldLimits {
 /// - A *structural change* is create, destroy, add or remove. While a view iterates it asserts: record it in a
 /// CommandBuffer.
 ///   No other thread may touch the world during one.
-/// - References to components, and spans, stay valid while entities come: columns grow in place. They end when their
+/// - References to components, and spans, stay valid while entities come: rows stay in place. They end when their
 /// entity is
 ///   destroyed or gains or loses a component, and when another entity of the same set of components does (its row is
 ///   filled with the last one).
@@ -85,7 +85,7 @@ class World {
     begin_structural_change();
     const Bundle& bundle = bundle_of<Ts...>();
     const NewRows rows = create_one(*bundle.archetype);
-    fill_columns(bundle, rows.first, 1, std::index_sequence_for<Ts...>{}, values...);
+    fill_rows(bundle, rows.first, rows.first + 1, std::index_sequence_for<Ts...>{}, values...);
     return rows.entity;
   }
   /// out.size() entities with the same values, as one contiguous range of rows in the order of `out`.
@@ -94,7 +94,8 @@ class World {
     begin_structural_change();
     const Bundle& bundle = bundle_of<Ts...>();
     const std::uint32_t first = create_many(*bundle.archetype, out);
-    fill_columns(bundle, first, out.size(), std::index_sequence_for<Ts...>{}, values...);
+    fill_rows(bundle, first, first + static_cast<std::uint32_t>(out.size()), std::index_sequence_for<Ts...>{},
+              values...);
   }
   /// `e` must be alive.
   void destroy(Entity e);
@@ -247,10 +248,10 @@ class World {
     std::uint32_t row = 0;
     std::uint32_t generation = 1;
   };
-  /// The archetype of a list of types, with its columns in the order of the list.
+  /// The archetype of a list of types, and their ids in the order of the list.
   struct Bundle {
     Archetype* archetype = nullptr;
-    std::vector<std::byte*> columns;
+    std::vector<ComponentId> ids;
   };
   struct NewRows {
     Entity entity;
@@ -285,11 +286,11 @@ class World {
   }
   template <class T>
   [[nodiscard]] T* cell_at(const Record& record, ComponentId id) const {
-    std::byte* column = record.archetype->data(id);
     if constexpr (std::is_empty_v<T>) {
-      return reinterpret_cast<T*>(column);
+      return reinterpret_cast<T*>(record.archetype->front(id));
     } else {
-      return column == nullptr ? nullptr : reinterpret_cast<T*>(column) + record.row;
+      std::byte* const base = record.archetype->base(id, record.row);
+      return base == nullptr ? nullptr : reinterpret_cast<T*>(base) + record.row;
     }
   }
   /// The id of a component that is about to be read or written.
@@ -322,15 +323,16 @@ class World {
     return add_bundle(key, std::span(ids, sizeof...(Ts)));
   }
   template <class T>
-  static void fill_column(std::byte* column, std::uint32_t first, std::size_t count, const T& value) {
+  static void fill_column(std::byte* base, std::uint32_t first, std::uint32_t end, const T& value) {
     if constexpr (!std::is_empty_v<T>) {
-      std::uninitialized_fill_n(reinterpret_cast<T*>(column) + first, count, value);
+      std::uninitialized_fill(reinterpret_cast<T*>(base) + first, reinterpret_cast<T*>(base) + end, value);
     }
   }
+  /// Rows of one contiguous range.
   template <std::size_t... I, class... Ts>
-  static void fill_columns([[maybe_unused]] const Bundle& bundle, [[maybe_unused]] std::uint32_t first,
-                           [[maybe_unused]] std::size_t count, std::index_sequence<I...>, const Ts&... values) {
-    (fill_column(bundle.columns[I], first, count, values), ...);
+  static void fill_rows([[maybe_unused]] const Bundle& bundle, [[maybe_unused]] std::uint32_t first,
+                        [[maybe_unused]] std::uint32_t end, std::index_sequence<I...>, const Ts&... values) {
+    (fill_column(bundle.archetype->base(bundle.ids[I], first), first, end, values), ...);
   }
 
   template <class R>
@@ -369,6 +371,7 @@ class World {
   TypeTable types_;
   TypeCache fast_ids_;  ///< off while there is a checker
   std::vector<ComponentInfo> infos_;
+  PackedMemory fronts_;
   std::vector<std::unique_ptr<Archetype>> archetypes_;
   std::unordered_map<std::vector<ComponentId>, Archetype*, ComponentsHash> archetype_by_components_;
   TypeTable bundle_table_;

@@ -84,6 +84,27 @@ TEST(ViewParallel, ranges_may_leave_out_the_entities) {
   EXPECT_EQ(rows, (std::vector<std::size_t>{512, 488, 1, 7}));
 }
 
+TEST(ViewParallel, no_range_lies_across_the_joint_of_an_archetype) {
+  TestWorld world;
+  for (int i = 0; i < 1000; ++i) world.create(Health{i});
+  const auto view = world.view<const Health>();
+  for (const auto& executor : executors()) {
+    for (const std::size_t grain : {std::size_t{50}, std::size_t{kFrontRows}, std::size_t{300}, ~std::size_t{0}}) {
+      std::vector<std::vector<int>> seen(view.chunk_count(grain));
+      view.parallel_chunks(*executor, grain, [&](std::size_t ordinal, std::span<const Health> health) {
+        for (const Health& h : health) seen[ordinal].push_back(h.value);
+      });
+      int next = 0;
+      for (const std::vector<int>& range : seen) {
+        EXPECT_FALSE(range.empty());
+        EXPECT_LE(range.size(), grain);
+        for (const int value : range) EXPECT_EQ(value, next++);
+      }
+      EXPECT_EQ(next, 1000);
+    }
+  }
+}
+
 TEST(ViewParallel, many_small_archetypes_are_few_jobs) {
   TestWorld world;
   populate(world);

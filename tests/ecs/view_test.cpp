@@ -98,6 +98,53 @@ TEST(View, each_chunk_gives_one_contiguous_range_an_archetype) {
   EXPECT_EQ(rows, 5000u);
 }
 
+TEST(View, each_chunk_gives_the_front_of_an_archetype_and_its_rest) {
+  TestWorld world;
+  const auto view = world.view<Health, Maybe<const Position>>();
+  std::vector<Entity> made;
+  std::vector<const Health*> places;
+  for (int i = 0; i < 1000; ++i) {
+    made.push_back(world.create(Health{i}, Serial{}));
+    places.push_back(&world.get<Health>(made.back()));
+  }
+  for (std::size_t i = 0; i < made.size(); ++i) ASSERT_EQ(&world.get<Health>(made[i]), places[i]) << "rows stay";
+  std::vector<std::size_t> sizes;
+  int next = 0;
+  view.each_chunk([&](std::span<const Entity> entities, std::span<Health> health, std::span<const Position> none) {
+    sizes.push_back(health.size());
+    EXPECT_TRUE(none.empty());
+    for (std::size_t i = 0; i < entities.size(); ++i, ++next) {
+      ASSERT_EQ(entities[i], made[static_cast<std::size_t>(next)]);
+      ASSERT_EQ(health[i].value, next);
+    }
+  });
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{kFrontRows, 1000 - kFrontRows}));
+  next = 0;
+  view.each([&](Entity e, Health& health, const Position* none) {
+    ASSERT_EQ(e, made[static_cast<std::size_t>(next)]);
+    ASSERT_EQ(health.value, next++);
+    ASSERT_EQ(none, nullptr);
+  });
+  EXPECT_EQ(next, 1000);
+}
+
+TEST(View, many_that_come_at_once_pass_the_joint_in_order) {
+  TestWorld world;
+  world.create(Health{7}, Serial{});
+  std::vector<Entity> made(500);
+  world.create_bulk(made, Health{8}, Serial{3});
+  std::size_t rows = 0;
+  world.view<const Health, const Serial>().each([&](Entity e, const Health& health, const Serial& serial) {
+    if (rows > 0) {
+      ASSERT_EQ(e, made[rows - 1]);
+      ASSERT_EQ(health.value, 8);
+      ASSERT_EQ(serial.value, 3u);
+    }
+    ++rows;
+  });
+  EXPECT_EQ(rows, 501u);
+}
+
 TEST(View, sees_archetypes_that_come_later) {
   TestWorld world;
   const auto view = world.view<const Health>();

@@ -79,6 +79,24 @@ TEST(ReservedMemory, extends_a_stretch_by_pages_and_a_long_one_by_large_pages) {
   EXPECT_EQ(bytes[large - 1], std::byte{3});
 }
 
+TEST(PackedMemory, gives_pieces_side_by_side_that_stay) {
+  PackedMemory memory;
+  std::byte* const first = memory.take(100);
+  first[99] = std::byte{1};
+  EXPECT_EQ(memory.take(1), first + 128);
+  std::byte* const large = memory.take(std::size_t{100} << 20);
+  large[(std::size_t{100} << 20) - 1] = std::byte{2};
+  for (int i = 0; i < 3000; ++i) {
+    std::byte* const piece = memory.take(30'000);
+    ASSERT_EQ(reinterpret_cast<std::uintptr_t>(piece) % 64, 0u);
+    ASSERT_EQ(piece[0], std::byte{0});
+    ASSERT_EQ(piece[29'999], std::byte{0});
+    piece[29'999] = std::byte{3};
+  }
+  EXPECT_EQ(first[99], std::byte{1});
+  EXPECT_EQ(large[(std::size_t{100} << 20) - 1], std::byte{2});
+}
+
 TEST(VirtualArray, grows_without_moving) {
   VirtualArray<int> array(1'000'000);
   array.push_back(0);
