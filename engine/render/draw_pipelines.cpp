@@ -7,13 +7,18 @@
 
 namespace gloam {
 
-Result<gpu::PipelineHandle> surface_pipeline(Pipelines& pipelines, const SurfacePass& pass, SurfaceVariant variant) {
-  static constexpr const char* kCullNames[] = {"/two-sided", "/front-culled", "/back-culled"};
-  std::string name = pass.name + "/" + std::to_string(variant.features) + kCullNames[static_cast<std::size_t>(variant.cull)];
-  if (const gpu::PipelineHandle found = pipelines.find(name)) return found;
+namespace {
 
+std::string name_of(const SurfacePass& pass, SurfaceVariant variant) {
+  static constexpr const char* kCullNames[] = {"/two-sided", "/front-culled", "/back-culled"};
+  return pass.name + "/" + std::to_string(variant.features) + kCullNames[static_cast<std::size_t>(variant.cull)];
+}
+
+}  // namespace
+
+gpu::GraphicsPipelineDesc surface_pipeline_desc(const SurfacePass& pass, SurfaceVariant variant) {
   gpu::GraphicsPipelineDesc desc;
-  desc.name = std::move(name);
+  desc.name = name_of(pass, variant);
   desc.module = pass.module;
   desc.vertex = shaders::render::surface_vert;
   desc.fragment = pass.fragment;
@@ -29,7 +34,12 @@ Result<gpu::PipelineHandle> surface_pipeline(Pipelines& pipelines, const Surface
   desc.blend = pass.blend;
   desc.depth_compare = gpu::CompareOp::greater_equal;
   desc.depth_write = pass.depth_write;
-  return pipelines.get(desc);
+  return desc;
+}
+
+Result<gpu::PipelineHandle> surface_pipeline(Pipelines& pipelines, const SurfacePass& pass, SurfaceVariant variant) {
+  if (const gpu::PipelineHandle found = pipelines.find(name_of(pass, variant))) return found;
+  return pipelines.get(surface_pipeline_desc(pass, variant));
 }
 
 }  // namespace gloam

@@ -27,6 +27,7 @@ struct SurfaceVariant {
   auto operator<=>(const SurfaceVariant&) const = default;
 };
 
+[[nodiscard]] gpu::GraphicsPipelineDesc surface_pipeline_desc(const SurfacePass& pass, SurfaceVariant variant);
 [[nodiscard]] Result<gpu::PipelineHandle> surface_pipeline(Pipelines& pipelines, const SurfacePass& pass, SurfaceVariant variant);
 
 }  // namespace gloam

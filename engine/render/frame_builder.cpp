@@ -23,6 +23,16 @@ Status FrameBuilder::prepare_surfaces(std::span<const Draw> draws, const Surface
   return {};
 }
 
+bool FrameBuilder::request_surfaces(std::span<const Draw> draws, const SurfacePass& pass) {
+  PipelineList list;
+  const SurfaceVariant* last = nullptr;
+  for (const Draw& draw : draws) {
+    if (last == nullptr || *last != draw.variant) list.push_back(surface_pipeline_desc(pass, draw.variant));
+    last = &draw.variant;
+  }
+  return services_.pipelines.request(list, services_.log);
+}
+
 Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
                                    std::span<const gpu::Binding> bindings) {
   gpu::CommandList& commands = context.commands();

@@ -82,6 +82,8 @@ class FrameBuilder {
                                      std::span<const gpu::Binding> bindings);
   /// Pipelines of a list, made before recording so that errors surface in declaration.
   [[nodiscard]] Status prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
+  /// Whether the pipelines of a list are there; those that are not are made in the background. For passes that another can stand in for.
+  [[nodiscard]] bool request_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
   /// Declares that a pass draws meshes: reads deformed vertices.
   void read_vertices(PassBuilder& pass);
 

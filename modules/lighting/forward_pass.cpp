@@ -25,10 +25,10 @@ const SurfacePass& forward_surface_pass(bool tiled) {
 }
 
 std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context,
-                                      const ShadingInputs& inputs, gpu::SamplerHandle sampler) {
+                                      const ShadingInputs& inputs, bool tiled, gpu::SamplerHandle sampler) {
   std::vector<gpu::Binding> bindings = {frame.view_binding(), {1, inputs.lights}, {2, inputs.environment}};
   const LightsOutputs& lights = inputs.outputs;
-  if (lights.has_lists()) {
+  if (tiled) {
     bindings.push_back({3, lights.grid});
     bindings.push_back({4, gpu::Binding::Sampled{{.image = context.image(lights.texels)}, sampler}});
     bindings.push_back({5, lights.z_bins});
@@ -43,7 +43,10 @@ Status add_forward_pass(FrameBuilder& frame) {
   if (frame.draws().blended.empty()) return {};
   auto inputs = shading_inputs(frame);
   if (!inputs.ok()) return inputs.error();
-  const bool tiled = inputs->outputs.has_lists();
+  bool tiled = inputs->outputs.has_lists();
+  // All lights give the same picture while the tiled pipelines are made.
+  if (tiled && !frame.services().wait_for_pipelines)
+    tiled = frame.request_surfaces(frame.draws().blended, forward_surface_pass(true));
   GLOAM_TRY(frame.prepare_surfaces(frame.draws().blended, forward_surface_pass(tiled)));
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
@@ -67,7 +70,7 @@ Status add_forward_pass(FrameBuilder& frame) {
     commands.set_scissor(0, 0, rendering.width, rendering.height);
     // Pipelines were made in declaration: nothing is left to fail.
     static_cast<void>(frame.draw_surfaces(context, frame.draws().blended, forward_surface_pass(tiled),
-                                          bindings_of(frame, context, inputs, sampler)));
+                                          bindings_of(frame, context, inputs, tiled, sampler)));
     commands.end_rendering();
   });
   return {};

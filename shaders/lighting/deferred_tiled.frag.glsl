@@ -12,16 +12,28 @@ layout(set = 0, binding = 9, scalar) uniform Grid { LightGrid grid; };
 layout(set = 0, binding = 10) uniform usampler2D tile_lists;
 layout(set = 0, binding = 12, scalar) readonly buffer GroupMasks { uint group_masks[]; };
 
-vec3 local_lights(ShadingPoint p, uvec2 pixel) {
+vec3 group_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);
-  uvec2 tile_list = texelFetch(tile_lists, ivec2(pixel / uint(GLOAM_SHADOW_TILE)), 0).xy;
-  uint count = has_list(tile_list) ? list_count(tile_list) : 0u;
-  for (uint i = 0u; i < count; ++i) sum += add_local(p, list_light(tile_list.x, i));
   uint mask = group_mask_of(grid, pixel);
-  for (uint groups = has_list(tile_list) ? 0u : group_masks[mask]; groups != 0u; groups &= groups - 1u) {
+  for (uint groups = group_masks[mask]; groups != 0u; groups &= groups - 1u) {
     uint word = uint(findLSB(groups));
     for (uint bits = group_masks[mask + 1u + word]; bits != 0u; bits &= bits - 1u)
       sum += add_local(p, word * 32u + uint(findLSB(bits)));
   }
+  return sum;
+}
+
+vec3 local_lights(ShadingPoint p, uvec2 pixel) {
+  vec3 sum = vec3(0.0);
+  uvec2 tile_list = texelFetch(tile_lists, ivec2(pixel / uint(GLOAM_SHADOW_TILE)), 0).xy;
+  uint left = has_list(tile_list) ? list_count(tile_list) : 0u;
+  // A word at a time: on software devices a load from a buffer costs as much as half a light.
+  for (uint at = tile_list.x / 3u; left != 0u; ++at) {
+    uint word = early_lists[at];
+    uint ends = left - min(left, 3u);
+    for (; left != ends; --left, word >>= 10) sum += add_local(p, word & 1023u);
+  }
+  // A loop instead of a condition: it is passed over where no pixel needs it, a condition is not on software devices.
+  for (bool full = !has_list(tile_list); full; full = false) sum += group_lights(p, pixel);
   return sum;
 }

@@ -141,16 +141,16 @@ TEST_F(ReadinessFrames, shading_is_brute_force_until_the_tiled_pipeline_is_made)
   frames();
   const std::uint32_t asked_before = gate_->asked_here("lighting");
   ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
-  gate_->let(2);  // those of lights: shading does not read the masks yet
+  gate_->let(3);  // those of lights: shading does not read the lists yet
   for (int i = 0; i < 20000 && gate_->asked_elsewhere("lighting") == 0; ++i) {
     frames();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   ASSERT_EQ(gate_->asked_elsewhere("lighting"), 1u);
   frames(3);
-  EXPECT_EQ(seen("lights").passes, 1u);  // its texels
+  EXPECT_EQ(seen("lights").passes, 3u);  // texels and both searches
   gate_->open();
-  while (seen("lights").passes < 2) frames();
+  frames_until_nothing_is_pending();
   EXPECT_EQ(gate_->asked_here("lighting"), asked_before);
 }
 

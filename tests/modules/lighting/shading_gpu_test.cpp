@@ -247,7 +247,7 @@ void crowd(test::SceneMaker& scene, const std::function<void(const Light&, const
   }
 }
 
-TEST_F(Shading, with_tile_masks_is_bit_for_bit_that_of_all_lights) {
+TEST_F(Shading, with_light_lists_is_bit_for_bit_that_of_all_lights) {
   crowd(scene, [&](const Light& l, const dvec3& position, const dvec3& direction) { light(l, position, direction); });
   environment().has_exposure = true;
   for (const bool orthographic : {false, true}) {
