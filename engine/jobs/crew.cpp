@@ -87,10 +87,12 @@ void CrewState::announce() {
 }
 
 bool CrewState::help_deeper_than(std::uint32_t depth, bool was_idle) {
+  // Whoever has seen the epoch of an offer sees its region here.
+  if (first.load(std::memory_order_acquire) == nullptr) return false;
   Region* region = nullptr;
   {
     const std::lock_guard lock(mutex);
-    region = first;
+    region = first.load(std::memory_order_relaxed);
     while (region != nullptr && (region->depth_ <= depth || !region->has_work())) region = region->next_;
     if (region == nullptr) return false;
     region->helpers_.fetch_add(1, std::memory_order_relaxed);
@@ -107,12 +109,12 @@ bool CrewState::help_deeper_than(std::uint32_t depth, bool was_idle) {
 }
 
 bool CrewState::spin(std::uint32_t seen) const {
+  for (int i = 0; i < kPausesBeforeYield && !crowded; ++i) {
+    if (epoch.load(std::memory_order_acquire) != seen) return true;
+    pause_core();
+  }
   const auto deadline = Clock::now() + kSpinTime;
-  for (int i = 0; epoch.load(std::memory_order_acquire) == seen; ++i) {
-    if (i < kPausesBeforeYield && !crowded) {
-      pause_core();
-      continue;
-    }
+  while (epoch.load(std::memory_order_acquire) == seen) {
     std::this_thread::yield();
     if (Clock::now() >= deadline) return false;
   }
@@ -189,8 +191,8 @@ void Crew::offer(Region& region, std::uint32_t wanted) {
   if (!region.open_) {
     region.open_ = true;
     const std::lock_guard lock(state_->mutex);
-    region.next_ = state_->first;
-    state_->first = &region;
+    region.next_ = state_->first.load(std::memory_order_relaxed);
+    state_->first.store(&region, std::memory_order_release);
   }
   state_->announce();
   call_helpers(wanted);
@@ -211,9 +213,13 @@ void Crew::close(Region& region) {
   if (!region.open_) return;
   {
     const std::lock_guard lock(state_->mutex);
-    Region** link = &state_->first;
-    while (*link != &region) link = &(*link)->next_;
-    *link = region.next_;
+    Region* before = state_->first.load(std::memory_order_relaxed);
+    if (before == &region) {
+      state_->first.store(region.next_, std::memory_order_release);
+    } else {
+      while (before->next_ != &region) before = before->next_;
+      before->next_ = region.next_;
+    }
   }
   region.open_ = false;
   wait(region, [&] { return region.helpers_.load(std::memory_order_acquire) == 0; });

@@ -70,7 +70,7 @@ struct CrewState {
 
   const bool crowded;  ///< more threads than cores: spinning would take the core from whoever has the work
   std::mutex mutex;
-  Region* first = nullptr;               ///< open regions, latest first; guarded by mutex
+  std::atomic<Region*> first = nullptr;  ///< open regions, latest first; written under the mutex, looked at without
   std::atomic<std::uint32_t> epoch = 0;  ///< counts announcements
   std::atomic<std::uint32_t> sleepers = 0;
   std::atomic<std::uint32_t> idle = 0;     ///< helpers that spin, or have been called and will look for work
