@@ -28,17 +28,15 @@ float effective_range(const Light& light) {
   return std::min(std::max(kLeastRange, range), kMostRange);  // in this order NaN gives the least
 }
 
-vec3 light_direction(const dvec3& node_z) {
-  const double squared = glm::dot(node_z, node_z);
-  // Squares that are neither lost nor too large, as good as always.
-  if (squared > 1e-200 && squared < 1e200) return vec3(node_z * (-1.0 / std::sqrt(squared)));
+vec3 unusual_light_direction(const dvec3& node_z) {
   const double greatest = std::max({std::abs(node_z.x), std::abs(node_z.y), std::abs(node_z.z)});
   const bool finite = std::isfinite(node_z.x) && std::isfinite(node_z.y) && std::isfinite(node_z.z);
   return finite && greatest > 0.0 ? vec3(glm::normalize(-node_z / greatest)) : vec3(0.0f, 0.0f, -1.0f);
 }
 
 PlacedLight place_light(Entity entity, const Light& light, const dmat4& world_from_node) {
-  return {entity, light, dvec3(world_from_node[3]), light_direction(dvec3(world_from_node[2]))};
+  const dvec3 node_z(world_from_node[2]);
+  return {entity, light, dvec3(world_from_node[3]), light_direction(node_z), node_z};
 }
 
 Sphere light_bounds(const PlacedLight& light, const dvec3& origin) {

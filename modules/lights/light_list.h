@@ -12,19 +12,12 @@
 #include "engine/scene/components.h"
 #include "modules/lights/components.h"
 #include "modules/lights/light_table.h"
+#include "modules/lights/placed_light.h"
 #include "modules/lights/tile_light_masks.h"
 #include "modules/lights/z_bins.h"
 #include "shaders/lights/lights_shared.h"
 
 namespace gloam {
-
-/// A light at its place in the world.
-struct PlacedLight {
-  Entity entity;
-  Light light;
-  dvec3 position = dvec3(0.0);
-  vec3 direction = vec3(0.0f, 0.0f, -1.0f);  ///< where it shines, unit
-};
 
 /// A stretch of lights of one archetype.
 struct LightRows {
@@ -46,15 +39,16 @@ struct LightSet {
   std::vector<LightRows> chunks;
   std::vector<Entity> rows;
   std::vector<std::uint32_t> slot_of_row;  ///< index into `lights`
-  std::vector<dvec3> axes;                 ///< of `lights`: the nodes' third columns, to see whether one has turned
 };
 
 /// Memory that choosing lights keeps from one frame to the next.
 struct LightSelection {
+  std::vector<float> x, y, z;            ///< camera-relative centre of each light of the world
   std::vector<float> nearest, farthest;  ///< view depths of each light of the world
   std::vector<std::uint32_t> kind;       ///< of each light of the world: 1 a visible local one, 2 a directional one
   std::vector<std::uint32_t> local, directional;  ///< indices of those that are visible
   std::vector<std::uint64_t> keys, sorted;
+  std::vector<std::uint32_t> buckets;
 };
 
 /// The lights of one view, packed for the GPU; a view resource.
@@ -72,9 +66,6 @@ struct VisibleLights {
   RenderView view;                ///< that they were made for
   LightSelection selection;
 };
-
-/// Where a node's light shines, given the node's third column; −Z for a node without size.
-[[nodiscard]] vec3 light_direction(const dvec3& node_z);
 
 /// Places one light. The matrix's scale does not change the light.
 [[nodiscard]] PlacedLight place_light(Entity entity, const Light& light, const dmat4& world_from_node);

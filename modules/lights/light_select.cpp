@@ -49,17 +49,24 @@ CullView cull_view(const RenderView& view) {
   return cull;
 }
 
+/// Columns that the culling loop reads and writes.
+struct CullColumns {
+  const double *x, *y, *z;
+  const float* radius;
+  float *center_x, *center_y, *center_z, *nearest, *farthest;
+  std::uint32_t* kind;
+};
+
 /// A plain loop over columns: the compiler turns it into vector code.
-GLOAM_CPU_CLONES void cull_lights(const double* x, const double* y, const double* z, const float* radius,
-                                  std::size_t begin, std::size_t end, const CullView& view, float* nearest,
-                                  float* farthest, std::uint32_t* kind) {
-  const CullView v = view;
+GLOAM_CPU_CLONES void cull_lights(CullColumns o, CullView v, std::size_t begin, std::size_t end) {
+#pragma GCC ivdep
   for (std::size_t i = begin; i < end; ++i) {
-    const auto cx = static_cast<float>(x[i] - v.eye[0]);
-    const auto cy = static_cast<float>(y[i] - v.eye[1]);
-    const auto cz = static_cast<float>(z[i] - v.eye[2]);
+    const auto cx = static_cast<float>(o.x[i] - v.eye[0]);
+    const auto cy = static_cast<float>(o.y[i] - v.eye[1]);
+    const auto cz = static_cast<float>(o.z[i] - v.eye[2]);
+    const float radius = o.radius[i];
     const float spread = std::abs(cx) + std::abs(cy) + std::abs(cz);
-    const float reach = radius[i] + kRounding * (spread + radius[i]);
+    const float reach = radius + kRounding * (spread + radius);
     float inside = v.planes[0][0] * cx + v.planes[0][1] * cy + v.planes[0][2] * cz + v.planes[0][3];
     for (int p = 1; p < 6; ++p) {
       const float distance = v.planes[p][0] * cx + v.planes[p][1] * cy + v.planes[p][2] * cz + v.planes[p][3];
@@ -67,32 +74,33 @@ GLOAM_CPU_CLONES void cull_lights(const double* x, const double* y, const double
     }
     const float depth = v.forward[0] * cx + v.forward[1] * cy + v.forward[2] * cz;
     const float low = depth - reach > v.near_m ? depth - reach : v.near_m;
-    nearest[i] = low;
-    farthest[i] = depth + reach > low ? depth + reach : low;
     const std::uint32_t seen = inside >= -reach - v.plane_rounding ? kLocal : 0u;
     const std::uint32_t sound = spread < kFarthestPosition ? seen : 0u;  // NaN and infinity are not
-    const std::uint32_t local = radius[i] >= 0.0f ? sound : 0u;
-    kind[i] = radius[i] == kDirectionalLight ? kDirectional : local;
+    const std::uint32_t local = radius >= 0.0f ? sound : 0u;
+    o.center_x[i] = cx;
+    o.center_y[i] = cy;
+    o.center_z[i] = cz;
+    o.nearest[i] = low;
+    o.farthest[i] = depth + reach > low ? depth + reach : low;
+    o.kind[i] = radius == kDirectionalLight ? kDirectional : local;
   }
 }
 
 struct CullJob {
-  const LightTable& table;
-  LightSelection& selection;
+  CullColumns columns;
   CullView view;
-
-  void run(JobRange range) const {
-    cull_lights(table.x.data(), table.y.data(), table.z.data(), table.radius.data(), range.begin, range.end, view,
-                selection.nearest.data(), selection.farthest.data(), selection.kind.data());
-  }
+  void run(JobRange range) const { cull_lights(columns, view, range.begin, range.end); }
 };
 
 void find_visible(const LightTable& table, const RenderView& view, JobExecutor& executor, LightSelection& selection) {
   const std::size_t count = table.size();
-  selection.nearest.resize(count);
-  selection.farthest.resize(count);
+  for (auto* column : {&selection.x, &selection.y, &selection.z, &selection.nearest, &selection.farthest})
+    column->resize(count);
   selection.kind.resize(count);
-  const CullJob job{table, selection, cull_view(view)};
+  const CullJob job{
+      {table.x.data(), table.y.data(), table.z.data(), table.radius.data(), selection.x.data(), selection.y.data(),
+       selection.z.data(), selection.nearest.data(), selection.farthest.data(), selection.kind.data()},
+      cull_view(view)};
   executor.parallel_for(count, kCullGrain, [&job](JobRange range) { job.run(range); });
   selection.local.resize(count);
   selection.directional.clear();
@@ -169,18 +177,32 @@ struct PackJob {
   const RenderView& view;
   VisibleLights& visible;
 
+  /// Lights come in the order of depths, which no cache foresees.
+  void prefetch(std::size_t i) const {
+    if (i >= visible.selection.keys.size()) return;
+    const auto light = static_cast<std::uint32_t>(visible.selection.keys[i]);
+    __builtin_prefetch(&table.records[light]);
+    __builtin_prefetch(&lights[light].position);
+  }
+
   void run(JobRange range) const {
-    const LightSelection& selection = visible.selection;
+    constexpr std::size_t kAhead = 12;
+    const LightSelection& from = visible.selection;
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const auto light = static_cast<std::uint32_t>(selection.keys[i]);
+      const auto light = static_cast<std::uint32_t>(from.keys[i]);
+      prefetch(i + kAhead);
       const LightRecord& record = table.records[light];
-      shaders::LocalLight packed = record.packed;
-      packed.position = view.relative(lights[light].position);
-      visible.block.local[i] = packed;
-      const Sphere bounds{view.relative(dvec3(table.x[light], table.y[light], table.z[light])), table.radius[light]};
-      visible.mask_lights[i] = {bounds, packed.position, packed.direction, record.shape.cos_outer, record.range_m};
-      visible.depths[i] = {selection.nearest[light], selection.farthest[light]};
-      visible.local_entities[i] = lights[light].entity;
+      const vec3 position = view.relative(lights[light].position);
+      const vec3 direction = lights[light].direction;
+      visible.block.local[i] = {position,     record.inverse_range_squared, record.color, record.ramp.x, direction,
+                                record.ramp.y};
+      visible.mask_lights[i] = {{vec3(from.x[light], from.y[light], from.z[light]), table.radius[light]},
+                                position,
+                                direction,
+                                record.cos_outer,
+                                record.range_m};
+      visible.depths[i] = {from.nearest[light], from.farthest[light]};
+      visible.local_entities[i] = record.entity;
     }
   }
 };
@@ -191,8 +213,8 @@ void pack_directional(std::span<const PlacedLight> lights, const LightTable& tab
   visible.directional_entities.clear();
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const PlacedLight& placed = lights[chosen[i]];
-    visible.block.directional[i] = {table.records[chosen[i]].packed.color, placed.light.apparent_angle,
-                                    placed.direction, 0.0f};
+    visible.block.directional[i] = {table.records[chosen[i]].color, placed.light.apparent_angle, placed.direction,
+                                    0.0f};
     visible.directional_entities.push_back(placed.entity);
   }
 }
@@ -229,7 +251,7 @@ void select_lights(std::span<const PlacedLight> lights, const RenderView& view, 
   LightTable table;
   table.resize(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    table.set_light(i, lights[i].light);
+    table.set_light(i, lights[i]);
     table.set_place(i, lights[i]);
   }
   select_lights(lights, table, view, *make_serial_executor(), visible);

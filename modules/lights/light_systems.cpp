@@ -3,10 +3,11 @@
 #include "modules/lights/light_systems.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstring>
-#include <limits>
 #include <numeric>
 
 namespace gloam {
@@ -14,14 +15,27 @@ namespace {
 
 constexpr std::size_t kBoundsGrain = 128;  // lights a job
 
-/// Bit by bit, so that NaN is what it was.
-bool same_light(const Light& a, const Light& b) {
-  constexpr std::size_t kFirst = offsetof(Light, color);
-  const auto bytes = [](const Light& light) { return reinterpret_cast<const std::byte*>(&light) + kFirst; };
-  return a.kind == b.kind && std::memcmp(bytes(a), bytes(b), sizeof(Light) - kFirst) == 0;
+std::uint64_t different_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
 }
 
-bool same_bits(const dvec3& a, const dvec3& b) { return std::memcmp(&a, &b, sizeof(dvec3)) == 0; }
+/// Bit by bit, so that NaN is what it was; padding behind `kind` does not count.
+bool same_light(const Light& a, const Light& b) {
+  constexpr std::size_t kFirst = offsetof(Light, color);
+  using Words = std::array<std::uint64_t, (sizeof(Light) - kFirst) / sizeof(std::uint64_t)>;
+  static_assert(sizeof(Words) + kFirst == sizeof(Light));
+  Words x;
+  Words y;
+  std::memcpy(x.data(), reinterpret_cast<const std::byte*>(&a) + kFirst, sizeof(Words));
+  std::memcpy(y.data(), reinterpret_cast<const std::byte*>(&b) + kFirst, sizeof(Words));
+  std::uint64_t different = static_cast<std::uint64_t>(a.kind) ^ static_cast<std::uint64_t>(b.kind);
+  for (std::size_t i = 0; i < x.size(); ++i) different |= x[i] ^ y[i];
+  return different == 0;
+}
+
+bool same_bits(const dvec3& a, const dvec3& b) {
+  return (different_bits(a.x, b.x) | different_bits(a.y, b.y) | different_bits(a.z, b.z)) == 0;
+}
 
 LightBounds bounds_of(const LightTable& table, std::size_t slot) {
   return {dvec3(table.x[slot], table.y[slot], table.z[slot]), std::max(table.radius[slot], 0.0f)};
@@ -37,10 +51,8 @@ void place_rows(std::span<const LightRows> chunks, std::size_t count, LightSet& 
             [&](std::uint32_t a, std::uint32_t b) { return set.rows[a].index < set.rows[b].index; });
 
   const std::vector<PlacedLight> old_lights = std::move(set.lights);
-  const std::vector<dvec3> old_axes = std::move(set.axes);
   const LightTable old_table = std::move(set.table);
   set.lights = std::vector<PlacedLight>(count);
-  set.axes.assign(count, dvec3(std::numeric_limits<double>::quiet_NaN()));
   set.table = LightTable{};
   set.table.resize(count);
   set.slot_of_row.resize(count);
@@ -51,7 +63,6 @@ void place_rows(std::span<const LightRows> chunks, std::size_t count, LightSet& 
     while (old < old_lights.size() && old_lights[old].entity.index < entity.index) ++old;
     if (old < old_lights.size() && old_lights[old].entity == entity) {
       set.lights[slot] = old_lights[old];
-      set.axes[slot] = old_axes[old];
       set.table.copy(slot, old_table, old);
     } else {
       set.lights[slot].entity = kNoEntity;  // not known yet
@@ -70,21 +81,21 @@ bool same_rows(std::span<const LightRows> chunks, std::size_t count, const Light
 /// Brings one light up to date; whether there was anything to do.
 bool update_light(Entity entity, const Light& light, const dmat4& world_from_node, std::size_t slot, LightSet& set) {
   PlacedLight& placed = set.lights[slot];
-  const dvec3 axis(world_from_node[2]);
+  const dvec3 node_z(world_from_node[2]);
   const dvec3 position(world_from_node[3]);
   const bool known = placed.entity == entity;
-  const bool turned = !known || !same_bits(axis, set.axes[slot]);
+  const bool turned = !known || !same_bits(node_z, placed.node_z);
   const bool moved = turned || !same_bits(position, placed.position);
   const bool changed = !known || !same_light(light, placed.light);
   if (!moved && !changed) return false;
   placed.entity = entity;
   if (changed) {
     placed.light = light;
-    set.table.set_light(slot, light);
+    set.table.set_light(slot, placed);
   }
   if (turned) {
-    set.axes[slot] = axis;
-    placed.direction = light_direction(axis);
+    placed.node_z = node_z;
+    placed.direction = light_direction(node_z);
   }
   placed.position = position;
   set.table.set_place(slot, placed);
@@ -115,9 +126,18 @@ struct BoundsJob {
       const std::size_t slot = set.slot_of_row[chunk.first + i];
       if (update_light(chunk.entities[i], chunk.lights[i], chunk.transforms[i].matrix, slot, set)) ++count;
       if (chunk.bounds.empty()) continue;
-      const LightBounds bounds = bounds_of(set.table, slot);
-      if (same_bits(bounds.center, chunk.bounds[i].center) && bounds.radius_m == chunk.bounds[i].radius_m) continue;
-      chunk.bounds[i] = bounds;
+      LightBounds& bounds = chunk.bounds[i];
+      const double x = set.table.x[slot];
+      const double y = set.table.y[slot];
+      const double z = set.table.z[slot];
+      const float radius = std::max(set.table.radius[slot], 0.0f);
+      const bool same = (different_bits(x, bounds.center.x) | different_bits(y, bounds.center.y) |
+                         different_bits(z, bounds.center.z)) == 0;
+      if (same && radius == bounds.radius_m) continue;
+      bounds.center.x = x;
+      bounds.center.y = y;
+      bounds.center.z = z;
+      bounds.radius_m = radius;
       changed = true;
     }
     if (changed) kept.mark_changed<LightBounds>(chunk.entities.subspan(begin, end - begin));

@@ -29,15 +29,20 @@ bool shines(const Light& light) {
 }
 
 /// Smallest sphere around a sector of range 1: narrow ones touch apex and rim, the rim of wide ones is a great circle.
-SpotShape spot_shape(const Light& light) {
+void set_spot(const Light& light, LightRecord& record) {
   const double angle = std::clamp<double>(light.outer_angle, 0.0, kHalfPi);
   const double cosine = std::cos(angle);
   const bool wide = angle > kHalfPi / 2;
-  SpotShape shape{light.inner_angle, light.outer_angle, spot_ramp(light)};
-  shape.cos_outer = static_cast<float>(cosine);
-  shape.center_per_range = static_cast<float>(wide ? cosine : 0.5 / cosine);
-  shape.radius_per_range = static_cast<float>((wide ? std::sin(angle) : 0.5 / cosine) * (1.0 + kSpotRounding));
-  return shape;
+  record.inner_angle = light.inner_angle;
+  record.outer_angle = light.outer_angle;
+  record.ramp = spot_ramp(light);
+  record.cos_outer = static_cast<float>(cosine);
+  record.center_per_range = static_cast<float>(wide ? cosine : 0.5 / cosine);
+  record.radius_per_range = static_cast<float>((wide ? std::sin(angle) : 0.5 / cosine) * (1.0 + kSpotRounding));
+}
+
+bool is_spot_of(const LightRecord& record, const Light& light) {
+  return record.cos_outer >= 0.0f && record.inner_angle == light.inner_angle && record.outer_angle == light.outer_angle;
 }
 
 }  // namespace
@@ -47,6 +52,7 @@ void LightTable::resize(std::size_t count) {
   y.resize(count);
   z.resize(count);
   radius.resize(count, kGivesNothing);
+  along.resize(count);
   records.resize(count);
 }
 
@@ -55,42 +61,36 @@ void LightTable::copy(std::size_t i, const LightTable& from, std::size_t j) {
   y[i] = from.y[j];
   z[i] = from.z[j];
   radius[i] = from.radius[j];
+  along[i] = from.along[j];
   records[i] = from.records[j];
 }
 
-void LightTable::set_light(std::size_t i, const Light& light) {
+void LightTable::set_light(std::size_t i, const PlacedLight& placed) {
+  const Light& light = placed.light;
   LightRecord& record = records[i];
-  record.radius_m = kGivesNothing;
+  record.entity = placed.entity;
+  along[i] = 0.0f;
+  radius[i] = kGivesNothing;
   if (!shines(light)) return;
   record.brightness = std::min(brightest_channel(light), kMostColor);
   // Free of negative channels and of values that shading could not multiply.
-  record.packed.color = glm::clamp(light.color * light.intensity, vec3(0.0f), vec3(kMostColor));
+  record.color = glm::clamp(light.color * light.intensity, vec3(0.0f), vec3(kMostColor));
   if (light.kind == LightKind::directional) {
-    record.radius_m = kDirectionalLight;
+    radius[i] = kDirectionalLight;
     return;
   }
-  SpotShape& shape = record.shape;
   if (light.kind != LightKind::spot) {
-    shape = SpotShape{};
-  } else if (shape.cos_outer < 0.0f || shape.inner_angle != light.inner_angle ||
-             shape.outer_angle != light.outer_angle) {
-    shape = spot_shape(light);  // a light that flickers does not pay for sines again
+    record.ramp = vec2(0.0f, 1.0f);
+    record.cos_outer = -1.0f;
+    record.center_per_range = 0.0f;
+    record.radius_per_range = 1.0f;
+  } else if (!is_spot_of(record, light)) {
+    set_spot(light, record);  // a light that flickers does not pay for sines again
   }
   record.range_m = effective_range(light);
-  record.radius_m = record.range_m * shape.radius_per_range;
-  record.packed.inverse_range_squared = 1.0f / (record.range_m * record.range_m);
-  record.packed.spot_scale = shape.ramp.x;
-  record.packed.spot_offset = shape.ramp.y;
-}
-
-void LightTable::set_place(std::size_t i, const PlacedLight& placed) {
-  LightRecord& record = records[i];
-  record.packed.direction = placed.direction;
-  radius[i] = is_finite(placed.direction) ? record.radius_m : kGivesNothing;
-  const double along = static_cast<double>(record.range_m) * static_cast<double>(record.shape.center_per_range);
-  x[i] = placed.position.x + along * static_cast<double>(placed.direction.x);
-  y[i] = placed.position.y + along * static_cast<double>(placed.direction.y);
-  z[i] = placed.position.z + along * static_cast<double>(placed.direction.z);
+  record.inverse_range_squared = 1.0f / (record.range_m * record.range_m);
+  along[i] = record.range_m * record.center_per_range;
+  radius[i] = record.range_m * record.radius_per_range;
 }
 
 }  // namespace gloam

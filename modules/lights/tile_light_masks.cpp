@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "engine/core/assert.h"
+#include "modules/lights/cpu_clones.h"
 #include "modules/lights/tile_mask_rows.h"
 
 namespace gloam {
@@ -41,6 +42,12 @@ struct MaskJob {
   }
 };
 
+GLOAM_CPU_CLONES void sum_lines(std::uint32_t* words, std::size_t tiles) {
+  std::uint32_t sums[kTileMaskWords] = {};
+  for (std::size_t tile = 0; tile < tiles; ++tile, words += kTileMaskWords)
+    for (std::size_t w = 0; w < kTileMaskWords; ++w) words[w] = sums[w] ^= words[w];
+}
+
 /// Masks of `tiles` columns or rows from where lights begin and end.
 void build_line_masks(std::span<const std::int32_t> begins, std::span<const std::int32_t> ends, std::size_t count,
                       std::size_t tiles, std::vector<std::uint32_t>& masks) {
@@ -51,7 +58,7 @@ void build_line_masks(std::span<const std::int32_t> begins, std::span<const std:
     words[static_cast<std::size_t>(begins[i]) * kTileMaskWords + i / 32] ^= bit;
     words[static_cast<std::size_t>(ends[i]) * kTileMaskWords + i / 32] ^= bit;
   }
-  for (std::size_t w = kTileMaskWords; w < tiles * kTileMaskWords; ++w) words[w] ^= words[w - kTileMaskWords];
+  sum_lines(words, tiles);
 }
 
 }  // namespace

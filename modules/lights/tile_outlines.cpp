@@ -35,7 +35,7 @@ GLOAM_CPU_INLINE double smaller(double a, double b) { return a < b ? a : b; }
 GLOAM_CPU_INLINE double greater(double a, double b) { return a > b ? a : b; }
 
 /// Greatest slope of the part with depth ≥ near of a disc; tt = x² + d² − r².
-GLOAM_CPU_INLINE double greatest_slope(double x, double d, double r, double near, double tt) {
+GLOAM_CPU_INLINE double greatest_slope(double x, double d, double r, double near, double over_near, double tt) {
   const double t = std::sqrt(greater(tt, 0.0));
   const double xd = x * d;
   const bool same_sign = xd >= 0.0;
@@ -43,7 +43,7 @@ GLOAM_CPU_INLINE double greatest_slope(double x, double d, double r, double near
   const double under = same_sign ? (d - r) * (d + r) : xd - t * r;
   const double tangent = over / under;
   const double half_chord = ((r - d) + near) * ((r + d) - near);
-  const double crossing = (x + std::sqrt(half_chord < 0.0 ? 0.0 : half_chord)) / near;
+  const double crossing = (x + std::sqrt(half_chord < 0.0 ? 0.0 : half_chord)) * over_near;
   // The tangent touches in front of the camera, behind the near plane: its depth is t / √(1 + slope²).
   const double in_front = x > 0.0 ? d - r : d + r;
   const double beyond = tt - near * near * (1.0 + tangent * tangent);
@@ -57,8 +57,9 @@ struct Slopes {
 };
 
 GLOAM_CPU_INLINE Slopes perspective_slopes(double x, double d, double r, double near) {
+  const double over_near = 1.0 / near;
   const double tt = x * x + d * d - r * r;
-  return {-greatest_slope(-x, d, r, near, tt), greatest_slope(x, d, r, near, tt)};
+  return {-greatest_slope(-x, d, r, near, over_near, tt), greatest_slope(x, d, r, near, over_near, tt)};
 }
 
 GLOAM_CPU_INLINE Slopes parallel_slopes(double x, double d, double r, double near) {
@@ -282,25 +283,56 @@ struct Rotation {
     y = up[0] * a + up[1] * b + up[2] * c;
     depth = front[0] * a + front[1] * b + front[2] * c;
   }
-  [[nodiscard]] double depth(const vec3& v) const {
-    return front[0] * static_cast<double>(v.x) + front[1] * static_cast<double>(v.y) +
-           front[2] * static_cast<double>(v.z);
-  }
   double right[3], up[3], front[3];
 };
 
-void load_bounds(std::span<const MaskLight> lights, const Rotation& rotation, JobRange range, TileOutlines& o) {
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    const Sphere& bounds = lights[i].bounds;
-    rotation.turn(bounds.center, o.x[i], o.y[i], o.depth[i]);
-    const double radius = bounds.radius;
-    const double rounding = kRounding * (std::abs(o.x[i]) + std::abs(o.y[i]) + std::abs(o.depth[i]) + radius);
-    o.radius[i] = radius + rounding;
-    const double farthest = o.depth[i] + o.radius[i];
-    // A spot reaches no farther than its range either; its sphere may, where it shines at the camera from behind.
-    const double reach = rotation.depth(lights[i].apex) + static_cast<double>(lights[i].range_m) + rounding;
-    o.farthest[i] = (lights[i].cos_outer > -1.0f) & (reach < farthest) ? reach : farthest;
+/// Where bounds are turned into view space.
+struct BoundColumns {
+  double *x, *y, *depth, *radius, *farthest;
+};
+
+/// Lights come as structures, columns are wanted: a block at a time is gathered and then turned in vectors.
+GLOAM_CPU_CLONES void turn_bounds(const MaskLight* lights, BoundColumns o, Rotation rotation, std::size_t begin,
+                                  std::size_t end) {
+  constexpr std::size_t kBlock = 64;
+  alignas(64) float from[8][kBlock] = {};
+  for (std::size_t block = begin; block < end; block += kBlock) {
+    const std::size_t count = end - block < kBlock ? end - block : kBlock;
+    for (std::size_t i = 0; i < count; ++i) {
+      const MaskLight& light = lights[block + i];
+      from[0][i] = light.bounds.center.x;
+      from[1][i] = light.bounds.center.y;
+      from[2][i] = light.bounds.center.z;
+      from[3][i] = light.bounds.radius;
+      from[4][i] = light.apex.x;
+      from[5][i] = light.apex.y;
+      from[6][i] = light.apex.z;
+      from[7][i] = light.cos_outer > -1.0f ? light.range_m : 1e30f;
+    }
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < count; ++i) {
+      const double a = from[0][i], b = from[1][i], c = from[2][i], given = from[3][i];
+      const double x = rotation.right[0] * a + rotation.right[1] * b + rotation.right[2] * c;
+      const double y = rotation.up[0] * a + rotation.up[1] * b + rotation.up[2] * c;
+      const double depth = rotation.front[0] * a + rotation.front[1] * b + rotation.front[2] * c;
+      const double rounding = kRounding * (std::abs(x) + std::abs(y) + std::abs(depth) + given);
+      const double farthest = depth + given + rounding;
+      // A spot reaches no farther than its range either; its sphere may, where it shines at the camera from behind.
+      const double apex =
+          rotation.front[0] * from[4][i] + rotation.front[1] * from[5][i] + rotation.front[2] * from[6][i];
+      const double reach = apex + from[7][i] + rounding;
+      o.x[block + i] = x;
+      o.y[block + i] = y;
+      o.depth[block + i] = depth;
+      o.radius[block + i] = given + rounding;
+      o.farthest[block + i] = reach < farthest ? reach : farthest;
+    }
   }
+}
+
+void load_bounds(std::span<const MaskLight> lights, const Rotation& rotation, JobRange range, TileOutlines& o) {
+  turn_bounds(lights.data(), {o.x.data(), o.y.data(), o.depth.data(), o.radius.data(), o.farthest.data()}, rotation,
+              range.begin, range.end);
 }
 
 void load_cones(std::span<const MaskLight> lights, const Rotation& rotation, JobRange range, TileOutlines& o) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/core/assert.h"
 #include "modules/lights/cpu_clones.h"
 #include "modules/lights/tile_light_masks.h"
 #include "modules/lights/tile_mask_rows.h"
@@ -17,8 +18,11 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kLanes = 16;
+constexpr std::size_t kLanes = 8;
 constexpr std::size_t kEdges = kMostBandRows + 2 * kLanes;
+constexpr std::uint32_t kEndShift = 11;
+constexpr std::uint32_t kLightShift = 22;
+constexpr std::uint32_t kColumnMask = (1u << kEndShift) - 1;
 constexpr float kEverywhere = 1e9f;          // columns
 constexpr float kMargin = 1.0f / (32 * 16);  // columns: a sixteenth of a pixel, more than floats lose
 
@@ -89,8 +93,8 @@ struct EdgeColumns {
 };
 
 struct RowColumns {
-  alignas(64) std::int32_t begin[kEdges];
-  alignas(64) std::int32_t end[kEdges];
+  alignas(64) RowInterval intervals[kEdges];
+  alignas(64) std::uint32_t filled[kEdges];  ///< 1, or 0 for an interval without a column
 };
 
 template <bool kCones>
@@ -121,7 +125,7 @@ GLOAM_CPU_INLINE void find_edges(const Outlines& o, std::size_t i, const float* 
 template <bool kCones>
 GLOAM_CPU_INLINE void find_rows(const EdgeColumns& edges, std::int32_t leftmost, std::int32_t rightmost,
                                 std::int32_t column_begin, std::int32_t column_end, float width, std::size_t row_count,
-                                RowColumns& rows) {
+                                std::uint32_t light_bits, RowColumns& rows) {
   const auto first = static_cast<float>(column_begin);
   const auto last = static_cast<float>(column_end - 1);
   for (std::size_t block = 0; block < row_count; block += kLanes) {
@@ -139,22 +143,20 @@ GLOAM_CPU_INLINE void find_rows(const EdgeColumns& edges, std::int32_t leftmost,
       right = left > width ? -1.0f : right;
       const auto begin = static_cast<std::int32_t>(smaller(greater(left, first), last + 1.0f));
       const auto end = static_cast<std::int32_t>(smaller(greater(right, first - 1.0f), last) + 1.0f);
-      rows.begin[r] = begin;
-      rows.end[r] = end > begin ? end : begin;
+      rows.filled[r] = end > begin ? 1u : 0u;
+      rows.intervals[r] = light_bits | static_cast<std::uint32_t>(end > begin ? end : begin) << kEndShift |
+                          static_cast<std::uint32_t>(begin);
     }
   }
 }
 
 /// Appends the light's intervals to the lists of its rows.
-GLOAM_CPU_INLINE void append(const RowColumns& rows, std::size_t light, std::size_t first_row, std::size_t row_count,
-                             std::size_t room, RowInterval* intervals, std::uint32_t* counts) {
-  const auto word = static_cast<std::int32_t>(light / 32);
-  const std::uint32_t bit = 1u << (light % 32);
+GLOAM_CPU_INLINE void append(const RowColumns& rows, std::size_t first_row, std::size_t row_count, std::size_t room,
+                             RowInterval* intervals, std::uint32_t* counts) {
   for (std::size_t r = 0; r < row_count; ++r) {
     std::uint32_t& count = counts[first_row + r];
-    intervals[(first_row + r) * room + count] = {static_cast<std::uint16_t>(rows.begin[r] * 32 + word),
-                                                 static_cast<std::uint16_t>(rows.end[r] * 32 + word), bit};
-    count += rows.begin[r] < rows.end[r] ? 1 : 0;
+    intervals[(first_row + r) * room + count] = rows.intervals[r];
+    count += rows.filled[r];
   }
 }
 
@@ -171,8 +173,8 @@ GLOAM_CPU_INLINE void list_intervals(const Outlines& o, std::size_t light_count,
     const auto first_row = static_cast<std::size_t>(begin - band.first_row);
     find_edges<kCones>(o, i, band.slopes.data() + first_row, band.squared, row_count + 1, edges);
     find_rows<kCones>(edges, o.leftmost_row[i] - begin, o.rightmost_row[i] - begin, o.column_begin[i], o.column_end[i],
-                      band.width, row_count, rows);
-    append(rows, i, first_row, row_count, room, intervals, counts);
+                      band.width, row_count, static_cast<std::uint32_t>(i) << kLightShift, rows);
+    append(rows, first_row, row_count, room, intervals, counts);
   }
 }
 
@@ -192,6 +194,7 @@ void write_row_intervals(const TileOutlines& outlines, std::size_t count, const 
                          JobRange rows, TileBand& band, std::uint32_t* tiles) {
   const std::size_t row_count = rows.end - rows.begin;
   const std::size_t columns = projection.columns;
+  GLOAM_ASSERT(columns <= kColumnMask && count <= (1u << (32 - kLightShift)), "an interval fits 32 bits");
   band.intervals.resize(row_count * (count + 1));  // one more: the last append writes before it knows whether it counts
   band.counts.assign(row_count, 0);
   band.toggles.resize((columns + 1) * kTileMaskWords);
@@ -202,9 +205,12 @@ void write_row_intervals(const TileOutlines& outlines, std::size_t count, const 
   for (std::size_t r = 0; r < row_count; ++r) {
     std::uint32_t* toggles = band.toggles.data();
     const RowInterval* begin = band.intervals.data() + r * (count + 1);
-    for (const RowInterval* interval = begin; interval != begin + band.counts[r]; ++interval) {
-      toggles[interval->begin] ^= interval->bit;
-      toggles[interval->end] ^= interval->bit;
+    for (std::uint32_t n = 0; n < band.counts[r]; ++n) {
+      const RowInterval interval = begin[n];
+      const std::size_t word = interval >> kLightShift >> 5;
+      const std::uint32_t bit = 1u << (interval >> kLightShift & 31u);
+      toggles[(interval & kColumnMask) * kTileMaskWords + word] ^= bit;
+      toggles[(interval >> kEndShift & kColumnMask) * kTileMaskWords + word] ^= bit;
     }
     sum_tile_row(width, toggles, columns, words, tiles + (rows.begin + r) * columns * GLOAM_MASK_WORDS);
   }

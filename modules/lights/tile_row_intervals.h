@@ -13,12 +13,8 @@ namespace gloam {
 
 inline constexpr std::size_t kMostBandRows = 80;  ///< rows of tiles that one job looks at
 
-/// A light's interval in one row of tiles: where its bit changes in 32 words a column, and the bit.
-struct RowInterval {
-  std::uint16_t begin = 0;
-  std::uint16_t end = 0;
-  std::uint32_t bit = 0;
-};
+/// A light's columns in one row of tiles: begin in bits 0…10, end (behind the last) in bits 11…21, the light from bit 22 on.
+using RowInterval = std::uint32_t;
 
 /// What one job finds about its rows, and keeps from one time to the next.
 struct TileBand {

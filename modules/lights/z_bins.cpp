@@ -63,12 +63,16 @@ void fill_begins(std::span<const std::uint16_t> first_bins, const Reach& reach, 
   }
 }
 
-void fill_ends(std::span<const std::uint16_t> first_bins, const Reach& reach, std::span<ZBin> standard) {
-  std::uint32_t started = 0;
+/// Ends: of the lights that have begun by bin k, the last that reaches it. `started`: room for a bin each.
+void fill_ends(std::span<const std::uint16_t> first_bins, const Reach& reach, std::span<std::uint16_t> started,
+               std::span<ZBin> standard) {
+  std::fill(started.begin(), started.end(), std::uint16_t{0});
+  for (std::size_t i = 0; i < first_bins.size(); ++i) started[first_bins[i]] = static_cast<std::uint16_t>(i + 1);
+  std::uint16_t last = 0;
   for (std::uint32_t k = 0; k < standard.size(); ++k) {
-    while (started < first_bins.size() && first_bins[started] <= k) ++started;
-    const bool reaches = reach.last_bin[started] >= k;  // as good as always where lights are dense
-    standard[k].end = static_cast<std::uint16_t>(reaches ? started : last_reaching(reach, started, k));
+    last = std::max(last, started[k]);
+    const bool reaches = reach.last_bin[last] >= k;  // as good as always where lights are dense
+    standard[k].end = static_cast<std::uint16_t>(reaches ? last : last_reaching(reach, last, k));
   }
 }
 
@@ -110,7 +114,8 @@ void build_z_bins(std::span<const LightDepth> lights, const ZBinParams& params, 
   std::fill(standard.begin(), standard.end(), ZBin{});
   const Reach reach{scratch.last_bin, scratch.earlier};
   fill_begins(scratch.first_bin, reach, standard);
-  fill_ends(scratch.first_bin, reach, standard);
+  scratch.started.resize(params.count);
+  fill_ends(scratch.first_bin, reach, scratch.started, standard);
   fill_ranged(standard, ranged);
 }
 

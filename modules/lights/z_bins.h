@@ -40,6 +40,7 @@ struct ZBinScratch {
   std::vector<std::uint16_t> first_bin;
   std::vector<std::uint16_t> last_bin;
   std::vector<std::uint16_t> earlier;
+  std::vector<std::uint16_t> started;
 };
 
 /// Both sets of a view; a view resource.

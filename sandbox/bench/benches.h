@@ -12,6 +12,8 @@ void add_ecs_benches(BenchRegistry& registry);
 void add_frame_benches(BenchRegistry& registry);
 /// What finding the lights of tiles costs and saves: against brute force, against the yardstick, by number of lights.
 void add_light_gpu_benches(BenchRegistry& registry);
+/// The CPU's light systems: bounds, sorting, zBins, tile masks; against a memset of what they write.
+void add_light_cpu_benches(BenchRegistry& registry);
 /// Lights a tile that each phase keeps beyond those that reach a pixel of it.
 void add_light_false_positive_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.

@@ -20,15 +20,17 @@ namespace gloam::bench {
 namespace {
 
 constexpr std::size_t kMoments = 4;
-constexpr double kTurn = 0.01;   // radians a frame
-constexpr double kMove = 0.05;   // metres a frame
+constexpr double kTurn = 0.01;  // radians a frame
+constexpr double kMove = 0.05;  // metres a frame
 constexpr float kFov = 1.0471975512f;
 constexpr ViewId kView{0};
 
 /// Uniform numbers that are the same with every standard library.
 class Draw {
  public:
-  double operator()(double low, double high) { return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0); }
+  double operator()(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
   dvec3 direction() {
     const double z = (*this)(-1.0, 1.0);
     const double turn = (*this)(0.0, 6.283185307179586);

@@ -46,6 +46,7 @@ BenchRegistry make_bench_registry() {
   add_ecs_benches(registry);
   add_job_benches(registry);
   add_frame_benches(registry);
+  add_light_cpu_benches(registry);
   add_light_gpu_benches(registry);
   add_light_false_positive_benches(registry);
   return registry;
