@@ -20,6 +20,9 @@ gpu::ComputePipelineDesc approx_pipeline() {
 gpu::ComputePipelineDesc accurate_pipeline() {
   return {"find_lights_accurate", "lights", shaders::lights::find_lights_accurate_comp, {}};
 }
+gpu::ComputePipelineDesc accurate_tiles_pipeline() {
+  return {"find_lights_accurate_tiles", "lights", shaders::lights::find_lights_accurate_tiles_comp, {}};
+}
 gpu::ComputePipelineDesc check_pipeline() { return {"check_lists", "lights", shaders::lights::check_lists_comp, {}}; }
 
 /// What a search is made of: a pipeline, its bindings when the images and buffers exist, and workgroups.
@@ -69,10 +72,12 @@ uvec2 tiles_of(FrameBuilder& frame, const LightsOutputs& outputs) {
   const gpu::ImageDesc& desc = frame.graph().desc(outputs.tile_lists);
   return {desc.width, desc.height};
 }
+uvec2 groups_of(FrameBuilder& frame, const LightsOutputs& outputs) {
+  return (tiles_of(frame, outputs) + uvec2(GLOAM_TILE_GROUP - 1)) / uvec2(GLOAM_TILE_GROUP);
+}
 
 Status add_approx_pass(FrameBuilder& frame, LightsOutputs& outputs) {
-  const uvec2 groups = (tiles_of(frame, outputs) + uvec2(GLOAM_TILE_GROUP - 1)) / uvec2(GLOAM_TILE_GROUP);
-  auto search = prepare(frame, approx_pipeline(), groups);
+  auto search = prepare(frame, approx_pipeline(), groups_of(frame, outputs));
   if (!search.ok()) return search.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
@@ -100,7 +105,10 @@ Status add_approx_pass(FrameBuilder& frame, LightsOutputs& outputs) {
 }
 
 Status add_accurate_pass(FrameBuilder& frame, LightsOutputs& outputs) {
-  auto search = prepare(frame, accurate_pipeline(), tiles_of(frame, outputs));
+  // A device that is a CPU swaps the state of all threads at every barrier: one thread a tile needs none.
+  const bool one_by_one = frame.services().device.info().type == gpu::DeviceType::cpu;
+  auto search = one_by_one ? prepare(frame, accurate_tiles_pipeline(), groups_of(frame, outputs))
+                           : prepare(frame, accurate_pipeline(), tiles_of(frame, outputs));
   if (!search.ok()) return search.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
@@ -161,6 +169,7 @@ void list_light_pipelines(const KnobRegistry& knobs, PipelineList& list) {
   if (knobs.is("lights.culling", "brute")) return;
   list.push_back(approx_pipeline());
   list.push_back(accurate_pipeline());
+  list.push_back(accurate_tiles_pipeline());
   if (knobs.is("lights.check", "on")) list.push_back(check_pipeline());
 }
 

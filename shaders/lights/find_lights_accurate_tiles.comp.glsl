@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/lights/froxel_api.glsl"
+
+// Find lights, accurate, for devices that run a workgroup's threads one after the other: the same lists as
+// find_lights_accurate.comp.glsl from one thread a shadow tile instead of one a pixel. Nothing is shared and nobody waits: where every
+// barrier swaps the state of all threads, that costs less than asking the pixels at once gains. One workgroup is a tile group, so that
+// its threads walk the same mask.
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
+layout(set = 0, binding = 2, scalar) uniform Grid { LightGrid grid; };
+layout(set = 0, binding = 3) uniform sampler2D depth_image;
+layout(set = 0, binding = 4) uniform sampler2D light_texels;
+layout(set = 0, binding = 5) uniform sampler2D depth_bounds;
+layout(set = 0, binding = 6, scalar) readonly buffer GroupMasks { uint group_masks[]; };
+layout(set = 0, binding = 7, rg32ui) uniform uimage2D tile_lists;
+layout(set = 0, binding = 8, scalar) writeonly buffer EarlyLists { uint early_lists[]; };
+layout(set = 0, binding = 9, scalar) buffer Counters { LightCounters counters; };
+
+// A pixel's camera-relative point; w is 0 for sky and outside the picture.
+vec4 pixel_point(uvec2 pixel) {
+  float depth = texelFetch(depth_image, ivec2(min(pixel, view.size - 1u)), 0).r;
+  bool valid = depth > 0.0 && all(lessThan(pixel, view.size));
+  return vec4(relative_position(view, vec2(pixel), valid ? depth : 1.0), valid ? 1.0 : 0.0);
+}
+
+// Whether the light has a pixel of the tile in its volume. `probes`: four of its points, which decide for most lights.
+bool reaches_tile(LocalLight light, uvec2 first, vec4 probes[4]) {
+  bool reaches = false;
+  for (uint i = 0u; i < 4u; ++i) reaches = reaches || (probes[i].w != 0.0 && in_range(light, probes[i].xyz));
+  for (uint i = 0u; i < 64u && !reaches; ++i) {
+    vec4 point = pixel_point(first + uvec2(i & 7u, i >> 3));
+    reaches = point.w != 0.0 && in_range(light, point.xyz);
+  }
+  return reaches;
+}
+
+void main() {
+  uvec2 tile = gl_GlobalInvocationID.xy;
+  vec2 bounds = texelFetch(depth_bounds, ivec2(min(tile, grid.tiles - 1u)), 0).xy;
+  bool occupied = all(lessThan(tile, grid.tiles)) && bounds.y > 0.0;
+  uint mask = (gl_WorkGroupID.y * grid.groups.x + gl_WorkGroupID.x) * uint(GLOAM_MASK_WORDS);
+  uint groups = occupied ? group_masks[mask] : 0u;
+  if (groups == 0u) return;
+
+  uvec2 first = tile * uint(GLOAM_SHADOW_TILE);
+  vec4 probes[4];
+  for (uint i = 0u; i < 4u; ++i) probes[i] = pixel_point(first + 1u + uvec2(i & 1u, i >> 1) * 5u);
+  Froxel f = make_froxel(view, vec2(first), min(vec2(first + 8u), vec2(view.size)), bounds.y, bounds.x, kAccurateEpsilon);
+  uvec2 tile_list = imageLoad(tile_lists, ivec2(tile)).xy;
+  uint room = tile_list.x == GLOAM_NO_SLOT ? 0u : ((tile_list.y >> 16) + 2u) / 3u * 3u;
+  uint total = 0u, packed = 0u;
+  for (; groups != 0u; groups &= groups - 1u) {
+    uint word = uint(findLSB(groups));
+    for (uint left = group_masks[mask + 1u + word]; left != 0u; left &= left - 1u) {
+      uint index = word * 32u + uint(findLSB(left));
+      LocalLight light = fetch_light(light_texels, index);
+      if (!touches(light, f)) continue;
+      if (!reaches_tile(light, first, probes)) continue;
+      packed |= index << 10u * (total % 3u);
+      if (total < room && total % 3u == 2u) early_lists[(tile_list.x + total) / 3u] = packed;
+      if (total % 3u == 2u) packed = 0u;
+      ++total;
+    }
+  }
+  if (total < room && total % 3u != 0u) early_lists[(tile_list.x + total) / 3u] = packed;
+  uint entries = ((tile_list.y >> 16) + 2u) / 3u * 3u;
+  imageStore(tile_lists, ivec2(tile), uvec4(tile_list.x, (tile_list.y & 0xFFFF0000u) | min(total, entries), 0u, 0u));
+  if (total > 0u) atomicAdd(counters.accurate_lights, total);
+  if (total > entries) atomicAdd(counters.violations, total - entries);
+}
