@@ -48,11 +48,13 @@ class TypeTable {
 /// first is found, so a TypeTable stands behind it.
 class TypeCache {
  public:
-  /// TypeTable::kAbsent unless T is held.
-  template <class T>
-  [[nodiscard]] std::uint32_t find() const {
+  /// What `otherwise` gives unless T is held.
+  template <class T, class Otherwise>
+  [[nodiscard]] std::uint32_t find_or(const Otherwise& otherwise) const {
     const Slot& slot = slots_[detail::kTypeNameHash<T> % kPlaces];
-    return slot.key == type_key<T>() ? slot.value : TypeTable::kAbsent;
+    if (slot.key == type_key<T>()) [[likely]]
+      return slot.value;
+    return otherwise();
   }
   /// `name_hash`: detail::kTypeNameHash of the type.
   void insert(const void* key, std::uint32_t name_hash, std::uint32_t value);

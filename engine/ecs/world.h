@@ -73,8 +73,8 @@ class World {
   template <class T>
   [[nodiscard]] ComponentId component_id() const {
     require_component<T>();
-    const std::uint32_t id = fast_ids_.find<T>();
-    return id != TypeTable::kAbsent ? static_cast<ComponentId>(id) : find_id(type_key<T>(), type_name<T>());
+    const auto search = [this] { return std::uint32_t{find_id(type_key<T>(), type_name<T>())}; };
+    return static_cast<ComponentId>(fast_ids_.find_or<T>(search));
   }
   /// Every registered component, by id.
   [[nodiscard]] std::span<const ComponentInfo> components() const { return infos_; }
@@ -297,9 +297,8 @@ class World {
   template <class T>
   [[nodiscard]] ComponentId accessed_id(bool write) const {
     require_component<T>();
-    const std::uint32_t id = fast_ids_.find<T>();
-    return id != TypeTable::kAbsent ? static_cast<ComponentId>(id)
-                                    : find_accessed_id(type_key<T>(), type_name<T>(), write);
+    const auto search = [&] { return std::uint32_t{find_accessed_id(type_key<T>(), type_name<T>(), write)}; };
+    return static_cast<ComponentId>(fast_ids_.find_or<T>(search));
   }
   template <class T>
   [[nodiscard]] T* get_cell(Entity e, bool write) const {

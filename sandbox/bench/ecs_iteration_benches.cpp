@@ -40,7 +40,9 @@ GLOAM_BENCH_PASS void move_world(const View<Position, const Velocity>& view) {
   view.each([](Position& p, const Velocity& v) { move(p, v); });
 }
 GLOAM_BENCH_PASS void move_bare(std::vector<Position>& positions, const std::vector<Velocity>& velocities) {
-  for (std::size_t i = 0; i < positions.size(); ++i) move(positions[i], velocities[i]);
+  Position* p = positions.data();
+  const Velocity* v = velocities.data();
+  for (Position* const end = p + positions.size(); p != end; ++p, ++v) move(*p, *v);
 }
 
 class MoveWorld final : public Contender {

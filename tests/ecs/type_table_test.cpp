@@ -28,19 +28,24 @@ TEST(TypeTable, refuses_a_key_twice) {
   EXPECT_ASSERT(table.insert(&table, 2), "entered into a table once");
 }
 
+template <class T>
+std::uint32_t found(const TypeCache& cache) {
+  return cache.find_or<T>([] { return TypeTable::kAbsent; });
+}
+
 TEST(TypeCache, finds_what_it_holds_while_it_is_on) {
   TypeCache cache;
-  EXPECT_EQ(cache.find<int>(), TypeTable::kAbsent);
+  EXPECT_EQ(found<int>(cache), TypeTable::kAbsent);
   cache.insert(type_key<int>(), detail::kTypeNameHash<int>, 7);
-  EXPECT_EQ(cache.find<int>(), 7u);
-  EXPECT_EQ(cache.find<float>(), TypeTable::kAbsent);
+  EXPECT_EQ(found<int>(cache), 7u);
+  EXPECT_EQ(found<float>(cache), TypeTable::kAbsent);
   cache.set_on(false);
-  EXPECT_EQ(cache.find<int>(), TypeTable::kAbsent);
+  EXPECT_EQ(found<int>(cache), TypeTable::kAbsent);
   cache.insert(type_key<float>(), detail::kTypeNameHash<float>, 8);
-  EXPECT_EQ(cache.find<float>(), TypeTable::kAbsent);
+  EXPECT_EQ(found<float>(cache), TypeTable::kAbsent);
   cache.set_on(true);
-  EXPECT_EQ(cache.find<int>(), 7u);
-  EXPECT_EQ(cache.find<float>(), 8u);
+  EXPECT_EQ(found<int>(cache), 7u);
+  EXPECT_EQ(found<float>(cache), 8u);
 }
 
 TEST(TypeCache, keeps_the_first_of_types_that_share_a_place) {
@@ -48,7 +53,7 @@ TEST(TypeCache, keeps_the_first_of_types_that_share_a_place) {
   const int other = 0;
   cache.insert(type_key<int>(), detail::kTypeNameHash<int>, 7);
   cache.insert(&other, detail::kTypeNameHash<int>, 8);
-  EXPECT_EQ(cache.find<int>(), 7u);
+  EXPECT_EQ(found<int>(cache), 7u);
 }
 
 const void* key_of_a_local_type() {
