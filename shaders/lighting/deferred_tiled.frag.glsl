@@ -26,12 +26,14 @@ vec3 group_lights(ShadingPoint p, uvec2 pixel) {
 vec3 local_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);
   uvec2 tile_list = texelFetch(tile_lists, ivec2(pixel / uint(GLOAM_SHADOW_TILE)), 0).xy;
-  uint left = has_list(tile_list) ? list_count(tile_list) : 0u;
-  // A word at a time: on software devices a load from a buffer costs as much as half a light.
-  for (uint at = tile_list.x / 3u; left != 0u; ++at) {
-    uint word = early_lists[at];
-    uint ends = left - min(left, 3u);
-    for (; left != ends; --left, word >>= 10) sum += add_local(p, word & 1023u);
+  uint count = has_list(tile_list) ? list_count(tile_list) : 0u;
+  // As list_light would read them, without its divisions.
+  uint at = tile_list.x / 3u, shift = 0u;
+  for (uint i = 0u; i < count; ++i) {
+    sum += add_local(p, bitfieldExtract(early_lists[at], int(shift), 10));
+    shift += 10u;
+    at += shift / 30u;
+    shift = shift == 30u ? 0u : shift;
   }
   // A loop instead of a condition: it is passed over where no pixel needs it, a condition is not on software devices.
   for (bool full = !has_list(tile_list); full; full = false) sum += group_lights(p, pixel);
