@@ -4,11 +4,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights/froxel_api.glsl"
 
-// Find lights, accurate (FF XVI paper, listing 3): the lights of each shadow tile that have a pixel of it in their volume, in ascending
-// order. One workgroup is a tile. First each thread narrows the lights of the group's mask against the tile's froxel and accepts those
-// that reach one of four probe pixels; then the workgroup asks all pixels about what is left.
+// Find lights, accurate (FF XVI paper, listing 3): the lights of each shadow tile that have a pixel of it in their volume, in
+// ascending order. One workgroup is a tile. The group's lights are narrowed against the tile's froxel, each thread with lights of its
+// own; then every pixel is asked about those that are left, and one OR over the workgroup answers for 32 of them.
+//
+// Unlike the paper's, a thread has 8 / kRows pixels: what is not done for pixels is done by fewer threads. A software rasterizer runs
+// every stage for every thread, whether it has work there or not, and lavapipe ends all loops of a thread after 65,535 turns together:
+// no stage takes more than one turn a light and word.
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 8, local_size_y = 2, local_size_y_id = 0) in;  // constant 0: rows of threads; 1, 2, 4 or 8
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -21,78 +25,108 @@ layout(set = 0, binding = 7, rg32ui) uniform uimage2D tile_lists;
 layout(set = 0, binding = 8, scalar) writeonly buffer EarlyLists { uint early_lists[]; };
 layout(set = 0, binding = 9, scalar) buffer Counters { LightCounters counters; };
 
-shared vec4 points[64];  // of the tile's pixels, camera-relative; w 0: sky or outside the picture
-shared uint words[GLOAM_LIGHT_GROUPS];  // lights found
-shared uint open_count;                 // lights that no probe decided
-shared uint open_lights[GLOAM_MAX_LOCAL_LIGHTS];
-shared uint open_hits[GLOAM_LIGHT_GROUPS];  // bit i: open light i reaches a pixel
-shared uint list[GLOAM_MAX_LOCAL_LIGHTS];
+const uint kRows = gl_WorkGroupSize.y;
+const uint kThreads = 8u * kRows;
+const uint kPixels = 8u / kRows;
 
-vec4 pixel_point(uvec2 pixel) {
-  float depth = texelFetch(depth_image, ivec2(min(pixel, view.size - 1u)), 0).r;
-  bool valid = depth > 0.0 && all(lessThan(pixel, view.size));
-  return vec4(relative_position(view, vec2(pixel), valid ? depth : 1.0), valid ? 1.0 : 0.0);
-}
+shared uint near_count;  // lights whose range touches the tile's froxel
+shared uint open_count;  // of those, lights that pixels are asked about
+shared uint found_count;
+shared uint open_groups;  // which of open_words are not 0
+shared uint near_lights[GLOAM_MAX_LOCAL_LIGHTS];  // in any order
+shared uint open_words[GLOAM_LIGHT_GROUPS];
+shared uint open_lights[GLOAM_MAX_LOCAL_LIGHTS];  // ascending
+shared uint open_hits[GLOAM_LIGHT_GROUPS];        // bit i: open light i reaches a pixel
+shared uint packed_list[(GLOAM_MAX_LOCAL_LIGHTS + 2) / 3];
 
-bool reaches_probe(LocalLight light) {
-  for (uint i = 0u; i < 4u; ++i) {
-    vec4 point = points[9u + (i & 1u) * 5u + (i >> 1) * 40u];  // the corners but for one pixel
-    if (point.w != 0.0 && in_range(light, point.xyz)) return true;
-  }
-  return false;
-}
-
-// Each thread decides the lights of half a word, as far as it can.
-void narrow(uvec2 tile, vec2 bounds, uint mask, uint lane) {
-  uint word = lane >> 1;
-  uint half_word = (lane & 1u) != 0u ? 0xFFFF0000u : 0x0000FFFFu;
-  uint left = (group_masks[mask] >> word & 1u) != 0u ? group_masks[mask + 1u + word] & half_word : 0u;
-  vec2 first = vec2(tile * 8u);
-  Froxel f = make_froxel(view, first, min(first + 8.0, vec2(view.size)), bounds.y, bounds.x, kAccurateEpsilon);
-  uint found = 0u;
+// The lights of one word of the group's mask.
+void find_near(Froxel f, uint mask, uint word) {
+  uint left = (group_masks[mask] >> word & 1u) != 0u ? group_masks[mask + 1u + word] : 0u;
+  uint touching = 0u;
   for (; left != 0u; left &= left - 1u) {
     uint bit = uint(findLSB(left));
-    uint index = word * 32u + bit;
-    LocalLight light = fetch_light(light_texels, index);
-    if (!touches(light, f)) continue;
-    if (reaches_probe(light)) {
-      found |= 1u << bit;
-    } else {
-      open_lights[atomicAdd(open_count, 1u)] = index;
-    }
+    vec4 sphere = texelFetch(light_texels, ivec2(0, word * 32u + bit), 0);
+    if (sphere_touches(sphere.xyz * f.view_axes, sphere.w, f)) touching |= 1u << bit;
   }
-  if (found != 0u) atomicOr(words[word], found);
+  if (touching == 0u) return;
+  uint next = atomicAdd(near_count, bitCount(touching));
+  for (; touching != 0u; touching &= touching - 1u) near_lights[next++] = word * 32u + uint(findLSB(touching));
 }
 
-// Every pixel's answer about the open lights: one mask and one OR for 32 of them.
-void ask_pixels(vec4 point) {
-  for (uint base = 0u; base < open_count; base += 32u) {
+void test_cones(Froxel f, uint lane) {
+  for (uint i = lane; i < near_count; i += kThreads) {
+    uint light = near_lights[i];
+    if (!cone_touches(fetch_light(light_texels, light), f)) continue;
+    atomicAdd(open_count, 1u);
+    atomicOr(open_words[light >> 5], 1u << (light & 31u));
+    atomicOr(open_groups, 1u << (light >> 5));
+  }
+}
+
+// A light's place among the open ones is the number of those before it.
+void sort_open(uint lane) {
+  for (uint i = lane; i < near_count; i += kThreads) {
+    uint light = near_lights[i];
+    uint word = light >> 5;
+    uint below = (1u << (light & 31u)) - 1u;
+    uint rank = bitCount(open_words[word] & below);
+    for (uint left = open_groups & ((1u << word) - 1u); left != 0u; left &= left - 1u) rank += bitCount(open_words[findLSB(left)]);
+    if ((open_words[word] >> (light & 31u) & 1u) != 0u) open_lights[rank] = light;
+  }
+}
+
+// Camera-relative point of a pixel; one that no light reaches where it shows no surface.
+vec3 pixel_point(uvec2 pixel) {
+  float depth = texelFetch(depth_image, ivec2(min(pixel, view.size - 1u)), 0).r;
+  if (depth <= 0.0 || any(greaterThanEqual(pixel, view.size))) return vec3(1e30);
+  return relative_position(view, vec2(pixel), depth);
+}
+
+void ask_pixels(uvec2 pixel, uint lane) {
+  vec3 points[8];
+  float slacks[8];
+  for (uint p = 0u; p < kPixels; ++p) {
+    points[p] = pixel_point(pixel + uvec2(0u, p * kRows));
+    slacks[p] = point_slack(points[p]);
+  }
+  uint count = open_count;
+  for (uint base = 0u; base < count; base += 32u) {
     uint hits = 0u;
-    uint count = min(open_count - base, 32u);
-    for (uint i = 0u; i < count; ++i)
-      if (in_range(fetch_light(light_texels, open_lights[base + i]), point.xyz)) hits |= 1u << i;
-    if (point.w != 0.0 && hits != 0u) atomicOr(open_hits[base >> 5], hits);
+    uint end = min(count - base, 32u);
+    for (uint i = 0u; i < end; ++i) {
+      LocalLight light = fetch_light(light_texels, open_lights[base + i]);
+      for (uint p = 0u; p < kPixels; ++p) hits |= uint(in_range(light, points[p], slacks[p])) << i;
+    }
+    if ((hits & ~open_hits[base >> 5]) != 0u) atomicOr(open_hits[base >> 5], hits);
   }
+  for (uint i = lane; i * 3u < count; i += kThreads) packed_list[i] = 0u;
 }
 
-void accept_hits(uint lane) {
-  for (uint i = lane; i < open_count; i += 64u) {
-    if ((open_hits[i >> 5] >> (i & 31u) & 1u) == 0u) continue;
-    uint index = open_lights[i];
-    atomicOr(words[index >> 5], 1u << (index & 31u));
+void pack_hits(uint lane) {
+  uint count = open_count;
+  uint found = 0u;
+  for (uint base = 0u; base < count; base += 32u) {
+    uint hits = open_hits[base >> 5];
+    for (uint bit = lane; bit < 32u; bit += kThreads) {
+      if ((hits >> bit & 1u) == 0u) continue;
+      uint entry = found + bitCount(hits & ((1u << bit) - 1u));
+      atomicOr(packed_list[entry / 3u], open_lights[base + bit] << 10u * (entry % 3u));
+    }
+    found += bitCount(hits);
   }
+  if (lane == 0u) found_count = found;
 }
 
-// The found lights in ascending order into `list`; returns how many.
-uint expand(uint lane) {
-  uint total = 0u, before = 0u;
-  for (uint word = 0u; word < GLOAM_LIGHT_GROUPS; ++word) {
-    if (word == lane) before = total;
-    total += bitCount(words[word]);
-  }
-  if (lane < GLOAM_LIGHT_GROUPS)
-    for (uint left = words[lane]; left != 0u; left &= left - 1u) list[before++] = lane * 32u + uint(findLSB(left));
-  return total;
+void write_list(uvec2 tile, uvec2 tile_list, uint lane) {
+  uint found = found_count;
+  uint room = ((tile_list.y >> 16) + 2u) / 3u * 3u;
+  uint count = min(found, room);
+  if (tile_list.x != GLOAM_NO_SLOT)
+    for (uint i = lane; i * 3u < count; i += kThreads) early_lists[tile_list.x / 3u + i] = packed_list[i];
+  if (lane != 0u || found == 0u) return;
+  imageStore(tile_lists, ivec2(tile), uvec4(tile_list.x, (tile_list.y & 0xFFFF0000u) | count, 0u, 0u));
+  atomicAdd(counters.accurate_lights, found);
+  if (found > room) atomicAdd(counters.violations, found - room);
 }
 
 void main() {
@@ -103,39 +137,21 @@ void main() {
   uint mask = (group.y * grid.groups.x + group.x) * uint(GLOAM_MASK_WORDS);
   if (bounds.y <= 0.0 || group_masks[mask] == 0u) return;  // the same for the whole workgroup
 
-  vec4 point = pixel_point(gl_GlobalInvocationID.xy);
-  points[lane] = point;
-  if (lane < GLOAM_LIGHT_GROUPS) {
-    words[lane] = 0u;
-    open_hits[lane] = 0u;
-  }
-  if (lane == 0u) open_count = 0u;
+  for (uint word = lane; word < GLOAM_LIGHT_GROUPS; word += kThreads) open_words[word] = open_hits[word] = 0u;
+  if (lane == 0u) near_count = open_count = open_groups = 0u;
   barrier();
-  narrow(tile, bounds, mask, lane);
+  vec2 first = vec2(tile * uint(GLOAM_SHADOW_TILE));
+  Froxel f = make_froxel(view, first, min(first + float(GLOAM_SHADOW_TILE), vec2(view.size)), bounds.y, bounds.x, kAccurateEpsilon);
+  for (uint word = lane; word < GLOAM_LIGHT_GROUPS; word += kThreads) find_near(f, mask, word);
   barrier();
-  if (open_count != 0u) {
-    ask_pixels(point);
-    barrier();
-    accept_hits(lane);
-    barrier();
-  }
-  uint total = expand(lane);
+  test_cones(f, lane);
   barrier();
-
+  sort_open(lane);
+  barrier();
+  ask_pixels(tile * uint(GLOAM_SHADOW_TILE) + gl_LocalInvocationID.xy, lane);
+  barrier();
+  pack_hits(lane);
   uvec2 tile_list = imageLoad(tile_lists, ivec2(tile)).xy;
-  uint room = ((tile_list.y >> 16) + 2u) / 3u * 3u;
-  uint count = min(total, room);
-  if (tile_list.x != GLOAM_NO_SLOT) {
-    for (uint i = lane; i * 3u < count; i += 64u) {
-      uint entry = i * 3u;
-      uint packed = list[entry];
-      if (entry + 1u < count) packed |= list[entry + 1u] << 10;
-      if (entry + 2u < count) packed |= list[entry + 2u] << 20;
-      early_lists[tile_list.x / 3u + i] = packed;
-    }
-  }
-  if (lane != 0u) return;
-  imageStore(tile_lists, ivec2(tile), uvec4(tile_list.x, (tile_list.y & 0xFFFF0000u) | count, 0u, 0u));
-  if (total > 0u) atomicAdd(counters.accurate_lights, total);
-  if (total > room) atomicAdd(counters.violations, total - room);
+  barrier();
+  write_list(tile, tile_list, lane);
 }

@@ -17,57 +17,67 @@ const float kApproxEpsilon = 1e-4;
 const float kAccurateEpsilon = 4e-5;
 const float kPointEpsilon = 1e-6;
 
+// In the view's space: x right, y down, z back; the camera is the origin. A box with one corner cut: two rectangles at two depths.
 struct Froxel {
-  vec3 corner[8];    // camera-relative
-  vec3 center;
-  float radius;      // of the sphere around the center that holds the corners, slack included
-  mat3 view_axes;    // columns: the view's right, down and back
-  vec3 view_center;  // box along the view's axes
-  vec3 view_half;    // slack included
+  mat3 view_axes;    // columns, camera-relative
+  vec4 nearest;      // rectangle: least x and y, greatest x and y
+  vec4 farthest;
+  float nearest_z;   // z of the two; not positive
+  float farthest_z;
+  vec3 center;       // of the box around it
+  vec3 half_extent;  // slack included
+  float radius;      // of the sphere around the center that holds the box's used corners; slack included
   float slack;       // metres by which the bounds are widened
   float epsilon;
 };
+
+// x and y of two opposite corners of the pixel rectangle at a depth value, ordered, and their z.
+void froxel_end(ViewConstants view, mat3 axes, vec2 first, vec2 last, float depth, out vec4 rect, out float z) {
+  vec3 a = relative_position(view, first - 0.5, depth) * axes;
+  vec3 b = relative_position(view, last - 0.5, depth) * axes;
+  rect = vec4(min(a.xy, b.xy), max(a.xy, b.xy));
+  z = a.z;
+}
+
+float corner_distance(Froxel f, vec4 rect, float z) {
+  vec2 side = max(abs(rect.xy - f.center.xy), abs(rect.zw - f.center.xy));
+  return length(vec3(side, z - f.center.z));
+}
 
 // `first` and `last`: pixel corners. `nearest` and `farthest`: depth values (reversed Z), both > 0.
 Froxel make_froxel(ViewConstants view, vec2 first, vec2 last, float nearest, float farthest, float epsilon) {
   Froxel f;
   f.view_axes = mat3(normalize(view.ray_dx.xyz), normalize(view.ray_dy.xyz), view.view_row_z.xyz);
-  vec3 low = vec3(1e30), high = vec3(-1e30);
-  float reach = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    vec2 pixel = vec2((i & 1) != 0 ? last.x : first.x, (i & 2) != 0 ? last.y : first.y) - 0.5;
-    vec3 p = relative_position(view, pixel, (i & 4) != 0 ? nearest : farthest);
-    f.corner[i] = p;
-    vec3 q = p * f.view_axes;
-    low = min(low, q);
-    high = max(high, q);
-    vec3 size = abs(p);
-    reach = max(reach, size.x + size.y + size.z);
-  }
+  froxel_end(view, f.view_axes, first, last, nearest, f.nearest, f.nearest_z);
+  froxel_end(view, f.view_axes, first, last, farthest, f.farthest, f.farthest_z);
+  vec3 low = vec3(min(f.nearest.xy, f.farthest.xy), min(f.nearest_z, f.farthest_z));
+  vec3 high = vec3(max(f.nearest.zw, f.farthest.zw), max(f.nearest_z, f.farthest_z));
+  vec3 reach = max(abs(low), abs(high));
   f.epsilon = epsilon;
-  f.slack = epsilon * reach + 1e-6;
-  f.view_center = (low + high) * 0.5;
-  f.view_half = (high - low) * 0.5 + f.slack;
-  f.center = f.view_axes * f.view_center;
-  float r2 = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    vec3 v = f.corner[i] - f.center;
-    r2 = max(r2, dot(v, v));
-  }
-  f.radius = sqrt(r2) + 2.0 * f.slack;
+  f.slack = epsilon * (reach.x + reach.y + reach.z) + 1e-6;
+  f.center = (low + high) * 0.5;
+  f.half_extent = (high - low) * 0.5 + f.slack;
+  f.radius = max(corner_distance(f, f.nearest, f.nearest_z), corner_distance(f, f.farthest, f.farthest_z)) + 2.0 * f.slack;
   return f;
 }
 
-// Sphere of a light's range against the froxel: its sphere first, then its box along the view's axes.
+// Sphere of a light's range against the froxel: its sphere, and its box. `position`: in the view's space.
 bool sphere_touches(vec3 position, float inverse_range_squared, Froxel f) {
   vec3 v = position - f.center;
-  vec3 outside = max(abs(position * f.view_axes - f.view_center) - f.view_half, vec3(0.0));
+  vec3 outside = max(abs(v) - f.half_extent, vec3(0.0));
   float beyond = max(length(v) - f.radius, 0.0);
-  float d2 = max(dot(outside, outside), beyond * beyond);
-  return d2 * inverse_range_squared <= 1.0 + f.epsilon;
+  return max(dot(outside, outside), beyond * beyond) * inverse_range_squared <= 1.0 + f.epsilon;
 }
 
-// Cone of a spot, without its end, against the froxel. `cos_outer`: of the half angle; it is widened here.
+// How far the froxel reaches along an axis.
+float extent_along(Froxel f, vec3 axis) {
+  vec4 a = axis.xyxy * f.nearest;
+  vec4 b = axis.xyxy * f.farthest;
+  return max(max(a.x, a.z) + max(a.y, a.w) + axis.z * f.nearest_z, max(b.x, b.z) + max(b.y, b.w) + axis.z * f.farthest_z);
+}
+
+// Cone of a spot, without its end, against the froxel. `position`, `direction`: in the view's space. `cos_outer`: of the half angle; it
+// is widened here.
 bool cone_touches(vec3 position, vec3 direction, float cos_outer, Froxel f) {
   float cosine = max(cos_outer - 0.125 * f.epsilon, -1.0);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
@@ -77,43 +87,44 @@ bool cone_touches(vec3 position, vec3 direction, float cos_outer, Froxel f) {
   float across = length(cross(v, direction));
   float rounding = 1e-6 * (abs(along) + across);
   bool touches = cosine * across - along * sine <= f.radius + rounding && along >= -f.radius - rounding;
-  // The froxel's corners in the spot's clip space: a square pyramid round the cone. One side must not have all of them outside.
-  if (cos_outer < 0.5) return touches;
+  // The froxel's corners in the spot's clip space: a square pyramid round the cone. No side may have all of them outside.
   vec3 side = normalize(abs(direction.y) < 0.7 ? vec3(direction.z, 0.0, -direction.x) : vec3(0.0, -direction.z, direction.y));
   vec3 up = cross(direction, side);
-  float tangent = sine / cosine;
-  vec4 least = vec4(1e30);
-  float deepest = -1e30;
-  for (int i = 0; i < 8; ++i) {
-    vec3 q = f.corner[i] - position;
-    float z = dot(q, direction);
-    vec2 xy = vec2(dot(q, side), dot(q, up));
-    least = min(least, vec4(xy, -xy) - tangent * z);
-    deepest = max(deepest, z);
-  }
-  float slack = 2.0 * f.slack * (1.0 + tangent) + 2.0 * rounding;
-  return touches && deepest >= -slack && max(max(least.x, least.y), max(least.z, least.w)) <= slack;
+  vec3 inward = direction * sine;
+  side *= cosine;
+  up *= cosine;
+  vec4 inside = vec4(extent_along(f, inward + side), extent_along(f, inward - side), extent_along(f, inward + up), extent_along(f, inward - up)) -
+                (dot(inward, position) + vec4(1.0, -1.0, 0.0, 0.0) * dot(side, position) + vec4(0.0, 0.0, 1.0, -1.0) * dot(up, position));
+  float least = min(min(min(inside.x, inside.y), min(inside.z, inside.w)), extent_along(f, direction) - dot(direction, position));
+  float slack = 4.0 * f.slack + 4.0 * rounding;
+  return touches && (cos_outer < 0.5 || least >= -slack);
 }
 
-// Cosine of a spot's half angle, known to a few 1e-7; only for lights with a spot_scale.
-float cos_outer_of(float spot_scale, float spot_offset) { return -spot_offset / spot_scale; }
+// The cone of a spot against the froxel; true for a point light.
+bool cone_touches(LocalLight light, Froxel f) {
+  // The cosine of the half angle, known to a few 1e-7.
+  return light.spot_scale == 0.0 ||
+         cone_touches(light.position * f.view_axes, light.direction * f.view_axes, -light.spot_offset / light.spot_scale, f);
+}
 
 bool touches(LocalLight light, Froxel f) {
-  if (!sphere_touches(light.position, light.inverse_range_squared, f)) return false;
-  return light.spot_scale == 0.0 || cone_touches(light.position, light.direction, cos_outer_of(light.spot_scale, light.spot_offset), f);
+  return sphere_touches(light.position * f.view_axes, light.inverse_range_squared, f) && cone_touches(light, f);
 }
 
-// Whether a light may give a camera-relative point any light: whenever local_illuminance is not 0, and hardly more often.
-bool in_range(LocalLight light, vec3 point) {
-  vec3 size = abs(point);
-  float slack = kPointEpsilon * (size.x + size.y + size.z);
+// Metres by which rounding may move a camera-relative point.
+float point_slack(vec3 point) { return kPointEpsilon * dot(abs(point), vec3(1.0)); }
+
+// Whether a light may give a camera-relative point any light: whenever local_illuminance is not 0, and hardly more often. False for a
+// point without end (1e30).
+bool in_range(LocalLight light, vec3 point, float slack) {
   vec3 offset = light.position - point;
   vec3 least = max(abs(offset) - slack, vec3(0.0));
   float inverse_distance = inversesqrt(max(dot(offset, offset), 1e-6));
-  float cosine = -dot(offset, light.direction) * inverse_distance;
-  float widened = cosine + kPointEpsilon + 2.0 * slack * inverse_distance;
-  return dot(least, least) * light.inverse_range_squared <= 1.0 + 2.0 * kPointEpsilon &&
-         widened * light.spot_scale + light.spot_offset > 0.0;
+  float cosine = kPointEpsilon + (2.0 * slack - dot(offset, light.direction)) * inverse_distance;
+  float inside = 1.0 + 2.0 * kPointEpsilon - dot(least, least) * light.inverse_range_squared;
+  return min(inside, cosine * light.spot_scale + light.spot_offset) > 0.0;
 }
+
+bool in_range(LocalLight light, vec3 point) { return in_range(light, point, point_slack(point)); }
 
 #endif
