@@ -18,7 +18,7 @@ gpu::ComputePipelineDesc approx_pipeline() {
   return {"find_lights_approx", "lights", shaders::lights::find_lights_approx_comp, {}};
 }
 gpu::ComputePipelineDesc accurate_pipeline() {
-  return {"find_lights_accurate", "lights", shaders::lights::find_lights_accurate_comp, {}};
+  return {"find_lights_accurate", "lights", shaders::lights::find_lights_accurate_comp, {{0, 8}}};  // one thread a pixel
 }
 gpu::ComputePipelineDesc accurate_tiles_pipeline() {
   return {"find_lights_accurate_tiles", "lights", shaders::lights::find_lights_accurate_tiles_comp, {}};

@@ -8,6 +8,8 @@
 // find_lights_accurate.comp.glsl from one thread a shadow tile instead of one a pixel. Nothing is shared and nobody waits: where every
 // barrier swaps the state of all threads, that costs less than asking the pixels at once gains. One workgroup is a tile group, so that
 // its threads walk the same mask.
+//
+// lavapipe ends all loops of a thread after 65,535 turns together: a light takes at most 21.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -22,6 +24,12 @@ layout(set = 0, binding = 7, rg32ui) uniform uimage2D tile_lists;
 layout(set = 0, binding = 8, scalar) writeonly buffer EarlyLists { uint early_lists[]; };
 layout(set = 0, binding = 9, scalar) buffer Counters { LightCounters counters; };
 
+// Whether the light reaches the point of a pixel with this depth value: not for sky, nor outside the picture.
+bool reaches_pixel(LocalLight light, uvec2 pixel, float depth) {
+  bool valid = depth > 0.0 && all(lessThan(pixel, view.size));
+  return valid && in_range(light, relative_position(view, vec2(pixel), valid ? depth : 1.0));
+}
+
 // A pixel's camera-relative point; w is 0 for sky and outside the picture.
 vec4 pixel_point(uvec2 pixel) {
   float depth = texelFetch(depth_image, ivec2(min(pixel, view.size - 1u)), 0).r;
@@ -33,9 +41,11 @@ vec4 pixel_point(uvec2 pixel) {
 bool reaches_tile(LocalLight light, uvec2 first, vec4 probes[4]) {
   bool reaches = false;
   for (uint i = 0u; i < 4u; ++i) reaches = reaches || (probes[i].w != 0.0 && in_range(light, probes[i].xyz));
-  for (uint i = 0u; i < 64u && !reaches; ++i) {
-    vec4 point = pixel_point(first + uvec2(i & 7u, i >> 3));
-    reaches = point.w != 0.0 && in_range(light, point.xyz);
+  for (uint i = 0u; i < 16u && !reaches; ++i) {
+    uvec2 quad = first + 2u * uvec2(i & 3u, i >> 2);
+    vec4 depths = textureGather(depth_image, vec2(quad + 1u) * view.inverse_size);
+    reaches = reaches_pixel(light, quad + uvec2(0, 1), depths.x) || reaches_pixel(light, quad + uvec2(1, 1), depths.y) ||
+              reaches_pixel(light, quad + uvec2(1, 0), depths.z) || reaches_pixel(light, quad, depths.w);
   }
   return reaches;
 }

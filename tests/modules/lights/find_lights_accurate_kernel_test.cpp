@@ -137,6 +137,17 @@ TEST_F(FindLightsAccurate, lists_hold_any_number_of_lights_in_one_place) {
   }
 }
 
+TEST_F(FindLightsAccurate, lists_hold_any_number_of_lights_that_reach_the_last_pixel_alone) {
+  FindLights kernels(device());
+  LightScene scene = empty_scene({.width = 8, .height = 8});
+  for (float& depth : scene.depth) depth = scene.depth_of(3.0);
+  const dvec3 last = scene.position_at(7.5, 7.5, static_cast<double>(scene.depth[63]));
+  finish_scene(scene, std::vector<TestLight>(1024, TestLight{.position = last, .range_m = 0.003}));
+  const FoundLights found = kernels.all(scene);
+  expect_brute_force(scene, found);
+  EXPECT_EQ(found.accurate_count(0), 1024u);
+}
+
 TEST_F(FindLightsAccurate, lists_know_one_pixel_beside_the_sky_and_lights_behind_it) {
   FindLights kernels(device());
   for (const std::uint32_t pixel : {0u, 7u, 27u, 36u, 56u, 63u}) {

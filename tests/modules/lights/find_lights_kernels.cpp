@@ -131,13 +131,14 @@ FindLights::FindLights(gpu::Device& device, std::uint32_t rows) : device_(device
   approx_ = make(shaders::lights::find_lights_approx_comp);
   accurate_ = make(shaders::lights::find_lights_accurate_comp,
                    rows == 0 ? std::vector<gpu::SpecConstant>{} : std::vector<gpu::SpecConstant>{{0, rows}});
+  accurate_tiles_ = make(shaders::lights::find_lights_accurate_tiles_comp);
   check_ = make(shaders::lights::check_lists_comp);
   sampler_ = value_of(device.create_sampler(
       {.min_filter = gpu::Filter::nearest, .mag_filter = gpu::Filter::nearest, .mip_filter = gpu::Filter::nearest}));
 }
 
 FindLights::~FindLights() {
-  for (const gpu::PipelineHandle pipeline : {approx_, accurate_, check_}) device_.destroy(pipeline);
+  for (const gpu::PipelineHandle pipeline : {approx_, accurate_, accurate_tiles_, check_}) device_.destroy(pipeline);
 }
 
 FoundLights FindLights::approximate(const LightScene& scene) {
@@ -162,6 +163,17 @@ FoundLights FindLights::approximate(const LightScene& scene) {
 }
 
 void FindLights::accurate(const LightScene& scene, FoundLights& found) {
+  FoundLights by_tiles = found;
+  run_accurate(accurate_, scene.grid.tiles, scene, found);
+  run_accurate(accurate_tiles_, scene.grid.groups, scene, by_tiles);
+  EXPECT_EQ(by_tiles.tile_lists, found.tile_lists) << "one thread a tile and many find other lights";
+  EXPECT_EQ(std::memcmp(&by_tiles.counters, &found.counters, sizeof(found.counters)), 0);
+  for (std::uint32_t tile = 0; tile < scene.tile_count() && by_tiles.tile_lists == found.tile_lists; ++tile)
+    EXPECT_TRUE(!found.has_list(tile) || by_tiles.list(tile) == found.list(tile)) << "tile " << tile;
+}
+
+void FindLights::run_accurate(gpu::PipelineHandle pipeline, uvec2 workgroups, const LightScene& scene,
+                              FoundLights& found) {
   Dispatch dispatch(device_, sampler_);
   bind_view(dispatch, scene);
   dispatch.sampled(3, gpu::Format::r32_float, scene.size(), std::span<const float>(scene.depth));
@@ -170,7 +182,7 @@ void FindLights::accurate(const LightScene& scene, FoundLights& found) {
   const auto lists = dispatch.lists(7, scene.grid.tiles, found.tile_lists);
   const auto early = dispatch.in_out(8, std::span<const std::uint32_t>(found.early_lists));
   const auto counters = dispatch.in_out(9, std::span<const shaders::LightCounters>(&found.counters, 1));
-  dispatch.run(accurate_, scene.grid.tiles);
+  dispatch.run(pipeline, workgroups);
   read(device_, lists, found.tile_lists);
   read(device_, early, found.early_lists);
   found.counters = items_of<shaders::LightCounters>(device_, counters).front();

@@ -53,6 +53,7 @@ class FindLights {
   FindLights& operator=(const FindLights&) = delete;
 
   [[nodiscard]] FoundLights approximate(const LightScene& scene);
+  /// By both shaders, which must agree: one thread a pixel or a few of them, and one thread a tile.
   void accurate(const LightScene& scene, FoundLights& found);
   /// Fills counters.culling_errors.
   void check(const LightScene& scene, FoundLights& found);
@@ -64,9 +65,12 @@ class FindLights {
   }
 
  private:
+  void run_accurate(gpu::PipelineHandle pipeline, uvec2 workgroups, const LightScene& scene, FoundLights& found);
+
   gpu::Device& device_;
   gpu::PipelineHandle approx_;
   gpu::PipelineHandle accurate_;
+  gpu::PipelineHandle accurate_tiles_;
   gpu::PipelineHandle check_;
   gpu::SamplerHandle sampler_;
 };
