@@ -53,8 +53,10 @@ gpu::GraphicsPipelineDesc reduce_pipeline(std::uint32_t divisor) {
   return desc;
 }
 
-gpu::GraphicsPipelineDesc apply_pipeline() {
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline("fog_apply", "fog", shaders::fog::apply_frag, gpu::Format::rgba16_float);
+gpu::GraphicsPipelineDesc apply_pipeline(bool orthographic) {
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(orthographic ? "fog_apply/orthographic" : "fog_apply/perspective", "fog",
+                                                       shaders::fog::apply_frag, gpu::Format::rgba16_float);
+  desc.constants = {{0, orthographic ? 1u : 0u}};
   desc.blend = gpu::BlendMode::premultiplied;
   return desc;
 }
@@ -85,7 +87,7 @@ gpu::GraphicsPipelineDesc apply_pipeline() {
 void list_fog_pipelines(const KnobRegistry& knobs, PipelineList& list) {
   if (glow_divisor(knobs) > 1) list.push_back(reduce_pipeline(glow_divisor(knobs)));
   list.push_back(blur_pipeline());
-  list.push_back(apply_pipeline());
+  list.push_back(apply_pipeline(false));
 }
 
 Status add_fog_passes(FrameBuilder& frame, const Fog& fog) {
@@ -96,7 +98,7 @@ Status add_fog_passes(FrameBuilder& frame, const Fog& fog) {
   const shaders::FogConstants constants{vec4(fog.color, 0.0f), fog.density, kFogForwardShare, kFogSkyDistance};
   auto range = services.uniforms.write_value(constants);
   if (!range.ok()) return range.error();
-  auto pipeline = services.pipelines.get(apply_pipeline());
+  auto pipeline = services.pipelines.get(apply_pipeline(frame.view().camera.orthographic));
   if (!pipeline.ok()) return pipeline.error();
   auto nearest = frame.nearest_sampler();
   if (!nearest.ok()) return nearest.error();

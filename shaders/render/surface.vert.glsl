@@ -11,10 +11,11 @@ layout(location = 1) in uvec2 in_frame;  // octahedral normal; octahedral tangen
 layout(location = 2) in vec4 in_uv;
 layout(location = 3) in vec4 in_color;
 
-layout(location = 0) out vec3 out_relative;
-layout(location = 1) out vec3 out_normal;
+// As surface_api.glsl takes them.
+layout(location = 0) out vec4 out_relative_u;
+layout(location = 1) out vec4 out_normal_v;
 layout(location = 2) out vec4 out_tangent;
-layout(location = 3) out vec4 out_uv;
+layout(location = 3) out vec2 out_uv1;
 layout(location = 4) out vec4 out_color;
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
@@ -26,7 +27,7 @@ void main() {
   vec3 relative = vec3(dot(draw.row0, vec4(in_position, 1.0)), dot(draw.row1, vec4(in_position, 1.0)),
                        dot(draw.row2, vec4(in_position, 1.0)));
   gl_Position = view.clip_from_relative * vec4(relative, 1.0);
-  out_relative = relative;
+  out_relative_u = vec4(relative, in_uv.x);
 
   // Normals transform with the cofactors of the matrix; its rows are cross products, mirrored matrices included.
   vec3 normal = unpack_normal(in_frame.x);
@@ -35,7 +36,7 @@ void main() {
   vec3 c2 = cross(draw.row0.xyz, draw.row1.xyz);
   vec3 turned = vec3(dot(c0, normal), dot(c1, normal), dot(c2, normal));
   turned = normalize(turned);
-  out_normal = (draw.flags & GLOAM_DRAW_MIRRORED) != 0u ? -turned : turned;
+  out_normal_v = vec4((draw.flags & GLOAM_DRAW_MIRRORED) != 0u ? -turned : turned, in_uv.y);
 
   out_tangent = vec4(0.0);
   if ((kSurface & GLOAM_SURFACE_NORMAL_TEXTURE) != 0u) {
@@ -45,6 +46,6 @@ void main() {
     tangent = vec3(dot(draw.row0.xyz, tangent), dot(draw.row1.xyz, tangent), dot(draw.row2.xyz, tangent));
     out_tangent = vec4(normalize(tangent), handedness);
   }
-  out_uv = in_uv;
+  out_uv1 = in_uv.zw;
   out_color = (kSurface & GLOAM_SURFACE_VERTEX_COLOR) != 0u ? in_color : vec4(1.0);
 }

@@ -8,11 +8,15 @@
 #include "shaders/common/math.glsl"
 #include "shaders/render/draw_shared.h"
 
-layout(location = 0) in vec3 in_relative;
-layout(location = 1) in vec3 in_normal;
+// Packed: every vector costs a triangle its set-up, used to the full or not.
+layout(location = 0) in vec4 in_relative_u;  // camera-relative position, u of the first coordinates
+layout(location = 1) in vec4 in_normal_v;    // normal, v of the first coordinates
 layout(location = 2) in vec4 in_tangent;
-layout(location = 3) in vec4 in_uv;
+layout(location = 3) in vec2 in_uv1;
 layout(location = 4) in vec4 in_color;
+
+#define in_relative (in_relative_u.xyz)
+#define in_normal (in_normal_v.xyz)
 
 layout(set = 1, binding = 0, scalar) uniform MaterialBlock { MaterialConstants material; };
 layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
@@ -25,8 +29,8 @@ layout(constant_id = 0) const uint kSurface = 0u;
 
 struct Surface {
   vec4 base_color;     // linear, with alpha
-  vec3 normal;         // shading normal, unit, on the visible side
-  vec3 face_normal;    // of the triangle, unit, on the visible side
+  vec3 normal;         // shading normal, on the visible side; unit where fetch_surface says so
+  vec3 face_normal;    // of the triangle, likewise
   float metallic;
   float roughness;
   float occlusion;
@@ -36,24 +40,27 @@ struct Surface {
 };
 
 vec2 texture_uv(int slot) {
-  if ((kSurface & GLOAM_SURFACE_UV_TRANSFORM) == 0u) return in_uv.xy;
+  vec2 uv0 = vec2(in_relative_u.w, in_normal_v.w);
+  if ((kSurface & GLOAM_SURFACE_UV_TRANSFORM) == 0u) return uv0;
   vec4 row0 = material.uv_transform[2 * slot];
   vec4 row1 = material.uv_transform[2 * slot + 1];
-  vec3 uv = vec3(row0.w < 0.5 ? in_uv.xy : in_uv.zw, 1.0);
+  vec3 uv = vec3(row0.w < 0.5 ? uv0 : in_uv1, 1.0);
   return vec2(dot(row0.xyz, uv), dot(row1.xyz, uv));
 }
 
-// `to_viewer`: towards the camera, any length (view_api.glsl).
-Surface fetch_surface(vec3 to_viewer) {
+float size_of(vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+
+// `to_viewer`: towards the camera, any length (view_api.glsl). Normals come out in any length above 0: enough to be packed.
+Surface fetch_surface_unscaled(vec3 to_viewer) {
   Surface s;
   s.base_color = material.base_color;
   if ((kSurface & GLOAM_SURFACE_VERTEX_COLOR) != 0u) s.base_color *= in_color;
   if ((kSurface & GLOAM_SURFACE_BASE_TEXTURE) != 0u) s.base_color *= texture(base_color_texture, texture_uv(0));
 
   // The visible side is the one towards the camera, whatever the winding and mirroring say.
-  s.face_normal = normalize(cross(dFdx(in_relative), dFdy(in_relative)));
+  s.face_normal = cross(dFdx(in_relative), dFdy(in_relative));
   if (dot(s.face_normal, to_viewer) < 0.0) s.face_normal = -s.face_normal;
-  if (!(dot(s.face_normal, s.face_normal) > 0.5)) s.face_normal = normalize(to_viewer);  // degenerate derivatives
+  if (!(size_of(s.face_normal) > 1e-30)) s.face_normal = to_viewer;  // degenerate derivatives
 
   s.normal = in_normal;
   if ((kSurface & GLOAM_SURFACE_NORMAL_TEXTURE) != 0u) {
@@ -63,10 +70,9 @@ Surface fetch_surface(vec3 to_viewer) {
     vec3 bitangent = cross(in_normal, in_tangent.xyz) * in_tangent.w;
     s.normal = in_tangent.xyz * t.x + bitangent * t.y + in_normal * t.z;
   }
-  s.normal = normalize(s.normal);
   // Two-sided materials shade their back with the turned normal.
   if ((kSurface & GLOAM_SURFACE_DOUBLE_SIDED) != 0u && dot(in_normal, s.face_normal) < 0.0) s.normal = -s.normal;
-  if (!(dot(s.normal, s.normal) > 0.5)) s.normal = s.face_normal;
+  if (!(size_of(s.normal) > 1e-30)) s.normal = s.face_normal;
 
   s.metallic = material.factors.x;
   s.roughness = material.factors.y;
@@ -85,6 +91,14 @@ Surface fetch_surface(vec3 to_viewer) {
   s.reflectivity = material.extras.y >= 0.0 ? material.extras.y : smoothness * mix(0.5, 1.0, s.metallic);
   // Last, because derivatives and texture lookups above need whole quads.
   if ((kSurface & GLOAM_SURFACE_MASK) != 0u && s.base_color.a < material.emissive_cutoff.a) discard;
+  return s;
+}
+
+// The same with unit normals.
+Surface fetch_surface(vec3 to_viewer) {
+  Surface s = fetch_surface_unscaled(to_viewer);
+  s.normal = normalize(s.normal);
+  s.face_normal = normalize(s.face_normal);
   return s;
 }
 

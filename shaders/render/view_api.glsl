@@ -12,6 +12,11 @@ vec3 relative_position(ViewConstants view, vec2 pixel, float depth) {
          view.ray_forward.xyz * (view.ray_dx.w + depth * view.ray_dy.w);
 }
 
+// Metres between the camera and what lies at `depth` under a pixel; of perspective cameras.
+float perspective_distance(ViewConstants view, vec2 pixel, float depth) {
+  return length((view.ray_base.xyz + pixel.x * view.ray_dx.xyz + pixel.y * view.ray_dy.xyz) * (view.ray_base.w / depth));
+}
+
 // Direction from the camera through a pixel; not normalised.
 vec3 view_ray(ViewConstants view, vec2 pixel) {
   return relative_position(view, pixel, 0.5);
