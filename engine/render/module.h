@@ -101,7 +101,8 @@ class Module {
   /// Whether a frame without the module makes no sense: then its pipelines are waited for even under Readiness::background.
   [[nodiscard]] virtual bool essential() const { return false; }
   /// The pipelines add_passes will ask for with the knobs as they are; only asked under Readiness::background.
-  virtual void pipelines(const KnobRegistry& knobs, PipelineList& list) const {
+  virtual void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const {
+    static_cast<void>(device);
     static_cast<void>(knobs);
     static_cast<void>(list);
   }

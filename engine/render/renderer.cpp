@@ -137,7 +137,7 @@ bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder)
   runtimes[index].in_view = true;
   if (options.readiness == Readiness::wait || module.essential()) return true;
   PipelineList needed;
-  module.pipelines(knobs, needed);
+  module.pipelines(knobs, options.device->info(), needed);
   return pipelines.request(needed, *options.log);
 }
 

@@ -62,7 +62,9 @@ class FogModule final : public Module {
     return {true, "the scene has fog"};
   }
 
-  void pipelines(const KnobRegistry& knobs, PipelineList& list) const override { list_fog_pipelines(knobs, list); }
+  void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo&, PipelineList& list) const override {
+    list_fog_pipelines(knobs, list);
+  }
 
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase != PassPhase::post) return {};

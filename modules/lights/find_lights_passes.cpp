@@ -23,6 +23,8 @@ gpu::ComputePipelineDesc accurate_pipeline() {
 gpu::ComputePipelineDesc accurate_tiles_pipeline() {
   return {"find_lights_accurate_tiles", "lights", shaders::lights::find_lights_accurate_tiles_comp, {}};
 }
+/// A device that is a CPU swaps the state of all threads at every barrier: one thread a tile needs none.
+bool runs_threads_in_turn(const gpu::DeviceInfo& device) { return device.type == gpu::DeviceType::cpu; }
 gpu::ComputePipelineDesc check_pipeline() { return {"check_lists", "lights", shaders::lights::check_lists_comp, {}}; }
 
 /// What a search is made of: a pipeline, its bindings when the images and buffers exist, and workgroups.
@@ -105,10 +107,9 @@ Status add_approx_pass(FrameBuilder& frame, LightsOutputs& outputs) {
 }
 
 Status add_accurate_pass(FrameBuilder& frame, LightsOutputs& outputs) {
-  // A device that is a CPU swaps the state of all threads at every barrier: one thread a tile needs none.
-  const bool one_by_one = frame.services().device.info().type == gpu::DeviceType::cpu;
-  auto search = one_by_one ? prepare(frame, accurate_tiles_pipeline(), groups_of(frame, outputs))
-                           : prepare(frame, accurate_pipeline(), tiles_of(frame, outputs));
+  auto search = runs_threads_in_turn(frame.services().device.info())
+                    ? prepare(frame, accurate_tiles_pipeline(), groups_of(frame, outputs))
+                    : prepare(frame, accurate_pipeline(), tiles_of(frame, outputs));
   if (!search.ok()) return search.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
@@ -164,12 +165,11 @@ Status add_check_pass(FrameBuilder& frame, LightsOutputs& outputs) {
 
 }  // namespace
 
-void list_light_pipelines(const KnobRegistry& knobs, PipelineList& list) {
+void list_light_pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) {
   list.push_back(light_texels_pipeline());
   if (knobs.is("lights.culling", "brute")) return;
   list.push_back(approx_pipeline());
-  list.push_back(accurate_pipeline());
-  list.push_back(accurate_tiles_pipeline());
+  list.push_back(runs_threads_in_turn(device) ? accurate_tiles_pipeline() : accurate_pipeline());
   if (knobs.is("lights.check", "on")) list.push_back(check_pipeline());
 }
 

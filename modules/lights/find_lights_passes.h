@@ -11,7 +11,7 @@
 namespace gloam {
 
 /// Pipelines of the passes below that the knobs call for.
-void list_light_pipelines(const KnobRegistry& knobs, PipelineList& list);
+void list_light_pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list);
 
 /// Uploads the lights of the view and, with local lights and lights.culling = tiled, finds those of every shadow tile: passes
 /// light_texels, find_lights_approx, find_lights_accurate, and with lights.check also check_lists. Puts LightsOutputs.

@@ -90,7 +90,9 @@ class LightsModule final : public Module {
     return {true, lights};
   }
 
-  void pipelines(const KnobRegistry& knobs, PipelineList& list) const override { list_light_pipelines(knobs, list); }
+  void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
+    list_light_pipelines(knobs, device, list);
+  }
 
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return light_visualizers(); }
 

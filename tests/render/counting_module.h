@@ -59,7 +59,9 @@ class CountingModule final : public Module {
     return {view == nullptr || seen, seen ? "something to count" : "nothing to count in view"};
   }
   void prepare_view(World&, ViewId, const KnobRegistry&) const override { ++calls_.prepared; }
-  void pipelines(const KnobRegistry&, PipelineList& list) const override { list.push_back(pipeline()); }
+  void pipelines(const KnobRegistry&, const gpu::DeviceInfo&, PipelineList& list) const override {
+    list.push_back(pipeline());
+  }
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
     ++calls_.passes;
     if (phase != PassPhase::lists) return {};

@@ -31,7 +31,9 @@ class VeilModule final : public Module {
   }
 
   // What add_passes will ask for: made in the background under Readiness::background.
-  void pipelines(const KnobRegistry&, PipelineList& list) const override { list.push_back(pipeline()); }
+  void pipelines(const KnobRegistry&, const gpu::DeviceInfo&, PipelineList& list) const override {
+    list.push_back(pipeline());
+  }
 
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase != PassPhase::post) return {};
