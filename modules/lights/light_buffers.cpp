@@ -17,6 +17,10 @@ constexpr std::uint32_t to_whole_words(std::uint64_t entries) {
   return static_cast<std::uint32_t>(std::min((entries + 2) / 3 * 3, words_to_entries(kMostListBytes / 4)));
 }
 
+uvec2 shadow_tiles_of(const RenderView& view) {
+  return (uvec2(view.width, view.height) + uvec2(GLOAM_SHADOW_TILE - 1)) / uvec2(GLOAM_SHADOW_TILE);
+}
+
 gpu::BufferDesc lists_buffer(const char* name, std::uint64_t words) {
   gpu::BufferDesc desc;
   desc.name = name;
@@ -27,8 +31,11 @@ gpu::BufferDesc lists_buffer(const char* name, std::uint64_t words) {
 
 }  // namespace
 
-LightFeedback light_feedback(const shaders::LightCounters& counters, const LightCountersNote& note) {
-  LightFeedback feedback{counters.slots, note.slot_capacity, 0.0f};
+LightFeedback light_feedback(const shaders::LightCounters& counters, const LightCountersNote& note,
+                             const LightFeedback* last) {
+  LightFeedback feedback{counters.slots, last == nullptr ? note.slot_capacity : last->slot_capacity, 0.0f};
+  const uvec2 tiles = shadow_tiles_of(note.view);
+  feedback.slot_capacity = list_capacity(tiles.x * tiles.y, 0, feedback);
   if (counters.farthest_depth != kNoSurface) {
     const float metres = note.view.view_depth(std::bit_cast<float>(counters.farthest_depth));
     if (std::isfinite(metres) && metres > 0.0f) feedback.farthest_m = metres;
@@ -63,8 +70,7 @@ std::uint32_t list_capacity(std::uint32_t tiles, std::uint32_t fixed_slots, cons
 Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks, LightsOutputs& outputs) {
   const FrameServices& services = frame.services();
   const RenderView& view = frame.view();
-  const uvec2 tiles((view.width + GLOAM_SHADOW_TILE - 1) / GLOAM_SHADOW_TILE,
-                    (view.height + GLOAM_SHADOW_TILE - 1) / GLOAM_SHADOW_TILE);
+  const uvec2 tiles = shadow_tiles_of(view);
   const uvec2 groups = (tiles + uvec2(GLOAM_TILE_GROUP - 1)) / uvec2(GLOAM_TILE_GROUP);
   const LightFeedback* feedback = frame.world().try_view_resource<LightFeedback>(view.id);
 

@@ -18,8 +18,9 @@ namespace gloam {
 /// What the searches of an earlier frame found out about a view; a view resource.
 struct LightFeedback {
   std::uint32_t entries_asked = 0;  ///< of the lists
-  std::uint32_t slot_capacity = 0;  ///< entries there was room for
-  float farthest_m = 0.0f;          ///< view depth of the farthest opaque surface; 0: unknown, or there was none
+  std::uint32_t slot_capacity =
+      0;                    ///< entries to make room for; one value for all frames in flight, see light_feedback
+  float farthest_m = 0.0f;  ///< view depth of the farthest opaque surface; 0: unknown, or there was none
 };
 
 /// What is noted beside a frame's counters when it is declared.
@@ -32,7 +33,10 @@ struct LightCountersNote {
 /// Name of the result (FrameBuilder::keep_result) that holds a LightCounters.
 inline constexpr const char* kLightCountersResult = "light_counters";
 
-[[nodiscard]] LightFeedback light_feedback(const shaders::LightCounters& counters, const LightCountersNote& note);
+/// `last`: the view's feedback so far, null when there is none. Its capacity goes on from there, not from that of the frame that counted:
+/// frames in flight would each follow their own, and lists change their size from frame to frame for ever.
+[[nodiscard]] LightFeedback light_feedback(const shaders::LightCounters& counters, const LightCountersNote& note,
+                                           const LightFeedback* last);
 
 /// The counters lights.… that the GPU counted.
 void count_lights(const shaders::LightCounters& counters, const LightCountersNote& note, CounterSink& sink);

@@ -19,7 +19,8 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kFewestZBins = 256;  // the first choice of lights.z_bins; each has twice as many as the one before
+/// The first choice of lights.z_bins; each has twice as many as the one before.
+constexpr std::uint32_t kFewestZBins = 256;
 
 class LightsModule final : public Module {
  public:
@@ -76,9 +77,7 @@ class LightsModule final : public Module {
 
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return light_measures(); }
 
-  void add_systems(Schedule& schedule) override {
-    add_light_systems(schedule);
-  }
+  void add_systems(Schedule& schedule) override { add_light_systems(schedule); }
 
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     const std::size_t count = world.view<const Light>().size();
@@ -129,7 +128,8 @@ class LightsModule final : public Module {
   void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {
     if (name != kLightCountersResult) return;
     const auto& note = std::any_cast<const LightCountersNote&>(result.note);
-    const LightFeedback feedback = light_feedback(result.value<shaders::LightCounters>(), note);
+    const LightFeedback feedback =
+        light_feedback(result.value<shaders::LightCounters>(), note, world.try_view_resource<LightFeedback>(view));
     world.set_view_resource(view, feedback);
     if (auto* bins = world.try_view_resource<ZBinSettings>(view)) bins->farthest_opaque_m = feedback.farthest_m;
   }

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <map>
+#include <vector>
 
 namespace gloam {
 namespace {
@@ -64,16 +66,16 @@ TEST(ListCapacity, of_fixed_slots_is_so_many_a_tile) {
 
 TEST(LightFeedbackOf, counters_knows_how_far_the_farthest_surface_is) {
   for (const bool orthographic : {false, true}) {
-    const LightCountersNote note{view_of(orthographic), 360, false};
+    const LightCountersNote note{view_of(orthographic), 432, false};
     for (const float metres : {0.3f, 4.0f, 70.0f}) {
       const vec4 clip = note.view.clip_from_view * vec4(0.0f, 0.0f, -metres, 1.0f);
       shaders::LightCounters counters{};
       counters.slots = 123;
       counters.farthest_depth = std::bit_cast<std::uint32_t>(clip.z / clip.w);
-      const LightFeedback feedback = light_feedback(counters, note);
+      const LightFeedback feedback = light_feedback(counters, note, nullptr);
       EXPECT_NEAR(feedback.farthest_m, metres, 1e-3f * metres) << orthographic;
       EXPECT_EQ(feedback.entries_asked, 123u);
-      EXPECT_EQ(feedback.slot_capacity, 360u);
+      EXPECT_EQ(feedback.slot_capacity, 432u);
     }
   }
 }
@@ -81,9 +83,31 @@ TEST(LightFeedbackOf, counters_knows_how_far_the_farthest_surface_is) {
 TEST(LightFeedbackOf, a_picture_of_sky_knows_no_distance) {
   shaders::LightCounters counters{};
   counters.farthest_depth = std::bit_cast<std::uint32_t>(1.0f);
-  EXPECT_EQ(light_feedback(counters, {view_of(false), 360, false}).farthest_m, 0.0f);
+  EXPECT_EQ(light_feedback(counters, {view_of(false), 360, false}, nullptr).farthest_m, 0.0f);
   counters.farthest_depth = 0;  // a depth that no surface has: infinitely far
-  EXPECT_EQ(light_feedback(counters, {view_of(false), 360, false}).farthest_m, 0.0f);
+  EXPECT_EQ(light_feedback(counters, {view_of(false), 360, false}, nullptr).farthest_m, 0.0f);
+}
+
+/// Feedback comes from two frames before, so that a capacity made from that frame's would be another for every second frame.
+TEST(LightFeedbackOf, frames_in_flight_settles_at_one_capacity) {
+  const RenderView view = view_of(false);
+  constexpr std::uint32_t kTiles = 8 * 6;
+  const auto asked_by = [](std::size_t frame) {
+    return 3 * static_cast<std::uint32_t>(std::min<std::size_t>(frame, 20)) * 37;
+  };
+  LightFeedback feedback;
+  std::vector<std::uint32_t> capacities;
+  for (std::size_t frame = 0; frame < 60; ++frame) {
+    if (frame >= gpu::Device::kFramesInFlight) {
+      const std::size_t counted = frame - gpu::Device::kFramesInFlight;
+      shaders::LightCounters counters{};
+      counters.slots = asked_by(counted);
+      feedback = light_feedback(counters, {view, capacities[counted], false}, counted == 0 ? nullptr : &feedback);
+    }
+    capacities.push_back(list_capacity(kTiles, 0, feedback));
+  }
+  EXPECT_GE(capacities.back(), asked_by(59));
+  for (std::size_t frame = 30; frame < 60; ++frame) EXPECT_EQ(capacities[frame], capacities[29]) << "frame " << frame;
 }
 
 TEST(LightCounterValues, are_means_over_tiles_and_sums) {
