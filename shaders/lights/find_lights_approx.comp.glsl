@@ -158,8 +158,7 @@ void main() {
   bool occupied = inside && bounds.y > 0.0;
   uvec2 range = uvec2(0xFFFFu, 0u);
   if (occupied) {
-    range = z_bin_range(grid, view_depth(view, relative_position(view, vec2(0.0), bounds.y)),
-                        view_depth(view, relative_position(view, vec2(0.0), bounds.x)));
+    range = z_bin_range(grid, surface_view_depth(view, bounds.y), surface_view_depth(view, bounds.x));
     atomicMax(group_near, floatBitsToUint(bounds.y));
     atomicMin(group_far, floatBitsToUint(bounds.x));
     atomicMin(group_begin, range.x);

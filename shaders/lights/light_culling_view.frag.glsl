@@ -17,12 +17,10 @@ bool mask_tile_holds(uvec2 pixel) {
   return (mask_tiles[at] >> word & 1u) != 0u && (mask_tiles[at + 1u + word] >> (shown_light & 31u) & 1u) != 0u;
 }
 
-float metres_of(float depth) { return view_depth(view, relative_position(view, vec2(0.0), depth)); }
-
 bool z_bins_hold(uvec2 pixel) {
   vec2 bounds = texelFetch(depth_bounds, ivec2(pixel / GLOAM_SHADOW_TILE), 0).xy;
   if (bounds.y <= 0.0) return false;
-  uvec2 range = z_bin_range(grid, metres_of(bounds.y), metres_of(bounds.x));
+  uvec2 range = z_bin_range(grid, surface_view_depth(view, bounds.y), surface_view_depth(view, bounds.x));
   return shown_light >= range.x && shown_light < range.y;
 }
 
