@@ -13,7 +13,7 @@ namespace {
 TEST(TileLightMasksHardProperties, miss_no_light_in_random_scenes) {
   const auto executor = make_serial_executor();
   TileLightMasks masks;
-  test::check_property(5000, [&] {
+  test::check_property(10000, [&] {
     const auto seed = static_cast<std::uint32_t>(test::draw_index(1 << 30));
     RC_LOG() << "seed " << seed << '\n';
     test::SceneRandom random(seed);

@@ -46,7 +46,7 @@ LightDepth draw_light(const ZBinParams& params) {
 }
 
 TEST(ZBinsHardProperties, lose_no_light_and_hold_no_stranger_in_random_scenes) {
-  test::check_property(5000, [] {
+  test::check_property(10000, [] {
     const ZBinParams params = draw_params();
     std::vector<LightDepth> lights(static_cast<std::size_t>(draw_index(40)));
     for (LightDepth& light : lights) light = draw_light(params);
