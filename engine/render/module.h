@@ -49,6 +49,8 @@ struct VisualizerInfo {
   std::string argument;  ///< "LIGHT"
   std::string legend;    ///< what colours mean, one line
   bool built = true;     ///< false: known, not built yet
+  std::string knob = {};   ///< what must be set so for the view to have something to show; empty: nothing
+  std::string value = {};
 };
 
 /// A pixel that Renderer::pick was asked about, and what lies there.

@@ -286,6 +286,8 @@ Status Renderer::check_visualizer(const World& world, std::string_view name) con
     list += (list.empty() ? "" : ", ") + info.name + (info.argument.empty() ? "" : ":" + info.argument);
     if (info.name != stem) continue;
     if (!info.built) return Error{ErrorKind::usage, "view " + info.name + " is not built yet"};
+    if (!info.knob.empty() && !state_->knobs.is(info.knob, info.value))
+      return Error{ErrorKind::usage, "view " + info.name + " needs " + info.knob + "=" + info.value};
     if (info.argument.empty() != (stem.size() == name.size()))
       return Error{ErrorKind::usage, "view " + info.name + (info.argument.empty() ? " takes no argument" : " needs :" + info.argument)};
     if (info.argument == "LIGHT") {

@@ -132,18 +132,24 @@ void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& dra
 
 std::vector<VisualizerInfo> light_visualizers() {
   const std::string heat = ": black 0, blue 6, cyan 12, green 19, yellow 25, red 31, white 32 and more";
-  return {{"tile_masks", "lights", "", "lights that the CPU finds for each 32x32 tile" + heat},
-          {"light_culling", "lights", "LIGHT",
-           "tiles where the light passed the CPU's tile mask (grey), the zBins too (blue), the tile group's mask too "
-           "(orange), and is in the "
-           "tile's list (green); red: it is not, though it reaches a pixel of the tile"},
-          {"light_list", "lights", "LIGHT",
-           "pixels whose tile's list holds the light: blue, those that it reaches yellow; red: reached, but not in the "
-           "list"},
-          {"lights_approx", "lights", "", "lights of each 8x8 tile after the approximate search" + heat},
-          {"lights_accurate", "lights", "", "lights of each 8x8 tile after the accurate search" + heat},
-          {"lights_difference", "lights", "", "lights of each 8x8 tile that only the approximate search finds" + heat},
-          {"lights_final", "lights", "", "lights a tile in the final list", false}};
+  std::vector<VisualizerInfo> views = {
+      {"tile_masks", "lights", "", "lights that the CPU finds for each 32x32 tile" + heat},
+      {"light_culling", "lights", "LIGHT",
+       "tiles where the light passed the CPU's tile mask (grey), the zBins too (blue), the tile group's mask too "
+       "(orange), and is in the "
+       "tile's list (green); red: it is not, though it reaches a pixel of the tile"},
+      {"light_list", "lights", "LIGHT",
+       "pixels whose tile's list holds the light: blue, those that it reaches yellow; red: reached, but not in the "
+       "list"},
+      {"lights_approx", "lights", "", "lights of each 8x8 tile after the approximate search" + heat},
+      {"lights_accurate", "lights", "", "lights of each 8x8 tile after the accurate search" + heat},
+      {"lights_difference", "lights", "", "lights of each 8x8 tile that only the approximate search finds" + heat},
+      {"lights_final", "lights", "", "lights a tile in the final list", false}};
+  for (VisualizerInfo& view : views) {
+    view.knob = "lights.culling";
+    view.value = "tiled";
+  }
+  return views;
 }
 
 std::optional<std::uint32_t> LightViews::shown_light(const FrameBuilder& frame, std::string_view name) {

@@ -24,11 +24,12 @@ constexpr double kLongestStep = 0.1;  // seconds: after a pause nothing leaps
 /// A scene in a window, frame by frame.
 class Player {
  public:
-  Player(const Options& options, Window& window, Session& session, gpu::Swapchain& swapchain)
+  Player(const Options& options, Window& window, Session& session, gpu::Swapchain& swapchain, LogSink& log)
       : options_(options),
         window_(window),
         session_(session),
         swapchain_(swapchain),
+        log_(log),
         panel_(session, window.content_scale(), environment_text("GLOAM_PANEL") == "1"),
         time_s_(options.time_s) {
     settings_ = session.view_settings(options.width, options.height, options.view);
@@ -42,6 +43,7 @@ class Player {
       count_step();
       GLOAM_TRY(panel_.update(input, {window_.width(), window_.height(), frame_s_}, settings_));
       if (window_.should_close() || input.leave) break;
+      drop_view_without_its_knob();
       move_camera(input);
       const auto drawn = draw();
       if (!drawn) return drawn.error();
@@ -54,6 +56,14 @@ class Player {
   [[nodiscard]] const std::vector<FrameSample>& samples() const { return samples_; }
 
  private:
+  /// A knob may take away what a view shows: the lit picture comes back, and the program goes on.
+  void drop_view_without_its_knob() {
+    if (settings_.visualizer == "none") return;
+    const Status shows = session_.renderer->check_visualizer(session_.world, settings_.visualizer);
+    if (shows.ok()) return;
+    log_.warning(shows.error().message);
+    settings_.visualizer = "none";
+  }
   void count_step() {
     const std::uint64_t now = session_.zones.now_ns();
     frame_s_ = static_cast<double>(now - last_ns_) * 1e-9;
@@ -113,6 +123,7 @@ class Player {
   Window& window_;
   Session& session_;
   gpu::Swapchain& swapchain_;
+  LogSink& log_;
   ViewSettings settings_;
   ViewFlight flight_;
   PlayPanel panel_;
@@ -149,7 +160,7 @@ Status run_play(const CommandContext& context) {
   if (!session) return session.error();
   const auto swapchain = gpu::create_swapchain(*session.value()->device, window.value()->surface_maker());
   if (!swapchain) return swapchain.error();
-  Player player(options, *window.value(), *session.value(), *swapchain.value());
+  Player player(options, *window.value(), *session.value(), *swapchain.value(), context.log);
   GLOAM_TRY(player.run());
   GLOAM_TRY(leave_results(context, *session.value(), player));
   return session.value()->check_validation();

@@ -339,6 +339,7 @@ TEST_F(LightViewsTest, need_lists_and_a_light_that_is_there) {
     ASSERT_FALSE(refused.ok()) << view;
     EXPECT_EQ(refused.error().kind, ErrorKind::usage);
     EXPECT_THAT(refused.error().message, HasSubstr("needs lights.culling=tiled"));
+    EXPECT_EQ(renderer->check_visualizer(world, view).error().message, refused.error().message) << "known before drawing";
   }
 }
 
