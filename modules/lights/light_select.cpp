@@ -14,7 +14,7 @@ namespace gloam {
 namespace {
 
 constexpr std::size_t kCullGrain = 512;  // lights a job
-constexpr std::size_t kPackGrain = 128;
+constexpr std::size_t kPackGrain = 512;
 /// Bound of what floats lose where a camera-relative position is rounded, turned and summed, a share of the lengths that take part. As
 /// much is added to bounds, so that no pixel the GPU lights is left out.
 constexpr float kRounding = 4e-7f;
@@ -105,12 +105,16 @@ void find_visible(const LightTable& table, const RenderView& view, JobExecutor& 
   selection.local.resize(count);
   selection.directional.clear();
   std::size_t locals = 0;
+  std::uint32_t kinds = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     selection.local[locals] = i;
     locals += selection.kind[i] == kLocal ? 1 : 0;
-    if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
+    kinds |= selection.kind[i];
   }
   selection.local.resize(locals);
+  if ((kinds & kDirectional) == 0) return;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
 }
 
 /// Keeps the `capacity` indices of greatest importance in ascending order, equal ones by index; returns how many were dropped.
@@ -144,29 +148,47 @@ std::uint32_t ordered_bits(float value) {
   return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
-/// By the high 32 bits, equal ones as they came: four counting passes of 8 bits. Result in `keys`.
+/// Keys by their high 32 bits, equal ones as they came. What a view's depths leave of 32 bits, their least one taken off, needs three
+/// counting passes, rarely four; and no pass finds most of its keys in one place, where each would wait for the one before. Result in
+/// `keys`.
 void sort_by_depth(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& other) {
   constexpr std::size_t kPlain = 64;  // fewer are sorted faster without counting; their low bits ascend too
+  constexpr std::uint32_t kMostDigitBits = 9;
+  constexpr std::uint32_t kMostPasses = 4;
   if (keys.size() < kPlain) {
     std::sort(keys.begin(), keys.end());
     return;
   }
-  std::array<std::array<std::uint32_t, 256>, 4> counts{};
+  auto least = ~std::uint32_t{0};
+  std::uint32_t greatest = 0;
   for (const std::uint64_t key : keys) {
-    for (std::size_t pass = 0; pass < 4; ++pass) ++counts[pass][key >> (32 + 8 * pass) & 255u];
+    least = std::min(least, static_cast<std::uint32_t>(key >> 32));
+    greatest = std::max(greatest, static_cast<std::uint32_t>(key >> 32));
+  }
+  const auto bits = static_cast<std::uint32_t>(std::bit_width(greatest - least));
+  if (bits == 0) return;
+  const std::uint32_t passes = (bits + kMostDigitBits - 1) / kMostDigitBits;
+  const std::uint32_t digit_bits = (bits + passes - 1) / passes;
+  const std::uint32_t mask = (1u << digit_bits) - 1;
+  std::array<std::array<std::uint32_t, std::size_t{1} << kMostDigitBits>, kMostPasses> counts;
+  for (std::uint32_t pass = 0; pass < passes; ++pass) std::fill_n(counts[pass].begin(), mask + 1, 0u);
+  for (const std::uint64_t key : keys) {
+    std::uint32_t depth = static_cast<std::uint32_t>(key >> 32) - least;
+    for (std::uint32_t pass = 0; pass < passes; ++pass, depth >>= digit_bits) ++counts[pass][depth & mask];
   }
   other.resize(keys.size());
-  for (std::size_t pass = 0; pass < 4; ++pass) {
-    std::array<std::uint32_t, 256>& count = counts[pass];
-    const std::size_t shift = 32 + 8 * pass;
-    if (count[keys.front() >> shift & 255u] == keys.size()) continue;
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    std::uint32_t* const places = counts[pass].data();
     std::uint32_t begin = 0;
-    for (std::uint32_t& digit : count) {
-      const std::uint32_t size = digit;
-      digit = begin;
+    for (std::uint32_t digit = 0; digit <= mask; ++digit) {
+      const std::uint32_t size = places[digit];
+      places[digit] = begin;
       begin += size;
     }
-    for (const std::uint64_t key : keys) other[count[key >> shift & 255u]++] = key;
+    const std::uint32_t shift = pass * digit_bits;
+    std::uint64_t* const to = other.data();
+    for (const std::uint64_t key : keys)
+      to[places[(static_cast<std::uint32_t>(key >> 32) - least) >> shift & mask]++] = key;
     keys.swap(other);
   }
 }
@@ -231,9 +253,11 @@ void select_lights(std::span<const PlacedLight> lights, const LightTable& table,
   visible.dropped += keep_most_important(selection.directional, GLOAM_MAX_DIRECTIONAL_LIGHTS, selection.keys,
                                          [&](std::uint32_t i) { return table.records[i].brightness; });
   selection.keys.resize(selection.local.size());
+  std::uint64_t* const keys = selection.keys.data();
+  const float* const nearest = selection.nearest.data();
   for (std::size_t i = 0; i < selection.local.size(); ++i) {
     const std::uint32_t light = selection.local[i];
-    selection.keys[i] = std::uint64_t{ordered_bits(selection.nearest[light])} << 32 | light;
+    keys[i] = std::uint64_t{ordered_bits(nearest[light])} << 32 | light;
   }
   sort_by_depth(selection.keys, selection.sorted);
 
