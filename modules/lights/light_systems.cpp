@@ -14,8 +14,7 @@
 namespace gloam {
 namespace {
 
-/// Lights a job. Many, so that of about a thousand each of two threads takes the same half every frame, which it finds in its cache.
-constexpr std::size_t kBoundsGrain = 512;
+constexpr std::size_t kBoundsGrain = 128;  // lights a job
 
 std::uint64_t different_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);

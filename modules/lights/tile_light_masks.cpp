@@ -17,6 +17,31 @@ namespace {
 constexpr std::size_t kOutlineGrain = 256;  // lights a job
 constexpr std::size_t kRowGrain = 4;        // rows of tiles a job
 
+/// What the jobs of one call share.
+struct MaskJob {
+  std::span<const MaskLight> lights;
+  const RenderView& view;
+  TileProjection projection;
+  OutlineDetail detail;
+  TileLightMasks& masks;
+
+  void outline(JobRange range) const { find_outlines(lights, view, projection, detail, range, masks.scratch.outlines); }
+
+  void and_rows(JobRange range) const {
+    const std::size_t words = std::max<std::size_t>(1, (lights.size() + 31) / 32);
+    const VectorWidth width = widest_vectors();
+    for (std::size_t row = range.begin; row < range.end; ++row) {
+      and_tile_row(width, masks.scratch.column_masks.data(), masks.scratch.row_masks.data() + row * kTileMaskWords,
+                   projection.columns, words, masks.words.data() + row * projection.columns * GLOAM_MASK_WORDS);
+    }
+  }
+
+  void write_rows(JobRange range) const {
+    write_row_intervals(masks.scratch.outlines, lights.size(), projection, detail == OutlineDetail::cones, range,
+                        masks.scratch.bands[range.ordinal], masks.words.data());
+  }
+};
+
 GLOAM_CPU_CLONES void sum_lines(std::uint32_t* words, std::size_t tiles) {
   std::uint32_t sums[kTileMaskWords] = {};
   for (std::size_t tile = 0; tile < tiles; ++tile, words += kTileMaskWords)
@@ -36,40 +61,6 @@ void build_line_masks(std::span<const std::int32_t> begins, std::span<const std:
   sum_lines(words, tiles);
 }
 
-/// What the jobs of one call share.
-struct MaskJob {
-  std::span<const MaskLight> lights;
-  const RenderView& view;
-  TileProjection projection;
-  OutlineDetail detail;
-  TileLightMasks& masks;
-
-  void outline(JobRange range) const { find_outlines(lights, view, projection, detail, range, masks.scratch.outlines); }
-
-  void line_masks(bool of_columns) const {
-    const TileOutlines& o = masks.scratch.outlines;
-    if (of_columns) {
-      build_line_masks(o.column_begin, o.column_end, lights.size(), projection.columns, masks.scratch.column_masks);
-    } else {
-      build_line_masks(o.row_begin, o.row_end, lights.size(), projection.rows, masks.scratch.row_masks);
-    }
-  }
-
-  void and_rows(JobRange range) const {
-    const std::size_t words = std::max<std::size_t>(1, (lights.size() + 31) / 32);
-    const VectorWidth width = widest_vectors();
-    for (std::size_t row = range.begin; row < range.end; ++row) {
-      and_tile_row(width, masks.scratch.column_masks.data(), masks.scratch.row_masks.data() + row * kTileMaskWords,
-                   projection.columns, words, masks.words.data() + row * projection.columns * GLOAM_MASK_WORDS);
-    }
-  }
-
-  void write_rows(JobRange range) const {
-    write_row_intervals(masks.scratch.outlines, lights.size(), projection, detail == OutlineDetail::cones, range,
-                        masks.scratch.bands[range.ordinal], masks.words.data());
-  }
-};
-
 }  // namespace
 
 void build_tile_light_masks(std::span<const MaskLight> lights, const RenderView& view, TileBound bound,
@@ -88,7 +79,8 @@ void build_tile_light_masks(std::span<const MaskLight> lights, const RenderView&
   executor.parallel_for(lights.size(), kOutlineGrain, [&job](JobRange range) { job.outline(range); });
 
   if (job.detail == OutlineDetail::rectangles) {
-    executor.parallel_for(2, 1, [&job](JobRange range) { job.line_masks(range.begin == 0); });
+    build_line_masks(outlines.column_begin, outlines.column_end, lights.size(), p.columns, masks.scratch.column_masks);
+    build_line_masks(outlines.row_begin, outlines.row_end, lights.size(), p.rows, masks.scratch.row_masks);
     executor.parallel_for(p.rows, kRowGrain, [&job](JobRange range) { job.and_rows(range); });
     return;
   }
