@@ -93,8 +93,7 @@ class InstanceDrawer {
     Draw draw;
     draw.primitive = &primitive;
     draw.constants = constants;
-    draw.variant.features = material.features | (primitive.colored ? GLOAM_SURFACE_VERTEX_COLOR : 0u);
-    draw.variant.cull = material.double_sided ? gpu::CullMode::none : flipped ? gpu::CullMode::front : gpu::CullMode::back;
+    draw.variant = surface_variant(material, primitive, flipped);
     return draw;
   }
 
@@ -114,7 +113,8 @@ class InstanceDrawer {
     }
     Draw draw = start(primitive, constants, (constants.flags & GLOAM_DRAW_MIRRORED) != 0);
     for (const Cluster& cluster : primitive.clusters) {
-      const bool visible = primitive.clusters.size() == 1 || may_intersect(view_.frustum, transformed(cluster.bounds, matrix));
+      const bool visible =
+          primitive.clusters.size() == 1 || may_intersect(view_.frustum, transformed(cluster.bounds, matrix));
       if (!visible) continue;
       if (draw.index_count > 0 && draw.first_index + draw.index_count == primitive.first_index + cluster.first_index) {
         draw.index_count += cluster.index_count;

@@ -40,7 +40,20 @@ std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primit
   return {bounds.begin(), bounds.end()};
 }
 
+/// The scene's, and one more for primitives that name none.
+std::vector<Material> materials_of(const SceneAssets& assets) {
+  std::vector<Material> materials = assets.materials;
+  materials.emplace_back();
+  return materials;
+}
+
 }  // namespace
+
+SurfaceVariant surface_variant(const GpuMaterial& material, const GpuPrimitive& primitive, bool flipped) {
+  const gpu::CullMode one_sided = flipped ? gpu::CullMode::front : gpu::CullMode::back;
+  return {material.features | (primitive.colored ? GLOAM_SURFACE_VERTEX_COLOR : 0u),
+          material.double_sided ? gpu::CullMode::none : one_sided};
+}
 
 /// One primitive, packed by a job of its own.
 struct GpuScene::Streams {
@@ -72,7 +85,8 @@ struct GpuScene::Streams {
 };
 
 void GpuScene::release() {
-  for (const GpuMaterial& material : materials_) device_.destroy(material.set);
+  for (const GpuMaterial& material : materials_)
+    if (material.set) device_.destroy(material.set);
   for (const gpu::ImageHandle texture : textures_) device_.destroy(texture);
   for (const gpu::BufferHandle buffer : buffers_)
     if (buffer) device_.destroy(buffer);
@@ -91,8 +105,10 @@ Status GpuScene::sync(const SceneAssets& assets, JobExecutor& executor) {
   Uploader uploader(device_);
   GLOAM_TRY(upload_meshes(assets, executor, uploader));
   GLOAM_TRY(upload_textures(assets, uploader));
-  GLOAM_TRY(upload_materials(assets, uploader));
+  const std::vector<Material> materials = materials_of(assets);
+  GLOAM_TRY(upload_materials(materials, uploader));
   GLOAM_TRY(uploader.flush(executor));
+  GLOAM_TRY(make_material_sets(assets, materials));
   version_ = assets.version;
   return {};
 }
@@ -178,15 +194,14 @@ Status GpuScene::add_white_texel(Uploader& uploader) {
   return {};
 }
 
-Status GpuScene::upload_materials(const SceneAssets& assets, Uploader& uploader) {
-  std::vector<Material> sources = assets.materials;
-  sources.push_back(Material{});  // for primitives that name none
+Status GpuScene::upload_materials(const std::vector<Material>& sources, Uploader& uploader) {
   std::vector<std::byte> constants;
   for (const Material& material : sources) {
     const shaders::MaterialConstants packed = pack_material(material);
     const auto bytes = std::as_bytes(std::span(&packed, 1));
     constants.insert(constants.end(), bytes.begin(), bytes.end());
     constants.resize((constants.size() + kMaterialStride - 1) / kMaterialStride * kMaterialStride);
+    materials_.push_back({{}, surface_features(material), material.alpha_mode, material.double_sided});
   }
   gpu::BufferDesc desc{.name = "scene.materials", .module = "engine", .size = constants.size()};
   desc.usage = gpu::BufferUsage::uniform | gpu::BufferUsage::transfer_target;
@@ -194,26 +209,28 @@ Status GpuScene::upload_materials(const SceneAssets& assets, Uploader& uploader)
   if (!buffer.ok()) return buffer.error();
   material_constants_ = *buffer;
   uploader.buffer(material_constants_, std::move(constants), gpu::Access::uniform_read);
+  return {};
+}
 
+Status GpuScene::make_material_sets(const SceneAssets& assets, const std::vector<Material>& sources) {
+  // Every pipeline of the surface shaders has the layout of set 1; one that is drawn with anyway costs nothing.
+  SurfaceVariant drawn;
+  for (const std::vector<GpuPrimitive>& primitives : meshes_)
+    for (const GpuPrimitive& primitive : primitives)
+      if (materials_[primitive.material].alpha_mode != AlphaMode::blend)
+        drawn = surface_variant(materials_[primitive.material], primitive, false);
+  auto like = surface_pipeline(pipelines_, geometry_surface_pass(), drawn);
+  if (!like.ok()) return like.error();
   for (std::uint32_t i = 0; i < sources.size(); ++i) {
-    GpuMaterial material;
-    material.features = surface_features(sources[i]);
-    material.alpha_mode = sources[i].alpha_mode;
-    material.double_sided = sources[i].double_sided;
-    auto set = material_set(assets, sources[i], i, material.features);
+    auto set = material_set(assets, sources[i], i, *like);
     if (!set.ok()) return set.error();
-    material.set = *set;
-    materials_.push_back(material);
+    materials_[i].set = *set;
   }
   return {};
 }
 
 Result<gpu::ResourceSetHandle> GpuScene::material_set(const SceneAssets& assets, const Material& material,
-                                                      std::uint32_t index, std::uint32_t features) {
-  // Any pipeline of the surface shaders has the layout of set 1; one that is drawn with anyway costs nothing.
-  const SurfaceVariant variant{features, material.double_sided ? gpu::CullMode::none : gpu::CullMode::back};
-  auto like = surface_pipeline(pipelines_, geometry_surface_pass(), variant);
-  if (!like.ok()) return like.error();
+                                                      std::uint32_t index, gpu::PipelineHandle like) {
   std::vector<gpu::Binding> bindings;
   bindings.push_back({0, gpu::Binding::BufferRange{material_constants_, std::uint64_t{index} * kMaterialStride,
                                                    sizeof(shaders::MaterialConstants)}});
@@ -227,7 +244,7 @@ Result<gpu::ResourceSetHandle> GpuScene::material_set(const SceneAssets& assets,
     const gpu::ImageHandle image = used ? textures_[slots[s]->texture] : textures_.back();
     bindings.push_back({s + 1, gpu::Binding::Sampled{{.image = image}, *sampler}});
   }
-  return device_.create_resource_set(*like, 1, bindings);
+  return device_.create_resource_set(like, 1, bindings);
 }
 
 }  // namespace gloam

@@ -43,6 +43,9 @@ struct GpuMaterial {
   bool double_sided = false;
 };
 
+/// How a primitive of a material is drawn. `flipped`: its front faces are clockwise.
+[[nodiscard]] SurfaceVariant surface_variant(const GpuMaterial& material, const GpuPrimitive& primitive, bool flipped);
+
 /// Meshes, textures and materials of a world's SceneAssets on the GPU.
 class GpuScene {
  public:
@@ -71,9 +74,10 @@ class GpuScene {
   [[nodiscard]] Status upload_textures(const SceneAssets& assets, Uploader& uploader);
   /// Adds the texture that stands where a material names none.
   [[nodiscard]] Status add_white_texel(Uploader& uploader);
-  [[nodiscard]] Status upload_materials(const SceneAssets& assets, Uploader& uploader);
+  [[nodiscard]] Status upload_materials(const std::vector<Material>& sources, Uploader& uploader);
+  [[nodiscard]] Status make_material_sets(const SceneAssets& assets, const std::vector<Material>& sources);
   [[nodiscard]] Result<gpu::ResourceSetHandle> material_set(const SceneAssets& assets, const Material& material,
-                                                            std::uint32_t index, std::uint32_t features);
+                                                            std::uint32_t index, gpu::PipelineHandle like);
 
   gpu::Device& device_;
   Pipelines& pipelines_;

@@ -105,7 +105,7 @@ TEST_F(UploadTest, the_uploader_fills_every_mip_of_every_layer) {
 }
 
 TEST_F(UploadTest, uploads_that_do_not_fit_one_submission_take_turns_in_two_staging_buffers) {
-  constexpr std::uint64_t kBytes = 10u << 20;  // two do not fit one submission
+  constexpr std::uint64_t kBytes = 8u << 20;  // two do not fit one submission
   std::vector<gpu::BufferHandle> targets;
   Uploader uploader(*device);
   for (int i = 0; i < 5; ++i) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/core/large_pages.h"
 #include "engine/gpu/vulkan/errors.h"
 
 namespace gloam::gpu::vulkan {
@@ -111,21 +110,9 @@ VkResult MemoryAllocator::add_block(std::uint32_t type, Pool pool, std::uint64_t
       return result;
     }
   }
-  if (context_.physical.info.type == DeviceType::cpu) advise_large_pages(type, memory, mapped, bytes);
   blocks_.push_back({pool, type, memory, static_cast<std::byte*>(mapped), RangeAllocator(bytes), dedicated});
   context_.set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, dedicated ? "memory of one object" : "memory block");
   return VK_SUCCESS;
-}
-
-void MemoryAllocator::advise_large_pages(std::uint32_t type, VkDeviceMemory memory, void* mapped, std::uint64_t bytes) {
-  if (mapped != nullptr) {
-    gloam::advise_large_pages(mapped, bytes);
-    return;
-  }
-  if ((context_.physical.memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) == 0) return;
-  // Stays mapped until it is freed: that costs nothing here.
-  if (context_.vk.vkMapMemory(context_.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped) == VK_SUCCESS)
-    gloam::advise_large_pages(mapped, bytes);
 }
 
 AllocationOwner MemoryAllocator::take(Blocks::iterator block, std::uint64_t offset, const MemoryRequest& request) {

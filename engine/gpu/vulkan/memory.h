@@ -66,8 +66,6 @@ class MemoryAllocator {
   [[nodiscard]] std::vector<std::uint32_t> types_by_fitness(std::uint32_t allowed, MemoryKind kind) const;
   std::optional<AllocationOwner> allocate_in(std::uint32_t type, const MemoryRequest& request, VkResult& result);
   VkResult add_block(std::uint32_t type, Pool pool, std::uint64_t bytes, bool dedicated);
-  /// On a device that is the CPU, whose memory is the process's own.
-  void advise_large_pages(std::uint32_t type, VkDeviceMemory memory, void* mapped, std::uint64_t bytes);
   AllocationOwner take(Blocks::iterator block, std::uint64_t offset, const MemoryRequest& request);
   void give_back(Blocks::iterator block, const Allocation& allocation, const std::string& module);
   void release(Blocks::iterator block);
