@@ -28,7 +28,7 @@ struct Light {
 };
 
 /// Sphere around everything the entity's Light can light, in the world; kept by system light_bounds, which adds it. A change tick marks
-/// where it has changed.
+/// where it has changed. When the Light is removed it stays as it was: whoever removes one removes both.
 struct LightBounds {
   dvec3 center = dvec3(0.0);
   float radius_m = 0.0f;  ///< 0 for directional lights and for those that give nothing

@@ -35,9 +35,9 @@ double pass_ns(const FrameSample& sample, std::string_view name) {
   return ms * kNsPerMs;
 }
 
-/// Of the passes that find the lights of tiles and shade opaque surfaces with them.
+/// Of the passes that find the lights of tiles and shade opaque surfaces with them, with what only the searches call for.
 double lighting_ns(const FrameSample& sample) {
-  double ns = pass_ns(sample, "deferred");
+  double ns = pass_ns(sample, "deferred") + pass_ns(sample, "depth_bounds") + pass_ns(sample, "results");
   for (const PassTime& pass : sample.report.passes) ns += pass.module == "lights" ? pass.ms * kNsPerMs : 0.0;
   return ns;
 }

@@ -38,14 +38,4 @@ uint workgroup_sum(uint value) {
   return sum;
 }
 
-uint workgroup_or(uint value) {
-  if (gl_LocalInvocationIndex == 0u) workgroup_values[0][0] = 0u;
-  barrier();
-  if (value != 0u) atomicOr(workgroup_values[0][0], value);
-  barrier();
-  uint bits = workgroup_values[0][0];
-  barrier();
-  return bits;
-}
-
 #endif

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/lights/froxel_api.glsl"
+#include "shaders/lights/find_lights_accurate.glsl"
 
 // Find lights, accurate (FF XVI paper, listing 3): the lights of each shadow tile that have a pixel of it in their volume, in
 // ascending order. One workgroup is a tile. The group's lights are narrowed against the tile's froxel, each thread with lights of its
@@ -13,17 +13,6 @@
 // no stage takes more than one turn a light and word.
 
 layout(local_size_x = 8, local_size_y = 2, local_size_y_id = 0) in;  // constant 0: rows of threads; 1, 2, 4 or 8
-
-layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
-layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
-layout(set = 0, binding = 2, scalar) uniform Grid { LightGrid grid; };
-layout(set = 0, binding = 3) uniform sampler2D depth_image;
-layout(set = 0, binding = 4) uniform sampler2D light_texels;
-layout(set = 0, binding = 5) uniform sampler2D depth_bounds;
-layout(set = 0, binding = 6, scalar) readonly buffer GroupMasks { uint group_masks[]; };
-layout(set = 0, binding = 7, rg32ui) uniform uimage2D tile_lists;
-layout(set = 0, binding = 8, scalar) writeonly buffer EarlyLists { uint early_lists[]; };
-layout(set = 0, binding = 9, scalar) buffer Counters { LightCounters counters; };
 
 const uint kRows = gl_WorkGroupSize.y;
 const uint kThreads = 8u * kRows;
@@ -73,13 +62,6 @@ void sort_open(uint lane) {
     for (uint left = open_groups & ((1u << word) - 1u); left != 0u; left &= left - 1u) rank += bitCount(open_words[findLSB(left)]);
     if ((open_words[word] >> (light & 31u) & 1u) != 0u) open_lights[rank] = light;
   }
-}
-
-// Camera-relative point of a pixel; one that no light reaches where it shows no surface.
-vec3 pixel_point(uvec2 pixel) {
-  float depth = texelFetch(depth_image, ivec2(min(pixel, view.size - 1u)), 0).r;
-  if (depth <= 0.0 || any(greaterThanEqual(pixel, view.size))) return vec3(1e30);
-  return relative_position(view, vec2(pixel), depth);
 }
 
 void ask_pixels(uvec2 pixel, uint lane) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/lights/froxel_api.glsl"
+#include "shaders/lights/find_lights_accurate.glsl"
 
 // Find lights, accurate, for devices that run a workgroup's threads one after the other: the same lists as
 // find_lights_accurate.comp.glsl from one thread a shadow tile instead of one a pixel. Nothing is shared and nobody waits: where every
@@ -13,39 +13,15 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
-layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
-layout(set = 0, binding = 2, scalar) uniform Grid { LightGrid grid; };
-layout(set = 0, binding = 3) uniform sampler2D depth_image;
-layout(set = 0, binding = 4) uniform sampler2D light_texels;
-layout(set = 0, binding = 5) uniform sampler2D depth_bounds;
-layout(set = 0, binding = 6, scalar) readonly buffer GroupMasks { uint group_masks[]; };
-layout(set = 0, binding = 7, rg32ui) uniform uimage2D tile_lists;
-layout(set = 0, binding = 8, scalar) writeonly buffer EarlyLists { uint early_lists[]; };
-layout(set = 0, binding = 9, scalar) buffer Counters { LightCounters counters; };
-
-// Whether the light reaches the point of a pixel with this depth value: not for sky, nor outside the picture.
-bool reaches_pixel(LocalLight light, uvec2 pixel, float depth) {
-  bool valid = depth > 0.0 && all(lessThan(pixel, view.size));
-  return valid && in_range(light, relative_position(view, vec2(pixel), valid ? depth : 1.0));
-}
-
-// A pixel's camera-relative point; w is 0 for sky and outside the picture.
-vec4 pixel_point(uvec2 pixel) {
-  float depth = texelFetch(depth_image, ivec2(min(pixel, view.size - 1u)), 0).r;
-  bool valid = depth > 0.0 && all(lessThan(pixel, view.size));
-  return vec4(relative_position(view, vec2(pixel), valid ? depth : 1.0), valid ? 1.0 : 0.0);
-}
-
 // Whether the light has a pixel of the tile in its volume. `probes`: four of its points, which decide for most lights.
-bool reaches_tile(LocalLight light, uvec2 first, vec4 probes[4]) {
+bool reaches_tile(LocalLight light, uvec2 first, vec3 probes[4]) {
   bool reaches = false;
-  for (uint i = 0u; i < 4u; ++i) reaches = reaches || (probes[i].w != 0.0 && in_range(light, probes[i].xyz));
+  for (uint i = 0u; i < 4u; ++i) reaches = reaches || in_range(light, probes[i]);
   for (uint i = 0u; i < 16u && !reaches; ++i) {
     uvec2 quad = first + 2u * uvec2(i & 3u, i >> 2);
     vec4 depths = textureGather(depth_image, vec2(quad + 1u) * view.inverse_size);
-    reaches = reaches_pixel(light, quad + uvec2(0, 1), depths.x) || reaches_pixel(light, quad + uvec2(1, 1), depths.y) ||
-              reaches_pixel(light, quad + uvec2(1, 0), depths.z) || reaches_pixel(light, quad, depths.w);
+    reaches = in_range(light, point_at(quad + uvec2(0, 1), depths.x)) || in_range(light, point_at(quad + uvec2(1, 1), depths.y)) ||
+              in_range(light, point_at(quad + uvec2(1, 0), depths.z)) || in_range(light, point_at(quad, depths.w));
   }
   return reaches;
 }
@@ -59,7 +35,7 @@ void main() {
   if (groups == 0u) return;
 
   uvec2 first = tile * uint(GLOAM_SHADOW_TILE);
-  vec4 probes[4];
+  vec3 probes[4];
   for (uint i = 0u; i < 4u; ++i) probes[i] = pixel_point(first + 1u + uvec2(i & 1u, i >> 1) * 5u);
   Froxel f = make_froxel(view, vec2(first), min(vec2(first + 8u), vec2(view.size)), bounds.y, bounds.x, kAccurateEpsilon);
   uvec2 tile_list = imageLoad(tile_lists, ivec2(tile)).xy;
