@@ -9,8 +9,10 @@
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/geometry_picture.h"
 #include "engine/render/knobs.h"
 #include "engine/render/picture.h"
+#include "engine/render/scene_tracer.h"
 #include "engine/render/view.h"
 
 namespace gloam {
@@ -29,6 +31,11 @@ struct ReferenceInput {
   const FramePictures& frame;  ///< what was drawn; both sides are there
   std::uint32_t samples = 0;   ///< a pixel (and light), for references that sample; at least 1
   JobExecutor& executor;
+  /// What references of light and shadow need beside: triangles to trace, where the frame's pixels lie, and the means to draw the frame
+  /// once more with what was found put into the world (which is `world`) first. Null where nobody offers them.
+  const SceneTracer* tracer = nullptr;
+  const GeometryPicture* geometry = nullptr;
+  std::function<Result<FramePictures>(const std::function<void(World&)>& change, const std::function<void(World&)>& restore)> redraw;
 };
 
 /// What "right" means for a knob where that is more than the same frame with the knob at Knob::exact: a picture that the module computes

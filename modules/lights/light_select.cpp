@@ -13,8 +13,9 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kCullGrain = 512;  // lights a job
-constexpr std::size_t kPackGrain = 512;
+constexpr std::size_t kCullGrain = 512;     // lights a job
+constexpr std::size_t kPackGrain = 256;     // lights a job
+constexpr std::size_t kLeastToSplit = 256;  // fewer lights are sorted by one job
 /// Bound of what floats lose where a camera-relative position is rounded, turned and summed, a share of the lengths that take part. As
 /// much is added to bounds, so that no pixel the GPU lights is left out.
 constexpr float kRounding = 4e-7f;
@@ -86,37 +87,6 @@ GLOAM_CPU_CLONES void cull_lights(CullColumns o, CullView v, std::size_t begin, 
   }
 }
 
-struct CullJob {
-  CullColumns columns;
-  CullView view;
-  void run(JobRange range) const { cull_lights(columns, view, range.begin, range.end); }
-};
-
-void find_visible(const LightTable& table, const RenderView& view, JobExecutor& executor, LightSelection& selection) {
-  const std::size_t count = table.size();
-  for (auto* column : {&selection.x, &selection.y, &selection.z, &selection.nearest, &selection.farthest})
-    column->resize(count);
-  selection.kind.resize(count);
-  const CullJob job{
-      {table.x.data(), table.y.data(), table.z.data(), table.radius.data(), selection.x.data(), selection.y.data(),
-       selection.z.data(), selection.nearest.data(), selection.farthest.data(), selection.kind.data()},
-      cull_view(view)};
-  executor.parallel_for(count, kCullGrain, [&job](JobRange range) { job.run(range); });
-  selection.local.resize(count);
-  selection.directional.clear();
-  std::size_t locals = 0;
-  std::uint32_t kinds = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    selection.local[locals] = i;
-    locals += selection.kind[i] == kLocal ? 1 : 0;
-    kinds |= selection.kind[i];
-  }
-  selection.local.resize(locals);
-  if ((kinds & kDirectional) == 0) return;
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
-}
-
 /// Keeps the `capacity` indices of greatest importance in ascending order, equal ones by index; returns how many were dropped.
 template <class Importance>
 std::uint32_t keep_most_important(std::vector<std::uint32_t>& lights, std::size_t capacity,
@@ -149,15 +119,15 @@ std::uint32_t ordered_bits(float value) {
 }
 
 /// Keys by their high 32 bits, equal ones as they came. What a view's depths leave of 32 bits, their least one taken off, needs three
-/// counting passes, rarely four; and no pass finds most of its keys in one place, where each would wait for the one before. Result in
-/// `keys`.
-void sort_by_depth(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& other) {
+/// counting passes, rarely four; and no pass finds most of its keys in one place, where each would wait for the one before. Returns where
+/// the result is: in `keys` or in `other`, which is as long.
+std::span<const std::uint64_t> sort_by_depth(std::span<std::uint64_t> keys, std::span<std::uint64_t> other) {
   constexpr std::size_t kPlain = 64;  // fewer are sorted faster without counting; their low bits ascend too
   constexpr std::uint32_t kMostDigitBits = 9;
   constexpr std::uint32_t kMostPasses = 4;
   if (keys.size() < kPlain) {
     std::sort(keys.begin(), keys.end());
-    return;
+    return keys;
   }
   auto least = ~std::uint32_t{0};
   std::uint32_t greatest = 0;
@@ -166,7 +136,7 @@ void sort_by_depth(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>&
     greatest = std::max(greatest, static_cast<std::uint32_t>(key >> 32));
   }
   const auto bits = static_cast<std::uint32_t>(std::bit_width(greatest - least));
-  if (bits == 0) return;
+  if (bits == 0) return keys;
   const std::uint32_t passes = (bits + kMostDigitBits - 1) / kMostDigitBits;
   const std::uint32_t digit_bits = (bits + passes - 1) / passes;
   const std::uint32_t mask = (1u << digit_bits) - 1;
@@ -176,7 +146,6 @@ void sort_by_depth(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>&
     std::uint32_t depth = static_cast<std::uint32_t>(key >> 32) - least;
     for (std::uint32_t pass = 0; pass < passes; ++pass, depth >>= digit_bits) ++counts[pass][depth & mask];
   }
-  other.resize(keys.size());
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
     std::uint32_t* const places = counts[pass].data();
     std::uint32_t begin = 0;
@@ -189,8 +158,133 @@ void sort_by_depth(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>&
     std::uint64_t* const to = other.data();
     for (const std::uint64_t key : keys)
       to[places[(static_cast<std::uint32_t>(key >> 32) - least) >> shift & mask]++] = key;
-    keys.swap(other);
+    std::swap(keys, other);
   }
+  return keys;
+}
+
+/// Two ascending runs of keys, all different; the second may be empty. Together they are the order of the lights.
+struct Runs {
+  std::span<const std::uint64_t> first, second;
+
+  /// Of the least `count` keys, how many are in the first run.
+  [[nodiscard]] std::size_t of_first(std::size_t count) const {
+    std::size_t low = count - std::min(count, second.size());
+    std::size_t high = std::min(count, first.size());
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (first[middle] < second[count - middle - 1]) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low;
+  }
+
+  /// Writes a range of the order: the keys' lights.
+  void merge(JobRange range, std::uint32_t* lights) const {
+    std::size_t i = of_first(range.begin);
+    std::size_t j = range.begin - i;
+    std::size_t k = range.begin;
+    while (k < range.end && i < first.size() && j < second.size()) {
+      const std::uint64_t a = first[i];
+      const std::uint64_t b = second[j];
+      const std::size_t is_first = a < b ? 1 : 0;
+      lights[k++] = static_cast<std::uint32_t>(a < b ? a : b);
+      i += is_first;
+      j += 1 - is_first;
+    }
+    while (k < range.end && i < first.size()) lights[k++] = static_cast<std::uint32_t>(first[i++]);
+    while (k < range.end) lights[k++] = static_cast<std::uint32_t>(second[j++]);
+  }
+};
+
+/// Sorts the visible local lights that stand in a range of LightSelection::local.
+std::span<const std::uint64_t> sort_lights(LightSelection& selection, std::size_t begin, std::size_t count) {
+  std::uint64_t* const keys = selection.keys.data() + begin;
+  const std::uint32_t* const lights = selection.local.data() + begin;
+  const float* const nearest = selection.nearest.data();
+  for (std::size_t i = 0; i < count; ++i) keys[i] = std::uint64_t{ordered_bits(nearest[lights[i]])} << 32 | lights[i];
+  return sort_by_depth({keys, count}, {selection.sorted.data() + begin, count});
+}
+
+struct FindJob {
+  CullColumns columns;
+  CullView view;
+  LightSelection& selection;
+  Runs* runs;  ///< null: the lights are not sorted yet
+
+  /// Visible local lights, in order, go to the front of the range's part of LightSelection::local.
+  void run(JobRange range) const {
+    cull_lights(columns, view, range.begin, range.end);
+    std::uint32_t* const local = selection.local.data() + range.begin;
+    FoundLights found;
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      local[found.locals] = static_cast<std::uint32_t>(i);
+      found.locals += columns.kind[i] == kLocal ? 1 : 0;
+      found.kinds |= columns.kind[i];
+    }
+    selection.found[range.ordinal] = found;
+    if (runs != nullptr)
+      (range.ordinal == 0 ? runs->first : runs->second) = sort_lights(selection, range.begin, found.locals);
+  }
+};
+
+/// Lights a job that sorts, of which there are one or two.
+std::size_t sort_grain(std::size_t count, const JobExecutor& executor) {
+  const bool split = executor.worker_count() > 1 && count >= kLeastToSplit;
+  return std::max<std::size_t>(1, split ? (count + 1) / 2 : count);
+}
+
+/// Fills `local` and `directional`. True if nothing is too much, so that runs are sorted already.
+bool find_visible(const LightTable& table, const RenderView& view, JobExecutor& executor, LightSelection& selection,
+                  Runs& runs) {
+  const std::size_t count = table.size();
+  for (auto* column : {&selection.x, &selection.y, &selection.z, &selection.nearest, &selection.farthest})
+    column->resize(count);
+  for (auto* column : {&selection.kind, &selection.local}) column->resize(count);
+  for (auto* keys : {&selection.keys, &selection.sorted}) keys->resize(count);
+  const bool sorts = count <= GLOAM_MAX_LOCAL_LIGHTS;
+  const std::size_t grain = sorts ? sort_grain(count, executor) : kCullGrain;
+  selection.found.resize((count + grain - 1) / grain);
+  const FindJob job{
+      {table.x.data(), table.y.data(), table.z.data(), table.radius.data(), selection.x.data(), selection.y.data(),
+       selection.z.data(), selection.nearest.data(), selection.farthest.data(), selection.kind.data()},
+      cull_view(view),
+      selection,
+      sorts ? &runs : nullptr};
+  executor.parallel_for(count, grain, [&job](JobRange range) { job.run(range); });
+
+  std::size_t locals = 0;
+  std::uint32_t kinds = 0;
+  for (std::size_t range = 0; range < selection.found.size(); ++range) {
+    const FoundLights found = selection.found[range];
+    const auto from = selection.local.begin() + static_cast<std::ptrdiff_t>(range * grain);
+    if (!sorts) std::copy_n(from, found.locals, selection.local.begin() + static_cast<std::ptrdiff_t>(locals));
+    locals += found.locals;
+    kinds |= found.kinds;
+  }
+  if (!sorts) selection.local.resize(locals);
+  selection.directional.clear();
+  for (std::uint32_t i = 0; i < count && (kinds & kDirectional) != 0; ++i)
+    if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
+  return sorts;
+}
+
+/// The visible local lights that fit, in order of depth, as runs.
+Runs choose_local(const LightTable& table, const RenderView& view, JobExecutor& executor, VisibleLights& visible) {
+  LightSelection& selection = visible.selection;
+  Runs runs;
+  visible.dropped = 0;
+  if (find_visible(table, view, executor, selection, runs)) return runs;
+  visible.dropped = keep_most_important(selection.local, GLOAM_MAX_LOCAL_LIGHTS, selection.ranking,
+                                        [&](std::uint32_t i) { return importance_of(table, view, i); });
+  const std::size_t count = selection.local.size();
+  executor.parallel_for(count, sort_grain(count, executor), [&](JobRange range) {
+    (range.ordinal == 0 ? runs.first : runs.second) = sort_lights(selection, range.begin, range.end - range.begin);
+  });
+  return runs;
 }
 
 struct PackJob {
@@ -198,11 +292,10 @@ struct PackJob {
   const LightTable& table;
   const RenderView& view;
   VisibleLights& visible;
+  Runs runs;
 
   /// Lights come in the order of depths, which no cache foresees.
-  void prefetch(std::size_t i) const {
-    if (i >= visible.selection.keys.size()) return;
-    const auto light = static_cast<std::uint32_t>(visible.selection.keys[i]);
+  void prefetch(std::uint32_t light) const {
     __builtin_prefetch(&table.records[light]);
     __builtin_prefetch(&lights[light].position);
   }
@@ -210,9 +303,12 @@ struct PackJob {
   void run(JobRange range) const {
     constexpr std::size_t kAhead = 12;
     const LightSelection& from = visible.selection;
+    const std::uint32_t* const order = from.order.data();
+    runs.merge(range, visible.selection.order.data());
+    for (std::size_t i = range.begin; i < std::min(range.begin + kAhead, range.end); ++i) prefetch(order[i]);
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const auto light = static_cast<std::uint32_t>(from.keys[i]);
-      prefetch(i + kAhead);
+      const std::uint32_t light = order[i];
+      if (i + kAhead < range.end) prefetch(order[i + kAhead]);
       const LightRecord& record = table.records[light];
       const vec3 position = view.relative(lights[light].position);
       const vec3 direction = lights[light].direction;
@@ -247,26 +343,17 @@ void select_lights(std::span<const PlacedLight> lights, const LightTable& table,
                    JobExecutor& executor, VisibleLights& visible) {
   LightSelection& selection = visible.selection;
   visible.total = static_cast<std::uint32_t>(lights.size());
-  find_visible(table, view, executor, selection);
-  visible.dropped = keep_most_important(selection.local, GLOAM_MAX_LOCAL_LIGHTS, selection.keys,
-                                        [&](std::uint32_t i) { return importance_of(table, view, i); });
-  visible.dropped += keep_most_important(selection.directional, GLOAM_MAX_DIRECTIONAL_LIGHTS, selection.keys,
+  const Runs runs = choose_local(table, view, executor, visible);
+  visible.dropped += keep_most_important(selection.directional, GLOAM_MAX_DIRECTIONAL_LIGHTS, selection.ranking,
                                          [&](std::uint32_t i) { return table.records[i].brightness; });
-  selection.keys.resize(selection.local.size());
-  std::uint64_t* const keys = selection.keys.data();
-  const float* const nearest = selection.nearest.data();
-  for (std::size_t i = 0; i < selection.local.size(); ++i) {
-    const std::uint32_t light = selection.local[i];
-    keys[i] = std::uint64_t{ordered_bits(nearest[light])} << 32 | light;
-  }
-  sort_by_depth(selection.keys, selection.sorted);
 
-  const std::size_t count = selection.keys.size();
+  const std::size_t count = runs.first.size() + runs.second.size();
   visible.block.local_count = static_cast<std::uint32_t>(count);
   visible.local_entities.resize(count);
   visible.depths.resize(count);
   visible.mask_lights.resize(count);
-  const PackJob job{lights, table, view, visible};
+  selection.order.resize(count);
+  const PackJob job{lights, table, view, visible, runs};
   executor.parallel_for(count, kPackGrain, [&job](JobRange range) { job.run(range); });
   pack_directional(lights, table, visible);
 }

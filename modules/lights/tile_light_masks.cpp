@@ -14,8 +14,31 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kOutlineGrain = 256;  // lights a job
+constexpr std::size_t kLineGrain = 512;     // lights a job: a line of the cache holds their words of a TileLine
+constexpr std::size_t kOutlineGrain = 256;  // the same where words are not shared out
 constexpr std::size_t kRowGrain = 4;        // rows of tiles a job
+constexpr std::size_t kGrainWords = kLineGrain / 32;
+
+GLOAM_CPU_CLONES void sum_lines(TileLine* lines, std::size_t count, std::size_t first_word) {
+  std::uint32_t sums[kGrainWords] = {};
+  for (std::size_t line = 0; line < count; ++line) {
+    std::uint32_t* const words = lines[line].words + first_word;
+    for (std::size_t w = 0; w < kGrainWords; ++w) words[w] = sums[w] ^= words[w];
+  }
+}
+
+/// The words of a job's lights in the first `count` columns or rows, from where lights begin and end.
+void build_lines(const std::vector<std::int32_t>& begins, const std::vector<std::int32_t>& ends, JobRange range,
+                 std::size_t count, std::vector<TileLine>& lines) {
+  const std::size_t first_word = range.begin / 32;
+  for (std::size_t line = 0; line <= count; ++line) std::fill_n(lines[line].words + first_word, kGrainWords, 0u);
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const std::uint32_t bit = 1u << (i % 32);
+    lines[static_cast<std::size_t>(begins[i])].words[i / 32] ^= bit;
+    lines[static_cast<std::size_t>(ends[i])].words[i / 32] ^= bit;
+  }
+  sum_lines(lines.data(), count, first_word);
+}
 
 /// What the jobs of one call share.
 struct MaskJob {
@@ -27,12 +50,21 @@ struct MaskJob {
 
   void outline(JobRange range) const { find_outlines(lights, view, projection, detail, range, masks.scratch.outlines); }
 
+  void build_columns_and_rows(JobRange range) const {
+    range.end = std::min(range.end, lights.size());
+    outline(range);
+    TileMaskScratch& scratch = masks.scratch;
+    const TileOutlines& outlines = scratch.outlines;
+    build_lines(outlines.column_begin, outlines.column_end, range, projection.columns, scratch.columns);
+    build_lines(outlines.row_begin, outlines.row_end, range, projection.rows, scratch.rows);
+  }
+
   void and_rows(JobRange range) const {
     const std::size_t words = std::max<std::size_t>(1, (lights.size() + 31) / 32);
     const VectorWidth width = widest_vectors();
     for (std::size_t row = range.begin; row < range.end; ++row) {
-      and_tile_row(width, masks.scratch.column_masks.data(), masks.scratch.row_masks.data() + row * kTileMaskWords,
-                   projection.columns, words, masks.words.data() + row * projection.columns * GLOAM_MASK_WORDS);
+      and_tile_row(width, masks.scratch.columns.data()->words, masks.scratch.rows[row].words, projection.columns, words,
+                   masks.words.data() + row * projection.columns * GLOAM_MASK_WORDS);
     }
   }
 
@@ -41,25 +73,6 @@ struct MaskJob {
                         masks.scratch.bands[range.ordinal], masks.words.data());
   }
 };
-
-GLOAM_CPU_CLONES void sum_lines(std::uint32_t* words, std::size_t tiles) {
-  std::uint32_t sums[kTileMaskWords] = {};
-  for (std::size_t tile = 0; tile < tiles; ++tile, words += kTileMaskWords)
-    for (std::size_t w = 0; w < kTileMaskWords; ++w) words[w] = sums[w] ^= words[w];
-}
-
-/// Masks of `tiles` columns or rows from where lights begin and end.
-void build_line_masks(std::span<const std::int32_t> begins, std::span<const std::int32_t> ends, std::size_t count,
-                      std::size_t tiles, std::vector<std::uint32_t>& masks) {
-  masks.assign((tiles + 1) * kTileMaskWords, 0);
-  std::uint32_t* words = masks.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t bit = 1u << (i % 32);
-    words[static_cast<std::size_t>(begins[i]) * kTileMaskWords + i / 32] ^= bit;
-    words[static_cast<std::size_t>(ends[i]) * kTileMaskWords + i / 32] ^= bit;
-  }
-  sum_lines(words, tiles);
-}
 
 }  // namespace
 
@@ -74,16 +87,17 @@ void build_tile_light_masks(std::span<const MaskLight> lights, const RenderView&
   if (bound == TileBound::cone) job.detail = OutlineDetail::cones;
   masks.tiles = uvec2(p.columns, p.rows);
   masks.words.resize(std::size_t{p.columns} * p.rows * GLOAM_MASK_WORDS);
-  TileOutlines& outlines = masks.scratch.outlines;
-  outlines.resize(lights.size());
-  executor.parallel_for(lights.size(), kOutlineGrain, [&job](JobRange range) { job.outline(range); });
+  masks.scratch.outlines.resize(lights.size());
 
   if (job.detail == OutlineDetail::rectangles) {
-    build_line_masks(outlines.column_begin, outlines.column_end, lights.size(), p.columns, masks.scratch.column_masks);
-    build_line_masks(outlines.row_begin, outlines.row_end, lights.size(), p.rows, masks.scratch.row_masks);
+    masks.scratch.columns.resize(p.columns + 1);
+    masks.scratch.rows.resize(p.rows + 1);
+    executor.parallel_for(std::max<std::size_t>(1, lights.size()), kLineGrain,
+                          [&job](JobRange range) { job.build_columns_and_rows(range); });
     executor.parallel_for(p.rows, kRowGrain, [&job](JobRange range) { job.and_rows(range); });
     return;
   }
+  executor.parallel_for(lights.size(), kOutlineGrain, [&job](JobRange range) { job.outline(range); });
   // Few bands: each looks at every light.
   const std::size_t wanted = executor.worker_count() == 1 ? 1 : 2 * std::size_t{executor.worker_count()};
   const std::size_t grain =

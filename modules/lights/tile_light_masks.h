@@ -10,6 +10,7 @@
 #include "engine/math/bounds.h"
 #include "engine/math/types.h"
 #include "engine/render/view.h"
+#include "modules/lights/tile_mask_rows.h"
 #include "modules/lights/tile_outlines.h"
 #include "modules/lights/tile_row_intervals.h"
 #include "shaders/lights/lights_shared.h"
@@ -23,11 +24,16 @@ enum class TileBound : std::uint8_t {
   cone,          ///< and for spots only between the two lines from the apex that touch the cone's sides
 };
 
+/// Which lights touch a column or a row of tiles. Aligned: jobs share the words line by line.
+struct alignas(64) TileLine {
+  std::uint32_t words[kTileMaskWords];
+};
+
 /// Memory that building masks keeps from one time to the next.
 struct TileMaskScratch {
   TileOutlines outlines;
-  std::vector<std::uint32_t> column_masks;  ///< 32 words a column of tiles, and of one column more
-  std::vector<std::uint32_t> row_masks;
+  std::vector<TileLine> columns;  ///< and one more
+  std::vector<TileLine> rows;     ///< and one more
   std::vector<TileBand> bands;
 };
 

@@ -16,12 +16,13 @@ void main() {
   ivec2 last = textureSize(image, 0) - 1;
   vec3 sum = texelFetch(image, center, 0).rgb;
   float total = 1.0;
-  for (int i = 1; i <= c.taps; ++i) {
+  int i = 1;
+  if (c.taps > 0) do {
     float distance = float(i) * c.inverse_sigma;
     float weight = exp(-0.5 * distance * distance);
     sum += weight * (texelFetch(image, clamp(center - i * c.direction, ivec2(0), last), 0).rgb +
                      texelFetch(image, clamp(center + i * c.direction, ivec2(0), last), 0).rgb);
     total += 2.0 * weight;
-  }
+  } while (++i <= c.taps);
   out_light = vec4(sum / total, 1.0);
 }

@@ -12,10 +12,13 @@ layout(location = 0) out vec4 out_light;
 
 void main() {
   ivec2 first = ivec2(gl_FragCoord.xy) * kDivisor;
-  ivec2 last = min(first + kDivisor, textureSize(lit_image, 0));
+  ivec2 count = min(textureSize(lit_image, 0) - first, ivec2(kDivisor));
   vec3 sum = vec3(0.0);
-  for (int y = first.y; y < last.y; ++y)
-    for (int x = first.x; x < last.x; ++x) sum += texelFetch(lit_image, ivec2(x, y), 0).rgb;
-  ivec2 count = last - first;
+  // Loops of a known length are unrolled.
+  for (int y = 0; y < kDivisor; ++y)
+    for (int x = 0; x < kDivisor; ++x) {
+      vec3 texel = texelFetch(lit_image, first + min(ivec2(x, y), count - 1), 0).rgb;
+      if (x < count.x && y < count.y) sum += texel;
+    }
   out_light = vec4(sum / float(count.x * count.y), 1.0);
 }

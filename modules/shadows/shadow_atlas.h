@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/ecs/entity.h"
+#include "engine/math/types.h"
+
+namespace gloam {
+
+/// A square of the atlas; its corner is a multiple of its side.
+struct AtlasSquare {
+  uvec2 origin = uvec2(0);
+  std::uint32_t size = 0;  ///< texels, a power of two; 0: has no place
+  bool operator==(const AtlasSquare&) const = default;
+};
+
+/// Names a face: a light and which of its faces.
+struct FaceKey {
+  Entity light;
+  std::uint32_t index = 0;
+  auto operator<=>(const FaceKey&) const = default;
+};
+
+/// What a face asks for.
+struct FaceRequest {
+  FaceKey key;
+  std::uint32_t size = 0;   ///< texels, a power of two from GLOAM_SHADOW_SMALLEST_FACE to the atlas' side
+  float importance = 0.0f;  ///< ≥ 0
+};
+
+/// What a request got, in the order of the requests.
+struct FacePlaces {
+  std::vector<AtlasSquare> squares;
+  std::uint32_t shrunk = 0;    ///< faces that got less than they asked for
+  std::uint32_t left_out = 0;  ///< faces that got nothing
+};
+
+/// Places faces in a square of texels. A face keeps its square while it asks for the same size and nothing has to shrink. When not all fit,
+/// the least important halve, ties by order of requests, until all do; at the smallest size the least important are left out.
+/// Deterministic: the same calls give the same squares.
+class ShadowAtlas {
+ public:
+  /// size: texels of a side, a power of two. Another size forgets all places.
+  [[nodiscard]] FacePlaces place(std::uint32_t size, std::span<const FaceRequest> requests);
+  [[nodiscard]] std::uint32_t size() const { return size_; }
+  /// Texels that are taken.
+  [[nodiscard]] std::uint64_t used_texels() const;
+
+ private:
+  std::uint32_t size_ = 0;
+  std::map<FaceKey, AtlasSquare> places_;
+};
+
+}  // namespace gloam

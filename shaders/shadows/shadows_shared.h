@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_SHADOWS_SHARED_H
+#define GLOAM_SHADERS_SHADOWS_SHADOWS_SHARED_H
+
+#include "shaders/common/prelude.h"
+
+// Shadow maps hold reversed depth: near / depth in perspective faces, 1 (near) to 0 (far) in a directional light's; 0 is "empty" and never
+// blocks. All faces of a view lie in one atlas, each a square whose side is a power of two and whose corner is a multiple of its side.
+//
+// The atlas image is 1.5 W × W texels: mip 0 is the square [0, W)², mip m ≥ 1 the square of side W / 2^m with its corner at
+// (W, W − W / 2^(m−1)): a face of side s at `origin` has its mip m at corner(m) + origin / 2^m, s / 2^m wide.
+// The pyramid image is laid out the same way for W / 4: its level l is mip l + GLOAM_SHADOW_PYRAMID_MIP. x: farthest depth of the texels
+// below (0 when one of them is empty), y: nearest.
+//
+// A cube's faces look along +X, −X, +Y, −Y, +Z, −Z of the world; the y axis of ±X and ±Z is +Y, of +Y it is −Z, of −Y it is +Z; the
+// x axis is cross(forward, y axis). Texture coordinates of a face run from its upper left corner: x along the x axis, y against the y axis.
+
+#define GLOAM_SHADOW_NONE 0
+#define GLOAM_SHADOW_SPOT 1
+#define GLOAM_SHADOW_CUBE 2
+#define GLOAM_SHADOW_ROW_TEXELS 8     // of a local light's ShadowRow in the image of rows
+#define GLOAM_SHADOW_PYRAMID_MIP 2
+#define GLOAM_SHADOW_SMALLEST_FACE 16 // texels; faces are 16 … 4096
+#define GLOAM_MAX_CASCADES 4
+
+GLOAM_SHARED_BEGIN
+
+/// How one local light casts shadows: GLOAM_SHADOW_ROW_TEXELS texels of an rgba32f image, row = index of the light in the view.
+struct ShadowRow {
+  float kind;          // GLOAM_SHADOW_…
+  float near_m;        // what is nearer to the light than this, along a face's axis, neither blocks nor is in shadow
+  float width_m;       // diameter of the emitter; 0: hard shadows
+  float size;          // texels of a face's side
+  vec3 right;          // spot: the face's axes, world
+  float tan_half;      // tangent of half a face's field of view, with the rim for kernels
+  vec3 up;
+  float tan_inner;     // the same without the rim: what lies beyond it belongs to another face, or to none
+  vec2 origins[6];     // of faces in the atlas, texels of mip 0; spot: the first
+  float cookie_layer;  // of the cookie images; −1: none
+  float cookie_tan;    // tangent of the half angle that the cookie fills
+  float traced_layer;  // of the traced visibility images (GLOAM_SHADOWS_FILTER_ID 4); −1: always lit
+  float reserved0;
+  vec4 reserved1;
+};
+
+/// One box of a directional light's shadow.
+struct ShadowCascade {
+  vec4 row_u;      // dot(row, (camera-relative position, 1)): texels of mip 0 from the face's corner, x
+  vec4 row_v;      // y
+  vec4 row_depth;  // reversed depth, 1 … 0
+  vec2 origin;     // in the atlas, texels of mip 0
+  float size;      // texels
+  float texel_m;   // metres a texel
+  float depth_m;   // metres from depth 1 to depth 0
+  float rim;       // texels at each side that only kernels look at
+  vec2 reserved;
+};
+
+struct DirectionalShadow {
+  uint cascade_count;         // 0: casts none
+  float penumbra_m_per_m;     // width of the penumbra a metre between blocker and receiver: 2 tan(angle / 2)
+  float traced_layer;         // as a local light's
+  float reserved;
+  ShadowCascade cascades[GLOAM_MAX_CASCADES];  // from the camera outwards; a point belongs to the first it lies in
+};
+
+/// Constants of all of a view's shadows.
+struct ShadowBlock {
+  float atlas_size;     // W
+  float bias_m;         // oriented bias
+  float depth_quantum;  // of the atlas' format at depth d: max(depth_quantum, d · relative_quantum)
+  float relative_quantum;
+  DirectionalShadow directional[16];  // by index of the view's directional lights
+};
+
+/// One face whose depth moves from the scratch map into the atlas, or one run of mips (shadow_mips.comp).
+struct ShadowMipConstants {
+  uvec2 source;   // corner in the scratch map (mip 0) or in mip `first` (texels of that mip, atlas coordinates without corner(first))
+  uvec2 origin;   // of the face in the atlas, texels of mip 0
+  uint size;      // of the face, texels of mip 0
+  uint first;     // 0: from the scratch map; else the mip that is there already
+  uint mips;      // of a face of this size: log2(size) + 1
+  uint average;   // 0: a mip's texel is the nearest of its four; 1: their mean by linear depth, empty ones left out
+  uint atlas_size;
+  uint orthographic;  // depth is linear already
+};
+
+GLOAM_SHARED_END
+
+// Specialisation constants of shaders that include shadows_api.glsl
+#define GLOAM_SHADOWS_FILTER_ID 8          // 0 hard, 1 pcf, 2 pcss, 3 chs, 4 what was traced (references)
+#define GLOAM_SHADOWS_KERNEL_ID 9          // 4, 8, 12, 16 texels
+#define GLOAM_SHADOWS_MIPS_ID 10           // 0 off, 1 on
+#define GLOAM_SHADOWS_RECEIVER_PLANE_ID 11 // 0, 1
+#define GLOAM_SHADOWS_BIAS_ID 12           // 0 hardware (in the map already), 1 oriented
+#define GLOAM_SHADOWS_KERNEL_SHAPE_ID 13   // 0 disc, 1 square
+#define GLOAM_SHADOWS_LEVELS_ID 14         // steps of visibility: 255 or 15; 0: not quantised
+#define GLOAM_SHADOWS_FULL_PENUMBRA_ID 15  // 1: no early-outs, for measuring the filter alone
+
+#endif
