@@ -5,6 +5,7 @@
 #include "sandbox/scenes/lanterns.h"
 #include "sandbox/scenes/many_lights.h"
 #include "sandbox/scenes/plain.h"
+#include "sandbox/scenes/shadows.h"
 
 namespace gloam {
 namespace {
@@ -13,6 +14,8 @@ constexpr BuiltinScene kScenes[] = {
     {"plain", "geometry and materials under one sun", &build_plain_scene},
     {"lanterns", "256 coloured point and spot lights between arches", &build_lanterns_scene},
     {"many_lights", "1024 small lights among stones and glass on hills, and a moon", &build_many_lights_scene},
+    {"shadows", "soft shadows of columns, bars, a table and thin sheets under a lamp, a spot and a moon",
+     &build_shadows_scene},
 };
 
 }  // namespace

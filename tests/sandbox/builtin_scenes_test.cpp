@@ -138,6 +138,15 @@ TEST(ManyLightsScene, can_be_thinned_out) {
   }
 }
 
+TEST(ShadowsScene, has_a_wide_lamp_a_spot_and_a_moon_that_cast_soft_shadows) {
+  BuiltWorld built("shadows");
+  EXPECT_EQ(lights_by_kind(built.world),
+            (std::map<LightKind, int>{{LightKind::point, 1}, {LightKind::spot, 1}, {LightKind::directional, 1}}));
+  built.world.view<const Light>().each([](const Light& light) {
+    EXPECT_TRUE(light.kind == LightKind::directional || light.width_m >= 0.1f);
+  });
+}
+
 TEST(SceneBuilder, a_rotation_towards_a_direction_turns_minus_z_there) {
   for (const dvec3& direction : {dvec3(0, 0, -1), dvec3(0, 0, 1), dvec3(0, -1, 0), dvec3(0, 2, 0), dvec3(1, -3, 0.5)}) {
     const dvec3 turned = rotation_towards(direction) * dvec3(0, 0, -1);
