@@ -13,7 +13,8 @@
 
 namespace gloam {
 
-/// One primitive of one instance, wherever the camera looks: what may cast a shadow. Blended surfaces cast none.
+/// One primitive of one instance, wherever the camera looks: what may cast a shadow. Blended surfaces cast none. Bounds are of the
+/// vertices as the frame shows them, morphed and posed; what GPUs make of them in float may lie outside by rounding.
 struct Caster {
   Entity entity;
   const GpuPrimitive* primitive = nullptr;
@@ -31,7 +32,8 @@ struct CasterList {
   std::vector<Caster> casters;
 };
 
-/// Push constants that draw a caster with vertices relative to `origin` (world).
+/// Push constants that draw a caster with vertices relative to `origin` (world). Composed in double: exact far from the world's origin
+/// too, while caster and origin lie near each other.
 [[nodiscard]] shaders::DrawConstants caster_constants(const Caster& caster, const dvec3& origin);
 
 }  // namespace gloam

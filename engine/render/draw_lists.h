@@ -7,6 +7,7 @@
 
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/casters.h"
 #include "engine/render/draw_pipelines.h"
 #include "engine/render/gpu_scene.h"
 #include "engine/render/view.h"
@@ -33,16 +34,23 @@ struct DeformJob {
   std::uint32_t first_vertex = 0;  ///< in the frame's deformed streams, a multiple of 64
 };
 
-/// What one view draws: opaque and cut-out surfaces by pipeline, then front to back; blended ones back to front.
+/// What one view draws: opaque and cut-out surfaces by pipeline, then front to back; blended ones back to front. `deforms` are those of
+/// draws and casters.
 struct DrawLists {
   std::vector<Draw> solid;
   std::vector<Draw> blended;
   std::vector<DeformJob> deforms;
   std::uint32_t deformed_vertices = 0;
   std::uint32_t culled_instances = 0;
+  CasterList casters;  ///< empty unless asked for
 };
 
-/// Culls every MeshInstance of the world against the view, in jobs. The result does not depend on the number of threads.
-[[nodiscard]] DrawLists build_draw_lists(const World& world, const RenderView& view, const GpuScene& scene, JobExecutor& executor);
+/// Push constants of a mesh with this matrix, with vertices relative to `origin` (world); composed in double.
+[[nodiscard]] shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3& origin);
+
+/// Culls every MeshInstance of the world against the view, in jobs. The result does not depend on the number of threads. `with_casters`:
+/// lists what casts shadows too, wherever it is, and has it deformed.
+[[nodiscard]] DrawLists build_draw_lists(const World& world, const RenderView& view, const GpuScene& scene, JobExecutor& executor,
+                                         bool with_casters = false);
 
 }  // namespace gloam

@@ -51,6 +51,8 @@ class FrameBuilder {
   [[nodiscard]] const RenderView& view() const { return view_; }
   [[nodiscard]] const GpuScene& scene() const { return scene_; }
   [[nodiscard]] const DrawLists& draws() const { return draws_; }
+  /// What casts shadows, in the camera's view or not; empty when no module that the world demands has asked (Module::needs_casters).
+  [[nodiscard]] const CasterList& casters() const { return draws_.casters; }
   [[nodiscard]] const KnobRegistry& knobs() const { return services_.knobs; }
   [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
   void set_visualizer(std::string_view name) { visualizer_ = name; }

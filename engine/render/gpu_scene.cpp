@@ -40,6 +40,16 @@ std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primit
   return {bounds.begin(), bounds.end()};
 }
 
+std::vector<Aabb> morph_bounds(const Primitive& primitive) {
+  std::vector<Aabb> bounds;
+  for (const Primitive::MorphTarget& target : primitive.morph_targets) {
+    Aabb& box = bounds.emplace_back();
+    for (std::size_t v = 0; v < primitive.positions.size(); ++v)
+      box.grow(v < target.positions.size() ? target.positions[v] : vec3(0.0f));
+  }
+  return bounds;
+}
+
 /// The scene's, and one more for primitives that name none.
 std::vector<Material> materials_of(const SceneAssets& assets) {
   std::vector<Material> materials = assets.materials;
@@ -80,6 +90,7 @@ struct GpuScene::Streams {
     primitive.colored = !source.colors.empty();
     primitive.bounds = source.bounds;
     primitive.joint_bounds = joint_bounds(source, influences);
+    primitive.morph_bounds = morph_bounds(source);
     positions = std::move(source.positions);
   }
 };
@@ -201,7 +212,7 @@ Status GpuScene::upload_materials(const std::vector<Material>& sources, Uploader
     const auto bytes = std::as_bytes(std::span(&packed, 1));
     constants.insert(constants.end(), bytes.begin(), bytes.end());
     constants.resize((constants.size() + kMaterialStride - 1) / kMaterialStride * kMaterialStride);
-    materials_.push_back({{}, surface_features(material), material.alpha_mode, material.double_sided});
+    materials_.push_back({{}, surface_features(material), material.alpha_mode, material.double_sided, material.subsurface});
   }
   gpu::BufferDesc desc{.name = "scene.materials", .module = "engine", .size = constants.size()};
   desc.usage = gpu::BufferUsage::uniform | gpu::BufferUsage::transfer_target;

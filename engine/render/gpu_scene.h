@@ -34,6 +34,7 @@ struct GpuPrimitive {
   std::vector<Cluster> clusters;
   /// Rest bounds of the vertices that follow each joint; their posed union bounds the posed surface.
   std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds;
+  std::vector<Aabb> morph_bounds;  ///< by target: bounds of its offsets
 };
 
 struct GpuMaterial {
@@ -41,6 +42,7 @@ struct GpuMaterial {
   std::uint32_t features = 0;  ///< GLOAM_SURFACE_…
   AlphaMode alpha_mode = AlphaMode::opaque;
   bool double_sided = false;
+  bool subsurface = false;
 };
 
 /// How a primitive of a material is drawn. `flipped`: its front faces are clockwise.

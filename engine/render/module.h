@@ -100,6 +100,12 @@ class Module {
     static_cast<void>(view);
     static_cast<void>(knobs);
   }
+  /// Whether the module's passes look at FrameBuilder::casters(); asked once a frame, when the world demands the module.
+  [[nodiscard]] virtual bool needs_casters(const World& world, const KnobRegistry& knobs) const {
+    static_cast<void>(world);
+    static_cast<void>(knobs);
+    return false;
+  }
   /// Whether a frame without the module makes no sense: then its pipelines are waited for even under Readiness::background.
   [[nodiscard]] virtual bool essential() const { return false; }
   /// The pipelines add_passes will ask for with the knobs as they are; only asked under Readiness::background.

@@ -8,7 +8,7 @@
 /// The renderer's own passes, in the order they are declared. Each reads and puts outputs of the frame's board.
 namespace gloam {
 
-/// Morphs and skins the vertices of visible deformed primitives; puts FrameBuilder::Deformed. Nothing when there are none.
+/// Morphs and skins the vertices of deformed primitives that are drawn or cast shadows; puts FrameBuilder::Deformed. Nothing when there are none.
 [[nodiscard]] Status add_deform_pass(FrameBuilder& frame);
 
 /// Draws solid surfaces into the geometry buffer; puts GeometryOutputs.

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
@@ -23,6 +26,15 @@ struct FramePictures {
   Picture picture;
 };
 
+/// Where references keep what took long, for other knobs and other runs, by what it was computed from: `identity`, one line.
+class ReferenceStore {
+ public:
+  virtual ~ReferenceStore() = default;
+  /// Nothing, when it is absent, damaged or of something else.
+  [[nodiscard]] virtual std::optional<std::string> load(const std::string& identity) const = 0;
+  [[nodiscard]] virtual Status save(const std::string& identity, std::string_view bytes) const = 0;
+};
+
 /// What a reference is computed from: one frame that has been drawn and read back.
 struct ReferenceInput {
   const World& world;          ///< as the frame's systems left it
@@ -36,6 +48,9 @@ struct ReferenceInput {
   const SceneTracer* tracer = nullptr;
   const GeometryPicture* geometry = nullptr;
   std::function<Result<FramePictures>(const std::function<void(World&)>& change, const std::function<void(World&)>& restore)> redraw;
+  const ReferenceStore* store = nullptr;  ///< null: nothing is kept
+  /// Told how much of the work is done, by one thread at a time; may be empty.
+  std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
 /// What "right" means for a knob where that is more than the same frame with the knob at Knob::exact: a picture that the module computes

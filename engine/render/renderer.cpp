@@ -130,6 +130,14 @@ void Renderer::State::update_demand(const World& world) {
   }
 }
 
+bool Renderer::State::casters_needed(const World& world) const {
+  for (std::size_t i = 0; i < options.modules.size(); ++i) {
+    const Module& module = *options.modules[i];
+    if (module.built() && runtimes[i].demand.needed && module.needs_casters(world, knobs)) return true;
+  }
+  return false;
+}
+
 bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder) {
   const Module& module = *options.modules[index];
   if (!module.built() || !runtimes[index].demand.needed) return false;
@@ -183,7 +191,7 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   GpuScene& scene = scene_of(world);
   const ViewImages& own = images.at(view.id.value);
   builders.push_back(std::make_unique<FrameBuilder>(services(), graph, world, view, scene,
-                                                    build_draw_lists(world, view, scene, *options.executor)));
+                                                    build_draw_lists(world, view, scene, *options.executor, casters_needed(world))));
   FrameBuilder& frame = *builders.back();
   frame.set_visualizer(request.settings.visualizer);
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);

@@ -27,6 +27,8 @@ class SceneTracer {
   /// blocked[i]: 1 when anything lies on rays[i]. As many as rays.
   virtual void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked) const = 0;
   [[nodiscard]] virtual std::uint64_t triangles() const = 0;
+  /// Another one for other triangles; the same in every run.
+  [[nodiscard]] virtual std::uint64_t version() const = 0;
 };
 
 }  // namespace gloam
