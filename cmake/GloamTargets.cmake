@@ -40,6 +40,10 @@ function(gloam_add_test suite)
   target_include_directories(${suite} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
   target_compile_definitions(${suite} PRIVATE GLOAM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     GLOAM_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared" GLOAM_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  # Sanitized test code is compiled once and run once: optimising it takes longer than it saves. Properties run their code very often.
+  if(GLOAM_SANITIZE AND NOT suite MATCHES "_properties$")
+    target_compile_options(${suite} PRIVATE -O0)
+  endif()
   if("sanitize" IN_LIST ARG_LABELS)
     # Builds what the sanitizer presets run, and nothing else.
     if(NOT TARGET gloam_sanitize_tests)
