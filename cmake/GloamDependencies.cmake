@@ -10,6 +10,7 @@ find_package(OpenMesh REQUIRED)
 find_package(OpenEXR REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(embree 3 REQUIRED)
 find_library(GLOAM_LIBDEFLATE deflate REQUIRED)  # brings no CMake package: targets link it by name
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 if(GLOAM_SANDBOX)

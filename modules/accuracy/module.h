@@ -3,14 +3,19 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/ecs/world.h"
+#include "engine/jobs/executor.h"
 #include "engine/render/knobs.h"
 #include "engine/render/measure.h"
 #include "engine/render/reference.h"
+#include "engine/render/scene_tracer.h"
 #include "modules/accuracy/outputs.h"
 
 // Measures what accuracy costs. Not an effect: it draws nothing of its own, it has others draw and judges what they drew.
@@ -97,5 +102,13 @@ inline constexpr std::uint32_t kQuickHeight = 180;
 /// measure of its own), its time alternating with the default's.
 /// Rows that an earlier run finished are not measured again. Knobs are left as they were.
 [[nodiscard]] Result<Ledger> measure_costs(const CostRequest& request, CostSubject& subject, CostProgress& progress);
+
+/// The triangles of a world as its systems left them, for rays. They are copied: the world may move on. origin: the world position that
+/// rays are relative to, best where they begin; none: the middle of the scene.
+[[nodiscard]] Result<std::unique_ptr<SceneTracer>> make_scene_tracer(const World& world, JobExecutor& executor,
+                                                                     const std::optional<dvec3>& origin = {});
+
+/// Keeps what references ask to keep in files below a folder.
+[[nodiscard]] std::unique_ptr<ReferenceStore> make_reference_store(std::string folder);
 
 }  // namespace gloam

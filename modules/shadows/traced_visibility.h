@@ -25,6 +25,8 @@ struct TracedVisibility {
   /// One bit a byte of `visibility`, bit i % 8 of byte i / 8: whether the light reaches the surface, by range and cone, so that rays were
   /// traced. Sky is never judged.
   std::vector<std::uint8_t> judged;
+  std::uint32_t samples = 0;  ///< rays a light and pixel; one for lights without width
+  double noise = 0.0;         ///< mean change of a judged visibility from half to all of the samples
   std::uint64_t version = 0;  ///< another one for other content
 
   [[nodiscard]] std::size_t pixels() const { return std::size_t{width} * height; }
