@@ -14,11 +14,12 @@
 namespace gloam {
 
 /// How much of each light reaches the surface under each pixel of one frame, as rays have found it. A resource of the world: while it is
-/// there and as large as a view, shading takes these visibilities instead of its shadow maps'. Whoever sets it removes it before the view,
-/// a light or anything that casts or receives shadows moves.
+/// there, as large as a view and `shades`, shading takes these visibilities instead of its shadow maps'. Whoever sets it removes it before
+/// the view, a light or anything that casts or receives shadows moves.
 struct TracedVisibility {
   std::uint32_t width = 0;  ///< pixels
   std::uint32_t height = 0;
+  bool shades = true;  ///< false: only views that compare look at it, shading stays with its shadow maps
   std::vector<Entity> lights;  ///< by layer; lights that reach no pixel of the frame or cast no shadow have none: they are lit everywhere
   /// One byte a pixel, rows from the top, layer after layer: 0 nothing of the light is seen … 255 all of it. 255 where `judged` is not set.
   std::vector<std::uint8_t> visibility;
