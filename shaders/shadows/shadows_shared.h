@@ -23,6 +23,7 @@
 #define GLOAM_SHADOW_PYRAMID_MIP 2
 #define GLOAM_SHADOW_SMALLEST_FACE 16 // texels; faces are 16 … 4096
 #define GLOAM_MAX_CASCADES 4
+#define GLOAM_SHADOW_MIP_GROUP 8       // threads of a side of a workgroup of shadow_mips.comp; each takes 8 × 8 texels of the source
 
 GLOAM_SHARED_BEGIN
 

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_SHADOW_SPACE_GLSL
+#define GLOAM_SHADERS_SHADOWS_SHADOW_SPACE_GLSL
+
+// A receiver as one face of a shadow map sees it. Included by shadows_api.glsl.
+
+// The plane through a receiver and its normal is an affine function of texel coordinates, in perspective faces too: 1 / z is.
+struct ShadowPoint {
+  vec2 origin;      // of the face in the atlas, texels of mip 0
+  float size;       // of the face, texels
+  vec2 at;          // the receiver, texels of mip 0 from the face's corner
+  float depth;      // of the receiver, without bias
+  float threshold;  // with bias: what is nearer blocks. > 0
+  vec2 slope;       // of the receiver's plane, depth a texel of mip 0
+  float least;      // no tap's threshold is below this; > 0
+  float scale;      // width of the penumbra in texels of mip 0 = scale · (depth of the blocker − depth)
+  bool orthographic;
+  bool live;        // false: lit, whatever the map says
+  int face;         // of a cube; −1: no cube
+  uint light;       // of a cube
+  float tan_half;   // of a cube
+};
+
+// A face's square at one mip, in texels of the atlas image.
+struct MipSquare {
+  vec2 corner;
+  float size;
+  float texel;  // of mip 0 a texel
+};
+
+// Exact, unlike exp2 and log2 of some devices. x > 0 and finite.
+float power_of_two(int exponent) { return intBitsToFloat((exponent + 127) << 23); }
+int floor_log2(float x) { return (floatBitsToInt(x) >> 23) - 127; }
+int ceil_log2(float x) { return ((floatBitsToInt(x) + 0x7FFFFF) >> 23) - 127; }
+
+MipSquare mip_square(vec2 origin, float size, int mip, float atlas_size) {
+  float scale = power_of_two(-mip);
+  vec2 corner = mip == 0 ? vec2(0.0) : vec2(atlas_size, atlas_size - 2.0 * atlas_size * scale);
+  return MipSquare(corner + origin * scale, size * scale, power_of_two(mip));
+}
+
+// Normals reach shaders in 16 bits a component: nearer to the horizon than this they do not tell which side the light is on, and the
+// surface counts as facing it.
+const float kFacingSine = 2e-4;
+// A receiver's plane is followed for no more than this many texels to where it recedes from the light: what lies farther from the light
+// than a receiver cannot hide the light from it, except through the width of a texel.
+const float kRecedingTexels = 2.0;
+// Texel coordinates carry rounding of about this size, in texels.
+const float kTexelRounding = 1.0 / 64.0;
+
+float slope_per_texel(ShadowPoint p) { return abs(p.slope.x) + abs(p.slope.y); }
+
+// Fills threshold and least; depth and slope are there. `facing_sine`: of the angle between the light's rays and the surface, negative when
+// it faces the light. depth_per_m: depth a metre toward the light.
+void set_threshold(inout ShadowPoint p, float facing_sine, float depth_per_m, bool subsurface) {
+  float quantum = max(shadow_block.depth_quantum, abs(p.depth) * shadow_block.relative_quantum);
+  float bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * depth_per_m, quantum) : 0.0;
+  bool toward = subsurface || facing_sine < kFacingSine;
+  if (kReceiverPlane == 0u || !(slope_per_texel(p) < 1e15)) p.slope = vec2(0.0);
+  float rounding = slope_per_texel(p) * kTexelRounding;
+  p.least = p.orthographic ? 1e-12 : p.depth * 0.25;
+  p.threshold = max(p.depth + (toward ? bias + rounding : -bias), p.least);
+}
+
+ShadowPoint no_shadow_point() {
+  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 0u, 1.0);
+}
+
+// Axes of a cube's face: x, y, and where it looks.
+mat3 cube_face_axes(int face) {
+  float sign = (face & 1) == 0 ? 1.0 : -1.0;
+  int axis = face >> 1;
+  vec3 forward = sign * vec3(float(axis == 0), float(axis == 1), float(axis == 2));
+  vec3 up = axis == 1 ? vec3(0.0, 0.0, -sign) : vec3(0.0, 1.0, 0.0);
+  return mat3(cross(forward, up), up, forward);
+}
+
+int cube_face_of(vec3 v) {
+  vec3 a = abs(v);
+  if (a.x >= a.y && a.x >= a.z) return v.x >= 0.0 ? 0 : 1;
+  if (a.y >= a.z) return v.y >= 0.0 ? 2 : 3;
+  return v.z >= 0.0 ? 4 : 5;
+}
+
+vec2 cube_face_origin(uint light, int face) {
+  vec4 two = texelFetch(shadow_rows, ivec2(3 + (face >> 1), light), 0);
+  return (face & 1) == 0 ? two.xy : two.zw;
+}
+
+ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r) {
+  ShadowPoint p = no_shadow_point();
+  vec4 first = texelFetch(shadow_rows, ivec2(0, light), 0);  // kind, near, width, size
+  vec4 right = texelFetch(shadow_rows, ivec2(1, light), 0);  // right, tan_half
+  vec4 up = texelFetch(shadow_rows, ivec2(2, light), 0);     // up, tan_inner
+  vec3 v = r.position - light_position;
+  bool cube = first.x == float(GLOAM_SHADOW_CUBE);
+  p.face = cube ? cube_face_of(v) : -1;
+  p.light = light;
+  mat3 axes = mat3(right.xyz, up.xyz, cross(up.xyz, right.xyz));
+  if (cube) axes = cube_face_axes(p.face);
+  vec3 local = v * axes;
+  float near = first.y, z = local.z;
+  p.live = first.x != float(GLOAM_SHADOW_NONE) && z > near && z < 1e18 && max(abs(local.x), abs(local.y)) <= z * up.w * 1.0001;
+  z = p.live ? z : 1.0;
+  local = p.live ? local : vec3(0.0, 0.0, 1.0);
+  vec2 tangent = local.xy / z;
+  float texel = 2.0 * right.w / first.w;  // tangent a texel
+  p.origin = cube_face_origin(light, max(p.face, 0));
+  p.size = first.w;
+  p.tan_half = right.w;
+  p.at = vec2(tangent.x, -tangent.y) / texel + 0.5 * first.w;
+  p.depth = near / z;
+  p.scale = max(first.z, 0.0) / (near * texel);
+  vec3 normal = r.face_normal * axes;
+  float facing = dot(normal, local);
+  float distance = length(local);
+  float along = abs(facing) < 1e-5 * distance ? (facing < 0.0 ? -1e-5 : 1e-5) * distance : facing;
+  p.slope = vec2(normal.x, -normal.y) * (near * texel / along);
+  set_threshold(p, facing / distance, p.depth / z, r.subsurface);
+  return p;
+}
+
+ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowReceiver r) {
+  ShadowPoint p = no_shadow_point();
+  p.orthographic = true;
+  uint count = min(shadow_block.directional[light].cascade_count, uint(GLOAM_MAX_CASCADES));
+  float facing = dot(r.face_normal, light_direction);
+  float along = abs(facing) < 1e-5 ? (facing < 0.0 ? -1e-5 : 1e-5) : facing;
+  float depth_per_m = 0.0;
+  for (uint i = 0u; i < count; ++i) {
+    ShadowCascade c = shadow_block.directional[light].cascades[i];
+    vec4 position = vec4(r.position, 1.0);
+    vec3 at = vec3(dot(c.row_u, position), dot(c.row_v, position), dot(c.row_depth, position));
+    float inside = min(min(at.x, at.y), c.size - max(at.x, at.y)) - c.rim;
+    bool take = !p.live && inside >= 0.0 && at.z < 1.0 && at.z > -1e18;
+    if (!take) continue;
+    p.live = true;
+    p.origin = c.origin;
+    p.size = c.size;
+    p.at = at.xy;
+    p.depth = at.z;
+    depth_per_m = 1.0 / c.depth_m;
+    p.scale = max(shadow_block.directional[light].penumbra_m_per_m, 0.0) * c.depth_m / c.texel_m;
+    p.slope = vec2(dot(r.face_normal, c.row_u.xyz), dot(r.face_normal, c.row_v.xyz)) * (c.texel_m * c.texel_m * depth_per_m / along);
+  }
+  set_threshold(p, facing, depth_per_m, r.subsurface);
+  return p;
+}
+
+// Depth of what a cube holds in the direction of a texel coordinate (mip 0) of face p.face, in or beyond it, as that face would hold it.
+// `at` becomes the direction of the texel that was read.
+float cube_depth(ShadowPoint p, inout vec2 at, int mip) {
+  mat3 own = cube_face_axes(p.face);
+  float to_texel = p.size * 0.5 / p.tan_half;
+  vec2 tangent = (at - 0.5 * p.size) / to_texel;
+  vec3 v = own * vec3(tangent.x, -tangent.y, 1.0);
+  int face = cube_face_of(v);
+  mat3 axes = cube_face_axes(face);
+  vec3 local = v * axes;
+  vec2 there = vec2(local.x, -local.y) / local.z * to_texel + 0.5 * p.size;
+  MipSquare square = mip_square(cube_face_origin(p.light, face), p.size, mip, shadow_block.atlas_size);
+  vec2 cell = clamp(floor(there / square.texel), vec2(0.0), vec2(square.size - 1.0));
+  float depth = texelFetch(shadow_atlas, ivec2(square.corner + cell), 0).x;
+  vec2 center = ((cell + 0.5) * square.texel - 0.5 * p.size) / to_texel;
+  vec3 read = (axes * vec3(center.x, -center.y, 1.0)) * own;
+  read.z = max(read.z, 0.05);
+  at = vec2(read.x, -read.y) / read.z * to_texel + 0.5 * p.size;
+  return depth / read.z;
+}
+
+#endif

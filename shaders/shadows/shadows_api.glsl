@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_SHADOWS_API_GLSL
+#define GLOAM_SHADERS_SHADOWS_SHADOWS_API_GLSL
+
+#include "shaders/shadows/shadows_shared.h"
+
+// How much of a light a point sees. Before including this, define GLOAM_SHADOWS_BINDING: six bindings from there are ShadowsOutputs' block,
+// rows, atlas, pyramid, cookies and traced (append_shadow_bindings). Specialisation constants are ShadowsOutputs::constants.
+// Shaders that are not fragment shaders define GLOAM_SHADOWS_PIXEL, the ivec2 that traced visibility is read at.
+
+#ifndef GLOAM_SHADOWS_PIXEL
+#define GLOAM_SHADOWS_PIXEL ivec2(gl_FragCoord.xy)
+#endif
+
+layout(set = 0, binding = GLOAM_SHADOWS_BINDING, scalar) uniform ShadowBlockBinding { ShadowBlock shadow_block; };
+layout(set = 0, binding = GLOAM_SHADOWS_BINDING + 1) uniform sampler2D shadow_rows;
+layout(set = 0, binding = GLOAM_SHADOWS_BINDING + 2) uniform sampler2D shadow_atlas;
+layout(set = 0, binding = GLOAM_SHADOWS_BINDING + 3) uniform sampler2D shadow_pyramid;
+layout(set = 0, binding = GLOAM_SHADOWS_BINDING + 4) uniform sampler2DArray shadow_cookies;
+layout(set = 0, binding = GLOAM_SHADOWS_BINDING + 5) uniform sampler2DArray shadow_traced;
+
+layout(constant_id = GLOAM_SHADOWS_FILTER_ID) const uint kFilter = 3u;
+layout(constant_id = GLOAM_SHADOWS_KERNEL_ID) const int kKernel = 8;
+layout(constant_id = GLOAM_SHADOWS_MIPS_ID) const uint kMips = 1u;
+layout(constant_id = GLOAM_SHADOWS_RECEIVER_PLANE_ID) const uint kReceiverPlane = 1u;
+layout(constant_id = GLOAM_SHADOWS_BIAS_ID) const uint kBias = 1u;
+layout(constant_id = GLOAM_SHADOWS_KERNEL_SHAPE_ID) const uint kKernelShape = 0u;
+layout(constant_id = GLOAM_SHADOWS_LEVELS_ID) const uint kLevels = 255u;
+layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 0u;
+
+struct ShadowReceiver {
+  vec3 position;     // camera-relative
+  vec3 face_normal;  // unit, on the visible side
+  bool subsurface;
+};
+
+// Of the atlas image, which is one and a half times as wide as high.
+vec2 shadow_texel_size() { return vec2(1.0 / 1.5, 1.0) / shadow_block.atlas_size; }
+
+#include "shaders/shadows/fixed_filters.glsl"
+
+// What a slot of visibility keeps.
+float quantised_visibility(float visibility) {
+  float v = clamp(visibility, 0.0, 1.0);
+  if (kLevels != 0u) {
+    float levels = float(kLevels);
+    v = v > 0.9999 ? 1.0 : v < 0.0001 ? 0.0 : floor(v * levels + 0.5) / levels;
+  }
+  return v;
+}
+
+float traced_visibility(float layer) {
+  return layer < 0.0 ? 1.0 : texelFetch(shadow_traced, ivec3(GLOAM_SHADOWS_PIXEL, int(layer)), 0).x;
+}
+
+float shadow_visibility(ShadowPoint p) {
+  float visibility = kFilter == 0u ? hard_visibility(p) : kFilter == 1u ? pcf_visibility(p) : kFilter == 2u ? pcss_visibility(p) : chs_visibility(p);
+  return quantised_visibility(visibility);
+}
+
+// 0 … 1, quantised, of a local light of the view; 1 for one that casts no shadows.
+float local_visibility(uint light, vec3 light_position, ShadowReceiver r) {
+  if (kFilter == 4u) return quantised_visibility(traced_visibility(texelFetch(shadow_rows, ivec2(6, light), 0).z));
+  return shadow_visibility(local_shadow_point(light, light_position, r));
+}
+
+// The same of a directional light; light_direction: where it shines.
+float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r) {
+  if (kFilter == 4u) return quantised_visibility(traced_visibility(shadow_block.directional[light].traced_layer));
+  return shadow_visibility(directional_shadow_point(light, light_direction, r));
+}
+
+// What a spot light's cookie leaves of its light: white without one; beyond its square the colors of its border.
+vec3 cookie_color(uint light, vec3 light_position, ShadowReceiver r) {
+  vec2 cookie = texelFetch(shadow_rows, ivec2(6, light), 0).xy;
+  vec3 color = vec3(1.0);
+  for (bool go = cookie.x >= 0.0; go; go = false) {
+    vec3 right = texelFetch(shadow_rows, ivec2(1, light), 0).xyz;
+    vec3 up = texelFetch(shadow_rows, ivec2(2, light), 0).xyz;
+    vec3 v = r.position - light_position;
+    float z = max(dot(v, cross(up, right)), 1e-6);
+    vec2 tangent = clamp(vec2(dot(v, right), -dot(v, up)) / (z * cookie.y), -1.0, 1.0);
+    color = textureLod(shadow_cookies, vec3(tangent * 0.5 + 0.5, cookie.x), 0.0).rgb;
+  }
+  return color;
+}
+
+#endif
