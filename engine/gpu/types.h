@@ -40,6 +40,7 @@ enum class Format : std::uint8_t {
   rg11b10_float,
   r16_uint,
   r16_float,
+  r16_unorm,
   rg16_unorm,
   rg16_snorm,
   rg16_float,

@@ -19,6 +19,8 @@ TEST(Types, every_format_has_a_name_of_its_own_and_a_size) {
   EXPECT_EQ(name_of(Format::rgb10a2_unorm), "rgb10a2_unorm");
   EXPECT_EQ(bytes_per_texel(Format::rgb32_float), 12u);
   EXPECT_EQ(bytes_per_texel(Format::rgba16_float), 8u);
+  EXPECT_EQ(name_of(Format::r16_unorm), "r16_unorm");
+  EXPECT_EQ(bytes_per_texel(Format::r16_unorm), 2u);
 }
 
 TEST(Types, only_the_depth_format_is_depth) {

@@ -128,6 +128,56 @@ TEST_F(Images, a_kernel_may_sample_one_mip_and_write_the_next_of_one_image) {
   EXPECT_FLOAT_EQ(test::items_of<float>(device(), read).at(0), 7.5f);
 }
 
+TEST_F(Images, a_kernel_samples_drawn_depth_and_reads_and_writes_images_of_one_channel) {
+  const auto make = [&](const char* name, Format format, ImageUsage usage) {
+    return test::value_of(device().create_image(
+        {.name = name, .module = "test", .format = format, .width = 16, .height = 16, .usage = usage}));
+  };
+  const ImageHandle depth = make("depth", Format::d32_float, depth_target | sampled);
+  const ImageHandle exact = make("exact", Format::r32_float, storage | sampled | transfer_source | transfer_target);
+  const ImageHandle rounded = make("rounded", Format::r16_unorm, storage | sampled | transfer_source | transfer_target);
+  const auto sampler = test::value_of(device().create_sampler(
+      {.min_filter = Filter::nearest, .mag_filter = Filter::nearest, .mip_filter = Filter::nearest}));
+  const auto add = test::value_of(device().create_pipeline(
+      {.name = "add in place", .module = "test", .shader = shaders::gpu_test::add_in_place_comp}));
+  std::vector<float> floats(256);
+  std::vector<std::uint16_t> words(256);
+  for (std::uint16_t i = 0; i < 256; ++i) {
+    floats[i] = static_cast<float>(i);
+    words[i] = static_cast<std::uint16_t>(100 * i);
+  }
+  const BufferHandle upload_floats = test::make_upload(device(), floats);
+  const BufferHandle upload_words = test::make_upload(device(), words);
+  BufferHandle read_exact, read_rounded;
+  test::run_frame(device(), [&](CommandList& commands) {
+    to(commands, depth, Access::none, Access::depth_target);
+    RenderingDesc rendering;
+    rendering.depth = {.view = {.image = depth}, .load = LoadOp::clear, .clear = 0.25f};
+    rendering.width = rendering.height = 16;
+    commands.begin_rendering(rendering);
+    commands.end_rendering();
+    to(commands, depth, Access::depth_target, Access::compute_read);
+    for (const auto& [image, buffer] : {std::pair{exact, upload_floats}, std::pair{rounded, upload_words}}) {
+      to(commands, image, Access::none, Access::transfer_write);
+      commands.copy_buffer_to_image(buffer, 0, image, 0, 0, 1);
+      to(commands, image, Access::transfer_write, Access::compute_write);
+    }
+    commands.bind_pipeline(add);
+    commands.bind(std::array{Binding{0, Binding::Sampled{{.image = depth}, sampler}},
+                             Binding{1, Binding::Storage{{.image = exact}}},
+                             Binding{2, Binding::Storage{{.image = rounded}}}});
+    commands.dispatch(2, 2, 1);
+    read_exact = read_layer(commands, exact, Access::compute_write);
+    read_rounded = read_layer(commands, rounded, Access::compute_write);
+  });
+  const auto sums = test::items_of<float>(device(), read_exact);
+  const auto rounded_sums = test::items_of<std::uint16_t>(device(), read_rounded);
+  for (std::size_t i = 0; i < 256; ++i) {
+    EXPECT_EQ(sums.at(i), static_cast<float>(i) + 0.25f);
+    EXPECT_NEAR(rounded_sums.at(i), 100.0 * static_cast<double>(i) + 0.25 * 65535.0, 1.0);
+  }
+}
+
 TEST_F(Images, clears_write_the_given_bits_and_blits_scale) {
   const ImageHandle small = make_image(ImageShape::plain, 1, transfer_source | transfer_target);
   const auto large = test::value_of(device().create_image({.name = "large",
