@@ -103,6 +103,8 @@ class FrameGraph {
   /// Records every live pass with its label, barriers and timestamps.
   void execute(gpu::CommandList& commands);
 
+  /// The version of the image that the passes declared so far leave.
+  [[nodiscard]] ImageRef newest(ImageRef image) const;
   [[nodiscard]] const gpu::ImageDesc& desc(ImageRef image) const;
   [[nodiscard]] const gpu::BufferDesc& desc(BufferRef buffer) const;
 

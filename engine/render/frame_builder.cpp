@@ -75,6 +75,28 @@ void FrameBuilder::read_vertices(PassBuilder& pass) {
   }
 }
 
+void FrameBuilder::bind_caster_vertices(PassContext& context, const Caster& caster, bool with_surfaces) const {
+  gpu::CommandList& commands = context.commands();
+  const std::uint64_t first = caster.primitive->first_vertex;
+  if (caster.deform == kNone) {
+    commands.bind_vertex_stream(0, scene_.positions(), first * sizeof(vec3));
+  } else {
+    const std::uint64_t moved = draws_.deforms[caster.deform].first_vertex;
+    commands.bind_vertex_stream(0, context.buffer(find<Deformed>()->positions), moved * sizeof(vec3));
+  }
+  if (with_surfaces) commands.bind_vertex_stream(1, scene_.surfaces(), first * sizeof(PackedSurface));
+}
+
+void FrameBuilder::expose(ImageRef image, std::string_view name) {
+  std::string own(name.empty() ? std::string_view(graph_.desc(image).name) : name);
+  for (Exposed& exposed : exposed_) {
+    if (exposed.name != own) continue;
+    exposed.image = image;
+    return;
+  }
+  exposed_.push_back({std::move(own), image});
+}
+
 void FrameBuilder::keep_result(std::string module, std::string name, BufferRef buffer, std::any note) {
   ResultKey key{std::move(module), std::move(name), world_.resource<RenderSlot>().value, view_.id.value};
   services_.results.keep(std::move(key), buffer, 0, graph_.desc(buffer).size, std::move(note));

@@ -5,6 +5,8 @@
 #include <any>
 #include <cstddef>
 #include <span>
+#include <string>
+#include <string_view>
 #include <typeindex>
 #include <unordered_map>
 #include <vector>
@@ -69,6 +71,11 @@ class FrameBuilder {
     return found == board_.end() ? nullptr : &std::any_cast<T&>(found->second);
   }
   template <class T>
+  [[nodiscard]] const T* find() const {
+    const auto found = board_.find(std::type_index(typeid(T)));
+    return found == board_.end() ? nullptr : &std::any_cast<const T&>(found->second);
+  }
+  template <class T>
   [[nodiscard]] T& get() {
     T* found = find<T>();
     GLOAM_ASSERT(found != nullptr, "a pass needs an output that no earlier pass has put");
@@ -86,12 +93,24 @@ class FrameBuilder {
   [[nodiscard]] Status prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
   /// Whether the pipelines of a list are there; those that are not are made in the background. For passes that another can stand in for.
   [[nodiscard]] bool request_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
-  /// Declares that a pass draws meshes: reads deformed vertices.
+  /// Declares that a pass draws meshes or casters: reads deformed vertices.
   void read_vertices(PassBuilder& pass);
+  /// For a pipeline that draws casters: binds positions (vec3, moved where the caster is deformed) as stream 0 and, `with_surfaces`,
+  /// PackedSurface as stream 1; relative to the primitive's first vertex, as its indices (GpuScene::indices) are.
+  void bind_caster_vertices(PassContext& context, const Caster& caster, bool with_surfaces) const;
 
   /// Keeps what a buffer holds at the end of the frame for the CPU to look at later (Module::take_result, Module::result_counters).
   /// `buffer`: the version that no later pass writes.
   void keep_result(std::string module, std::string name, BufferRef buffer, std::any note = {});
+
+  /// Lets Renderer::read_image find an image of this view, under the image's own name or `name`; as it is when all passes have written it.
+  /// One that is owned outside the graph was made as a transfer_source. A later image of the same name takes its place.
+  void expose(ImageRef image, std::string_view name = {});
+  struct Exposed {
+    std::string name;
+    ImageRef image;  ///< a version of it
+  };
+  [[nodiscard]] std::span<const Exposed> exposed() const { return exposed_; }
 
   /// Nearest and linear clamped samplers for full-screen passes.
   [[nodiscard]] Result<gpu::SamplerHandle> nearest_sampler() const;
@@ -113,6 +132,7 @@ class FrameBuilder {
   std::string_view visualizer_ = "none";
   gpu::Binding::BufferRange view_range_;
   std::unordered_map<std::type_index, std::any> board_;
+  std::vector<Exposed> exposed_;
 };
 
 /// A colour image of the view's size (divided by `divisor`, rounded up), transient.

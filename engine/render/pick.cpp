@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cstdio>
 #include <iterator>
 
@@ -29,7 +28,6 @@ void add_surface_lines(const Captures& copies, std::size_t at, float view_depth_
 }  // namespace
 
 Status Renderer::State::add_pick_copies(FrameBuilder& builder) {
-  copies = std::make_unique<Captures>(*options.device);
   const GeometryOutputs& g = builder.get<GeometryOutputs>();
   GLOAM_TRY(copies->add(graph, "engine.base_color", g.base_color));
   GLOAM_TRY(copies->add(graph, "engine.normals", g.normals));
@@ -40,11 +38,11 @@ Status Renderer::State::add_pick_copies(FrameBuilder& builder) {
   return {};
 }
 
-std::vector<std::string> Renderer::State::picked_lines(const PickRequest& request) {
+std::vector<std::string> Renderer::State::picked_lines(std::uint32_t x, std::uint32_t y) {
   FrameBuilder& frame = *builders.back();
   const RenderView& view = frame.view();
-  const std::size_t at = std::size_t{request.y} * view.width + request.x;
-  PickedPixel pixel{request.x, request.y, copies->item<float>("engine.depth", at), 0.0f};
+  const std::size_t at = std::size_t{y} * view.width + x;
+  PickedPixel pixel{x, y, copies->item<float>("engine.depth", at), 0.0f};
   std::vector<std::string> lines = {"pixel " + std::to_string(pixel.x) + "," + std::to_string(pixel.y) + " of tile " +
                                     std::to_string(pixel.x / kTileSize) + "," + std::to_string(pixel.y / kTileSize)};
   if (pixel.depth > 0.0f) {
@@ -63,30 +61,13 @@ std::vector<std::string> Renderer::State::picked_lines(const PickRequest& reques
 
 Result<std::vector<std::string>> Renderer::pick(World& world, ViewId view, std::uint32_t x, std::uint32_t y) {
   State& s = *state_;
-  const auto last = std::find_if(s.last_requests.begin(), s.last_requests.end(),
-                                 [&](const ViewRequest& r) { return r.settings.id == view; });
-  GLOAM_ASSERT(last != s.last_requests.end(), "pick needs a view of the last frame");
-  // The same frame once more, with its geometry copied out; into a picture of the renderer's own, since a window's is gone.
-  ViewRequest again = *last;
-  again.target = {};
-  again.settings.width = s.images.at(view.value).width;
-  again.settings.height = s.images.at(view.value).height;
-  if (x >= again.settings.width || y >= again.settings.height)
+  const auto images = s.images.find(view.value);
+  GLOAM_ASSERT(images != s.images.end(), "pick needs a view of the last frame");
+  if (x >= images->second.width || y >= images->second.height)
     return Error{ErrorKind::usage, "the picked pixel lies outside the picture"};
-  const std::vector<ViewRequest> all = s.last_requests;
-  s.pick = PickRequest{view, x, y};
-  Status drawn = render(world, std::span(&again, 1));
-  const PickRequest request = *s.pick;
-  s.pick.reset();
-  s.last_requests = all;
-  if (drawn.ok()) drawn = wait();
-  std::vector<std::string> lines;
-  if (drawn.ok()) {
-    s.copies->finish();
-    lines = s.picked_lines(request);
-  }
+  GLOAM_TRY(draw_again(world, view, [&s](FrameBuilder& frame) { return s.add_pick_copies(frame); }));
+  std::vector<std::string> lines = s.picked_lines(x, y);
   s.copies.reset();
-  if (!drawn.ok()) return drawn.error();
   return lines;
 }
 

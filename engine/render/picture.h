@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "engine/gpu/types.h"
 
 namespace gloam {
 
@@ -16,6 +19,13 @@ struct LinearPicture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<float> rgba;  ///< linear light before exposure, cd/m², rows from the top
+};
+/// First mip and layer of an image of the GPU.
+struct ImageBytes {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  gpu::Format format = gpu::Format::undefined;
+  std::vector<std::byte> bytes;  ///< texels, rows from the top, tightly packed
 };
 
 }  // namespace gloam

@@ -199,6 +199,8 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   GLOAM_TRY(add_deform_pass(frame));
   GLOAM_TRY(add_geometry_pass(frame));
   GLOAM_TRY(add_depth_bounds_pass(frame));
+  const GeometryOutputs& geometry = frame.get<GeometryOutputs>();
+  for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth}) frame.expose(image);
 
   const bool external = static_cast<bool>(request.target.image);
   const gpu::ImageHandle picture = external ? request.target.image : own.picture;
@@ -215,7 +217,7 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
                "TargetOutput is written in place: a module has put another image there");
   if (code != 0) GLOAM_TRY(add_debug_view_pass(frame, code));
   if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
-  if (pick && pick->view == view.id) GLOAM_TRY(add_pick_copies(frame));
+  if (copy_request && copy_request->view == view.id) GLOAM_TRY(copy_request->add_copies(frame));
   return {};
 }
 

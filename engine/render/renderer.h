@@ -17,6 +17,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/device.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/geometry_picture.h"
 #include "engine/render/module.h"
 #include "engine/render/picture.h"
 
@@ -107,6 +108,13 @@ class Renderer {
   [[nodiscard]] Result<Picture> read_picture(ViewId view);
   /// The same frame's linear light.
   [[nodiscard]] Result<LinearPicture> read_linear(ViewId view);
+  /// An image that passes of the view's last frame exposed (FrameBuilder::expose), from that frame drawn once more; waits. Engine:
+  /// "base_color", "normals", "material", "depth". Usage error listing what there is when there is none of that name.
+  [[nodiscard]] Result<ImageBytes> read_image(World& world, ViewId view, std::string_view name);
+  /// Several of one frame, in the order of the names, which differ.
+  [[nodiscard]] Result<std::vector<ImageBytes>> read_images(World& world, ViewId view, std::span<const std::string_view> names);
+  /// The geometry buffer of the view's last frame, likewise.
+  [[nodiscard]] Result<GeometryPicture> read_geometry(World& world, ViewId view);
   /// Lines of text: what the engine and the modules know about a pixel of the last frame.
   [[nodiscard]] Result<std::vector<std::string>> pick(World& world, ViewId view, std::uint32_t x, std::uint32_t y);
   /// Systems and passes as text, for people and for tests.
@@ -115,6 +123,9 @@ class Renderer {
  private:
   struct State;
   explicit Renderer(std::unique_ptr<State> state);
+  /// Draws a view of the last frame once more, into a picture of the renderer's own; `add_copies` declares what to copy into
+  /// State::copies, which are finished when this returns without error.
+  [[nodiscard]] Status draw_again(World& world, ViewId view, std::function<Status(FrameBuilder&)> add_copies);
   std::unique_ptr<State> state_;
 };
 

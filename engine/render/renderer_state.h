@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -32,11 +33,10 @@ struct ViewImages {
   gpu::ImageHandle picture;  ///< rgba8 sRGB; none while the caller brings a target
 };
 
-/// A pixel whose geometry texels the next frame shall read back.
-struct PickRequest {
+/// What the next frame's passes of a view leave shall be copied out: called when they have all been declared.
+struct CopyRequest {
   ViewId view;
-  std::uint32_t x = 0;
-  std::uint32_t y = 0;
+  std::function<Status(FrameBuilder&)> add_copies;
 };
 
 /// A module without demand keeps its memory for this many frames.
@@ -70,7 +70,7 @@ struct Renderer::State {
   /// Copies what a picked pixel's texels and modules' facts are read from.
   [[nodiscard]] Status add_pick_copies(FrameBuilder& builder);
   /// What engine and modules know about the pixel of the request, from copies of a frame that has ended.
-  [[nodiscard]] std::vector<std::string> picked_lines(const PickRequest& request);
+  [[nodiscard]] std::vector<std::string> picked_lines(std::uint32_t x, std::uint32_t y);
   /// Whether a module takes part in a view: built, demanded, and its pipelines made where they are not waited for.
   [[nodiscard]] bool takes_part(std::size_t module, const FrameBuilder& builder);
   /// Hands a view's settled results to the modules that the world demands.
@@ -102,8 +102,8 @@ struct Renderer::State {
   std::vector<ViewRequest> last_requests;
   std::map<std::string, double> counters;
   std::vector<ResultKey> counted_results;  ///< of the last view
-  std::optional<PickRequest> pick;
-  std::unique_ptr<Captures> copies;  ///< of the frame in the making, when a pixel of it is picked
+  std::optional<CopyRequest> copy_request;
+  std::unique_ptr<Captures> copies;  ///< of a frame that was drawn once more (Renderer::draw_again)
   double cpu_ms = 0.0;
 };
 

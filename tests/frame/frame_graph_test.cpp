@@ -20,6 +20,20 @@ TEST_F(FrameGraphTest, writing_gives_a_newer_version_of_the_same_resource) {
   EXPECT_EQ(second.version, empty.version + 2);
 }
 
+TEST_F(FrameGraphTest, the_newest_version_is_found_from_any_other) {
+  graph.begin();
+  const ImageRef empty = graph.create_image(image_desc("masks"));
+  EXPECT_EQ(graph.newest(empty).version, empty.version);
+  const ImageRef first = graph.add_pass("a", "test").write(empty, Access::compute_write);
+  const ImageRef second = graph.add_pass("b", "test").write(first, Access::compute_write);
+  for (const ImageRef any : {empty, first, second}) {
+    EXPECT_EQ(graph.newest(any).resource, second.resource);
+    EXPECT_EQ(graph.newest(any).version, second.version);
+  }
+  graph.begin();
+  EXPECT_ASSERT((void)graph.newest(empty), "another frame");
+}
+
 TEST_F(FrameGraphTest, writing_with_a_stale_handle_asserts) {
   graph.begin();
   const ImageRef empty = graph.create_image(image_desc("masks"));

@@ -59,14 +59,15 @@ struct Picked {
   return p;
 }
 
-/// A renderer with all modules and a world of its own.
+/// A renderer with all modules, and perhaps one more, and a world of its own.
 struct Stage {
-  Stage() {
+  explicit Stage(std::unique_ptr<Module> more = nullptr) {
     RendererOptions options;
     options.device = drawing_device();
     options.executor = executor.get();
     options.log = &gpu_log();
     options.modules = make_all_modules();
+    if (more != nullptr) options.modules.push_back(std::move(more));
     renderer = value_of(Renderer::create(std::move(options)));
     renderer->prepare_world(world);
     world.resource<SceneEnvironment>().has_exposure = true;  // pictures of different scenes can be compared
