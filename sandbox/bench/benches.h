@@ -16,6 +16,12 @@ void add_light_gpu_benches(BenchRegistry& registry);
 void add_light_cpu_benches(BenchRegistry& registry);
 /// Lights a tile that each phase keeps beyond those that reach a pixel of it.
 void add_light_false_positive_benches(BenchRegistry& registry);
+/// Shadow filters against traced shadows: what each costs and how far it is off.
+void add_shadow_benches(BenchRegistry& registry);
+/// FF table 2: oriented bias against hardware bias.
+void add_shadow_bias_benches(BenchRegistry& registry);
+/// Widths of penumbrae against the analytic ones.
+void add_shadow_penumbra_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

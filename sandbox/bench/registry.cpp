@@ -49,6 +49,7 @@ BenchRegistry make_bench_registry() {
   add_light_cpu_benches(registry);
   add_light_gpu_benches(registry);
   add_light_false_positive_benches(registry);
+  add_shadow_benches(registry);
   return registry;
 }
 

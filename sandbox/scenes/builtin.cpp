@@ -4,6 +4,7 @@
 
 #include "sandbox/scenes/lanterns.h"
 #include "sandbox/scenes/many_lights.h"
+#include "sandbox/scenes/penumbra.h"
 #include "sandbox/scenes/plain.h"
 #include "sandbox/scenes/shadows.h"
 
@@ -14,6 +15,7 @@ constexpr BuiltinScene kScenes[] = {
     {"plain", "geometry and materials under one sun", &build_plain_scene},
     {"lanterns", "256 coloured point and spot lights between arches", &build_lanterns_scene},
     {"many_lights", "1024 small lights among stones and glass on hills, and a moon", &build_many_lights_scene},
+    {"penumbra", "the penumbra of one straight edge under a wide lamp", &build_penumbra_scene},
     {"shadows", "soft shadows of columns, bars, a table and thin sheets under a lamp, a spot and a moon",
      &build_shadows_scene},
 };
