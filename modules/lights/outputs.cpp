@@ -5,9 +5,14 @@
 #include <bit>
 
 #include "engine/core/assert.h"
+#include "modules/lights/light_list.h"
 #include "shaders/lights/lights_shared.h"
 
 namespace gloam {
+
+std::span<const Entity> local_lights(const VisibleLights& visible) { return visible.local_entities; }
+
+std::span<const Entity> directional_lights(const VisibleLights& visible) { return visible.directional_entities; }
 
 std::span<const std::byte> empty_light_block() {
   static const shaders::LightBlock block{};

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/ecs/entity.h"
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
@@ -32,8 +33,17 @@ struct LightsOutputs {
   BufferRef early_lists;            ///< list entry e: 10 bits at bit 10 · (e % 3) of word e / 3
   BufferRef counters;               ///< a LightCounters
   std::uint32_t slot_capacity = 0;  ///< list entries early_lists holds
+  bool lists_always_fit = false;    ///< slot_capacity is enough for every tile to list every light: no tile is without a list
   [[nodiscard]] bool has_lists() const { return static_cast<bool>(tile_lists); }
 };
+
+/// The lights of one view; a view resource that system light_sort makes. What other modules' systems may ask of it stands here.
+struct VisibleLights;
+/// Point and spot lights that may touch the view's frustum, in the order of LightBlock::local. None has NaN or infinity where no sense can
+/// be made of it; each had Light and WorldTransform when the world's systems ran.
+[[nodiscard]] std::span<const Entity> local_lights(const VisibleLights& visible);
+/// The same for LightBlock::directional.
+[[nodiscard]] std::span<const Entity> directional_lights(const VisibleLights& visible);
 
 /// Bytes of a LightBlock without lights, for shading a scene that has none.
 [[nodiscard]] std::span<const std::byte> empty_light_block();

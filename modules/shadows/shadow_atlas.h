@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <optional>
+#include <functional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/ecs/entity.h"
@@ -24,7 +24,13 @@ struct AtlasSquare {
 struct FaceKey {
   Entity light;
   std::uint32_t index = 0;
-  auto operator<=>(const FaceKey&) const = default;
+  bool operator==(const FaceKey&) const = default;
+};
+
+struct FaceKeyHash {
+  std::size_t operator()(const FaceKey& key) const noexcept {
+    return (std::hash<Entity>()(key.light) * 8 + key.index) * std::size_t{0x9E3779B97F4A7C15u};
+  }
 };
 
 /// What a face asks for.
@@ -42,19 +48,24 @@ struct FacePlaces {
 };
 
 /// Places faces in a square of texels. A face keeps its square while it asks for the same size and nothing has to shrink. When not all fit,
-/// the least important halve, ties by order of requests, until all do; at the smallest size the least important are left out.
+/// the least important halve, ties the last one first, until all do: each halves once before any halves again. At the smallest size the
+/// least important are left out. Faces of one light that follow each other and ask for the same at the same importance are one: they halve
+/// and go together. When free texels lie too scattered for a new face, the smaller ones of the emptiest place make way for it.
 /// Deterministic: the same calls give the same squares.
 class ShadowAtlas {
  public:
-  /// size: texels of a side, a power of two. Another size forgets all places.
+  /// size: texels of a side, a power of two, at least the smallest face. Another size forgets all places. No two requests have one key.
   [[nodiscard]] FacePlaces place(std::uint32_t size, std::span<const FaceRequest> requests);
   [[nodiscard]] std::uint32_t size() const { return size_; }
   /// Texels that are taken.
-  [[nodiscard]] std::uint64_t used_texels() const;
+  [[nodiscard]] std::uint64_t used_texels() const { return used_texels_; }
 
  private:
+  void remember(std::span<const FaceRequest> requests, std::span<const AtlasSquare> squares);
+
   std::uint32_t size_ = 0;
-  std::map<FaceKey, AtlasSquare> places_;
+  std::uint64_t used_texels_ = 0;
+  std::unordered_map<FaceKey, AtlasSquare, FaceKeyHash> places_;
 };
 
 }  // namespace gloam

@@ -16,7 +16,7 @@ namespace gloam {
 /// One square of depth: what a light sees along one axis.
 struct ShadowFace {
   Entity light;
-  LightKind kind = LightKind::spot;
+  LightKind kind = LightKind::spot;  ///< directional: orthographic; point: one of a cube's, also of a spot that needs a cube
   std::uint32_t index = 0;  ///< cube face or cascade
   dvec3 origin = dvec3(0.0);  ///< world: the light; orthographic: centre of the near side of the box
   vec3 right = vec3(1.0f, 0.0f, 0.0f);
@@ -30,16 +30,24 @@ struct ShadowFace {
   float importance = 0.0f;     ///< the least important ones halve first when the atlas is full
 };
 
+/// What a local light's faces wanted, so that sizes near a limit do not change every frame.
+struct WantedSize {
+  Entity light;
+  std::uint32_t size = 0;  ///< texels
+};
+
 /// What a view's lights need for shadows; a view resource, made by system shadow_views. Squares of faces stay where they were while their
 /// size does not change.
 struct ShadowViews {
-  std::vector<ShadowFace> faces;               ///< light by light, in the order of the view's local lights, then of the directional ones
+  /// Faces with a place: light by light, in the order of the view's local lights, then of the directional ones.
+  std::vector<ShadowFace> faces;
   std::vector<shaders::ShadowRow> rows;        ///< by index of the view's local lights
   shaders::ShadowBlock block{};                ///< directional lights; the rest is filled by the passes
   std::uint32_t faces_shrunk = 0;              ///< faces smaller than they asked for because the atlas was full
   std::uint32_t faces_left_out = 0;            ///< faces without a place even at the smallest size: their lights cast no shadow
-  std::uint32_t casting_lights = 0;
+  std::uint32_t casting_lights = 0;            ///< lights that asked for faces
   ShadowAtlas atlas;                           ///< who lies where; kept from frame to frame
+  std::vector<WantedSize> wanted;              ///< ordered by entity index; kept from frame to frame
 };
 
 /// What systems need to know of knobs; a view resource.
