@@ -2,9 +2,25 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/module.h"
 
-#include "engine/scene/key_table.h"
-#include "modules/lights/components.h"
+#include <algorithm>
+#include <atomic>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "engine/render/frame_builder.h"
 #include "modules/shadows/components.h"
+#include "modules/shadows/shadow_cookies.h"
+#include "modules/shadows/shadow_keys.h"
+#include "modules/shadows/shadow_knobs.h"
+#include "modules/shadows/shadow_map_passes.h"
+#include "modules/shadows/shadow_passes.h"
+#include "modules/shadows/shadow_reference.h"
+#include "modules/shadows/shadow_reference_views.h"
+#include "modules/shadows/shadow_state.h"
+#include "modules/shadows/shadow_systems.h"
+#include "modules/shadows/shadow_view_passes.h"
+#include "modules/shadows/shadow_views.h"
 
 namespace gloam {
 namespace {
@@ -12,24 +28,87 @@ namespace {
 class ShadowsModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "shadows"; }
-  [[nodiscard]] bool built() const override { return false; }
+
   void register_components(World& world) const override {
     world.register_component<ShadowCaster>("shadow_caster");
+    world.set_resource(ShadowWorld{++worlds_});
+    world.set_resource(Cookies{});
   }
-  void scene_keys(KeyRegistry& registry) const override {
-    registry.add(boolean_key(key_line("shadows", KeyElement::light_node, "gloam.light.shadow", "true", "", "casts shadows"),
-                             &ShadowCaster::enabled));
-    registry.add(integer_key(key_line("shadows", KeyElement::light_node, "gloam.light.shadow_resolution", "0", "texels",
-                                      "of one face; 0 = from screen coverage"),
-                             0, 8192, &ShadowCaster::resolution));
+  void scene_keys(KeyRegistry& registry) const override { add_shadow_keys(registry); }
+  void knobs(KnobRegistry& registry) const override { add_shadow_knobs(registry); }
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override { return shadow_references(); }
+  void add_systems(Schedule& schedule) override { add_shadow_systems(schedule); }
+
+  [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
+    return shadow_demand(world, view);
   }
-  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
-    std::size_t casters = 0;
-    world.view<const Light, Maybe<const ShadowCaster>>().each(
-        [&](const Light&, const ShadowCaster* caster) { casters += caster == nullptr || caster->enabled ? 1 : 0; });
-    if (casters == 0) return {false, "no light casts shadows"};
-    return {true, std::to_string(casters) + (casters == 1 ? " light casts shadows" : " lights cast shadows")};
+
+  [[nodiscard]] bool needs_casters(const World&, const KnobRegistry& knobs) const override {
+    return shadow_knobs(knobs).enabled;
   }
+
+  void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo&, PipelineList& list) const override {
+    const ShadowKnobs settings = shadow_knobs(knobs);
+    if (settings.enabled) list_shadow_map_pipelines(settings, list);
+  }
+
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
+    std::vector<VisualizerInfo> views = shadow_visualizers();
+    for (VisualizerInfo& view : shadow_reference_visualizers()) views.push_back(std::move(view));
+    return views;
+  }
+
+  void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
+    prepare_shadow_view(world, view);
+    world.view_resource<ShadowSettings>(view) = shadow_settings(shadow_knobs(knobs));
+    // Of lights that have come since the scene was loaded; the fault of a bad file is kept for the log.
+    static_cast<void>(load_cookies(world));
+  }
+
+  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::visualize) {
+      GLOAM_TRY(add_shadow_reference_view_pass(frame));
+      return add_shadow_view_pass(frame, states_);
+    }
+    if (phase != PassPhase::lists) return {};
+    warn(frame);
+    return add_shadow_passes(frame, states_);
+  }
+
+  void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
+    const ShadowViews& views = world.view_resource<ShadowViews>(view.id);
+    const ViewShadows* kept = states_.find(world.resource<ShadowWorld>(), view.id);
+    const ShadowCounts counts = kept == nullptr ? ShadowCounts{} : kept->counts;
+    const auto texels = static_cast<double>(views.atlas.size()) * views.atlas.size();
+    sink.count("shadows.casting_lights", views.casting_lights);
+    sink.count("shadows.faces_drawn", counts.drawn);
+    sink.count("shadows.faces_cached", counts.cached);
+    sink.count("shadows.faces_skipped", counts.skipped);
+    sink.count("shadows.faces_shrunk", views.faces_shrunk);
+    sink.count("shadows.faces_left_out", views.faces_left_out);
+    sink.count("shadows.atlas_used", static_cast<double>(views.atlas.used_texels()) / std::max(texels, 1.0));
+  }
+
+  void release() override { states_.release(); }
+
+ private:
+  void warn_once(FrameBuilder& frame, const std::string& sentence) {
+    if (told_.insert(sentence).second) frame.services().log.warning(sentence);
+  }
+  void warn(FrameBuilder& frame) {
+    const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+    if (views.faces_shrunk > 0)
+      warn_once(frame,
+                "shadow maps are smaller than they should be: the atlas is full (shadows.atlas, counter "
+                "shadows.faces_shrunk)");
+    if (views.faces_left_out > 0)
+      warn_once(frame, "some lights cast no shadow: the atlas is full (shadows.atlas, counter shadows.faces_left_out)");
+    for (const std::string& fault : frame.world().resource<Cookies>().faults) warn_once(frame, fault);
+  }
+
+  ShadowStates states_;
+  std::set<std::string> told_;
+  mutable std::atomic<std::uint64_t> worlds_ = 0;
 };
 
 }  // namespace

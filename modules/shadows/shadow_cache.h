@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/jobs/executor.h"
+#include "engine/render/casters.h"
+#include "modules/shadows/shadow_views.h"
+
+namespace gloam {
+
+/// What a face's map is made from.
+struct FaceContent {
+  std::uint64_t hash = 0;  ///< of the face, of what it may see and of `salt`
+  bool moving = false;     ///< it may see something whose vertices move: its map is never good for another frame
+  std::uint32_t casters = 0;
+  bool operator==(const FaceContent&) const = default;
+};
+
+/// One a face. `salt`: whatever else maps depend on (knobs, version of the meshes). The result does not depend on the number of threads.
+[[nodiscard]] std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces, std::span<const Caster> casters,
+                                                     std::uint64_t salt, JobExecutor& executor);
+
+/// Which maps an atlas holds.
+class ShadowCache {
+ public:
+  /// Whether the atlas holds this face's map, drawn from this content, where the face says.
+  [[nodiscard]] bool holds(const ShadowFace& face, const FaceContent& content) const;
+  /// The face's map has been drawn where the face says; what lay there is gone.
+  void set_drawn(const ShadowFace& face, const FaceContent& content);
+  void clear() { maps_.clear(); }
+  [[nodiscard]] std::size_t size() const { return maps_.size(); }
+
+ private:
+  struct Map {
+    AtlasSquare square;
+    FaceContent content;
+  };
+  std::unordered_map<FaceKey, Map, FaceKeyHash> maps_;
+};
+
+}  // namespace gloam

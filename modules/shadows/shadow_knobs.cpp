@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/shadow_knobs.h"
+
+#include <utility>
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kSmallestAtlas = 1024;  // the first choice; each has twice the side of the one before
+constexpr std::uint32_t kSmallestKernel = 4;
+
+Knob choice_knob(std::string name, std::string meaning, std::vector<std::string> choices, std::uint32_t fallback) {
+  Knob knob;
+  knob.name = "shadows." + std::move(name);
+  knob.module = "shadows";
+  knob.meaning = std::move(meaning);
+  knob.choices = std::move(choices);
+  knob.default_number = fallback;
+  return knob;
+}
+
+Knob number_knob(std::string name, std::string meaning, std::string unit, double max, double fallback) {
+  Knob knob = choice_knob(std::move(name), std::move(meaning), {}, 0);
+  knob.type = Knob::Type::number;
+  knob.unit = std::move(unit);
+  knob.max = max;
+  knob.default_number = fallback;
+  return knob;
+}
+
+}  // namespace
+
+void add_shadow_knobs(KnobRegistry& registry) {
+  registry.add(choice_knob("mode", "shadows of lights: none, or looked up in shadow maps where light is added up",
+                           {"off", "monolithic"}, 1));
+  registry.add(
+      choice_knob("filter",
+                  "how shadow maps are looked up: one texel, a fixed kernel, penumbrae by single fetches, penumbrae by "
+                  "gathers from mips",
+                  {"hard", "pcf", "pcss", "chs"}, 3));
+  Knob kernel = choice_knob("kernel", "side of a filter's kernel", {"4", "8", "12", "16"}, 1);
+  kernel.unit = "texels";
+  registry.add(kernel);
+  registry.add(choice_knob("mips", "whether wide penumbrae are looked up in mips of the maps", {"off", "on"}, 1));
+  registry.add(choice_knob("mip_operator", "what a texel of a mip is: the nearest depth of its four, or their mean",
+                           {"nearest", "average"}, 0));
+  registry.add(choice_knob("kernel_shape", "shape of the widest kernel", {"disc", "square"}, 0));
+  registry.add(choice_knob("receiver_plane",
+                           "compare with the depth of the lit surface's plane, not of the lit point alone",
+                           {"off", "on"}, 1));
+  registry.add(choice_knob("depth", "how shadow maps hold depth", {"d32", "d16"}, 0));
+  registry.add(
+      choice_knob("bias",
+                  "what keeps a surface from shadowing itself: an offset along the light by the side that it shows, "
+                  "or the rasteriser's constant bias",
+                  {"hardware", "oriented"}, 1));
+  Knob millimetres = number_knob("bias_mm", "offset of bias=oriented", "mm", 20.0, 2.0);
+  millimetres.ledger_values = {0.5, 1.0, 2.0, 5.0, 10.0};
+  registry.add(millimetres);
+  // One unit is 2^-23 of a depth's power of two: between 0.06 and 0.12 µm a metre of distance.
+  Knob units = number_knob("bias_units", "constant bias of bias=hardware", "units of depth", 1e6, 2000.0);
+  units.ledger_values = {200.0, 1000.0, 2000.0, 10000.0, 50000.0};
+  registry.add(units);
+  registry.add(choice_knob("visibility_bits", "steps that a light's visibility at a pixel is rounded to",
+                           {"4", "8", "exact"}, 1));
+  Knob atlas = choice_knob("atlas", "side of the image that all shadow maps of a view share",
+                           {"1024", "2048", "4096", "8192"}, 2);
+  atlas.unit = "texels";
+  registry.add(atlas);
+  registry.add(choice_knob("early_outs", "whether a filter ends early where it knows the answer; off: for measuring it",
+                           {"off", "on"}, 1));
+}
+
+ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
+  constexpr std::uint32_t kLevels[] = {15, 255, 0};
+  ShadowKnobs knobs;
+  knobs.enabled = !registry.is("shadows.mode", "off");
+  knobs.filter = registry.choice("shadows.filter");
+  knobs.kernel = kSmallestKernel * (registry.choice("shadows.kernel") + 1);
+  knobs.mips = registry.is("shadows.mips", "on");
+  knobs.average = registry.is("shadows.mip_operator", "average");
+  knobs.square = registry.is("shadows.kernel_shape", "square");
+  knobs.receiver_plane = registry.is("shadows.receiver_plane", "on");
+  knobs.d16 = registry.is("shadows.depth", "d16");
+  knobs.oriented = registry.is("shadows.bias", "oriented");
+  knobs.bias_m = knobs.oriented ? static_cast<float>(registry.number("shadows.bias_mm") * 1e-3) : 0.0f;
+  knobs.bias_units = knobs.oriented ? 0.0f : static_cast<float>(registry.number("shadows.bias_units"));
+  knobs.levels = kLevels[registry.choice("shadows.visibility_bits")];
+  knobs.atlas_size = kSmallestAtlas << registry.choice("shadows.atlas");
+  knobs.early_outs = registry.is("shadows.early_outs", "on");
+  return knobs;
+}
+
+ShadowSettings shadow_settings(const ShadowKnobs& knobs) {
+  ShadowSettings settings;
+  settings.enabled = knobs.enabled;
+  settings.atlas_size = knobs.atlas_size;
+  return settings;
+}
+
+std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter) {
+  return {{GLOAM_SHADOWS_FILTER_ID, filter},
+          {GLOAM_SHADOWS_KERNEL_ID, knobs.kernel},
+          {GLOAM_SHADOWS_MIPS_ID, knobs.mips ? 1u : 0u},
+          {GLOAM_SHADOWS_RECEIVER_PLANE_ID, knobs.receiver_plane ? 1u : 0u},
+          {GLOAM_SHADOWS_BIAS_ID, knobs.oriented ? 1u : 0u},
+          {GLOAM_SHADOWS_KERNEL_SHAPE_ID, knobs.square ? 1u : 0u},
+          {GLOAM_SHADOWS_LEVELS_ID, knobs.levels},
+          {GLOAM_SHADOWS_FULL_PENUMBRA_ID, knobs.early_outs ? 0u : 1u}};
+}
+
+std::string shadow_variant(const std::vector<gpu::SpecConstant>& constants) {
+  std::string variant = "shadows";
+  for (const gpu::SpecConstant& constant : constants) variant += "-" + std::to_string(constant.value);
+  return variant;
+}
+
+}  // namespace gloam

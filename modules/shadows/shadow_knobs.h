@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/gpu/types.h"
+#include "engine/render/knobs.h"
+#include "modules/shadows/shadow_views.h"
+
+namespace gloam {
+
+/// The module's knobs as numbers.
+struct ShadowKnobs {
+  bool enabled = true;
+  std::uint32_t filter = 3;  ///< GLOAM_SHADOWS_FILTER_ID
+  std::uint32_t kernel = 8;  ///< texels
+  bool mips = true;
+  bool average = false;  ///< a mip's texel is the mean of its four, not the nearest
+  bool square = false;
+  bool receiver_plane = true;
+  bool d16 = false;
+  bool oriented = true;
+  float bias_m = 0.002f;
+  float bias_units = 0.0f;  ///< of the map's draws, towards the light's far side; 0 with oriented bias
+  std::uint32_t levels = 255;
+  std::uint32_t atlas_size = 4096;
+  bool early_outs = true;
+};
+
+void add_shadow_knobs(KnobRegistry& registry);
+[[nodiscard]] ShadowKnobs shadow_knobs(const KnobRegistry& registry);
+[[nodiscard]] ShadowSettings shadow_settings(const ShadowKnobs& knobs);
+
+/// What shading knows of the knobs when its pipelines are made. `filter`: GLOAM_SHADOWS_FILTER_ID.
+[[nodiscard]] std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter);
+/// The same in a few words, another one for other constants.
+[[nodiscard]] std::string shadow_variant(const std::vector<gpu::SpecConstant>& constants);
+
+inline constexpr std::uint32_t kHardShadows = 0;
+inline constexpr std::uint32_t kTracedShadows = 4;  ///< of GLOAM_SHADOWS_FILTER_ID
+
+}  // namespace gloam

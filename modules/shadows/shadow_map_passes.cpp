@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/shadow_map_passes.h"
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+#include <utility>
+
+#include "engine/core/hash.h"
+#include "engine/render/mesh_packing.h"
+#include "modules/shadows/face_casters.h"
+#include "modules/shadows/scratch_plan.h"
+#include "shaders/shadows/shaders.h"
+#include "shaders/shadows/shadow_map_shared.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kBlockTexels = 8;  // of the source level a thread of shadow_mips.comp reads, along one side
+constexpr std::uint32_t kMipsADispatch = 3;
+constexpr float kSlopeBias = 1.0f;
+
+gpu::GraphicsPipelineDesc map_pipeline(bool cut_out) {
+  gpu::GraphicsPipelineDesc desc;
+  desc.name = cut_out ? "shadow_map/cut_out" : "shadow_map/opaque";
+  desc.module = "shadows";
+  desc.vertex = cut_out ? shaders::shadows::shadow_map_mask_vert : shaders::shadows::shadow_map_vert;
+  desc.attributes = {{0, 0, gpu::Format::rgb32_float, 0}};
+  desc.stream_strides = {sizeof(vec3)};
+  if (cut_out) {
+    desc.fragment = shaders::shadows::shadow_map_mask_frag;
+    desc.attributes.push_back({1, 1, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)});
+    desc.attributes.push_back({2, 1, gpu::Format::rgba8_unorm, offsetof(PackedSurface, color)});
+    desc.stream_strides.push_back(sizeof(PackedSurface));
+  }
+  desc.depth_format = gpu::Format::d32_float;
+  desc.cull = gpu::CullMode::none;  // sheets without thickness cast shadows from either side
+  desc.depth_compare = gpu::CompareOp::greater_equal;
+  desc.depth_bias = true;
+  return desc;
+}
+
+gpu::ComputePipelineDesc mips_pipeline(bool d16) {
+  if (d16) return {"shadow_map_mips/d16", "shadows", shaders::shadows::shadow_mips_r16_comp, {}};
+  return {"shadow_map_mips/d32", "shadows", shaders::shadows::shadow_mips_comp, {}};
+}
+
+/// One face that is drawn in this frame.
+struct DrawnFace {
+  ShadowFace face;
+  FaceContent content;
+  std::vector<FaceDraw> draws;
+  std::vector<mat4> matrices;  ///< clip from mesh, of `draws`
+};
+
+/// All that is drawn in this frame; outlives the declaration, as pass functions run later.
+struct MapWork {
+  std::vector<DrawnFace> faces;
+  ScratchPlan plan;
+  ShadowKnobs knobs;
+  gpu::PipelineHandle opaque;
+  gpu::PipelineHandle cut_out;
+  gpu::PipelineHandle mips;
+  gpu::SamplerHandle sampler;
+};
+
+/// Whatever maps depend on beside face and casters.
+std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
+  return Hasher()
+      .value(frame.world().resource<SceneAssets>().version)
+      .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
+      .value(knobs.average ? 1 : 0)
+      .digest();
+}
+
+/// Sorts the view's faces into those that are there and those that must be drawn.
+std::vector<DrawnFace> faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
+                                     const ShadowKnobs& knobs) {
+  std::vector<ShadowFace> placed;
+  for (const ShadowFace& face : views.faces)
+    if (face.square.size > 0) placed.push_back(face);
+  const std::vector<Caster>& casters = frame.casters().casters;
+  JobExecutor& executor = frame.services().executor;
+  const std::vector<FaceContent> contents = face_contents(placed, casters, salt_of(frame, knobs), executor);
+  std::vector<DrawnFace> drawn;
+  kept.counts = {};
+  kept.drawn.clear();
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (kept.cache.holds(placed[i], contents[i])) {
+      ++kept.counts.cached;
+      continue;
+    }
+    drawn.push_back({placed[i], contents[i], {}, {}});
+    kept.drawn.push_back({placed[i].light, placed[i].index});
+    if (contents[i].casters == 0) ++kept.counts.skipped;
+  }
+  kept.counts.drawn = static_cast<std::uint32_t>(drawn.size()) - kept.counts.skipped;
+  executor.parallel_for(drawn.size(), 1, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      DrawnFace& face = drawn[i];
+      if (face.content.casters == 0) continue;
+      face.draws = face_draws(face_volume(face.face), casters);
+      for (const FaceDraw& draw : face.draws)
+        face.matrices.push_back(clip_from_mesh(face.face, draw.caster->world_from_mesh));
+    }
+  });
+  return drawn;
+}
+
+/// Records the draws of one face; the viewport is set.
+class FaceRecorder {
+ public:
+  FaceRecorder(FrameBuilder& frame, PassContext& context, const MapWork& work)
+      : frame_(frame), context_(context), commands_(context.commands()), work_(work) {}
+
+  void record(const DrawnFace& face) {
+    for (std::size_t i = 0; i < face.draws.size(); ++i) {
+      const FaceDraw& draw = face.draws[i];
+      const Caster& caster = *draw.caster;
+      const bool cut_out = is_cut_out(caster);
+      bind(cut_out ? work_.cut_out : work_.opaque);
+      frame_.bind_caster_vertices(context_, caster, cut_out);
+      if (cut_out) commands_.bind_set(1, frame_.scene().materials()[caster.primitive->material].set);
+      commands_.push(shaders::ShadowDrawConstants{face.matrices[i], face.face.tan_half > 0.0f ? 0u : 1u});
+      commands_.draw_indexed(draw.index_count, 1, draw.first_index, 0, 0);
+    }
+  }
+
+ private:
+  void bind(gpu::PipelineHandle pipeline) {
+    if (bound_ == pipeline) return;
+    commands_.bind_pipeline(pipeline);
+    commands_.set_depth_bias(-work_.knobs.bias_units, -kSlopeBias);  // depth is reversed: less is farther
+    bound_ = pipeline;
+  }
+
+  FrameBuilder& frame_;
+  PassContext& context_;
+  gpu::CommandList& commands_;
+  const MapWork& work_;
+  gpu::PipelineHandle bound_;
+};
+
+void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch,
+                  ImageRef scratch) {
+  gpu::CommandList& commands = context.commands();
+  gpu::RenderingDesc rendering;
+  rendering.depth.view.image = context.image(scratch);
+  rendering.width = rendering.height = batch.side;
+  commands.begin_rendering(rendering);
+  commands.bind_indices(frame.scene().indices(), 0);
+  FaceRecorder recorder(frame, context, work);
+  for (const ScratchPlan::Place& place : batch.places) {
+    const DrawnFace& face = work.faces[place.item];
+    if (face.draws.empty()) continue;
+    const auto side = static_cast<float>(face.face.square.size);
+    commands.set_viewport(static_cast<float>(place.corner.x), static_cast<float>(place.corner.y), side, side);
+    commands.set_scissor(static_cast<std::int32_t>(place.corner.x), static_cast<std::int32_t>(place.corner.y),
+                         face.face.square.size, face.face.square.size);
+    recorder.record(face);
+  }
+  commands.end_rendering();
+}
+
+void record_mips(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, ImageRef scratch,
+                 const ShadowMaps& maps) {
+  gpu::CommandList& commands = context.commands();
+  const gpu::ImageHandle atlas = context.image(maps.atlas), pyramid = context.image(maps.pyramid);
+  const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(scratch)}, work.sampler}},
+                                   {1, gpu::Binding::Storage{{.image = atlas}}},
+                                   {2, gpu::Binding::Storage{{.image = pyramid}}}};
+  commands.bind_pipeline(work.mips);
+  commands.bind(bindings);
+  std::uint32_t most = 0;
+  for (const ScratchPlan::Place& place : batch.places) most = std::max(most, work.faces[place.item].face.square.size);
+  for (std::uint32_t first = 0; first == 0 || most >> first > 1; first += kMipsADispatch) {
+    if (first > 0) {
+      // Each run of mips reads the last of the one before.
+      const gpu::ImageBarrier written[] = {{atlas, gpu::Access::compute_write, gpu::Access::compute_write},
+                                           {pyramid, gpu::Access::compute_write, gpu::Access::compute_write}};
+      commands.barrier({}, written);
+    }
+    for (const ScratchPlan::Place& place : batch.places) {
+      const ShadowFace& face = work.faces[place.item].face;
+      const std::uint32_t size = face.square.size;
+      if (first > 0 && size >> first <= 1) continue;
+      shaders::ShadowMipConstants constants{};
+      constants.source = first == 0 ? place.corner : face.square.origin >> first;
+      constants.origin = face.square.origin;
+      constants.size = size;
+      constants.first = first;
+      constants.mips = static_cast<std::uint32_t>(std::bit_width(size));
+      constants.average = work.knobs.average ? 1u : 0u;
+      constants.atlas_size = work.knobs.atlas_size;
+      constants.orthographic = face.tan_half > 0.0f ? 0u : 1u;
+      commands.push(constants);
+      const std::uint32_t blocks = ((size >> first) + kBlockTexels - 1) / kBlockTexels;
+      const std::uint32_t groups = (blocks + GLOAM_SHADOW_MIP_GROUP - 1) / GLOAM_SHADOW_MIP_GROUP;
+      commands.dispatch(groups, groups, 1);
+    }
+  }
+}
+
+Status make_pipelines(FrameBuilder& frame, MapWork& work) {
+  Pipelines& pipelines = frame.services().pipelines;
+  const bool any_cut_out = std::any_of(work.faces.begin(), work.faces.end(), [](const DrawnFace& face) {
+    return !face.draws.empty() && is_cut_out(*face.draws.back().caster);  // they come last
+  });
+  auto opaque = pipelines.get(map_pipeline(false));
+  if (!opaque.ok()) return opaque.error();
+  work.opaque = *opaque;
+  if (any_cut_out) {
+    auto cut_out = pipelines.get(map_pipeline(true));
+    if (!cut_out.ok()) return cut_out.error();
+    work.cut_out = *cut_out;
+  }
+  auto mips = pipelines.get(mips_pipeline(work.knobs.d16));
+  if (!mips.ok()) return mips.error();
+  work.mips = *mips;
+  auto sampler = frame.nearest_sampler();
+  if (!sampler.ok()) return sampler.error();
+  work.sampler = *sampler;
+  return {};
+}
+
+void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, std::size_t index, ViewShadows& kept,
+               ImageRef& scratch, ShadowMaps& maps) {
+  PassBuilder draw = frame.graph().add_pass("shadow_map_draw", "shadows");
+  frame.read_vertices(draw);
+  scratch = draw.write(scratch, gpu::Access::depth_target);
+  draw.execute([&frame, work, index, scratch](PassContext& context) {
+    record_draws(frame, context, *work, work->plan.batches[index], scratch);
+  });
+  PassBuilder mips = frame.graph().add_pass("shadow_map_mips", "shadows");
+  mips.read(scratch, gpu::Access::compute_read);
+  maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
+  maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);
+  mips.execute([work, index, scratch, maps, &kept](PassContext& context) {
+    const ScratchPlan::Batch& batch = work->plan.batches[index];
+    record_mips(context, *work, batch, scratch, maps);
+    // Only now: a frame that ended before has drawn nothing.
+    kept.atlas.filled = kept.pyramid.filled = true;
+    for (const ScratchPlan::Place& place : batch.places)
+      kept.cache.set_drawn(work->faces[place.item].face, work->faces[place.item].content);
+  });
+}
+
+}  // namespace
+
+void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list) {
+  list.push_back(map_pipeline(false));
+  list.push_back(map_pipeline(true));
+  list.push_back(mips_pipeline(knobs.d16));
+}
+
+Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
+                                         const ShadowKnobs& knobs) {
+  auto work = std::make_shared<MapWork>();
+  work->knobs = knobs;
+  work->faces = faces_to_draw(frame, kept, views, knobs);
+  if (kept.counts.cached == 0 && work->faces.empty()) return ShadowMaps{};
+  FrameGraph& graph = frame.graph();
+  const auto import = [&](const char* name, const KeptImage& image) {
+    return graph.import_image(name, image.image, image.filled ? gpu::Access::fragment_read : gpu::Access::none,
+                              gpu::Access::fragment_read);
+  };
+  ShadowMaps maps{import("shadow_atlas", kept.atlas), import("shadow_pyramid", kept.pyramid)};
+  if (work->faces.empty()) return maps;
+  GLOAM_TRY(make_pipelines(frame, *work));
+  std::vector<std::uint32_t> sizes;
+  for (const DrawnFace& face : work->faces) sizes.push_back(face.face.square.size);
+  work->plan = plan_scratch(sizes);
+  gpu::ImageDesc desc;
+  desc.name = "shadow_scratch";
+  desc.module = "shadows";
+  desc.format = gpu::Format::d32_float;
+  desc.width = desc.height = work->plan.side;
+  ImageRef scratch = graph.create_image(desc);
+  for (std::size_t batch = 0; batch < work->plan.batches.size(); ++batch)
+    add_batch(frame, work, batch, kept, scratch, maps);
+  return maps;
+}
+
+}  // namespace gloam

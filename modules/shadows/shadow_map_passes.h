@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/render/frame_builder.h"
+#include "modules/shadows/shadow_knobs.h"
+#include "modules/shadows/shadow_state.h"
+#include "modules/shadows/shadow_views.h"
+
+namespace gloam {
+
+/// Pipelines of the passes below.
+void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list);
+
+/// The view's atlas and pyramid with this frame's maps. None when no face has a place.
+struct ShadowMaps {
+  ImageRef atlas;
+  ImageRef pyramid;
+};
+
+/// Draws the faces whose maps the atlas does not hold, batch by batch through a scratch map: passes shadow_map_draw and shadow_map_mips.
+[[nodiscard]] Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
+                                                       const ShadowKnobs& knobs);
+
+}  // namespace gloam

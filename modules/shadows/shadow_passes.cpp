@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/shadow_passes.h"
+
+#include "modules/shadows/outputs.h"
+#include "modules/shadows/shadow_knobs.h"
+#include "modules/shadows/shadow_map_passes.h"
+#include "modules/shadows/shadow_uploads.h"
+
+namespace gloam {
+
+Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
+  const ShadowKnobs knobs = shadow_knobs(frame.knobs());
+  const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+  states.begin(frame.services().device);
+  ShadowsOutputs outputs;
+  GLOAM_TRY(add_shadow_uploads(frame, states, views, knobs, outputs));
+
+  const bool traced = knobs.enabled && traced_visibility_of(frame.world(), frame.view()) != nullptr;
+  ShadowMaps maps;
+  if (knobs.enabled && !traced && !views.faces.empty()) {
+    auto kept = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+    if (!kept.ok()) return kept.error();
+    auto made = add_shadow_map_passes(frame, **kept, views, knobs);
+    if (!made.ok()) return made.error();
+    maps = *made;
+    if (maps.atlas) frame.expose(maps.atlas, "shadow_atlas");
+  }
+  // Without a map no light asks for one, but every binding must be given.
+  outputs.atlas = maps.atlas ? maps.atlas : outputs.rows;
+  outputs.pyramid = maps.pyramid ? maps.pyramid : outputs.rows;
+  const std::uint32_t filter = traced ? kTracedShadows : maps.atlas ? knobs.filter : kHardShadows;
+  outputs.constants = shadow_constants(knobs, filter);
+  outputs.variant = shadow_variant(outputs.constants);
+  frame.put(std::move(outputs));
+  return {};
+}
+
+}  // namespace gloam

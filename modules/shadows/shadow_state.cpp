@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/shadow_state.h"
+
+#include "shaders/shadows/shadows_shared.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint64_t kFramesKept = 120;
+
+gpu::ImageDesc kept_image(const char* name, gpu::Format format, std::uint32_t side) {
+  gpu::ImageDesc desc;
+  desc.name = name;
+  desc.module = "shadows";
+  desc.format = format;
+  desc.width = side + side / 2;  // mips lie beside the map
+  desc.height = side;
+  desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::storage | gpu::ImageUsage::transfer_source;
+  return desc;
+}
+
+}  // namespace
+
+void ShadowStates::begin(gpu::Device& device) {
+  device_ = &device;
+  if (staging_ == nullptr)
+    staging_ = std::make_unique<UploadRing>(device, "shadows", gpu::BufferUsage::transfer_source, 1 << 16);
+  const std::uint64_t frame = device.frame_number();
+  if (staging_frame_ == frame) return;
+  staging_->begin_frame();
+  staging_frame_ = frame;
+  for (auto at = views_.begin(); at != views_.end();) {
+    if (at->second.last_frame + kFramesKept >= frame) {
+      ++at;
+      continue;
+    }
+    destroy(at->second.atlas);
+    destroy(at->second.pyramid);
+    at = views_.erase(at);
+  }
+  for (auto at = cookies_.begin(); at != cookies_.end();) {
+    if (at->second.last_frame + kFramesKept >= frame) {
+      ++at;
+      continue;
+    }
+    destroy(at->second.images);
+    at = cookies_.erase(at);
+  }
+}
+
+Result<gpu::ImageHandle> ShadowStates::make(const gpu::ImageDesc& desc) { return device_->create_image(desc); }
+
+void ShadowStates::destroy(KeptImage& image) {
+  if (image.image) device_->destroy(image.image);
+  image = {};
+}
+
+Result<ViewShadows*> ShadowStates::view(ShadowWorld world, ViewId view, std::uint32_t atlas_size, bool d16) {
+  ViewShadows& found = views_[{world.number, view.value}];
+  found.last_frame = device_->frame_number();
+  if (found.atlas.image && found.pyramid.image && found.atlas_size == atlas_size && found.d16 == d16) return &found;
+  destroy(found.atlas);
+  destroy(found.pyramid);
+  found.cache.clear();
+  found.atlas_size = atlas_size;
+  found.d16 = d16;
+  auto atlas = make(kept_image("shadow_atlas", d16 ? gpu::Format::r16_unorm : gpu::Format::r32_float, atlas_size));
+  if (!atlas.ok()) return atlas.error();
+  found.atlas.image = *atlas;
+  auto pyramid = make(kept_image("shadow_pyramid", gpu::Format::rg32_float, atlas_size >> GLOAM_SHADOW_PYRAMID_MIP));
+  if (!pyramid.ok()) return pyramid.error();
+  found.pyramid.image = *pyramid;
+  return &found;
+}
+
+const ViewShadows* ShadowStates::find(ShadowWorld world, ViewId view) const {
+  const auto found = views_.find({world.number, view.value});
+  return found == views_.end() ? nullptr : &found->second;
+}
+
+Result<WorldCookies*> ShadowStates::cookies(ShadowWorld world, std::uint32_t layers, std::uint32_t side) {
+  WorldCookies& found = cookies_[world.number];
+  found.last_frame = device_->frame_number();
+  if (found.images.image && found.layers == layers) return &found;
+  destroy(found.images);
+  found = {};
+  gpu::ImageDesc desc;
+  desc.name = "shadow_cookies";
+  desc.module = "shadows";
+  desc.format = gpu::Format::rgba8_srgb;
+  desc.width = desc.height = side;
+  desc.layers = layers;
+  desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
+  desc.shape = gpu::ImageShape::array;
+  auto made = make(desc);
+  if (!made.ok()) return made.error();
+  found.images.image = *made;
+  found.layers = layers;
+  found.last_frame = device_->frame_number();
+  return &found;
+}
+
+void ShadowStates::release() {
+  for (auto& [key, view] : views_) {
+    destroy(view.atlas);
+    destroy(view.pyramid);
+  }
+  for (auto& [key, cookies] : cookies_) destroy(cookies.images);
+  views_.clear();
+  cookies_.clear();
+  staging_.reset();
+  staging_frame_ = ~0ull;
+}
+
+}  // namespace gloam

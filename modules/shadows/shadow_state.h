@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/frame/frame_graph.h"
+#include "engine/frame/upload.h"
+#include "engine/gpu/device.h"
+#include "modules/shadows/shadow_cache.h"
+
+namespace gloam {
+
+/// Number of a world among those that a shadows module has prepared; a resource of the world.
+struct ShadowWorld {
+  std::uint64_t number = 0;
+};
+
+/// What a view's passes did, for counters.
+struct ShadowCounts {
+  std::uint32_t drawn = 0;    ///< faces that were drawn
+  std::uint32_t cached = 0;   ///< whose map was there already
+  std::uint32_t skipped = 0;  ///< drawn without anything in them
+};
+
+/// An image that lives on between frames.
+struct KeptImage {
+  gpu::ImageHandle image;
+  bool filled = false;  ///< a frame has been recorded that wrote it
+};
+
+/// What one view of one world keeps on the GPU.
+struct ViewShadows {
+  KeptImage atlas;
+  KeptImage pyramid;
+  std::uint32_t atlas_size = 0;
+  bool d16 = false;
+  ShadowCache cache;
+  ShadowCounts counts;
+  std::vector<FaceKey> drawn;    ///< in the newest frame
+  std::uint64_t last_frame = 0;  ///< Device::frame_number of its last use
+};
+
+/// Cookies of one world.
+struct WorldCookies {
+  KeptImage images;
+  std::uint32_t layers = 0;
+  std::uint64_t version = 0;  ///< of Cookies that was uploaded
+  ImageRef imported;          ///< in the frame being declared
+  std::uint64_t last_frame = 0;
+};
+
+/// GPU memory of the module, by world and view. Two worlds never share.
+class ShadowStates {
+ public:
+  ShadowStates() = default;
+  ~ShadowStates() { release(); }
+  ShadowStates(const ShadowStates&) = delete;
+  ShadowStates& operator=(const ShadowStates&) = delete;
+
+  /// Once a view and frame, before the others; forgets what no frame has used for long.
+  void begin(gpu::Device& device);
+  /// The view's images, made anew when size or format are others: then its cache is empty.
+  [[nodiscard]] Result<ViewShadows*> view(ShadowWorld world, ViewId view, std::uint32_t atlas_size, bool d16);
+  [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId view) const;
+  /// An array of at least `layers` rgba8_srgb images of the world.
+  [[nodiscard]] Result<WorldCookies*> cookies(ShadowWorld world, std::uint32_t layers, std::uint32_t side);
+  /// Memory whose bytes this frame copies into images.
+  [[nodiscard]] UploadRing& staging() { return *staging_; }
+  void release();
+
+ private:
+  using Key = std::pair<std::uint64_t, std::uint32_t>;
+  [[nodiscard]] Result<gpu::ImageHandle> make(const gpu::ImageDesc& desc);
+  void destroy(KeptImage& image);
+
+  gpu::Device* device_ = nullptr;
+  std::map<Key, ViewShadows> views_;
+  std::map<std::uint64_t, WorldCookies> cookies_;
+  std::unique_ptr<UploadRing> staging_;
+  std::uint64_t staging_frame_ = ~0ull;
+};
+
+}  // namespace gloam
