@@ -64,8 +64,8 @@ struct Plan {
 [[nodiscard]] Plan compile_plan(const Declaration& declaration);
 
 /// Gives transients of disjoint lives common slots: images by memory, buffers of equal size by object. A transient's
-/// first barrier then waits for the one before it in the slot; the first in the slot waits for the last one, which used
-/// the memory in the frame before.
+/// first barrier then waits for the one before it in the slot, and for larger ones before that; the first in the slot
+/// waits for the last ones, which used the memory in the frame before.
 void share_memory(const Declaration& declaration, Plan& plan);
 
 }  // namespace gloam::frame

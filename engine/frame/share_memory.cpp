@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "engine/frame/plan.h"
 #include "engine/gpu/image_size.h"
@@ -37,14 +39,39 @@ void place(Plan& plan, std::vector<MemorySlot>& slots, std::uint32_t resource, s
   plan.unshared_bytes += bytes;
 }
 
-/// The first access of each resource waits for the resource that had the memory before it.
-void chain(Plan& plan, const std::vector<MemorySlot>& slots) {
+/// Whose accesses the next user of a slot's memory waits for: the last one's, and those of larger ones before it, parts of whose memory
+/// nobody has waited for since.
+class Predecessors {
+ public:
+  void add(std::uint64_t bytes, gpu::AccessMask ending) {
+    while (!stack_.empty() && stack_.back().first <= bytes) stack_.pop_back();
+    stack_.emplace_back(bytes, ending);
+  }
+  [[nodiscard]] gpu::AccessMask endings() const {
+    gpu::AccessMask all = 0;
+    for (const auto& [bytes, ending] : stack_) all |= ending;
+    return all;
+  }
+
+ private:
+  std::vector<std::pair<std::uint64_t, gpu::AccessMask>> stack_;  ///< sizes fall
+};
+
+std::uint64_t bytes_of(const DeclaredResource& resource) {
+  return resource.is_image ? gpu::image_bytes(resource.image_desc) : resource.buffer_desc.size;
+}
+
+/// The first access of each resource waits for the resources that had the memory before it, in the frame before too.
+void chain(const Declaration& declaration, Plan& plan, const std::vector<MemorySlot>& slots) {
   for (const MemorySlot& slot : slots) {
     plan.transient_bytes += slot.bytes;
-    std::uint32_t before = slot.resources.back();
-    for (std::uint32_t resource : slot.resources) {
-      plan.barriers[plan.lives[resource].first_barrier].also_before = plan.lives[before].ending;
-      before = resource;
+    Predecessors predecessors;
+    for (const bool this_frame : {false, true}) {
+      for (std::uint32_t resource : slot.resources) {
+        const ResourceLife& life = plan.lives[resource];
+        if (this_frame) plan.barriers[life.first_barrier].also_before = predecessors.endings();
+        predecessors.add(bytes_of(declaration.resources[resource]), life.ending);
+      }
     }
   }
 }
@@ -59,14 +86,10 @@ void share_memory(const Declaration& declaration, Plan& plan) {
   std::ranges::stable_sort(order, {}, [&](std::uint32_t r) { return plan.lives[r].first; });
   for (std::uint32_t r : order) {
     const DeclaredResource& resource = declaration.resources[r];
-    if (resource.is_image) {
-      place(plan, plan.image_slots, r, gpu::image_bytes(resource.image_desc), false);
-    } else {
-      place(plan, plan.buffer_slots, r, resource.buffer_desc.size, true);
-    }
+    place(plan, resource.is_image ? plan.image_slots : plan.buffer_slots, r, bytes_of(resource), !resource.is_image);
   }
-  chain(plan, plan.image_slots);
-  chain(plan, plan.buffer_slots);
+  chain(declaration, plan, plan.image_slots);
+  chain(declaration, plan, plan.buffer_slots);
 }
 
 }  // namespace gloam::frame

@@ -181,9 +181,28 @@ TEST(plan, images_of_disjoint_lives_share_memory_and_wait_for_each_other) {
   const PlannedBarrier& takes_over = plan.barriers[plan.lives[c].first_barrier];
   EXPECT_EQ(takes_over.before, Access::none);
   EXPECT_EQ(takes_over.also_before, mask_of(Access::compute_read));
-  // The next frame's first user waits for this frame's last one.
-  EXPECT_EQ(plan.barriers[plan.lives[a].first_barrier].also_before, mask_of(Access::compute_write));
+  // The next frame's first user waits for this frame's last one, and for itself where that one was smaller.
+  EXPECT_EQ(plan.barriers[plan.lives[a].first_barrier].also_before,
+            mask_of(Access::compute_write) | mask_of(Access::compute_read));
   EXPECT_EQ(plan.barriers[plan.lives[b].first_barrier].also_before, mask_of(Access::fragment_read));
+}
+
+TEST(plan, a_small_image_between_two_large_ones_does_not_hide_the_first) {
+  Declarer d;
+  const auto large = d.image(64);
+  const auto small = d.image(32);
+  const auto last = d.image(64);
+  d.pass().use(large, Access::color_target);
+  d.pass().use(large, Access::fragment_read);
+  d.pass().use(small, Access::compute_write);
+  d.pass().use(small, Access::compute_read);
+  d.pass().use(last, Access::depth_target);
+  const Plan plan = compile_plan(d.declaration);
+  ASSERT_EQ(plan.image_slots.size(), 1u);
+  EXPECT_EQ(plan.barriers[plan.lives[small].first_barrier].also_before, mask_of(Access::fragment_read));
+  EXPECT_EQ(plan.barriers[plan.lives[last].first_barrier].also_before,
+            mask_of(Access::compute_read) | mask_of(Access::fragment_read));
+  EXPECT_EQ(plan.barriers[plan.lives[large].first_barrier].also_before, mask_of(Access::depth_target));
 }
 
 TEST(plan, buffers_of_equal_size_and_disjoint_lives_are_one_buffer) {
