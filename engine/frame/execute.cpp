@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <cstdlib>
 #include "engine/core/assert.h"
 #include "engine/frame/counting_commands.h"
 #include "engine/frame/frame_graph.h"
@@ -61,15 +60,13 @@ void FrameGraph::execute(gpu::CommandList& commands) {
     frame::DeclaredPass& pass = s.declaration.passes[planned.pass];
     const bool timed = i < frame::PassTimer::kPassesTimed;
     commands.begin_label(pass.name);
-    static const int xbits = std::getenv("GX") ? std::atoi(std::getenv("GX")) : 0;
-    const bool both = (xbits & 3) == 0;
-    if (timed && (both || ((xbits & 1) && i == 0))) commands.write_timestamp(2 * i);
+    if (i == 0) commands.write_timestamp(0);
     s.record_barriers(commands, planned.first_barrier, planned.first_barrier + planned.barrier_count);
     counting.reset();
     s.recording_pass = planned.pass;
     if (pass.function) pass.function(context);
     s.recording_pass = frame::kNone;
-    if (timed && !(xbits & 2)) commands.write_timestamp(2 * i + 1);
+    if (timed) commands.write_timestamp(i + 1);
     commands.end_label();
     s.timer.add(pass, counting.dispatches(), counting.draws());
   }

@@ -47,9 +47,9 @@ void PassTimer::take(const FrameRecord& record, const std::vector<std::uint64_t>
     const PassRecord& pass = record.passes[i];
     PassTime& time = times_.emplace_back(PassTime{
         .name = pass.name, .module = pass.module, .ms = 0.0, .dispatches = pass.dispatches, .draws = pass.draws});
-    if (2 * i + 1 >= timestamps.size()) continue;
-    const std::uint64_t begin = timestamps[2 * i];
-    const std::uint64_t end = timestamps[2 * i + 1];
+    if (i + 1 >= timestamps.size()) continue;
+    const std::uint64_t begin = timestamps[i];
+    const std::uint64_t end = timestamps[i + 1];
     if (begin == 0 || end < begin) continue;
     time.ms = static_cast<double>(end - begin) * kMsPerNs;
     first = std::min(first, begin);

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <cstdlib>
 #include "engine/render/material_packing.h"
 #include "engine/render/passes.h"
 #include "shaders/render/shaders.h"
@@ -29,7 +28,7 @@ Status add_geometry_pass(FrameBuilder& frame) {
     gpu::RenderingDesc rendering;
     // Sky is told by depth alone: colours are only cleared so that every texel is defined.
     for (const ImageRef ref : {outputs.base_color, outputs.normals, outputs.material, outputs.emissive})
-      rendering.colors.push_back({.view = {.image = context.image(ref)}, .load = std::getenv("GDISC") ? gpu::LoadOp::discard : gpu::LoadOp::clear});
+      rendering.colors.push_back({.view = {.image = context.image(ref)}});
     rendering.depth.view.image = context.image(outputs.depth);
     rendering.width = frame.view().width;
     rendering.height = frame.view().height;
@@ -39,32 +38,7 @@ Status add_geometry_pass(FrameBuilder& frame) {
     commands.set_scissor(0, 0, rendering.width, rendering.height);
     const gpu::Binding bindings[] = {frame.view_binding()};
     // Pipelines were made in declaration: nothing is left to fail.
-    static const int xbits = std::getenv("GX") ? std::atoi(std::getenv("GX")) : 0;
-    static const std::size_t parts = std::getenv("GSPLIT") ? static_cast<std::size_t>(std::atoi(std::getenv("GSPLIT"))) : 1;
-    std::span<const Draw> rest = frame.draws().solid;
-    std::size_t total = 0;
-    for (const Draw& draw : rest) total += draw.index_count;
-    for (std::size_t part = 0; part < parts; ++part) {
-      std::size_t count = 0, sum = 0;
-      while (count < rest.size() && (part + 1 == parts || sum < total / parts)) sum += rest[count++].index_count;
-      if (part > 0) {
-        commands.end_rendering();
-        if (xbits & 4) {
-          gpu::RenderingDesc none = rendering;
-          none.colors.clear();
-          none.depth.load = gpu::LoadOp::load;
-          commands.begin_rendering(none);
-          commands.end_rendering();
-        }
-        for (auto& color : rendering.colors) color.load = gpu::LoadOp::load;
-        rendering.depth.load = gpu::LoadOp::load;
-        commands.begin_rendering(rendering);
-        commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
-        commands.set_scissor(0, 0, rendering.width, rendering.height);
-      }
-      static_cast<void>(frame.draw_surfaces(context, rest.first(count), geometry_surface_pass(), bindings));
-      rest = rest.subspan(count);
-    }
+    static_cast<void>(frame.draw_surfaces(context, frame.draws().solid, geometry_surface_pass(), bindings));
     commands.end_rendering();
   });
   return {};

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <cstdlib>
 #include "modules/lighting/environment.h"
 #include "modules/lighting/passes.h"
 #include "shaders/lighting/shaders.h"
@@ -9,14 +8,36 @@ namespace gloam {
 
 namespace {
 
-gpu::GraphicsPipelineDesc deferred_pipeline(bool tiled, std::uint32_t directional_lights) {
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(
-      (tiled ? "deferred/tiled/" : "deferred/brute/") + std::to_string(directional_lights), "lighting",
-      tiled ? shaders::lighting::deferred_tiled_frag : shaders::lighting::deferred_frag, gpu::Format::rgba16_float);
-  desc.constants = {{1, directional_lights}};
-  static const int xbits = std::getenv("GX") ? std::atoi(std::getenv("GX")) : 0;
-  if (tiled) desc.constants.push_back({2, (xbits & 8) ? 0u : 1u});
+/// Where local lights come from.
+enum class LocalLights : std::uint8_t {
+  all,             ///< every light of the view
+  lists_or_masks,  ///< the tile's list, or its group's mask where the list found no room
+  lists,           ///< the tile's list; for LightsOutputs::lists_always_fit
+};
+
+/// A full-screen triangle at depth 0, which is the sky's: the test picks pixels of surfaces or of sky. Devices pass over pixels that fail
+/// it, software devices too, which run both sides of every condition.
+gpu::GraphicsPipelineDesc tested_pipeline(std::string name, gpu::ShaderCode fragment, gpu::CompareOp compare) {
+  gpu::GraphicsPipelineDesc desc =
+      fullscreen_pipeline(std::move(name), "lighting", fragment, gpu::Format::rgba16_float);
+  desc.depth_format = gpu::Format::d32_float;
+  desc.depth_compare = compare;
   return desc;
+}
+
+gpu::GraphicsPipelineDesc shading_pipeline(LocalLights source, std::uint32_t directional_lights) {
+  static constexpr const char* kNames[] = {"deferred/brute/", "deferred/tiled/", "deferred/listed/"};
+  const bool tiled = source != LocalLights::all;
+  gpu::GraphicsPipelineDesc desc = tested_pipeline(
+      kNames[static_cast<std::size_t>(source)] + std::to_string(directional_lights),
+      tiled ? shaders::lighting::deferred_tiled_frag : shaders::lighting::deferred_frag, gpu::CompareOp::less);
+  desc.constants = {{1, directional_lights}};
+  if (tiled) desc.constants.push_back({2, source == LocalLights::lists ? 1u : 0u});
+  return desc;
+}
+
+gpu::GraphicsPipelineDesc sky_pipeline() {
+  return tested_pipeline("deferred/sky", shaders::lighting::sky_frag, gpu::CompareOp::equal);
 }
 
 /// What the pass records with.
@@ -26,7 +47,8 @@ struct Deferred {
   GeometryOutputs geometry;
   ImageRef texels;
   ImageRef color;
-  gpu::PipelineHandle pipeline;
+  gpu::PipelineHandle surfaces;
+  gpu::PipelineHandle sky;
   gpu::SamplerHandle sampler;
 };
 
@@ -34,6 +56,7 @@ void declare_reads(PassBuilder& pass, const Deferred& d) {
   const GeometryOutputs& g = d.geometry;
   for (const ImageRef ref : {g.base_color, g.normals, g.material, g.emissive, g.depth})
     pass.read(ref, gpu::Access::fragment_read);
+  pass.read(g.depth, gpu::Access::depth_test);
   const LightsOutputs& lights = d.inputs.outputs;
   if (lights.texels) pass.read(lights.texels, gpu::Access::fragment_read);
   if (!d.tiled) return;
@@ -42,25 +65,52 @@ void declare_reads(PassBuilder& pass, const Deferred& d) {
   pass.read(lights.group_masks, gpu::Access::fragment_read);
 }
 
-void record(FrameBuilder& frame, PassContext& context, const Deferred& d) {
+std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context, const Deferred& d) {
   const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, d.sampler}; };
   const GeometryOutputs& g = d.geometry;
-  FullscreenPass draw;
-  draw.pipeline = d.pipeline;
-  draw.bindings = {frame.view_binding(),       {1, d.inputs.lights},    {2, d.inputs.environment},
-                   {3, sampled(g.base_color)}, {4, sampled(g.normals)}, {5, sampled(g.material)},
-                   {6, sampled(g.emissive)},   {7, sampled(g.depth)},   {8, sampled(d.texels)}};
+  std::vector<gpu::Binding> bindings = {frame.view_binding(),       {1, d.inputs.lights},    {2, d.inputs.environment},
+                                        {3, sampled(g.base_color)}, {4, sampled(g.normals)}, {5, sampled(g.material)},
+                                        {6, sampled(g.emissive)},   {7, sampled(g.depth)},   {8, sampled(d.texels)}};
   if (d.tiled) {
     const LightsOutputs& lights = d.inputs.outputs;
-    draw.bindings.push_back({9, lights.grid});
-    draw.bindings.push_back({10, sampled(lights.tile_lists)});
-    draw.bindings.push_back({11, gpu::Binding::BufferRange{context.buffer(lights.early_lists)}});
-    draw.bindings.push_back({12, gpu::Binding::BufferRange{context.buffer(lights.group_masks)}});
+    bindings.push_back({9, lights.grid});
+    bindings.push_back({10, sampled(lights.tile_lists)});
+    bindings.push_back({11, gpu::Binding::BufferRange{context.buffer(lights.early_lists)}});
+    bindings.push_back({12, gpu::Binding::BufferRange{context.buffer(lights.group_masks)}});
   }
-  draw.target = context.image(d.color);
-  draw.width = frame.view().width;
-  draw.height = frame.view().height;
-  record_fullscreen(context.commands(), draw);
+  return bindings;
+}
+
+void record(FrameBuilder& frame, PassContext& context, const Deferred& d) {
+  gpu::RenderingDesc rendering;
+  rendering.colors.push_back({.view = {.image = context.image(d.color)}, .load = gpu::LoadOp::discard});
+  rendering.depth = {.view = {.image = context.image(d.geometry.depth)}, .load = gpu::LoadOp::load, .read_only = true};
+  rendering.width = frame.view().width;
+  rendering.height = frame.view().height;
+  gpu::CommandList& commands = context.commands();
+  commands.begin_rendering(rendering);
+  commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
+  commands.set_scissor(0, 0, rendering.width, rendering.height);
+  commands.bind_pipeline(d.surfaces);
+  commands.bind(bindings_of(frame, context, d));
+  commands.draw(3, 1, 0, 0);
+  commands.bind_pipeline(d.sky);
+  const gpu::Binding sky[] = {frame.view_binding(), {2, d.inputs.environment}};
+  commands.bind(sky);
+  commands.draw(3, 1, 0, 0);
+  commands.end_rendering();
+}
+
+/// The best source whose pipeline is there. Brute force draws the same picture while others are made.
+LocalLights choose_source(const FrameServices& services, const ShadingInputs& inputs) {
+  if (!inputs.outputs.has_lists()) return LocalLights::all;
+  const LocalLights best = inputs.outputs.lists_always_fit ? LocalLights::lists : LocalLights::lists_or_masks;
+  if (services.wait_for_pipelines) return best;
+  const std::uint32_t directional = inputs.directional_count;
+  if (services.pipelines.request({shading_pipeline(best, directional)}, services.log)) return best;
+  const bool other =
+      static_cast<bool>(services.pipelines.find(shading_pipeline(LocalLights::lists_or_masks, directional).name));
+  return other ? LocalLights::lists_or_masks : LocalLights::all;
 }
 
 }  // namespace
@@ -71,13 +121,14 @@ Status add_deferred_pass(FrameBuilder& frame) {
   if (!inputs.ok()) return inputs.error();
   Deferred d;
   d.inputs = *inputs;
-  d.tiled = inputs->outputs.has_lists();
-  // Brute force draws the same picture while the tiled pipeline is made.
-  if (d.tiled && !services.wait_for_pipelines)
-    d.tiled = services.pipelines.request({deferred_pipeline(true, inputs->directional_count)}, services.log);
-  auto pipeline = services.pipelines.get(deferred_pipeline(d.tiled, inputs->directional_count));
-  if (!pipeline.ok()) return pipeline.error();
-  d.pipeline = *pipeline;
+  const LocalLights source = choose_source(services, *inputs);
+  d.tiled = source != LocalLights::all;
+  auto surfaces = services.pipelines.get(shading_pipeline(source, inputs->directional_count));
+  if (!surfaces.ok()) return surfaces.error();
+  d.surfaces = *surfaces;
+  auto sky = services.pipelines.get(sky_pipeline());
+  if (!sky.ok()) return sky.error();
+  d.sky = *sky;
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
   d.sampler = *sampler;

@@ -71,6 +71,7 @@ Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLigh
   const FrameServices& services = frame.services();
   const RenderView& view = frame.view();
   const uvec2 tiles = shadow_tiles_of(view);
+  const std::uint32_t tile_count = tiles.x * tiles.y;
   const uvec2 groups = (tiles + uvec2(GLOAM_TILE_GROUP - 1)) / uvec2(GLOAM_TILE_GROUP);
   const LightFeedback* feedback = frame.world().try_view_resource<LightFeedback>(view.id);
 
@@ -84,7 +85,11 @@ Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLigh
   grid.z_scale = bins.params.scale();
   grid.fixed_slots = fixed_slots_of(static_cast<std::uint32_t>(frame.knobs().number("lights.fixed_slots")));
   grid.slot_capacity =
-      list_capacity(tiles.x * tiles.y, grid.fixed_slots, feedback == nullptr ? LightFeedback{} : *feedback);
+      list_capacity(tile_count, grid.fixed_slots, feedback == nullptr ? LightFeedback{} : *feedback);
+  if (grid.fixed_slots == 0)
+    grid.slot_capacity =
+        std::max(grid.slot_capacity, to_whole_words(std::uint64_t{tile_count} * entries_that_fit_all(grid.local_count)));
+  outputs.lists_always_fit = grid.slot_capacity >= std::uint64_t{tile_count} * ((grid.local_count + 2) / 3 * 3);
   outputs.slot_capacity = grid.slot_capacity;
 
   auto grid_range = services.uniforms.write_value(grid);

@@ -46,6 +46,13 @@ inline constexpr std::uint64_t kMostListBytes = std::uint64_t{128} << 20;
 /// Entries a tile that a view's lists begin with.
 inline constexpr std::uint32_t kFirstEntriesPerTile = 9;
 
+/// Entries a tile that few local lights get without being asked for, so that all of them fit into every list and shading needs no way out
+/// (LightsOutputs::lists_always_fit); 0: too many lights. In steps: buffers do not change with every light that comes into view.
+[[nodiscard]] constexpr std::uint32_t entries_that_fit_all(std::uint32_t local_count) {
+  if (local_count > 48) return 0;
+  return local_count > 24 ? 48 : 24;
+}
+
 /// Entries a tile gets in fixed-slot mode: rounded up to whole words. 0: as many as it needs.
 [[nodiscard]] constexpr std::uint32_t fixed_slots_of(std::uint32_t knob) { return (knob + 2) / 3 * 3; }
 

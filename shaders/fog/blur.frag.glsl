@@ -16,6 +16,7 @@ void main() {
   ivec2 last = textureSize(image, 0) - 1;
   vec3 sum = texelFetch(image, center, 0).rgb;
   float total = 1.0;
+  // The condition stands at the end: software devices run the rest of a loop once more when it fails at the start.
   int i = 1;
   if (c.taps > 0) do {
     float distance = float(i) * c.inverse_sigma;

@@ -8,7 +8,7 @@
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Lights the geometry buffer: what deferred.frag and deferred_tiled.frag share. They define local_lights.
+// Lights the surfaces of the geometry buffer: what deferred.frag and deferred_tiled.frag share. They define local_lights.
 
 layout(constant_id = 1) const uint kDirectionalLights = 0u;  // known when the pipeline is made, so that the loop is unrolled
 
@@ -48,7 +48,6 @@ void main() {
     light += reflected(p, -d.direction, d.color);
   }
   light += local_lights(p, uvec2(pixel));
-  if (depth <= 0.0) light = sky_radiance(environment, -p.to_eye);
   out_light = vec4(min(light, vec3(65504.0)), 1.0);
 }
 

@@ -12,7 +12,8 @@ layout(set = 0, binding = 9, scalar) uniform Grid { LightGrid grid; };
 layout(set = 0, binding = 10) uniform usampler2D tile_lists;
 layout(set = 0, binding = 12, scalar) readonly buffer GroupMasks { uint group_masks[]; };
 
-layout(constant_id = 2) const uint kMayOverflow = 1u;  // 0: every tile has a list
+// 1: every tile has a list. Software devices run the way out of the others for every pixel, taken or not.
+layout(constant_id = 2) const uint kAlwaysFit = 0u;
 
 vec3 group_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);
@@ -28,7 +29,7 @@ vec3 group_lights(ShadingPoint p, uvec2 pixel) {
 vec3 local_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);
   uvec2 tile_list = texelFetch(tile_lists, ivec2(pixel / uint(GLOAM_SHADOW_TILE)), 0).xy;
-  bool listed = kMayOverflow == 0u || has_list(tile_list);
+  bool listed = kAlwaysFit != 0u || has_list(tile_list);
   uint count = listed ? list_count(tile_list) : 0u;
   // As list_light would read them, without its divisions.
   uint at = tile_list.x / 3u, shift = 0u;
@@ -40,7 +41,6 @@ vec3 local_lights(ShadingPoint p, uvec2 pixel) {
     at += shift / 30u;
     shift = shift == 30u ? 0u : shift;
   } while (++i < count);
-  // A loop instead of a condition: it is passed over where no pixel needs it, a condition is not on software devices.
-  for (bool full = !listed; full; full = false) sum += group_lights(p, pixel);
+  if (!listed) sum += group_lights(p, pixel);
   return sum;
 }

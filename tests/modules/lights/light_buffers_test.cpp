@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace gloam {
@@ -54,6 +55,17 @@ TEST(ListCapacity, never_needs_more_than_128_mib) {
   EXPECT_EQ(list_capacity(129600, 0, {.entries_asked = 129600 * 1024u, .slot_capacity = 999}), kMostEntries);
   EXPECT_EQ(list_capacity(129600, 0, {.entries_asked = ~0u, .slot_capacity = kMostEntries}), kMostEntries);
   EXPECT_EQ(list_capacity(129600, fixed_slots_of(1024), {}), kMostEntries);
+}
+
+TEST(ListCapacity, fits_all_of_few_lights_and_changes_in_few_steps) {
+  std::set<std::uint32_t> steps;
+  for (std::uint32_t lights = 1; lights <= 48; ++lights) {
+    EXPECT_GE(entries_that_fit_all(lights), lights);
+    EXPECT_EQ(entries_that_fit_all(lights) % 3, 0u);
+    steps.insert(entries_that_fit_all(lights));
+  }
+  EXPECT_LE(steps.size(), 2u);
+  EXPECT_EQ(entries_that_fit_all(49), 0u);
 }
 
 TEST(ListCapacity, of_fixed_slots_is_so_many_a_tile) {

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/lighting/environment.glsl"
+#include "shaders/render/view_api.glsl"
+
+// Light of the pixels without a surface.
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 2, scalar) uniform Environment { EnvironmentConstants environment; };
+
+layout(location = 0) out vec4 out_light;
+
+void main() {
+  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, 1e-9);
+  vec3 to_eye = normalize(to_viewer(view, position));
+  out_light = vec4(min(sky_radiance(environment, -to_eye), vec3(65504.0)), 1.0);
+}
