@@ -116,6 +116,7 @@ shaders::ShadowRow shadow_row(const LocalShadow& shadow, std::span<const AtlasSq
   row.cookie_layer = -1.0f;
   row.cookie_tan = shadow.cookie_tan;
   row.traced_layer = -1.0f;
+  row.mirrored = glm::dot(glm::cross(shadow.axes.up, shadow.axes.right), shadow.axes.forward) < 0.0f ? 1.0f : 0.0f;
   if (squares.empty()) return row;
   GLOAM_ASSERT(squares.size() == shadow.face_count(), "every face of a light has a place, or none");
   row.kind = static_cast<float>(shadow.kind);

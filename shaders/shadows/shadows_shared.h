@@ -41,7 +41,7 @@ struct ShadowRow {
   float cookie_layer;  // of the cookie images; −1: none
   float cookie_tan;    // tangent of the half angle that the cookie fills
   float traced_layer;  // of the traced visibility images (GLOAM_SHADOWS_FILTER_ID 4); −1: always lit
-  float reserved0;
+  float mirrored;      // 1: right and up are left-handed (a mirrored node's), the light looks along cross(right, up); else 0
   vec4 reserved1;
 };
 

@@ -270,6 +270,15 @@ TEST(ShadowFaces, rows_carry_the_faces) {
   for (std::uint32_t i = 0; i < 6; ++i) EXPECT_EQ(cube.origins[i].x, static_cast<float>(i * 64));
 }
 
+TEST(ShadowFaces, rows_tell_shaders_where_a_spot_looks) {
+  for (const dvec3& scale :
+       {dvec3(1, 1, 1), dvec3(-1, 1, 1), dvec3(1, -2, 1), dvec3(1, 1, -3), dvec3(-1, -1, 1), dvec3(-1)}) {
+    const dmat4 node = glm::scale(glm::rotate(dmat4(1.0), 0.7, dvec3(0.3, 1.0, 0.2)), scale);
+    const shaders::ShadowRow row = shadow_row(local_shadow(spot(40.0f), node, kRim), {});
+    expect_near(glm::cross(row.up, row.right) * (1.0f - 2.0f * row.mirrored), -vec3(glm::normalize(dvec3(node[2]))));
+  }
+}
+
 TEST(ShadowFaces, faces_see_every_box_with_a_point_in_view) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
