@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "sandbox/frame_tracing.h"
+
 namespace gloam {
 
 PlayPanel::PlayPanel(Session& session, double scale, bool shown)
@@ -32,6 +34,7 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
   const bool typing = panel_->wants_keyboard();
   const auto show = [&](const std::string& visualizer) -> Status {
     GLOAM_TRY(renderer.check_visualizer(session_.world, visualizer));
+    GLOAM_TRY(check_shown_live(renderer, visualizer));
     view.visualizer = visualizer;
     return {};
   };

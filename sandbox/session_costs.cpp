@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "sandbox/frame_tracing.h"
+
 namespace gloam {
 namespace {
 
@@ -26,7 +28,8 @@ std::vector<ModuleCost> module_costs(const FrameSample& sample) {
 SessionCosts::SessionCosts(Session& session, const Options& options)
     : session_(session),
       options_(options),
-      request_{.settings = session.view_settings(options.width, options.height, options.view), .target = {}} {}
+      request_{.settings = session.view_settings(options.width, options.height, options.view), .target = {}},
+      store_(options.out.empty() ? nullptr : make_reference_store(options.out + "/references")) {}
 
 std::vector<ReferenceInfo> SessionCosts::references() const {
   std::vector<ReferenceInfo> all;
@@ -69,14 +72,37 @@ Result<FramePictures> SessionCosts::read() {
   return FramePictures{.linear = std::move(linear).value(), .picture = std::move(picture).value()};
 }
 
+Result<FramePictures> SessionCosts::redraw(const std::function<void(World&)>& change,
+                                           const std::function<void(World&)>& restore) {
+  change(session_.world);
+  // What a frame takes from the one before has come to rest with the second.
+  Status drawn;
+  for (int frame = 0; frame < 2 && drawn.ok(); ++frame)
+    if (const auto cost = draw(index_); !cost) drawn = cost.error();
+  Result<FramePictures> pictures = drawn.ok() ? read() : Result<FramePictures>(drawn.error());
+  restore(session_.world);
+  return pictures;
+}
+
 Result<FramePictures> SessionCosts::draw_reference(const ReferenceInfo& reference, const FramePictures& frame,
                                                    std::uint32_t samples) {
+  FrameToTrace traced;
+  const bool needs_rays = reference.kind == "traced";
+  if (needs_rays) {
+    auto read = read_frame_to_trace(session_, request_.settings.id);
+    if (!read) return read.error();
+    traced = std::move(read).value();
+  }
   return reference.draw({.world = session_.world,
                          .view = session_.world.view_resource<RenderView>(request_.settings.id),
                          .knobs = knobs(),
                          .frame = frame,
                          .samples = samples,
-                         .executor = *session_.executor});
+                         .executor = *session_.executor,
+                         .tracer = traced.tracer.get(),
+                         .geometry = needs_rays ? &traced.geometry : nullptr,
+                         .redraw = [this](const auto& change, const auto& restore) { return redraw(change, restore); },
+                         .store = store_.get()});
 }
 
 }  // namespace gloam

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "modules/accuracy/module.h"
 #include "sandbox/options.h"
 #include "sandbox/session.h"
@@ -25,9 +28,14 @@ class SessionCosts final : public CostSubject {
                                                      std::uint32_t samples) override;
 
  private:
+  /// The last frame once more with something changed in the world, which is restored afterwards.
+  [[nodiscard]] Result<FramePictures> redraw(const std::function<void(World&)>& change,
+                                             const std::function<void(World&)>& restore);
+
   Session& session_;
   const Options& options_;
   ViewRequest request_;
+  std::unique_ptr<ReferenceStore> store_;
   std::uint32_t index_ = 0;  ///< of the last frame
 };
 

@@ -51,6 +51,9 @@ struct VisualizerInfo {
   bool built = true;     ///< false: known, not built yet
   std::string knob = {};   ///< what must be set so for the view to have something to show; empty: nothing
   std::string value = {};
+  /// Set when the view shows what has to be traced first: computes it from a frame that has been drawn without the view (whose pictures
+  /// and redraw may be absent) and puts it into the world, for the frame that shows it. Who cannot wait for that does not offer the view.
+  std::function<Status(World& world, const ReferenceInput& input)> trace = {};
 };
 
 /// A pixel that Renderer::pick was asked about, and what lies there.
@@ -102,6 +105,12 @@ class Module {
   }
   /// Whether the module's passes look at FrameBuilder::casters(); asked once a frame, when the world demands the module.
   [[nodiscard]] virtual bool needs_casters(const World& world, const KnobRegistry& knobs) const {
+    static_cast<void>(world);
+    static_cast<void>(knobs);
+    return false;
+  }
+  /// Whether they shall have simplified indices (GpuPrimitive::simplified_index_count), asked likewise: made when first wanted.
+  [[nodiscard]] virtual bool needs_simplified_casters(const World& world, const KnobRegistry& knobs) const {
     static_cast<void>(world);
     static_cast<void>(knobs);
     return false;

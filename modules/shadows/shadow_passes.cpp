@@ -16,7 +16,8 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   ShadowsOutputs outputs;
   GLOAM_TRY(add_shadow_uploads(frame, states, views, knobs, outputs));
 
-  const bool traced = knobs.enabled && traced_visibility_of(frame.world(), frame.view()) != nullptr;
+  const TracedVisibility* found = traced_visibility_of(frame.world(), frame.view());
+  const bool traced = knobs.enabled && found != nullptr && found->shades;
   ShadowMaps maps;
   if (knobs.enabled && !traced && !views.faces.empty()) {
     auto kept = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);

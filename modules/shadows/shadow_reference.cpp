@@ -7,6 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "modules/shadows/shadow_knobs.h"
+
 namespace gloam {
 namespace {
 
@@ -104,16 +106,17 @@ Result<TracedVisibility> find_visibility(const ReferenceInput& input) {
 Status put_traced_visibility(World& world, const ReferenceInput& input) {
   auto traced = find_visibility(input);
   if (!traced) return traced.error();
+  traced->shades = false;
   world.set_resource(std::move(traced).value());
   return {};
 }
 
 std::vector<ReferenceInfo> shadow_references() {
+  KnobRegistry registry;
+  add_shadow_knobs(registry);
   std::vector<ReferenceInfo> references;
-  for (const char* knob :
-       {"mode", "filter", "kernel", "mips", "mip_operator", "kernel_shape", "receiver_plane", "depth", "bias",
-        "bias_mm", "bias_units", "visibility_bits", "atlas", "casters", "early_outs"})
-    references.push_back({.knob = std::string("shadows.") + knob,
+  for (const Knob& knob : registry.knobs())
+    references.push_back({.knob = knob.name,
                           .kind = "traced",
                           .name = "lights with width, traced",
                           .samples = true,

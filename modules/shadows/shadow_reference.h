@@ -59,7 +59,7 @@ struct VisibilityInput {
 
 /// Traces, or takes from the input's store. Usage error where the input offers no triangles or no geometry.
 [[nodiscard]] Result<TracedVisibility> find_visibility(const ReferenceInput& input);
-/// The same into the world, for views that show it: VisualizerInfo::trace.
+/// The same into the world, for views that show it (VisualizerInfo::trace): shading leaves it alone.
 [[nodiscard]] Status put_traced_visibility(World& world, const ReferenceInput& input);
 
 /// The frame shaded with traced visibility, for every knob of the module.

@@ -8,6 +8,7 @@
 #include "engine/gpu/vulkan_device.h"
 #include "sandbox/commands/commands.h"
 #include "sandbox/fly_camera.h"
+#include "sandbox/frame_tracing.h"
 #include "sandbox/play_panel.h"
 #include "sandbox/run_output.h"
 #include "sandbox/scene_loading.h"
@@ -59,7 +60,8 @@ class Player {
   /// A knob may take away what a view shows: the lit picture comes back, and the program goes on.
   void drop_view_without_its_knob() {
     if (settings_.visualizer == "none") return;
-    const Status shows = session_.renderer->check_visualizer(session_.world, settings_.visualizer);
+    Status shows = session_.renderer->check_visualizer(session_.world, settings_.visualizer);
+    if (shows.ok()) shows = check_shown_live(*session_.renderer, settings_.visualizer);
     if (shows.ok()) return;
     log_.warning(shows.error().message);
     settings_.visualizer = "none";
@@ -158,6 +160,7 @@ Status run_play(const CommandContext& context) {
   if (!window) return window.error();
   const auto session = open_session(options, context.log, window.value()->vulkan_extensions());
   if (!session) return session.error();
+  GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));
   const auto swapchain = gpu::create_swapchain(*session.value()->device, window.value()->surface_maker());
   if (!swapchain) return swapchain.error();
   Player player(options, *window.value(), *session.value(), *swapchain.value(), context.log);

@@ -5,12 +5,23 @@
 #include <vector>
 
 #include "sandbox/commands/commands.h"
+#include "sandbox/frame_tracing.h"
 #include "sandbox/run_output.h"
 #include "sandbox/scene_loading.h"
 #include "sandbox/session.h"
 
 namespace gloam {
 namespace {
+
+/// The last frame once more, with the view that was asked for and what had to be traced to show it.
+Status show_traced_view(Session& session, const CommandContext& context, const VisualizerInfo& info,
+                        const ViewSettings& view, FrameSample& last) {
+  GLOAM_TRY(trace_for_view(session, info, view.id, context.console, context.options.quiet));
+  auto sample = session.render_frame({.settings = view, .target = {}});
+  if (!sample) return sample.error();
+  last = std::move(sample).value();
+  return {};
+}
 
 Result<std::vector<FrameSample>> render_frames(Session& session, const Options& options, const ViewSettings& view) {
   std::vector<FrameSample> samples;
@@ -31,8 +42,12 @@ Status run_render(const CommandContext& context) {
   auto session = open_session(options, context.log);
   if (!session) return session.error();
   const ViewSettings view = session.value()->view_settings(options.width, options.height, options.view);
-  const auto samples = render_frames(*session.value(), options, view);
+  const auto traced = traced_view(*session.value()->renderer, options.view);
+  ViewSettings drawn = view;
+  if (traced) drawn.visualizer = "none";
+  auto samples = render_frames(*session.value(), options, drawn);
   if (!samples) return samples.error();
+  if (traced) GLOAM_TRY(show_traced_view(*session.value(), context, *traced, view, samples->back()));
 
   const DrawnRun run = {.session = *session.value(), .view = view, .samples = *samples};
   const std::string path = options.out.empty() ? "out/" + scene_stem(options.scene) + ".png" : options.out;

@@ -107,7 +107,8 @@ TEST_F(Tracing, no_ray_slips_through_the_seams_of_a_fine_mesh) {
   constexpr int kSide = 64;
   for (int y = 0; y <= kSide; ++y)
     for (int x = 0; x <= kSide; ++x)
-      grid.positions.push_back({static_cast<float>(x) / 7.0f, static_cast<float>(y) / 7.0f, std::sin(static_cast<float>(x * y))});
+      grid.positions.push_back(
+          {static_cast<float>(x) / 7.0f, static_cast<float>(y) / 7.0f, std::sin(static_cast<float>(x * y))});
   for (std::uint32_t y = 0; y < kSide; ++y)
     for (std::uint32_t x = 0; x < kSide; ++x) {
       const std::uint32_t a = y * (kSide + 1) + x, b = a + kSide + 1;
@@ -228,7 +229,8 @@ TEST_F(Tracing, answers_do_not_depend_on_executor_or_company) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-4.0, 4.0);
   const std::uint32_t mesh = maker_.mesh(test::box({0.2f, 0.3f, 0.1f}));
-  for (int i = 0; i < 300; ++i) maker_.draw(mesh, glm::translate(dmat4(1.0), dvec3(place(random), place(random), place(random))));
+  for (int i = 0; i < 300; ++i)
+    maker_.draw(mesh, glm::translate(dmat4(1.0), dvec3(place(random), place(random), place(random))));
   std::vector<ShadowRay> rays;
   for (int i = 0; i < 5000; ++i)
     rays.push_back({.origin = vec3(place(random), place(random), place(random)),

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/shadow_reference_views.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/scene/resources.h"
+#include "modules/lights/outputs.h"
+#include "modules/shadows/outputs.h"
+#include "modules/shadows/shadow_knobs.h"
+#include "modules/shadows/shadow_reference.h"
+#include "modules/shadows/shadow_uploads.h"
+#include "shaders/shadows/shaders.h"
+#include "shaders/shadows/shadow_map_shared.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kFirstShadowBinding = 6;
+
+/// What one of the views draws with.
+struct ReferenceView {
+  std::string name;  ///< of shader and pass
+  std::string image;
+  gpu::ShaderCode fragment;
+  ShadowsOutputs shadows;
+  std::optional<shaders::ShownLightConstants> light;  ///< pushed when there is one
+  GeometryOutputs geometry;
+  LightsOutputs lights;
+  gpu::PipelineHandle pipeline;
+  gpu::SamplerHandle sampler;
+  ImageRef picture;
+  ImageRef named;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+};
+
+/// Where the light lies among those of the view; nothing when it reaches nothing there.
+std::optional<shaders::ShownLightConstants> place_of(const FrameBuilder& frame, std::string_view name) {
+  const auto entity = frame.world().resource<SceneNames>().find("light", name);
+  if (!entity.ok()) return std::nullopt;
+  const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
+  std::uint32_t directional = 0;
+  for (const std::span<const Entity> lights : {local_lights(visible), directional_lights(visible)}) {
+    const auto at = std::find(lights.begin(), lights.end(), *entity);
+    if (at != lights.end())
+      return shaders::ShownLightConstants{static_cast<std::uint32_t>(at - lights.begin()), directional};
+    ++directional;
+  }
+  return std::nullopt;
+}
+
+gpu::GraphicsPipelineDesc view_pipeline(const ReferenceView& view, gpu::Format format) {
+  gpu::GraphicsPipelineDesc desc =
+      fullscreen_pipeline(view.name + "/" + std::string(gpu::name_of(format)) + "/" + view.shadows.variant, "shadows",
+                          view.fragment, format);
+  desc.color_formats.push_back(gpu::Format::r32_float);
+  desc.constants = view.shadows.constants;
+  desc.constants.push_back({0, gpu::encodes_srgb(format) ? 0u : 1u});
+  return desc;
+}
+
+void record(const FrameBuilder& frame, PassContext& context, const ReferenceView& view) {
+  const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, view.sampler}; };
+  std::vector<gpu::Binding> bindings = {frame.view_binding(),
+                                        {1, view.lights.lights},
+                                        {2, sampled(view.geometry.depth)},
+                                        {3, sampled(view.geometry.normals)},
+                                        {4, sampled(view.geometry.base_color)},
+                                        {5, sampled(view.lights.texels)}};
+  append_shadow_bindings(bindings, kFirstShadowBinding, context, view.shadows);
+  gpu::RenderingDesc rendering;
+  rendering.colors.push_back({.view = {.image = context.image(view.picture)}, .load = gpu::LoadOp::clear});
+  rendering.colors.push_back({.view = {.image = context.image(view.named)}, .load = gpu::LoadOp::clear});
+  rendering.width = view.width;
+  rendering.height = view.height;
+  gpu::CommandList& commands = context.commands();
+  commands.begin_rendering(rendering);
+  commands.set_viewport(0.0f, 0.0f, static_cast<float>(view.width), static_cast<float>(view.height));
+  commands.set_scissor(0, 0, view.width, view.height);
+  commands.bind_pipeline(view.pipeline);
+  commands.bind(bindings);
+  if (view.light) commands.push(*view.light);
+  commands.draw(3, 1, 0, 0);
+  commands.end_rendering();
+}
+
+Status add_pass(FrameBuilder& frame, ReferenceView view) {
+  TargetOutput& target = frame.get<TargetOutput>();
+  auto pipeline = frame.services().pipelines.get(view_pipeline(view, target.format));
+  if (!pipeline.ok()) return pipeline.error();
+  auto sampler = frame.nearest_sampler();
+  if (!sampler.ok()) return sampler.error();
+  view.pipeline = *pipeline;
+  view.sampler = *sampler;
+  view.geometry = frame.get<GeometryOutputs>();
+  view.lights = frame.get<LightsOutputs>();
+  if (!view.lights.texels) view.lights.texels = view.geometry.base_color;  // nobody looks at it then
+  view.width = frame.view().width;
+  view.height = frame.view().height;
+  const ImageRef image = create_view_image(frame, view.image, "shadows", gpu::Format::r32_float);
+  PassBuilder pass = frame.graph().add_pass(view.name, "shadows");
+  for (const ImageRef read : {view.geometry.depth, view.geometry.normals, view.geometry.base_color})
+    pass.read(read, gpu::Access::fragment_read);
+  if (view.lights.local_count > 0) pass.read(view.lights.texels, gpu::Access::fragment_read);
+  declare_shadow_reads(pass, view.shadows, gpu::Access::fragment_read);
+  view.named = pass.write(image, gpu::Access::color_target);
+  target.color = view.picture = pass.write(target.color, gpu::Access::color_target);
+  pass.execute([&frame, view](PassContext& context) { record(frame, context, view); });
+  frame.expose(view.named);
+  return {};
+}
+
+}  // namespace
+
+std::vector<VisualizerInfo> shadow_reference_visualizers() {
+  std::vector<VisualizerInfo> views = {
+      {"shadow_reference", "shadows", "LIGHT",
+       "how much of the light each surface sees, traced: black nothing, white all of it; blue: beyond its reach"},
+      {"error", "shadows", "",
+       "how far drawn visibilities of lights are from traced ones, mean of those that reach a pixel: black 0, blue "
+       "0.1, cyan 0.2, "
+       "green 0.3, yellow 0.4, red 0.5, white more"}};
+  for (VisualizerInfo& view : views) {
+    view.knob = "shadows.mode";
+    view.value = "monolithic";
+    view.trace = put_traced_visibility;
+  }
+  return views;
+}
+
+Status add_shadow_reference_view_pass(FrameBuilder& frame) {
+  const std::string_view shown = frame.visualizer();
+  const std::string_view stem = shown.substr(0, shown.find(':'));
+  if (stem != "shadow_reference" && stem != "error") return {};
+  const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
+  if (shadows == nullptr) return {};
+  if (traced_visibility_of(frame.world(), frame.view()) == nullptr)
+    return Error{ErrorKind::usage,
+                 "view " + std::string(stem) + " shows what is traced first: `gloam render` does that"};
+  ReferenceView view;
+  view.shadows = *shadows;
+  if (stem == "error") {
+    view.name = "shadow_error_view";
+    view.image = "shadow_error";
+    view.fragment = shaders::shadows::shadow_error_view_frag;
+    return add_pass(frame, std::move(view));
+  }
+  const auto light = place_of(frame, shown.substr(stem.size() + 1));
+  if (!light) {
+    frame.services().log.warning("view " + std::string(shown) +
+                                 " shows the picture as it is: the light reaches nothing in view");
+    return {};
+  }
+  // The same shader as view "shadow", told to look at what was traced.
+  view.name = "shadow_reference_view";
+  view.image = "shadow_reference";
+  view.fragment = shaders::shadows::shadow_visibility_view_frag;
+  view.light = light;
+  view.shadows.constants = shadow_constants(shadow_knobs(frame.knobs()), kTracedShadows);
+  view.shadows.variant = shadow_variant(view.shadows.constants);
+  return add_pass(frame, std::move(view));
+}
+
+}  // namespace gloam
