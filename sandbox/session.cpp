@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/session.h"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "engine/gpu/vulkan_device.h"
 #include "engine/scene/resources.h"
 #include "engine/scene/systems.h"
@@ -23,7 +27,7 @@ Status set_knobs(KnobRegistry& knobs, const Options& options) {
 }
 
 Status open_renderer(Session& session, const Options& options, LogSink& log,
-                     const std::vector<std::string>& window_extensions) {
+                     const std::vector<std::string>& window_extensions, ModuleList more_modules) {
   auto device = gpu::create_vulkan_device({.device = options.device,
                                            .validate = options.validate,
                                            .cache_directory = options.cache_dir,
@@ -31,11 +35,13 @@ Status open_renderer(Session& session, const Options& options, LogSink& log,
                                            .window_extensions = window_extensions});
   if (!device) return device.error();
   session.device = std::move(device).value();
+  ModuleList modules = make_all_modules();
+  std::move(more_modules.begin(), more_modules.end(), std::back_inserter(modules));
   auto renderer = Renderer::create({.device = session.device.get(),
                                     .executor = session.executor.get(),
                                     .log = &log,
                                     .zones = &session.zones,
-                                    .modules = make_all_modules()});
+                                    .modules = std::move(modules)});
   if (!renderer) return renderer.error();
   session.renderer = std::move(renderer).value();
   return set_knobs(session.renderer->knobs(), options);
@@ -77,11 +83,12 @@ Status Session::check_validation() const {
 }
 
 Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& log,
-                                              const std::vector<std::string>& window_extensions) {
+                                              const std::vector<std::string>& window_extensions,
+                                              ModuleList more_modules) {
   GLOAM_TRY(check_scene_exists(options.scene));
   auto session = std::make_unique<Session>();
   session->executor = make_pool_executor(options.threads);
-  GLOAM_TRY(open_renderer(*session, options, log, window_extensions));
+  GLOAM_TRY(open_renderer(*session, options, log, window_extensions, std::move(more_modules)));
   session->renderer->prepare_world(session->world);
   auto info = load_scene({.scene = options.scene, .animation = options.animation}, session->renderer->modules(),
                          session->world, *session->executor, log);

@@ -47,7 +47,9 @@ struct Session {
 
 /// Opens the device, makes the renderer with all modules, sets the knobs (--config, then --set), loads the scene, poses it at
 /// --time and checks camera and visualizer. log must outlive the session. window_extensions: of the window system, or empty.
+/// more_modules: behind the program's own.
 [[nodiscard]] Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& log,
-                                                            const std::vector<std::string>& window_extensions = {});
+                                                            const std::vector<std::string>& window_extensions = {},
+                                                            ModuleList more_modules = {});
 
 }  // namespace gloam

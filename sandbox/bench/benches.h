@@ -22,6 +22,8 @@ void add_shadow_benches(BenchRegistry& registry);
 void add_shadow_bias_benches(BenchRegistry& registry);
 /// Widths of penumbrae against the analytic ones.
 void add_shadow_penumbra_benches(BenchRegistry& registry);
+/// The contact-hardening filter against the bare gathers of the same footprints.
+void add_shadow_gather_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

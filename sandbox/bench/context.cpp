@@ -25,12 +25,12 @@ Result<Session*> BenchContext::session_or(const std::string& scene) {
   return session.get();
 }
 
-Result<std::unique_ptr<Session>> BenchContext::open_builtin(const std::string& scene) {
+Result<std::unique_ptr<Session>> BenchContext::open_builtin(const std::string& scene, ModuleList more_modules) {
   Options options = options_;
   options.scene = scene;
   options.camera.clear();
   options.animation.clear();
-  auto opened = open_session(options, log_);
+  auto opened = open_session(options, log_, {}, std::move(more_modules));
   if (!opened) return opened.error();
   device_info_ = opened.value()->device->info();
   return std::move(opened).value();

@@ -24,7 +24,8 @@ class BenchContext {
   /// Of the chosen scene and size.
   [[nodiscard]] Result<Session*> session();
   /// Of a scene made by code ("builtin:NAME") whatever was chosen, with its first camera; one that is the caller's to change.
-  [[nodiscard]] Result<std::unique_ptr<Session>> open_builtin(const std::string& scene);
+  /// more_modules: behind the program's own.
+  [[nodiscard]] Result<std::unique_ptr<Session>> open_builtin(const std::string& scene, ModuleList more_modules = {});
   /// The scene the user named, or `scene` if he named none.
   [[nodiscard]] const std::string& scene_or(const std::string& scene) const;
   /// Of scene_or(scene).
