@@ -108,6 +108,7 @@ void GpuScene::release() {
   buffers_ = {};
   material_constants_ = {};
   version_ = 0;
+  casters_simplified_ = false;
 }
 
 Status GpuScene::sync(const SceneAssets& assets, JobExecutor& executor) {

@@ -24,6 +24,8 @@ struct GpuPrimitive {
   std::uint32_t first_vertex = 0;  ///< a multiple of 64, so that every stream's byte offset may be bound
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
+  std::uint32_t simplified_first_index = 0;
+  std::uint32_t simplified_index_count = 0;  ///< 0: casts its shadow as it is drawn (GpuScene::simplify_casters)
   std::uint32_t first_influence = 0;  ///< a multiple of 64
   std::uint32_t first_morph = 0;      ///< floats, a multiple of 64
   std::uint32_t morph_targets = 0;
@@ -59,6 +61,10 @@ class GpuScene {
   /// Uploads everything when assets.version is not the one uploaded last. Waits for the GPU then.
   [[nodiscard]] Status sync(const SceneAssets& assets, JobExecutor& executor);
 
+  /// Gives opaque rigid primitives a run of indices with fewer triangles (simplified_casters.h), once after each upload; replaces
+  /// indices(). `assets`: those of the last sync. Waits for the GPU; not between begin_frame and submit_frame.
+  [[nodiscard]] Status simplify_casters(const SceneAssets& assets, JobExecutor& executor);
+
   [[nodiscard]] const std::vector<std::vector<GpuPrimitive>>& meshes() const { return meshes_; }
   [[nodiscard]] const std::vector<GpuMaterial>& materials() const { return materials_; }
 
@@ -74,6 +80,7 @@ class GpuScene {
   void release();
   [[nodiscard]] Status upload_meshes(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader);
   [[nodiscard]] Status upload_textures(const SceneAssets& assets, Uploader& uploader);
+  [[nodiscard]] Status replace_indices(std::vector<std::byte> bytes, JobExecutor& executor);
   /// Adds the texture that stands where a material names none.
   [[nodiscard]] Status add_white_texel(Uploader& uploader);
   [[nodiscard]] Status upload_materials(const std::vector<Material>& sources, Uploader& uploader);
@@ -84,6 +91,7 @@ class GpuScene {
   gpu::Device& device_;
   Pipelines& pipelines_;
   std::uint64_t version_ = 0;
+  bool casters_simplified_ = false;  ///< of this version
   std::vector<std::vector<GpuPrimitive>> meshes_;
   std::vector<GpuMaterial> materials_;
   std::array<gpu::BufferHandle, 6> buffers_{};

@@ -124,14 +124,20 @@ std::vector<Cluster> build_clusters(const Primitive& primitive, std::vector<std:
   return clusters;
 }
 
-Primitive in_fetch_order(const Primitive& primitive, std::span<std::uint32_t> indices) {
-  std::vector<std::uint32_t> place(primitive.positions.size(), kNone);
-  std::uint32_t count = 0;
+std::vector<std::uint32_t> fetch_order(std::size_t vertex_count, std::span<std::uint32_t> indices, std::uint32_t& count) {
+  std::vector<std::uint32_t> place(vertex_count, kNone);
+  count = 0;
   for (std::uint32_t& index : indices) {
     std::uint32_t& at = place[index];
     if (at == kNone) at = count++;
     index = at;
   }
+  return place;
+}
+
+Primitive in_fetch_order(const Primitive& primitive, std::span<std::uint32_t> indices) {
+  std::uint32_t count = 0;
+  const std::vector<std::uint32_t> place = fetch_order(primitive.positions.size(), indices, count);
   Primitive ordered;
   ordered.material = primitive.material;
   ordered.bounds = primitive.bounds;

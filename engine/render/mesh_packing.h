@@ -50,6 +50,9 @@ inline constexpr std::size_t kClusterTriangles = 256;
 [[nodiscard]] std::vector<float> pack_morph_offsets(const Primitive& primitive, bool& has_normals);
 /// Sorts triangles in space and cuts them into clusters; `indices` becomes the sorted order.
 [[nodiscard]] std::vector<Cluster> build_clusters(const Primitive& primitive, std::vector<std::uint32_t>& indices);
+/// Numbers vertices in the order in which `indices` first name them, and changes `indices` to match. Result: the new number of each old
+/// vertex, kNone for those that are never named. `count`: the others.
+[[nodiscard]] std::vector<std::uint32_t> fetch_order(std::size_t vertex_count, std::span<std::uint32_t> indices, std::uint32_t& count);
 /// The primitive's vertices in the order in which `indices` first name them, without those that they never name; `indices` are changed
 /// to match. Neighbouring triangles then read neighbouring vertices, and caches that are told by index do not collide. The result's
 /// own indices stay empty.

@@ -130,10 +130,10 @@ void Renderer::State::update_demand(const World& world) {
   }
 }
 
-bool Renderer::State::casters_needed(const World& world) const {
+bool Renderer::State::any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const, const World& world) const {
   for (std::size_t i = 0; i < options.modules.size(); ++i) {
     const Module& module = *options.modules[i];
-    if (module.built() && runtimes[i].demand.needed && module.needs_casters(world, knobs)) return true;
+    if (module.built() && runtimes[i].demand.needed && (module.*question)(world, knobs)) return true;
   }
   return false;
 }
@@ -191,7 +191,8 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   GpuScene& scene = scene_of(world);
   const ViewImages& own = images.at(view.id.value);
   builders.push_back(std::make_unique<FrameBuilder>(services(), graph, world, view, scene,
-                                                    build_draw_lists(world, view, scene, *options.executor, casters_needed(world))));
+                                                    build_draw_lists(world, view, scene, *options.executor,
+                                                                     any_needs(&Module::needs_casters, world))));
   FrameBuilder& frame = *builders.back();
   frame.set_visualizer(request.settings.visualizer);
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
@@ -327,7 +328,10 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   const auto start = std::chrono::steady_clock::now();
   s.update_demand(world);
   s.schedule.run(Stage::world, world, *s.options.executor, s.options.zones);
-  GLOAM_TRY(s.scene_of(world).sync(world.resource<SceneAssets>(), *s.options.executor));
+  const SceneAssets& assets = world.resource<SceneAssets>();
+  GLOAM_TRY(s.scene_of(world).sync(assets, *s.options.executor));
+  if (s.any_needs(&Module::needs_simplified_casters, world))
+    GLOAM_TRY(s.scene_of(world).simplify_casters(assets, *s.options.executor));
 
   auto commands = s.options.device->begin_frame();
   if (!commands.ok()) return commands.error();

@@ -60,8 +60,8 @@ struct Renderer::State {
   /// Makes the view's images when missing or of another size.
   [[nodiscard]] Status prepare_images(const ViewRequest& request);
   void update_demand(const World& world);
-  /// Whether a demanded module looks at casters.
-  [[nodiscard]] bool casters_needed(const World& world) const;
+  /// Whether a demanded module says yes to a question (Module::needs_casters).
+  [[nodiscard]] bool any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const, const World& world) const;
   /// Everything between Device::begin_frame and submit_frame.
   [[nodiscard]] Status record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands);
   /// Declares one view's passes.
