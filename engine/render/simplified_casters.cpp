@@ -5,6 +5,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/render/gpu_scene.h"
 
@@ -77,37 +78,35 @@ Status GpuScene::simplify_casters(const SceneAssets& assets, JobExecutor& execut
     }
   });
 
-  std::size_t end = device_.desc(buffers_[3]).size / sizeof(std::uint32_t);
-  const std::size_t full = end;
+  const std::size_t end = device_.desc(indices()).size / sizeof(std::uint32_t);
+  std::vector<std::byte> bytes(end * sizeof(std::uint32_t));
+  std::vector<std::uint32_t> firsts;
   for (std::size_t i = 0; i < made.size(); ++i) {
-    primitives[i].second->simplified_first_index = static_cast<std::uint32_t>(end);
+    const auto full = std::as_bytes(std::span(made[i].full)), simplified = std::as_bytes(std::span(made[i].simplified));
+    std::ranges::copy(
+        full, bytes.begin() + static_cast<std::ptrdiff_t>(primitives[i].second->first_index * sizeof(std::uint32_t)));
+    firsts.push_back(static_cast<std::uint32_t>(bytes.size() / sizeof(std::uint32_t)));
+    bytes.insert(bytes.end(), simplified.begin(), simplified.end());
+  }
+  if (bytes.size() > end * sizeof(std::uint32_t)) GLOAM_TRY(replace_indices(std::move(bytes), executor));
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    primitives[i].second->simplified_first_index = firsts[i];
     primitives[i].second->simplified_index_count = static_cast<std::uint32_t>(made[i].simplified.size());
-    end += made[i].simplified.size();
   }
   casters_simplified_ = true;
-  if (end == full) return {};
-  std::vector<std::byte> bytes(end * sizeof(std::uint32_t));
-  const auto put = [&](std::size_t first, const std::vector<std::uint32_t>& indices) {
-    std::ranges::copy(std::as_bytes(std::span(indices)),
-                      bytes.begin() + static_cast<std::ptrdiff_t>(first * sizeof(std::uint32_t)));
-  };
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    put(primitives[i].second->first_index, made[i].full);
-    put(primitives[i].second->simplified_first_index, made[i].simplified);
-  }
-  return replace_indices(std::move(bytes), executor);
+  return {};
 }
 
 Status GpuScene::replace_indices(std::vector<std::byte> bytes, JobExecutor& executor) {
-  gpu::BufferDesc desc = device_.desc(buffers_[3]);
+  gpu::BufferDesc desc = device_.desc(indices());
   desc.size = bytes.size();
   const auto buffer = device_.create_buffer(desc);
   if (!buffer.ok()) return buffer.error();
-  device_.destroy(buffers_[3]);
-  buffers_[3] = *buffer;
   Uploader uploader(device_);
   uploader.buffer(*buffer, std::move(bytes), gpu::Access::vertex_input);
-  return uploader.flush(executor);
+  const Status uploaded = uploader.flush(executor);
+  device_.destroy(uploaded.ok() ? std::exchange(buffers_[3], *buffer) : *buffer);
+  return uploaded;
 }
 
 }  // namespace gloam
