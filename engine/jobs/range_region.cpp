@@ -46,7 +46,7 @@ RangeRegion::Claim RangeRegion::claim(Side side, std::size_t wanted) {
     const std::size_t end = std::min<std::size_t>(left >> 32, failure_.index());
     if (begin >= end) return {};
     // An even end is not worth claims much shorter than wanted.
-    const std::size_t fair = std::max((end - begin) / (2 * std::size_t{crew_.threads()}), wanted / 8);
+    const std::size_t fair = std::max((end - begin) / (2 * std::size_t{crew_.threads()}), wanted / 16);
     const std::size_t count = std::clamp<std::size_t>(std::min(wanted, fair), 1, end - begin);
     const Claim claim = side == Side::front ? Claim{begin, begin + count} : Claim{end - count, end};
     const std::uint64_t rest = side == Side::front ? packed(claim.end, end) : packed(begin, claim.begin);

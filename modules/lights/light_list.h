@@ -33,6 +33,7 @@ struct LightRows {
 struct LightPlace {
   std::uint32_t chunk = 0;  ///< of LightSet::chunks
   std::uint32_t index = 0;  ///< in the chunk
+  std::uint32_t slot = 0;   ///< in LightSet::lights
 };
 
 /// Every light of the world that has a place, ordered by entity index; a resource of the world, kept by system light_bounds.
@@ -47,7 +48,7 @@ struct LightSet {
   std::vector<Entity> rows;
   std::vector<std::uint32_t> slot_of_row;  ///< index into `lights`
   std::vector<std::size_t> chunk_sizes;    ///< that `places` were found with
-  std::vector<LightPlace> places;          ///< of `lights`, in their order
+  std::vector<LightPlace> places;          ///< of `lights`: job by job of light_bounds, in a job by rows
   std::vector<std::uint8_t> changed;       ///< a stretch of a chunk's rows: whether LightBounds of it have changed
 };
 
@@ -65,8 +66,8 @@ struct LightSelection {
   std::vector<std::uint32_t> local, directional;  ///< indices of those that are visible
   std::vector<FoundLights> found;                 ///< a range of lights each
   std::vector<std::uint64_t> ranking;             ///< of lights of which not all fit
-  std::vector<std::uint64_t> keys, sorted;        ///< room for every light
-  std::vector<std::uint32_t> order;               ///< indices of the chosen local lights by depth
+  std::vector<std::uint64_t> keys, sorted;        ///< room for every chosen light, a job
+  std::uint32_t middle = 0;  ///< ordered bits of a depth that half of the lights are nearer than: as it was last time
 };
 
 /// The lights of one view, packed for the GPU; a view resource.

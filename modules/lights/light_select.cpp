@@ -14,8 +14,7 @@ namespace gloam {
 namespace {
 
 constexpr std::size_t kCullGrain = 512;     // lights a job
-constexpr std::size_t kPackGrain = 256;     // lights a job
-constexpr std::size_t kLeastToSplit = 256;  // fewer lights are sorted by one job
+constexpr std::size_t kLeastToSplit = 256;  // fewer lights are ordered by one job
 /// Bound of what floats lose where a camera-relative position is rounded, turned and summed, a share of the lengths that take part. As
 /// much is added to bounds, so that no pixel the GPU lights is left out.
 constexpr float kRounding = 4e-7f;
@@ -163,57 +162,10 @@ std::span<const std::uint64_t> sort_by_depth(std::span<std::uint64_t> keys, std:
   return keys;
 }
 
-/// Two ascending runs of keys, all different; the second may be empty. Together they are the order of the lights.
-struct Runs {
-  std::span<const std::uint64_t> first, second;
-
-  /// Of the least `count` keys, how many are in the first run.
-  [[nodiscard]] std::size_t of_first(std::size_t count) const {
-    std::size_t low = count - std::min(count, second.size());
-    std::size_t high = std::min(count, first.size());
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      if (first[middle] < second[count - middle - 1]) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    return low;
-  }
-
-  /// Writes a range of the order: the keys' lights.
-  void merge(JobRange range, std::uint32_t* lights) const {
-    std::size_t i = of_first(range.begin);
-    std::size_t j = range.begin - i;
-    std::size_t k = range.begin;
-    while (k < range.end && i < first.size() && j < second.size()) {
-      const std::uint64_t a = first[i];
-      const std::uint64_t b = second[j];
-      const std::size_t is_first = a < b ? 1 : 0;
-      lights[k++] = static_cast<std::uint32_t>(a < b ? a : b);
-      i += is_first;
-      j += 1 - is_first;
-    }
-    while (k < range.end && i < first.size()) lights[k++] = static_cast<std::uint32_t>(first[i++]);
-    while (k < range.end) lights[k++] = static_cast<std::uint32_t>(second[j++]);
-  }
-};
-
-/// Sorts the visible local lights that stand in a range of LightSelection::local.
-std::span<const std::uint64_t> sort_lights(LightSelection& selection, std::size_t begin, std::size_t count) {
-  std::uint64_t* const keys = selection.keys.data() + begin;
-  const std::uint32_t* const lights = selection.local.data() + begin;
-  const float* const nearest = selection.nearest.data();
-  for (std::size_t i = 0; i < count; ++i) keys[i] = std::uint64_t{ordered_bits(nearest[lights[i]])} << 32 | lights[i];
-  return sort_by_depth({keys, count}, {selection.sorted.data() + begin, count});
-}
-
 struct FindJob {
   CullColumns columns;
   CullView view;
   LightSelection& selection;
-  Runs* runs;  ///< null: the lights are not sorted yet
 
   /// Visible local lights, in order, go to the front of the range's part of LightSelection::local.
   void run(JobRange range) const {
@@ -226,89 +178,80 @@ struct FindJob {
       found.kinds |= columns.kind[i];
     }
     selection.found[range.ordinal] = found;
-    if (runs != nullptr)
-      (range.ordinal == 0 ? runs->first : runs->second) = sort_lights(selection, range.begin, found.locals);
   }
 };
 
-/// Lights a job that sorts, of which there are one or two.
-std::size_t sort_grain(std::size_t count, const JobExecutor& executor) {
-  const bool split = executor.worker_count() > 1 && count >= kLeastToSplit;
-  return std::max<std::size_t>(1, split ? (count + 1) / 2 : count);
-}
-
-/// Fills `local` and `directional`. True if nothing is too much, so that runs are sorted already.
-bool find_visible(const LightTable& table, const RenderView& view, JobExecutor& executor, LightSelection& selection,
-                  Runs& runs) {
+/// Fills `local` and `directional`.
+void find_visible(const LightTable& table, const RenderView& view, JobExecutor& executor, LightSelection& selection) {
   const std::size_t count = table.size();
   for (auto* column : {&selection.x, &selection.y, &selection.z, &selection.nearest, &selection.farthest})
     column->resize(count);
   for (auto* column : {&selection.kind, &selection.local}) column->resize(count);
-  for (auto* keys : {&selection.keys, &selection.sorted}) keys->resize(count);
-  const bool sorts = count <= GLOAM_MAX_LOCAL_LIGHTS;
-  const std::size_t grain = sorts ? sort_grain(count, executor) : kCullGrain;
-  selection.found.resize((count + grain - 1) / grain);
+  selection.found.resize((count + kCullGrain - 1) / kCullGrain);
   const FindJob job{
       {table.x.data(), table.y.data(), table.z.data(), table.radius.data(), selection.x.data(), selection.y.data(),
        selection.z.data(), selection.nearest.data(), selection.farthest.data(), selection.kind.data()},
       cull_view(view),
-      selection,
-      sorts ? &runs : nullptr};
-  executor.parallel_for(count, grain, [&job](JobRange range) { job.run(range); });
+      selection};
+  executor.parallel_for(count, kCullGrain, [&job](JobRange range) { job.run(range); });
 
   std::size_t locals = 0;
   std::uint32_t kinds = 0;
   for (std::size_t range = 0; range < selection.found.size(); ++range) {
     const FoundLights found = selection.found[range];
-    const auto from = selection.local.begin() + static_cast<std::ptrdiff_t>(range * grain);
-    if (!sorts) std::copy_n(from, found.locals, selection.local.begin() + static_cast<std::ptrdiff_t>(locals));
+    std::uint32_t* const local = selection.local.data();
+    if (locals < range * kCullGrain) std::copy_n(local + range * kCullGrain, found.locals, local + locals);
     locals += found.locals;
     kinds |= found.kinds;
   }
-  if (!sorts) selection.local.resize(locals);
+  selection.local.resize(locals);
   selection.directional.clear();
   for (std::uint32_t i = 0; i < count && (kinds & kDirectional) != 0; ++i)
     if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
-  return sorts;
 }
 
-/// The visible local lights that fit, in order of depth, as runs.
-Runs choose_local(const LightTable& table, const RenderView& view, JobExecutor& executor, VisibleLights& visible) {
-  LightSelection& selection = visible.selection;
-  Runs runs;
-  visible.dropped = 0;
-  if (find_visible(table, view, executor, selection, runs)) return runs;
-  visible.dropped = keep_most_important(selection.local, GLOAM_MAX_LOCAL_LIGHTS, selection.ranking,
-                                        [&](std::uint32_t i) { return importance_of(table, view, i); });
-  const std::size_t count = selection.local.size();
-  executor.parallel_for(count, sort_grain(count, executor), [&](JobRange range) {
-    (range.ordinal == 0 ? runs.first : runs.second) = sort_lights(selection, range.begin, range.end - range.begin);
-  });
-  return runs;
-}
-
-struct PackJob {
+/// Orders and packs the chosen lights: those nearer than a depth in one job, the others in another.
+struct OrderJob {
   std::span<const PlacedLight> lights;
   const LightTable& table;
   const RenderView& view;
   VisibleLights& visible;
-  Runs runs;
+  std::size_t parts;  ///< 1 or 2
 
+  void run(JobRange part) const {
+    LightSelection& selection = visible.selection;
+    const std::size_t count = selection.local.size();
+    constexpr std::uint64_t kEnd = std::uint64_t{1} << 32;
+    const std::uint64_t begin = part.ordinal == 0 ? 0 : selection.middle;
+    const std::uint64_t end = part.ordinal + 1 == parts ? kEnd : selection.middle;
+    std::uint64_t* const keys = selection.keys.data() + part.ordinal * count;
+    std::size_t size = 0;
+    for (const std::uint32_t light : selection.local) {
+      const std::uint64_t depth = ordered_bits(selection.nearest[light]);
+      keys[size] = depth << 32 | light;
+      size += depth - begin < end - begin ? 1 : 0;
+    }
+    std::uint64_t* const other = selection.sorted.data() + part.ordinal * count;
+    pack(sort_by_depth({keys, size}, {other, size}), part.ordinal == 0 ? 0 : count - size);
+  }
+
+ private:
   /// Lights come in the order of depths, which no cache foresees.
   void prefetch(std::uint32_t light) const {
     __builtin_prefetch(&table.records[light]);
     __builtin_prefetch(&lights[light].position);
   }
 
-  void run(JobRange range) const {
-    constexpr std::size_t kAhead = 12;
+  /// From place `first` on.
+  void pack(std::span<const std::uint64_t> keys, std::size_t first) const {
+    constexpr std::size_t kAhead = 24;
     const LightSelection& from = visible.selection;
-    const std::uint32_t* const order = from.order.data();
-    runs.merge(range, visible.selection.order.data());
-    for (std::size_t i = range.begin; i < std::min(range.begin + kAhead, range.end); ++i) prefetch(order[i]);
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      const std::uint32_t light = order[i];
-      if (i + kAhead < range.end) prefetch(order[i + kAhead]);
+    const std::size_t size = keys.size();
+    for (std::size_t k = 0; k < std::min(kAhead, size); ++k) prefetch(static_cast<std::uint32_t>(keys[k]));
+    for (std::size_t k = 0; k < size; ++k) {
+      const auto light = static_cast<std::uint32_t>(keys[k]);
+      const std::size_t i = first + k;
+      if (k + kAhead < size) prefetch(static_cast<std::uint32_t>(keys[k + kAhead]));
       const LightRecord& record = table.records[light];
       const vec3 position = view.relative(lights[light].position);
       const vec3 direction = lights[light].direction;
@@ -343,18 +286,22 @@ void select_lights(std::span<const PlacedLight> lights, const LightTable& table,
                    JobExecutor& executor, VisibleLights& visible) {
   LightSelection& selection = visible.selection;
   visible.total = static_cast<std::uint32_t>(lights.size());
-  const Runs runs = choose_local(table, view, executor, visible);
+  find_visible(table, view, executor, selection);
+  visible.dropped = keep_most_important(selection.local, GLOAM_MAX_LOCAL_LIGHTS, selection.ranking,
+                                        [&](std::uint32_t i) { return importance_of(table, view, i); });
   visible.dropped += keep_most_important(selection.directional, GLOAM_MAX_DIRECTIONAL_LIGHTS, selection.ranking,
                                          [&](std::uint32_t i) { return table.records[i].brightness; });
 
-  const std::size_t count = runs.first.size() + runs.second.size();
+  const std::size_t count = selection.local.size();
   visible.block.local_count = static_cast<std::uint32_t>(count);
   visible.local_entities.resize(count);
   visible.depths.resize(count);
   visible.mask_lights.resize(count);
-  selection.order.resize(count);
-  const PackJob job{lights, table, view, visible, runs};
-  executor.parallel_for(count, kPackGrain, [&job](JobRange range) { job.run(range); });
+  const std::size_t parts = executor.worker_count() > 1 && count >= kLeastToSplit ? 2 : 1;
+  for (auto* keys : {&selection.keys, &selection.sorted}) keys->resize(std::max(keys->size(), parts * count));
+  const OrderJob job{lights, table, view, visible, parts};
+  executor.parallel_for(parts, 1, [&job](JobRange part) { job.run(part); });
+  if (count > 0) selection.middle = ordered_bits(visible.depths[count / 2].nearest);
   pack_directional(lights, table, visible);
 }
 

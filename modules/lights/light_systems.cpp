@@ -72,15 +72,21 @@ void place_rows(std::span<const LightRows> chunks, std::size_t count, LightSet& 
   }
 }
 
-/// The components of lights by slot. Jobs take runs of slots, so that no two of them write one line of the cache; archetypes' rows are in
-/// about the same order.
+/// Jobs take runs of slots, so that no two of them write one line of the cache; a job goes through its lights by rows, as they lie in
+/// memory.
 void find_places(std::span<const LightRows> chunks, LightSet& set) {
-  set.places.resize(set.slot_of_row.size());
+  const std::size_t count = set.slot_of_row.size();
+  set.places.resize(count);
   set.chunk_sizes.clear();
+  std::vector<std::size_t> next((count + kBoundsGrain - 1) / kBoundsGrain);
+  for (std::size_t job = 0; job < next.size(); ++job) next[job] = job * kBoundsGrain;
   for (std::uint32_t c = 0; c < chunks.size(); ++c) {
     const auto size = static_cast<std::uint32_t>(chunks[c].entities.size());
     set.chunk_sizes.push_back(size);
-    for (std::uint32_t i = 0; i < size; ++i) set.places[set.slot_of_row[chunks[c].first + i]] = {c, i};
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const std::uint32_t slot = set.slot_of_row[chunks[c].first + i];
+      set.places[next[slot / kBoundsGrain]++] = {c, i, slot};
+    }
   }
 }
 
@@ -142,12 +148,13 @@ struct BoundsJob {
   LightSet& set;
   std::atomic<std::uint32_t>& updated;
 
-  void run(JobRange slots) const {
+  void run(JobRange range) const {
     std::uint32_t count = 0;
-    for (std::size_t slot = slots.begin; slot < slots.end; ++slot) {
-      const LightPlace place = set.places[slot];
+    for (std::size_t p = range.begin; p < range.end; ++p) {
+      const LightPlace place = set.places[p];
       const LightRows& chunk = chunks[place.chunk];
       const std::uint32_t i = place.index;
+      const std::size_t slot = place.slot;
       if (update_light(chunk.entities[i], chunk.lights[i], chunk.transforms[i].matrix, slot, set)) ++count;
       if (!chunk.bounds.empty() && update_bounds(set.table, slot, chunk.bounds[i]))
         mark(set.changed[chunk.first_stretch + i / kStretch]);

@@ -14,30 +14,37 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kLineGrain = 512;     // lights a job: a line of the cache holds their words of a TileLine
-constexpr std::size_t kOutlineGrain = 256;  // the same where words are not shared out
-constexpr std::size_t kRowGrain = 4;        // rows of tiles a job
-constexpr std::size_t kGrainWords = kLineGrain / 32;
+constexpr std::size_t kLightGrain = 256;               // lights a job
+constexpr std::size_t kRowGrain = 2;                   // rows of tiles a job
+constexpr std::size_t kGrainWords = kLightGrain / 32;  // of a mask
+constexpr std::size_t kMostVectorLights = 512;         // of the widest vector: and_tile_row reads whole ones
+static_assert(sizeof(LineToggles::words) == kGrainWords * sizeof(std::uint32_t));
 
-GLOAM_CPU_CLONES void sum_lines(TileLine* lines, std::size_t count, std::size_t first_word) {
+/// Words of `count` columns or rows from where lights begin and end. Leaves toggles 0, of which there is one more.
+GLOAM_CPU_CLONES void sum_lines(LineToggles* toggles, std::size_t count, std::size_t first_word, TileLine* lines) {
   std::uint32_t sums[kGrainWords] = {};
   for (std::size_t line = 0; line < count; ++line) {
     std::uint32_t* const words = lines[line].words + first_word;
-    for (std::size_t w = 0; w < kGrainWords; ++w) words[w] = sums[w] ^= words[w];
+    for (std::size_t w = 0; w < kGrainWords; ++w) {
+      sums[w] ^= toggles[line].words[w];
+      toggles[line].words[w] = 0;
+      words[w] = sums[w];
+    }
   }
+  toggles[count] = {};
 }
 
-/// The words of a job's lights in the first `count` columns or rows, from where lights begin and end.
+/// A job's lights, whose words start at first_word, in the first `count` columns or rows.
 void build_lines(const std::vector<std::int32_t>& begins, const std::vector<std::int32_t>& ends, JobRange range,
-                 std::size_t count, std::vector<TileLine>& lines) {
-  const std::size_t first_word = range.begin / 32;
-  for (std::size_t line = 0; line <= count; ++line) std::fill_n(lines[line].words + first_word, kGrainWords, 0u);
+                 std::size_t count, LineToggles* toggles, std::vector<TileLine>& lines) {
+  const std::size_t first_word = range.ordinal * kGrainWords;
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const std::uint32_t bit = 1u << (i % 32);
-    lines[static_cast<std::size_t>(begins[i])].words[i / 32] ^= bit;
-    lines[static_cast<std::size_t>(ends[i])].words[i / 32] ^= bit;
+    const std::size_t word = i / 32 - first_word;
+    toggles[static_cast<std::size_t>(begins[i])].words[word] ^= bit;
+    toggles[static_cast<std::size_t>(ends[i])].words[word] ^= bit;
   }
-  sum_lines(lines.data(), count, first_word);
+  sum_lines(toggles, count, first_word, lines.data());
 }
 
 /// What the jobs of one call share.
@@ -51,13 +58,19 @@ struct MaskJob {
   void outline(JobRange range) const { find_outlines(lights, view, projection, detail, range, masks.scratch.outlines); }
 
   void build_columns_and_rows(JobRange range) const {
+    range.begin = std::min(range.begin, lights.size());
     range.end = std::min(range.end, lights.size());
     outline(range);
     TileMaskScratch& scratch = masks.scratch;
     const TileOutlines& outlines = scratch.outlines;
-    build_lines(outlines.column_begin, outlines.column_end, range, projection.columns, scratch.columns);
-    build_lines(outlines.row_begin, outlines.row_end, range, projection.rows, scratch.rows);
+    LineToggles* const toggles = scratch.toggles.data() + range.ordinal * toggle_count();
+    build_lines(outlines.column_begin, outlines.column_end, range, projection.columns, toggles, scratch.columns);
+    build_lines(outlines.row_begin, outlines.row_end, range, projection.rows, toggles + projection.columns + 1,
+                scratch.rows);
   }
+
+  /// Of a job.
+  [[nodiscard]] std::size_t toggle_count() const { return std::size_t{projection.columns} + projection.rows + 2; }
 
   void and_rows(JobRange range) const {
     const std::size_t words = std::max<std::size_t>(1, (lights.size() + 31) / 32);
@@ -90,14 +103,17 @@ void build_tile_light_masks(std::span<const MaskLight> lights, const RenderView&
   masks.scratch.outlines.resize(lights.size());
 
   if (job.detail == OutlineDetail::rectangles) {
-    masks.scratch.columns.resize(p.columns + 1);
-    masks.scratch.rows.resize(p.rows + 1);
-    executor.parallel_for(std::max<std::size_t>(1, lights.size()), kLineGrain,
+    const std::size_t jobs = std::max<std::size_t>(1, (lights.size() + kMostVectorLights - 1) / kMostVectorLights) *
+                             (kMostVectorLights / kLightGrain);
+    masks.scratch.columns.resize(p.columns);
+    masks.scratch.rows.resize(p.rows);
+    masks.scratch.toggles.resize(jobs * job.toggle_count());
+    executor.parallel_for(jobs * kLightGrain, kLightGrain,
                           [&job](JobRange range) { job.build_columns_and_rows(range); });
     executor.parallel_for(p.rows, kRowGrain, [&job](JobRange range) { job.and_rows(range); });
     return;
   }
-  executor.parallel_for(lights.size(), kOutlineGrain, [&job](JobRange range) { job.outline(range); });
+  executor.parallel_for(lights.size(), kLightGrain, [&job](JobRange range) { job.outline(range); });
   // Few bands: each looks at every light.
   const std::size_t wanted = executor.worker_count() == 1 ? 1 : 2 * std::size_t{executor.worker_count()};
   const std::size_t grain =

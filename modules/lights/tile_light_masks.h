@@ -24,16 +24,21 @@ enum class TileBound : std::uint8_t {
   cone,          ///< and for spots only between the two lines from the apex that touch the cone's sides
 };
 
-/// Which lights touch a column or a row of tiles. Aligned: jobs share the words line by line.
+/// Which lights touch a column or a row of tiles.
 struct alignas(64) TileLine {
   std::uint32_t words[kTileMaskWords];
+};
+
+/// Which of a job's lights begin or end at a column or a row of tiles.
+struct alignas(32) LineToggles {
+  std::uint32_t words[8] = {};
 };
 
 /// Memory that building masks keeps from one time to the next.
 struct TileMaskScratch {
   TileOutlines outlines;
-  std::vector<TileLine> columns;  ///< and one more
-  std::vector<TileLine> rows;     ///< and one more
+  std::vector<LineToggles> toggles;  ///< a job's of columns and of rows, one more of each; 0 between calls
+  std::vector<TileLine> columns, rows;
   std::vector<TileBand> bands;
 };
 
