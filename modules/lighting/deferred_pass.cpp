@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/environment.h"
 #include "modules/lighting/passes.h"
+#include "modules/shadows/outputs.h"
 #include "shaders/lighting/shaders.h"
 
 namespace gloam {
@@ -15,6 +16,9 @@ enum class LocalLights : std::uint8_t {
   lists,           ///< the tile's list; for LightsOutputs::lists_always_fit
 };
 
+/// Of the bindings behind which shadows come: GLOAM_SHADOWS_BINDING of the shadowed shaders.
+constexpr std::uint32_t kFirstShadowBinding = 13;
+
 /// A full-screen triangle at depth 0, which is the sky's: the test picks pixels of surfaces or of sky. Devices pass over pixels that fail
 /// it, software devices too, which run both sides of every condition.
 gpu::GraphicsPipelineDesc tested_pipeline(std::string name, gpu::ShaderCode fragment, gpu::CompareOp compare) {
@@ -25,13 +29,29 @@ gpu::GraphicsPipelineDesc tested_pipeline(std::string name, gpu::ShaderCode frag
   return desc;
 }
 
-gpu::GraphicsPipelineDesc shading_pipeline(LocalLights source, std::uint32_t directional_lights) {
-  static constexpr const char* kNames[] = {"deferred/brute/", "deferred/tiled/", "deferred/listed/"};
+constexpr const char* kNames[] = {"deferred/brute/", "deferred/tiled/", "deferred/listed/"};
+
+/// Without shadows.
+gpu::GraphicsPipelineDesc unshadowed_pipeline(LocalLights source, std::uint32_t directional_lights) {
   const bool tiled = source != LocalLights::all;
   gpu::GraphicsPipelineDesc desc = tested_pipeline(
       kNames[static_cast<std::size_t>(source)] + std::to_string(directional_lights),
       tiled ? shaders::lighting::deferred_tiled_frag : shaders::lighting::deferred_frag, gpu::CompareOp::less);
   desc.constants = {{1, directional_lights}};
+  if (tiled) desc.constants.push_back({2, source == LocalLights::lists ? 1u : 0u});
+  return desc;
+}
+
+/// `shadows`: null without.
+gpu::GraphicsPipelineDesc shading_pipeline(LocalLights source, std::uint32_t directional_lights,
+                                           const ShadowsOutputs* shadows) {
+  if (shadows == nullptr) return unshadowed_pipeline(source, directional_lights);
+  const bool tiled = source != LocalLights::all;
+  gpu::GraphicsPipelineDesc desc = tested_pipeline(
+      kNames[static_cast<std::size_t>(source)] + shadows->variant,
+      tiled ? shaders::lighting::deferred_tiled_shadowed_frag : shaders::lighting::deferred_shadowed_frag,
+      gpu::CompareOp::less);
+  desc.constants = shadows->constants;
   if (tiled) desc.constants.push_back({2, source == LocalLights::lists ? 1u : 0u});
   return desc;
 }
@@ -43,6 +63,7 @@ gpu::GraphicsPipelineDesc sky_pipeline() {
 /// What the pass records with.
 struct Deferred {
   ShadingInputs inputs;
+  const ShadowsOutputs* shadows = nullptr;  ///< on the frame's board
   bool tiled = false;
   GeometryOutputs geometry;
   ImageRef texels;
@@ -59,6 +80,7 @@ void declare_reads(PassBuilder& pass, const Deferred& d) {
   pass.read(g.depth, gpu::Access::depth_test);
   const LightsOutputs& lights = d.inputs.outputs;
   if (lights.texels) pass.read(lights.texels, gpu::Access::fragment_read);
+  if (d.shadows != nullptr) declare_shadow_reads(pass, *d.shadows, gpu::Access::fragment_read);
   if (!d.tiled) return;
   pass.read(lights.tile_lists, gpu::Access::fragment_read);
   pass.read(lights.early_lists, gpu::Access::fragment_read);
@@ -78,6 +100,7 @@ std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassConte
     bindings.push_back({11, gpu::Binding::BufferRange{context.buffer(lights.early_lists)}});
     bindings.push_back({12, gpu::Binding::BufferRange{context.buffer(lights.group_masks)}});
   }
+  if (d.shadows != nullptr) append_shadow_bindings(bindings, kFirstShadowBinding, context, *d.shadows);
   return bindings;
 }
 
@@ -101,16 +124,33 @@ void record(FrameBuilder& frame, PassContext& context, const Deferred& d) {
   commands.end_rendering();
 }
 
+LocalLights best_source(const ShadingInputs& inputs) {
+  if (!inputs.outputs.has_lists()) return LocalLights::all;
+  return inputs.outputs.lists_always_fit ? LocalLights::lists : LocalLights::lists_or_masks;
+}
+
 /// The best source whose pipeline is there. Brute force draws the same picture while others are made.
 LocalLights choose_source(const FrameServices& services, const ShadingInputs& inputs) {
-  if (!inputs.outputs.has_lists()) return LocalLights::all;
-  const LocalLights best = inputs.outputs.lists_always_fit ? LocalLights::lists : LocalLights::lists_or_masks;
-  if (services.wait_for_pipelines) return best;
+  const LocalLights best = best_source(inputs);
+  if (services.wait_for_pipelines || best == LocalLights::all) return best;
   const std::uint32_t directional = inputs.directional_count;
-  if (services.pipelines.request({shading_pipeline(best, directional)}, services.log)) return best;
+  if (services.pipelines.request({unshadowed_pipeline(best, directional)}, services.log)) return best;
   const bool other =
-      static_cast<bool>(services.pipelines.find(shading_pipeline(LocalLights::lists_or_masks, directional).name));
+      static_cast<bool>(services.pipelines.find(unshadowed_pipeline(LocalLights::lists_or_masks, directional).name));
   return other ? LocalLights::lists_or_masks : LocalLights::all;
+}
+
+/// Sets `shadows`, returns the source. Frames come without shadows while the pipelines with them are made.
+LocalLights choose_variant(FrameBuilder& frame, Deferred& d) {
+  const FrameServices& services = frame.services();
+  d.shadows = frame.find<ShadowsOutputs>();
+  if (d.shadows == nullptr) return choose_source(services, d.inputs);
+  const LocalLights best = best_source(d.inputs);
+  if (services.wait_for_pipelines ||
+      services.pipelines.request({shading_pipeline(best, d.inputs.directional_count, d.shadows)}, services.log))
+    return best;
+  d.shadows = nullptr;
+  return choose_source(services, d.inputs);
 }
 
 }  // namespace
@@ -121,9 +161,9 @@ Status add_deferred_pass(FrameBuilder& frame) {
   if (!inputs.ok()) return inputs.error();
   Deferred d;
   d.inputs = *inputs;
-  const LocalLights source = choose_source(services, *inputs);
+  const LocalLights source = choose_variant(frame, d);
   d.tiled = source != LocalLights::all;
-  auto surfaces = services.pipelines.get(shading_pipeline(source, inputs->directional_count));
+  auto surfaces = services.pipelines.get(shading_pipeline(source, inputs->directional_count, d.shadows));
   if (!surfaces.ok()) return surfaces.error();
   d.surfaces = *surfaces;
   auto sky = services.pipelines.get(sky_pipeline());

@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/environment.h"
 #include "modules/lighting/passes.h"
+#include "modules/shadows/outputs.h"
 #include "shaders/lighting/shaders.h"
 
 namespace gloam {
 namespace {
 
-SurfacePass make_surface_pass(const char* name, gpu::ShaderCode fragment) {
+/// Of the bindings behind which shadows come: GLOAM_SHADOWS_BINDING of the shadowed shaders.
+constexpr std::uint32_t kFirstShadowBinding = 7;
+
+SurfacePass make_surface_pass(std::string name, gpu::ShaderCode fragment) {
   SurfacePass p;
-  p.name = name;
+  p.name = std::move(name);
   p.module = "lighting";
   p.fragment = fragment;
   p.color_formats = {gpu::Format::rgba16_float};
@@ -18,22 +22,56 @@ SurfacePass make_surface_pass(const char* name, gpu::ShaderCode fragment) {
   return p;
 }
 
-const SurfacePass& forward_surface_pass(bool tiled) {
-  static const SurfacePass all_lights = make_surface_pass("forward", shaders::lighting::forward_frag);
-  static const SurfacePass tile_lights = make_surface_pass("forward_tiled", shaders::lighting::forward_tiled_frag);
-  return tiled ? tile_lights : all_lights;
+SurfacePass forward_surface_pass(bool tiled, const ShadowsOutputs* shadows) {
+  if (shadows == nullptr)
+    return tiled ? make_surface_pass("forward_tiled", shaders::lighting::forward_tiled_frag)
+                 : make_surface_pass("forward", shaders::lighting::forward_frag);
+  SurfacePass pass =
+      tiled ? make_surface_pass("forward_tiled/" + shadows->variant, shaders::lighting::forward_tiled_shadowed_frag)
+            : make_surface_pass("forward/" + shadows->variant, shaders::lighting::forward_shadowed_frag);
+  pass.constants = shadows->constants;
+  return pass;
 }
 
-std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context,
-                                      const ShadingInputs& inputs, bool tiled, gpu::SamplerHandle sampler) {
-  std::vector<gpu::Binding> bindings = {frame.view_binding(), {1, inputs.lights}, {2, inputs.environment}};
-  const LightsOutputs& lights = inputs.outputs;
-  if (tiled) {
+/// What the pass draws with.
+struct Forward {
+  ShadingInputs inputs;
+  const ShadowsOutputs* shadows = nullptr;  ///< on the frame's board
+  bool tiled = false;
+  SurfacePass surfaces;
+  GeometryOutputs geometry;
+  ImageRef color;
+  gpu::SamplerHandle sampler;
+};
+
+/// The best variant whose pipelines are there. All lights give the same picture while those of tiles are made; without shadows it is
+/// another one.
+void choose_variant(FrameBuilder& frame, Forward& f) {
+  const auto there = [&] { return frame.request_surfaces(frame.draws().blended, f.surfaces); };
+  f.tiled = f.inputs.outputs.has_lists();
+  f.shadows = frame.find<ShadowsOutputs>();
+  f.surfaces = forward_surface_pass(f.tiled, f.shadows);
+  if (frame.services().wait_for_pipelines) return;
+  if (f.shadows != nullptr && !there()) {
+    f.shadows = nullptr;
+    f.surfaces = forward_surface_pass(f.tiled, nullptr);
+  }
+  if (f.tiled && f.shadows == nullptr && !there()) {
+    f.tiled = false;
+    f.surfaces = forward_surface_pass(false, nullptr);
+  }
+}
+
+std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context, const Forward& f) {
+  std::vector<gpu::Binding> bindings = {frame.view_binding(), {1, f.inputs.lights}, {2, f.inputs.environment}};
+  const LightsOutputs& lights = f.inputs.outputs;
+  if (f.tiled) {
     bindings.push_back({3, lights.grid});
-    bindings.push_back({4, gpu::Binding::Sampled{{.image = context.image(lights.texels)}, sampler}});
+    bindings.push_back({4, gpu::Binding::Sampled{{.image = context.image(lights.texels)}, f.sampler}});
     bindings.push_back({5, lights.z_bins});
     bindings.push_back({6, lights.mask_tiles});
   }
+  if (f.shadows != nullptr) append_shadow_bindings(bindings, kFirstShadowBinding, context, *f.shadows);
   return bindings;
 }
 
@@ -43,25 +81,26 @@ Status add_forward_pass(FrameBuilder& frame) {
   if (frame.draws().blended.empty()) return {};
   auto inputs = shading_inputs(frame);
   if (!inputs.ok()) return inputs.error();
-  bool tiled = inputs->outputs.has_lists();
-  // All lights give the same picture while the tiled pipelines are made.
-  if (tiled && !frame.services().wait_for_pipelines)
-    tiled = frame.request_surfaces(frame.draws().blended, forward_surface_pass(true));
-  GLOAM_TRY(frame.prepare_surfaces(frame.draws().blended, forward_surface_pass(tiled)));
+  Forward f;
+  f.inputs = *inputs;
+  choose_variant(frame, f);
+  GLOAM_TRY(frame.prepare_surfaces(frame.draws().blended, f.surfaces));
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
-  const GeometryOutputs geometry = frame.get<GeometryOutputs>();
+  f.sampler = *sampler;
+  f.geometry = frame.get<GeometryOutputs>();
   LitOutput& lit = frame.get<LitOutput>();
   PassBuilder pass = frame.graph().add_pass("forward", "lighting");
-  pass.read(geometry.depth, gpu::Access::depth_test);
-  if (tiled) pass.read(inputs->outputs.texels, gpu::Access::fragment_read);
+  pass.read(f.geometry.depth, gpu::Access::depth_test);
+  if (f.tiled) pass.read(f.inputs.outputs.texels, gpu::Access::fragment_read);
+  if (f.shadows != nullptr) declare_shadow_reads(pass, *f.shadows, gpu::Access::fragment_read);
   frame.read_vertices(pass);
-  lit.color = pass.write(lit.color, gpu::Access::color_target);
-  pass.execute([&frame, geometry, tiled, inputs = *inputs, color = lit.color,
-                sampler = *sampler](PassContext& context) {
+  f.color = lit.color = pass.write(lit.color, gpu::Access::color_target);
+  pass.execute([&frame, f = std::move(f)](PassContext& context) {
     gpu::RenderingDesc rendering;
-    rendering.colors.push_back({.view = {.image = context.image(color)}, .load = gpu::LoadOp::load});
-    rendering.depth = {.view = {.image = context.image(geometry.depth)}, .load = gpu::LoadOp::load, .read_only = true};
+    rendering.colors.push_back({.view = {.image = context.image(f.color)}, .load = gpu::LoadOp::load});
+    rendering.depth = {
+        .view = {.image = context.image(f.geometry.depth)}, .load = gpu::LoadOp::load, .read_only = true};
     rendering.width = frame.view().width;
     rendering.height = frame.view().height;
     gpu::CommandList& commands = context.commands();
@@ -69,8 +108,7 @@ Status add_forward_pass(FrameBuilder& frame) {
     commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
     commands.set_scissor(0, 0, rendering.width, rendering.height);
     // Pipelines were made in declaration: nothing is left to fail.
-    static_cast<void>(frame.draw_surfaces(context, frame.draws().blended, forward_surface_pass(tiled),
-                                          bindings_of(frame, context, inputs, tiled, sampler)));
+    static_cast<void>(frame.draw_surfaces(context, frame.draws().blended, f.surfaces, bindings_of(frame, context, f)));
     commands.end_rendering();
   });
   return {};

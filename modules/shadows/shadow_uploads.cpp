@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
-#include "engine/scene/components.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/shadow_cookies.h"
 
@@ -15,7 +13,6 @@ namespace gloam {
 namespace {
 
 constexpr std::uint32_t kFewestRows = 16;
-constexpr float kWidestCookie = 1.5533f;  // radians: beyond 89° the picture's square has no end
 
 static_assert(sizeof(shaders::ShadowRow) == GLOAM_SHADOW_ROW_TEXELS * sizeof(vec4));
 
@@ -32,23 +29,11 @@ Result<UploadSlice> stage(ShadowStates& states, std::span<const std::byte> bytes
   return slice;
 }
 
-vec3 unit_axis(const dvec3& column, const vec3& otherwise) {
-  const double length = glm::length(column);
-  return std::isfinite(length) && length > 0.0 ? vec3(column / length) : otherwise;
-}
-
-void set_cookie(const World& world, Entity entity, const Cookies& cookies, shaders::ShadowRow& row) {
-  row.cookie_layer = -1.0f;
+float cookie_layer(const World& world, Entity entity, const Cookies& cookies) {
   const Light* light = world.try_get<Light>(entity);
-  if (light == nullptr || !has_cookie(*light)) return;
+  if (light == nullptr || !has_cookie(*light)) return -1.0f;
   const auto layer = cookies.layers.find(light->cookie);
-  const WorldTransform* transform = world.try_get<WorldTransform>(entity);
-  if (layer == cookies.layers.end() || transform == nullptr) return;
-  row.cookie_layer = static_cast<float>(layer->second);
-  row.cookie_tan = std::tan(std::clamp(light->outer_angle, 1e-4f, kWidestCookie));
-  // A picture lies upright along the node's Y, whether the light casts shadows or not.
-  row.right = unit_axis(dvec3(transform->matrix[0]), vec3(1.0f, 0.0f, 0.0f));
-  row.up = unit_axis(dvec3(transform->matrix[1]), vec3(0.0f, 1.0f, 0.0f));
+  return layer == cookies.layers.end() ? -1.0f : static_cast<float>(layer->second);
 }
 
 float traced_layer(const TracedVisibility* traced, Entity light) {
@@ -64,7 +49,7 @@ std::vector<shaders::ShadowRow> rows_of(const FrameBuilder& frame, const ShadowV
   const std::span<const Entity> lights = local_lights(visible);
   rows.resize(lights.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    set_cookie(frame.world(), lights[i], cookies, rows[i]);
+    rows[i].cookie_layer = cookie_layer(frame.world(), lights[i], cookies);
     rows[i].traced_layer = traced_layer(traced, lights[i]);
   }
   // Few heights, so that the frame's plan stays as it is while lights come and go.

@@ -3,12 +3,14 @@
 #ifndef GLOAM_SHADERS_LIGHTING_DEFERRED_GLSL
 #define GLOAM_SHADERS_LIGHTING_DEFERRED_GLSL
 
+#include "shaders/lighting/arriving_light.glsl"
 #include "shaders/lighting/environment.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Lights the surfaces of the geometry buffer: what deferred.frag and deferred_tiled.frag share. They define local_lights.
+// Lights the surfaces of the geometry buffer: what deferred.frag, deferred_tiled.frag and their shadowed twins share. They define
+// local_lights.
 
 layout(constant_id = 1) const uint kDirectionalLights = 0u;  // known when the pipeline is made, so that the loop is unrolled
 
@@ -26,7 +28,9 @@ layout(location = 0) out vec4 out_light;
 
 vec3 add_local(ShadingPoint p, uint index) {
   vec3 to_light;
-  vec3 illuminance = local_illuminance(fetch_light(light_texels, index), p.position, to_light);
+  LocalLight light = fetch_light(light_texels, index);
+  vec3 illuminance = local_illuminance(light, p.position, to_light);
+  illuminance = arriving_local(illuminance, index, light.position, p.normal, to_light);
   return reflected(p, to_light, illuminance);
 }
 
@@ -43,9 +47,15 @@ void main() {
   vec3 to_eye = normalize(to_viewer(view, position));
   ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
   vec3 light = texelFetch(emissive_image, pixel, 0).rgb + ambient(environment, p, g.roughness, g.occlusion);
-  for (uint i = 0u; i < kDirectionalLights; ++i) {
+  set_receiver(position, g.face_normal, g.subsurface);
+#ifdef GLOAM_SHADOWS_BINDING
+  uint directional_lights = lights.directional_count;  // what a shadow takes is not to be unrolled
+#else
+  const uint directional_lights = kDirectionalLights;
+#endif
+  for (uint i = 0u; i < directional_lights; ++i) {
     DirectionalLight d = lights.directional[i];
-    light += reflected(p, -d.direction, d.color);
+    light += reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal));
   }
   light += local_lights(p, uvec2(pixel));
   out_light = vec4(min(light, vec3(65504.0)), 1.0);

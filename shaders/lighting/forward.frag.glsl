@@ -2,12 +2,4 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/lighting/forward.glsl"
-
-// Every fragment looks at every light of the view.
-
-vec3 local_lights(ShadingPoint p) {
-  vec3 sum = vec3(0.0);
-  for (uint i = 0u; i < lights.local_count; ++i) sum += add_local(p, lights.local[i]);
-  return sum;
-}
+#include "shaders/lighting/forward_all_lights.glsl"

@@ -3,12 +3,14 @@
 #ifndef GLOAM_SHADERS_LIGHTING_FORWARD_GLSL
 #define GLOAM_SHADERS_LIGHTING_FORWARD_GLSL
 
+#include "shaders/lighting/arriving_light.glsl"
 #include "shaders/lighting/environment.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/surface_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Lights blended surfaces where they are drawn: what forward.frag and forward_tiled.frag share. They define local_lights.
+// Lights blended surfaces where they are drawn: what forward.frag, forward_tiled.frag and their shadowed
+// twins share. They define local_lights.
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -16,9 +18,10 @@ layout(set = 0, binding = 2, scalar) uniform Environment { EnvironmentConstants 
 
 layout(location = 0) out vec4 out_light;
 
-vec3 add_local(ShadingPoint p, LocalLight light) {
+vec3 add_local(ShadingPoint p, uint index, LocalLight light) {
   vec3 to_light;
   vec3 illuminance = local_illuminance(light, p.position, to_light);
+  illuminance = arriving_local(illuminance, index, light.position, p.normal, to_light);
   return reflected(p, to_light, illuminance);
 }
 
@@ -29,10 +32,11 @@ void main() {
   vec3 to_eye = normalize(to_viewer(view, in_relative));
   Surface s = fetch_surface(to_eye);
   ShadingPoint p = shading_point(in_relative, to_eye, s.normal, s.base_color.rgb, s.metallic, s.roughness);
+  set_receiver(in_relative, s.face_normal, s.subsurface);
   vec3 light = s.emissive + ambient(environment, p, s.roughness, s.occlusion);
   for (uint i = 0u; i < lights.directional_count; ++i) {
     DirectionalLight d = lights.directional[i];
-    light += reflected(p, -d.direction, d.color);
+    light += reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal));
   }
   light += local_lights(p);
   out_light = vec4(min(light, vec3(65504.0)), s.base_color.a);
