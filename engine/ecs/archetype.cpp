@@ -21,7 +21,7 @@ std::size_t colour_offset(std::uint32_t archetype, std::size_t column) {
   return (archetype * 11 + column * 7) % kColours * kColumnAlignment;
 }
 
-/// A component id is an index into each archetype's table, which grows by so many.
+/// A component id is an index into the tables of each archetype, which grow by so many.
 constexpr std::size_t kIdStep = 64;
 
 /// Two copies of `Part` bytes that overlap where size < 2 · Part.
@@ -67,18 +67,33 @@ Archetype::Archetype(std::uint32_t index, std::vector<ComponentId> components, s
   }
 
   cover_ids(infos.size());
-  entity_bases_ = columns_[0].bases;
-  for (const ComponentId id : components_) bases_[id] = {entity_bases_[0], entity_bases_[0]};  // stays so for tags
-  for (const Column& column : columns_ | std::views::drop(1)) bases_[column.id] = column.bases;
+  for (const Range range : ranges_) {
+    range.table_[Range::kOwner] = reinterpret_cast<std::byte*>(this);
+    for (const ComponentId id : components_) range.table_[Range::kFirstId + id] = columns_[0].bases[0];  // tags keep it
+  }
+  set_bases();
 }
 
-void Archetype::cover_ids(std::size_t component_count) {
-  if (component_count <= id_end_) return;
+bool Archetype::cover_ids(std::size_t component_count) {
+  if (component_count <= id_end_) return false;
   const std::size_t count = round_up(component_count, kIdStep);
-  auto bases = std::make_unique<Bases[]>(count);
-  std::copy_n(bases_.get(), id_end_, bases.get());
-  bases_ = std::move(bases);
+  const std::size_t length = Range::kFirstId + count;
+  auto tables = std::make_unique<std::byte*[]>(ranges_.size() * length);
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    std::byte** const table = tables.get() + i * length;
+    if (ranges_[i]) std::copy_n(ranges_[i].table_, Range::kFirstId + id_end_, table);
+    ranges_[i] = Range(table);
+  }
+  tables_ = std::move(tables);
   id_end_ = count;
+  return true;
+}
+
+void Archetype::set_bases() {
+  entity_bases_ = columns_[0].bases;
+  for (const Column& column : columns_ | std::views::drop(1)) {
+    for (std::size_t i = 0; i < ranges_.size(); ++i) ranges_[i].table_[Range::kFirstId + column.id] = column.bases[i];
+  }
 }
 
 void Archetype::grow(std::uint32_t more_rows) {
@@ -107,8 +122,8 @@ void Archetype::reserve_rest() {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     Column& column = columns_[i];
     column.bases[1] = rest_.data() + column.stretch.begin + colour_offset(index_, i);
-    (i == 0 ? entity_bases_ : bases_[column.id]) = column.bases;
   }
+  set_bases();
 }
 
 void Archetype::extend_rest(std::uint32_t rows) {

@@ -25,16 +25,39 @@ class Archetype {
   using Bases = std::array<std::byte*, 2>;  ///< of the front and of the rest
 
  public:
+  /// A contiguous range of rows, the front or the rest: one pointer to a table that leads from an entity to its values without asking
+  /// the archetype. Null by default. Valid until cover_ids tells otherwise.
+  class Range {
+   public:
+    Range() = default;
+    explicit operator bool() const { return table_ != nullptr; }
+    [[nodiscard]] Archetype& archetype() const { return *reinterpret_cast<Archetype*>(table_[kOwner]); }
+    /// As Archetype::base, for the rows of this range.
+    [[nodiscard]] std::byte* base(std::size_t id) const { return table_[kFirstId + id]; }
+
+   private:
+    friend class Archetype;
+    // A table holds its owner and then the bases by component id, so that one load finds a column.
+    static constexpr std::size_t kOwner = 0;
+    static constexpr std::size_t kFirstId = 1;
+    explicit Range(std::byte** table) : table_(table) {}
+
+    std::byte** table_ = nullptr;
+  };
+
   /// `components`: sorted, without duplicates, indices into `infos`. `index` numbers the archetypes of a world. `fronts` outlives
   /// the archetype.
   Archetype(std::uint32_t index, std::vector<ComponentId> components, std::span<const ComponentInfo> infos,
             std::uint32_t max_rows, PackedMemory& fronts);
+  Archetype(const Archetype&) = delete;
+  Archetype& operator=(const Archetype&) = delete;
 
   [[nodiscard]] std::uint32_t row_count() const { return rows_; }
   [[nodiscard]] std::span<const ComponentId> components() const { return components_; }
   /// `id`: below the number of components that there were when the archetype was made, or cover_ids was told of.
   [[nodiscard]] bool has(ComponentId id) const { return front(id) != nullptr; }
-  void cover_ids(std::size_t component_count);
+  /// Whether that took new tables: ranges taken before are no longer valid.
+  bool cover_ids(std::size_t component_count);
 
   /// Rows below this are in the front, or will be. Changes only while no row lies behind it.
   [[nodiscard]] std::uint32_t front_rows() const { return front_rows_; }
@@ -43,11 +66,13 @@ class Archetype {
     return first < front_rows_ && last > front_rows_ ? front_rows_ : last;
   }
 
+  /// The range that holds a row.
+  [[nodiscard]] Range range(std::uint32_t row) const { return ranges_[part(row)]; }
   /// What to add row · size to, for rows in the same range as `row`; null when the archetype lacks the component. A tag's is not
   /// null, but has no bytes behind it. Stays the same once there was a row in the range.
-  [[nodiscard]] std::byte* base(ComponentId id, std::uint32_t row) const { return bases_[id][part(row)]; }
+  [[nodiscard]] std::byte* base(ComponentId id, std::uint32_t row) const { return range(row).base(id); }
   /// The same for rows in the front; is there from the beginning.
-  [[nodiscard]] std::byte* front(ComponentId id) const { return bases_[id][0]; }
+  [[nodiscard]] std::byte* front(ComponentId id) const { return ranges_[0].base(id); }
   /// What to index with a row in the same range as `row`.
   [[nodiscard]] Entity* entities(std::uint32_t row) const {
     return reinterpret_cast<Entity*>(entity_bases_[part(row)]);
@@ -107,19 +132,20 @@ class Archetype {
   void grow(std::uint32_t more_rows);
   void reserve_rest();
   void extend_rest(std::uint32_t rows);
+  void set_bases();
 
-  // What access to single entities needs comes first, on one cache line.
   std::uint32_t rows_ = 0;
   std::uint32_t capacity_ = 0;    ///< rows that fit what is there
   std::uint32_t front_rows_ = 0;  ///< ≤ front_room_
   std::uint32_t index_ = 0;
-  std::unique_ptr<Bases[]> bases_;  ///< by component id
   Bases entity_bases_{};
+  std::array<Range, 2> ranges_;           ///< front and rest
+  std::unique_ptr<std::byte*[]> tables_;  ///< of both ranges, one after the other
   std::vector<Column> columns_;  ///< the entities, and components that have bytes by ascending id; stays as it was made
   std::vector<Tick> row_ticks_;  ///< one a block: rows came or moved
   std::vector<std::unique_ptr<Edge>> edges_;
   std::vector<ComponentId> components_;
-  std::size_t id_end_ = 0;  ///< ids that `bases_` covers
+  std::size_t id_end_ = 0;  ///< ids that the tables cover
   std::uint32_t front_room_ = 0;
   std::uint32_t rest_capacity_ = 0;  ///< rows that fit what is committed of the rest
   std::uint32_t max_rows_ = 0;

@@ -78,7 +78,7 @@ class View {
 
   /// Whether `e` is alive and answers the view.
   [[nodiscard]] bool contains(Entity e) const {
-    return world_->alive(e) && query_->accepts(*world_->records_[e.index].archetype);
+    return world_->alive(e) && query_->accepts(world_->records_[e.index].range.archetype());
   }
 
   /// The T of `e`, const as the view has it; null unless `e` is alive, answers the view and has a T.
@@ -110,17 +110,17 @@ class View {
     const ComponentId id = writable_column<T>();
     if (range.empty()) return;
     const World::Record& record = world_->living(range.front());
-    GLOAM_ASSERT(record.archetype->entities(record.row) + record.row == range.data(),
+    GLOAM_ASSERT(record.range.archetype().entities(record.row) + record.row == range.data(),
                  "changes are marked on a range of a view's own entities");
-    record.archetype->mark_changed(id, record.row, static_cast<std::uint32_t>(range.size()), world_->tick());
+    record.range.archetype().mark_changed(id, record.row, static_cast<std::uint32_t>(range.size()), world_->tick());
   }
   /// Stamps the block that holds `e`, which must be alive and have a T.
   template <class T>
   void mark_changed(Entity e) const {
     const ComponentId id = writable_column<T>();
     const World::Record& record = world_->living(e);
-    GLOAM_ASSERT(record.archetype->has(id), "changes are marked on entities that have the component");
-    record.archetype->mark_changed(id, record.row, 1, world_->tick());
+    GLOAM_ASSERT(record.range.archetype().has(id), "changes are marked on entities that have the component");
+    record.range.archetype().mark_changed(id, record.row, 1, world_->tick());
   }
 
   /// Calls f as each_chunk does, but only on runs of blocks (4,096 rows) in which rows came or moved, or T was marked,

@@ -37,7 +37,11 @@ ComponentId World::register_type(const void* key, std::uint32_t name_hash, std::
   infos_.push_back({std::string(name), key, size});
   types_.insert(key, id);
   fast_ids_.insert(key, name_hash, id);
-  for (const auto& archetype : archetypes_) archetype->cover_ids(infos_.size());
+  for (const auto& archetype : archetypes_) {
+    if (!archetype->cover_ids(infos_.size())) continue;
+    for (std::uint32_t row = 0; row < archetype->row_count(); ++row)
+      records_[archetype->entities(row)[row].index].range = archetype->range(row);
+  }
   return id;
 }
 
@@ -63,8 +67,7 @@ Archetype& World::archetype_of(std::vector<ComponentId> sorted) {
   return archetype;
 }
 
-const Archetype::Edge& World::edge_of(Archetype& from, ComponentId id) {
-  if (const Archetype::Edge* known = from.edge(id)) return *known;
+const Archetype::Edge& World::add_edge(Archetype& from, ComponentId id) {
   std::vector<ComponentId> ids(from.components().begin(), from.components().end());
   const auto place = std::ranges::lower_bound(ids, id);
   if (place != ids.end() && *place == id) {
@@ -87,13 +90,7 @@ const World::Bundle& World::add_bundle(const void* key, std::span<const Componen
   return bundles_.back();
 }
 
-void World::begin_structural_change() {
-  if (checker_ != nullptr) checker_->structure();
-  GLOAM_ASSERT(iterations_.load(std::memory_order_relaxed) == 0,
-               "structural change while a view iterates: record it in a CommandBuffer");
-}
-
-Entity World::take_entity(Archetype& archetype, std::uint32_t row) {
+Entity World::take_entity(Archetype::Range range, std::uint32_t row) {
   std::uint32_t index = free_head_;
   if (index == kNoEntity.index) {
     index = static_cast<std::uint32_t>(records_.size());
@@ -102,11 +99,9 @@ Entity World::take_entity(Archetype& archetype, std::uint32_t row) {
     free_head_ = records_[index].row;
   }
   Record& record = records_[index];
-  record.archetype = &archetype;
+  record.range = range;
   record.row = row;
-  const Entity e{index, record.generation};
-  archetype.set_entity(row, e);
-  return e;
+  return {index, record.generation};
 }
 
 World::NewRows World::create_one(Archetype& archetype) {
@@ -115,7 +110,9 @@ World::NewRows World::create_one(Archetype& archetype) {
   const std::uint32_t row = archetype.push_rows(1, tick());
   ++alive_count_;
   ++structure_version_;
-  return {take_entity(archetype, row), row};
+  const Entity e = take_entity(archetype.range(row), row);
+  archetype.set_entity(row, e);
+  return {e, row};
 }
 
 std::uint32_t World::create_many(Archetype& archetype, std::span<Entity> out) {
@@ -123,24 +120,25 @@ std::uint32_t World::create_many(Archetype& archetype, std::span<Entity> out) {
   if (out.empty()) return 0;
   records_.reserve(std::max(records_.size(), alive_count_ + out.size()));
   const std::uint32_t first = archetype.push_rows(static_cast<std::uint32_t>(out.size()), tick());
+  const Archetype::Range range = archetype.range(first);
+  Entity* const entities = archetype.entities(first);
   std::uint32_t row = first;
-  for (Entity& e : out) e = take_entity(archetype, row++);
+  for (Entity& e : out) {
+    e = take_entity(range, row);
+    entities[row++] = e;
+  }
   alive_count_ += out.size();
   ++structure_version_;
   return first;
-}
-
-void World::close_row(Archetype& archetype, std::uint32_t row) {
-  const Entity moved = archetype.remove_row(row, tick());
-  if (moved != kNoEntity) records_[moved.index].row = row;
 }
 
 void World::destroy(Entity e) {
   begin_structural_change();
   static_cast<void>(living(e));
   Record& record = records_[e.index];
-  close_row(*record.archetype, record.row);
-  record.archetype = nullptr;
+  const Entity moved = record.range.archetype().remove_row(record.row, tick());
+  if (moved != kNoEntity) set_place(records_[moved.index], record);
+  record.range = {};
   record.row = free_head_;
   if (++record.generation == 0) record.generation = 1;
   free_head_ = e.index;
@@ -148,13 +146,14 @@ void World::destroy(Entity e) {
   ++structure_version_;
 }
 
-void World::move_entity(Record& record, const Archetype::Edge& edge) {
-  const std::uint32_t from_row = record.row;
-  const std::uint32_t to_row = edge.to->push_rows(1, tick());
-  const Entity moved = record.archetype->move_row(from_row, edge, to_row, tick());
-  if (moved != kNoEntity) records_[moved.index].row = from_row;
-  record.archetype = edge.to;
-  record.row = to_row;
+void World::move_entity(Record& record, ComponentId id) {
+  Archetype& from = record.range.archetype();
+  const Archetype::Edge& edge = edge_of(from, id);
+  const Record place = record;
+  record.row = edge.to->push_rows(1, tick());
+  record.range = edge.to->range(record.row);
+  const Entity moved = from.move_row(place.row, edge, record.row, tick());
+  if (moved != kNoEntity) set_place(records_[moved.index], place);
   ++structure_version_;
 }
 
@@ -162,20 +161,20 @@ std::byte* World::add_cell(Entity e, ComponentId id, std::uint32_t size) {
   begin_structural_change();
   static_cast<void>(living(e));
   Record& record = records_[e.index];
-  if (record.archetype->has(id)) {
-    record.archetype->mark_changed(id, record.row, 1, tick());
+  if (record.range.base(id) != nullptr) {
+    record.range.archetype().mark_changed(id, record.row, 1, tick());
   } else {
-    move_entity(record, edge_of(*record.archetype, id));
+    move_entity(record, id);
   }
-  return record.archetype->base(id, record.row) + std::size_t{size} * record.row;
+  return record.range.base(id) + std::size_t{size} * record.row;
 }
 
 bool World::remove_component(Entity e, ComponentId id) {
   begin_structural_change();
   static_cast<void>(living(e));
   Record& record = records_[e.index];
-  if (!record.archetype->has(id)) return false;
-  move_entity(record, edge_of(*record.archetype, id));
+  if (record.range.base(id) == nullptr) return false;
+  move_entity(record, id);
   return true;
 }
 

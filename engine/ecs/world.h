@@ -100,9 +100,12 @@ class World {
   /// `e` must be alive.
   void destroy(Entity e);
   [[nodiscard]] bool alive(Entity e) const {
-    if (e.index >= records_.size()) return false;
+    if (e.index >= records_.size()) [[unlikely]]
+      return false;
     const Record& record = records_[e.index];
-    return record.generation == e.generation && record.archetype != nullptr;
+    if (record.generation != e.generation) [[unlikely]]
+      return false;
+    return bool{record.range};
   }
   [[nodiscard]] std::size_t entity_count() const { return alive_count_; }
 
@@ -121,7 +124,7 @@ class World {
   /// `e` must be alive.
   template <class T>
   [[nodiscard]] bool has(Entity e) const {
-    return living(e).archetype->has(component_id<T>());
+    return living(e).range.base(component_id<T>()) != nullptr;
   }
   /// `e` must be alive and have a T. Writing does not stamp a change: mark_changed does.
   template <class T>
@@ -226,7 +229,7 @@ class World {
   void mark_changed(Entity e) {
     const ComponentId id = component_id<T>();
     static_cast<void>(get_cell<T>(e, true));
-    records_[e.index].archetype->mark_changed(id, records_[e.index].row, 1, tick());
+    records_[e.index].range.archetype().mark_changed(id, records_[e.index].row, 1, tick());
   }
 
   /// Null: no checks. The checker must outlive its time here. Not while another thread uses the world.
@@ -242,12 +245,14 @@ class World {
   template <class... Args>
   friend class View;
 
-  /// Where an entity lives. In a free slot: no archetype, and `row` is the next free slot.
+  /// Where an entity lives. In a free slot: no range, and `row` is the next free slot. From one cache line a lookup learns whether the
+  /// entity is alive and where to find its column.
   struct Record {
-    Archetype* archetype = nullptr;
+    Archetype::Range range;  ///< that holds the row
     std::uint32_t row = 0;
     std::uint32_t generation = 1;
   };
+  static_assert(sizeof(Record) <= 16, "records do not cross cache lines");
   /// The archetype of a list of types, and their ids in the order of the list.
   struct Bundle {
     Archetype* archetype = nullptr;
@@ -268,15 +273,27 @@ class World {
   [[nodiscard]] ComponentId find_id(const void* key, std::string_view type) const;
   [[nodiscard]] ComponentId find_accessed_id(const void* key, std::string_view type, bool write) const;
   Archetype& archetype_of(std::vector<ComponentId> sorted);
-  const Archetype::Edge& edge_of(Archetype& from, ComponentId id);
+  const Archetype::Edge& edge_of(Archetype& from, ComponentId id) {
+    const Archetype::Edge* known = from.edge(id);
+    return known != nullptr ? *known : add_edge(from, id);
+  }
+  const Archetype::Edge& add_edge(Archetype& from, ComponentId id);
   const Bundle& add_bundle(const void* key, std::span<const ComponentId> ids);
 
-  void begin_structural_change();
-  Entity take_entity(Archetype& archetype, std::uint32_t row);
+  void begin_structural_change() {
+    if (checker_ != nullptr) checker_->structure();
+    GLOAM_ASSERT(iterations_.load(std::memory_order_relaxed) == 0,
+                 "structural change while a view iterates: record it in a CommandBuffer");
+  }
+  Entity take_entity(Archetype::Range range, std::uint32_t row);
   NewRows create_one(Archetype& archetype);
   std::uint32_t create_many(Archetype& archetype, std::span<Entity> out);
-  void close_row(Archetype& archetype, std::uint32_t row);
-  void move_entity(Record& record, const Archetype::Edge& edge);
+  /// The entity of `record` lives where that of `place` did.
+  static void set_place(Record& record, const Record& place) {
+    record.range = place.range;
+    record.row = place.row;
+  }
+  void move_entity(Record& record, ComponentId id);
   std::byte* add_cell(Entity e, ComponentId id, std::uint32_t size);
   bool remove_component(Entity e, ComponentId id);
 
@@ -285,31 +302,30 @@ class World {
     return records_[e.index];
   }
   template <class T>
-  [[nodiscard]] T* cell_at(const Record& record, ComponentId id) const {
+  [[nodiscard]] T* cell_at(const Record& record, std::size_t id) const {
+    std::byte* const base = record.range.base(id);
     if constexpr (std::is_empty_v<T>) {
-      return reinterpret_cast<T*>(record.archetype->front(id));
+      return reinterpret_cast<T*>(base);
     } else {
-      std::byte* const base = record.archetype->base(id, record.row);
       return base == nullptr ? nullptr : reinterpret_cast<T*>(base) + record.row;
     }
   }
   /// The id of a component that is about to be read or written.
   template <class T>
-  [[nodiscard]] ComponentId accessed_id(bool write) const {
+  [[nodiscard]] std::uint32_t accessed_id(bool write) const {
     require_component<T>();
-    const auto search = [&] { return std::uint32_t{find_accessed_id(type_key<T>(), type_name<T>(), write)}; };
-    return static_cast<ComponentId>(fast_ids_.find_or<T>(search));
+    return fast_ids_.find_or<T>([&] { return std::uint32_t{find_accessed_id(type_key<T>(), type_name<T>(), write)}; });
   }
   template <class T>
   [[nodiscard]] T* get_cell(Entity e, bool write) const {
-    const ComponentId id = accessed_id<T>(write);
+    const std::uint32_t id = accessed_id<T>(write);
     T* cell = cell_at<T>(living(e), id);
     GLOAM_ASSERT(cell != nullptr, absent_sentence(type_name<T>(), "the entity has no component "));
     return cell;
   }
   template <class T>
   [[nodiscard]] T* try_cell(Entity e, bool write) const {
-    const ComponentId id = accessed_id<T>(write);
+    const std::uint32_t id = accessed_id<T>(write);
     return alive(e) ? cell_at<T>(records_[e.index], id) : nullptr;
   }
 
@@ -327,11 +343,12 @@ class World {
       std::uninitialized_fill(reinterpret_cast<T*>(base) + first, reinterpret_cast<T*>(base) + end, value);
     }
   }
-  /// Rows of one contiguous range.
+  /// Rows of one range.
   template <std::size_t... I, class... Ts>
-  static void fill_rows([[maybe_unused]] const Bundle& bundle, [[maybe_unused]] std::uint32_t first,
-                        [[maybe_unused]] std::uint32_t end, std::index_sequence<I...>, const Ts&... values) {
-    (fill_column(bundle.archetype->base(bundle.ids[I], first), first, end, values), ...);
+  static void fill_rows(const Bundle& bundle, std::uint32_t first, [[maybe_unused]] std::uint32_t end,
+                        std::index_sequence<I...>, const Ts&... values) {
+    [[maybe_unused]] const Archetype::Range range = bundle.archetype->range(first);
+    (fill_column(range.base(bundle.ids[I]), first, end, values), ...);
   }
 
   template <class R>

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <deque>
 
 #include "tests/support/expect_assert.h"
 
@@ -81,9 +82,9 @@ TEST_F(ArchetypeTest, values_stay_where_they_are_while_rows_come) {
 }
 
 TEST_F(ArchetypeTest, small_ones_share_pages) {
-  std::vector<Archetype> archetypes;
+  std::deque<Archetype> archetypes;
   for (std::uint32_t i = 0; i < 8; ++i) {
-    archetypes.push_back(make(i, {0, 1, 2}));
+    archetypes.emplace_back(i, std::vector<ComponentId>{0, 1, 2}, infos(), 1u << 20, fronts);
     archetypes[i].push_rows(kFrontRows, 1);
   }
   EXPECT_EQ(archetypes[0].front_rows(), kFrontRows);
@@ -215,7 +216,9 @@ TEST_F(ArchetypeTest, rows_of_any_size_move_whole) {
 TEST_F(ArchetypeTest, knows_ids_that_came_later) {
   Archetype archetype = make_all();
   std::byte* const column = archetype.front(3);
-  archetype.cover_ids(1000);
+  EXPECT_FALSE(archetype.cover_ids(11)) << "there is room for some";
+  EXPECT_TRUE(archetype.cover_ids(1000));
+  EXPECT_EQ(&archetype.range(0).archetype(), &archetype);
   EXPECT_FALSE(archetype.has(999));
   EXPECT_EQ(archetype.front(3), column);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "engine/ecs/view.h"
@@ -15,6 +16,10 @@ namespace gloam::test {
 namespace {
 
 struct Unregistered {
+  int value = 0;
+};
+template <int>
+struct Numbered {
   int value = 0;
 };
 
@@ -197,6 +202,36 @@ TEST(World, registering_twice_changes_nothing) {
   EXPECT_EQ(world.register_component<Health>("other"), id);
   EXPECT_EQ(world.components().size(), 1u);
   EXPECT_EQ(world.components()[0].name, "health");
+}
+
+TEST(World, entities_are_found_behind_components_registered_later) {
+  TestWorld world;
+  std::vector<Entity> entities;
+  for (int i = 0; i < 1000; ++i) entities.push_back(world.create(Health{i}, Frozen{}));  // in the front and behind it
+  const Entity dead = entities.back();
+  entities.pop_back();
+  world.destroy(dead);
+  [&]<int... N>(std::integer_sequence<int, N...>) { (world.register_component<Numbered<N>>(), ...); }
+  (std::make_integer_sequence<int, 150>{});
+  EXPECT_FALSE(world.alive(dead));
+  for (int i = 0; i < 999; ++i) {
+    const Entity e = entities[static_cast<std::size_t>(i)];
+    ASSERT_EQ(world.get<Health>(e).value, i);
+    ASSERT_TRUE(world.has<Frozen>(e));
+    ASSERT_EQ(world.try_get<Numbered<149>>(e), nullptr);
+    ASSERT_EQ(world.add(e, Numbered<149>{-i}).value, -i);
+    ASSERT_EQ(world.get<Health>(e).value, i);
+  }
+}
+
+TEST(World, an_entity_that_fills_a_row_of_the_front_is_found_there) {
+  TestWorld world;
+  std::vector<Entity> entities;
+  for (int i = 0; i < 1000; ++i) entities.push_back(world.create(Health{i}));
+  for (std::size_t i = 0; i < 20; i += 2) world.destroy(entities[i]);
+  for (std::size_t i = 1; i < 20; i += 2) world.add(entities[i], Frozen{});
+  for (std::size_t i = 20; i < 1000; ++i) ASSERT_EQ(world.get<Health>(entities[i]).value, static_cast<int>(i));
+  for (std::size_t i = 1; i < 20; i += 2) ASSERT_EQ(world.get<Health>(entities[i]).value, static_cast<int>(i));
 }
 
 TEST(World, a_thousand_small_archetypes_are_one_view) {
