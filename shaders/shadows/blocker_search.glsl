@@ -90,10 +90,11 @@ struct Blockers {
   float depth;  // of their mean distance; that of the receiver when there are none
 };
 
-// Blockers of N × N texels with bilinear edges, (N / 2)² gathers.
-Blockers find_blockers(ShadowPoint p, int mip, int texels, bool receding) {
+// Blockers of N × N texels with bilinear edges, (N / 2)² gathers. whole_plane: the receiver's plane counts as far as the kernel goes, for a kernel
+// that is as wide as it is whatever the light; without it, blockers are nearer to the light than the receiver.
+Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane) {
   Kernel k = make_kernel(p, mip, texels);
-  float least = receding ? k.least : max(k.least, p.threshold);
+  float least = whole_plane ? p.least : max(k.least, p.threshold);
   vec4 count = vec4(0.0), sum = vec4(0.0);
   for (int y = 0; y < texels; y += 2) {
     vec2 share_y = edge_shares(k.fraction.yy, float(y) + vec2(0.0, 1.0), float(texels));
@@ -114,16 +115,17 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool receding) {
 }
 
 // The same where other faces of a cube have part in it: texel by texel.
-Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool receding) {
+Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_plane) {
   Kernel k = make_kernel(p, mip, texels);
-  float least = receding ? k.least : max(k.least, p.threshold);
+  float least = whole_plane ? p.least : max(k.least, p.threshold);
   float count = 0.0, sum = 0.0;
   for (int i = 0; i < texels * texels; ++i) {
     vec2 cell = vec2(i % texels, i / texels);
     vec2 share = edge_shares(k.fraction, cell, float(texels));
     vec2 at = (k.base + cell + 0.5) * k.square.texel;
-    float depth = cube_depth(p, at, mip);
-    float threshold = tap_threshold(p, k, at, least);
+    float rise;
+    float depth = cube_depth(p, at, mip, rise);
+    float threshold = tap_threshold(p, k, at, least, rise);
     float weight = depth > threshold ? share.x * share.y : 0.0;
     count += weight;
     sum += weight / max(depth, threshold);
@@ -131,11 +133,11 @@ Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool receding)
   return Blockers(count, count <= 1e-6 ? p.depth : count / sum);
 }
 
-Blockers box_blockers(ShadowPoint p, int mip, int texels, bool receding) {
+Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane) {
   Blockers found = Blockers(0.0, p.depth);
   bool across = leaves_cube_face(p, kernel_reach(mip, texels));
-  for (bool go = !across; go; go = false) found = find_blockers(p, mip, texels, receding);
-  for (bool go = across; go; go = false) found = find_blockers_across(p, mip, texels, receding);
+  for (bool go = !across; go; go = false) found = find_blockers(p, mip, texels, whole_plane);
+  for (bool go = across; go; go = false) found = find_blockers_across(p, mip, texels, whole_plane);
   return found;
 }
 

@@ -13,7 +13,7 @@ float hard_visibility(ShadowPoint p) {
   for (bool go = p.live; go; go = false) {
     Kernel k = make_kernel(p, 0, 2);
     vec2 at = p.at;
-    float depth = tap_depth(p, at, 0, false);
+    float depth = tap_depth(p, at, false);
     visibility = depth > tap_threshold(p, k, at, k.least) ? 0.0 : 1.0;
   }
   return visibility;
@@ -38,7 +38,7 @@ vec2 spread_taps(ShadowPoint p, float width, bool search, bool across) {
   for (int i = 0; i < kKernel * kKernel; ++i) {
     vec2 off = vec2(i % kKernel, i / kKernel) - 0.5 * float(kKernel - 1);
     vec2 at = p.at + off * spacing;
-    float depth = tap_depth(p, at, 0, across);
+    float depth = tap_depth(p, at, across);
     float threshold = tap_threshold(p, k, at, least);
     float weight = search ? 1.0 : covered(0.5 * float(kKernel), vec4(off.x), vec4(off.y)).x;
     all += weight;

@@ -81,9 +81,10 @@ float blocked_share_across(ShadowPoint p, int mip, float width, int texels) {
     vec2 cell = k.base + vec2(i % texels, i / texels) + 0.5;
     float weight = covered(radius, vec4(cell.x - k.at.x), vec4(cell.y - k.at.y)).x;
     vec2 at = cell * k.square.texel;
-    float depth = cube_depth(p, at, mip);
+    float rise;
+    float depth = cube_depth(p, at, mip, rise);
     all += weight;
-    blocked += depth > tap_threshold(p, k, at, k.least) ? weight : 0.0;
+    blocked += depth > tap_threshold(p, k, at, k.least, rise) ? weight : 0.0;
   }
   return blocked / all;
 }

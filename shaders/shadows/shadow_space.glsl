@@ -118,6 +118,9 @@ ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r
   float distance = length(local);
   float along = abs(facing) < 1e-5 * distance ? (facing < 0.0 ? -1e-5 : 1e-5) * distance : facing;
   p.slope = vec2(normal.x, -normal.y) * (near * texel / along);
+  // A spot's emitter is a disc that faces forward, as the map does. A cube's is a sphere: off the axis the map shows its outline stretched
+  // along the radius; a round kernel can only be as large.
+  if (cube) p.scale *= sqrt(distance / z);
   set_threshold(p, facing / distance, p.depth / z, r.subsurface);
   return p;
 }
@@ -125,6 +128,7 @@ ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r
 ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowReceiver r) {
   ShadowPoint p = no_shadow_point();
   p.orthographic = true;
+  light = min(light, 15u);
   uint count = min(shadow_block.directional[light].cascade_count, uint(GLOAM_MAX_CASCADES));
   float facing = dot(r.face_normal, light_direction);
   float along = abs(facing) < 1e-5 ? (facing < 0.0 ? -1e-5 : 1e-5) : facing;
@@ -150,8 +154,8 @@ ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowRec
 }
 
 // Depth of what a cube holds in the direction of a texel coordinate (mip 0) of face p.face, in or beyond it, as that face would hold it.
-// `at` becomes the direction of the texel that was read.
-float cube_depth(ShadowPoint p, inout vec2 at, int mip) {
+// `at` becomes the direction of the texel that was read, `rise` how much nearer the receiver's own plane may be inside that texel of a mip.
+float cube_depth(ShadowPoint p, inout vec2 at, int mip, out float rise) {
   mat3 own = cube_face_axes(p.face);
   float to_texel = p.size * 0.5 / p.tan_half;
   vec2 tangent = (at - 0.5 * p.size) / to_texel;
@@ -166,6 +170,11 @@ float cube_depth(ShadowPoint p, inout vec2 at, int mip) {
   vec2 center = ((cell + 0.5) * square.texel - 0.5 * p.size) / to_texel;
   vec3 read = (axes * vec3(center.x, -center.y, 1.0)) * own;
   read.z = max(read.z, 0.05);
+  // The plane's depth is dot(plane, direction) for directions whose component along the face's axis is 1, in every face.
+  vec2 gradient = vec2(p.slope.x, -p.slope.y) * to_texel;
+  vec2 receiver = (p.at - 0.5 * p.size) / to_texel;
+  vec3 plane = (own * vec3(gradient, p.depth - dot(gradient, vec2(receiver.x, -receiver.y)))) * axes;
+  rise = 0.5 * (square.texel - 1.0) * (abs(plane.x) + abs(plane.y)) / (to_texel * read.z);
   at = vec2(read.x, -read.y) / read.z * to_texel + 0.5 * p.size;
   return depth / read.z;
 }

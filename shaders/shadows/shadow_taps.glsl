@@ -54,6 +54,11 @@ vec4 gather_threshold(Kernel k, vec2 corner, float least) {
 // Threshold at a texel coordinate of mip 0.
 float tap_threshold(ShadowPoint p, Kernel k, vec2 at, float least) { return max(k.threshold + dot(p.slope, at - p.at), least); }
 
+// The same for a texel of another face of a cube, on which the plane may lie more steeply.
+float tap_threshold(ShadowPoint p, Kernel k, vec2 at, float least, float rise) {
+  return tap_threshold(p, k, at, least) + max(rise - (k.threshold - p.threshold), 0.0);
+}
+
 // Whether a kernel that reaches this many texels of mip 0 needs other faces of a cube.
 bool leaves_cube_face(ShadowPoint p, float reach) {
   vec2 off = abs(p.at - 0.5 * p.size);
@@ -73,13 +78,13 @@ vec2 edge_shares(vec2 fraction, vec2 i, float texels) {
   return clamp(i + 1.0 - fraction, 0.0, 1.0) * clamp(texels - 1.0 - i + fraction, 0.0, 1.0);
 }
 
-// One texel, nearest to a coordinate of mip 0; `at` becomes its centre.
-float tap_depth(ShadowPoint p, inout vec2 at, int mip, bool cube) {
-  if (cube) return cube_depth(p, at, mip);
-  MipSquare square = mip_square(p.origin, p.size, mip, shadow_block.atlas_size);
-  vec2 cell = clamp(floor(at / square.texel), vec2(0.0), vec2(square.size - 1.0));
-  at = (cell + 0.5) * square.texel;
-  return texelFetch(shadow_atlas, ivec2(square.corner + cell), 0).x;
+// One texel of mip 0; `at` becomes its centre.
+float tap_depth(ShadowPoint p, inout vec2 at, bool across) {
+  float rise;
+  if (across) return cube_depth(p, at, 0, rise);
+  vec2 cell = clamp(floor(at), vec2(0.0), vec2(p.size - 1.0));
+  at = cell + 0.5;
+  return texelFetch(shadow_atlas, ivec2(p.origin + cell), 0).x;
 }
 
 #endif

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "tests/modules/shadows/shadow_maps.h"
+#include "tests/support/kernel.h"
+
+namespace gloam::test {
+
+/// A suite that looks at shadow maps.
+class ShadowKernelTest : public KernelTest {
+ protected:
+  static void TearDownTestSuite() {
+    forget_probe_pipelines();
+    KernelTest::TearDownTestSuite();
+  }
+};
+
+/// One spot light with one face, and points that look at it.
+struct SpotRig {
+  FacePose pose{.origin = dvec3(0.0, 4.0, 0.0),
+                .right = dvec3(1.0, 0.0, 0.0),
+                .up = dvec3(0.0, 0.0, -1.0),
+                .forward = dvec3(0.0, -1.0, 0.0),
+                .tan_half = 0.5};
+  double tan_inner = 0.45;
+  double width_m = 0.0;
+  std::uint32_t size = 256;
+  float bias_m = 0.002f;
+  bool d16 = false;
+  bool average = false;
+
+  /// Tangent a texel.
+  [[nodiscard]] double texel() const { return 2.0 * pose.tan_half / size; }
+  /// Width of the emitter whose penumbra is so many texels of mip 0 wide.
+  [[nodiscard]] double width_for(double texels, double receiver_z, double blocker_z) const {
+    return texels * texel() * receiver_z * blocker_z / (receiver_z - blocker_z);
+  }
+  [[nodiscard]] shaders::ShadowProbe at(dvec3 point, dvec3 normal = dvec3(0.0, 1.0, 0.0),
+                                        std::uint32_t light = 0) const {
+    return {.position = vec3(point), .light = light, .face_normal = vec3(normal), .light_vector = vec3(pose.origin)};
+  }
+  /// What the probes find in a face with these depths.
+  [[nodiscard]] std::vector<shaders::ShadowProbeResult> look(gpu::Device& device, const std::vector<float>& depths,
+                                                             const std::vector<shaders::ShadowProbe>& probes,
+                                                             const ProbeSettings& settings = {}) const {
+    ShadowMaps maps(device, size, d16 ? gpu::Format::r16_unorm : gpu::Format::r32_float);
+    maps.add_face(depths, uvec2(0), size, false, average);
+    return maps.probe(probes, {spot_row(pose, tan_inner, width_m, uvec2(0), size)}, shadow_block(maps, bias_m, d16),
+                      settings);
+  }
+};
+
+/// Every filter, kernel size, shape and use of mips.
+[[nodiscard]] inline std::vector<ProbeSettings> every_filter() {
+  std::vector<ProbeSettings> all;
+  all.push_back({.filter = 0});
+  for (const std::uint32_t kernel : {4u, 8u, 12u, 16u}) {
+    for (const std::uint32_t filter : {1u, 2u, 3u}) all.push_back({.filter = filter, .kernel = kernel});
+    all.push_back({.filter = 3, .kernel = kernel, .mips = 0});
+    all.push_back({.filter = 3, .kernel = kernel, .shape = 1});
+  }
+  return all;
+}
+
+[[nodiscard]] inline std::string name_of(const ProbeSettings& s) {
+  return "filter " + std::to_string(s.filter) + " kernel " + std::to_string(s.kernel) + " mips " +
+         std::to_string(s.mips) + " shape " + std::to_string(s.shape);
+}
+
+}  // namespace gloam::test
