@@ -31,8 +31,12 @@ bool may_see(const FaceVolume& volume, Aabb relative) {
   return may_intersect(volume.frustum, relative);
 }
 
-void add_clusters(const FaceVolume& volume, const Caster& caster, std::vector<FaceDraw>& draws) {
+void add_clusters(const FaceVolume& volume, const Caster& caster, bool simplified, std::vector<FaceDraw>& draws) {
   const GpuPrimitive& primitive = *caster.primitive;
+  if (simplified && caster.deform == kNone && primitive.simplified_index_count > 0) {
+    draws.push_back({&caster, primitive.simplified_first_index, primitive.simplified_index_count});
+    return;
+  }
   if (caster.deform != kNone || primitive.clusters.size() <= 1) {
     draws.push_back({&caster, primitive.first_index, primitive.index_count});
     return;
@@ -100,10 +104,10 @@ mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh) {
 
 bool is_cut_out(const Caster& caster) { return (caster.variant.features & GLOAM_SURFACE_MASK) != 0; }
 
-std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters) {
+std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters, bool simplified) {
   std::vector<FaceDraw> draws;
   for (const Caster& caster : casters)
-    if (caster.primitive->index_count > 0 && may_see(volume, caster)) add_clusters(volume, caster, draws);
+    if (caster.primitive->index_count > 0 && may_see(volume, caster)) add_clusters(volume, caster, simplified, draws);
   std::stable_partition(draws.begin(), draws.end(), [](const FaceDraw& draw) { return !is_cut_out(*draw.caster); });
   return draws;
 }

@@ -32,8 +32,10 @@ struct FaceDraw {
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
 };
-/// Clusters that the face may see, as few runs as they make; opaque casters come before cut-out ones.
-[[nodiscard]] std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters);
+/// Clusters that the face may see, as few runs as they make; opaque casters come before cut-out ones. `simplified`: those that
+/// have fewer triangles for it (GpuPrimitive::simplified_index_count) are drawn so, whole.
+[[nodiscard]] std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters,
+                                               bool simplified = false);
 
 [[nodiscard]] bool is_cut_out(const Caster& caster);
 

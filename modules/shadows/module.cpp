@@ -47,6 +47,10 @@ class ShadowsModule final : public Module {
     return shadow_knobs(knobs).enabled;
   }
 
+  [[nodiscard]] bool needs_simplified_casters(const World&, const KnobRegistry& knobs) const override {
+    return shadow_knobs(knobs).simplified;
+  }
+
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo&, PipelineList& list) const override {
     const ShadowKnobs settings = shadow_knobs(knobs);
     if (settings.enabled) list_shadow_map_pipelines(settings, list);

@@ -68,6 +68,9 @@ void add_shadow_knobs(KnobRegistry& registry) {
                            {"1024", "2048", "4096", "8192"}, 2);
   atlas.unit = "texels";
   registry.add(atlas);
+  registry.add(choice_knob("casters",
+                           "meshes that are drawn into shadow maps: as the camera sees them, or with fewer triangles",
+                           {"full", "simplified"}, 0));
   registry.add(choice_knob("early_outs", "whether a filter ends early where it knows the answer; off: for measuring it",
                            {"off", "on"}, 1));
 }
@@ -88,6 +91,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.bias_units = knobs.oriented ? 0.0f : static_cast<float>(registry.number("shadows.bias_units"));
   knobs.levels = kLevels[registry.choice("shadows.visibility_bits")];
   knobs.atlas_size = kSmallestAtlas << registry.choice("shadows.atlas");
+  knobs.simplified = registry.is("shadows.casters", "simplified");
   knobs.early_outs = registry.is("shadows.early_outs", "on");
   return knobs;
 }

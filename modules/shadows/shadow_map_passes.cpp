@@ -70,7 +70,8 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
   return Hasher()
       .value(frame.world().resource<SceneAssets>().version)
       .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
-      .value(knobs.average ? 1 : 0)
+      .value(knobs.average)
+      .value(knobs.simplified)
       .digest();
 }
 
@@ -100,7 +101,7 @@ std::vector<DrawnFace> faces_to_draw(FrameBuilder& frame, ViewShadows& kept, con
     for (std::size_t i = range.begin; i < range.end; ++i) {
       DrawnFace& face = drawn[i];
       if (face.content.casters == 0) continue;
-      face.draws = face_draws(face_volume(face.face), casters);
+      face.draws = face_draws(face_volume(face.face), casters, knobs.simplified);
       for (const FaceDraw& draw : face.draws)
         face.matrices.push_back(clip_from_mesh(face.face, draw.caster->world_from_mesh));
     }

@@ -22,7 +22,15 @@ Result<double> timed_ns(Work&& work) {
 
 }  // namespace
 
+WithoutShadows::WithoutShadows(Session& session)
+    : knobs_(session.renderer->knobs()), users_(knobs_.text("shadows.mode")) {
+  static_cast<void>(knobs_.set("shadows.mode", "off"));
+}
+
+WithoutShadows::~WithoutShadows() { static_cast<void>(knobs_.set("shadows.mode", users_)); }
+
 Result<FrameTimes> measure_frames(Session& session, const Options& options) {
+  const WithoutShadows off(session);
   auto yardstick = GatherYardstick::create(*session.device, options.width, options.height);
   if (!yardstick.ok()) return yardstick.error();
   const ViewRequest request{session.view_settings(options.width, options.height, "none"), {}};

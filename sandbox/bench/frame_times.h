@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -21,7 +22,20 @@ struct FrameTimes {
   std::uint64_t gather_hash = 0;
 };
 
-/// Of the session's camera at the size of the options.
+/// Draws without shadows while it lives: what is held against bars of frames and of light lists has none.
+class WithoutShadows {
+ public:
+  explicit WithoutShadows(Session& session);
+  ~WithoutShadows();
+  WithoutShadows(const WithoutShadows&) = delete;
+  WithoutShadows& operator=(const WithoutShadows&) = delete;
+
+ private:
+  KnobRegistry& knobs_;
+  std::string users_;
+};
+
+/// Of the session's camera at the size of the options, without shadows.
 [[nodiscard]] Result<FrameTimes> measure_frames(Session& session, const Options& options);
 
 }  // namespace gloam

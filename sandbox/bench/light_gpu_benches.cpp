@@ -47,6 +47,7 @@ class LightFrames {
  public:
   LightFrames(Session& session, const Options& options)
       : session_(session),
+        without_shadows_(session),
         users_(session.renderer->knobs().text("lights.culling")),
         request_{session.view_settings(options.width, options.height, "none"), {}} {}
   ~LightFrames() { static_cast<void>(session_.renderer->knobs().set("lights.culling", users_)); }
@@ -66,6 +67,7 @@ class LightFrames {
 
  private:
   Session& session_;
+  WithoutShadows without_shadows_;
   std::string users_;
   ViewRequest request_;
 };

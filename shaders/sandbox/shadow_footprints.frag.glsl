@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GLOAM_SHADOWS_BINDING 6
+#include "shaders/common/math.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 #include "shaders/shadows/shadows_api.glsl"

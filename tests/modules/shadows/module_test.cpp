@@ -92,11 +92,12 @@ TEST_F(ShadowsModuleTest, knobs_become_numbers) {
                                     {"visibility_bits", "4"},
                                     {"atlas", "8192"},
                                     {"mip_operator", "average"},
+        {"casters", "simplified"},
                                     {"depth", "d16"},
                                     {"filter", "pcss"}})
     ASSERT_TRUE(knobs.set("shadows." + std::string(name), value).ok()) << name;
   const ShadowKnobs other = shadow_knobs(knobs);
-  EXPECT_TRUE(other.average && other.d16 && !other.oriented);
+  EXPECT_TRUE(other.average && other.d16 && other.simplified && !other.oriented);
   EXPECT_EQ(other.filter, 2u);
   EXPECT_EQ(other.kernel, 16u);
   EXPECT_EQ(other.levels, 15u);

@@ -81,7 +81,8 @@ TEST_F(ShadowFrames, knobs_that_change_maps_draw_them_anew) {
                                     {"shadows.bias_units", "4000"},
                                     {"shadows.mip_operator", "average"},
                                     {"shadows.depth", "d16"},
-                                    {"shadows.atlas", "1024"}}) {
+                                    {"shadows.casters", "simplified"},
+        {"shadows.atlas", "1024"}}) {
     set(knob, value);
     draw();
     EXPECT_EQ(drawn_faces(), 6.0) << knob;
