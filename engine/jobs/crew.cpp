@@ -108,9 +108,9 @@ bool CrewState::help_deeper_than(std::uint32_t depth, bool was_idle) {
   return true;
 }
 
-bool CrewState::spin(std::uint32_t seen, const std::function<bool()>* done) const {
+bool CrewState::spin(std::uint32_t seen) const {
   for (int i = 0; i < kPausesBeforeYield && !crowded; ++i) {
-    if (epoch.load(std::memory_order_acquire) != seen || (done != nullptr && (*done)())) return true;
+    if (epoch.load(std::memory_order_acquire) != seen) return true;
     pause_core();
   }
   const auto deadline = Clock::now() + kSpinTime;
@@ -124,7 +124,7 @@ bool CrewState::spin(std::uint32_t seen, const std::function<bool()>* done) cons
 void CrewState::visit() {
   while (!closing.load(std::memory_order_relaxed)) {
     const std::uint32_t seen = epoch.load(std::memory_order_seq_cst);
-    if (help_deeper_than(0, true) || spin(seen, nullptr)) continue;
+    if (help_deeper_than(0, true) || spin(seen)) continue;
     // An offer that still counted on this helper has moved the epoch before it read `idle`.
     idle.fetch_sub(1, std::memory_order_seq_cst);
     if (epoch.load(std::memory_order_seq_cst) == seen) return;
@@ -202,7 +202,7 @@ void Crew::wait(const Region& region, const std::function<bool()>& done) {
   while (true) {
     const std::uint32_t seen = state_->epoch.load(std::memory_order_seq_cst);
     if (done()) return;
-    if (state_->help_deeper_than(region.depth_, false) || state_->spin(seen, &done)) continue;
+    if (state_->help_deeper_than(region.depth_, false) || state_->spin(seen)) continue;
     state_->sleepers.fetch_add(1, std::memory_order_seq_cst);
     state_->epoch.wait(seen, std::memory_order_seq_cst);
     state_->sleepers.fetch_sub(1, std::memory_order_relaxed);

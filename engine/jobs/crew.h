@@ -62,18 +62,17 @@ struct CrewState {
   void visit();
   /// Helps the latest open region deeper than `depth` that has work; false if there is none.
   bool help_deeper_than(std::uint32_t depth, bool was_idle);
-  /// Spins until the epoch has left `seen`, `done` (may be null) or a short time has gone; false for the last.
-  [[nodiscard]] bool spin(std::uint32_t seen, const std::function<bool()>* done) const;
+  /// Spins until the epoch has left `seen` or a short time has gone; true for the former.
+  [[nodiscard]] bool spin(std::uint32_t seen) const;
   /// Something changed that a spinning or sleeping thread may wait for.
   void announce();
   void release();
 
   const bool crowded;  ///< more threads than cores: spinning would take the core from whoever has the work
-  // A line of the cache each for what helpers spin on, for what whoever joins writes, and for what the leader asks.
-  alignas(64) std::atomic<std::uint32_t> epoch = 0;  ///< counts announcements
-  alignas(64) std::mutex mutex;
+  std::mutex mutex;
   std::atomic<Region*> first = nullptr;  ///< open regions, latest first; written under the mutex, looked at without
-  alignas(64) std::atomic<std::uint32_t> sleepers = 0;
+  std::atomic<std::uint32_t> epoch = 0;  ///< counts announcements
+  std::atomic<std::uint32_t> sleepers = 0;
   std::atomic<std::uint32_t> idle = 0;     ///< helpers that spin, or have been called and will look for work
   std::atomic<std::uint32_t> holders = 1;  ///< the crew and the visits under way
   std::atomic<bool> closing = false;

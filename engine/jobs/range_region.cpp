@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/core/assert.h"
-
 namespace gloam {
 namespace {
 
@@ -20,43 +18,27 @@ std::size_t ranges_a_claim(float range_ns, std::size_t last) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(kClaimNs / range_ns));
 }
 
-constexpr std::size_t kMostRanges = 0xFFFF'FFFF;
-
-std::uint64_t packed(std::size_t begin, std::size_t end) { return std::uint64_t{end} << 32 | begin; }
-
 }  // namespace
 
-RangeRegion::RangeRegion(std::size_t ranges, const RangeWork& work, Crew& crew)
-    : work_(work), crew_(crew), left_(packed(0, ranges)) {
-  GLOAM_ASSERT(ranges <= kMostRanges, "a parallel loop has fewer than 2^32 ranges");
+bool RangeRegion::has_work() const {
+  return next_.load(std::memory_order_relaxed) < std::min(ranges_, failure_.index());
 }
 
-bool RangeRegion::has_work() const { return unclaimed().size() > 0; }
-
-RangeRegion::Claim RangeRegion::unclaimed() const {
-  const std::uint64_t left = left_.load(std::memory_order_relaxed);
-  const std::size_t begin = left & kMostRanges;
-  return {begin, std::max(begin, std::min<std::size_t>(left >> 32, failure_.index()))};
-}
-
-RangeRegion::Claim RangeRegion::claim(Side side, std::size_t wanted) {
-  std::uint64_t left = left_.load(std::memory_order_relaxed);
-  while (true) {
-    const std::size_t begin = left & kMostRanges;
-    const std::size_t end = std::min<std::size_t>(left >> 32, failure_.index());
-    if (begin >= end) return {};
+RangeRegion::Claim RangeRegion::claim(std::size_t wanted) {
+  std::size_t begin = next_.load(std::memory_order_relaxed);
+  while (begin < std::min(ranges_, failure_.index())) {
+    const std::size_t left = ranges_ - begin;
     // An even end is not worth claims much shorter than wanted.
-    const std::size_t fair = std::max((end - begin) / (2 * std::size_t{crew_.threads()}), wanted / 16);
-    const std::size_t count = std::clamp<std::size_t>(std::min(wanted, fair), 1, end - begin);
-    const Claim claim = side == Side::front ? Claim{begin, begin + count} : Claim{end - count, end};
-    const std::uint64_t rest = side == Side::front ? packed(claim.end, end) : packed(begin, claim.begin);
-    if (left_.compare_exchange_weak(left, rest, std::memory_order_relaxed)) return claim;
+    const std::size_t fair = std::max(left / (2 * std::size_t{crew_.threads()}), wanted / 8);
+    const std::size_t end = begin + std::clamp<std::size_t>(std::min(wanted, fair), 1, left);
+    if (next_.compare_exchange_weak(begin, end, std::memory_order_relaxed)) return {begin, end};
   }
+  return {};
 }
 
 void RangeRegion::run(Claim claim) {
-  // Claims end at their own first failure only, and only ranges behind a failure are left unclaimed, so every range below the lowest
-  // failure runs: the exception that the caller sees does not depend on timing.
+  // Claims are made from the front and end at their own first failure only, so every range below the lowest failure
+  // runs: the exception that the caller sees does not depend on timing.
   std::size_t i = claim.begin;
   try {
     work_.run(i, claim.end);
@@ -68,16 +50,16 @@ void RangeRegion::run(Claim claim) {
 void RangeRegion::help() {
   std::size_t wanted = 1;
   auto before = Clock::now();
-  for (Claim c = claim(Side::back, wanted); c.size() > 0; c = claim(Side::back, wanted)) {
+  for (Claim c = claim(wanted); c.begin != c.end; c = claim(wanted)) {
     run(c);
     const auto after = Clock::now();
-    wanted = ranges_a_claim(nanoseconds_between(before, after) / static_cast<float>(c.size()), wanted);
+    wanted = ranges_a_claim(nanoseconds_between(before, after) / static_cast<float>(c.end - c.begin), wanted);
     before = after;
   }
 }
 
-void RangeRegion::offer_rest(float range_ns) {
-  const std::size_t rest = unclaimed().size();
+void RangeRegion::offer_rest(std::size_t claimed_end, float range_ns) {
+  const std::size_t rest = ranges_ - std::min(claimed_end, ranges_);
   if (rest == 0) return;
   const float rest_ns = range_ns * static_cast<float>(rest);
   const float saved_ns = rest == 1 ? rest_ns : rest_ns * 0.5f;  // at least: this thread goes on too
@@ -94,16 +76,16 @@ float RangeRegion::lead(float range_ns) {
   std::size_t ran = 0;
   const auto start = Clock::now();
   auto before = start;
-  for (Claim c = claim(Side::front, wanted); c.size() > 0; c = claim(Side::front, wanted)) {
-    offer_rest(range_ns);
+  for (Claim c = claim(wanted); c.begin != c.end; c = claim(wanted)) {
+    offer_rest(c.end, range_ns);
     run(c);
     const auto after = Clock::now();
     const float claim_ns = nanoseconds_between(before, after);
-    const float measured = claim_ns / static_cast<float>(c.size());
+    const float measured = claim_ns / static_cast<float>(c.end - c.begin);
     if (claim_ns >= kTrustedNs || measured < range_ns) range_ns = measured;
     wanted = ranges_a_claim(range_ns, wanted);
     before = after;
-    ran += c.size();
+    ran += c.end - c.begin;
   }
   crew_.close(*this);
   failure_.rethrow_if_any();

@@ -26,14 +26,6 @@ struct LightRows {
   std::span<const WorldTransform> transforms;
   std::span<LightBounds> bounds;  ///< empty: they have none yet
   std::size_t first = 0;          ///< row number of the first
-  std::size_t first_stretch = 0;  ///< of LightSet::changed
-};
-
-/// Where a light's components are.
-struct LightPlace {
-  std::uint32_t chunk = 0;  ///< of LightSet::chunks
-  std::uint32_t index = 0;  ///< in the chunk
-  std::uint32_t slot = 0;   ///< in LightSet::lights
 };
 
 /// Every light of the world that has a place, ordered by entity index; a resource of the world, kept by system light_bounds.
@@ -47,15 +39,6 @@ struct LightSet {
   std::vector<LightRows> chunks;
   std::vector<Entity> rows;
   std::vector<std::uint32_t> slot_of_row;  ///< index into `lights`
-  std::vector<std::size_t> chunk_sizes;    ///< that `places` were found with
-  std::vector<LightPlace> places;          ///< of `lights`: job by job of light_bounds, in a job by rows
-  std::vector<std::uint8_t> changed;       ///< a stretch of a chunk's rows: whether LightBounds of it have changed
-};
-
-/// What one job of culling found.
-struct FoundLights {
-  std::uint32_t locals = 0;
-  std::uint32_t kinds = 0;  ///< of LightSelection::kind, or'ed
 };
 
 /// Memory that choosing lights keeps from one frame to the next.
@@ -64,10 +47,8 @@ struct LightSelection {
   std::vector<float> nearest, farthest;  ///< view depths of each light of the world
   std::vector<std::uint32_t> kind;       ///< of each light of the world: 1 a visible local one, 2 a directional one
   std::vector<std::uint32_t> local, directional;  ///< indices of those that are visible
-  std::vector<FoundLights> found;                 ///< a range of lights each
-  std::vector<std::uint64_t> ranking;             ///< of lights of which not all fit
-  std::vector<std::uint64_t> keys, sorted;        ///< room for every chosen light, a job
-  std::uint32_t middle = 0;  ///< ordered bits of a depth that half of the lights are nearer than: as it was last time
+  std::vector<std::uint64_t> keys, sorted;
+  std::vector<std::uint32_t> buckets;
 };
 
 /// The lights of one view, packed for the GPU; a view resource.

@@ -13,8 +13,8 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kCullGrain = 512;     // lights a job
-constexpr std::size_t kLeastToSplit = 256;  // fewer lights are ordered by one job
+constexpr std::size_t kCullGrain = 512;  // lights a job
+constexpr std::size_t kPackGrain = 512;
 /// Bound of what floats lose where a camera-relative position is rounded, turned and summed, a share of the lengths that take part. As
 /// much is added to bounds, so that no pixel the GPU lights is left out.
 constexpr float kRounding = 4e-7f;
@@ -86,6 +86,37 @@ GLOAM_CPU_CLONES void cull_lights(CullColumns o, CullView v, std::size_t begin, 
   }
 }
 
+struct CullJob {
+  CullColumns columns;
+  CullView view;
+  void run(JobRange range) const { cull_lights(columns, view, range.begin, range.end); }
+};
+
+void find_visible(const LightTable& table, const RenderView& view, JobExecutor& executor, LightSelection& selection) {
+  const std::size_t count = table.size();
+  for (auto* column : {&selection.x, &selection.y, &selection.z, &selection.nearest, &selection.farthest})
+    column->resize(count);
+  selection.kind.resize(count);
+  const CullJob job{
+      {table.x.data(), table.y.data(), table.z.data(), table.radius.data(), selection.x.data(), selection.y.data(),
+       selection.z.data(), selection.nearest.data(), selection.farthest.data(), selection.kind.data()},
+      cull_view(view)};
+  executor.parallel_for(count, kCullGrain, [&job](JobRange range) { job.run(range); });
+  selection.local.resize(count);
+  selection.directional.clear();
+  std::size_t locals = 0;
+  std::uint32_t kinds = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    selection.local[locals] = i;
+    locals += selection.kind[i] == kLocal ? 1 : 0;
+    kinds |= selection.kind[i];
+  }
+  selection.local.resize(locals);
+  if ((kinds & kDirectional) == 0) return;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
+}
+
 /// Keeps the `capacity` indices of greatest importance in ascending order, equal ones by index; returns how many were dropped.
 template <class Importance>
 std::uint32_t keep_most_important(std::vector<std::uint32_t>& lights, std::size_t capacity,
@@ -118,15 +149,15 @@ std::uint32_t ordered_bits(float value) {
 }
 
 /// Keys by their high 32 bits, equal ones as they came. What a view's depths leave of 32 bits, their least one taken off, needs three
-/// counting passes, rarely four; and no pass finds most of its keys in one place, where each would wait for the one before. Returns where
-/// the result is: in `keys` or in `other`, which is as long.
-std::span<const std::uint64_t> sort_by_depth(std::span<std::uint64_t> keys, std::span<std::uint64_t> other) {
+/// counting passes, rarely four; and no pass finds most of its keys in one place, where each would wait for the one before. Result in
+/// `keys`.
+void sort_by_depth(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& other) {
   constexpr std::size_t kPlain = 64;  // fewer are sorted faster without counting; their low bits ascend too
   constexpr std::uint32_t kMostDigitBits = 9;
   constexpr std::uint32_t kMostPasses = 4;
   if (keys.size() < kPlain) {
     std::sort(keys.begin(), keys.end());
-    return keys;
+    return;
   }
   auto least = ~std::uint32_t{0};
   std::uint32_t greatest = 0;
@@ -135,7 +166,7 @@ std::span<const std::uint64_t> sort_by_depth(std::span<std::uint64_t> keys, std:
     greatest = std::max(greatest, static_cast<std::uint32_t>(key >> 32));
   }
   const auto bits = static_cast<std::uint32_t>(std::bit_width(greatest - least));
-  if (bits == 0) return keys;
+  if (bits == 0) return;
   const std::uint32_t passes = (bits + kMostDigitBits - 1) / kMostDigitBits;
   const std::uint32_t digit_bits = (bits + passes - 1) / passes;
   const std::uint32_t mask = (1u << digit_bits) - 1;
@@ -145,6 +176,7 @@ std::span<const std::uint64_t> sort_by_depth(std::span<std::uint64_t> keys, std:
     std::uint32_t depth = static_cast<std::uint32_t>(key >> 32) - least;
     for (std::uint32_t pass = 0; pass < passes; ++pass, depth >>= digit_bits) ++counts[pass][depth & mask];
   }
+  other.resize(keys.size());
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
     std::uint32_t* const places = counts[pass].data();
     std::uint32_t begin = 0;
@@ -157,101 +189,30 @@ std::span<const std::uint64_t> sort_by_depth(std::span<std::uint64_t> keys, std:
     std::uint64_t* const to = other.data();
     for (const std::uint64_t key : keys)
       to[places[(static_cast<std::uint32_t>(key >> 32) - least) >> shift & mask]++] = key;
-    std::swap(keys, other);
+    keys.swap(other);
   }
-  return keys;
 }
 
-struct FindJob {
-  CullColumns columns;
-  CullView view;
-  LightSelection& selection;
-
-  /// Visible local lights, in order, go to the front of the range's part of LightSelection::local.
-  void run(JobRange range) const {
-    cull_lights(columns, view, range.begin, range.end);
-    std::uint32_t* const local = selection.local.data() + range.begin;
-    FoundLights found;
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      local[found.locals] = static_cast<std::uint32_t>(i);
-      found.locals += columns.kind[i] == kLocal ? 1 : 0;
-      found.kinds |= columns.kind[i];
-    }
-    selection.found[range.ordinal] = found;
-  }
-};
-
-/// Fills `local` and `directional`.
-void find_visible(const LightTable& table, const RenderView& view, JobExecutor& executor, LightSelection& selection) {
-  const std::size_t count = table.size();
-  for (auto* column : {&selection.x, &selection.y, &selection.z, &selection.nearest, &selection.farthest})
-    column->resize(count);
-  for (auto* column : {&selection.kind, &selection.local}) column->resize(count);
-  selection.found.resize((count + kCullGrain - 1) / kCullGrain);
-  const FindJob job{
-      {table.x.data(), table.y.data(), table.z.data(), table.radius.data(), selection.x.data(), selection.y.data(),
-       selection.z.data(), selection.nearest.data(), selection.farthest.data(), selection.kind.data()},
-      cull_view(view),
-      selection};
-  executor.parallel_for(count, kCullGrain, [&job](JobRange range) { job.run(range); });
-
-  std::size_t locals = 0;
-  std::uint32_t kinds = 0;
-  for (std::size_t range = 0; range < selection.found.size(); ++range) {
-    const FoundLights found = selection.found[range];
-    std::uint32_t* const local = selection.local.data();
-    if (locals < range * kCullGrain) std::copy_n(local + range * kCullGrain, found.locals, local + locals);
-    locals += found.locals;
-    kinds |= found.kinds;
-  }
-  selection.local.resize(locals);
-  selection.directional.clear();
-  for (std::uint32_t i = 0; i < count && (kinds & kDirectional) != 0; ++i)
-    if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
-}
-
-/// Orders and packs the chosen lights: those nearer than a depth in one job, the others in another.
-struct OrderJob {
+struct PackJob {
   std::span<const PlacedLight> lights;
   const LightTable& table;
   const RenderView& view;
   VisibleLights& visible;
-  std::size_t parts;  ///< 1 or 2
 
-  void run(JobRange part) const {
-    LightSelection& selection = visible.selection;
-    const std::size_t count = selection.local.size();
-    constexpr std::uint64_t kEnd = std::uint64_t{1} << 32;
-    const std::uint64_t begin = part.ordinal == 0 ? 0 : selection.middle;
-    const std::uint64_t end = part.ordinal + 1 == parts ? kEnd : selection.middle;
-    std::uint64_t* const keys = selection.keys.data() + part.ordinal * count;
-    std::size_t size = 0;
-    for (const std::uint32_t light : selection.local) {
-      const std::uint64_t depth = ordered_bits(selection.nearest[light]);
-      keys[size] = depth << 32 | light;
-      size += depth - begin < end - begin ? 1 : 0;
-    }
-    std::uint64_t* const other = selection.sorted.data() + part.ordinal * count;
-    pack(sort_by_depth({keys, size}, {other, size}), part.ordinal == 0 ? 0 : count - size);
-  }
-
- private:
   /// Lights come in the order of depths, which no cache foresees.
-  void prefetch(std::uint32_t light) const {
+  void prefetch(std::size_t i) const {
+    if (i >= visible.selection.keys.size()) return;
+    const auto light = static_cast<std::uint32_t>(visible.selection.keys[i]);
     __builtin_prefetch(&table.records[light]);
     __builtin_prefetch(&lights[light].position);
   }
 
-  /// From place `first` on.
-  void pack(std::span<const std::uint64_t> keys, std::size_t first) const {
-    constexpr std::size_t kAhead = 24;
+  void run(JobRange range) const {
+    constexpr std::size_t kAhead = 12;
     const LightSelection& from = visible.selection;
-    const std::size_t size = keys.size();
-    for (std::size_t k = 0; k < std::min(kAhead, size); ++k) prefetch(static_cast<std::uint32_t>(keys[k]));
-    for (std::size_t k = 0; k < size; ++k) {
-      const auto light = static_cast<std::uint32_t>(keys[k]);
-      const std::size_t i = first + k;
-      if (k + kAhead < size) prefetch(static_cast<std::uint32_t>(keys[k + kAhead]));
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const auto light = static_cast<std::uint32_t>(from.keys[i]);
+      prefetch(i + kAhead);
       const LightRecord& record = table.records[light];
       const vec3 position = view.relative(lights[light].position);
       const vec3 direction = lights[light].direction;
@@ -287,21 +248,26 @@ void select_lights(std::span<const PlacedLight> lights, const LightTable& table,
   LightSelection& selection = visible.selection;
   visible.total = static_cast<std::uint32_t>(lights.size());
   find_visible(table, view, executor, selection);
-  visible.dropped = keep_most_important(selection.local, GLOAM_MAX_LOCAL_LIGHTS, selection.ranking,
+  visible.dropped = keep_most_important(selection.local, GLOAM_MAX_LOCAL_LIGHTS, selection.keys,
                                         [&](std::uint32_t i) { return importance_of(table, view, i); });
-  visible.dropped += keep_most_important(selection.directional, GLOAM_MAX_DIRECTIONAL_LIGHTS, selection.ranking,
+  visible.dropped += keep_most_important(selection.directional, GLOAM_MAX_DIRECTIONAL_LIGHTS, selection.keys,
                                          [&](std::uint32_t i) { return table.records[i].brightness; });
+  selection.keys.resize(selection.local.size());
+  std::uint64_t* const keys = selection.keys.data();
+  const float* const nearest = selection.nearest.data();
+  for (std::size_t i = 0; i < selection.local.size(); ++i) {
+    const std::uint32_t light = selection.local[i];
+    keys[i] = std::uint64_t{ordered_bits(nearest[light])} << 32 | light;
+  }
+  sort_by_depth(selection.keys, selection.sorted);
 
-  const std::size_t count = selection.local.size();
+  const std::size_t count = selection.keys.size();
   visible.block.local_count = static_cast<std::uint32_t>(count);
   visible.local_entities.resize(count);
   visible.depths.resize(count);
   visible.mask_lights.resize(count);
-  const std::size_t parts = executor.worker_count() > 1 && count >= kLeastToSplit ? 2 : 1;
-  for (auto* keys : {&selection.keys, &selection.sorted}) keys->resize(std::max(keys->size(), parts * count));
-  const OrderJob job{lights, table, view, visible, parts};
-  executor.parallel_for(parts, 1, [&job](JobRange part) { job.run(part); });
-  if (count > 0) selection.middle = ordered_bits(visible.depths[count / 2].nearest);
+  const PackJob job{lights, table, view, visible};
+  executor.parallel_for(count, kPackGrain, [&job](JobRange range) { job.run(range); });
   pack_directional(lights, table, visible);
 }
 

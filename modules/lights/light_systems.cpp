@@ -15,7 +15,6 @@ namespace gloam {
 namespace {
 
 constexpr std::size_t kBoundsGrain = 128;  // lights a job
-constexpr std::size_t kStretch = 1024;     // rows whose change is told together
 
 std::uint64_t different_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
@@ -72,28 +71,6 @@ void place_rows(std::span<const LightRows> chunks, std::size_t count, LightSet& 
   }
 }
 
-/// Jobs take runs of slots, so that no two of them write one line of the cache; a job goes through its lights by rows, as they lie in
-/// memory.
-void find_places(std::span<const LightRows> chunks, LightSet& set) {
-  const std::size_t count = set.slot_of_row.size();
-  set.places.resize(count);
-  set.chunk_sizes.clear();
-  std::vector<std::size_t> next((count + kBoundsGrain - 1) / kBoundsGrain);
-  for (std::size_t job = 0; job < next.size(); ++job) next[job] = job * kBoundsGrain;
-  for (std::uint32_t c = 0; c < chunks.size(); ++c) {
-    const auto size = static_cast<std::uint32_t>(chunks[c].entities.size());
-    set.chunk_sizes.push_back(size);
-    for (std::uint32_t i = 0; i < size; ++i) {
-      const std::uint32_t slot = set.slot_of_row[chunks[c].first + i];
-      set.places[next[slot / kBoundsGrain]++] = {c, i, slot};
-    }
-  }
-}
-
-bool same_sizes(std::span<const LightRows> chunks, std::span<const std::size_t> sizes) {
-  return std::ranges::equal(chunks, sizes, {}, [](const LightRows& chunk) { return chunk.entities.size(); });
-}
-
 bool same_rows(std::span<const LightRows> chunks, std::size_t count, const LightSet& set) {
   if (set.rows.size() != count) return false;
   return std::ranges::all_of(chunks, [&](const LightRows& chunk) {
@@ -127,79 +104,48 @@ bool update_light(Entity entity, const Light& light, const dmat4& world_from_nod
   return true;
 }
 
-/// Whether there was anything to do.
-bool update_bounds(const LightTable& table, std::size_t slot, LightBounds& bounds) {
-  const double x = table.x[slot];
-  const double y = table.y[slot];
-  const double z = table.z[slot];
-  const float radius = std::max(table.radius[slot], 0.0f);
-  const bool same = (different_bits(x, bounds.center.x) | different_bits(y, bounds.center.y) |
-                     different_bits(z, bounds.center.z)) == 0;
-  if (same && radius == bounds.radius_m) return false;
-  bounds.center.x = x;
-  bounds.center.y = y;
-  bounds.center.z = z;
-  bounds.radius_m = radius;
-  return true;
-}
-
 struct BoundsJob {
   std::span<const LightRows> chunks;
+  const KeptLights& kept;
   LightSet& set;
   std::atomic<std::uint32_t>& updated;
 
   void run(JobRange range) const {
     std::uint32_t count = 0;
-    for (std::size_t p = range.begin; p < range.end; ++p) {
-      const LightPlace place = set.places[p];
-      const LightRows& chunk = chunks[place.chunk];
-      const std::uint32_t i = place.index;
-      const std::size_t slot = place.slot;
-      if (update_light(chunk.entities[i], chunk.lights[i], chunk.transforms[i].matrix, slot, set)) ++count;
-      if (!chunk.bounds.empty() && update_bounds(set.table, slot, chunk.bounds[i]))
-        mark(set.changed[chunk.first_stretch + i / kStretch]);
+    for (const LightRows& chunk : chunks) {
+      const std::size_t begin = std::max(range.begin, chunk.first);
+      const std::size_t end = std::min(range.end, chunk.first + chunk.entities.size());
+      if (begin < end) count += run(chunk, begin - chunk.first, end - chunk.first);
     }
     updated.fetch_add(count, std::memory_order_relaxed);
   }
 
  private:
-  /// Written once, because other jobs read it.
-  static void mark(std::uint8_t& flag) {
-    const std::atomic_ref changed(flag);
-    if (changed.load(std::memory_order_relaxed) == 0) changed.store(1, std::memory_order_relaxed);
+  [[nodiscard]] std::uint32_t run(const LightRows& chunk, std::size_t begin, std::size_t end) const {
+    std::uint32_t count = 0;
+    bool changed = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t slot = set.slot_of_row[chunk.first + i];
+      if (update_light(chunk.entities[i], chunk.lights[i], chunk.transforms[i].matrix, slot, set)) ++count;
+      if (chunk.bounds.empty()) continue;
+      LightBounds& bounds = chunk.bounds[i];
+      const double x = set.table.x[slot];
+      const double y = set.table.y[slot];
+      const double z = set.table.z[slot];
+      const float radius = std::max(set.table.radius[slot], 0.0f);
+      const bool same = (different_bits(x, bounds.center.x) | different_bits(y, bounds.center.y) |
+                         different_bits(z, bounds.center.z)) == 0;
+      if (same && radius == bounds.radius_m) continue;
+      bounds.center.x = x;
+      bounds.center.y = y;
+      bounds.center.z = z;
+      bounds.radius_m = radius;
+      changed = true;
+    }
+    if (changed) kept.mark_changed<LightBounds>(chunk.entities.subspan(begin, end - begin));
+    return count;
   }
 };
-
-void mark_changed(const KeptLights& kept, const LightSet& set) {
-  for (const LightRows& chunk : set.chunks) {
-    for (std::size_t begin = 0; begin < chunk.bounds.size(); begin += kStretch) {
-      if (set.changed[chunk.first_stretch + begin / kStretch] == 0) continue;
-      kept.mark_changed<LightBounds>(chunk.entities.subspan(begin, std::min(kStretch, chunk.bounds.size() - begin)));
-    }
-  }
-}
-
-void find_chunks(const KeptLights& kept, const FreshLights& fresh, LightSet& set) {
-  std::size_t rows = 0;
-  std::size_t stretches = 0;
-  set.chunks.clear();
-  const auto add = [&](LightRows chunk) {
-    chunk.first = rows;
-    chunk.first_stretch = stretches;
-    rows += chunk.entities.size();
-    stretches += (chunk.entities.size() + kStretch - 1) / kStretch;
-    set.chunks.push_back(chunk);
-  };
-  kept.each_chunk([&](std::span<const Entity> entities, std::span<const Light> lights,
-                      std::span<const WorldTransform> transforms, std::span<LightBounds> bounds) {
-    add({entities, lights, transforms, bounds});
-  });
-  fresh.each_chunk(
-      [&](std::span<const Entity> entities, std::span<const Light> lights, std::span<const WorldTransform> transforms) {
-        add({entities, lights, transforms, {}});
-      });
-  set.changed.assign(stretches, 0);
-}
 
 bool same_view(const RenderView& a, const RenderView& b) {
   return a.width == b.width && a.height == b.height && a.position == b.position && a.near_m == b.near_m &&
@@ -223,16 +169,24 @@ bool same_params(const ZBinParams& a, const ZBinParams& b) {
 
 void light_bounds_system(KeptLights kept, FreshLights fresh, Resource<LightSet> set, JobExecutor& jobs,
                          Commands& commands) {
-  find_chunks(kept, fresh, *set);
-  const std::vector<LightRows>& chunks = set->chunks;
-  const std::size_t count = chunks.empty() ? 0 : chunks.back().first + chunks.back().entities.size();
+  std::vector<LightRows>& chunks = set->chunks;
+  chunks.clear();
+  std::size_t count = 0;
+  kept.each_chunk([&](std::span<const Entity> entities, std::span<const Light> lights,
+                      std::span<const WorldTransform> transforms, std::span<LightBounds> bounds) {
+    chunks.push_back({entities, lights, transforms, bounds, count});
+    count += entities.size();
+  });
+  fresh.each_chunk(
+      [&](std::span<const Entity> entities, std::span<const Light> lights, std::span<const WorldTransform> transforms) {
+        chunks.push_back({entities, lights, transforms, {}, count});
+        count += entities.size();
+      });
   const bool regrouped = !same_rows(chunks, count, *set);
   if (regrouped) place_rows(chunks, count, *set);
-  if (regrouped || !same_sizes(chunks, set->chunk_sizes)) find_places(chunks, *set);
   std::atomic<std::uint32_t> updated = 0;
-  const BoundsJob job{chunks, *set, updated};
+  const BoundsJob job{chunks, kept, *set, updated};
   jobs.parallel_for(count, kBoundsGrain, [&job](JobRange range) { job.run(range); });
-  mark_changed(kept, *set);
   for (const LightRows& chunk : chunks) {
     if (!chunk.bounds.empty()) continue;
     for (std::size_t i = 0; i < chunk.entities.size(); ++i)

@@ -10,7 +10,6 @@
 #include "engine/math/bounds.h"
 #include "engine/math/types.h"
 #include "engine/render/view.h"
-#include "modules/lights/tile_mask_rows.h"
 #include "modules/lights/tile_outlines.h"
 #include "modules/lights/tile_row_intervals.h"
 #include "shaders/lights/lights_shared.h"
@@ -24,21 +23,11 @@ enum class TileBound : std::uint8_t {
   cone,          ///< and for spots only between the two lines from the apex that touch the cone's sides
 };
 
-/// Which lights touch a column or a row of tiles.
-struct alignas(64) TileLine {
-  std::uint32_t words[kTileMaskWords];
-};
-
-/// Which of a job's lights begin or end at a column or a row of tiles.
-struct alignas(32) LineToggles {
-  std::uint32_t words[8] = {};
-};
-
 /// Memory that building masks keeps from one time to the next.
 struct TileMaskScratch {
   TileOutlines outlines;
-  std::vector<LineToggles> toggles;  ///< a job's of columns and of rows, one more of each; 0 between calls
-  std::vector<TileLine> columns, rows;
+  std::vector<std::uint32_t> column_masks;  ///< 32 words a column of tiles, and of one column more
+  std::vector<std::uint32_t> row_masks;
   std::vector<TileBand> bands;
 };
 
