@@ -107,6 +107,13 @@ class Render(ProgramCase):
         for view in LIGHT_VIEWS:
             self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", view, "--set", "lights.culling=brute", says="tiled")
 
+    def test_traced_views_are_drawn_the_same_whatever_the_threads(self):
+        for view in ("error", "shadow_reference:lamp"):
+            for threads in ("1", "3"):
+                self.expect(0, "render", "builtin:shadows", "--size", "96x54", "--view", view, "--threads", threads, "--validate",
+                            "--out", f"{threads}.png")
+            self.assertEqual(self.bytes_of("1.png"), self.bytes_of("3.png"), view)
+
     def test_unknown_knobs_views_and_cameras_are_wrong_usage(self):
         (self.folder / "bad.json").write_text('{"no.such": 1}')
         for option in (("--set", "no.such=1"), ("--view", "no_such"), ("--camera", "nobody"), ("--config", "absent.json"),
