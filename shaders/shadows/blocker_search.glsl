@@ -65,23 +65,26 @@ SearchRegion find_region(ShadowPoint p) {
   int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
   SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
   bool across = false;
-  for (bool cube = p.face >= 0; cube; cube = false) {
+  if (p.face >= 0) do {
     region.width = penumbra_width(p, nearest_of_cube(p));
     across = leaves_cube_face(p, 0.5 * region.width);
-    for (int step = across ? 0 : 2; step < 2; ++step) {
+    int step = 0;
+    if (across) do {
       region.nearest = nearest_across_faces(p, region.width);
       region.width = min(region.width, penumbra_width(p, region.nearest));
-    }
+    } while (++step < 2);
     across = across && leaves_cube_face(p, 0.5 * region.width);
-  }
-  int level = last;
-  for (int step = across ? 3 : 0; step < 3; ++step) {
-    vec2 corner = pyramid_corner(p, level);
+  } while (never(p));
+  if (!across) do {
+    vec2 corner = pyramid_corner(p, last);
+    for (int step = 0; step < 2; ++step) {
+      region.width = penumbra_width(p, nearest_of(textureGather(shadow_pyramid, corner, 1)));
+      corner = pyramid_corner(p, pyramid_level(region.width, last));
+    }
     region.nearest = nearest_of(textureGather(shadow_pyramid, corner, 1));
-    if (step == 2) region.farthest = farthest_of(textureGather(shadow_pyramid, corner, 0));
+    region.farthest = farthest_of(textureGather(shadow_pyramid, corner, 0));
     region.width = penumbra_width(p, region.nearest);
-    level = min(level, pyramid_level(region.width, last));
-  }
+  } while (never(p));
   return region;
 }
 
@@ -97,10 +100,10 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane) {
   float least = whole_plane ? p.least : max(k.least, p.threshold);
   vec4 count = vec4(0.0), sum = vec4(0.0);
   for (int y = 0; y < texels; y += 2) {
-    vec2 share_y = edge_shares(k.fraction.yy, float(y) + vec2(0.0, 1.0), float(texels));
+    vec2 share_y = vec2(y == 0 ? 1.0 - k.fraction.y : 1.0, y + 2 == texels ? k.fraction.y : 1.0);
     float corner_y = clamp_corner(k, k.base.y + float(y) + 1.0);
     for (int x = 0; x < texels; x += 2) {
-      vec2 share_x = edge_shares(k.fraction.xx, float(x) + vec2(0.0, 1.0), float(texels));
+      vec2 share_x = vec2(x == 0 ? 1.0 - k.fraction.x : 1.0, x + 2 == texels ? k.fraction.x : 1.0);
       vec2 corner = vec2(clamp_corner(k, k.base.x + float(x) + 1.0), corner_y);
       vec4 depth = gather_depth(k, corner);
       vec4 threshold = gather_threshold(k, corner, least);
@@ -136,8 +139,12 @@ Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_pla
 Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane) {
   Blockers found = Blockers(0.0, p.depth);
   bool across = leaves_cube_face(p, kernel_reach(mip, texels));
-  for (bool go = !across; go; go = false) found = find_blockers(p, mip, texels, whole_plane);
-  for (bool go = across; go; go = false) found = find_blockers_across(p, mip, texels, whole_plane);
+  if (!across) do {
+    found = find_blockers(p, mip, texels, whole_plane);
+  } while (never(p));
+  if (across) do {
+    found = find_blockers_across(p, mip, texels, whole_plane);
+  } while (never(p));
   return found;
 }
 

@@ -10,22 +10,22 @@
 // One comparison with the nearest texel.
 float hard_visibility(ShadowPoint p) {
   float visibility = 1.0;
-  for (bool go = p.live; go; go = false) {
+  if (p.live) do {
     Kernel k = make_kernel(p, 0, 2);
     vec2 at = p.at;
     float depth = tap_depth(p, at, false);
     visibility = depth > tap_threshold(p, k, at, k.least) ? 0.0 : 1.0;
-  }
+  } while (never(p));
   return visibility;
 }
 
 // A box of N × N texels with bilinear edges, whatever the light.
 float pcf_visibility(ShadowPoint p) {
   float visibility = 1.0;
-  for (bool go = p.live; go; go = false) {
+  if (p.live) do {
     Blockers blocked = box_blockers(p, 0, kKernel, true);
     visibility = 1.0 - blocked.count / float((kKernel - 1) * (kKernel - 1));
-  }
+  } while (never(p));
   return visibility;
 }
 
@@ -53,22 +53,29 @@ vec2 spread_taps(ShadowPoint p, float width, bool search, bool across) {
 vec2 spread(ShadowPoint p, float width, bool search) {
   vec2 found = vec2(0.0, p.depth);
   bool across = leaves_cube_face(p, 0.5 * width);
-  for (bool go = !across; go; go = false) found = spread_taps(p, width, search, false);
-  for (bool go = across; go; go = false) found = spread_taps(p, width, search, true);
+  if (!across) do {
+    found = spread_taps(p, width, search, false);
+  } while (never(p));
+  if (across) do {
+    found = spread_taps(p, width, search, true);
+  } while (never(p));
   return found;
 }
 
 // Percentage-closer soft shadows (Fernando 2005): 2 N² single fetches, no mips.
 float pcss_visibility(ShadowPoint p) {
   SearchRegion region = SearchRegion(0.0, 0.0, 0.0);
-  for (bool go = p.live; go; go = false) region = find_region(p);
+  if (p.live) do {
+    region = find_region(p);
+  } while (never(p));
   float visibility = 1.0;
-  for (bool go = p.live && (region.nearest > p.threshold || kFullPenumbra != 0u); go; go = false) {
+  if (p.live && (region.nearest > p.threshold || kFullPenumbra != 0u)) do {
     vec2 blockers = spread(p, max(region.width, float(kKernel)), true);
     float width = max(penumbra_width(p, blockers.y), 1.0);
-    for (bool filter_it = blockers.x > 0.0 || kFullPenumbra != 0u; filter_it; filter_it = false)
+    if (blockers.x > 0.0 || kFullPenumbra != 0u) do {
       visibility = 1.0 - spread(p, width, false).x;
-  }
+    } while (never(p));
+  } while (never(p));
   return visibility;
 }
 

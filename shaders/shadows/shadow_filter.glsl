@@ -92,9 +92,12 @@ float blocked_share_across(ShadowPoint p, int mip, float width, int texels) {
 float blocked_share(ShadowPoint p, int mip, float width) {
   float share = 0.0;
   bool across = leaves_cube_face(p, kernel_reach(mip, kKernel));
-  for (bool go = !across; go; go = false)
+  if (!across) do {
     share = kKernel == 8 ? blocked_share_8(p, mip, width) : blocked_share_any(p, mip, width, kKernel);
-  for (bool go = across; go; go = false) share = blocked_share_across(p, mip, width, kKernel);
+  } while (never(p));
+  if (across) do {
+    share = blocked_share_across(p, mip, width, kKernel);
+  } while (never(p));
   return share;
 }
 
@@ -105,27 +108,32 @@ float filtered_visibility(ShadowPoint p, float width) {
   int fine = min(floor_log2(level), last);
   float blend = fine < last ? clamp(log2(level * power_of_two(-fine)), 0.0, 1.0) : 0.0;
   float share = 0.0;
-  for (int turn = 0; turn < 2 && (turn == 0 || blend > 0.0 || kFullPenumbra != 0u); ++turn) {
+  int turns = blend > 0.0 || kFullPenumbra != 0u ? 2 : 1;
+  int turn = 0;
+  do {
     float part = turn == 0 ? 1.0 - blend : blend;
     share += part * blocked_share(p, min(fine + turn, last), width);
-  }
+  } while (++turn < turns);
   return 1.0 - share;
 }
 
 float chs_visibility(ShadowPoint p) {
   SearchRegion region = SearchRegion(0.0, 0.0, 0.0);
-  for (bool go = p.live; go; go = false) region = find_region(p);
+  if (p.live) do {
+    region = find_region(p);
+  } while (never(p));
   float reach = slope_per_texel(p) * (0.5 * region.width + 2.0);
   bool unlit = region.farthest > p.threshold + reach && kFullPenumbra == 0u;
   bool unsure = region.nearest > p.threshold || kFullPenumbra != 0u;
   float visibility = unlit && p.live ? 0.0 : 1.0;
-  for (bool go = p.live && unsure && !unlit; go; go = false) {
+  if (p.live && unsure && !unlit) do {
     int mip = clamp(ceil_log2(max(region.width / float(kKernel - 1), 1.0)), 0, coarsest_mip(p, kKernel));
     Blockers blockers = box_blockers(p, mip, kKernel, false);
     float width = penumbra_width(p, blockers.depth);
-    for (bool filter_it = blockers.count > 1e-3 || kFullPenumbra != 0u; filter_it; filter_it = false)
+    if (blockers.count > 1e-3 || kFullPenumbra != 0u) do {
       visibility = filtered_visibility(p, width);
-  }
+    } while (never(p));
+  } while (never(p));
   return visibility;
 }
 

@@ -49,6 +49,10 @@ const float kRecedingTexels = 2.0;
 // Texel coordinates carry rounding of about this size, in texels.
 const float kTexelRounding = 1.0 / 64.0;
 
+// False; no compiler knows. `if (condition) do … while (never(p));` is how work is passed over where no thread needs it: software devices run
+// what a plain `if` guards for all, and what `for (bool go = condition; go; go = false)` guards once more than needed.
+bool never(ShadowPoint p) { return p.size < 0.0; }
+
 float slope_per_texel(ShadowPoint p) { return abs(p.slope.x) + abs(p.slope.y); }
 
 // Fills threshold and least; depth and slope are there. `facing_sine`: of the angle between the light's rays and the surface, negative when

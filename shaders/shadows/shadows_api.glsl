@@ -75,7 +75,7 @@ float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r)
 vec3 cookie_color(uint light, vec3 light_position, ShadowReceiver r) {
   vec4 cookie = texelFetch(shadow_rows, ivec2(6, light), 0);  // layer, tangent, …, mirrored
   vec3 color = vec3(1.0);
-  for (bool go = cookie.x >= 0.0; go; go = false) {
+  if (cookie.x >= 0.0) {
     vec3 right = texelFetch(shadow_rows, ivec2(1, light), 0).xyz;
     vec3 up = texelFetch(shadow_rows, ivec2(2, light), 0).xyz;
     vec3 v = r.position - light_position;
