@@ -79,7 +79,7 @@ vec3 cookie_color(uint light, vec3 light_position, ShadowReceiver r) {
     vec3 right = texelFetch(shadow_rows, ivec2(1, light), 0).xyz;
     vec3 up = texelFetch(shadow_rows, ivec2(2, light), 0).xyz;
     vec3 v = r.position - light_position;
-    float z = max(dot(v, cross(up, right)) * (1.0 - 2.0 * cookie.w), 1e-6);
+    float z = max(dot(v, spot_forward(light, right, up)) * (1.0 - 2.0 * cookie.w), 1e-6);
     vec2 tangent = clamp(vec2(dot(v, right), -dot(v, up)) / (z * cookie.y), -1.0, 1.0);
     color = textureLod(shadow_cookies, vec3(tangent * 0.5 + 0.5, cookie.x), 0.0).rgb;
   }

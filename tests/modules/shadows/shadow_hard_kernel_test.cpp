@@ -214,6 +214,21 @@ TEST_F(ShadowHard, bad_numbers_leave_visibility_between_0_and_1) {
   }
 }
 
+TEST_F(ShadowHard, a_mirrored_spot_casts_the_same_shadow) {
+  SpotRig rig = tilted(3.0, 0.4, 0.5);
+  rig.width_m = 0.1;
+  const RayScene scene =
+      nearest_of({plane(dvec3(0.0, 1.0, 0.0), kUp, [](const dvec3& p) { return p.x < 0.1; }), floor_plane()});
+  std::vector<ShadowProbe> probes;
+  for (int i = 0; i < 200; ++i) probes.push_back(rig.at(dvec3(i * 0.01 - 1.0, 0.0, -1.2)));
+  const auto plain = rig.look(device(), draw_face(rig.pose, rig.size, scene), probes);
+  rig.pose.right = -rig.pose.right;
+  const auto mirrored = rig.look(device(), draw_face(rig.pose, rig.size, scene), probes);
+  for (std::size_t i = 0; i < probes.size(); ++i) EXPECT_NEAR(plain[i].visibility, mirrored[i].visibility, 5e-3f) << i;
+  EXPECT_EQ(plain.front().visibility, 0.0f);
+  EXPECT_EQ(plain.back().visibility, 1.0f);
+}
+
 /// A cube and a wide spot face with texels of the same size, at one place.
 struct CubeScene {
   static constexpr std::uint32_t kCube = 128, kWide = 1024;

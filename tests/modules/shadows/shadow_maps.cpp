@@ -297,6 +297,7 @@ shaders::ShadowRow spot_row(const FacePose& pose, double tan_inner, double width
   row.tan_half = static_cast<float>(pose.tan_half);
   row.tan_inner = static_cast<float>(tan_inner);
   row.origins[0] = vec2(origin);
+  row.mirrored = dot(cross(pose.up, pose.right), pose.forward) < 0.0 ? 1.0f : 0.0f;
   row.cookie_layer = row.traced_layer = -1.0f;
   row.cookie_tan = 1.0f;
   return row;
