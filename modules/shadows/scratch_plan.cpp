@@ -9,42 +9,25 @@
 namespace gloam {
 namespace {
 
-/// Every second bit of a place along the Z-order curve, from bit 0 on.
-std::uint32_t even_bits(std::uint64_t place) {
-  std::uint32_t value = 0;
-  for (std::uint32_t bit = 0; bit < 32; ++bit) value |= static_cast<std::uint32_t>(place >> (2 * bit) & 1u) << bit;
-  return value;
-}
-
-/// Side of the least square of a power of two that holds the first `texels` of the curve.
-std::uint32_t side_of(std::uint64_t texels) {
-  std::uint32_t side = 1;
-  while (std::uint64_t{side} * side < texels) side *= 2;
-  return side;
-}
+std::size_t most_layers(std::uint32_t size) { return std::clamp(kScratchTexels / size / size, 1u, kMostScratchLayers); }
 
 }  // namespace
 
 ScratchPlan plan_scratch(std::span<const std::uint32_t> sizes) {
   ScratchPlan plan;
-  plan.side = kScratchSide;
-  for (const std::uint32_t size : sizes) plan.side = std::max(plan.side, size);
-  const std::uint64_t room = std::uint64_t{plan.side} * plan.side;
-  // Large ones first along a Z-order curve: squares of powers of two then lie without gaps.
   std::vector<std::uint32_t> order(sizes.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return sizes[a] > sizes[b]; });
-  std::uint64_t used = room;
   for (const std::uint32_t item : order) {
-    const std::uint64_t area = std::uint64_t{sizes[item]} * sizes[item];
-    if (used + area > room) {
-      plan.batches.emplace_back();
-      used = 0;
-    }
-    plan.batches.back().places.push_back({item, uvec2(even_bits(used), even_bits(used >> 1))});
-    used += area;
-    plan.batches.back().side = side_of(used);
+    const std::uint32_t size = sizes[item];
+    if (plan.batches.empty() || plan.batches.back().size != size ||
+        plan.batches.back().items.size() == most_layers(size))
+      plan.batches.push_back({size, 0, {}});
+    plan.batches.back().items.push_back(item);
   }
+  // Few different images, so that frame plans are met again.
+  for (ScratchPlan::Batch& batch : plan.batches)
+    batch.layers = std::bit_ceil(static_cast<std::uint32_t>(batch.items.size()));
   return plan;
 }
 

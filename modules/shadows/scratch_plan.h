@@ -6,26 +6,24 @@
 #include <span>
 #include <vector>
 
-#include "engine/math/types.h"
-
 namespace gloam {
 
-/// Where faces are drawn before they move into the atlas: squares of one depth image, which is used batch after batch.
+/// Where faces are drawn before they move into the atlas: each fills a layer of a depth image of its own size. So its depth does not
+/// depend on what else is drawn, or where it will lie, to the last bit.
 struct ScratchPlan {
-  struct Place {
-    std::uint32_t item = 0;  ///< index into the sizes
-    uvec2 corner = uvec2(0);
-  };
   struct Batch {
-    std::vector<Place> places;
-    std::uint32_t side = 0;  ///< texels from the image's corner that the batch uses, a power of two
+    std::uint32_t size = 0;            ///< texels of a layer's side
+    std::uint32_t layers = 0;          ///< of the image: at least one an item, a power of two
+    std::vector<std::uint32_t> items;  ///< indices into the sizes, by layer
   };
-  std::uint32_t side = 0;  ///< of the image, texels
   std::vector<Batch> batches;
 };
 
-/// sizes: powers of two, in texels. The image is kScratchSide wide, or as wide as the largest.
-inline constexpr std::uint32_t kScratchSide = 2048;
+/// Texels of a batch's image, unless one face has more.
+inline constexpr std::uint32_t kScratchTexels = 2048 * 2048;
+inline constexpr std::uint32_t kMostScratchLayers = 256;
+
+/// sizes: powers of two, in texels. Large ones come first.
 [[nodiscard]] ScratchPlan plan_scratch(std::span<const std::uint32_t> sizes);
 
 }  // namespace gloam

@@ -146,60 +146,61 @@ class FaceRecorder {
 void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch,
                   ImageRef scratch) {
   gpu::CommandList& commands = context.commands();
-  gpu::RenderingDesc rendering;
-  rendering.depth.view.image = context.image(scratch);
-  rendering.width = rendering.height = batch.side;
-  commands.begin_rendering(rendering);
-  commands.bind_indices(frame.scene().indices(), 0);
   FaceRecorder recorder(frame, context, work);
-  for (const ScratchPlan::Place& place : batch.places) {
-    const DrawnFace& face = work.faces[place.item];
-    if (face.draws.empty()) continue;
-    const auto side = static_cast<float>(face.face.square.size);
-    commands.set_viewport(static_cast<float>(place.corner.x), static_cast<float>(place.corner.y), side, side);
-    commands.set_scissor(static_cast<std::int32_t>(place.corner.x), static_cast<std::int32_t>(place.corner.y),
-                         face.face.square.size, face.face.square.size);
-    recorder.record(face);
+  for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
+    gpu::RenderingDesc rendering;
+    rendering.depth.view = {.image = context.image(scratch), .first_layer = layer, .layer_count = 1};
+    rendering.width = rendering.height = batch.size;
+    commands.begin_rendering(rendering);
+    const auto side = static_cast<float>(batch.size);
+    commands.set_viewport(0.0f, 0.0f, side, side);
+    commands.set_scissor(0, 0, batch.size, batch.size);
+    commands.bind_indices(frame.scene().indices(), 0);
+    recorder.record(work.faces[batch.items[layer]]);
+    commands.end_rendering();
   }
-  commands.end_rendering();
+}
+
+/// One dispatch a face of each run of mips; `first` is the mip that a run begins at.
+void record_run(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, std::uint32_t first,
+                ImageRef scratch, const ShadowMaps& maps) {
+  gpu::CommandList& commands = context.commands();
+  const std::uint32_t blocks = ((batch.size >> first) + kBlockTexels - 1) / kBlockTexels;
+  const std::uint32_t groups = (blocks + GLOAM_SHADOW_MIP_GROUP - 1) / GLOAM_SHADOW_MIP_GROUP;
+  for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
+    const ShadowFace& face = work.faces[batch.items[layer]].face;
+    const gpu::ImageView source{.image = context.image(scratch), .first_layer = layer, .layer_count = 1};
+    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{source, work.sampler}},
+                                     {1, gpu::Binding::Storage{{.image = context.image(maps.atlas)}}},
+                                     {2, gpu::Binding::Storage{{.image = context.image(maps.pyramid)}}}};
+    commands.bind(bindings);
+    shaders::ShadowMipConstants constants{};
+    constants.source = first == 0 ? uvec2(0) : face.square.origin >> first;
+    constants.origin = face.square.origin;
+    constants.size = batch.size;
+    constants.first = first;
+    constants.mips = static_cast<std::uint32_t>(std::bit_width(batch.size));
+    constants.average = work.knobs.average ? 1u : 0u;
+    constants.atlas_size = work.knobs.atlas_size;
+    constants.orthographic = face.tan_half > 0.0f ? 0u : 1u;
+    commands.push(constants);
+    commands.dispatch(groups, groups, 1);
+  }
 }
 
 void record_mips(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, ImageRef scratch,
                  const ShadowMaps& maps) {
   gpu::CommandList& commands = context.commands();
-  const gpu::ImageHandle atlas = context.image(maps.atlas), pyramid = context.image(maps.pyramid);
-  const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(scratch)}, work.sampler}},
-                                   {1, gpu::Binding::Storage{{.image = atlas}}},
-                                   {2, gpu::Binding::Storage{{.image = pyramid}}}};
   commands.bind_pipeline(work.mips);
-  commands.bind(bindings);
-  std::uint32_t most = 0;
-  for (const ScratchPlan::Place& place : batch.places) most = std::max(most, work.faces[place.item].face.square.size);
-  for (std::uint32_t first = 0; first == 0 || most >> first > 1; first += kMipsADispatch) {
+  for (std::uint32_t first = 0; batch.size >> first > 1; first += kMipsADispatch) {
     if (first > 0) {
       // Each run of mips reads the last of the one before.
-      const gpu::ImageBarrier written[] = {{atlas, gpu::Access::compute_write, gpu::Access::compute_write},
-                                           {pyramid, gpu::Access::compute_write, gpu::Access::compute_write}};
+      const gpu::ImageBarrier written[] = {
+          {context.image(maps.atlas), gpu::Access::compute_write, gpu::Access::compute_write},
+          {context.image(maps.pyramid), gpu::Access::compute_write, gpu::Access::compute_write}};
       commands.barrier({}, written);
     }
-    for (const ScratchPlan::Place& place : batch.places) {
-      const ShadowFace& face = work.faces[place.item].face;
-      const std::uint32_t size = face.square.size;
-      if (first > 0 && size >> first <= 1) continue;
-      shaders::ShadowMipConstants constants{};
-      constants.source = first == 0 ? place.corner : face.square.origin >> first;
-      constants.origin = face.square.origin;
-      constants.size = size;
-      constants.first = first;
-      constants.mips = static_cast<std::uint32_t>(std::bit_width(size));
-      constants.average = work.knobs.average ? 1u : 0u;
-      constants.atlas_size = work.knobs.atlas_size;
-      constants.orthographic = face.tan_half > 0.0f ? 0u : 1u;
-      commands.push(constants);
-      const std::uint32_t blocks = ((size >> first) + kBlockTexels - 1) / kBlockTexels;
-      const std::uint32_t groups = (blocks + GLOAM_SHADOW_MIP_GROUP - 1) / GLOAM_SHADOW_MIP_GROUP;
-      commands.dispatch(groups, groups, 1);
-    }
+    record_run(context, work, batch, first, scratch, maps);
   }
 }
 
@@ -226,7 +227,16 @@ Status make_pipelines(FrameBuilder& frame, MapWork& work) {
 }
 
 void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, std::size_t index, ViewShadows& kept,
-               ImageRef& scratch, ShadowMaps& maps) {
+               ShadowMaps& maps) {
+  const ScratchPlan::Batch& planned = work->plan.batches[index];
+  gpu::ImageDesc desc;
+  desc.name = "shadow_scratch";
+  desc.module = "shadows";
+  desc.format = gpu::Format::d32_float;
+  desc.width = desc.height = planned.size;
+  desc.layers = planned.layers;
+  desc.shape = gpu::ImageShape::array;
+  ImageRef scratch = frame.graph().create_image(desc);
   PassBuilder draw = frame.graph().add_pass("shadow_map_draw", "shadows");
   frame.read_vertices(draw);
   scratch = draw.write(scratch, gpu::Access::depth_target);
@@ -242,8 +252,8 @@ void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, 
     record_mips(context, *work, batch, scratch, maps);
     // Only now: a frame that ended before has drawn nothing.
     kept.atlas.filled = kept.pyramid.filled = true;
-    for (const ScratchPlan::Place& place : batch.places)
-      kept.cache.set_drawn(work->faces[place.item].face, work->faces[place.item].content);
+    for (const std::uint32_t item : batch.items)
+      kept.cache.set_drawn(work->faces[item].face, work->faces[item].content);
   });
 }
 
@@ -272,14 +282,7 @@ Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ViewShadows& kept,
   std::vector<std::uint32_t> sizes;
   for (const DrawnFace& face : work->faces) sizes.push_back(face.face.square.size);
   work->plan = plan_scratch(sizes);
-  gpu::ImageDesc desc;
-  desc.name = "shadow_scratch";
-  desc.module = "shadows";
-  desc.format = gpu::Format::d32_float;
-  desc.width = desc.height = work->plan.side;
-  ImageRef scratch = graph.create_image(desc);
-  for (std::size_t batch = 0; batch < work->plan.batches.size(); ++batch)
-    add_batch(frame, work, batch, kept, scratch, maps);
+  for (std::size_t batch = 0; batch < work->plan.batches.size(); ++batch) add_batch(frame, work, batch, kept, maps);
   return maps;
 }
 
