@@ -15,8 +15,8 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:shadows";
-constexpr const char* kLight = "lamp";  // reaches every surface in view
+constexpr const char* kScene = "builtin:penumbra";
+constexpr const char* kLight = "lamp";  // a spot: one face
 constexpr int kPairs = 15;
 constexpr int kWarmUp = 2;
 constexpr double kNsPerMs = 1e6;

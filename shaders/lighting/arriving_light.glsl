@@ -17,16 +17,20 @@ bool gives_light(vec3 illuminance, vec3 normal, vec3 to_light) {
   return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && dot(normal, to_light) > 0.0;
 }
 
-// Loops instead of conditions: they are passed over where no pixel needs them, conditions are not on software devices.
+// Loops that end after one turn: they are passed over where no pixel needs them, conditions alone are not on software devices.
+bool never() { return shadow_block.atlas_size < 0.0; }
+
 vec3 arriving_local(vec3 illuminance, uint light, vec3 light_position, vec3 normal, vec3 to_light) {
-  for (bool lit = gives_light(illuminance, normal, to_light); lit; lit = false)
+  if (gives_light(illuminance, normal, to_light)) do {
     illuminance *= cookie_color(light, light_position, receiver) * local_visibility(light, light_position, receiver);
+  } while (never());
   return illuminance;
 }
 
 vec3 arriving_directional(vec3 illuminance, uint light, vec3 light_direction, vec3 normal) {
-  for (bool lit = gives_light(illuminance, normal, -light_direction); lit; lit = false)
+  if (gives_light(illuminance, normal, -light_direction)) do {
     illuminance *= directional_visibility(light, light_direction, receiver);
+  } while (never());
   return illuminance;
 }
 #else

@@ -22,7 +22,8 @@ void main() {
   vec2 coarse = texelFetch(coarse_image, ivec2(gl_FragCoord.xy), 0).xy;
   vec4 sum = vec4(0.0);
   // A loop, because a condition is no way around work on software devices.
-  for (bool reached = coarse.x >= 0.0; reached; reached = false)
+  if (coarse.x >= 0.0) do {
     sum = gathers(search_and_fine.xy, texel) + gathers(search_and_fine.zw, texel) + gathers(coarse, texel);
+  } while (coarse.y < 0.0);
   out_sum = dot(sum, vec4(1.0));
 }

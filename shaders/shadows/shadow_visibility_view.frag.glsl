@@ -24,6 +24,9 @@ layout(set = 0, binding = 5) uniform sampler2D light_texels;
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_visibility;
 
+// See shadow_space.glsl.
+bool never() { return shadow_block.atlas_size < 0.0; }
+
 float visibility_of_local(ShadowReceiver r) {
   LocalLight light = fetch_light(light_texels, shown.light);
   light.color = vec3(1.0);  // where it reaches counts, not its strength
@@ -40,10 +43,12 @@ void main() {
   r.face_normal = unpack_normal(texelFetch(normal_image, pixel, 0).y);
   r.subsurface = texelFetch(base_color_image, pixel, 0).a > 0.5;
   float visibility = -1.0;
-  for (bool surface = depth > 0.0; surface; surface = false)
-    visibility = shown.directional != 0u
-                     ? directional_visibility(shown.light, lights.directional[shown.light].direction, r)
-                     : visibility_of_local(r);
+  if (depth > 0.0 && shown.directional != 0u) do {
+    visibility = directional_visibility(shown.light, lights.directional[shown.light].direction, r);
+  } while (never());
+  if (depth > 0.0 && shown.directional == 0u) do {
+    visibility = visibility_of_local(r);
+  } while (never());
   vec3 color = visibility < 0.0 ? vec3(0.0, 0.0, 0.04) : vec3(visibility);
   out_color = vec4(kEncodeSrgb != 0u ? linear_to_srgb(color) : color, 1.0);
   out_visibility = vec4(visibility, 0.0, 0.0, 1.0);
