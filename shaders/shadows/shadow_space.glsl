@@ -20,6 +20,7 @@ struct ShadowPoint {
   int face;         // of a cube; −1: no cube
   uint light;       // of a cube
   float tan_half;   // of a cube
+  float horizon;    // share of the emitter that is on the surface's visible side: what lies below its own plane hides nothing, and lights nothing
 };
 
 // A face's square at one mip, in texels of the atlas image.
@@ -55,12 +56,22 @@ bool never(ShadowPoint p) { return p.size < 0.0; }
 
 float slope_per_texel(ShadowPoint p) { return abs(p.slope.x) + abs(p.slope.y); }
 
-// Fills threshold and least; depth and slope are there. `facing_sine`: of the angle between the light's rays and the surface, negative when
-// it faces the light. depth_per_m: depth a metre toward the light.
-void set_threshold(inout ShadowPoint p, float facing_sine, float depth_per_m, bool subsurface) {
+// Share of a disc on one side of a line, at the distance u from its middle in radii; within 0.01 of 0.5 + (asin u + u √(1 − u²)) / π.
+float disc_share(float u) {
+  u = clamp(u, -1.0, 1.0);
+  return 0.5 + u * (0.6366 - 0.1366 * u * u);
+}
+
+// Fills threshold, least and horizon; depth and slope are there. `facing_sine`: of the angle between the light's rays and the surface,
+// negative when it faces the light. emitter_sine: of half the emitter's angle. depth_per_m: depth a metre toward the light.
+void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, float depth_per_m, bool subsurface) {
   float quantum = max(shadow_block.depth_quantum, abs(p.depth) * shadow_block.relative_quantum);
-  float bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * depth_per_m, quantum) : 0.0;
-  bool toward = subsurface || facing_sine < kFacingSine;
+  // The rasteriser's own bias is in the map already, but never finer than the map's format.
+  float bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * depth_per_m, quantum) : shadow_block.depth_quantum;
+  // Where the surface's own plane cuts the emitter, the part above it decides.
+  bool toward = subsurface || kBias == 0u || facing_sine < max(emitter_sine, kFacingSine);
+  p.horizon = kBias != 0u && p.live && !subsurface ? disc_share((kFacingSine - facing_sine) / max(emitter_sine, 1e-6)) : 1.0;
+  p.live = p.live && p.horizon > 0.0;
   if (kReceiverPlane == 0u || !(slope_per_texel(p) < 1e15)) p.slope = vec2(0.0);
   float rounding = slope_per_texel(p) * kTexelRounding;
   p.least = p.orthographic ? 1e-12 : p.depth * 0.25;
@@ -68,7 +79,7 @@ void set_threshold(inout ShadowPoint p, float facing_sine, float depth_per_m, bo
 }
 
 ShadowPoint no_shadow_point() {
-  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 0u, 1.0);
+  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 0u, 1.0, 1.0);
 }
 
 // Axes of a cube's face: x, y, and where it looks.
@@ -131,7 +142,7 @@ ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r
   // A spot's emitter is a disc that faces forward, as the map does. A cube's is a sphere: off the axis the map shows its outline stretched
   // along the radius; a round kernel can only be as large.
   if (cube) p.scale *= sqrt(distance / z);
-  set_threshold(p, facing / distance, p.depth / z, r.subsurface);
+  set_threshold(p, facing / distance, 0.5 * max(first.z, 0.0) / distance, p.depth / z, r.subsurface);
   return p;
 }
 
@@ -159,7 +170,7 @@ ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowRec
     p.scale = max(shadow_block.directional[light].penumbra_m_per_m, 0.0) * c.depth_m / c.texel_m;
     p.slope = vec2(dot(r.face_normal, c.row_u.xyz), dot(r.face_normal, c.row_v.xyz)) * (c.texel_m * c.texel_m * depth_per_m / along);
   }
-  set_threshold(p, facing, depth_per_m, r.subsurface);
+  set_threshold(p, facing, 0.5 * max(shadow_block.directional[light].penumbra_m_per_m, 0.0), depth_per_m, r.subsurface);
   return p;
 }
 

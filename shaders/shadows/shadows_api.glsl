@@ -56,7 +56,7 @@ float traced_visibility(float layer) {
 
 float shadow_visibility(ShadowPoint p) {
   float visibility = kFilter == 0u ? hard_visibility(p) : kFilter == 1u ? pcf_visibility(p) : kFilter == 2u ? pcss_visibility(p) : chs_visibility(p);
-  return quantised_visibility(visibility);
+  return quantised_visibility(visibility * p.horizon);
 }
 
 // 0 … 1, quantised, of a local light of the view; 1 for one that casts no shadows.
@@ -73,13 +73,13 @@ float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r)
 
 // What a spot light's cookie leaves of its light: white without one; beyond its square the colors of its border.
 vec3 cookie_color(uint light, vec3 light_position, ShadowReceiver r) {
-  vec4 cookie = texelFetch(shadow_rows, ivec2(6, light), 0);  // layer, tangent, …, mirrored
+  vec2 cookie = texelFetch(shadow_rows, ivec2(6, light), 0).xy;  // layer, tangent
   vec3 color = vec3(1.0);
   if (cookie.x >= 0.0) {
     vec3 right = texelFetch(shadow_rows, ivec2(1, light), 0).xyz;
     vec3 up = texelFetch(shadow_rows, ivec2(2, light), 0).xyz;
     vec3 v = r.position - light_position;
-    float z = max(dot(v, spot_forward(light, right, up)) * (1.0 - 2.0 * cookie.w), 1e-6);
+    float z = max(dot(v, spot_forward(light, right, up)), 1e-6);
     vec2 tangent = clamp(vec2(dot(v, right), -dot(v, up)) / (z * cookie.y), -1.0, 1.0);
     color = textureLod(shadow_cookies, vec3(tangent * 0.5 + 0.5, cookie.x), 0.0).rgb;
   }
