@@ -35,6 +35,7 @@ ShadowError& ShadowError::operator+=(const ShadowError& other) {
   wrong += other.wrong;
   acne += other.acne;
   leaks += other.leaks;
+  unreached += other.unreached;
   return *this;
 }
 
@@ -47,6 +48,10 @@ ShadowError compare_visibility(const TracedVisibility& traced, std::uint32_t lay
       const std::size_t pixel = std::size_t{y} * traced.width + x;
       const std::size_t at = layer * traced.pixels() + pixel;
       if (!traced.is_judged(at)) continue;
+      if (drawn[pixel] < 0.0f) {
+        ++error.unreached;
+        continue;
+      }
       const double right = traced.visibility[at] / 255.0;
       const double difference = std::abs(static_cast<double>(drawn[pixel]) - right);
       ++error.pairs;

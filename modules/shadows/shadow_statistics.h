@@ -21,6 +21,8 @@ struct ShadowError {
   std::uint64_t wrong = 0;  ///< off by more than 0.5, away from silhouettes
   std::uint64_t acne = 0;   ///< traced wholly lit, drawn below 0.5, away from silhouettes
   std::uint64_t leaks = 0;  ///< traced wholly unlit, drawn above 0.5, away from silhouettes
+  /// Pixels that rays were traced for and shading found out of the light's reach, where floats round otherwise than doubles: in no pair.
+  std::uint64_t unreached = 0;
 
   [[nodiscard]] double mean() const { return share(difference, pairs); }
   [[nodiscard]] double penumbra_mean() const { return share(penumbra_difference, penumbra_pairs); }
@@ -35,7 +37,8 @@ struct ShadowError {
   }
 };
 
-/// drawn: visibility of the layer's light at each pixel, 0…1. Pixels that the light does not reach do not count.
+/// drawn: visibility of the layer's light at each pixel, 0…1; negative where shading finds that the light does not reach it. Only pixels
+/// that it reaches by both count.
 [[nodiscard]] ShadowError compare_visibility(const TracedVisibility& traced, std::uint32_t layer,
                                              std::span<const float> drawn);
 

@@ -96,6 +96,18 @@ TEST(ShadowStatistics, half_lit_pixels_are_neither_acne_nor_leak) {
   EXPECT_EQ(error.acne, 0u);
 }
 
+TEST(ShadowStatistics, pixels_that_shading_does_not_reach_are_counted_and_not_compared) {
+  const TracedVisibility traced = traced_from({"....", "    "});
+  const ShadowError one = compare_visibility(traced, 0, std::vector<float>{1.0f, -1.0f, 1.0f, 0.5f, -1.0f, 0, 0, 0});
+  EXPECT_EQ(one.pairs, 3u);
+  EXPECT_EQ(one.unreached, 1u) << "not the one that nobody judged";
+  EXPECT_EQ(one.wrong, 0u);
+  EXPECT_NEAR(one.difference, 0.5, 1e-7);
+  ShadowError sum = one;
+  sum += one;
+  EXPECT_EQ(sum.unreached, 2u);
+}
+
 TEST(ShadowStatistics, layers_add_up) {
   TracedVisibility traced = traced_from({"...."});
   traced.lights.push_back(Entity{2, 1});
