@@ -43,6 +43,7 @@ constexpr std::array<Method, 2> kMethods = {
 struct Sweep {
   std::vector<ShadowError> errors;  ///< by value
   std::vector<double> shading_ns;   ///< at the best value
+  std::vector<double> plain_ns;     ///< the same without the receiver's plane: hardware bias then needs no normals
   std::uint64_t hash = 0;
   [[nodiscard]] std::size_t best() const {
     const auto less = [](const ShadowError& a, const ShadowError& b) { return a.wrong_share() < b.wrong_share(); };
@@ -75,7 +76,13 @@ Status time_best(Session& session, const Options& options, Sweeps& sweeps) {
       const auto hash = timed.picture_hash();
       if (!hash) return hash.error();
       sweeps[method].hash = *hash;
-      if (i >= 0) sweeps[method].shading_ns.push_back(pass_ms(*sample, "deferred") * kNsPerMs);
+      GLOAM_TRY(timed.set("shadows.receiver_plane", "off"));
+      const auto without_plane = timed.draw();
+      timed.set_back("shadows.receiver_plane");
+      if (!without_plane) return without_plane.error();
+      if (i < 0) continue;
+      sweeps[method].shading_ns.push_back(pass_ms(*sample, "deferred") * kNsPerMs);
+      sweeps[method].plain_ns.push_back(pass_ms(*without_plane, "deferred") * kNsPerMs);
     }
   }
   return {};
@@ -128,12 +135,13 @@ BenchValue plain(double value) {
 
 double best_share(const Sweep& sweep) { return sweep.errors[sweep.best()].wrong_share(); }
 
-/// Leaks of oriented over those of hardware, at the acne that hardware has at its best.
+/// Leaks of oriented over those of hardware where both have as little acne: no more than the worse of the two has at its best.
 double leak_ratio(const Sweeps& sweeps) {
-  const ShadowError& hardware = sweeps[1].errors[sweeps[1].best()];
-  const double leak = sweeps[1].least_leak(hardware.acne_share());
-  const double ours = sweeps[0].least_leak(hardware.acne_share());
-  return leak > 0.0 ? ours / leak : ours > 0.0 ? std::numeric_limits<double>::infinity() : 1.0;
+  const double acne =
+      std::max(sweeps[0].errors[sweeps[0].best()].acne_share(), sweeps[1].errors[sweeps[1].best()].acne_share());
+  const double ours = sweeps[0].least_leak(acne);
+  const double theirs = sweeps[1].least_leak(acne);
+  return theirs > 0.0 ? ours / theirs : 1.0;
 }
 
 void add_value_rows(BenchRegistry& registry, const SharedSweeps& shared) {
@@ -166,6 +174,9 @@ void add_shadow_bias_benches(BenchRegistry& registry) {
   });
   time.bar = 1.03;
   registry.add(std::move(time));
+  registry.add(sweep_row("oriented_over_hardware_without_plane_ms", "ratio", shared, [](const Sweeps& sweeps) {
+    return ratio_of(sweeps[0].plain_ns, sweeps[1].plain_ns, sweeps[0].hash);
+  }));
   BenchRow wrong = sweep_row("oriented_over_hardware_wrong_pixels", "ratio", shared, [](const Sweeps& sweeps) {
     return plain(best_share(sweeps[0]) / std::max(best_share(sweeps[1]), 1e-12));
   });
@@ -173,7 +184,7 @@ void add_shadow_bias_benches(BenchRegistry& registry) {
   registry.add(std::move(wrong));
   BenchRow leak = sweep_row("oriented_over_hardware_leaks_at_equal_acne", "ratio", shared,
                             [](const Sweeps& sweeps) { return plain(leak_ratio(sweeps)); });
-  leak.bar = 1.0;
+  leak.bar = 0.99;  // fewer, not as many
   registry.add(std::move(leak));
   add_value_rows(registry, shared);
 }
