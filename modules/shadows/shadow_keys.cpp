@@ -11,6 +11,7 @@
 #include "modules/lights/outputs.h"
 #include "modules/shadows/components.h"
 #include "modules/shadows/shadow_cookies.h"
+#include "modules/shadows/shadow_resolution.h"
 #include "modules/shadows/shadow_views.h"
 
 namespace gloam {
@@ -53,8 +54,8 @@ void add_shadow_keys(KeyRegistry& registry) {
       boolean_key(key_line("shadows", KeyElement::light_node, "gloam.light.shadow", "true", "", "casts shadows"),
                   &ShadowCaster::enabled));
   registry.add(integer_key(key_line("shadows", KeyElement::light_node, "gloam.light.shadow_resolution", "0", "texels",
-                                    "of one face; 0 = from screen coverage"),
-                           0, 8192, &ShadowCaster::resolution));
+                                    "of one face, taken as the next power of two, at least 16; 0 = from screen coverage"),
+                           0, kMostFace, &ShadowCaster::resolution));
   registry.add_finish("shadows", &load_cookies);
 }
 
