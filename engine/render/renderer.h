@@ -74,6 +74,7 @@ struct FrameReport {
   std::vector<PassTime> passes;
   std::vector<ModuleState> modules;          ///< "engine" first, then the list's order
   std::map<std::string, double> counters;    ///< of the last view; those the GPU counts are GPU figures
+  std::uint64_t plans_compiled = 0;          ///< FrameGraph::plans_compiled, since the renderer was made
   std::size_t pipelines_pending = 0;         ///< made in the background; frames stand in for them with less or slower passes
 };
 

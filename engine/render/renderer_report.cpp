@@ -58,6 +58,7 @@ FrameReport Renderer::report() {
   report.gpu_ms = s.graph.gpu_ms();
   report.counters = s.counters;
   s.add_result_counters(report.counters);
+  report.plans_compiled = s.graph.plans_compiled();
   report.pipelines_pending = s.pipelines.pending();
   const std::vector<gpu::ModuleMemory> memory = s.options.device->memory();
   const auto state_of = [&](std::string_view name) {

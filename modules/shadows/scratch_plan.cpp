@@ -3,7 +3,6 @@
 #include "modules/shadows/scratch_plan.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
 namespace gloam {
@@ -22,13 +21,16 @@ ScratchPlan plan_scratch(std::span<const std::uint32_t> sizes) {
     const std::uint32_t size = sizes[item];
     if (plan.batches.empty() || plan.batches.back().size != size ||
         plan.batches.back().items.size() == most_layers(size))
-      plan.batches.push_back({size, 0, {}});
+      plan.batches.push_back({size, {}});
     plan.batches.back().items.push_back(item);
   }
-  // Few different images, so that frame plans are met again.
-  for (ScratchPlan::Batch& batch : plan.batches)
-    batch.layers = std::bit_ceil(static_cast<std::uint32_t>(batch.items.size()));
   return plan;
+}
+
+std::uint64_t ScratchPlan::texels() const {
+  std::uint64_t most = 0;
+  for (const Batch& batch : batches) most = std::max<std::uint64_t>(most, batch.items.size() * batch.size * batch.size);
+  return most;
 }
 
 }  // namespace gloam

@@ -13,10 +13,11 @@ namespace gloam {
 struct ScratchPlan {
   struct Batch {
     std::uint32_t size = 0;            ///< texels of a layer's side
-    std::uint32_t layers = 0;          ///< of the image: at least one an item, a power of two
     std::vector<std::uint32_t> items;  ///< indices into the sizes, by layer
   };
   std::vector<Batch> batches;
+  /// Texels of the largest batch.
+  [[nodiscard]] std::uint64_t texels() const;
 };
 
 /// Texels of a batch's image, unless one face has more.

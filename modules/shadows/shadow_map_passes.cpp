@@ -58,6 +58,7 @@ struct DrawnFace {
 struct MapWork {
   std::vector<DrawnFace> faces;
   ScratchPlan plan;
+  const ShadowScratch* scratch = nullptr;
   ShadowKnobs knobs;
   gpu::PipelineHandle opaque;
   gpu::PipelineHandle cut_out;
@@ -143,13 +144,13 @@ class FaceRecorder {
   gpu::PipelineHandle bound_;
 };
 
-void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch,
-                  ImageRef scratch) {
+void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch) {
   gpu::CommandList& commands = context.commands();
   FaceRecorder recorder(frame, context, work);
+  work.scratch->begin_drawing(commands, batch.size);
   for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
     gpu::RenderingDesc rendering;
-    rendering.depth.view = {.image = context.image(scratch), .first_layer = layer, .layer_count = 1};
+    rendering.depth.view = {.image = work.scratch->image(batch.size), .first_layer = layer, .layer_count = 1};
     rendering.width = rendering.height = batch.size;
     commands.begin_rendering(rendering);
     const auto side = static_cast<float>(batch.size);
@@ -163,13 +164,13 @@ void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work
 
 /// One dispatch a face of each run of mips; `first` is the mip that a run begins at.
 void record_run(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, std::uint32_t first,
-                ImageRef scratch, const ShadowMaps& maps) {
+                const ShadowMaps& maps) {
   gpu::CommandList& commands = context.commands();
   const std::uint32_t blocks = ((batch.size >> first) + kBlockTexels - 1) / kBlockTexels;
   const std::uint32_t groups = (blocks + GLOAM_SHADOW_MIP_GROUP - 1) / GLOAM_SHADOW_MIP_GROUP;
   for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
     const ShadowFace& face = work.faces[batch.items[layer]].face;
-    const gpu::ImageView source{.image = context.image(scratch), .first_layer = layer, .layer_count = 1};
+    const gpu::ImageView source{.image = work.scratch->image(batch.size), .first_layer = layer, .layer_count = 1};
     const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{source, work.sampler}},
                                      {1, gpu::Binding::Storage{{.image = context.image(maps.atlas)}}},
                                      {2, gpu::Binding::Storage{{.image = context.image(maps.pyramid)}}}};
@@ -188,9 +189,10 @@ void record_run(PassContext& context, const MapWork& work, const ScratchPlan::Ba
   }
 }
 
-void record_mips(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, ImageRef scratch,
+void record_mips(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch,
                  const ShadowMaps& maps) {
   gpu::CommandList& commands = context.commands();
+  work.scratch->begin_reading(commands, batch.size);
   commands.bind_pipeline(work.mips);
   for (std::uint32_t first = 0; batch.size >> first > 1; first += kMipsADispatch) {
     if (first > 0) {
@@ -200,7 +202,7 @@ void record_mips(PassContext& context, const MapWork& work, const ScratchPlan::B
           {context.image(maps.pyramid), gpu::Access::compute_write, gpu::Access::compute_write}};
       commands.barrier({}, written);
     }
-    record_run(context, work, batch, first, scratch, maps);
+    record_run(context, work, batch, first, maps);
   }
 }
 
@@ -226,30 +228,23 @@ Status make_pipelines(FrameBuilder& frame, MapWork& work) {
   return {};
 }
 
+/// Draws a batch and moves it into the atlas; nothing where the plan has no such batch.
 void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, std::size_t index, ViewShadows& kept,
                ShadowMaps& maps) {
-  const ScratchPlan::Batch& planned = work->plan.batches[index];
-  gpu::ImageDesc desc;
-  desc.name = "shadow_scratch";
-  desc.module = "shadows";
-  desc.format = gpu::Format::d32_float;
-  desc.width = desc.height = planned.size;
-  desc.layers = planned.layers;
-  desc.shape = gpu::ImageShape::array;
-  ImageRef scratch = frame.graph().create_image(desc);
+  const bool there = index < work->plan.batches.size();
   PassBuilder draw = frame.graph().add_pass("shadow_map_draw", "shadows");
   frame.read_vertices(draw);
-  scratch = draw.write(scratch, gpu::Access::depth_target);
-  draw.execute([&frame, work, index, scratch](PassContext& context) {
-    record_draws(frame, context, *work, work->plan.batches[index], scratch);
-  });
+  draw.keep();  // what it writes, the graph does not know
+  if (there)
+    draw.execute(
+        [&frame, work, index](PassContext& context) { record_draws(frame, context, *work, work->plan.batches[index]); });
   PassBuilder mips = frame.graph().add_pass("shadow_map_mips", "shadows");
-  mips.read(scratch, gpu::Access::compute_read);
   maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
   maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);
-  mips.execute([work, index, scratch, maps, &kept](PassContext& context) {
+  if (!there) return;
+  mips.execute([work, index, maps, &kept](PassContext& context) {
     const ScratchPlan::Batch& batch = work->plan.batches[index];
-    record_mips(context, *work, batch, scratch, maps);
+    record_mips(context, *work, batch, maps);
     // Only now: a frame that ended before has drawn nothing.
     kept.atlas.filled = kept.pyramid.filled = true;
     for (const std::uint32_t item : batch.items)
@@ -265,8 +260,8 @@ void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list) {
   list.push_back(mips_pipeline(knobs.d16));
 }
 
-Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
-                                         const ShadowKnobs& knobs) {
+Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
+                                         const ShadowViews& views, const ShadowKnobs& knobs) {
   auto work = std::make_shared<MapWork>();
   work->knobs = knobs;
   work->faces = faces_to_draw(frame, kept, views, knobs);
@@ -282,7 +277,12 @@ Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ViewShadows& kept,
   std::vector<std::uint32_t> sizes;
   for (const DrawnFace& face : work->faces) sizes.push_back(face.face.square.size);
   work->plan = plan_scratch(sizes);
-  for (std::size_t batch = 0; batch < work->plan.batches.size(); ++batch) add_batch(frame, work, batch, kept, maps);
+  auto scratch = states.scratch(work->plan.texels());
+  if (!scratch.ok()) return scratch.error();
+  work->scratch = *scratch;
+  // Few different numbers of passes, so that the frame's plans are met again.
+  const std::size_t batches = std::bit_ceil(work->plan.batches.size());
+  for (std::size_t batch = 0; batch < batches; ++batch) add_batch(frame, work, batch, kept, maps);
   return maps;
 }
 

@@ -19,8 +19,9 @@ struct ShadowMaps {
   ImageRef pyramid;
 };
 
-/// Draws the faces whose maps the atlas does not hold, batch by batch through a scratch map: passes shadow_map_draw and shadow_map_mips.
-[[nodiscard]] Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
-                                                       const ShadowKnobs& knobs);
+/// Draws the faces whose maps the atlas does not hold, batch by batch through ShadowScratch: passes shadow_map_draw and shadow_map_mips, of which
+/// those beyond the last batch do nothing.
+[[nodiscard]] Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
+                                                       const ShadowViews& views, const ShadowKnobs& knobs);
 
 }  // namespace gloam

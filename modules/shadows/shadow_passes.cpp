@@ -22,10 +22,12 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   if (knobs.enabled && !traced && !views.faces.empty()) {
     auto kept = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
     if (!kept.ok()) return kept.error();
-    auto made = add_shadow_map_passes(frame, **kept, views, knobs);
+    auto made = add_shadow_map_passes(frame, states, **kept, views, knobs);
     if (!made.ok()) return made.error();
     maps = *made;
     if (maps.atlas) frame.expose(maps.atlas, "shadow_atlas");
+  } else {
+    states.rest(frame.world().resource<ShadowWorld>(), frame.view().id);
   }
   // Without a map no light asks for one, but every binding must be given.
   outputs.atlas = maps.atlas ? maps.atlas : outputs.rows;

@@ -29,6 +29,10 @@ void ShadowStates::begin(gpu::Device& device) {
   const std::uint64_t frame = device.frame_number();
   if (staging_frame_ == frame) return;
   staging_->begin_frame();
+  if (!has_traced_) traced_staging_.reset();
+  if (traced_staging_ != nullptr) traced_staging_->begin_frame();
+  has_traced_ = false;
+  if (scratch_frame_ + kFramesKept < frame) scratch_.release(device);
   staging_frame_ = frame;
   for (auto at = views_.begin(); at != views_.end();) {
     if (at->second.last_frame + kFramesKept >= frame) {
@@ -79,6 +83,13 @@ const ViewShadows* ShadowStates::find(ShadowWorld world, ViewId view) const {
   return found == views_.end() ? nullptr : &found->second;
 }
 
+void ShadowStates::rest(ShadowWorld world, ViewId view) {
+  const auto found = views_.find({world.number, view.value});
+  if (found == views_.end()) return;
+  found->second.counts = {};
+  found->second.drawn.clear();
+}
+
 Result<WorldCookies*> ShadowStates::cookies(ShadowWorld world, std::uint32_t layers, std::uint32_t side) {
   WorldCookies& found = cookies_[world.number];
   found.last_frame = device_->frame_number();
@@ -101,7 +112,23 @@ Result<WorldCookies*> ShadowStates::cookies(ShadowWorld world, std::uint32_t lay
   return &found;
 }
 
+UploadRing& ShadowStates::traced_staging() {
+  has_traced_ = true;
+  if (traced_staging_ == nullptr) {
+    traced_staging_ = std::make_unique<UploadRing>(*device_, "shadows", gpu::BufferUsage::transfer_source, 1);
+    traced_staging_->begin_frame();
+  }
+  return *traced_staging_;
+}
+
+Result<const ShadowScratch*> ShadowStates::scratch(std::uint64_t texels) {
+  scratch_frame_ = device_->frame_number();
+  GLOAM_TRY(scratch_.reserve(*device_, texels));
+  return &scratch_;
+}
+
 void ShadowStates::release() {
+  if (device_ != nullptr) scratch_.release(*device_);
   for (auto& [key, view] : views_) {
     destroy(view.atlas);
     destroy(view.pyramid);
@@ -110,6 +137,8 @@ void ShadowStates::release() {
   views_.clear();
   cookies_.clear();
   staging_.reset();
+  traced_staging_.reset();
+  has_traced_ = false;
   staging_frame_ = ~0ull;
 }
 

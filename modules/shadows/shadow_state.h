@@ -13,6 +13,7 @@
 #include "engine/frame/upload.h"
 #include "engine/gpu/device.h"
 #include "modules/shadows/shadow_cache.h"
+#include "modules/shadows/shadow_scratch.h"
 
 namespace gloam {
 
@@ -68,10 +69,16 @@ class ShadowStates {
   /// The view's images, made anew when size or format are others: then its cache is empty.
   [[nodiscard]] Result<ViewShadows*> view(ShadowWorld world, ViewId view, std::uint32_t atlas_size, bool d16);
   [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId view) const;
+  /// A frame of the view draws no maps: what earlier ones did is no news any more.
+  void rest(ShadowWorld world, ViewId view);
   /// An array of at least `layers` rgba8_srgb images of the world.
   [[nodiscard]] Result<WorldCookies*> cookies(ShadowWorld world, std::uint32_t layers, std::uint32_t side);
   /// Memory whose bytes this frame copies into images.
   [[nodiscard]] UploadRing& staging() { return *staging_; }
+  /// The same for visibilities that rays have found, which may be many bytes: given back with the first frame that has none.
+  [[nodiscard]] UploadRing& traced_staging();
+  /// With room for so many texels in this frame. One for all worlds and views; look up images while recording, not before.
+  [[nodiscard]] Result<const ShadowScratch*> scratch(std::uint64_t texels);
   void release();
 
  private:
@@ -83,6 +90,10 @@ class ShadowStates {
   std::map<Key, ViewShadows> views_;
   std::map<std::uint64_t, WorldCookies> cookies_;
   std::unique_ptr<UploadRing> staging_;
+  std::unique_ptr<UploadRing> traced_staging_;
+  bool has_traced_ = false;  ///< in the newest frame
+  ShadowScratch scratch_;
+  std::uint64_t scratch_frame_ = 0;  ///< of its last use
   std::uint64_t staging_frame_ = ~0ull;
 };
 

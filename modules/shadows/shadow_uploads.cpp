@@ -23,8 +23,8 @@ struct Copy {
   std::uint32_t layers = 1;
 };
 
-Result<UploadSlice> stage(ShadowStates& states, std::span<const std::byte> bytes) {
-  auto slice = states.staging().allocate(bytes.size());
+Result<UploadSlice> stage(UploadRing& staging, std::span<const std::byte> bytes) {
+  auto slice = staging.allocate(bytes.size());
   if (slice.ok()) std::memcpy(slice->bytes.data(), bytes.data(), bytes.size());
   return slice;
 }
@@ -79,7 +79,7 @@ Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, const std::
   desc.format = gpu::Format::rgba32_float;
   desc.width = GLOAM_SHADOW_ROW_TEXELS;
   desc.height = static_cast<std::uint32_t>(rows.size());
-  auto slice = stage(states, std::as_bytes(std::span(rows)));
+  auto slice = stage(states.staging(), std::as_bytes(std::span(rows)));
   if (!slice.ok()) return slice.error();
   copies.push_back({frame.graph().create_image(desc), *slice});
   return copies.back().target;
@@ -101,7 +101,7 @@ Result<WorldCookies*> add_cookies(FrameBuilder& frame, ShadowStates& states, std
   std::vector<std::uint8_t> texels;
   for (const auto& layer : cookies.texels) texels.insert(texels.end(), layer.begin(), layer.end());
   if (texels.empty()) texels.assign(4, 255);
-  auto slice = stage(states, std::as_bytes(std::span(texels)));
+  auto slice = stage(states.staging(), std::as_bytes(std::span(texels)));
   if (!slice.ok()) return slice.error();
   copies.push_back({kept.imported, *slice, std::max(layers, 1u)});
   return found;
@@ -117,7 +117,7 @@ Result<ImageRef> add_traced(FrameBuilder& frame, ShadowStates& states, const Tra
   desc.height = traced.height;
   desc.layers = static_cast<std::uint32_t>(traced.lights.size());
   desc.shape = gpu::ImageShape::array;
-  auto slice = stage(states, std::as_bytes(std::span(traced.visibility)));
+  auto slice = stage(states.traced_staging(), std::as_bytes(std::span(traced.visibility)));
   if (!slice.ok()) return slice.error();
   copies.push_back({frame.graph().create_image(desc), *slice, desc.layers});
   return copies.back().target;

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "modules/shadows/shadow_cookies.h"
+#include "modules/shadows/traced_visibility.h"
 #include "tests/modules/shadows/shadowed_scene.h"
 
 namespace gloam {
@@ -23,6 +27,34 @@ class ShadowFrames : public test::ShadowedScene {
     world.get<WorldTransform>(entity).matrix = glm::translate(dmat4(1.0), to);
   }
   [[nodiscard]] double drawn_faces() const { return counter("shadows.faces_drawn") + counter("shadows.faces_skipped"); }
+  [[nodiscard]] static std::uint64_t bytes() {
+    for (const gpu::ModuleMemory& memory : test::shared_device()->memory())
+      if (memory.module == "shadows") return memory.bytes;
+    return 0;
+  }
+  /// A spot in view that projects a picture.
+  Entity projector() {
+    const Entity spot = lamp("spot", LightKind::spot, dvec3(0.3, 0.2, 2.0));
+    world.get<ShadowCaster>(spot).resolution = 128;
+    Cookies cookies;
+    world.get<Light>(spot).cookie = world.resource<SceneStrings>().intern("quarters.png");
+    cookies.layers[world.get<Light>(spot).cookie] = 0;
+    cookies.texels.push_back(resampled_cookie(
+        Image{"quarters", 2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255}}));
+    cookies.version = 1;
+    world.set_resource(std::move(cookies));
+    return spot;
+  }
+  /// Every pixel half in the lamp's shadow.
+  [[nodiscard]] TracedVisibility half_shadow() const {
+    TracedVisibility traced;
+    traced.width = settings.width;
+    traced.height = settings.height;
+    traced.lights = {made};
+    traced.visibility.assign(traced.pixels(), 128);
+    traced.judged.assign((traced.pixels() + 7) / 8, 0xFF);
+    return traced;
+  }
   Entity left, right, made;
 };
 
@@ -82,7 +114,7 @@ TEST_F(ShadowFrames, knobs_that_change_maps_draw_them_anew) {
                                     {"shadows.mip_operator", "average"},
                                     {"shadows.depth", "d16"},
                                     {"shadows.casters", "simplified"},
-        {"shadows.atlas", "1024"}}) {
+                                    {"shadows.atlas", "1024"}}) {
     set(knob, value);
     draw();
     EXPECT_EQ(drawn_faces(), 6.0) << knob;
@@ -130,11 +162,6 @@ TEST_F(ShadowFrames, two_worlds_share_nothing) {
 }
 
 TEST_F(ShadowFrames, memory_goes_back_when_nothing_casts_shadows_for_long) {
-  const auto bytes = [] {
-    for (const gpu::ModuleMemory& memory : test::shared_device()->memory())
-      if (memory.module == "shadows") return memory.bytes;
-    return std::uint64_t{0};
-  };
   settings.width = settings.height = 8;
   const LinearPicture before = drawn();
   EXPECT_GT(bytes(), 0u);
@@ -147,6 +174,87 @@ TEST_F(ShadowFrames, memory_goes_back_when_nothing_casts_shadows_for_long) {
   world.get<ShadowCaster>(made).enabled = true;
   EXPECT_EQ(drawn().rgba, before.rgba);
   EXPECT_EQ(drawn_faces(), 6.0);
+}
+
+TEST_F(ShadowFrames, counters_of_frames_without_maps_are_zero) {
+  projector();  // calls for the module whatever the knobs say
+  draw();
+  EXPECT_EQ(drawn_faces(), 7.0);
+  set("shadows.mode", "off");
+  draw();
+  EXPECT_TRUE(module_state("shadows").demanded);
+  EXPECT_EQ(drawn_faces() + counter("shadows.faces_cached"), 0.0);
+  set("shadows.mode", "monolithic");
+  draw();
+  EXPECT_EQ(drawn_faces(), 0.0);
+  EXPECT_EQ(counter("shadows.faces_cached"), 7.0);
+  world.set_resource(half_shadow());
+  draw();
+  EXPECT_EQ(drawn_faces() + counter("shadows.faces_cached"), 0.0);
+  world.remove_resource<TracedVisibility>();
+}
+
+TEST_F(ShadowFrames, plans_are_met_again_whatever_faces_are_drawn) {
+  const Entity small = lamp("small", LightKind::spot, dvec3(0.6, 0.5, 1.2)),
+               large = lamp("large", LightKind::spot, dvec3(-0.6, 0.5, 1.2));
+  world.get<ShadowCaster>(small).resolution = 32;
+  world.get<ShadowCaster>(large).resolution = 512;
+  const Entity lamps[] = {small, large, made};
+  draw();
+  draw();
+  const std::uint64_t before = renderer->report().plans_compiled;
+  std::set<double> drawn_counts;
+  for (int frame = 0; frame < 14; ++frame) {
+    for (int i = 0; i < 3; ++i)
+      if (((frame + 1) >> i & 1) != 0)
+        world.get<WorldTransform>(lamps[i]).matrix[3] += dvec4(0.01, 0.0, 0.0, 0.0);
+    if (frame > 7) move(left, dvec3(-1.0, 0.01 * frame, 0.8));
+    draw();
+    drawn_counts.insert(drawn_faces());
+  }
+  EXPECT_GE(drawn_counts.size(), 5u);
+  EXPECT_LE(renderer->report().plans_compiled - before, 3u) << "one, two or four batches";
+}
+
+TEST_F(ShadowFrames, what_rays_found_leaves_no_memory_behind) {
+  draw();
+  draw();
+  const std::uint64_t before = bytes();
+  world.set_resource(half_shadow());
+  draw();
+  EXPECT_GE(bytes(), before + 2 * 95 * 63) << "the image and what it is copied from";
+  draw();
+  world.remove_resource<TracedVisibility>();
+  for (int i = 0; i < 3; ++i) draw();
+  renderer->free_idle_memory();
+  draw();
+  draw();
+  EXPECT_EQ(bytes(), before);
+}
+
+TEST_F(ShadowFrames, two_views_of_a_frame_are_as_each_alone) {
+  projector();
+  ViewRequest views[] = {{settings, {}}, {test::look_at(dvec3(-0.8, 0.5, 3.0), dvec3(0.2, 0.0, 0.0), 70, 81), {}}};
+  views[1].settings.id = ViewId{1};
+  for (int frame = 0; frame < 2; ++frame) {
+    const Status drawn = renderer->render(world, views);
+    ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+    ASSERT_TRUE(renderer->wait().ok());
+  }
+  const LinearPicture together[] = {linear(0), linear(1)};
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    draw(world, views[i].settings);
+    EXPECT_EQ(linear(i).rgba, together[i].rgba) << "with kept maps";
+    set("shadows.atlas", "2048");
+    draw(world, views[i].settings);
+    set("shadows.atlas", "4096");
+    draw(world, views[i].settings);
+    EXPECT_EQ(drawn_faces(), 7.0);
+    EXPECT_EQ(linear(i).rgba, together[i].rgba) << "with new maps";
+  }
+  set("shadows.mode", "off");
+  draw();
+  EXPECT_NE(linear(0).rgba, together[0].rgba);
 }
 
 TEST_F(ShadowFrames, the_atlas_view_shows_every_face) {
