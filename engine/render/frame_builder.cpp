@@ -33,6 +33,16 @@ bool FrameBuilder::request_surfaces(std::span<const Draw> draws, const SurfacePa
   return services_.pipelines.request(list, services_.log);
 }
 
+bool FrameBuilder::has_surfaces(std::span<const Draw> draws, const SurfacePass& pass) const {
+  const SurfaceVariant* last = nullptr;
+  for (const Draw& draw : draws) {
+    const bool known = last != nullptr && *last == draw.variant;
+    if (!known && !services_.pipelines.find(surface_pipeline_desc(pass, draw.variant).name)) return false;
+    last = &draw.variant;
+  }
+  return true;
+}
+
 Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
                                    std::span<const gpu::Binding> bindings) {
   gpu::CommandList& commands = context.commands();

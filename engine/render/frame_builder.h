@@ -93,6 +93,8 @@ class FrameBuilder {
   [[nodiscard]] Status prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
   /// Whether the pipelines of a list are there; those that are not are made in the background. For passes that another can stand in for.
   [[nodiscard]] bool request_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
+  /// The same, but makes none.
+  [[nodiscard]] bool has_surfaces(std::span<const Draw> draws, const SurfacePass& pass) const;
   /// Declares that a pass draws meshes or casters: reads deformed vertices.
   void read_vertices(PassBuilder& pass);
   /// For a pipeline that draws casters: binds positions (vec3, moved where the caster is deformed) as stream 0 and, `with_surfaces`,

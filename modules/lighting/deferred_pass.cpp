@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <optional>
+
 #include "modules/lighting/environment.h"
 #include "modules/lighting/passes.h"
 #include "modules/shadows/outputs.h"
@@ -129,28 +131,30 @@ LocalLights best_source(const ShadingInputs& inputs) {
   return inputs.outputs.lists_always_fit ? LocalLights::lists : LocalLights::lists_or_masks;
 }
 
-/// The best source whose pipeline is there. Brute force draws the same picture while others are made.
-LocalLights choose_source(const FrameServices& services, const ShadingInputs& inputs) {
+/// The best source whose pipeline is there; that of the best one is made in the background. All of them draw the same picture.
+std::optional<LocalLights> ready_source(const FrameServices& services, const ShadingInputs& inputs,
+                                        const ShadowsOutputs* shadows) {
   const LocalLights best = best_source(inputs);
-  if (services.wait_for_pipelines || best == LocalLights::all) return best;
-  const std::uint32_t directional = inputs.directional_count;
-  if (services.pipelines.request({unshadowed_pipeline(best, directional)}, services.log)) return best;
-  const bool other =
-      static_cast<bool>(services.pipelines.find(unshadowed_pipeline(LocalLights::lists_or_masks, directional).name));
-  return other ? LocalLights::lists_or_masks : LocalLights::all;
+  const auto pipeline = [&](LocalLights source) { return shading_pipeline(source, inputs.directional_count, shadows); };
+  if (services.pipelines.request({pipeline(best)}, services.log)) return best;
+  if (best == LocalLights::all) return std::nullopt;
+  for (const LocalLights other : {LocalLights::lists_or_masks, LocalLights::all})
+    if (services.pipelines.find(pipeline(other).name)) return other;
+  return std::nullopt;
 }
 
-/// Sets `shadows`, returns the source. Frames come without shadows while the pipelines with them are made.
+/// Sets `shadows`, returns the source. Frames come without shadows while no pipeline with them is there, and with brute force, which is
+/// waited for, while none is there at all.
 LocalLights choose_variant(FrameBuilder& frame, Deferred& d) {
   const FrameServices& services = frame.services();
   d.shadows = frame.find<ShadowsOutputs>();
-  if (d.shadows == nullptr) return choose_source(services, d.inputs);
   const LocalLights best = best_source(d.inputs);
-  if (services.wait_for_pipelines ||
-      services.pipelines.request({shading_pipeline(best, d.inputs.directional_count, d.shadows)}, services.log))
-    return best;
+  if (services.wait_for_pipelines) return best;
+  if (d.shadows != nullptr)
+    if (const auto source = ready_source(services, d.inputs, d.shadows)) return *source;
   d.shadows = nullptr;
-  return choose_source(services, d.inputs);
+  if (best == LocalLights::all) return best;
+  return ready_source(services, d.inputs, nullptr).value_or(LocalLights::all);
 }
 
 }  // namespace

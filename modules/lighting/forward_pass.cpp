@@ -47,19 +47,23 @@ struct Forward {
 /// The best variant whose pipelines are there. All lights give the same picture while those of tiles are made; without shadows it is
 /// another one.
 void choose_variant(FrameBuilder& frame, Forward& f) {
-  const auto there = [&] { return frame.request_surfaces(frame.draws().blended, f.surfaces); };
-  f.tiled = f.inputs.outputs.has_lists();
-  f.shadows = frame.find<ShadowsOutputs>();
-  f.surfaces = forward_surface_pass(f.tiled, f.shadows);
+  const std::span<const Draw> draws = frame.draws().blended;
+  const auto choose = [&](bool tiled, const ShadowsOutputs* shadows) {
+    f.tiled = tiled;
+    f.shadows = shadows;
+    f.surfaces = forward_surface_pass(tiled, shadows);
+  };
+  const bool has_lists = f.inputs.outputs.has_lists();
+  const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
+  choose(has_lists, shadows);
   if (frame.services().wait_for_pipelines) return;
-  if (f.shadows != nullptr && !there()) {
-    f.shadows = nullptr;
-    f.surfaces = forward_surface_pass(f.tiled, nullptr);
+  if (shadows != nullptr) {
+    if (frame.request_surfaces(draws, f.surfaces)) return;
+    choose(false, shadows);
+    if (has_lists && frame.has_surfaces(draws, f.surfaces)) return;
   }
-  if (f.tiled && f.shadows == nullptr && !there()) {
-    f.tiled = false;
-    f.surfaces = forward_surface_pass(false, nullptr);
-  }
+  choose(has_lists, nullptr);
+  if (has_lists && !frame.request_surfaces(draws, f.surfaces)) choose(false, nullptr);
 }
 
 std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context, const Forward& f) {

@@ -21,6 +21,7 @@
 #include "modules/fog/module.h"
 #include "modules/lighting/module.h"
 #include "modules/lights/module.h"
+#include "modules/shadows/module.h"
 #include "tests/render/counting_module.h"
 #include "tests/render/gated_device.h"
 #include "tests/render/small_scene.h"
@@ -75,6 +76,7 @@ class DemandTest : public ::testing::Test {
     options.zones = &zones_;
     options.readiness = readiness;
     options.modules.push_back(make_lights_module());
+    if (with_shadows_) options.modules.push_back(make_shadows_module());
     options.modules.push_back(make_lighting_module());
     options.modules.push_back(make_fog_module());
     options.modules.push_back(std::make_unique<CountingModule>(calls_));
@@ -181,6 +183,7 @@ class DemandTest : public ::testing::Test {
     if (name == "counting") world_->get<Counted>(entity).in_view = visible;
   }
 
+  bool with_shadows_ = false;  ///< of the next renderer
   CountedCalls calls_;
   LineLog log_;
   ZoneRecorder zones_;

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "engine/render/pipelines.h"
+#include "modules/shadows/components.h"
 #include "tests/render/demand_fixture.h"
 
 namespace gloam {
@@ -189,6 +191,78 @@ TEST_F(ReadinessFrames, a_failure_is_forgotten_with_the_modules_pipelines) {
   frames();
   frames_until_there_are_passes_of("counting");
   EXPECT_EQ(gate_->asked_here("counting"), tried) << "made in the background, as if nothing had been";
+}
+
+/// With shadows of the lights that the scene gets.
+class ShadowReadiness : public BackgroundRenderer {
+ protected:
+  ShadowReadiness() {
+    with_shadows_ = true;
+    make_renderer(Readiness::background);
+    gate_->close();
+  }
+  /// Whether the last frame's surfaces were shaded with shadows.
+  [[nodiscard]] bool shadowed() const {
+    return std::ranges::any_of(last_commands(), [](const std::string& line) {
+      return line.find("deferred/") != std::string::npos && line.find("/shadows-") != std::string::npos;
+    });
+  }
+  void frames_until_shadowed() {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!shadowed()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "shadows never came";
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      frames();
+    }
+  }
+};
+
+TEST_F(ShadowReadiness, frames_come_without_shadows_and_then_with_them_and_none_waits) {
+  frames(2);
+  static_cast<void>(call_for("lights"));
+  frames(3);
+  const std::uint32_t asked_before = gate_->asked_here("lighting");  // brute force, which is waited for
+  ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
+  EXPECT_GT(renderer_->report().pipelines_pending, 0u);
+  EXPECT_EQ(seen("shadows").passes, 0u);
+  EXPECT_FALSE(shadowed());
+  gate_->open();
+  frames_until_there_are_passes_of("shadows");
+  frames_until_shadowed();
+  frames_until_nothing_is_pending();
+  for (int i = 0; i < 5; ++i) {
+    frames();
+    EXPECT_TRUE(shadowed());
+    EXPECT_EQ(renderer_->report().pipelines_pending, 0u);
+  }
+  EXPECT_EQ(gate_->asked_here("shadows"), 0u);
+  EXPECT_EQ(gate_->asked_here("lighting"), asked_before) << "no frame made a pipeline itself";
+  EXPECT_THAT(log_.lines(), IsEmpty());
+}
+
+TEST_F(ShadowReadiness, shadows_stay_while_the_pipeline_of_shorter_lists_is_made) {
+  std::vector<Entity> lamps;
+  for (int i = 0; i < 60; ++i) {  // too many for every list to hold all of them
+    lamps.push_back(call_for("lights"));
+    if (i > 0) world_->add(lamps.back(), ShadowCaster{false, 0});
+  }
+  gate_->open();
+  frames();
+  frames_until_there_are_passes_of("shadows");
+  frames_until_shadowed();
+  frames_until_nothing_is_pending();
+  gate_->close();
+  for (std::size_t i = 1; i < lamps.size(); ++i) world_->destroy(lamps[i]);
+  for (int i = 0; i < 5; ++i) {
+    frames();
+    EXPECT_TRUE(shadowed()) << i;
+  }
+  EXPECT_EQ(renderer_->report().pipelines_pending, 1u);
+  gate_->open();
+  frames_until_nothing_is_pending();
+  frames();
+  EXPECT_TRUE(shadowed());
+  EXPECT_EQ(gate_->asked_here("shadows"), 0u);
 }
 
 class BackgroundPipelines : public ::testing::Test {
