@@ -116,7 +116,7 @@ void build_shadows_scene(World& world, SceneInfo& info) {
   environment.sky_horizon = vec3(0.5f, 0.4f, 0.42f);
   environment.sky_ground = vec3(0.1f, 0.09f, 0.08f);
   environment.has_exposure = true;
-  environment.exposure_ev100 = 4.2f;
+  environment.exposure_ev100 = 3.4f;
   info.name = "shadows";
 }
 
