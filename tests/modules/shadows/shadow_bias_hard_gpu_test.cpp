@@ -34,16 +34,16 @@ TEST_F(ShadowBias, oriented_has_neither_acne_nor_leaks_and_beats_constant_units)
   set("shadows.filter", "hard");
   const TracedVisibility traced = trace(1);
   std::vector<Shares> oriented, hardware;
-  for (const char* mm : {"0", "0.5", "1", "2", "5", "10", "20"}) {
+  for (const char* mm : {"0", "0.5", "2", "5", "10", "20"}) {
     set("shadows.bias_mm", mm);
     oriented.push_back(shares(lamps, traced, std::string("oriented ") + mm + " mm"));
   }
   set("shadows.bias", "hardware");
-  for (const char* units : {"0", "200", "2000", "10000", "50000", "200000", "1000000"}) {
+  for (const char* units : {"0", "200", "2000", "50000", "1000000"}) {
     set("shadows.bias_units", units);
     hardware.push_back(shares(lamps, traced, std::string("hardware ") + units + " units"));
   }
-  const Shares& normal = oriented[3];
+  const Shares& normal = oriented[2];
   EXPECT_LE(normal.acne, test::kMostWrong);
   EXPECT_LE(normal.leak, test::kMostWrong);
   const auto less = [](const Shares& a, const Shares& b) { return a.wrong < b.wrong; };

@@ -48,7 +48,7 @@ TEST_F(ShadowPlaces, what_is_nearer_to_a_light_than_its_near_plane_is_lit) {
   floor();
   settings = test::look_at(dvec3(0.0, 0.12, 0.1), dvec3(0.0), 96, 54);
   settings.camera.near_m = 0.005f;
-  for (const double height : {0.04, 0.01, 1e-4, 0.0, -0.01})
+  for (const double height : {0.04, 0.01, 0.0, -0.01})
     for (const bool wide : {false, true}) {
       const std::vector<Entity> lamps = {
           lamp(point(wide ? 0.02f : 0.0f), dvec3(0.0, height, 0.0)),
