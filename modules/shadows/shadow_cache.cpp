@@ -3,6 +3,7 @@
 #include "modules/shadows/shadow_cache.h"
 
 #include <bit>
+#include <iterator>
 
 #include "engine/core/hash.h"
 #include "modules/shadows/face_casters.h"
@@ -37,35 +38,91 @@ std::uint64_t hash_of(const ShadowFace& face) {
   return hasher.digest();
 }
 
-bool overlap(const AtlasSquare& a, const AtlasSquare& b) {
-  return a.origin.x < b.origin.x + b.size && b.origin.x < a.origin.x + a.size && a.origin.y < b.origin.y + b.size &&
-         b.origin.y < a.origin.y + a.size;
+/// The bits of x, each before a zero.
+std::uint64_t spread_bits(std::uint32_t x) {
+  std::uint64_t bits = x;
+  bits = (bits | bits << 16) & 0x0000FFFF0000FFFF;
+  bits = (bits | bits << 8) & 0x00FF00FF00FF00FF;
+  bits = (bits | bits << 4) & 0x0F0F0F0F0F0F0F0F;
+  bits = (bits | bits << 2) & 0x3333333333333333;
+  return (bits | bits << 1) & 0x5555555555555555;
+}
+
+std::uint64_t place_of(const AtlasSquare& square) {
+  return spread_bits(square.origin.x) | spread_bits(square.origin.y) << 1;
 }
 
 FaceKey key_of(const ShadowFace& face) { return {face.light, face.index}; }
+
+/// Casters' bounds side by side: they are looked at once a light, casters themselves only by faces of lights that reach them.
+struct Bounds {
+  dvec3 min, max;
+};
+
+/// Faces of one light that look from one point; or one orthographic face.
+struct FaceGroup {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+std::vector<FaceGroup> groups_of(std::span<const ShadowFace> faces) {
+  std::vector<FaceGroup> groups;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const bool joins = f > 0 && faces[f].light == faces[f - 1].light && faces[f].tan_half > 0.0f &&
+                       faces[f - 1].tan_half > 0.0f && faces[f].origin == faces[f - 1].origin &&
+                       faces[f].far_m == faces[f - 1].far_m;
+    if (!joins) groups.push_back({f, f});
+    groups.back().end = f + 1;
+  }
+  return groups;
+}
+
+/// Indices of casters that a group's faces may see: a few more, never fewer, than may_see finds for all its faces together.
+std::vector<std::uint32_t> casters_in_reach(const ShadowFace& face, std::span<const Bounds> bounds) {
+  constexpr double kSlack = 1e-4;  // above what may_see loses in floats, as a share of the lengths that take part
+  const bool everywhere = !(face.tan_half > 0.0f && face.far_m > 0.0f);
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < bounds.size(); ++i) {
+    const dvec3 low = bounds[i].min - face.origin, high = bounds[i].max - face.origin;
+    const dvec3 nearest = glm::max(glm::max(low, -high), dvec3(0.0));
+    const dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
+    const double reach = face.far_m + kSlack * (face.far_m + farthest.x + farthest.y + farthest.z);
+    // Bounds that are not known, or no numbers, are in reach.
+    if (everywhere || !(low.x <= high.x) || !(glm::dot(nearest, nearest) > reach * reach)) found.push_back(i);
+  }
+  return found;
+}
 
 }  // namespace
 
 std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces, std::span<const Caster> casters,
                                        std::uint64_t salt, JobExecutor& executor) {
   std::vector<std::uint64_t> hashes(casters.size());
+  std::vector<Bounds> bounds(casters.size());
   executor.parallel_for(casters.size(), 256, [&](JobRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) hashes[i] = hash_of(casters[i]);
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      hashes[i] = hash_of(casters[i]);
+      bounds[i] = {casters[i].bounds_min, casters[i].bounds_max};
+    }
   });
   std::vector<FaceContent> contents(faces.size());
-  executor.parallel_for(faces.size(), 4, [&](JobRange range) {
-    for (std::size_t f = range.begin; f < range.end; ++f) {
-      const FaceVolume volume = face_volume(faces[f]);
-      FaceContent& content = contents[f];
-      Hasher hasher;
-      hasher.value(salt).value(hash_of(faces[f]));
-      for (std::size_t i = 0; i < casters.size(); ++i) {
-        if (!may_see(volume, casters[i])) continue;
-        hasher.value(hashes[i]);
-        content.moving = content.moving || casters[i].moving;
-        ++content.casters;
+  const std::vector<FaceGroup> groups = groups_of(faces);
+  executor.parallel_for(groups.size(), 4, [&](JobRange range) {
+    for (std::size_t g = range.begin; g < range.end; ++g) {
+      const std::vector<std::uint32_t> reached = casters_in_reach(faces[groups[g].begin], bounds);
+      for (std::size_t f = groups[g].begin; f < groups[g].end; ++f) {
+        const FaceVolume volume = face_volume(faces[f]);
+        FaceContent& content = contents[f];
+        Hasher hasher;
+        hasher.value(salt).value(hash_of(faces[f]));
+        for (const std::uint32_t i : reached) {
+          if (!may_see(volume, casters[i])) continue;
+          hasher.value(hashes[i]);
+          content.moving = content.moving || casters[i].moving;
+          ++content.casters;
+        }
+        content.hash = hasher.digest();
       }
-      content.hash = hasher.digest();
     }
   });
   return contents;
@@ -77,9 +134,23 @@ bool ShadowCache::holds(const ShadowFace& face, const FaceContent& content) cons
   return found != maps_.end() && found->second.square == face.square && found->second.content == content;
 }
 
+void ShadowCache::forget_overlapping(const AtlasSquare& square) {
+  const std::uint64_t begin = place_of(square), end = begin + std::uint64_t{square.size} * square.size;
+  auto at = places_.upper_bound(begin);
+  if (at != places_.begin() && std::prev(at)->second.end > begin) --at;
+  while (at != places_.end() && at->first < end) {
+    maps_.erase(at->second.key);
+    at = places_.erase(at);
+  }
+}
+
 void ShadowCache::set_drawn(const ShadowFace& face, const FaceContent& content) {
-  std::erase_if(maps_, [&](const auto& map) { return overlap(map.second.square, face.square); });
-  maps_[key_of(face)] = {face.square, content};
+  const FaceKey key = key_of(face);
+  if (const auto before = maps_.find(key); before != maps_.end()) places_.erase(place_of(before->second.square));
+  forget_overlapping(face.square);
+  maps_.insert_or_assign(key, Map{face.square, content});
+  const std::uint64_t place = place_of(face.square);
+  places_[place] = {place + std::uint64_t{face.square.size} * face.square.size, key};
 }
 
 }  // namespace gloam

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -32,7 +33,10 @@ class ShadowCache {
   [[nodiscard]] bool holds(const ShadowFace& face, const FaceContent& content) const;
   /// The face's map has been drawn where the face says; what lay there is gone.
   void set_drawn(const ShadowFace& face, const FaceContent& content);
-  void clear() { maps_.clear(); }
+  void clear() {
+    maps_.clear();
+    places_.clear();
+  }
   [[nodiscard]] std::size_t size() const { return maps_.size(); }
 
  private:
@@ -40,7 +44,16 @@ class ShadowCache {
     AtlasSquare square;
     FaceContent content;
   };
+  void forget_overlapping(const AtlasSquare& square);
+
   std::unordered_map<FaceKey, Map, FaceKeyHash> maps_;
+  /// Who lies where, by the place of a square's first texel on the curve that fills the atlas square by square (Morton's): each square is
+  /// one stretch of it.
+  struct Stretch {
+    std::uint64_t end = 0;
+    FaceKey key;
+  };
+  std::map<std::uint64_t, Stretch> places_;
 };
 
 }  // namespace gloam

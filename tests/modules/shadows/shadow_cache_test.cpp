@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/ext/matrix_transform.hpp>
+#include <random>
+#include <set>
+
+#include "modules/shadows/face_casters.h"
 
 namespace gloam {
 namespace {
@@ -111,11 +116,68 @@ TEST_F(ShadowCacheTest, a_light_that_moves_touches_all_its_faces) {
 
 TEST_F(ShadowCacheTest, a_face_that_gets_another_square_is_drawn_again_and_so_is_what_lay_there) {
   draw_all();
-  faces[0].square = {uvec2(64, 0), 128};  // over those of faces 1 and 2
+  faces[0].square = {uvec2(128, 0), 128};  // over those of faces 2 and 3
   EXPECT_EQ(dirty(), Faces{0});
   const auto now = contents();
   cache.set_drawn(faces[0], now[0]);
-  EXPECT_EQ(dirty(), (Faces{1, 2}));
+  EXPECT_EQ(dirty(), (Faces{2, 3}));
+  faces[2].square = {uvec2(192, 64), 32};  // in that of face 0
+  const auto then = contents();
+  cache.set_drawn(faces[2], then[2]);
+  EXPECT_EQ(dirty(), (Faces{0, 3}));
+  EXPECT_EQ(cache.size(), 4u);
+}
+
+TEST_F(ShadowCacheTest, squares_that_only_touch_do_not_disturb_each_other) {
+  std::mt19937 random(5);
+  faces.clear();
+  casters.clear();
+  std::set<std::uint32_t> alive;
+  for (std::uint32_t i = 0; i < 600; ++i) {
+    ShadowFace face;
+    face.light = {i, 1};
+    const std::uint32_t size = 16u << random() % 5;
+    face.square = {uvec2(random() % (512 / size), random() % (512 / size)) * size, size};
+    std::erase_if(alive, [&](std::uint32_t other) {
+      const AtlasSquare& a = faces[other].square;
+      const AtlasSquare& b = face.square;
+      return a.origin.x < b.origin.x + b.size && b.origin.x < a.origin.x + a.size &&
+             a.origin.y < b.origin.y + b.size && b.origin.y < a.origin.y + a.size;
+    });
+    alive.insert(i);
+    faces.push_back(face);
+    cache.set_drawn(face, {});
+    ASSERT_EQ(cache.size(), alive.size());
+    for (const std::uint32_t other : alive) ASSERT_TRUE(cache.holds(faces[other], {}));
+  }
+}
+
+/// Casters all round many lights: what a face's content counts is what may_see finds, whatever was passed over before.
+TEST_F(ShadowCacheTest, a_faces_content_has_all_casters_that_it_may_see) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> spread(-15.0, 15.0), shift(-1e6, 1e6);
+  const dvec3 middle(shift(random), shift(random), shift(random));
+  casters.clear();
+  for (std::uint32_t i = 0; i < 400; ++i)
+    casters.push_back(caster(i, middle + dvec3(spread(random), spread(random), spread(random))));
+  casters[7].bounds_max = casters[7].bounds_min - dvec3(1.0);  // may be anywhere
+  const std::vector<ShadowFace> cube = faces;
+  for (std::uint32_t light = 0; light < 12; ++light) {
+    const dvec3 at = middle + dvec3(spread(random), spread(random), spread(random));
+    for (ShadowFace face : cube) {
+      face.light = {100 + light, 1};
+      face.origin = at;
+      face.far_m = 1.0f + static_cast<float>(light);
+      if (light == 3) face.tan_half = 0.0f, face.half_extent_m = 4.0f;
+      faces.push_back(face);
+    }
+  }
+  const auto found = contents();
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const FaceVolume volume = face_volume(faces[f]);
+    const auto seen = std::ranges::count_if(casters, [&](const Caster& c) { return may_see(volume, c); });
+    EXPECT_EQ(found[f].casters, seen) << f;
+  }
 }
 
 TEST_F(ShadowCacheTest, other_knobs_are_other_content) {
