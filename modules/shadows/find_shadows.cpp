@@ -29,7 +29,9 @@ std::uint32_t size_before(std::span<const WantedSize> wanted, Entity light) {
 /// A local light on its way to faces.
 struct LocalPlan {
   LocalShadow shadow;
-  std::uint32_t size = 0;  ///< texels that a face wants
+  float pixels = 0.0f;       ///< across what a face shows, at least 1; 0: its ShadowCaster says the size
+  std::uint32_t before = 0;  ///< texels that a face wanted in the last frame
+  std::uint32_t size = 0;    ///< texels that a face wants
   float importance = 0.0f;
   std::size_t first_request = 0;
   std::size_t first_face = 0;
@@ -53,22 +55,32 @@ LocalPlan plan_local(const ShadowLight& light, const RenderView& view, const Sha
   // Texels lie across the light's path: a narrow cone needs no more for being long.
   const bool cube = plan.shadow.kind == GLOAM_SHADOW_CUBE;
   const float share = cube ? kCubeShare : std::min(1.0f, plan.shadow.range_m * plan.shadow.tan_inner / radius);
-  plan.size = wanted_size(pixels_across(view, center, radius) * share, size_before(wanted, light.entity));
+  plan.pixels = std::max(1.0f, pixels_across(view, center, radius) * share);
+  plan.before = size_before(wanted, light.entity);
   return plan;
+}
+
+std::uint32_t size_at(const LocalPlan& plan, float density) {
+  return plan.pixels > 0.0f ? wanted_size(plan.pixels * density, plan.before) : plan.size;
 }
 
 /// A directional light on its way to cascades.
 struct DirectionalPlan {
   FaceAxes axes;
   std::size_t first_request = 0;
-  std::size_t count = 0;  ///< of requests
+  std::size_t count = 0;   ///< of requests
+  std::uint32_t size = 0;  ///< texels of each
 };
 
-std::uint32_t cascade_size(const ShadowLight& light, const RenderView& view, const ShadowSettings& settings) {
-  if (light.caster.resolution > 0) return asked_size(light.caster.resolution);
-  // A texel a pixel, but the cascades of one light leave three quarters of the atlas to others.
-  const std::uint32_t wanted = wanted_size(static_cast<float>(std::max(view.width, view.height)), 0);
-  return std::max<std::uint32_t>(GLOAM_SHADOW_SMALLEST_FACE, std::min(wanted, settings.atlas_size / 4));
+/// Of each cascade of a light without a size of its own. Those of one light leave three quarters of the atlas to others, and those of all
+/// lights leave half of it.
+std::uint32_t cascade_size(std::size_t lights, const RenderView& view, const ShadowSettings& settings) {
+  const float pixels = static_cast<float>(std::max(view.width, view.height));
+  std::uint32_t most = settings.atlas_size / 4;
+  const auto side = static_cast<std::size_t>(settings.atlas_size);
+  while (most > 0 && lights * GLOAM_MAX_CASCADES * most * most > side * side / 2) most /= 2;
+  return std::max<std::uint32_t>(GLOAM_SHADOW_SMALLEST_FACE,
+                                 std::min(wanted_size(pixels * settings.texels_per_pixel, 0), most));
 }
 
 struct Plans {
@@ -79,22 +91,44 @@ struct Plans {
 };
 
 void plan_directional(std::span<const ShadowLight> lights, const RenderView& view, const ShadowSettings& settings,
-                      const CasterBounds& casters, ShadowViews& shadows, Plans& plans) {
+                      const CasterBounds& casters, Plans& plans) {
   plans.directional.resize(std::min(lights.size(), kMostDirectional));
   if (lights.empty() || !settings.enabled) return;
   plans.spheres = cascade_spheres(view, casters, std::min<std::uint32_t>(settings.cascades, GLOAM_MAX_CASCADES));
+  const std::uint32_t size = cascade_size(plans.directional.size(), view, settings);
   for (std::size_t i = 0; i < plans.directional.size(); ++i) {
-    if (!lights[i].caster.enabled) continue;
+    const std::uint32_t asked = lights[i].caster.resolution;
+    plans.directional[i].count = lights[i].caster.enabled ? plans.spheres.size() : 0;
+    plans.directional[i].size = asked > 0 ? asked_size(asked) : size;
+  }
+}
+
+double texels_of(std::size_t faces, std::uint32_t size) {
+  return static_cast<double>(faces) * static_cast<double>(size) * static_cast<double>(size);
+}
+
+/// For local lights' maps, in what cascades leave of the atlas.
+float local_density(const ShadowSettings& settings, const Plans& plans, float previous) {
+  double room = texels_of(1, settings.atlas_size);
+  for (const DirectionalPlan& plan : plans.directional) room -= texels_of(plan.count, plan.size);
+  return fitting_density(settings.texels_per_pixel, previous, room, [&](float density) {
+    double texels = 0.0;
+    for (const LocalPlan& plan : plans.local) texels += texels_of(plan.shadow.face_count(), size_at(plan, density));
+    return texels;
+  });
+}
+
+void request_directional(std::span<const ShadowLight> lights, ShadowViews& shadows, Plans& plans) {
+  for (std::size_t i = 0; i < plans.directional.size(); ++i) {
     DirectionalPlan& plan = plans.directional[i];
-    plan.axes = node_axes(lights[i].world_from_node);
     plan.first_request = plans.requests.size();
-    plan.count = plans.spheres.size();
+    if (plan.size == 0 || !lights[i].caster.enabled) continue;
+    plan.axes = node_axes(lights[i].world_from_node);
     ++shadows.casting_lights;
-    const std::uint32_t size = cascade_size(lights[i], view, settings);
     // Outer cascades show less of the picture.
     for (const CascadeSphere& sphere : plans.spheres)
       plans.requests.push_back({{lights[i].entity, sphere.slice},
-                                size,
+                                plan.size,
                                 brightness_of(lights[i].light) / static_cast<float>(sphere.slice + 1)});
   }
 }
@@ -104,6 +138,7 @@ void request_local(std::span<const ShadowLight> lights, ShadowViews& shadows, Pl
   shadows.wanted.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     LocalPlan& plan = plans.local[i];
+    plan.size = size_at(plan, shadows.texels_per_pixel);
     plan.first_request = plans.requests.size();
     for (std::uint32_t f = 0; f < plan.shadow.face_count(); ++f)
       plans.requests.push_back({{lights[i].entity, f}, plan.size, plan.importance});
@@ -176,8 +211,10 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
     for (std::size_t i = range.begin; i < range.end; ++i)
       plans.local[i] = plan_local(local[i], view, settings, shadows.wanted);
   });
+  plan_directional(directional, view, settings, casters, plans);
+  shadows.texels_per_pixel = local_density(settings, plans, shadows.texels_per_pixel);
   request_local(local, shadows, plans);
-  plan_directional(directional, view, settings, casters, shadows, plans);
+  request_directional(directional, shadows, plans);
   const FacePlaces places = shadows.atlas.place(settings.atlas_size, plans.requests);
   shadows.faces_shrunk = places.shrunk;
   shadows.faces_left_out = places.left_out;

@@ -68,6 +68,12 @@ void add_shadow_knobs(KnobRegistry& registry) {
                            {"1024", "2048", "4096", "8192"}, 2);
   atlas.unit = "texels";
   registry.add(atlas);
+  Knob density =
+      number_knob("texels_per_pixel", "texels of shadow maps to a pixel's side, as far as the atlas has room",
+                  "texels a pixel", 8.0, 2.0);
+  density.min = 0.25;
+  density.ledger_values = {0.5, 1.0, 2.0, 4.0};
+  registry.add(density);
   registry.add(choice_knob("casters",
                            "meshes that are drawn into shadow maps: as the camera sees them, or with fewer triangles",
                            {"full", "simplified"}, 0));
@@ -91,6 +97,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.bias_units = knobs.oriented ? 0.0f : static_cast<float>(registry.number("shadows.bias_units"));
   knobs.levels = kLevels[registry.choice("shadows.visibility_bits")];
   knobs.atlas_size = kSmallestAtlas << registry.choice("shadows.atlas");
+  knobs.texels_per_pixel = static_cast<float>(registry.number("shadows.texels_per_pixel"));
   knobs.simplified = registry.is("shadows.casters", "simplified");
   knobs.early_outs = registry.is("shadows.early_outs", "on");
   return knobs;
@@ -100,6 +107,7 @@ ShadowSettings shadow_settings(const ShadowKnobs& knobs) {
   ShadowSettings settings;
   settings.enabled = knobs.enabled;
   settings.atlas_size = knobs.atlas_size;
+  settings.texels_per_pixel = knobs.texels_per_pixel;
   return settings;
 }
 

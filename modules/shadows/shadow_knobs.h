@@ -27,6 +27,7 @@ struct ShadowKnobs {
   float bias_units = 0.0f;  ///< of the map's draws, towards the light's far side; 0 with oriented bias
   std::uint32_t levels = 255;
   std::uint32_t atlas_size = 4096;
+  float texels_per_pixel = 2.0f;
   bool simplified = false;  ///< casters have fewer triangles where that does not show
   bool early_outs = true;
 };

@@ -33,9 +33,9 @@ float coverage(const RenderView& view, const dvec3& center, float radius_m) {
   return std::min(1.0f, kPi * 0.25f * pixels * pixels / picture);
 }
 
-std::uint32_t wanted_size(float pixels, std::uint32_t previous) {
+std::uint32_t wanted_size(float texels, std::uint32_t previous) {
   constexpr auto kLeast = static_cast<float>(GLOAM_SHADOW_SMALLEST_FACE);
-  const float power = std::log2(std::min(std::max(kLeast, pixels), static_cast<float>(kMostWantedFace)));
+  const float power = std::log2(std::min(std::max(kLeast, texels), static_cast<float>(kMostWantedFace)));
   if (previous != 0 && std::has_single_bit(previous)) {
     const auto before = static_cast<float>(std::bit_width(previous) - 1);
     if (std::abs(power - before) < kHoldOn) return std::min(previous, kMostWantedFace);

@@ -47,6 +47,7 @@ struct ShadowViews {
   std::uint32_t faces_left_out = 0;            ///< faces without a place even at the smallest size: their lights cast no shadow
   std::uint32_t casting_lights = 0;            ///< lights that asked for faces
   ShadowAtlas atlas;                           ///< who lies where; kept from frame to frame
+  float texels_per_pixel = 0.0f;               ///< of local lights, to a pixel's side; kept from frame to frame; 0: no frame yet
   std::vector<WantedSize> wanted;              ///< ordered by entity index; kept from frame to frame
 };
 
@@ -56,6 +57,7 @@ struct ShadowSettings {
   std::uint32_t atlas_size = 4096;    ///< texels, a power of two
   std::uint32_t cascades = 4;         ///< of a directional light
   float kernel_rim = 0.125f;          ///< rim of a face for kernels, as a share of its half extent
+  float texels_per_pixel = 2.0f;      ///< to a pixel's side, where the atlas has room
 };
 
 }  // namespace gloam

@@ -86,6 +86,35 @@ TEST(ShadowResolution, sizes_hold_on_near_a_limit_and_follow_beyond_it) {
   EXPECT_EQ(wanted_size(2000.0f, 16), 2048u);
 }
 
+/// Of maps that take this many texels at a density of 1.
+auto maps_of(double texels) {
+  return [texels](float density) { return texels * static_cast<double>(density) * static_cast<double>(density); };
+}
+
+TEST(ShadowResolution, maps_are_as_dense_as_the_atlas_has_room_for) {
+  EXPECT_EQ(fitting_density(2.0f, 0.0f, 1000.0, maps_of(0.0)), 2.0f);
+  EXPECT_EQ(fitting_density(2.0f, 0.0f, 1000.0, maps_of(224.0)), 2.0f);
+  EXPECT_FLOAT_EQ(fitting_density(2.0f, 0.0f, 1000.0, maps_of(226.0)), 2.0f * std::exp2(-0.25f));
+  EXPECT_FLOAT_EQ(fitting_density(2.0f, 0.0f, 1000.0, maps_of(890.0)), 1.0f);
+  EXPECT_FLOAT_EQ(fitting_density(2.0f, 0.0f, 1000.0, maps_of(3590.0)), 0.5f);
+  EXPECT_FLOAT_EQ(fitting_density(2.0f, 0.0f, 1000.0, maps_of(1e9)), 1.0f / 32.0f);
+}
+
+TEST(ShadowResolution, density_holds_on_while_maps_fit_and_follows_when_they_take_far_less) {
+  float density = 0.0f;
+  int changes = 0;
+  for (int frame = 0; frame < 100; ++frame) {
+    const float next = fitting_density(2.0f, density, 1000.0, maps_of(frame % 2 == 0 ? 440.0 : 220.0));
+    changes += next == density ? 0 : 1;
+    density = next;
+  }
+  EXPECT_EQ(changes, 1);
+  EXPECT_FLOAT_EQ(density, std::sqrt(2.0f));
+  EXPECT_EQ(fitting_density(2.0f, density, 1000.0, maps_of(149.0)), 2.0f);
+  EXPECT_FLOAT_EQ(fitting_density(2.0f, density, 1000.0, maps_of(890.0)), 1.0f);
+  EXPECT_EQ(fitting_density(1.0f, 2.0f, 1000.0, maps_of(100.0)), 1.0f) << "the knob has changed";
+}
+
 TEST(ShadowResolution, what_a_caster_asks_for_is_a_power_of_two) {
   EXPECT_EQ(asked_size(1), 16u);
   EXPECT_EQ(asked_size(16), 16u);

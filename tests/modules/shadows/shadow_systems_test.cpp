@@ -286,9 +286,43 @@ TEST(ShadowSystems, follow_the_settings) {
   EXPECT_EQ(scene.run().block.directional[0].cascade_count, static_cast<std::uint32_t>(GLOAM_MAX_CASCADES));
 }
 
+TEST(ShadowSystems, give_lights_as_many_texels_as_the_atlas_has_room_for) {
+  for (const std::uint32_t count : {3u, 30u, 300u}) {
+    ShadowWorld scene;
+    scene.add_random(count);
+    scene.add_sun();
+    scene.add_mesh({0, 0, -30});
+    scene.shadow_settings().texels_per_pixel = 4.0f;
+    const ShadowViews& shadows = scene.run();
+    EXPECT_EQ(shadows.faces_shrunk, 0u) << count;
+    EXPECT_GT(shadows.texels_per_pixel, 0.0f);
+    EXPECT_LE(shadows.texels_per_pixel, 4.0f);
+    const bool most = shadows.texels_per_pixel == 4.0f;
+    EXPECT_TRUE(most || shadows.atlas.used_texels() > 4096u * 4096u / 8) << count;
+    expect_sound(shadows);
+  }
+}
+
+TEST(ShadowSystems, change_no_map_when_lights_leave_the_view_of_a_full_atlas) {
+  ShadowWorld scene;
+  scene.add_random(60);
+  scene.shadow_settings().texels_per_pixel = 8.0f;
+  const ShadowViews& shadows = scene.run();
+  EXPECT_LT(shadows.texels_per_pixel, 8.0f) << "the atlas is full";
+  const std::vector<ShadowFace> first = shadows.faces;
+  scene.settings.world_from_camera = glm::rotate(dmat4(1.0), 0.4, dvec3(0.0, 1.0, 0.0));
+  EXPECT_LT(scene.run().faces.size(), first.size()) << "some are out of view";
+  for (const ShadowFace& face : shadows.faces)
+    for (const ShadowFace& before : first)
+      EXPECT_TRUE(before.light != face.light || before.index != face.index || before.square == face.square);
+}
+
 TEST(ShadowSystems, shrink_faces_of_a_full_atlas_and_say_so) {
   ShadowWorld scene;
   scene.add_random(400);
+  std::vector<Entity> lights;
+  scene.world.view<const Light>().each([&](Entity light, const Light&) { lights.push_back(light); });
+  for (const Entity light : lights) scene.world.add(light, ShadowCaster{.resolution = 64});
   scene.shadow_settings().atlas_size = 1024;
   const ShadowViews& shadows = scene.run();
   EXPECT_GT(shadows.faces_shrunk, 0u);
