@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/outputs.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace gloam {
 
 void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access) {
@@ -23,14 +20,6 @@ void append_shadow_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t f
   bindings.push_back({first + 3, sampled(shadows.pyramid, shadows.nearest)});
   bindings.push_back({first + 4, sampled(shadows.cookies, shadows.linear, true)});
   bindings.push_back({first + 5, sampled(shadows.traced, shadows.nearest, true)});
-}
-
-float quantised_visibility(float visibility, std::uint32_t levels) {
-  if (visibility > 0.9999f) return 1.0f;
-  if (!(visibility >= 0.0001f)) return 0.0f;
-  if (levels == 0) return visibility;
-  const auto steps = static_cast<float>(levels);
-  return std::clamp(std::floor(visibility * steps + 0.5f) / steps, 0.0f, 1.0f);
 }
 
 }  // namespace gloam

@@ -15,11 +15,12 @@ namespace gloam {
 /// to be looked at.
 struct ShadowsOutputs {
   gpu::Binding::BufferRange block;  ///< a ShadowBlock (shaders/shadows/shadows_shared.h), uniform
-  ImageRef rows;     ///< rgba32f, GLOAM_SHADOW_ROW_TEXELS × local lights: ShadowRow
-  ImageRef atlas;    ///< r32f or r16_unorm: depth of all faces and their mips
-  ImageRef pyramid;  ///< rg32f: farthest and nearest depth
+  ImageRef rows;                    ///< rgba32f, GLOAM_SHADOW_ROW_TEXELS × local lights: ShadowRow
+  ImageRef atlas;                   ///< r32f or r16_unorm: depth of all faces and their mips
+  ImageRef pyramid;                 ///< rg32f: farthest and nearest depth
   ImageRef cookies;  ///< rgba8_srgb, an array: cookies of spot lights; one white layer when there is none
-  ImageRef traced;   ///< r8_unorm, an array: visibility a light and pixel that a reference has traced; the cookies' image when there is none
+  ImageRef
+      traced;  ///< r8_unorm, an array: visibility a light and pixel that a reference has traced; the cookies' image when there is none
   gpu::SamplerHandle nearest;
   gpu::SamplerHandle linear;
 
@@ -28,13 +29,9 @@ struct ShadowsOutputs {
   std::string variant;
 };
 
-/// Bindings that shadows_api.glsl takes, from number `first` on: block, rows, atlas, pyramid, cookies, traced.
-inline constexpr std::uint32_t kShadowBindings = 6;
 void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access);
+/// Bindings that shadows_api.glsl takes, from number `first` on: block, rows, atlas, pyramid, cookies, traced.
 void append_shadow_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                             const ShadowsOutputs& shadows);
-
-/// What a visibility slot makes of a visibility: 1 above 0.9999, 0 below 0.0001, else the nearest of `levels` steps (255: 8 bits, 15: 4).
-[[nodiscard]] float quantised_visibility(float visibility, std::uint32_t levels);
 
 }  // namespace gloam

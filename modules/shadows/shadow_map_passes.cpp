@@ -189,8 +189,7 @@ void record_run(PassContext& context, const MapWork& work, const ScratchPlan::Ba
   }
 }
 
-void record_mips(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch,
-                 const ShadowMaps& maps) {
+void record_mips(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, const ShadowMaps& maps) {
   gpu::CommandList& commands = context.commands();
   work.scratch->begin_reading(commands, batch.size);
   commands.bind_pipeline(work.mips);
@@ -236,8 +235,9 @@ void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, 
   frame.read_vertices(draw);
   draw.keep();  // what it writes, the graph does not know
   if (there)
-    draw.execute(
-        [&frame, work, index](PassContext& context) { record_draws(frame, context, *work, work->plan.batches[index]); });
+    draw.execute([&frame, work, index](PassContext& context) {
+      record_draws(frame, context, *work, work->plan.batches[index]);
+    });
   PassBuilder mips = frame.graph().add_pass("shadow_map_mips", "shadows");
   maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
   maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);

@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/shadow_reference_views.h"
 
-#include <algorithm>
 #include <optional>
-#include <span>
 #include <string>
 
-#include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_knobs.h"
 #include "modules/shadows/shadow_reference.h"
 #include "modules/shadows/shadow_uploads.h"
+#include "modules/shadows/shown_light.h"
 #include "shaders/shadows/shaders.h"
 #include "shaders/shadows/shadow_map_shared.h"
 
@@ -37,21 +35,6 @@ struct ReferenceView {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
 };
-
-/// Where the light lies among those of the view; nothing when it reaches nothing there.
-std::optional<shaders::ShownLightConstants> place_of(const FrameBuilder& frame, std::string_view name) {
-  const auto entity = frame.world().resource<SceneNames>().find("light", name);
-  if (!entity.ok()) return std::nullopt;
-  const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
-  std::uint32_t directional = 0;
-  for (const std::span<const Entity> lights : {local_lights(visible), directional_lights(visible)}) {
-    const auto at = std::find(lights.begin(), lights.end(), *entity);
-    if (at != lights.end())
-      return shaders::ShownLightConstants{static_cast<std::uint32_t>(at - lights.begin()), directional};
-    ++directional;
-  }
-  return std::nullopt;
-}
 
 gpu::GraphicsPipelineDesc view_pipeline(const ReferenceView& view, gpu::Format format) {
   gpu::GraphicsPipelineDesc desc =
@@ -149,7 +132,7 @@ Status add_shadow_reference_view_pass(FrameBuilder& frame) {
     view.fragment = shaders::shadows::shadow_error_view_frag;
     return add_pass(frame, std::move(view));
   }
-  const auto light = place_of(frame, shown.substr(stem.size() + 1));
+  const auto light = shown_light(frame, shown.substr(stem.size() + 1));
   if (!light) {
     frame.services().log.warning("view " + std::string(shown) +
                                  " shows the picture as it is: the light reaches nothing in view");

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <span>
 #include <string>
 
-#include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_views.h"
+#include "modules/shadows/shown_light.h"
 #include "shaders/shadows/shaders.h"
 #include "shaders/shadows/shadow_map_shared.h"
 
@@ -19,21 +17,6 @@ namespace gloam {
 namespace {
 
 constexpr std::uint32_t kFirstShadowBinding = 6;
-
-/// Which light is shown, if it is in view.
-std::optional<shaders::ShownLightConstants> shown_light(const FrameBuilder& frame, std::string_view name) {
-  const auto entity = frame.world().resource<SceneNames>().find("light", name);
-  if (!entity.ok()) return std::nullopt;
-  const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
-  const auto place_in = [&](std::span<const Entity> lights) -> std::optional<std::uint32_t> {
-    const auto at = std::find(lights.begin(), lights.end(), *entity);
-    if (at == lights.end()) return std::nullopt;
-    return static_cast<std::uint32_t>(at - lights.begin());
-  };
-  if (const auto local = place_in(local_lights(visible))) return shaders::ShownLightConstants{*local, 0};
-  if (const auto sun = place_in(directional_lights(visible))) return shaders::ShownLightConstants{*sun, 1};
-  return std::nullopt;
-}
 
 gpu::GraphicsPipelineDesc visibility_pipeline(const ShadowsOutputs& shadows, gpu::Format format) {
   gpu::GraphicsPipelineDesc desc =

@@ -20,7 +20,8 @@ struct TracedVisibility {
   std::uint32_t width = 0;  ///< pixels
   std::uint32_t height = 0;
   bool shades = true;  ///< false: only views that compare look at it, shading stays with its shadow maps
-  std::vector<Entity> lights;  ///< by layer; lights that reach no pixel of the frame or cast no shadow have none: they are lit everywhere
+  std::vector<Entity>
+      lights;  ///< by layer; lights that reach no pixel of the frame or cast no shadow have none: they are lit everywhere
   /// One byte a pixel, rows from the top, layer after layer: 0 nothing of the light is seen … 255 all of it. 255 where `judged` is not set.
   std::vector<std::uint8_t> visibility;
   /// One bit a byte of `visibility`, bit i % 8 of byte i / 8: whether the light reaches the surface, by range and cone, so that rays were

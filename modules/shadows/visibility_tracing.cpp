@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "modules/shadows/visibility_tracing.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -14,7 +16,6 @@
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"
 #include "modules/shadows/emitter_samples.h"
-#include "modules/shadows/shadow_reference.h"
 
 namespace gloam {
 namespace {

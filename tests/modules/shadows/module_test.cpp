@@ -92,7 +92,7 @@ TEST_F(ShadowsModuleTest, knobs_become_numbers) {
                                     {"visibility_bits", "4"},
                                     {"atlas", "8192"},
                                     {"mip_operator", "average"},
-        {"casters", "simplified"},
+                                    {"casters", "simplified"},
                                     {"depth", "d16"},
                                     {"filter", "pcss"}})
     ASSERT_TRUE(knobs.set("shadows." + std::string(name), value).ok()) << name;

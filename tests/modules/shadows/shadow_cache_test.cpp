@@ -141,8 +141,8 @@ TEST_F(ShadowCacheTest, squares_that_only_touch_do_not_disturb_each_other) {
     std::erase_if(alive, [&](std::uint32_t other) {
       const AtlasSquare& a = faces[other].square;
       const AtlasSquare& b = face.square;
-      return a.origin.x < b.origin.x + b.size && b.origin.x < a.origin.x + a.size &&
-             a.origin.y < b.origin.y + b.size && b.origin.y < a.origin.y + a.size;
+      return a.origin.x < b.origin.x + b.size && b.origin.x < a.origin.x + a.size && a.origin.y < b.origin.y + b.size &&
+             b.origin.y < a.origin.y + a.size;
     });
     alive.insert(i);
     faces.push_back(face);

@@ -206,8 +206,7 @@ TEST_F(ShadowFrames, plans_are_met_again_whatever_faces_are_drawn) {
   std::set<double> drawn_counts;
   for (int frame = 0; frame < 14; ++frame) {
     for (int i = 0; i < 3; ++i)
-      if (((frame + 1) >> i & 1) != 0)
-        world.get<WorldTransform>(lamps[i]).matrix[3] += dvec4(0.01, 0.0, 0.0, 0.0);
+      if (((frame + 1) >> i & 1) != 0) world.get<WorldTransform>(lamps[i]).matrix[3] += dvec4(0.01, 0.0, 0.0, 0.0);
     if (frame > 7) move(left, dvec3(-1.0, 0.01 * frame, 0.8));
     draw();
     drawn_counts.insert(drawn_faces());
