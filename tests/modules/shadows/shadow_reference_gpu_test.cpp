@@ -93,11 +93,16 @@ TEST_F(ShadowReferenceFrames, drawn_shadows_are_near_to_traced_ones) {
   const TracedVisibility traced = trace(256);
   const std::vector<float> drawn = shown("shadow:lamp", "shadow_visibility");
   const ShadowError error = compare_visibility(traced, 0, drawn);
-  std::printf("mean %.4f, in penumbrae %.4f, wrong %.4f, acne %.4f, leaks %.4f; noise of the reference %.4f\n", error.mean(),
-              error.penumbra_mean(), error.wrong_share(), error.acne_share(), error.leak_share(), traced.noise);
+  std::printf("mean %.4f, in penumbrae %.4f, wrong %.4f, acne %.4f, leaks %.4f; noise of the reference %.4f\n",
+              error.mean(), error.penumbra_mean(), error.wrong_share(), error.acne_share(), error.leak_share(),
+              traced.noise);
   EXPECT_GT(error.penumbra_pairs, 50u);
-  EXPECT_LT(error.mean(), 0.05);
-  EXPECT_LT(error.wrong_share(), 0.02);
+  EXPECT_LE(error.mean(), 0.02);
+  EXPECT_LE(error.penumbra_mean(), 0.06);
+  EXPECT_LE(error.wrong_share(), 0.005);
+  EXPECT_EQ(error.acne, 0u);
+  EXPECT_EQ(error.leaks, 0u);
+  EXPECT_LE(error.unreached, traced.pixels() / 100);
 }
 
 TEST_F(ShadowReferenceFrames, shading_takes_what_was_traced_where_it_shall) {
@@ -144,12 +149,25 @@ TEST_F(ShadowReferenceFrames, the_courtyard_is_traced_in_seconds) {
   const double built = seconds();
   const TracedVisibility traced = trace_visibility(
       {.world = courtyard, .geometry = geometry, .tracer = *tracer, .executor = *executor, .samples = 64});
-  std::size_t pairs = 0;
-  for (std::size_t i = 0; i < traced.visibility.size(); ++i) pairs += traced.is_judged(i) ? 1 : 0;
+  std::size_t pairs = 0, dark = 0, lit = 0;
+  for (std::size_t i = 0; i < traced.visibility.size(); ++i) {
+    if (!traced.is_judged(i)) continue;
+    ++pairs;
+    dark += traced.visibility[i] == 0 ? 1 : 0;
+    lit += traced.visibility[i] == 255 ? 1 : 0;
+  }
   std::printf("courtyard: %llu triangles built in %.2f s; %zu lights, %zu pairs, 64 samples: %.2f s, noise %.4f\n",
-              static_cast<unsigned long long>(tracer->triangles()), built, traced.lights.size(), pairs, seconds() - built,
-              traced.noise);
-  EXPECT_FALSE(traced.lights.empty());
+              static_cast<unsigned long long>(tracer->triangles()), built, traced.lights.size(), pairs,
+              seconds() - built, traced.noise);
+  EXPECT_GE(traced.lights.size(), 5u);
+  EXPECT_GT(pairs, traced.pixels() / 4);
+  EXPECT_LT(pairs, traced.visibility.size());
+  const auto share = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(pairs); };
+  EXPECT_GT(share(dark), 0.01) << "walls and trees stand in the light";
+  EXPECT_GT(share(lit), 0.1);
+  EXPECT_LT(share(dark) + share(lit), 1.0) << "some pixels see a part of a lamp";
+  EXPECT_GT(traced.noise, 0.0);
+  EXPECT_LT(traced.noise, 0.01);
 }
 
 }  // namespace
