@@ -28,53 +28,48 @@ vec2 pyramid_corner(ShadowPoint p, int level) {
   return (square.corner + clamp(corner, vec2(1.0), vec2(square.size - 1.0))) * 4.0 * shadow_texel_size();
 }
 
-// Nearest depth of all faces of a cube, as any of them may see what another holds within its field of view twice over.
-float nearest_of_cube(ShadowPoint p) {
-  float nearest = 0.0;
-  int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP;
-  for (int face = 0; face < 6; ++face) {
-    MipSquare square = mip_square(cube_face_origin(p.light, face) * 0.25, p.size * 0.25, last, shadow_block.atlas_size * 0.25);
-    float factor = face == p.face ? 1.0 : 2.0;
-    nearest = max(nearest, factor * texelFetch(shadow_pyramid, ivec2(square.corner), 0).y);
-  }
-  return nearest;
-}
-
-// Nearest depth of a square that other faces of a cube have part in, from nine of the pyramid's texels.
-float nearest_across_faces(ShadowPoint p, float width) {
-  int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP;
-  int level = pyramid_level(0.5 * width, last);
+// A cube's region, from the pyramid's texels. across: the region leaves the face.
+SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
+  const int faces = 6, taps = 9;
+  int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP, level = last;
   mat3 own = cube_face_axes(p.face);
-  float to_tangent = p.tan_half * 2.0 / p.size;
-  float nearest = 0.0;
-  for (int i = 0; i < 9; ++i) {
-    vec2 tangent = (p.at + 0.5 * width * vec2(i % 3 - 1, i / 3 - 1) - 0.5 * p.size) * to_tangent;
+  float to_tangent = p.tan_half * 2.0 / p.size, nearest = 0.0;
+  SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
+  across = false;
+  int i = 0, end = faces;
+  // First all faces, whole: any of them may see what another holds within its field of view twice over. When the square that this gives leaves
+  // the face, nine texels of it, then of the smaller square that these give. One loop, so that devices which run an idle loop once run little.
+  if (p.face >= 0) do {
+    bool whole = i < faces;
+    int tap = whole ? 4 : (i - faces) % taps;
+    vec2 tangent = (p.at + 0.5 * region.width * vec2(tap % 3 - 1, tap / 3 - 1) - 0.5 * p.size) * to_tangent;
     vec3 v = own * vec3(tangent.x, -tangent.y, 1.0);
-    int face = cube_face_of(v);
+    int face = whole ? i : cube_face_of(v);
     vec3 local = v * cube_face_axes(face);
-    vec2 there = vec2(local.x, -local.y) / local.z / to_tangent + 0.5 * p.size;
+    vec2 there = whole ? vec2(0.0) : vec2(local.x, -local.y) / local.z / to_tangent + 0.5 * p.size;
     MipSquare square = mip_square(cube_face_origin(p.light, face) * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
     vec2 cell = clamp(floor(there * 0.25 / square.texel), vec2(0.0), vec2(square.size - 1.0));
-    nearest = max(nearest, texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).y * local.z);
-  }
-  return nearest;
+    float factor = whole ? (face == p.face ? 1.0 : 2.0) : local.z;
+    nearest = max(nearest, texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).y * factor);
+    ++i;
+    if (i == faces || i == faces + taps || i == faces + 2 * taps) {
+      float width = penumbra_width(p, nearest);
+      region.width = whole ? width : min(region.width, width);
+      region.nearest = whole ? 0.0 : nearest;
+      across = leaves_cube_face(p, 0.5 * region.width) && (whole || across);
+      end = whole ? (across ? faces + 2 * taps : faces) : end;
+      level = pyramid_level(0.5 * region.width, last);
+      nearest = 0.0;
+    }
+  } while (i < end);
+  return region;
 }
 
 // From coarse to fine: the nearest thing in a square that is too large gives a smaller one that is still large enough.
 SearchRegion find_region(ShadowPoint p) {
   int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
-  SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
-  bool across = false;
-  if (p.face >= 0) do {
-    region.width = penumbra_width(p, nearest_of_cube(p));
-    across = leaves_cube_face(p, 0.5 * region.width);
-    int step = 0;
-    if (across) do {
-      region.nearest = nearest_across_faces(p, region.width);
-      region.width = min(region.width, penumbra_width(p, region.nearest));
-    } while (++step < 2);
-    across = across && leaves_cube_face(p, 0.5 * region.width);
-  } while (never(p));
+  bool across;
+  SearchRegion region = find_region_of_cube(p, across);
   if (!across) do {
     vec2 corner = pyramid_corner(p, last);
     for (int step = 0; step < 2; ++step) {
@@ -92,6 +87,56 @@ struct Blockers {
   float count;  // weighted; (N − 1)² when every texel blocks
   float depth;  // of their mean distance; that of the receiver when there are none
 };
+
+Blockers blockers_of(ShadowPoint p, float count, float sum) {
+  float mean = sum / max(count, 1e-6);
+  return Blockers(count, count <= 1e-6 ? p.depth : p.orthographic ? mean : 1.0 / mean);
+}
+
+// Sums of the rows of a gather.
+struct BlockerSums {
+  vec2 count;  // lower, upper
+  vec2 distance;
+};
+
+// threshold: of the corner where the texels meet; corner: what they differ by. left, right: shares of the columns.
+void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, float threshold, vec4 corner, float least, float left, float right) {
+  vec4 depth = textureGather(shadow_atlas, at);
+  vec4 distance = p.orthographic ? depth : 1.0 / depth;
+  bvec4 blocks = is_nearer(depth, threshold + corner, least);
+  sums.count.x = blocks.x ? sums.count.x + left : sums.count.x;
+  sums.count.x = blocks.y ? sums.count.x + right : sums.count.x;
+  sums.count.y = blocks.z ? sums.count.y + right : sums.count.y;
+  sums.count.y = blocks.w ? sums.count.y + left : sums.count.y;
+  sums.distance.x = blocks.x ? sums.distance.x + left * distance.x : sums.distance.x;
+  sums.distance.x = blocks.y ? sums.distance.x + right * distance.y : sums.distance.x;
+  sums.distance.y = blocks.z ? sums.distance.y + right * distance.z : sums.distance.y;
+  sums.distance.y = blocks.w ? sums.distance.y + left * distance.w : sums.distance.y;
+}
+
+// Blockers of 8×8 texels with bilinear edges, see find_blockers.
+Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane) {
+  Kernel k = make_kernel(p, mip, 8);
+  Gathers8 g = make_gathers(k);
+  float least = whole_plane ? p.least : max(k.least, p.threshold);
+  vec4 v = g.v, row = g.row;
+  float upper = 1.0 - k.fraction.y, count = 0.0, distance = 0.0;
+  int turn = 0;
+  do {
+    vec2 shares = vec2(turn < 3 ? 1.0 : k.fraction.y, upper);
+    BlockerSums sums = BlockerSums(vec2(0.0), vec2(0.0));
+    add_blockers(sums, p, vec2(g.u.x, v.x), g.column.x + row.x, g.corner, least, 1.0 - k.fraction.x, 1.0);
+    add_blockers(sums, p, vec2(g.u.y, v.x), g.column.y + row.x, g.corner, least, 1.0, 1.0);
+    add_blockers(sums, p, vec2(g.u.z, v.x), g.column.z + row.x, g.corner, least, 1.0, 1.0);
+    add_blockers(sums, p, vec2(g.u.w, v.x), g.column.w + row.x, g.corner, least, 1.0, k.fraction.x);
+    count += dot(sums.count, shares);
+    distance += dot(sums.distance, shares);
+    upper = 1.0;
+    v = v.yzww;
+    row = row.yzww;
+  } while (++turn < 4);
+  return blockers_of(p, count, distance);
+}
 
 // Blockers of N × N texels with bilinear edges, (N / 2)² gathers. whole_plane: the receiver's plane counts as far as the kernel goes, for a kernel
 // that is as wide as it is whatever the light; without it, blockers are nearer to the light than the receiver.
@@ -112,9 +157,7 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane) {
       sum += weight * (p.orthographic ? depth : 1.0 / max(depth, threshold));
     }
   }
-  float total = dot(count, vec4(1.0));
-  float mean = dot(sum, vec4(1.0)) / max(total, 1e-6);
-  return Blockers(total, total <= 1e-6 ? p.depth : p.orthographic ? mean : 1.0 / mean);
+  return blockers_of(p, dot(count, vec4(1.0)), dot(sum, vec4(1.0)));
 }
 
 // The same where other faces of a cube have part in it: texel by texel.
@@ -140,7 +183,7 @@ Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane) {
   Blockers found = Blockers(0.0, p.depth);
   bool across = leaves_cube_face(p, kernel_reach(mip, texels));
   if (!across) do {
-    found = find_blockers(p, mip, texels, whole_plane);
+    found = texels == 8 ? find_blockers_8(p, mip, whole_plane) : find_blockers(p, mip, texels, whole_plane);
   } while (never(p));
   if (across) do {
     found = find_blockers_across(p, mip, texels, whole_plane);

@@ -8,39 +8,41 @@
 
 // Contact-hardening filter (Thief §1.3.3): two mips, in each of which the penumbra is 4 to 8 and 2 to 4 texels wide.
 
-// Two texel rows, x-interpolated and folded about the middle column: y is the sum of the cells one column left and right of it and so on.
-void gather_rows(Kernel k, vec4 corner_x, float corner_y, out vec4 upper, out vec4 lower) {
-  vec4 slopes = corner_slopes(k);
-  vec4 plane = k.threshold + k.slope.x * (corner_x - k.at.x) + k.slope.y * (corner_y - k.at.y);
-  vec4 b0 = vec4(greaterThan(gather_depth(k, vec2(corner_x.x, corner_y)), max(plane.x + slopes, vec4(k.least))));
-  vec4 b1 = vec4(greaterThan(gather_depth(k, vec2(corner_x.y, corner_y)), max(plane.y + slopes, vec4(k.least))));
-  vec4 b2 = vec4(greaterThan(gather_depth(k, vec2(corner_x.z, corner_y)), max(plane.z + slopes, vec4(k.least))));
-  vec4 b3 = vec4(greaterThan(gather_depth(k, vec2(corner_x.w, corner_y)), max(plane.w + slopes, vec4(k.least))));
-  upper = mix(vec4(b1.z, b1.w + b2.w, b0.z + b2.z, b0.w + b3.w), vec4(b2.w, b1.z + b2.z, b1.w + b3.w, b0.z + b3.z), k.fraction.x);
-  lower = mix(vec4(b1.y, b1.x + b2.x, b0.y + b2.y, b0.x + b3.x), vec4(b2.x, b1.y + b2.y, b1.x + b3.x, b0.y + b3.y), k.fraction.x);
+// What a kernel adds up to when its middle is texel column 3 (x), and when it is column 4 (y); between, by the fraction.
+void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, float least, vec4 at_3, vec4 at_4) {
+  bvec4 blocked = is_nearer(textureGather(shadow_atlas, at), threshold + corner, least);
+  sums = blocked.x ? sums + vec2(at_3.x, at_4.x) : sums;
+  sums = blocked.y ? sums + vec2(at_3.y, at_4.y) : sums;
+  sums = blocked.z ? sums + vec2(at_3.z, at_4.z) : sums;
+  sums = blocked.w ? sums + vec2(at_3.w, at_4.w) : sums;
+}
+
+// Four gathers beside each other. `upper` and `lower` texel row: weights of the cells 0, 1, 2, 3 columns from the middle.
+void add_gathers(inout vec2 sums, Gathers8 g, float v, float row, float least, vec4 upper, vec4 lower) {
+  add_gather(sums, vec2(g.u.x, v), g.column.x + row, g.corner, least, vec4(lower.wz, upper.zw), vec4(0.0, lower.w, upper.w, 0.0));
+  add_gather(sums, vec2(g.u.y, v), g.column.y + row, g.corner, least, vec4(lower.yx, upper.xy), vec4(lower.zy, upper.yz));
+  add_gather(sums, vec2(g.u.z, v), g.column.z + row, g.corner, least, vec4(lower.yz, upper.zy), vec4(lower.xy, upper.yx));
+  add_gather(sums, vec2(g.u.w, v), g.column.w + row, g.corner, least, vec4(lower.w, 0.0, 0.0, upper.w), vec4(lower.zw, upper.wz));
 }
 
 // Blocked share under the 8×8 kernel. Rows come in pairs that mirror each other about the middle, from the outside in.
 float blocked_share_8(ShadowPoint p, int mip, float width) {
   Kernel k = make_kernel(p, mip, 8);
+  Gathers8 g = make_gathers(k);
   FilterRows rows = filter_rows(clamp(width / (8.0 * k.square.texel), 0.0, 1.0), kKernelShape != 0u);
-  vec4 offsets = vec4(1.0, 3.0, 5.0, 7.0);
-  vec4 corner_x = clamp(k.base.x + offsets, 1.0, k.square.size - 1.0);
-  vec4 corner_y = clamp(k.base.y + offsets, 1.0, k.square.size - 1.0);
-  vec4 outside = vec4(0.0), middle = rows.row3, inside = rows.row2, sum = vec4(0.0);
-  for (int turn = 0; turn < 2; ++turn) {
-    vec4 upper, lower;
+  vec4 outside = vec4(0.0), middle = rows.row3, inside = rows.row2;
+  vec2 sums = vec2(0.0);
+  int turn = 0;
+  do {
     vec4 first_near = mix(outside, middle, 1.0 - k.fraction.y), first_far = mix(outside, middle, k.fraction.y);
     vec4 second_near = mix(middle, inside, 1.0 - k.fraction.y), second_far = mix(middle, inside, k.fraction.y);
-    gather_rows(k, corner_x, turn == 0 ? corner_y.x : corner_y.y, upper, lower);
-    sum += upper * first_near + lower * second_near;
-    gather_rows(k, corner_x, turn == 0 ? corner_y.w : corner_y.z, upper, lower);
-    sum += upper * second_far + lower * first_far;
+    add_gathers(sums, g, turn == 0 ? g.v.x : g.v.y, turn == 0 ? g.row.x : g.row.y, k.least, first_near, second_near);
+    add_gathers(sums, g, turn == 0 ? g.v.w : g.v.z, turn == 0 ? g.row.w : g.row.z, k.least, second_far, first_far);
     outside = rows.row2;
     middle = rows.row1;
     inside = rows.row0;
-  }
-  return dot(sum, vec4(1.0));
+  } while (++turn < 2);
+  return mix(sums.x, sums.y, k.fraction.x);
 }
 
 // Share of a texel that a disc or square covers, by the distance of their middles. All in texels.
@@ -72,49 +74,63 @@ float blocked_share_any(ShadowPoint p, int mip, float width, int texels) {
   return dot(blocked, vec4(1.0)) / dot(all, vec4(1.0));
 }
 
-// The same where other faces of a cube have part in it: texel by texel.
-float blocked_share_across(ShadowPoint p, int mip, float width, int texels) {
-  Kernel k = make_kernel(p, mip, texels);
-  float radius = covering_radius(k, width, texels);
-  float all = 0.0, blocked = 0.0;
-  for (int i = 0; i < texels * texels; ++i) {
-    vec2 cell = k.base + vec2(i % texels, i / texels) + 0.5;
-    float weight = covered(radius, vec4(cell.x - k.at.x), vec4(cell.y - k.at.y)).x;
+// The two mips that a penumbra of some width is filtered in.
+struct FilterMips {
+  int fine;
+  int coarse;
+  float blend;  // share of the coarse one
+};
+
+FilterMips filter_mips(ShadowPoint p, float width) {
+  int last = coarsest_mip(p, kKernel);
+  float level = max(2.0 * width / float(kKernel), 1.0);  // the penumbra is half as wide as the kernel in mip log2(level)
+  int fine = min(floor_log2(level), last);
+  float blend = fine < last ? clamp(log2(level * power_of_two(-fine)), 0.0, 1.0) : 0.0;
+  return FilterMips(fine, min(fine + 1, last), blend);
+}
+
+// What kernels that other faces of a cube have part in add to the blocked share: texel by texel, first in the fine mip, if that leaves the
+// face, then in the coarse one, which does if the fine one does.
+float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
+  const int texels = kKernel * kKernel;
+  int i = leaves_cube_face(p, kernel_reach(mips.fine, kKernel)) ? 0 : texels;
+  int end = mips.blend > 0.0 ? 2 * texels : texels;
+  float share = 0.0, all = 0.0, blocked = 0.0;
+  if (i < end && leaves_cube_face(p, kernel_reach(mips.coarse, kKernel))) do {
+    bool fine = i < texels;
+    int mip = fine ? mips.fine : mips.coarse;
+    Kernel k = make_kernel(p, mip, kKernel);
+    int texel = fine ? i : i - texels;
+    vec2 cell = k.base + vec2(texel % kKernel, texel / kKernel) + 0.5;
+    float weight = covered(covering_radius(k, width, kKernel), vec4(cell.x - k.at.x), vec4(cell.y - k.at.y)).x;
     vec2 at = cell * k.square.texel;
     float rise;
     float depth = cube_depth(p, at, mip, rise);
     all += weight;
     blocked += depth > tap_threshold(p, k, at, k.least, rise) ? weight : 0.0;
-  }
-  return blocked / all;
-}
-
-float blocked_share(ShadowPoint p, int mip, float width) {
-  float share = 0.0;
-  bool across = leaves_cube_face(p, kernel_reach(mip, kKernel));
-  if (!across) do {
-    share = kKernel == 8 ? blocked_share_8(p, mip, width) : blocked_share_any(p, mip, width, kKernel);
-  } while (never(p));
-  if (across) do {
-    share = blocked_share_across(p, mip, width, kKernel);
-  } while (never(p));
+    ++i;
+    if (i % texels == 0) {
+      share += (fine ? 1.0 - mips.blend : mips.blend) * blocked / all;
+      all = 0.0;
+      blocked = 0.0;
+    }
+  } while (i < end);
   return share;
 }
 
 // Visibility under a penumbra of this width, texels of mip 0.
 float filtered_visibility(ShadowPoint p, float width) {
-  int last = coarsest_mip(p, kKernel);
-  float level = max(2.0 * width / float(kKernel), 1.0);  // the penumbra is half as wide as the kernel in mip log2(level)
-  int fine = min(floor_log2(level), last);
-  float blend = fine < last ? clamp(log2(level * power_of_two(-fine)), 0.0, 1.0) : 0.0;
+  FilterMips mips = filter_mips(p, width);
   float share = 0.0;
-  int turns = blend > 0.0 || kFullPenumbra != 0u ? 2 : 1;
+  int turns = mips.blend > 0.0 || kFullPenumbra != 0u ? 2 : 1;
   int turn = 0;
   do {
-    float part = turn == 0 ? 1.0 - blend : blend;
-    share += part * blocked_share(p, min(fine + turn, last), width);
+    int mip = turn == 0 ? mips.fine : mips.coarse;
+    float part = turn == 0 ? 1.0 - mips.blend : mips.blend;
+    float blocked = kKernel == 8 ? blocked_share_8(p, mip, width) : blocked_share_any(p, mip, width, kKernel);
+    share += leaves_cube_face(p, kernel_reach(mip, kKernel)) ? 0.0 : part * blocked;
   } while (++turn < turns);
-  return 1.0 - share;
+  return 1.0 - share - blocked_share_across(p, mips, width);
 }
 
 float chs_visibility(ShadowPoint p) {

@@ -154,22 +154,24 @@ ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowRec
   float facing = dot(r.face_normal, light_direction);
   float along = abs(facing) < 1e-5 ? (facing < 0.0 ? -1e-5 : 1e-5) : facing;
   float depth_per_m = 0.0;
-  for (uint i = 0u; i < count; ++i) {
+  uint i = 0u;
+  // Until every thread has its cascade: loads of cascades are dear.
+  do {
     ShadowCascade c = shadow_block.directional[light].cascades[i];
     vec4 position = vec4(r.position, 1.0);
     vec3 at = vec3(dot(c.row_u, position), dot(c.row_v, position), dot(c.row_depth, position));
     float inside = min(min(at.x, at.y), c.size - max(at.x, at.y)) - c.rim;
-    bool take = !p.live && inside >= 0.0 && at.z < 1.0 && at.z > -1e18;
-    if (!take) continue;
-    p.live = true;
-    p.origin = c.origin;
-    p.size = c.size;
-    p.at = at.xy;
-    p.depth = at.z;
-    depth_per_m = 1.0 / c.depth_m;
-    p.scale = max(shadow_block.directional[light].penumbra_m_per_m, 0.0) * c.depth_m / c.texel_m;
-    p.slope = vec2(dot(r.face_normal, c.row_u.xyz), dot(r.face_normal, c.row_v.xyz)) * (c.texel_m * c.texel_m * depth_per_m / along);
-  }
+    p.live = count > 0u && inside >= 0.0 && at.z < 1.0 && at.z > -1e18;
+    if (p.live) {
+      p.origin = c.origin;
+      p.size = c.size;
+      p.at = at.xy;
+      p.depth = at.z;
+      depth_per_m = 1.0 / c.depth_m;
+      p.scale = max(shadow_block.directional[light].penumbra_m_per_m, 0.0) * c.depth_m / c.texel_m;
+      p.slope = vec2(dot(r.face_normal, c.row_u.xyz), dot(r.face_normal, c.row_v.xyz)) * (c.texel_m * c.texel_m * depth_per_m / along);
+    }
+  } while (!p.live && ++i < count);
   set_threshold(p, facing, 0.5 * max(shadow_block.directional[light].penumbra_m_per_m, 0.0), depth_per_m, r.subsurface);
   return p;
 }

@@ -51,6 +51,30 @@ vec4 gather_threshold(Kernel k, vec2 corner, float least) {
   return max(vec4(k.threshold + dot(k.slope, corner - k.at)) + corner_slopes(k), vec4(least));
 }
 
+// The sixteen gathers of an 8×8 kernel.
+struct Gathers8 {
+  vec4 u;         // texture coordinates of the four columns
+  vec4 v;         // of the four rows
+  vec4 column;    // what columns and rows add up to is the plane's threshold at a corner
+  vec4 row;
+  vec4 corner;    // what the four texels round it differ by
+};
+
+Gathers8 make_gathers(Kernel k) {
+  vec4 offsets = vec4(1.0, 3.0, 5.0, 7.0);
+  vec4 x = clamp(k.base.x + offsets, 1.0, k.square.size - 1.0);
+  vec4 y = clamp(k.base.y + offsets, 1.0, k.square.size - 1.0);
+  vec2 texel = shadow_texel_size();
+  return Gathers8((k.square.corner.x + x) * texel.x, (k.square.corner.y + y) * texel.y, k.slope.x * (x - k.at.x),
+                  k.threshold + k.slope.y * (y - k.at.y), corner_slopes(k));
+}
+
+// Whether depths are above both: two comparisons are cheaper than what max does for numbers that are none.
+bvec4 is_nearer(vec4 depth, vec4 threshold, float least) {
+  return bvec4(depth.x > threshold.x && depth.x > least, depth.y > threshold.y && depth.y > least, depth.z > threshold.z && depth.z > least,
+               depth.w > threshold.w && depth.w > least);
+}
+
 // Threshold at a texel coordinate of mip 0.
 float tap_threshold(ShadowPoint p, Kernel k, vec2 at, float least) { return max(k.threshold + dot(p.slope, at - p.at), least); }
 

@@ -24,17 +24,6 @@ layout(set = 0, binding = 5) uniform sampler2D light_texels;
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_visibility;
 
-// See shadow_space.glsl.
-bool never() { return shadow_block.atlas_size < 0.0; }
-
-float visibility_of_local(ShadowReceiver r) {
-  LocalLight light = fetch_light(light_texels, shown.light);
-  light.color = vec3(1.0);  // where it reaches counts, not its strength
-  vec3 to_light;
-  if (!(local_illuminance(light, r.position, to_light).x > 0.0)) return -1.0;
-  return local_visibility(shown.light, light.position, r);
-}
-
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_image, pixel, 0).r;
@@ -42,13 +31,13 @@ void main() {
   r.position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
   r.face_normal = unpack_normal(texelFetch(normal_image, pixel, 0).y);
   r.subsurface = texelFetch(base_color_image, pixel, 0).a > 0.5;
-  float visibility = -1.0;
-  if (depth > 0.0 && shown.directional != 0u) do {
-    visibility = directional_visibility(shown.light, lights.directional[shown.light].direction, r);
-  } while (never());
-  if (depth > 0.0 && shown.directional == 0u) do {
-    visibility = visibility_of_local(r);
-  } while (never());
+  bool directional = shown.directional != 0u;
+  LocalLight local = fetch_light(light_texels, directional ? 0u : shown.light);
+  local.color = vec3(1.0);  // where it reaches counts, not its strength
+  vec3 to_light;
+  bool reaches = directional || local_illuminance(local, r.position, to_light).x > 0.0;
+  vec3 light_vector = directional ? lights.directional[directional ? shown.light : 0u].direction : local.position;
+  float visibility = depth > 0.0 && reaches ? light_visibility(directional, shown.light, light_vector, r) : -1.0;
   vec3 color = visibility < 0.0 ? vec3(0.0, 0.0, 0.04) : vec3(visibility);
   out_color = vec4(kEncodeSrgb != 0u ? linear_to_srgb(color) : color, 1.0);
   out_visibility = vec4(visibility, 0.0, 0.0, 1.0);

@@ -71,6 +71,19 @@ float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r)
   return shadow_visibility(directional_shadow_point(light, light_direction, r));
 }
 
+// Either; light_vector: the position of a local light, or where a directional one shines. Software devices run what both branches of a
+// condition hold, so whoever does not know the kind of light calls this.
+float light_visibility(bool directional, uint light, vec3 light_vector, ShadowReceiver r) {
+  uint local = directional ? 0u : light, distant = directional ? light : 0u;
+  if (kFilter == 4u) {
+    float layer = directional ? shadow_block.directional[distant].traced_layer : texelFetch(shadow_rows, ivec2(6, local), 0).z;
+    return quantised_visibility(traced_visibility(layer));
+  }
+  ShadowPoint p = local_shadow_point(local, light_vector, r), other = directional_shadow_point(distant, light_vector, r);
+  if (directional) p = other;
+  return shadow_visibility(p);
+}
+
 // What a spot light's cookie leaves of its light: white without one; beyond its square the colors of its border.
 vec3 cookie_color(uint light, vec3 light_position, ShadowReceiver r) {
   vec2 cookie = texelFetch(shadow_rows, ivec2(6, light), 0).xy;  // layer, tangent
