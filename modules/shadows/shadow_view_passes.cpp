@@ -18,13 +18,23 @@ namespace {
 
 constexpr std::uint32_t kFirstShadowBinding = 6;
 
-gpu::GraphicsPipelineDesc visibility_pipeline(const ShadowsOutputs& shadows, gpu::Format format) {
+/// GLOAM_SHADOWS_…: what the shader may leave out of account.
+std::uint32_t kind_of(const FrameBuilder& frame, const shaders::ShownLightConstants& light) {
+  if (light.directional != 0) return GLOAM_SHADOWS_SUNS;
+  const auto& rows = frame.world().view_resource<ShadowViews>(frame.view().id).rows;
+  const float kind = light.light < rows.size() ? rows[light.light].kind : static_cast<float>(GLOAM_SHADOW_NONE);
+  return kind == static_cast<float>(GLOAM_SHADOW_CUBE) ? GLOAM_SHADOWS_CUBES : GLOAM_SHADOWS_SPOTS;
+}
+
+gpu::GraphicsPipelineDesc visibility_pipeline(const ShadowsOutputs& shadows, gpu::Format format, std::uint32_t kind) {
   gpu::GraphicsPipelineDesc desc =
-      fullscreen_pipeline("shadow_visibility_view/" + std::string(gpu::name_of(format)) + "/" + shadows.variant,
+      fullscreen_pipeline("shadow_visibility_view/" + std::to_string(kind) + "/" + std::string(gpu::name_of(format)) +
+                              "/" + shadows.variant,
                           "shadows", shaders::shadows::shadow_visibility_view_frag, format);
   desc.color_formats.push_back(gpu::Format::r32_float);
   desc.constants = shadows.constants;
   desc.constants.push_back({0, gpu::encodes_srgb(format) ? 0u : 1u});
+  desc.constants.push_back({GLOAM_SHADOWS_KINDS_ID, kind});
   return desc;
 }
 
@@ -51,7 +61,7 @@ void begin(gpu::CommandList& commands, PassContext& context, const ViewTargets& 
 Status add_visibility_view(FrameBuilder& frame, const shaders::ShownLightConstants& light,
                            const ShadowsOutputs& shadows) {
   TargetOutput& target = frame.get<TargetOutput>();
-  auto pipeline = frame.services().pipelines.get(visibility_pipeline(shadows, target.format));
+  auto pipeline = frame.services().pipelines.get(visibility_pipeline(shadows, target.format, kind_of(frame, light)));
   if (!pipeline.ok()) return pipeline.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();

@@ -17,7 +17,7 @@ bool gives_light(vec3 illuminance, vec3 normal, vec3 to_light) {
   return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && dot(normal, to_light) > 0.0;
 }
 
-// Loops that end after one turn: they are passed over where no pixel needs them, conditions alone are not on software devices.
+// See shadow_space.glsl.
 bool never() { return shadow_block.atlas_size < 0.0; }
 
 vec3 arriving_local(vec3 illuminance, uint light, vec3 light_position, vec3 normal, vec3 to_light) {

@@ -68,8 +68,9 @@ SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
 // From coarse to fine: the nearest thing in a square that is too large gives a smaller one that is still large enough.
 SearchRegion find_region(ShadowPoint p) {
   int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
-  bool across;
-  SearchRegion region = find_region_of_cube(p, across);
+  bool across = false;
+  SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
+  if ((kKinds & GLOAM_SHADOWS_CUBES) != 0u) region = find_region_of_cube(p, across);
   if (!across) do {
     vec2 corner = pyramid_corner(p, last);
     for (int step = 0; step < 2; ++step) {

@@ -50,8 +50,9 @@ const float kRecedingTexels = 2.0;
 // Texel coordinates carry rounding of about this size, in texels.
 const float kTexelRounding = 1.0 / 64.0;
 
-// False; no compiler knows. `if (condition) do … while (never(p));` is how work is passed over where no thread needs it: software devices run
-// what a plain `if` guards for all, and what `for (bool go = condition; go; go = false)` guards once more than needed.
+// False; no compiler knows. `if (condition) do … while (never(p));`: software devices run what a plain `if` guards for all threads and
+// what `for (bool go = condition; go; go = false)` guards once more than needed; this they run once. None of them jumps ahead: work that no
+// thread needs costs one turn.
 bool never(ShadowPoint p) { return p.size < 0.0; }
 
 float slope_per_texel(ShadowPoint p) { return abs(p.slope.x) + abs(p.slope.y); }
@@ -116,6 +117,7 @@ ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r
   vec4 up = texelFetch(shadow_rows, ivec2(2, light), 0);     // up, tan_inner
   vec3 v = r.position - light_position;
   bool cube = first.x == float(GLOAM_SHADOW_CUBE);
+  cube = kKinds == GLOAM_SHADOWS_CUBES || (cube && (kKinds & GLOAM_SHADOWS_CUBES) != 0u);
   p.face = cube ? cube_face_of(v) : -1;
   p.light = light;
   float mirrored = texelFetch(shadow_rows, ivec2(6, light), 0).w;

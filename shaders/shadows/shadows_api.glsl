@@ -28,6 +28,8 @@ layout(constant_id = GLOAM_SHADOWS_BIAS_ID) const uint kBias = 1u;
 layout(constant_id = GLOAM_SHADOWS_KERNEL_SHAPE_ID) const uint kKernelShape = 0u;
 layout(constant_id = GLOAM_SHADOWS_LEVELS_ID) const uint kLevels = 255u;
 layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 0u;
+// Who knows the kind of light spares software devices the code of the others, which they would run for nothing.
+layout(constant_id = GLOAM_SHADOWS_KINDS_ID) const uint kKinds = GLOAM_SHADOWS_ALL_KINDS;
 
 struct ShadowReceiver {
   vec3 position;     // camera-relative
@@ -79,8 +81,12 @@ float light_visibility(bool directional, uint light, vec3 light_vector, ShadowRe
     float layer = directional ? shadow_block.directional[distant].traced_layer : texelFetch(shadow_rows, ivec2(6, local), 0).z;
     return quantised_visibility(traced_visibility(layer));
   }
-  ShadowPoint p = local_shadow_point(local, light_vector, r), other = directional_shadow_point(distant, light_vector, r);
-  if (directional) p = other;
+  if (kKinds == GLOAM_SHADOWS_SUNS) return shadow_visibility(directional_shadow_point(distant, light_vector, r));
+  ShadowPoint p = local_shadow_point(local, light_vector, r);
+  if ((kKinds & GLOAM_SHADOWS_SUNS) != 0u) {
+    ShadowPoint other = directional_shadow_point(distant, light_vector, r);
+    if (directional) p = other;
+  }
   return shadow_visibility(p);
 }
 

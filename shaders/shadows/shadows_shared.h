@@ -98,5 +98,11 @@ GLOAM_SHARED_END
 #define GLOAM_SHADOWS_KERNEL_SHAPE_ID 13   // 0 disc, 1 square
 #define GLOAM_SHADOWS_LEVELS_ID 14         // steps of visibility: 255 or 15; 0: not quantised
 #define GLOAM_SHADOWS_FULL_PENUMBRA_ID 15  // 1: no early-outs, for measuring the filter alone
+#define GLOAM_SHADOWS_KINDS_ID 16          // kinds of lights that are asked about: GLOAM_SHADOWS_SPOTS | …
+
+#define GLOAM_SHADOWS_SPOTS 1u
+#define GLOAM_SHADOWS_CUBES 2u
+#define GLOAM_SHADOWS_SUNS 4u
+#define GLOAM_SHADOWS_ALL_KINDS 7u
 
 #endif
