@@ -43,8 +43,11 @@ void add_shadow_knobs(KnobRegistry& registry) {
   kernel.unit = "texels";
   registry.add(kernel);
   registry.add(choice_knob("mips", "whether wide penumbrae are looked up in mips of the maps", {"off", "on"}, 1));
-  registry.add(choice_knob("mip_operator", "what a texel of a mip is: the nearest depth of its four, or their mean",
-                           {"nearest", "average"}, 0));
+  registry.add(choice_knob(
+      "mip_operator",
+      "what a texel of a mip is: the nearest depth of its four, their mean, or the nearest with the share of the texel "
+      "that it covers",
+      {"nearest", "average", "coverage"}, GLOAM_SHADOW_MIPS_COVERAGE));
   registry.add(choice_knob("kernel_shape", "shape of the widest kernel", {"disc", "square"}, 0));
   registry.add(choice_knob("receiver_plane",
                            "compare with the depth of the lit surface's plane, not of the lit point alone",
@@ -70,9 +73,9 @@ void add_shadow_knobs(KnobRegistry& registry) {
   registry.add(atlas);
   Knob density =
       number_knob("texels_per_pixel", "texels of shadow maps to a pixel's side, as far as the atlas has room",
-                  "texels a pixel", 8.0, 2.0);
+                  "texels a pixel", 8.0, 3.0);
   density.min = 0.25;
-  density.ledger_values = {0.5, 1.0, 2.0, 4.0};
+  density.ledger_values = {0.5, 1.0, 2.0, 3.0, 4.0};
   registry.add(density);
   registry.add(choice_knob("casters",
                            "meshes that are drawn into shadow maps: as the camera sees them, or with fewer triangles",
@@ -88,10 +91,12 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.filter = registry.choice("shadows.filter");
   knobs.kernel = kSmallestKernel * (registry.choice("shadows.kernel") + 1);
   knobs.mips = registry.is("shadows.mips", "on");
-  knobs.average = registry.is("shadows.mip_operator", "average");
+  knobs.mip_operator = registry.choice("shadows.mip_operator");
   knobs.square = registry.is("shadows.kernel_shape", "square");
   knobs.receiver_plane = registry.is("shadows.receiver_plane", "on");
   knobs.d16 = registry.is("shadows.depth", "d16");
+  // 16 bits have no room for what a texel leaves free.
+  if (knobs.d16 && knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) knobs.mip_operator = GLOAM_SHADOW_MIPS_NEAREST;
   knobs.oriented = registry.is("shadows.bias", "oriented");
   knobs.bias_m = knobs.oriented ? static_cast<float>(registry.number("shadows.bias_mm") * 1e-3) : 0.0f;
   knobs.bias_units = knobs.oriented ? 0.0f : static_cast<float>(registry.number("shadows.bias_units"));
@@ -119,7 +124,8 @@ std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::u
           {GLOAM_SHADOWS_BIAS_ID, knobs.oriented ? 1u : 0u},
           {GLOAM_SHADOWS_KERNEL_SHAPE_ID, knobs.square ? 1u : 0u},
           {GLOAM_SHADOWS_LEVELS_ID, knobs.levels},
-          {GLOAM_SHADOWS_FULL_PENUMBRA_ID, knobs.early_outs ? 0u : 1u}};
+          {GLOAM_SHADOWS_FULL_PENUMBRA_ID, knobs.early_outs ? 0u : 1u},
+          {GLOAM_SHADOWS_COVERAGE_ID, knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u}};
 }
 
 std::string shadow_variant(const std::vector<gpu::SpecConstant>& constants) {

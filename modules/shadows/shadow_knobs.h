@@ -18,7 +18,7 @@ struct ShadowKnobs {
   std::uint32_t filter = 3;  ///< GLOAM_SHADOWS_FILTER_ID
   std::uint32_t kernel = 8;  ///< texels
   bool mips = true;
-  bool average = false;  ///< a mip's texel is the mean of its four, not the nearest
+  std::uint32_t mip_operator = GLOAM_SHADOW_MIPS_COVERAGE;
   bool square = false;
   bool receiver_plane = true;
   bool d16 = false;
@@ -27,7 +27,7 @@ struct ShadowKnobs {
   float bias_units = 0.0f;  ///< of the map's draws, towards the light's far side; 0 with oriented bias
   std::uint32_t levels = 255;
   std::uint32_t atlas_size = 4096;
-  float texels_per_pixel = 2.0f;
+  float texels_per_pixel = 3.0f;
   bool simplified = false;  ///< casters have fewer triangles where that does not show
   bool early_outs = true;
 };

@@ -71,7 +71,7 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
   return Hasher()
       .value(frame.world().resource<SceneAssets>().version)
       .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
-      .value(knobs.average)
+      .value(knobs.mip_operator)
       .value(knobs.simplified)
       .digest();
 }
@@ -162,6 +162,14 @@ void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work
   }
 }
 
+/// ShadowMipConstants::gap: what recedes more steeply is taken for two surfaces.
+float surface_gap(const ShadowFace& face, std::uint32_t size) {
+  constexpr float kSteepest = 3.0f;  // metres away from the light a metre across
+  const auto texels = static_cast<float>(size);
+  if (face.tan_half > 0.0f) return kSteepest * 2.0f * face.tan_half / texels;
+  return kSteepest * 2.0f * face.half_extent_m / texels / face.far_m;
+}
+
 /// One dispatch a face of each run of mips; `first` is the mip that a run begins at.
 void record_run(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, std::uint32_t first,
                 const ShadowMaps& maps) {
@@ -181,9 +189,10 @@ void record_run(PassContext& context, const MapWork& work, const ScratchPlan::Ba
     constants.size = batch.size;
     constants.first = first;
     constants.mips = static_cast<std::uint32_t>(std::bit_width(batch.size));
-    constants.average = work.knobs.average ? 1u : 0u;
+    constants.mip_operator = work.knobs.mip_operator;
     constants.atlas_size = work.knobs.atlas_size;
     constants.orthographic = face.tan_half > 0.0f ? 0u : 1u;
+    constants.gap = surface_gap(face, batch.size);
     commands.push(constants);
     commands.dispatch(groups, groups, 1);
   }

@@ -63,7 +63,8 @@ shaders::ShadowBlock block_of(const FrameBuilder& frame, const ShadowViews& view
   block.atlas_size = static_cast<float>(knobs.atlas_size);
   block.bias_m = knobs.bias_m;
   block.depth_quantum = knobs.d16 ? 1.0f / 65535.0f : 0.0f;
-  block.relative_quantum = 1.0f / static_cast<float>(1 << 23);
+  const int bits = knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 17 : 23;
+  block.relative_quantum = 1.0f / static_cast<float>(1 << bits);
   const std::span<const Entity> lights =
       directional_lights(frame.world().view_resource<VisibleLights>(frame.view().id));
   for (std::size_t i = 0; i < std::size(block.directional); ++i)

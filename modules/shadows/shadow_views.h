@@ -57,7 +57,7 @@ struct ShadowSettings {
   std::uint32_t atlas_size = 4096;    ///< texels, a power of two
   std::uint32_t cascades = 4;         ///< of a directional light
   float kernel_rim = 0.125f;          ///< rim of a face for kernels, as a share of its half extent
-  float texels_per_pixel = 2.0f;      ///< to a pixel's side, where the atlas has room
+  float texels_per_pixel = 3.0f;      ///< to a pixel's side, where the atlas has room
 };
 
 }  // namespace gloam

@@ -170,8 +170,8 @@ Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_pla
     vec2 cell = vec2(i % texels, i / texels);
     vec2 share = edge_shares(k.fraction, cell, float(texels));
     vec2 at = (k.base + cell + 0.5) * k.square.texel;
-    float rise;
-    float depth = cube_depth(p, at, mip, rise);
+    float rise, covered_share;
+    float depth = cube_depth(p, at, mip, rise, covered_share);
     float threshold = tap_threshold(p, k, at, least, rise);
     float weight = depth > threshold ? share.x * share.y : 0.0;
     count += weight;

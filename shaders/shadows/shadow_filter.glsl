@@ -10,11 +10,13 @@
 
 // What a kernel adds up to when its middle is texel column 3 (x), and when it is column 4 (y); between, by the fraction.
 void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, float least, vec4 at_3, vec4 at_4) {
-  bvec4 blocked = is_nearer(textureGather(shadow_atlas, at), threshold + corner, least);
-  sums = blocked.x ? sums + vec2(at_3.x, at_4.x) : sums;
-  sums = blocked.y ? sums + vec2(at_3.y, at_4.y) : sums;
-  sums = blocked.z ? sums + vec2(at_3.z, at_4.z) : sums;
-  sums = blocked.w ? sums + vec2(at_3.w, at_4.w) : sums;
+  vec4 depth = textureGather(shadow_atlas, at);
+  bvec4 blocked = is_nearer(depth, threshold + corner, least);
+  vec4 share = coverage(depth);
+  sums = blocked.x ? sums + share.x * vec2(at_3.x, at_4.x) : sums;
+  sums = blocked.y ? sums + share.y * vec2(at_3.y, at_4.y) : sums;
+  sums = blocked.z ? sums + share.z * vec2(at_3.z, at_4.z) : sums;
+  sums = blocked.w ? sums + share.w * vec2(at_3.w, at_4.w) : sums;
 }
 
 // Four gathers beside each other. `upper` and `lower` texel row: weights of the cells 0, 1, 2, 3 columns from the middle.
@@ -68,7 +70,8 @@ float blocked_share_any(ShadowPoint p, int mip, float width, int texels) {
       vec4 weight = covered(radius, off.x + vec4(-0.5, 0.5, 0.5, -0.5), off.y + vec4(0.5, 0.5, -0.5, -0.5));
       corner = clamp(corner, vec2(1.0), vec2(k.square.size - 1.0));
       all += weight;
-      blocked += weight * vec4(greaterThan(gather_depth(k, corner), gather_threshold(k, corner, k.least)));
+      vec4 depth = gather_depth(k, corner);
+      blocked += weight * coverage(depth) * vec4(greaterThan(depth, gather_threshold(k, corner, k.least)));
     }
   }
   return dot(blocked, vec4(1.0)) / dot(all, vec4(1.0));
@@ -105,9 +108,10 @@ float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
     float weight = covered(covering_radius(k, width, kKernel), vec4(cell.x - k.at.x), vec4(cell.y - k.at.y)).x;
     vec2 at = cell * k.square.texel;
     float rise;
-    float depth = cube_depth(p, at, mip, rise);
+    float covered_share;
+    float depth = cube_depth(p, at, mip, rise, covered_share);
     all += weight;
-    blocked += depth > tap_threshold(p, k, at, k.least, rise) ? weight : 0.0;
+    blocked += depth > tap_threshold(p, k, at, k.least, rise) ? weight * covered_share : 0.0;
     ++i;
     if (i % texels == 0) {
       share += (fine ? 1.0 - mips.blend : mips.blend) * blocked / all;

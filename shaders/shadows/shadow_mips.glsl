@@ -20,21 +20,42 @@ struct Texels {
   float nearest;
   float sum;    // of distances in units of the near plane, or of depths (orthographic), occupied texels only
   float count;
-  vec2 bounds;  // of the pyramid
+  float covered;  // texels that the nearest surface covers
+  vec2 bounds;    // of the pyramid
 };
 
-const Texels kNone = Texels(0.0, 0.0, 0.0, vec2(1.0, 0.0));
+const Texels kNone = Texels(0.0, 0.0, 0.0, 0.0, vec2(1.0, 0.0));
 
-void add(inout Texels t, float depth, vec2 bounds) {
+const uint kFreeBits = 63u;
+
+float without_free_bits(float depth) { return uintBitsToFloat(floatBitsToUint(depth) & ~kFreeBits); }
+
+// Counts a texel's share of the nearest surface. What lies behind it by more than a surface recedes over a texel is another one.
+void add_covered(inout Texels t, float texel, float gap) {
+  float depth = without_free_bits(texel);
+  float share = depth > 0.0 ? 1.0 - float(floatBitsToUint(texel) & kFreeBits) / 64.0 : 0.0;
+  float near = max(depth, t.nearest), far = min(depth, t.nearest);
+  bool same = far > 0.0 && (face.orthographic != 0u ? near - far <= gap : near <= far * (1.0 + gap));
+  t.covered = same ? t.covered + share : depth > t.nearest ? share : t.covered;
+  t.nearest = near;
+}
+
+// gap: of the mip that the texels become.
+void add(inout Texels t, float depth, vec2 bounds, float gap) {
   bool occupied = depth > 0.0;
-  t.nearest = max(t.nearest, depth);
+  if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) add_covered(t, depth, gap);
+  else t.nearest = max(t.nearest, depth);
   t.sum += occupied ? (face.orthographic != 0u ? depth : 1.0 / depth) : 0.0;
   t.count += occupied ? 1.0 : 0.0;
   t.bounds = vec2(min(t.bounds.x, bounds.x), max(t.bounds.y, bounds.y));
 }
 
 float depth_of(Texels t) {
-  if (face.average == 0u || t.count == 0.0) return t.nearest;
+  if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) {
+    uint free = uint(clamp(floor((1.0 - 0.25 * t.covered) * 64.0 + 0.5), 0.0, float(kFreeBits)));
+    return t.nearest > 0.0 ? uintBitsToFloat(floatBitsToUint(t.nearest) | free) : 0.0;
+  }
+  if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_NEAREST) || t.count == 0.0) return t.nearest;
   return face.orthographic != 0u ? t.sum / t.count : t.count / t.sum;
 }
 
@@ -59,6 +80,7 @@ float source_texel(uvec2 at, out vec2 bounds) {
 #ifdef GLOAM_SHADOW_ATLAS_STEPS
     depth = floor(clamp(depth, 0.0, 1.0) * GLOAM_SHADOW_ATLAS_STEPS + 0.5) / GLOAM_SHADOW_ATLAS_STEPS;
 #endif
+    if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) depth = without_free_bits(depth);
     bounds = vec2(depth);
     store(0u, at, depth, bounds);
   } else {
@@ -73,6 +95,7 @@ void main() {
   uvec2 block = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(block * 8u, uvec2(face.size >> face.first)))) return;
   Texels third = kNone;
+  float gap = face.gap * float(1u << (face.first + 1u));
   for (uint quarter = 0u; quarter < 4u; ++quarter) {
     uvec2 at2 = block * 2u + uvec2(quarter & 1u, quarter >> 1);
     Texels second = kNone;
@@ -82,15 +105,15 @@ void main() {
       for (uint one = 0u; one < 4u; ++one) {
         vec2 bounds;
         float depth = source_texel(at1 * 2u + uvec2(one & 1u, one >> 1), bounds);
-        add(first, depth, bounds);
+        add(first, depth, bounds, gap);
       }
       float depth = depth_of(first);
       store(face.first + 1u, at1, depth, first.bounds);
-      add(second, depth, first.bounds);
+      add(second, depth, first.bounds, 2.0 * gap);
     }
     float depth = depth_of(second);
     store(face.first + 2u, at2, depth, second.bounds);
-    add(third, depth, second.bounds);
+    add(third, depth, second.bounds, 4.0 * gap);
   }
   store(face.first + 3u, block, depth_of(third), third.bounds);
 }

@@ -178,9 +178,13 @@ ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowRec
   return p;
 }
 
+// Share of a texel that its nearest surface covers; all of it in mip 0.
+vec4 coverage(vec4 depth) { return kCoverage != 0u ? 1.0 - vec4(floatBitsToUint(depth) & 63u) * (1.0 / 64.0) : vec4(1.0); }
+
 // Depth of what a cube holds in the direction of a texel coordinate (mip 0) of face p.face, in or beyond it, as that face would hold it.
-// `at` becomes the direction of the texel that was read, `rise` how much nearer the receiver's own plane may be inside that texel of a mip.
-float cube_depth(ShadowPoint p, inout vec2 at, int mip, out float rise) {
+// `at` becomes the direction of the texel that was read, `rise` how much nearer the receiver's own plane may be inside that texel of a mip,
+// `share` what of the texel is covered.
+float cube_depth(ShadowPoint p, inout vec2 at, int mip, out float rise, out float share) {
   mat3 own = cube_face_axes(p.face);
   float to_texel = p.size * 0.5 / p.tan_half;
   vec2 tangent = (at - 0.5 * p.size) / to_texel;
@@ -192,6 +196,7 @@ float cube_depth(ShadowPoint p, inout vec2 at, int mip, out float rise) {
   MipSquare square = mip_square(cube_face_origin(p.light, face), p.size, mip, shadow_block.atlas_size);
   vec2 cell = clamp(floor(there / square.texel), vec2(0.0), vec2(square.size - 1.0));
   float depth = texelFetch(shadow_atlas, ivec2(square.corner + cell), 0).x;
+  share = coverage(vec4(depth)).x;
   vec2 center = ((cell + 0.5) * square.texel - 0.5 * p.size) / to_texel;
   vec3 read = (axes * vec3(center.x, -center.y, 1.0)) * own;
   read.z = max(read.z, 0.05);

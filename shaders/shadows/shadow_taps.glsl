@@ -104,8 +104,8 @@ vec2 edge_shares(vec2 fraction, vec2 i, float texels) {
 
 // One texel of mip 0; `at` becomes its centre.
 float tap_depth(ShadowPoint p, inout vec2 at, bool across) {
-  float rise;
-  if (across) return cube_depth(p, at, 0, rise);
+  float rise, share;
+  if (across) return cube_depth(p, at, 0, rise, share);
   vec2 cell = clamp(floor(at), vec2(0.0), vec2(p.size - 1.0));
   at = cell + 0.5;
   return texelFetch(shadow_atlas, ivec2(p.origin + cell), 0).x;

@@ -28,6 +28,7 @@ layout(constant_id = GLOAM_SHADOWS_BIAS_ID) const uint kBias = 1u;
 layout(constant_id = GLOAM_SHADOWS_KERNEL_SHAPE_ID) const uint kKernelShape = 0u;
 layout(constant_id = GLOAM_SHADOWS_LEVELS_ID) const uint kLevels = 255u;
 layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 0u;
+layout(constant_id = GLOAM_SHADOWS_COVERAGE_ID) const uint kCoverage = 0u;
 // Who knows the kind of light spares software devices the code of the others, which they would run for nothing.
 layout(constant_id = GLOAM_SHADOWS_KINDS_ID) const uint kKinds = GLOAM_SHADOWS_ALL_KINDS;
 

@@ -21,6 +21,9 @@
 #define GLOAM_SHADOW_CUBE 2
 #define GLOAM_SHADOW_ROW_TEXELS 8     // of a local light's ShadowRow in the image of rows
 #define GLOAM_SHADOW_PYRAMID_MIP 2
+#define GLOAM_SHADOW_MIPS_NEAREST 0   // a mip's texel is the nearest of its four
+#define GLOAM_SHADOW_MIPS_AVERAGE 1   // their mean by linear depth, empty ones left out
+#define GLOAM_SHADOW_MIPS_COVERAGE 2  // the nearest, and in the 6 lowest bits how many 64ths of the texel that surface leaves free
 #define GLOAM_SHADOW_SMALLEST_FACE 16 // texels; faces are 16 … 4096
 #define GLOAM_MAX_CASCADES 4
 #define GLOAM_SHADOW_MIP_GROUP 8       // threads of a side of a workgroup of shadow_mips.comp; each takes 8 × 8 texels of the source
@@ -82,9 +85,10 @@ struct ShadowMipConstants {
   uint size;      // of the face, texels of mip 0
   uint first;     // 0: from the scratch map; else the mip that is there already
   uint mips;      // of a face of this size: log2(size) + 1
-  uint average;   // 0: a mip's texel is the nearest of its four; 1: their mean by linear depth, empty ones left out
+  uint mip_operator;  // GLOAM_SHADOW_MIPS_…
   uint atlas_size;
   uint orthographic;  // depth is linear already
+  float gap;          // coverage: how far a surface recedes over a texel of mip 0 at most, as a share of its distance (orthographic: depth)
 };
 
 GLOAM_SHARED_END
@@ -98,6 +102,7 @@ GLOAM_SHARED_END
 #define GLOAM_SHADOWS_KERNEL_SHAPE_ID 13   // 0 disc, 1 square
 #define GLOAM_SHADOWS_LEVELS_ID 14         // steps of visibility: 255 or 15; 0: not quantised
 #define GLOAM_SHADOWS_FULL_PENUMBRA_ID 15  // 1: no early-outs, for measuring the filter alone
+#define GLOAM_SHADOWS_COVERAGE_ID 17       // 1: maps hold what a texel's nearest surface leaves free (GLOAM_SHADOW_MIPS_COVERAGE)
 #define GLOAM_SHADOWS_KINDS_ID 16          // kinds of lights that are asked about: GLOAM_SHADOWS_SPOTS | …
 
 #define GLOAM_SHADOWS_SPOTS 1u

@@ -11,6 +11,8 @@ from pathlib import Path
 
 NO_DEVICE = 4
 SKIPPED = 77
+# Of all runs of a file, so that each pipeline is compiled once.
+CACHE = tempfile.TemporaryDirectory(prefix="gloam-test-cache-")
 
 
 class ProgramCase(unittest.TestCase):
@@ -24,7 +26,7 @@ class ProgramCase(unittest.TestCase):
 
     def run_program(self, *arguments, env=None, prefix=(), stdin=subprocess.DEVNULL, timeout=100):
         """Runs the program in an empty folder; every failure must tell itself in exactly one line."""
-        environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"), **(env or {}))
+        environment = dict(os.environ, XDG_CACHE_HOME=CACHE.name, **(env or {}))
         environment.pop("GLOAM_LOG", None)
         run = subprocess.run([*prefix, self.program, *map(str, arguments)], cwd=self.folder, env=environment, stdin=stdin,
                              capture_output=True, text=True, timeout=timeout, check=False)

@@ -94,7 +94,8 @@ class Render(ProgramCase):
     def test_light_views_are_drawn_without_a_word_of_the_validation(self):
         pictures = set()
         for view in LIGHT_VIEWS:
-            run = self.run_program("render", "builtin:lanterns", *SMALL, "--view", view, "--validate", "--out", "view.png")
+            run = self.run_program("render", "builtin:lanterns", *SMALL, "--view", view, "--validate", "--out", "view.png",
+                                   "--set", "shadows.mode=off")
             if run.returncode != 0 and "layer" in run.stderr:
                 self.skipTest(run.stderr.strip())
             self.assertEqual((run.returncode, run.stderr), (0, ""), view)
@@ -106,13 +107,6 @@ class Render(ProgramCase):
         self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", "light_culling", says="light_culling")
         for view in LIGHT_VIEWS:
             self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", view, "--set", "lights.culling=brute", says="tiled")
-
-    def test_traced_views_are_drawn_the_same_whatever_the_threads(self):
-        for view in ("error", "shadow_reference:lamp"):
-            for threads in ("1", "3"):
-                self.expect(0, "render", "builtin:shadows", "--size", "96x54", "--view", view, "--threads", threads, "--validate",
-                            "--out", f"{threads}.png")
-            self.assertEqual(self.bytes_of("1.png"), self.bytes_of("3.png"), view)
 
     def test_unknown_knobs_views_and_cameras_are_wrong_usage(self):
         (self.folder / "bad.json").write_text('{"no.such": 1}')

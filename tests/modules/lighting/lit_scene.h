@@ -42,10 +42,15 @@ class LitSceneTest : public ::testing::Test {
     options.log = &log;
     options.modules = make_modules();
     renderer = value_of(Renderer::create(std::move(options)));
+    if (!with_shadows() && renderer->knobs().find("shadows.mode") != nullptr) {
+      EXPECT_TRUE(renderer->knobs().set("shadows.mode", "off").ok());
+    }
     renderer->prepare_world(world);
     settings.width = 61;
     settings.height = 43;
   }
+  /// Shadows have suites of their own; elsewhere they would only take time.
+  [[nodiscard]] virtual bool with_shadows() const { return false; }
   /// What the renderer is made of.
   [[nodiscard]] virtual ModuleList make_modules() { return make_all_modules(); }
   void TearDown() override {

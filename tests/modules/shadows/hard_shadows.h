@@ -77,6 +77,7 @@ struct SharedRenderer {
 /// Whole frames whose shadows are held against rays.
 class HardShadows : public LitSceneTest {
  protected:
+  [[nodiscard]] bool with_shadows() const override { return true; }
   void SetUp() override {
     GLOAM_REQUIRE_GPU(shared_device());
     const gpu::DeviceInfo& info = shared_device()->info();

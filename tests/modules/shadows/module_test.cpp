@@ -79,7 +79,8 @@ TEST_F(ShadowsModuleTest, off_is_off) {
 TEST_F(ShadowsModuleTest, knobs_become_numbers) {
   const ShadowKnobs usual = shadow_knobs(knobs);
   EXPECT_TRUE(usual.enabled && usual.mips && usual.receiver_plane && usual.oriented && usual.early_outs);
-  EXPECT_FALSE(usual.average || usual.square || usual.d16);
+  EXPECT_FALSE(usual.square || usual.d16);
+  EXPECT_EQ(usual.mip_operator, GLOAM_SHADOW_MIPS_COVERAGE);
   EXPECT_EQ(usual.filter, 3u);
   EXPECT_EQ(usual.kernel, 8u);
   EXPECT_EQ(usual.levels, 255u);
@@ -97,7 +98,10 @@ TEST_F(ShadowsModuleTest, knobs_become_numbers) {
                                     {"filter", "pcss"}})
     ASSERT_TRUE(knobs.set("shadows." + std::string(name), value).ok()) << name;
   const ShadowKnobs other = shadow_knobs(knobs);
-  EXPECT_TRUE(other.average && other.d16 && other.simplified && !other.oriented);
+  EXPECT_TRUE(other.d16 && other.simplified && !other.oriented);
+  EXPECT_EQ(other.mip_operator, GLOAM_SHADOW_MIPS_AVERAGE);
+  ASSERT_TRUE(knobs.set("shadows.mip_operator", "coverage").ok());
+  EXPECT_EQ(shadow_knobs(knobs).mip_operator, GLOAM_SHADOW_MIPS_NEAREST) << "16 bits have no room for coverage";
   EXPECT_EQ(other.filter, 2u);
   EXPECT_EQ(other.kernel, 16u);
   EXPECT_EQ(other.levels, 15u);

@@ -52,6 +52,40 @@ TEST_F(ShadowFilter, bars_of_one_texel_give_half_the_light_at_every_mip) {
   }
 }
 
+TEST_F(ShadowFilter, finest_bars_give_half_the_light_at_every_mip_that_knows_its_coverage) {
+  for (const ProbeSettings settings : {ProbeSettings{.coverage = 1}, ProbeSettings{.kernel = 12, .coverage = 1}}) {
+    for (std::uint32_t mip = 0; mip <= 4; ++mip) {
+      SpotRig rig;
+      rig.size = 512;
+      rig.width_m = rig.width_for(0.5 * settings.kernel * (1u << mip), 4.0, 2.0);
+      const auto depths = over_floor(rig.size, [](std::uint32_t x, std::uint32_t) { return (x & 1u) != 0; });
+      std::vector<ShadowProbe> probes;
+      for (int i = 0; i < 64; ++i)
+        probes.push_back(
+            rig.at(floor_at(rig, 256.0 + (i % 8) * 0.26 * (1u << mip), 256.0 + (i / 8) * 0.29 * (1u << mip))));
+      for (const auto& result : rig.look(device(), depths, probes, settings))
+        EXPECT_NEAR(result.visibility, 0.5, 0.05) << name_of(settings) << " mip " << mip;
+    }
+  }
+}
+
+TEST_F(ShadowFilter, wide_shadows_do_not_grow_where_mips_know_their_coverage) {
+  double nearest = 0.0, covered = 0.0;
+  for (const double edge : {256.0, 257.0, 259.0, 263.0, 270.0}) {  // wherever it lies in a mip's texel
+    SpotRig rig;
+    rig.size = 512;
+    rig.width_m = rig.width_for(90.0, 4.0, 2.0);
+    const auto depths = over_floor(rig.size, [&](std::uint32_t x, std::uint32_t) { return x < edge; });
+    const std::vector<ShadowProbe> probes = {rig.at(floor_at(rig, edge, 256.0))};
+    nearest += rig.look(device(), depths, probes, {})[0].visibility / 5.0;
+    const float half = rig.look(device(), depths, probes, {.coverage = 1})[0].visibility;
+    EXPECT_NEAR(half, 0.5f, 0.06f) << "edge at " << edge;
+    covered += static_cast<double>(half) / 5.0;
+  }
+  EXPECT_NEAR(covered, 0.5, 0.03);
+  EXPECT_LT(nearest, 0.45) << "what coverage is there for";
+}
+
 TEST_F(ShadowFilter, weights_of_the_search_add_up_wherever_the_receiver_lies_in_its_texel) {
   for (const std::uint32_t kernel : {4u, 8u, 12u, 16u}) {
     SpotRig rig;

@@ -103,10 +103,11 @@ std::vector<float> draw_face(const FacePose& pose, std::uint32_t size, const Ray
 }
 
 std::vector<gpu::SpecConstant> ProbeSettings::constants() const {
-  return {{GLOAM_SHADOWS_FILTER_ID, filter}, {GLOAM_SHADOWS_KERNEL_ID, kernel},
-          {GLOAM_SHADOWS_MIPS_ID, mips},     {GLOAM_SHADOWS_RECEIVER_PLANE_ID, receiver_plane},
-          {GLOAM_SHADOWS_BIAS_ID, bias},     {GLOAM_SHADOWS_KERNEL_SHAPE_ID, shape},
-          {GLOAM_SHADOWS_LEVELS_ID, levels}, {GLOAM_SHADOWS_FULL_PENUMBRA_ID, full_penumbra}};
+  return {{GLOAM_SHADOWS_FILTER_ID, filter},    {GLOAM_SHADOWS_KERNEL_ID, kernel},
+          {GLOAM_SHADOWS_MIPS_ID, mips},        {GLOAM_SHADOWS_RECEIVER_PLANE_ID, receiver_plane},
+          {GLOAM_SHADOWS_BIAS_ID, bias},        {GLOAM_SHADOWS_KERNEL_SHAPE_ID, shape},
+          {GLOAM_SHADOWS_LEVELS_ID, levels},    {GLOAM_SHADOWS_FULL_PENUMBRA_ID, full_penumbra},
+          {GLOAM_SHADOWS_COVERAGE_ID, coverage}};
 }
 
 ShadowMaps::ShadowMaps(gpu::Device& device, std::uint32_t atlas_size, gpu::Format format)
@@ -144,7 +145,7 @@ uvec2 ShadowMaps::mip_corner(std::uint32_t size, std::uint32_t mip) {
 }
 
 void ShadowMaps::add_face(const std::vector<float>& depths, uvec2 origin, std::uint32_t size, bool orthographic,
-                          bool average) {
+                          std::uint32_t mip_operator, float gap) {
   const gpu::ImageHandle scratch = texture(gpu::Format::r32_float, uvec2(size), std::as_bytes(std::span(depths)));
   const std::vector<gpu::Binding> bindings = {{0, gpu::Binding::Sampled{{.image = scratch}, nearest_}},
                                               {1, gpu::Binding::Storage{{.image = atlas_}}},
@@ -154,9 +155,10 @@ void ShadowMaps::add_face(const std::vector<float>& depths, uvec2 origin, std::u
                                         .size = size,
                                         .first = 0,
                                         .mips = static_cast<std::uint32_t>(std::bit_width(size)),
-                                        .average = average ? 1u : 0u,
+                                        .mip_operator = mip_operator,
                                         .atlas_size = size_,
-                                        .orthographic = orthographic ? 1u : 0u};
+                                        .orthographic = orthographic ? 1u : 0u,
+                                        .gap = gap};
   run_frame(device_, [&](gpu::CommandList& commands) {
     turn(commands, atlas_, Access::compute_read, Access::compute_write);
     turn(commands, pyramid_, Access::compute_read, Access::compute_write);

@@ -50,6 +50,7 @@ struct ProbeSettings {
   std::uint32_t shape = 0;
   std::uint32_t levels = 0;
   std::uint32_t full_penumbra = 0;
+  std::uint32_t coverage = 0;  ///< faces were added with GLOAM_SHADOW_MIPS_COVERAGE
   [[nodiscard]] std::vector<gpu::SpecConstant> constants() const;
 };
 
@@ -63,7 +64,7 @@ class ShadowMaps {
   ShadowMaps& operator=(const ShadowMaps&) = delete;
 
   void add_face(const std::vector<float>& depths, uvec2 origin, std::uint32_t size, bool orthographic = false,
-                bool average = false);
+                std::uint32_t mip_operator = GLOAM_SHADOW_MIPS_NEAREST, float gap = 0.0f);
   /// Overwrites texels of the atlas image, mips included; the pyramid stays.
   void write_atlas(const std::vector<float>& texels);
   [[nodiscard]] std::vector<float> atlas() const;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -109,6 +110,56 @@ TEST_F(ShadowMips, other_faces_stay_as_they_were) {
   maps.add_face(random_depths(16, 2, 10), {128, 64}, 16);
   maps.add_face(random_depths(64, 3, 10), {64, 128}, 64);
   expect_face(maps.atlas(), maps.pyramid(), first, {64, 64}, 64);
+}
+
+TEST_F(ShadowMips, coverage_is_the_share_of_the_nearest_surface) {
+  constexpr std::uint32_t kSize = 128;
+  constexpr float kNear = 0.5f, kFar = 0.1f;
+  // Near texels here and there, empty ones among the far ones.
+  std::vector<float> depths = random_depths(kSize, 11, 0);
+  for (float& d : depths) d = d < 0.3f ? kNear : d < 0.9f ? kFar : 0.0f;
+  ShadowMaps maps(device(), kAtlas);
+  maps.add_face(depths, {128, 256}, kSize, false, GLOAM_SHADOW_MIPS_COVERAGE, 0.01f);
+  const auto atlas = maps.atlas();
+  for (std::uint32_t mip = 1; mip <= 5; ++mip) {
+    const uvec2 corner = ShadowMaps::mip_corner(kAtlas, mip) + uvec2(128, 256) / (1u << mip);
+    const std::uint32_t side = kSize >> mip, block = 1u << mip;
+    for (std::uint32_t at = 0; at < side * side; ++at) {
+      double near = 0.0, far = 0.0;
+      for (std::uint32_t i = 0; i < block * block; ++i) {
+        const float d = depths[(at / side * block + i / block) * kSize + at % side * block + i % block];
+        near += d == kNear ? 1.0 : 0.0;
+        far += d == kFar ? 1.0 : 0.0;
+      }
+      const float held = atlas[(corner.y + at / side) * kAtlas * 3 / 2 + corner.x + at % side];
+      const double share = near > 0.0 ? near : far;
+      if (share == 0.0) {
+        EXPECT_EQ(held, 0.0f);
+        continue;
+      }
+      EXPECT_NEAR(held, near > 0.0 ? kNear : kFar, 1e-5f);
+      const double covered = 1.0 - (std::bit_cast<std::uint32_t>(held) & 63u) / 64.0;
+      EXPECT_NEAR(covered, share / (block * block), mip / 128.0 + 1.0 / 64.0) << "mip " << mip;
+    }
+  }
+}
+
+TEST_F(ShadowMips, a_surface_that_recedes_covers_its_texels) {
+  constexpr std::uint32_t kSize = 64;
+  constexpr float kTexel = 0.02f;  // tangent
+  std::vector<float> depths;       // at two metres a metre across: half of what counts as steep
+  for (std::uint32_t i = 0; i < kSize * kSize; ++i)
+    depths.push_back(0.05f / (3.0f / (1.0f - 1.5f * kTexel * (static_cast<float>(i % kSize) - 32.0f) * 0.5f)));
+  ShadowMaps maps(device(), kAtlas);
+  maps.add_face(depths, {0, 0}, kSize, false, GLOAM_SHADOW_MIPS_COVERAGE, 3.0f * kTexel);
+  const auto atlas = maps.atlas();
+  for (std::uint32_t mip = 1; mip <= 4; ++mip) {
+    const uvec2 corner = ShadowMaps::mip_corner(kAtlas, mip);
+    for (std::uint32_t x = 0; x < kSize >> mip; ++x) {
+      const float held = atlas[corner.y * kAtlas * 3 / 2 + corner.x + x];
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(held) & 63u, 0u) << "mip " << mip << " column " << x;
+    }
+  }
 }
 
 TEST_F(ShadowMips, sixteen_bits_hold_rounded_depths_in_all_mips) {

@@ -21,6 +21,7 @@ using test::value_of;
 /// A floor with a box on it under a wide lamp, seen from above; some sky.
 class ShadowReferenceFrames : public test::LitSceneTest {
  protected:
+  [[nodiscard]] bool with_shadows() const override { return true; }
   void SetUp() override {
     LitSceneTest::SetUp();
     if (IsSkipped()) return;

@@ -51,7 +51,9 @@ struct SpotRig {
                                                              const std::vector<shaders::ShadowProbe>& probes,
                                                              const ProbeSettings& settings = {}) const {
     ShadowMaps maps(device, size, d16 ? gpu::Format::r16_unorm : gpu::Format::r32_float);
-    maps.add_face(depths, uvec2(0), size, false, average);
+    const std::uint32_t standard = average ? GLOAM_SHADOW_MIPS_AVERAGE : GLOAM_SHADOW_MIPS_NEAREST;
+    maps.add_face(depths, uvec2(0), size, false, settings.coverage != 0 ? GLOAM_SHADOW_MIPS_COVERAGE : standard,
+                  static_cast<float>(3.0 * texel()));
     return maps.probe(probes, {spot_row(pose, tan_inner, width_m, uvec2(0), size)}, shadow_block(maps, bias_m, d16),
                       settings);
   }

@@ -19,6 +19,7 @@ class ShadowedScene : public LitSceneTest {
     dvec3 half;
   };
 
+  [[nodiscard]] bool with_shadows() const override { return true; }
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(LitSceneTest::SetUp());
     if (IsSkipped()) return;
