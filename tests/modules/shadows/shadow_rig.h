@@ -59,15 +59,15 @@ struct SpotRig {
   }
 };
 
-/// Every filter, kernel size, shape and use of mips; with vectors of an unusual width the two kernels that have code of their own, because
-/// each of these is a pipeline to compile.
+/// Every filter, shape and use of mips by kernels of several sizes, others with vectors of an unusual width: each of these is a pipeline to
+/// compile.
 [[nodiscard]] inline std::vector<ProbeSettings> every_filter() {
   const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
   const bool usual = width == nullptr || std::string_view(width) == "256";
   std::vector<ProbeSettings> all;
   all.push_back({.filter = 0});
   for (const std::uint32_t kernel :
-       usual ? std::vector<std::uint32_t>{4, 8, 12, 16} : std::vector<std::uint32_t>{8, 12}) {
+       usual ? std::vector<std::uint32_t>{4, 8, 16} : std::vector<std::uint32_t>{8, 12}) {
     for (const std::uint32_t filter : {1u, 2u, 3u}) all.push_back({.filter = filter, .kernel = kernel});
     all.push_back({.filter = 3, .kernel = kernel, .mips = 0});
     all.push_back({.filter = 3, .kernel = kernel, .shape = 1});
