@@ -41,7 +41,8 @@ void add_shadow_knobs(KnobRegistry& registry);
 /// The same in a few words, another one for other constants.
 [[nodiscard]] std::string shadow_variant(const std::vector<gpu::SpecConstant>& constants);
 
-inline constexpr std::uint32_t kHardShadows = 0;
-inline constexpr std::uint32_t kTracedShadows = 4;  ///< of GLOAM_SHADOWS_FILTER_ID
+// Of GLOAM_SHADOWS_FILTER_ID.
+inline constexpr std::uint32_t kTracedShadows = 4;
+inline constexpr std::uint32_t kNoShadows = 5;  ///< cookies alone
 
 }  // namespace gloam

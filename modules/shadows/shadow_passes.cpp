@@ -32,7 +32,7 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   // Without a map no light asks for one, but every binding must be given.
   outputs.atlas = maps.atlas ? maps.atlas : outputs.rows;
   outputs.pyramid = maps.pyramid ? maps.pyramid : outputs.rows;
-  const std::uint32_t filter = traced ? kTracedShadows : maps.atlas ? knobs.filter : kHardShadows;
+  const std::uint32_t filter = traced ? kTracedShadows : maps.atlas ? knobs.filter : kNoShadows;
   outputs.constants = shadow_constants(knobs, filter);
   outputs.variant = shadow_variant(outputs.constants);
   frame.put(std::move(outputs));

@@ -64,12 +64,14 @@ float shadow_visibility(ShadowPoint p) {
 
 // 0 … 1, quantised, of a local light of the view; 1 for one that casts no shadows.
 float local_visibility(uint light, vec3 light_position, ShadowReceiver r) {
+  if (kFilter == 5u) return 1.0;
   if (kFilter == 4u) return quantised_visibility(traced_visibility(texelFetch(shadow_rows, ivec2(6, light), 0).z));
   return shadow_visibility(local_shadow_point(light, light_position, r));
 }
 
 // The same of a directional light; light_direction: where it shines.
 float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r) {
+  if (kFilter == 5u) return 1.0;
   if (kFilter == 4u) return quantised_visibility(traced_visibility(shadow_block.directional[light].traced_layer));
   return shadow_visibility(directional_shadow_point(light, light_direction, r));
 }
@@ -77,6 +79,7 @@ float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r)
 // Either; light_vector: the position of a local light, or where a directional one shines. Software devices run what both branches of a
 // condition hold, so whoever does not know the kind of light calls this.
 float light_visibility(bool directional, uint light, vec3 light_vector, ShadowReceiver r) {
+  if (kFilter == 5u) return 1.0;
   uint local = directional ? 0u : light, distant = directional ? light : 0u;
   if (kFilter == 4u) {
     float layer = directional ? shadow_block.directional[distant].traced_layer : texelFetch(shadow_rows, ivec2(6, local), 0).z;

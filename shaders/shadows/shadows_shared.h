@@ -94,7 +94,7 @@ struct ShadowMipConstants {
 GLOAM_SHARED_END
 
 // Specialisation constants of shaders that include shadows_api.glsl
-#define GLOAM_SHADOWS_FILTER_ID 8          // 0 hard, 1 pcf, 2 pcss, 3 chs, 4 what was traced (references)
+#define GLOAM_SHADOWS_FILTER_ID 8          // 0 hard, 1 pcf, 2 pcss, 3 chs, 4 what was traced (references), 5 none: cookies alone
 #define GLOAM_SHADOWS_KERNEL_ID 9          // 4, 8, 12, 16 texels
 #define GLOAM_SHADOWS_MIPS_ID 10           // 0 off, 1 on
 #define GLOAM_SHADOWS_RECEIVER_PLANE_ID 11 // 0, 1

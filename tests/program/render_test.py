@@ -7,6 +7,7 @@ import re
 from program_case import ProgramCase, main
 
 SMALL = ("--size", "160x90")
+NO_SHADOWS = ("--set", "shadows.mode=off")  # where they would only take time
 LIGHT_VIEWS = ("tile_masks", "lights_approx", "lights_accurate", "lights_difference", "light_culling:light 0", "light_list:light 0")
 STATS = {"version", "scene", "device", "size", "frames", "frame_ms", "systems", "passes", "memory", "modules", "counters", "knobs"}
 
@@ -38,7 +39,8 @@ class Render(ProgramCase):
 
     def test_cameras_differ(self):
         for camera in ("main", "steps"):
-            self.expect(0, "render", "builtin:lanterns", *SMALL, "--camera", camera, "--out", f"{camera}.png")
+            self.expect(0, "render", "builtin:lanterns", *SMALL, *NO_SHADOWS, "--camera", camera, "--out",
+                        f"{camera}.png")
         self.assertNotEqual(self.bytes_of("main.png"), self.bytes_of("steps.png"))
 
     def test_an_exr_is_written(self):
@@ -82,7 +84,7 @@ class Render(ProgramCase):
         self.assertTrue(self.expect(0, "render", "builtin:plain", *SMALL, "--pick", "80,80", "--quiet").stdout.strip())
 
     def test_a_pixel_tells_its_tile_bins_and_light_lists(self):
-        picked = self.expect(0, "render", "builtin:lanterns", *SMALL, "--pick", "80,80", "--quiet").stdout
+        picked = self.expect(0, "render", "builtin:lanterns", *SMALL, *NO_SHADOWS, "--pick", "80,80", "--quiet").stdout
         for line in (r"^pixel 80,80 of tile 10,10$", r"^shadow tile 10,10 of tile group 1,1, mask tile 2,2$",
                      r"^zBin \d+ of the pixel: standard .*, ranged .*$", r"^view depths of the tile [\d.]+ to [\d.]+ m$",
                      r"^zBins \d+ to \d+ of the tile: (standard|ranged) \[\d+,\d+\)$", r"^mask tile: \d+ lights: \d+ light \d+",
@@ -95,7 +97,7 @@ class Render(ProgramCase):
         pictures = set()
         for view in LIGHT_VIEWS:
             run = self.run_program("render", "builtin:lanterns", *SMALL, "--view", view, "--validate", "--out", "view.png",
-                                   "--set", "shadows.mode=off")
+                                   *NO_SHADOWS)
             if run.returncode != 0 and "layer" in run.stderr:
                 self.skipTest(run.stderr.strip())
             self.assertEqual((run.returncode, run.stderr), (0, ""), view)
