@@ -26,7 +26,7 @@ class Render(ProgramCase):
         self.assertTrue(self.bytes_of("out/plain.png").startswith(b"\x89PNG"))
 
     def test_the_same_twice_to_the_bit(self):
-        for scene in ("plain", "lanterns"):
+        for scene in ("plain", "shadows"):
             for name in ("a", "b"):
                 self.expect(0, "render", f"builtin:{scene}", *SMALL, "--frames", "2", "--time", "1.5", "--seed", "7",
                             "--out", f"{name}.png")
@@ -34,7 +34,7 @@ class Render(ProgramCase):
 
     def test_threads_do_not_change_the_picture(self):
         for threads in ("1", "4"):
-            self.expect(0, "render", "builtin:lanterns", *SMALL, "--threads", threads, "--out", f"{threads}.png")
+            self.expect(0, "render", "builtin:shadows", *SMALL, "--threads", threads, "--out", f"{threads}.png")
         self.assertEqual(self.bytes_of("1.png"), self.bytes_of("4.png"))
 
     def test_cameras_differ(self):
@@ -48,7 +48,7 @@ class Render(ProgramCase):
         self.assertTrue(self.bytes_of("deep/light.exr").startswith(b"\x76\x2f\x31\x01"))
 
     def test_stats_hold_the_schema(self):
-        self.expect(0, "render", "builtin:lanterns", *SMALL, "--frames", "3", "--stats", "stats.json", "--quiet")
+        self.expect(0, "render", "builtin:lanterns", *SMALL, *NO_SHADOWS, "--frames", "3", "--stats", "stats.json", "--quiet")
         stats = self.read_json("stats.json")
         self.assertEqual(set(stats), STATS)
         self.assertEqual((stats["version"], stats["scene"], stats["size"], stats["frames"]),
@@ -128,7 +128,7 @@ class Render(ProgramCase):
             self.expect(1, "render", "builtin:plain", *SMALL, "--out", "full.png")
 
     def test_validation_has_nothing_to_say(self):
-        run = self.run_program("render", "builtin:lanterns", *SMALL, "--frames", "3", "--validate")
+        run = self.run_program("render", "builtin:shadows", *SMALL, "--frames", "3", "--validate")
         if run.returncode != 0 and "layer" in run.stderr:
             self.skipTest(run.stderr.strip())
         self.assertEqual(run.returncode, 0, run.stderr)
