@@ -18,7 +18,7 @@ enum class LocalLights : std::uint8_t {
   lists,           ///< the tile's list; for LightsOutputs::lists_always_fit
 };
 
-/// Of the bindings behind which shadows come: GLOAM_SHADOWS_BINDING of the shadowed shaders.
+/// Of the bindings behind which shadows come: GLOAM_SHADOWS_BINDING or GLOAM_COOKIES_BINDING of the shaders.
 constexpr std::uint32_t kFirstShadowBinding = 13;
 
 /// A full-screen triangle at depth 0, which is the sky's: the test picks pixels of surfaces or of sky. Devices pass over pixels that fail
@@ -33,28 +33,29 @@ gpu::GraphicsPipelineDesc tested_pipeline(std::string name, gpu::ShaderCode frag
 
 constexpr const char* kNames[] = {"deferred/brute/", "deferred/tiled/", "deferred/listed/"};
 
-/// Without shadows.
-gpu::GraphicsPipelineDesc unshadowed_pipeline(LocalLights source, std::uint32_t directional_lights) {
-  const bool tiled = source != LocalLights::all;
-  gpu::GraphicsPipelineDesc desc = tested_pipeline(
-      kNames[static_cast<std::size_t>(source)] + std::to_string(directional_lights),
-      tiled ? shaders::lighting::deferred_tiled_frag : shaders::lighting::deferred_frag, gpu::CompareOp::less);
-  desc.constants = {{1, directional_lights}};
-  if (tiled) desc.constants.push_back({2, source == LocalLights::lists ? 1u : 0u});
-  return desc;
+/// `shadows`: null without.
+gpu::ShaderCode shading_code(bool tiled, const ShadowsOutputs* shadows) {
+  using namespace shaders::lighting;
+  if (shadows == nullptr) return tiled ? deferred_tiled_frag : deferred_frag;
+  if (shadows->cookies_only) return tiled ? deferred_tiled_cookies_frag : deferred_cookies_frag;
+  return tiled ? deferred_tiled_shadowed_frag : deferred_shadowed_frag;
 }
 
-/// `shadows`: null without.
 gpu::GraphicsPipelineDesc shading_pipeline(LocalLights source, std::uint32_t directional_lights,
                                            const ShadowsOutputs* shadows) {
-  if (shadows == nullptr) return unshadowed_pipeline(source, directional_lights);
   const bool tiled = source != LocalLights::all;
-  gpu::GraphicsPipelineDesc desc = tested_pipeline(
-      kNames[static_cast<std::size_t>(source)] + shadows->variant,
-      tiled ? shaders::lighting::deferred_tiled_shadowed_frag : shaders::lighting::deferred_shadowed_frag,
-      gpu::CompareOp::less);
-  desc.constants = shadows->constants;
-  if (tiled) desc.constants.push_back({2, source == LocalLights::lists ? 1u : 0u});
+  const bool shadowed = shadows != nullptr && !shadows->cookies_only;
+  std::vector<gpu::SpecConstant> constants = shadows == nullptr ? std::vector<gpu::SpecConstant>{} : shadows->constants;
+  std::string variant = shadows == nullptr ? "" : shadows->variant;
+  // What a shadow takes is not unrolled: one pipeline for any number of directional lights.
+  if (!shadowed) {
+    constants.push_back({1, directional_lights});
+    variant += "/" + std::to_string(directional_lights);
+  }
+  if (tiled) constants.push_back({2, source == LocalLights::lists ? 1u : 0u});
+  gpu::GraphicsPipelineDesc desc = tested_pipeline(kNames[static_cast<std::size_t>(source)] + variant,
+                                                   shading_code(tiled, shadows), gpu::CompareOp::less);
+  desc.constants = std::move(constants);
   return desc;
 }
 
@@ -82,7 +83,7 @@ void declare_reads(PassBuilder& pass, const Deferred& d) {
   pass.read(g.depth, gpu::Access::depth_test);
   const LightsOutputs& lights = d.inputs.outputs;
   if (lights.texels) pass.read(lights.texels, gpu::Access::fragment_read);
-  if (d.shadows != nullptr) declare_shadow_reads(pass, *d.shadows, gpu::Access::fragment_read);
+  if (d.shadows != nullptr) declare_arriving_reads(pass, *d.shadows, gpu::Access::fragment_read);
   if (!d.tiled) return;
   pass.read(lights.tile_lists, gpu::Access::fragment_read);
   pass.read(lights.early_lists, gpu::Access::fragment_read);
@@ -102,7 +103,7 @@ std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassConte
     bindings.push_back({11, gpu::Binding::BufferRange{context.buffer(lights.early_lists)}});
     bindings.push_back({12, gpu::Binding::BufferRange{context.buffer(lights.group_masks)}});
   }
-  if (d.shadows != nullptr) append_shadow_bindings(bindings, kFirstShadowBinding, context, *d.shadows);
+  if (d.shadows != nullptr) append_arriving_bindings(bindings, kFirstShadowBinding, context, *d.shadows);
   return bindings;
 }
 

@@ -8,7 +8,7 @@
 namespace gloam {
 namespace {
 
-/// Of the bindings behind which shadows come: GLOAM_SHADOWS_BINDING of the shadowed shaders.
+/// Of the bindings behind which shadows come: GLOAM_SHADOWS_BINDING or GLOAM_COOKIES_BINDING of the shaders.
 constexpr std::uint32_t kFirstShadowBinding = 7;
 
 SurfacePass make_surface_pass(std::string name, gpu::ShaderCode fragment) {
@@ -22,13 +22,14 @@ SurfacePass make_surface_pass(std::string name, gpu::ShaderCode fragment) {
   return p;
 }
 
+/// `shadows`: null without.
 SurfacePass forward_surface_pass(bool tiled, const ShadowsOutputs* shadows) {
-  if (shadows == nullptr)
-    return tiled ? make_surface_pass("forward_tiled", shaders::lighting::forward_tiled_frag)
-                 : make_surface_pass("forward", shaders::lighting::forward_frag);
-  SurfacePass pass =
-      tiled ? make_surface_pass("forward_tiled/" + shadows->variant, shaders::lighting::forward_tiled_shadowed_frag)
-            : make_surface_pass("forward/" + shadows->variant, shaders::lighting::forward_shadowed_frag);
+  using namespace shaders::lighting;
+  const std::string name = tiled ? "forward_tiled" : "forward";
+  if (shadows == nullptr) return make_surface_pass(name, tiled ? forward_tiled_frag : forward_frag);
+  const gpu::ShaderCode shadowed = tiled ? forward_tiled_shadowed_frag : forward_shadowed_frag;
+  const gpu::ShaderCode cookies = tiled ? forward_tiled_cookies_frag : forward_cookies_frag;
+  SurfacePass pass = make_surface_pass(name + "/" + shadows->variant, shadows->cookies_only ? cookies : shadowed);
   pass.constants = shadows->constants;
   return pass;
 }
@@ -75,7 +76,7 @@ std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassConte
     bindings.push_back({5, lights.z_bins});
     bindings.push_back({6, lights.mask_tiles});
   }
-  if (f.shadows != nullptr) append_shadow_bindings(bindings, kFirstShadowBinding, context, *f.shadows);
+  if (f.shadows != nullptr) append_arriving_bindings(bindings, kFirstShadowBinding, context, *f.shadows);
   return bindings;
 }
 
@@ -97,7 +98,7 @@ Status add_forward_pass(FrameBuilder& frame) {
   PassBuilder pass = frame.graph().add_pass("forward", "lighting");
   pass.read(f.geometry.depth, gpu::Access::depth_test);
   if (f.tiled) pass.read(f.inputs.outputs.texels, gpu::Access::fragment_read);
-  if (f.shadows != nullptr) declare_shadow_reads(pass, *f.shadows, gpu::Access::fragment_read);
+  if (f.shadows != nullptr) declare_arriving_reads(pass, *f.shadows, gpu::Access::fragment_read);
   frame.read_vertices(pass);
   f.color = lit.color = pass.write(lit.color, gpu::Access::color_target);
   pass.execute([&frame, f = std::move(f)](PassContext& context) {

@@ -37,8 +37,8 @@ Result<ImageRef> add_tone_table_pass(FrameBuilder& frame) {
   static constexpr std::uint32_t kSizes[] = {0, 1024, 256, 64};  // by choice of lighting.tone_map_table
   const std::uint32_t size = kSizes[frame.knobs().choice("lighting.tone_map_table")];
   if (size == 0) return ImageRef{};
-  auto pipeline =
-      frame.services().pipelines.get(gpu::ComputePipelineDesc{"tone_table", "lighting", shaders::lighting::tone_table_comp, {}});
+  auto pipeline = frame.services().pipelines.get(
+      gpu::ComputePipelineDesc{"tone_table", "lighting", shaders::lighting::tone_table_comp, {}});
   if (!pipeline.ok()) return pipeline.error();
   gpu::ImageDesc desc;
   desc.name = "tone_table";
@@ -116,9 +116,9 @@ Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
   auto table = add_tone_table_pass(frame);
   if (!table.ok()) return table.error();
   tone_map.table = *table;
-  gpu::GraphicsPipelineDesc desc =
-      fullscreen_pipeline(std::string(tone_map.table ? "tone_map_table/" : "tone_map/") + std::string(gpu::name_of(target.format)),
-                          "lighting", shaders::lighting::tone_map_frag, target.format);
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(
+      std::string(tone_map.table ? "tone_map_table/" : "tone_map/") + std::string(gpu::name_of(target.format)),
+      "lighting", shaders::lighting::tone_map_frag, target.format);
   desc.constants = {{0, tone_map.table ? 1u : 0u}};
   auto pipeline = services.pipelines.get(desc);
   if (!pipeline.ok()) return pipeline.error();

@@ -24,6 +24,8 @@ struct ShadowsOutputs {
   gpu::SamplerHandle nearest;
   gpu::SamplerHandle linear;
 
+  /// No light asks for a map or traced visibility: shaders may take cookies_api.glsl in place of shadows_api.glsl, many times smaller.
+  bool cookies_only = false;
   /// GLOAM_SHADOWS_…_ID, the same for every shader of the frame. `variant` names them, for names of pipelines.
   std::vector<gpu::SpecConstant> constants;
   std::string variant;
@@ -33,5 +35,10 @@ void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu:
 /// Bindings that shadows_api.glsl takes, from number `first` on: block, rows, atlas, pyramid, cookies, traced.
 void append_shadow_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                             const ShadowsOutputs& shadows);
+
+/// The same for shaders that include cookies_api.glsl when shadows.cookies_only, else shadows_api.glsl. The former takes block, rows, cookies.
+void declare_arriving_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access);
+void append_arriving_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
+                              const ShadowsOutputs& shadows);
 
 }  // namespace gloam

@@ -94,6 +94,12 @@ std::vector<std::uint8_t> resampled_cookie(const Image& image) {
   return texels;
 }
 
+std::size_t count_cookie_lights(const World& world) {
+  std::size_t count = 0;
+  world.view<const Light>().each([&](const Light& light) { count += has_cookie(light) ? 1 : 0; });
+  return count;
+}
+
 Status load_cookies(World& world) {
   if (world.try_resource<Cookies>() == nullptr) world.set_resource(Cookies{});
   std::vector<std::uint32_t> missing;

@@ -27,6 +27,7 @@ struct Cookies {
 
 /// Whether a light projects an image.
 [[nodiscard]] inline bool has_cookie(const Light& light) { return light.kind == LightKind::spot && light.cookie != 0; }
+[[nodiscard]] std::size_t count_cookie_lights(const World& world);
 
 /// Reads the images of all spot lights that are not there yet. Input error of the first that cannot be read; the others are there.
 [[nodiscard]] Status load_cookies(World& world);

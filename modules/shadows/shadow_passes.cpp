@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/shadow_passes.h"
 
+#include <algorithm>
+
 #include "modules/shadows/outputs.h"
+#include "modules/shadows/shadow_cookies.h"
 #include "modules/shadows/shadow_knobs.h"
 #include "modules/shadows/shadow_map_passes.h"
 #include "modules/shadows/shadow_uploads.h"
@@ -33,7 +36,12 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   outputs.atlas = maps.atlas ? maps.atlas : outputs.rows;
   outputs.pyramid = maps.pyramid ? maps.pyramid : outputs.rows;
   const std::uint32_t filter = traced ? kTracedShadows : maps.atlas ? knobs.filter : kNoShadows;
-  outputs.constants = shadow_constants(knobs, filter);
+  outputs.cookies_only = filter == kNoShadows;
+  // Knobs are of no use to cookies.
+  outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
+  const std::size_t cookies = count_cookie_lights(frame.world());
+  outputs.constants.push_back(
+      {GLOAM_COOKIE_LIGHTS_ID, static_cast<std::uint32_t>(std::min<std::size_t>(cookies, GLOAM_COOKIE_LIGHTS + 1))});
   outputs.variant = shadow_variant(outputs.constants);
   frame.put(std::move(outputs));
   return {};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "modules/lights/outputs.h"
 #include "modules/shadows/shadow_cookies.h"
@@ -52,14 +53,21 @@ std::vector<shaders::ShadowRow> rows_of(const FrameBuilder& frame, const ShadowV
     rows[i].cookie_layer = cookie_layer(frame.world(), lights[i], cookies);
     rows[i].traced_layer = traced_layer(traced, lights[i]);
   }
-  // Few heights, so that the frame's plan stays as it is while lights come and go.
-  rows.resize(std::bit_ceil(std::max<std::size_t>(rows.size(), kFewestRows)));
   return rows;
 }
 
+/// Names lights with cookies as long as there is room, which there is while the scene has no more of them.
+void name_cookies(std::span<const shaders::ShadowRow> rows, shaders::ShadowBlock& block) {
+  std::fill(std::begin(block.cookie_lights), std::end(block.cookie_lights), ~0u);
+  std::size_t named = 0;
+  for (std::size_t i = 0; i < rows.size() && named < std::size(block.cookie_lights); ++i)
+    if (rows[i].cookie_layer >= 0.0f) block.cookie_lights[named++] = static_cast<std::uint32_t>(i);
+}
+
 shaders::ShadowBlock block_of(const FrameBuilder& frame, const ShadowViews& views, const ShadowKnobs& knobs,
-                              const TracedVisibility* traced) {
+                              const TracedVisibility* traced, std::span<const shaders::ShadowRow> rows) {
   shaders::ShadowBlock block = views.block;
+  name_cookies(rows, block);
   block.atlas_size = static_cast<float>(knobs.atlas_size);
   block.bias_m = knobs.bias_m;
   block.depth_quantum = knobs.d16 ? 1.0f / 65535.0f : 0.0f;
@@ -72,8 +80,10 @@ shaders::ShadowBlock block_of(const FrameBuilder& frame, const ShadowViews& view
   return block;
 }
 
-Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, const std::vector<shaders::ShadowRow>& rows,
+Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, std::vector<shaders::ShadowRow> rows,
                           std::vector<Copy>& copies) {
+  // Few heights, so that the frame's plan stays as it is while lights come and go.
+  rows.resize(std::bit_ceil(std::max<std::size_t>(rows.size(), kFewestRows)));
   gpu::ImageDesc desc;
   desc.name = "shadow_rows";
   desc.module = "shadows";
@@ -134,7 +144,8 @@ const TracedVisibility* traced_visibility_of(const World& world, const RenderVie
 Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
                           ShadowsOutputs& outputs) {
   const TracedVisibility* traced = traced_visibility_of(frame.world(), frame.view());
-  auto block = frame.services().uniforms.write_value(block_of(frame, views, knobs, traced));
+  std::vector<shaders::ShadowRow> rows_now = rows_of(frame, views, traced);
+  auto block = frame.services().uniforms.write_value(block_of(frame, views, knobs, traced, rows_now));
   if (!block.ok()) return block.error();
   outputs.block = *block;
   auto nearest = frame.nearest_sampler();
@@ -145,7 +156,7 @@ Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const Shado
   outputs.linear = *linear;
 
   std::vector<Copy> copies;
-  auto rows = add_rows(frame, states, rows_of(frame, views, traced), copies);
+  auto rows = add_rows(frame, states, std::move(rows_now), copies);
   if (!rows.ok()) return rows.error();
   auto cookies = add_cookies(frame, states, copies);
   if (!cookies.ok()) return cookies.error();

@@ -3,15 +3,50 @@
 #ifndef GLOAM_SHADERS_LIGHTING_ARRIVING_LIGHT_GLSL
 #define GLOAM_SHADERS_LIGHTING_ARRIVING_LIGHT_GLSL
 
-// What shadows and cookies leave of a light's illuminance. Without GLOAM_SHADOWS_BINDING (the first of six bindings, see shadows_api.glsl)
-// everything arrives.
+// What shadows and cookies leave of a light's illuminance: both with GLOAM_SHADOWS_BINDING (the first of six bindings, see
+// shadows_api.glsl), cookies with GLOAM_COOKIES_BINDING (of three, see cookies_api.glsl), everything without. Included behind `lights`, the
+// view's LightBlock.
 
 #ifdef GLOAM_SHADOWS_BINDING
 #include "shaders/shadows/shadows_api.glsl"
+#elif defined(GLOAM_COOKIES_BINDING)
+#include "shaders/shadows/cookies_api.glsl"
+#endif
 
+#if defined(GLOAM_SHADOWS_BINDING) || defined(GLOAM_COOKIES_BINDING)
+// Lights with cookies that are looked up once a surface, before its lights are added up: devices that run both sides of a condition would
+// look for a cookie at every light. More than GLOAM_COOKIE_LIGHTS: each light looks for its own.
+layout(constant_id = GLOAM_COOKIE_LIGHTS_ID) const uint kCookieLights = GLOAM_COOKIE_LIGHTS + 1u;
+
+vec3 receiver_position;
+vec3 cookie_colors[GLOAM_COOKIE_LIGHTS];
+
+void look_up_cookies(vec3 position) {
+  receiver_position = position;
+  for (uint i = 0u; i < kCookieLights && kCookieLights <= GLOAM_COOKIE_LIGHTS; ++i) {
+    uint light = shadow_block.cookie_lights[i] < GLOAM_MAX_LOCAL_LIGHTS ? shadow_block.cookie_lights[i] : 0u;
+    cookie_colors[i] = cookie_color(light, lights.local[light].position, position);
+  }
+}
+
+vec3 through_cookie(vec3 illuminance, uint light, vec3 light_position) {
+  if (kCookieLights > GLOAM_COOKIE_LIGHTS) return illuminance * cookie_color(light, light_position, receiver_position);
+  for (uint i = 0u; i < kCookieLights; ++i)
+    if (light == shadow_block.cookie_lights[i]) illuminance *= cookie_colors[i];
+  return illuminance;
+}
+#else
+void look_up_cookies(vec3 position) {}
+vec3 through_cookie(vec3 illuminance, uint light, vec3 light_position) { return illuminance; }
+#endif
+
+#ifdef GLOAM_SHADOWS_BINDING
 ShadowReceiver receiver;  // the shaded surface; set before lights are added up
 
-void set_receiver(vec3 position, vec3 face_normal, bool subsurface) { receiver = ShadowReceiver(position, face_normal, subsurface); }
+void set_receiver(vec3 position, vec3 face_normal, bool subsurface) {
+  receiver = ShadowReceiver(position, face_normal, subsurface);
+  look_up_cookies(position);
+}
 
 bool gives_light(vec3 illuminance, vec3 normal, vec3 to_light) {
   return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && dot(normal, to_light) > 0.0;
@@ -22,7 +57,7 @@ bool never() { return shadow_block.atlas_size < 0.0; }
 
 vec3 arriving_local(vec3 illuminance, uint light, vec3 light_position, vec3 normal, vec3 to_light) {
   if (gives_light(illuminance, normal, to_light)) do {
-    illuminance *= cookie_color(light, light_position, receiver) * local_visibility(light, light_position, receiver);
+    illuminance = through_cookie(illuminance, light, light_position) * local_visibility(light, light_position, receiver);
   } while (never());
   return illuminance;
 }
@@ -34,8 +69,10 @@ vec3 arriving_directional(vec3 illuminance, uint light, vec3 light_direction, ve
   return illuminance;
 }
 #else
-void set_receiver(vec3 position, vec3 face_normal, bool subsurface) {}
-vec3 arriving_local(vec3 illuminance, uint light, vec3 light_position, vec3 normal, vec3 to_light) { return illuminance; }
+void set_receiver(vec3 position, vec3 face_normal, bool subsurface) { look_up_cookies(position); }
+vec3 arriving_local(vec3 illuminance, uint light, vec3 light_position, vec3 normal, vec3 to_light) {
+  return through_cookie(illuminance, light, light_position);
+}
 vec3 arriving_directional(vec3 illuminance, uint light, vec3 light_direction, vec3 normal) { return illuminance; }
 #endif
 

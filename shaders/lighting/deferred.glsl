@@ -3,14 +3,13 @@
 #ifndef GLOAM_SHADERS_LIGHTING_DEFERRED_GLSL
 #define GLOAM_SHADERS_LIGHTING_DEFERRED_GLSL
 
-#include "shaders/lighting/arriving_light.glsl"
 #include "shaders/lighting/environment.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Lights the surfaces of the geometry buffer: what deferred.frag, deferred_tiled.frag and their shadowed twins share. They define
-// local_lights.
+// Lights the surfaces of the geometry buffer: what deferred.frag, deferred_tiled.frag and their twins with shadows or cookies share. They
+// define local_lights.
 
 layout(constant_id = 1) const uint kDirectionalLights = 0u;  // known when the pipeline is made, so that the loop is unrolled
 
@@ -25,6 +24,8 @@ layout(set = 0, binding = 7) uniform sampler2D depth_image;
 layout(set = 0, binding = 8) uniform sampler2D light_texels;
 
 layout(location = 0) out vec4 out_light;
+
+#include "shaders/lighting/arriving_light.glsl"
 
 vec3 add_local(ShadingPoint p, uint index) {
   vec3 to_light;

@@ -3,20 +3,21 @@
 #ifndef GLOAM_SHADERS_LIGHTING_FORWARD_GLSL
 #define GLOAM_SHADERS_LIGHTING_FORWARD_GLSL
 
-#include "shaders/lighting/arriving_light.glsl"
 #include "shaders/lighting/environment.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/surface_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Lights blended surfaces where they are drawn: what forward.frag, forward_tiled.frag and their shadowed
-// twins share. They define local_lights.
+// Lights blended surfaces where they are drawn: what forward.frag, forward_tiled.frag and their twins with shadows or cookies share. They
+// define local_lights.
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
 layout(set = 0, binding = 2, scalar) uniform Environment { EnvironmentConstants environment; };
 
 layout(location = 0) out vec4 out_light;
+
+#include "shaders/lighting/arriving_light.glsl"
 
 vec3 add_local(ShadingPoint p, uint index, LocalLight light) {
   vec3 to_light;

@@ -39,6 +39,6 @@ void main() {
   result.blocker_count = blockers.count;
   result.blocker_depth = blockers.depth;
   result.penumbra = p.live ? penumbra_width(p, blockers.depth) : 0.0;
-  result.cookie = directional ? vec2(1.0) : cookie_color(probe.light, probe.light_vector, r).xy;
+  result.cookie = directional ? vec2(1.0) : cookie_color(probe.light, probe.light_vector, r.position).xy;
   results[i] = result;
 }

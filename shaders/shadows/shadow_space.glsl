@@ -104,12 +104,6 @@ vec2 cube_face_origin(uint light, int face) {
   return (face & 1) == 0 ? two.xy : two.zw;
 }
 
-// Where a spot's face looks; mirrored nodes turn it round.
-vec3 spot_forward(uint light, vec3 right, vec3 up) {
-  vec3 forward = cross(up, right);
-  return texelFetch(shadow_rows, ivec2(6, light), 0).w > 0.5 ? -forward : forward;
-}
-
 ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r) {
   ShadowPoint p = no_shadow_point();
   vec4 first = texelFetch(shadow_rows, ivec2(0, light), 0);  // kind, near, width, size

@@ -41,6 +41,7 @@ struct ShadowReceiver {
 // Of the atlas image, which is one and a half times as wide as high.
 vec2 shadow_texel_size() { return vec2(1.0 / 1.5, 1.0) / shadow_block.atlas_size; }
 
+#include "shaders/shadows/cookies.glsl"
 #include "shaders/shadows/fixed_filters.glsl"
 
 // What a slot of visibility keeps.
@@ -92,21 +93,6 @@ float light_visibility(bool directional, uint light, vec3 light_vector, ShadowRe
     if (directional) p = other;
   }
   return shadow_visibility(p);
-}
-
-// What a spot light's cookie leaves of its light: white without one; beyond its square the colors of its border.
-vec3 cookie_color(uint light, vec3 light_position, ShadowReceiver r) {
-  vec2 cookie = texelFetch(shadow_rows, ivec2(6, light), 0).xy;  // layer, tangent
-  vec3 color = vec3(1.0);
-  if (cookie.x >= 0.0) {
-    vec3 right = texelFetch(shadow_rows, ivec2(1, light), 0).xyz;
-    vec3 up = texelFetch(shadow_rows, ivec2(2, light), 0).xyz;
-    vec3 v = r.position - light_position;
-    float z = max(dot(v, spot_forward(light, right, up)), 1e-6);
-    vec2 tangent = clamp(vec2(dot(v, right), -dot(v, up)) / (z * cookie.y), -1.0, 1.0);
-    color = textureLod(shadow_cookies, vec3(tangent * 0.5 + 0.5, cookie.x), 0.0).rgb;
-  }
-  return color;
 }
 
 #endif

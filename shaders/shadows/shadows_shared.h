@@ -26,6 +26,7 @@
 #define GLOAM_SHADOW_MIPS_COVERAGE 2  // the nearest, and in the 6 lowest bits how many 64ths of the texel that surface leaves free
 #define GLOAM_SHADOW_SMALLEST_FACE 16 // texels; faces are 16 … 4096
 #define GLOAM_MAX_CASCADES 4
+#define GLOAM_COOKIE_LIGHTS 4          // that ShadowBlock names
 #define GLOAM_SHADOW_MIP_GROUP 8       // threads of a side of a workgroup of shadow_mips.comp; each takes 8 × 8 texels of the source
 
 GLOAM_SHARED_BEGIN
@@ -75,6 +76,7 @@ struct ShadowBlock {
   float bias_m;         // oriented bias
   float depth_quantum;  // of the atlas' format at depth d: max(depth_quantum, d · relative_quantum)
   float relative_quantum;
+  uint cookie_lights[GLOAM_COOKIE_LIGHTS];  // of the view, with cookies, while the scene has no more of them; else and beyond: no light's index
   DirectionalShadow directional[16];  // by index of the view's directional lights
 };
 
@@ -104,6 +106,8 @@ GLOAM_SHARED_END
 #define GLOAM_SHADOWS_FULL_PENUMBRA_ID 15  // 1: no early-outs, for measuring the filter alone
 #define GLOAM_SHADOWS_COVERAGE_ID 17       // 1: maps hold what a texel's nearest surface leaves free (GLOAM_SHADOW_MIPS_COVERAGE)
 #define GLOAM_SHADOWS_KINDS_ID 16          // kinds of lights that are asked about: GLOAM_SHADOWS_SPOTS | …
+
+#define GLOAM_COOKIE_LIGHTS_ID 18          // the scene's lights with cookies, at most GLOAM_COOKIE_LIGHTS + 1 (arriving_light.glsl)
 
 #define GLOAM_SHADOWS_SPOTS 1u
 #define GLOAM_SHADOWS_CUBES 2u
