@@ -91,8 +91,7 @@ TEST_P(ShadowPenumbrae, of_a_blocker_nearer_than_the_emitter_is_wide_are_right) 
 
 INSTANTIATE_TEST_SUITE_P(SingleFetches, ShadowPenumbrae, ::testing::Values("pcss"),
                          [](const auto& filter) { return std::string(filter.param); });
-// Mips of depth widen shadows by up to a quarter of the penumbra: penumbrae are off by 0.12…0.18.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Mips, ShadowPenumbrae, ::testing::Values("chs"),
+INSTANTIATE_TEST_SUITE_P(Mips, ShadowPenumbrae, ::testing::Values("chs"),
                          [](const auto& filter) { return std::string(filter.param); });
 
 }  // namespace
