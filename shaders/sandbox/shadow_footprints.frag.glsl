@@ -43,8 +43,8 @@ void main() {
   if (!p.live) return;
   SearchRegion region = find_region(p);
   int last = coarsest_mip(p, 8);
-  int mip = clamp(ceil_log2(max(region.width / 7.0, 1.0)), 0, last);
-  float width = penumbra_width(p, box_blockers(p, mip, 8, false).depth);
+  int mip = region_mip(p, region);
+  float width = penumbra_width(p, region_blockers(p, region).depth);
   int fine = min(floor_log2(max(0.25 * width, 1.0)), last);
   out_search_and_fine = vec4(first_corner(p, mip), first_corner(p, fine));
   out_coarse = vec4(first_corner(p, min(fine + 1, last)), 0.0, 0.0);

@@ -115,45 +115,52 @@ void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, float threshol
   sums.distance.y = blocks.w ? sums.distance.y + left * distance.w : sums.distance.y;
 }
 
-// Blockers of 8×8 texels with bilinear edges, see find_blockers.
-Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane) {
+// Blockers of 8×8 texels, see find_blockers.
+Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
   float least = whole_plane ? p.least : max(k.least, p.threshold);
   vec4 v = g.v, row = g.row;
-  float upper = 1.0 - k.fraction.y, count = 0.0, distance = 0.0;
+  vec4 left = box_shares(half_width, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.x);
+  vec4 right = box_shares(half_width, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.x);
+  vec4 upper = box_shares(half_width, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.y);
+  vec4 lower = box_shares(half_width, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
+  float count = 0.0, distance = 0.0;
   int turn = 0;
   do {
-    vec2 shares = vec2(turn < 3 ? 1.0 : k.fraction.y, upper);
     BlockerSums sums = BlockerSums(vec2(0.0), vec2(0.0));
-    add_blockers(sums, p, vec2(g.u.x, v.x), g.column.x + row.x, g.corner, least, 1.0 - k.fraction.x, 1.0);
-    add_blockers(sums, p, vec2(g.u.y, v.x), g.column.y + row.x, g.corner, least, 1.0, 1.0);
-    add_blockers(sums, p, vec2(g.u.z, v.x), g.column.z + row.x, g.corner, least, 1.0, 1.0);
-    add_blockers(sums, p, vec2(g.u.w, v.x), g.column.w + row.x, g.corner, least, 1.0, k.fraction.x);
+    add_blockers(sums, p, vec2(g.u.x, v.x), g.column.x + row.x, g.corner, least, left.x, right.x);
+    add_blockers(sums, p, vec2(g.u.y, v.x), g.column.y + row.x, g.corner, least, left.y, right.y);
+    add_blockers(sums, p, vec2(g.u.z, v.x), g.column.z + row.x, g.corner, least, left.z, right.z);
+    add_blockers(sums, p, vec2(g.u.w, v.x), g.column.w + row.x, g.corner, least, left.w, right.w);
+    vec2 shares = vec2(lower.x, upper.x);
     count += dot(sums.count, shares);
     distance += dot(sums.distance, shares);
-    upper = 1.0;
+    upper = upper.yzww;
+    lower = lower.yzww;
     v = v.yzww;
     row = row.yzww;
   } while (++turn < 4);
   return blockers_of(p, count, distance);
 }
 
-// Blockers of N × N texels with bilinear edges, (N / 2)² gathers. whole_plane: the receiver's plane counts as far as the kernel goes, for a kernel
-// that is as wide as it is whatever the light; without it, blockers are nearer to the light than the receiver.
-Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane) {
+// Blockers in a box round the receiver, half_width in texels of the mip, at most 0.5 (N − 1) of N × N texels: (N / 2)² gathers. whole_plane:
+// the receiver's plane counts as far as the kernel goes, for a kernel that is as wide as it is whatever the light; without it, blockers are
+// nearer to the light than the receiver.
+Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, texels);
   float least = whole_plane ? p.least : max(k.least, p.threshold);
   vec4 count = vec4(0.0), sum = vec4(0.0);
   for (int y = 0; y < texels; y += 2) {
-    vec2 share_y = vec2(y == 0 ? 1.0 - k.fraction.y : 1.0, y + 2 == texels ? k.fraction.y : 1.0);
-    float corner_y = clamp_corner(k, k.base.y + float(y) + 1.0);
+    float corner_y = k.base.y + float(y) + 1.0;
     for (int x = 0; x < texels; x += 2) {
-      vec2 share_x = vec2(x == 0 ? 1.0 - k.fraction.x : 1.0, x + 2 == texels ? k.fraction.x : 1.0);
-      vec2 corner = vec2(clamp_corner(k, k.base.x + float(x) + 1.0), corner_y);
+      vec2 corner = vec2(k.base.x + float(x) + 1.0, corner_y);
+      vec2 off = corner - k.at;
+      vec4 shares = box_shares(half_width, off.x + vec4(-0.5, 0.5, 0.5, -0.5)) * box_shares(half_width, off.y + vec4(0.5, 0.5, -0.5, -0.5));
+      corner = vec2(clamp_corner(k, corner.x), clamp_corner(k, corner.y));
       vec4 depth = gather_depth(k, corner);
       vec4 threshold = gather_threshold(k, corner, least);
-      vec4 weight = share_x.xyyx * share_y.yyxx * vec4(greaterThan(depth, threshold));
+      vec4 weight = shares * vec4(greaterThan(depth, threshold));
       count += weight;
       sum += weight * (p.orthographic ? depth : 1.0 / max(depth, threshold));
     }
@@ -162,14 +169,14 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane) {
 }
 
 // The same where other faces of a cube have part in it: texel by texel.
-Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_plane) {
+Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, texels);
   float least = whole_plane ? p.least : max(k.least, p.threshold);
   float count = 0.0, sum = 0.0;
   for (int i = 0; i < texels * texels; ++i) {
-    vec2 cell = vec2(i % texels, i / texels);
-    vec2 share = edge_shares(k.fraction, cell, float(texels));
-    vec2 at = (k.base + cell + 0.5) * k.square.texel;
+    vec2 cell = k.base + vec2(i % texels, i / texels) + 0.5;
+    vec4 share = box_shares(half_width, vec4(cell - k.at, 0.0, 0.0));
+    vec2 at = cell * k.square.texel;
     float rise, covered_share;
     float depth = cube_depth(p, at, mip, rise, covered_share);
     float threshold = tap_threshold(p, k, at, least, rise);
@@ -180,16 +187,30 @@ Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_pla
   return Blockers(count, count <= 1e-6 ? p.depth : count / sum);
 }
 
-Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane) {
+Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Blockers found = Blockers(0.0, p.depth);
   bool across = leaves_cube_face(p, kernel_reach(mip, texels));
   if (!across) do {
-    found = texels == 8 ? find_blockers_8(p, mip, whole_plane) : find_blockers(p, mip, texels, whole_plane);
+    found = texels == 8 ? find_blockers_8(p, mip, whole_plane, half_width) : find_blockers(p, mip, texels, whole_plane, half_width);
   } while (never(p));
   if (across) do {
-    found = find_blockers_across(p, mip, texels, whole_plane);
+    found = find_blockers_across(p, mip, texels, whole_plane, half_width);
   } while (never(p));
   return found;
+}
+
+// Of a search, in texels: what is narrower would miss an edge for want of texels.
+const float kLeastHalfWidth = 1.5;
+
+// The mip whose kernel holds a search region.
+int region_mip(ShadowPoint p, SearchRegion region) {
+  return clamp(ceil_log2(max(region.width / float(kKernel - 1), 1.0)), 0, coarsest_mip(p, kKernel));
+}
+
+Blockers region_blockers(ShadowPoint p, SearchRegion region) {
+  int mip = region_mip(p, region);
+  float half_width = clamp(0.5 * region.width * power_of_two(-mip), kLeastHalfWidth, 0.5 * float(kKernel - 1));
+  return box_blockers(p, mip, kKernel, false, half_width);
 }
 
 #endif

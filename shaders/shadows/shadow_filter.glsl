@@ -147,8 +147,7 @@ float chs_visibility(ShadowPoint p) {
   bool unsure = region.nearest > p.threshold || kFullPenumbra != 0u;
   float visibility = unlit && p.live ? 0.0 : 1.0;
   if (p.live && unsure && !unlit) do {
-    int mip = clamp(ceil_log2(max(region.width / float(kKernel - 1), 1.0)), 0, coarsest_mip(p, kKernel));
-    Blockers blockers = box_blockers(p, mip, kKernel, false);
+    Blockers blockers = region_blockers(p, region);
     float width = penumbra_width(p, blockers.depth);
     if (blockers.count > 1e-3 || kFullPenumbra != 0u) do {
       visibility = filtered_visibility(p, width);

@@ -31,8 +31,7 @@ void main() {
   Blockers blockers = Blockers(0.0, 0.0);
   for (bool go = p.live; go; go = false) {
     region = find_region(p);
-    int mip = clamp(ceil_log2(max(region.width / float(kKernel - 1), 1.0)), 0, coarsest_mip(p, kKernel));
-    blockers = box_blockers(p, mip, kKernel, false);
+    blockers = region_blockers(p, region);
   }
   result.region_width = region.width;
   result.nearest = region.nearest;

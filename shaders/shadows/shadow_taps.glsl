@@ -97,10 +97,8 @@ int coarsest_mip(ShadowPoint p, int texels) {
   return kMips == 0u ? 0 : max(floor_log2(p.size) - ceil_log2(float(texels)), 0);
 }
 
-// Share of texel i of N in a kernel with bilinear edges: they add up to N − 1.
-vec2 edge_shares(vec2 fraction, vec2 i, float texels) {
-  return clamp(i + 1.0 - fraction, 0.0, 1.0) * clamp(texels - 1.0 - i + fraction, 0.0, 1.0);
-}
+// Shares that a box of some half width has of texels by the distance of their middles from its own, all in texels.
+vec4 box_shares(float half_width, vec4 off) { return clamp(half_width + 0.5 - abs(off), 0.0, 1.0); }
 
 // One texel of mip 0; `at` becomes its centre.
 float tap_depth(ShadowPoint p, inout vec2 at, bool across) {
