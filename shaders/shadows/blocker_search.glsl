@@ -100,11 +100,32 @@ struct BlockerSums {
   vec2 distance;
 };
 
-// threshold: of the corner where the texels meet; corner: what they differ by. left, right: shares of the columns.
-void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, float threshold, vec4 corner, float least, float left, float right) {
+// What can hide part of the emitter from the receiver lies in the cone between them: the farther from the receiver's texel, the nearer to the
+// light. In texels of a mip; reach: how much farther out texels still count.
+struct SearchCone {
+  float depth_per_texel;
+  float reach;
+  float least;  // of any depth
+};
+
+// half_width: of the search region, texels of the mip. whole_plane: no cone, and the receiver's plane counts as far as the kernel goes, for a
+// kernel that is as wide as it is whatever the light; else blockers are nearer to the light than the receiver.
+SearchCone make_cone(ShadowPoint p, Kernel k, float half_width, bool whole_plane) {
+  if (whole_plane) return SearchCone(0.0, 0.0, p.least);
+  // Narrow cones would miss edges for want of texels.
+  return SearchCone(2.0 * k.square.texel / max(p.scale, 1e-6), max(2.0 - half_width, 0.5), max(k.least, p.threshold));
+}
+
+// Least depths at distances in texels.
+vec4 cone_depths(ShadowPoint p, SearchCone cone, vec4 off) {
+  return max(p.depth + (abs(off) - cone.reach) * cone.depth_per_texel, vec4(cone.least));
+}
+
+// threshold: of the corner where the texels meet; corner: what they differ by. least: of each. left, right: shares of the columns.
+void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, vec4 threshold, vec4 least, float left, float right) {
   vec4 depth = textureGather(shadow_atlas, at);
   vec4 distance = p.orthographic ? depth : 1.0 / depth;
-  bvec4 blocks = is_nearer(depth, threshold + corner, least);
+  bvec4 blocks = is_nearer(depth, threshold, least);
   sums.count.x = blocks.x ? sums.count.x + left : sums.count.x;
   sums.count.x = blocks.y ? sums.count.x + right : sums.count.x;
   sums.count.y = blocks.z ? sums.count.y + right : sums.count.y;
@@ -115,27 +136,29 @@ void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, float threshol
   sums.distance.y = blocks.w ? sums.distance.y + left * distance.w : sums.distance.y;
 }
 
-// Blockers of 8×8 texels, see find_blockers.
+// Blockers of 8×8 texels with bilinear edges, see find_blockers.
 Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
-  float least = whole_plane ? p.least : max(k.least, p.threshold);
+  SearchCone cone = make_cone(p, k, half_width, whole_plane);
+  vec4 left = cone_depths(p, cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.x);
+  vec4 right = cone_depths(p, cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.x);
+  vec4 upper = cone_depths(p, cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.y);
+  vec4 lower = cone_depths(p, cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
   vec4 v = g.v, row = g.row;
-  vec4 left = box_shares(half_width, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.x);
-  vec4 right = box_shares(half_width, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.x);
-  vec4 upper = box_shares(half_width, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.y);
-  vec4 lower = box_shares(half_width, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
-  float count = 0.0, distance = 0.0;
+  float share = 1.0 - k.fraction.y, count = 0.0, distance = 0.0;
   int turn = 0;
   do {
+    vec2 shares = vec2(turn < 3 ? 1.0 : k.fraction.y, share);
+    vec4 rows = vec4(lower.xx, upper.xx);
     BlockerSums sums = BlockerSums(vec2(0.0), vec2(0.0));
-    add_blockers(sums, p, vec2(g.u.x, v.x), g.column.x + row.x, g.corner, least, left.x, right.x);
-    add_blockers(sums, p, vec2(g.u.y, v.x), g.column.y + row.x, g.corner, least, left.y, right.y);
-    add_blockers(sums, p, vec2(g.u.z, v.x), g.column.z + row.x, g.corner, least, left.z, right.z);
-    add_blockers(sums, p, vec2(g.u.w, v.x), g.column.w + row.x, g.corner, least, left.w, right.w);
-    vec2 shares = vec2(lower.x, upper.x);
+    add_blockers(sums, p, vec2(g.u.x, v.x), g.column.x + row.x + g.corner, max(rows, vec4(left.x, right.xx, left.x)), 1.0 - k.fraction.x, 1.0);
+    add_blockers(sums, p, vec2(g.u.y, v.x), g.column.y + row.x + g.corner, max(rows, vec4(left.y, right.yy, left.y)), 1.0, 1.0);
+    add_blockers(sums, p, vec2(g.u.z, v.x), g.column.z + row.x + g.corner, max(rows, vec4(left.z, right.zz, left.z)), 1.0, 1.0);
+    add_blockers(sums, p, vec2(g.u.w, v.x), g.column.w + row.x + g.corner, max(rows, vec4(left.w, right.ww, left.w)), 1.0, k.fraction.x);
     count += dot(sums.count, shares);
     distance += dot(sums.distance, shares);
+    share = 1.0;
     upper = upper.yzww;
     lower = lower.yzww;
     v = v.yzww;
@@ -144,23 +167,23 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
   return blockers_of(p, count, distance);
 }
 
-// Blockers in a box round the receiver, half_width in texels of the mip, at most 0.5 (N − 1) of N × N texels: (N / 2)² gathers. whole_plane:
-// the receiver's plane counts as far as the kernel goes, for a kernel that is as wide as it is whatever the light; without it, blockers are
-// nearer to the light than the receiver.
+// Blockers of N × N texels with bilinear edges, (N / 2)² gathers.
 Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, texels);
-  float least = whole_plane ? p.least : max(k.least, p.threshold);
+  SearchCone cone = make_cone(p, k, half_width, whole_plane);
   vec4 count = vec4(0.0), sum = vec4(0.0);
   for (int y = 0; y < texels; y += 2) {
+    vec2 share_y = vec2(y == 0 ? 1.0 - k.fraction.y : 1.0, y + 2 == texels ? k.fraction.y : 1.0);
     float corner_y = k.base.y + float(y) + 1.0;
     for (int x = 0; x < texels; x += 2) {
+      vec2 share_x = vec2(x == 0 ? 1.0 - k.fraction.x : 1.0, x + 2 == texels ? k.fraction.x : 1.0);
       vec2 corner = vec2(k.base.x + float(x) + 1.0, corner_y);
       vec2 off = corner - k.at;
-      vec4 shares = box_shares(half_width, off.x + vec4(-0.5, 0.5, 0.5, -0.5)) * box_shares(half_width, off.y + vec4(0.5, 0.5, -0.5, -0.5));
+      vec4 least = max(cone_depths(p, cone, off.x + vec4(-0.5, 0.5, 0.5, -0.5)), cone_depths(p, cone, off.y + vec4(0.5, 0.5, -0.5, -0.5)));
       corner = vec2(clamp_corner(k, corner.x), clamp_corner(k, corner.y));
       vec4 depth = gather_depth(k, corner);
-      vec4 threshold = gather_threshold(k, corner, least);
-      vec4 weight = shares * vec4(greaterThan(depth, threshold));
+      vec4 threshold = max(gather_threshold(k, corner, cone.least), least);
+      vec4 weight = share_x.xyyx * share_y.yyxx * vec4(greaterThan(depth, threshold));
       count += weight;
       sum += weight * (p.orthographic ? depth : 1.0 / max(depth, threshold));
     }
@@ -171,15 +194,16 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, flo
 // The same where other faces of a cube have part in it: texel by texel.
 Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, texels);
-  float least = whole_plane ? p.least : max(k.least, p.threshold);
+  SearchCone cone = make_cone(p, k, half_width, whole_plane);
   float count = 0.0, sum = 0.0;
   for (int i = 0; i < texels * texels; ++i) {
-    vec2 cell = k.base + vec2(i % texels, i / texels) + 0.5;
-    vec4 share = box_shares(half_width, vec4(cell - k.at, 0.0, 0.0));
-    vec2 at = cell * k.square.texel;
+    vec2 cell = vec2(i % texels, i / texels);
+    vec2 share = edge_shares(k.fraction, cell, float(texels));
+    vec2 at = (k.base + cell + 0.5) * k.square.texel;
+    vec4 least = cone_depths(p, cone, vec4(k.base + cell + 0.5 - k.at, 0.0, 0.0));
     float rise, covered_share;
     float depth = cube_depth(p, at, mip, rise, covered_share);
-    float threshold = tap_threshold(p, k, at, least, rise);
+    float threshold = max(tap_threshold(p, k, at, cone.least, rise), max(least.x, least.y));
     float weight = depth > threshold ? share.x * share.y : 0.0;
     count += weight;
     sum += weight / max(depth, threshold);
@@ -209,8 +233,7 @@ int region_mip(ShadowPoint p, SearchRegion region) {
 
 Blockers region_blockers(ShadowPoint p, SearchRegion region) {
   int mip = region_mip(p, region);
-  float half_width = clamp(0.5 * region.width * power_of_two(-mip), kLeastHalfWidth, 0.5 * float(kKernel - 1));
-  return box_blockers(p, mip, kKernel, false, half_width);
+  return box_blockers(p, mip, kKernel, false, 0.5 * region.width * power_of_two(-mip));
 }
 
 #endif

@@ -23,7 +23,7 @@ float hard_visibility(ShadowPoint p) {
 float pcf_visibility(ShadowPoint p) {
   float visibility = 1.0;
   if (p.live) do {
-    Blockers blocked = box_blockers(p, 0, kKernel, true, 0.5 * float(kKernel - 1));
+    Blockers blocked = box_blockers(p, 0, kKernel, true, 0.0);
     visibility = 1.0 - blocked.count / float((kKernel - 1) * (kKernel - 1));
   } while (never(p));
   return visibility;

@@ -11,7 +11,7 @@
 // What a kernel adds up to when its middle is texel column 3 (x), and when it is column 4 (y); between, by the fraction.
 void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, float least, vec4 at_3, vec4 at_4) {
   vec4 depth = textureGather(shadow_atlas, at);
-  bvec4 blocked = is_nearer(depth, threshold + corner, least);
+  bvec4 blocked = is_nearer(depth, threshold + corner, vec4(least));
   vec4 share = coverage(depth);
   sums = blocked.x ? sums + share.x * vec2(at_3.x, at_4.x) : sums;
   sums = blocked.y ? sums + share.y * vec2(at_3.y, at_4.y) : sums;

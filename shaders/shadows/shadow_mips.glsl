@@ -21,10 +21,11 @@ struct Texels {
   float sum;    // of distances in units of the near plane, or of depths (orthographic), occupied texels only
   float count;
   float covered;  // texels that the nearest surface covers
+  float depths;   // sum of its depths, by what each texel's surface covers
   vec2 bounds;    // of the pyramid
 };
 
-const Texels kNone = Texels(0.0, 0.0, 0.0, 0.0, vec2(1.0, 0.0));
+const Texels kNone = Texels(0.0, 0.0, 0.0, 0.0, 0.0, vec2(1.0, 0.0));
 
 const uint kFreeBits = 63u;
 
@@ -36,7 +37,9 @@ void add_covered(inout Texels t, float texel, float gap) {
   float share = depth > 0.0 ? 1.0 - float(floatBitsToUint(texel) & kFreeBits) / 64.0 : 0.0;
   float near = max(depth, t.nearest), far = min(depth, t.nearest);
   bool same = far > 0.0 && (face.orthographic != 0u ? near - far <= gap : near <= far * (1.0 + gap));
-  t.covered = same ? t.covered + share : depth > t.nearest ? share : t.covered;
+  bool first = !same && depth > t.nearest;
+  t.covered = same ? t.covered + share : first ? share : t.covered;
+  t.depths = same ? t.depths + share * depth : first ? share * depth : t.depths;
   t.nearest = near;
 }
 
@@ -53,7 +56,8 @@ void add(inout Texels t, float depth, vec2 bounds, float gap) {
 float depth_of(Texels t) {
   if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) {
     uint free = uint(clamp(floor((1.0 - 0.25 * t.covered) * 64.0 + 0.5), 0.0, float(kFreeBits)));
-    return t.nearest > 0.0 ? uintBitsToFloat(floatBitsToUint(t.nearest) | free) : 0.0;
+    // The mean of a plane's depths is its depth in the middle.
+    return t.nearest > 0.0 ? uintBitsToFloat(floatBitsToUint(without_free_bits(t.depths / t.covered)) | free) : 0.0;
   }
   if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_NEAREST) || t.count == 0.0) return t.nearest;
   return face.orthographic != 0u ? t.sum / t.count : t.count / t.sum;

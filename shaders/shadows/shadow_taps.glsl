@@ -70,9 +70,9 @@ Gathers8 make_gathers(Kernel k) {
 }
 
 // Whether depths are above both: two comparisons are cheaper than what max does for numbers that are none.
-bvec4 is_nearer(vec4 depth, vec4 threshold, float least) {
-  return bvec4(depth.x > threshold.x && depth.x > least, depth.y > threshold.y && depth.y > least, depth.z > threshold.z && depth.z > least,
-               depth.w > threshold.w && depth.w > least);
+bvec4 is_nearer(vec4 depth, vec4 threshold, vec4 least) {
+  return bvec4(depth.x > threshold.x && depth.x > least.x, depth.y > threshold.y && depth.y > least.y,
+               depth.z > threshold.z && depth.z > least.z, depth.w > threshold.w && depth.w > least.w);
 }
 
 // Threshold at a texel coordinate of mip 0.
@@ -97,8 +97,10 @@ int coarsest_mip(ShadowPoint p, int texels) {
   return kMips == 0u ? 0 : max(floor_log2(p.size) - ceil_log2(float(texels)), 0);
 }
 
-// Shares that a box of some half width has of texels by the distance of their middles from its own, all in texels.
-vec4 box_shares(float half_width, vec4 off) { return clamp(half_width + 0.5 - abs(off), 0.0, 1.0); }
+// Share of texel i of N in a kernel with bilinear edges: they add up to N − 1.
+vec2 edge_shares(vec2 fraction, vec2 i, float texels) {
+  return clamp(i + 1.0 - fraction, 0.0, 1.0) * clamp(texels - 1.0 - i + fraction, 0.0, 1.0);
+}
 
 // One texel of mip 0; `at` becomes its centre.
 float tap_depth(ShadowPoint p, inout vec2 at, bool across) {
