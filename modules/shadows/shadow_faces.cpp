@@ -10,7 +10,9 @@
 namespace gloam {
 namespace {
 
-constexpr float kNear = 0.05f;                       // metres
+constexpr float kNear = 0.05f;  // metres: what is farther from a light than this casts shadows
+// What a cube's near planes leave out is a cube: it lies within that distance to its corners.
+constexpr float kCubeNear = 0.02886f;
 constexpr float kWidestSpot = kPi / 3.0f * 1.0001f;  // half angle in radians: wider cones have a cube
 constexpr float kNarrowestSpot = kPi / 180.0f;       // half angle in radians
 constexpr float kWidestCookie = kPi * 0.47f;         // half angle in radians: the tangent of a right angle is none
@@ -60,13 +62,15 @@ FaceAxes cube_axes(std::uint32_t face) {
   vec3 forward(0.0f);
   forward[static_cast<int>(face / 2)] = face % 2 == 0 ? 1.0f : -1.0f;
   const vec3 up = face / 2 == 1 ? vec3(0.0f, 0.0f, -forward.y) : vec3(0.0f, 1.0f, 0.0f);
-  return {glm::cross(forward, up), up, forward};
+  const mat3 cube(GLOAM_CUBE_X, GLOAM_CUBE_Y, GLOAM_CUBE_Z);
+  return {cube * glm::cross(forward, up), cube * up, cube * forward};
 }
 
 std::uint32_t cube_face_of(const dvec3& direction) {
-  const dvec3 a = glm::abs(direction);
+  const dvec3 in_cube = direction * glm::dmat3(mat3(GLOAM_CUBE_X, GLOAM_CUBE_Y, GLOAM_CUBE_Z));
+  const dvec3 a = glm::abs(in_cube);
   const std::uint32_t axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  return axis * 2 + (direction[static_cast<int>(axis)] < 0.0 ? 1 : 0);
+  return axis * 2 + (in_cube[static_cast<int>(axis)] < 0.0 ? 1 : 0);
 }
 
 LocalShadow local_shadow(const Light& light, const dmat4& world_from_node, float kernel_rim) {
@@ -82,6 +86,7 @@ LocalShadow local_shadow(const Light& light, const dmat4& world_from_node, float
   if (!sound || light.kind == LightKind::directional || !(shadow.range_m > kNear)) return shadow;
   const bool one_face = spot && half <= kWidestSpot;
   shadow.kind = one_face ? GLOAM_SHADOW_SPOT : GLOAM_SHADOW_CUBE;
+  shadow.near_m = one_face ? kNear : kCubeNear;
   shadow.tan_inner = one_face ? shadow.cookie_tan : 1.0f;
   shadow.tan_half = shadow.tan_inner * (1.0f + kernel_rim);
   return shadow;
@@ -100,14 +105,14 @@ ShadowFace local_face(Entity light, const LocalShadow& shadow, std::uint32_t ind
   face.up = axes.up;
   face.forward = axes.forward;
   face.tan_half = shadow.tan_half;
-  face.near_m = kNear;
+  face.near_m = shadow.near_m;
   face.far_m = shadow.range_m;
   return face;
 }
 
 shaders::ShadowRow shadow_row(const LocalShadow& shadow, std::span<const AtlasSquare> squares) {
   shaders::ShadowRow row{};
-  row.near_m = kNear;
+  row.near_m = shadow.near_m;
   row.width_m = shadow.width_m;
   row.right = shadow.axes.right;
   row.up = shadow.axes.up;

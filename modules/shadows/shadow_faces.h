@@ -33,6 +33,7 @@ struct LocalShadow {
   dvec3 position = dvec3(0.0);
   FaceAxes axes;  ///< of its node
   float range_m = 0.0f;
+  float near_m = 0.05f;  ///< where the near planes of its faces are
   float width_m = 0.0f;  ///< ≥ 0
   float tan_inner = 1.0f;
   float tan_half = 1.0f;

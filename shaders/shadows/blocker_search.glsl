@@ -103,6 +103,7 @@ struct BlockerSums {
 // What can hide part of the emitter from the receiver lies in the cone between them: the farther from the receiver's texel, the nearer to the
 // light. In texels of a mip; reach: how much farther out texels still count.
 struct SearchCone {
+  float apex;  // depth
   float depth_per_texel;
   float reach;
   float least;  // of any depth
@@ -111,14 +112,14 @@ struct SearchCone {
 // half_width: of the search region, texels of the mip. whole_plane: no cone, and the receiver's plane counts as far as the kernel goes, for a
 // kernel that is as wide as it is whatever the light; else blockers are nearer to the light than the receiver.
 SearchCone make_cone(ShadowPoint p, Kernel k, float half_width, bool whole_plane) {
-  if (whole_plane) return SearchCone(0.0, 0.0, p.least);
+  if (whole_plane) return SearchCone(0.0, 0.0, 0.0, p.least);
   // Narrow cones would miss edges for want of texels.
-  return SearchCone(2.0 * k.square.texel / max(p.scale, 1e-6), max(2.0 - half_width, 0.5), max(k.least, p.threshold));
+  return SearchCone(p.depth, 2.0 * k.square.texel / max(p.scale, 1e-6), max(2.0 - half_width, 0.5), max(k.least, p.threshold));
 }
 
 // Least depths at distances in texels.
-vec4 cone_depths(ShadowPoint p, SearchCone cone, vec4 off) {
-  return max(p.depth + (abs(off) - cone.reach) * cone.depth_per_texel, vec4(cone.least));
+vec4 cone_depths(SearchCone cone, vec4 off) {
+  return max(cone.apex + (abs(off) - cone.reach) * cone.depth_per_texel, vec4(cone.least));
 }
 
 // threshold: of the corner where the texels meet; corner: what they differ by. least: of each. left, right: shares of the columns.
@@ -141,10 +142,10 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
   SearchCone cone = make_cone(p, k, half_width, whole_plane);
-  vec4 left = cone_depths(p, cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.x);
-  vec4 right = cone_depths(p, cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.x);
-  vec4 upper = cone_depths(p, cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.y);
-  vec4 lower = cone_depths(p, cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
+  vec4 left = cone_depths(cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.x);
+  vec4 right = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.x);
+  vec4 upper = cone_depths(cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.y);
+  vec4 lower = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
   vec4 v = g.v, row = g.row;
   float share = 1.0 - k.fraction.y, count = 0.0, distance = 0.0;
   int turn = 0;
@@ -179,7 +180,7 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, flo
       vec2 share_x = vec2(x == 0 ? 1.0 - k.fraction.x : 1.0, x + 2 == texels ? k.fraction.x : 1.0);
       vec2 corner = vec2(k.base.x + float(x) + 1.0, corner_y);
       vec2 off = corner - k.at;
-      vec4 least = max(cone_depths(p, cone, off.x + vec4(-0.5, 0.5, 0.5, -0.5)), cone_depths(p, cone, off.y + vec4(0.5, 0.5, -0.5, -0.5)));
+      vec4 least = max(cone_depths(cone, off.x + vec4(-0.5, 0.5, 0.5, -0.5)), cone_depths(cone, off.y + vec4(0.5, 0.5, -0.5, -0.5)));
       corner = vec2(clamp_corner(k, corner.x), clamp_corner(k, corner.y));
       vec4 depth = gather_depth(k, corner);
       vec4 threshold = max(gather_threshold(k, corner, cone.least), least);
@@ -200,7 +201,7 @@ Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_pla
     vec2 cell = vec2(i % texels, i / texels);
     vec2 share = edge_shares(k.fraction, cell, float(texels));
     vec2 at = (k.base + cell + 0.5) * k.square.texel;
-    vec4 least = cone_depths(p, cone, vec4(k.base + cell + 0.5 - k.at, 0.0, 0.0));
+    vec4 least = cone_depths(cone, vec4(k.base + cell + 0.5 - k.at, 0.0, 0.0));
     float rise, covered_share;
     float depth = cube_depth(p, at, mip, rise, covered_share);
     float threshold = max(tap_threshold(p, k, at, cone.least, rise), max(least.x, least.y));

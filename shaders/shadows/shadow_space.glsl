@@ -83,7 +83,10 @@ ShadowPoint no_shadow_point() {
   return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 0u, 1.0, 1.0);
 }
 
-// Axes of a cube's face: x, y, and where it looks.
+// Axes of a cube in the world, as columns.
+const mat3 kCube = mat3(GLOAM_CUBE_X, GLOAM_CUBE_Y, GLOAM_CUBE_Z);
+
+// Axes of a face in its cube: x, y, and where it looks.
 mat3 cube_face_axes(int face) {
   float sign = (face & 1) == 0 ? 1.0 : -1.0;
   int axis = face >> 1;
@@ -92,6 +95,7 @@ mat3 cube_face_axes(int face) {
   return mat3(cross(forward, up), up, forward);
 }
 
+// v: in the cube's axes.
 int cube_face_of(vec3 v) {
   vec3 a = abs(v);
   if (a.x >= a.y && a.x >= a.z) return v.x >= 0.0 ? 0 : 1;
@@ -112,6 +116,11 @@ ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r
   vec3 v = r.position - light_position;
   bool cube = first.x == float(GLOAM_SHADOW_CUBE);
   cube = kKinds == GLOAM_SHADOWS_CUBES || (cube && (kKinds & GLOAM_SHADOWS_CUBES) != 0u);
+  vec3 normal = r.face_normal;
+  if (cube) {
+    v = v * kCube;
+    normal = normal * kCube;
+  }
   p.face = cube ? cube_face_of(v) : -1;
   p.light = light;
   float mirrored = texelFetch(shadow_rows, ivec2(6, light), 0).w;
@@ -130,7 +139,7 @@ ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r
   p.at = vec2(tangent.x, -tangent.y) / texel + 0.5 * first.w;
   p.depth = near / z;
   p.scale = max(first.z, 0.0) / (near * texel);
-  vec3 normal = r.face_normal * axes;
+  normal = normal * axes;
   float facing = dot(normal, local);
   float distance = length(local);
   float along = abs(facing) < 1e-5 * distance ? (facing < 0.0 ? -1e-5 : 1e-5) * distance : facing;

@@ -13,8 +13,16 @@
 // The pyramid image is laid out the same way for W / 4: its level l is mip l + GLOAM_SHADOW_PYRAMID_MIP. x: farthest depth of the texels
 // below (0 when one of them is empty), y: nearest.
 //
-// A cube's faces look along +X, −X, +Y, −Y, +Z, −Z of the world; the y axis of ±X and ±Z is +Y, of +Y it is −Z, of −Y it is +Z; the
-// x axis is cross(forward, y axis). Texture coordinates of a face run from its upper left corner: x along the x axis, y against the y axis.
+// A cube's faces look along its own +X, −X, +Y, −Y, +Z, −Z (GLOAM_CUBE_X …); the y axis of ±X and ±Z is +Y, of +Y it is −Z, of −Y it is +Z;
+// the x axis is cross(forward, y axis). Texture coordinates of a face run from its upper left corner: x along the x axis, y against the y axis.
+
+// A cube's axes in the world. They are turned: edges of buildings run along the world's axes, and in a face that has the same axes they would
+// run along columns of texels and be off by the same share of a texel everywhere, which no filter evens out. No axis of the world is less
+// than 8° from the rows and columns of a face that shows it at length, and each is within 15° of the middle of a face, where kernels are
+// round.
+#define GLOAM_CUBE_X vec3(0.96954172f, 0.18399011f, -0.16166783f)
+#define GLOAM_CUBE_Y vec3(-0.15356032f, 0.97085883f, 0.18399011f)
+#define GLOAM_CUBE_Z vec3(0.19080900f, -0.15356032f, 0.96954172f)
 
 #define GLOAM_SHADOW_NONE 0
 #define GLOAM_SHADOW_SPOT 1

@@ -53,8 +53,8 @@ TEST_F(ShadowHard, a_floor_in_grazing_light_never_shadows_itself) {
           ASSERT_GE(result.visibility, 0.999f) << name_of(settings) << " average " << average;
         const auto a = rig.look(device(), with_floor, probes, settings);
         const auto b = rig.look(device(), without, probes, settings);
-        // The floor widens the search, which a few texels, or single fetches, answer less exactly.
-        const float slack = settings.filter == 2 || settings.kernel == 4 ? 0.25f : 0.05f;
+        // The floor widens the search, which a few texels, or single fetches, answer less exactly, and it is part of mean depths.
+        const float slack = settings.filter == 2 || settings.kernel == 4 ? 0.25f : average ? 0.15f : 0.05f;
         for (std::size_t i = 0; i < probes.size(); ++i)
           ASSERT_GE(a[i].visibility, b[i].visibility - slack)
               << name_of(settings) << " average " << average << " probe " << i;
@@ -251,12 +251,14 @@ struct CubeScene {
   }
 };
 
-// A kernel that leaves its face sees what one large face would have shown it. Face +X, its border with −Z and its corner with +Y and −Z.
+// A kernel that leaves its face sees what one large face would have shown it. Face +X, its border with −Z and its corner with +Y and −Z. All
+// in the cube's axes.
 TEST_F(ShadowHard, penumbrae_across_two_and_three_faces_of_a_cube_are_those_of_one_large_face) {
-  const dvec3 blocker_normal = normalize(dvec3(1.0, 0.2, -0.3));
-  const RayScene blocker =
-      plane(blocker_normal * 1.5, blocker_normal, [](const dvec3& p) { return p.y + 0.3 * p.z < 0.35; });
-  const RayScene wall = plane(dvec3(4.0, 0.0, 0.0), dvec3(-1.0, 0.0, 0.0));
+  const glm::dmat3 cube = cube_axes();
+  const dvec3 blocker_normal = cube * normalize(dvec3(1.0, 0.2, -0.3));
+  const RayScene blocker = plane(blocker_normal * 1.5, blocker_normal,
+                                 [&](const dvec3& p) { return dot(p, cube[1]) + 0.3 * dot(p, cube[2]) < 0.35; });
+  const RayScene wall = plane(4.0 * cube[0], -cube[0]);
   ShadowMaps maps(device(), 2048);
   CubeScene::add(maps, nearest_of({blocker, wall}));
   std::vector<ShadowProbe> probes;
@@ -264,12 +266,11 @@ TEST_F(ShadowHard, penumbrae_across_two_and_three_faces_of_a_cube_are_those_of_o
   constexpr double kWidth = 0.5;
   int across = 0;
   for (int i = 0; i < 500; ++i) {
-    const dvec3 at(4.0, 4.0 * 0.98 * (i % 25 - 12) / 12.0, -4.0 * (0.55 + 0.43 * (i / 25) / 19.0));
+    const dvec3 at = cube * dvec3(4.0, 4.0 * 0.98 * (i % 25 - 12) / 12.0, -4.0 * (0.55 + 0.43 * (i / 25) / 19.0));
     const double stretch = std::sqrt(length(at) / 4.0);
     rows.push_back(CubeScene::cube_row(kWidth));
-    probes.push_back({.position = vec3(at),
-                      .light = static_cast<std::uint32_t>(rows.size() - 1),
-                      .face_normal = vec3(-1.0f, 0.0f, 0.0f)});
+    probes.push_back(
+        {.position = vec3(at), .light = static_cast<std::uint32_t>(rows.size() - 1), .face_normal = vec3(-cube[0])});
     rows.push_back(spot_row(cube_face(0, dvec3(0.0), CubeScene::kWideTan), CubeScene::kWideTan * 0.99, kWidth * stretch,
                             uvec2(0), CubeScene::kWide));
     probes.push_back(probes.back());

@@ -70,16 +70,19 @@ RayScene plane(dvec3 point, dvec3 normal, std::function<bool(const dvec3&)> insi
   };
 }
 
+glm::dmat3 cube_axes() { return {dvec3(GLOAM_CUBE_X), dvec3(GLOAM_CUBE_Y), dvec3(GLOAM_CUBE_Z)}; }
+
 FacePose cube_face(int face, dvec3 origin, double tan_half) {
   constexpr std::array<dvec3, 6> kForward = {dvec3(1, 0, 0),  dvec3(-1, 0, 0), dvec3(0, 1, 0),
                                              dvec3(0, -1, 0), dvec3(0, 0, 1),  dvec3(0, 0, -1)};
   constexpr std::array<dvec3, 6> kUp = {dvec3(0, 1, 0), dvec3(0, 1, 0), dvec3(0, 0, -1),
                                         dvec3(0, 0, 1), dvec3(0, 1, 0), dvec3(0, 1, 0)};
   const auto i = static_cast<std::size_t>(face);
+  const glm::dmat3 cube = cube_axes();
   return {.origin = origin,
-          .right = cross(kForward[i], kUp[i]),
-          .up = kUp[i],
-          .forward = kForward[i],
+          .right = cube * cross(kForward[i], kUp[i]),
+          .up = cube * kUp[i],
+          .forward = cube * kForward[i],
           .tan_half = tan_half};
 }
 

@@ -34,6 +34,8 @@ struct FacePose {
   double depth_m = 0.0;        ///< orthographic
 };
 
+/// A cube's axes in the world.
+[[nodiscard]] glm::dmat3 cube_axes();
 /// One of a cube's six faces, as shadows_shared.h says.
 [[nodiscard]] FacePose cube_face(int face, dvec3 origin, double tan_half);
 

@@ -144,12 +144,12 @@ TEST_F(ShadowMips, coverage_is_the_share_of_the_nearest_surface) {
   }
 }
 
-TEST_F(ShadowMips, a_surface_that_recedes_covers_its_texels) {
+TEST_F(ShadowMips, a_surface_that_recedes_covers_its_texels_at_the_depth_of_their_middles) {
   constexpr std::uint32_t kSize = 64;
   constexpr float kTexel = 0.02f;  // tangent
   std::vector<float> depths;       // at two metres a metre across: half of what counts as steep
-  for (std::uint32_t i = 0; i < kSize * kSize; ++i)
-    depths.push_back(0.05f / (3.0f / (1.0f - 1.5f * kTexel * (static_cast<float>(i % kSize) - 32.0f) * 0.5f)));
+  const auto plane_at = [](float column) { return 0.05f / 3.0f * (1.0f - 0.75f * kTexel * (column - 32.0f)); };
+  for (std::uint32_t i = 0; i < kSize * kSize; ++i) depths.push_back(plane_at(static_cast<float>(i % kSize)));
   ShadowMaps maps(device(), kAtlas);
   maps.add_face(depths, {0, 0}, kSize, false, GLOAM_SHADOW_MIPS_COVERAGE, 3.0f * kTexel);
   const auto atlas = maps.atlas();
@@ -158,6 +158,8 @@ TEST_F(ShadowMips, a_surface_that_recedes_covers_its_texels) {
     for (std::uint32_t x = 0; x < kSize >> mip; ++x) {
       const float held = atlas[corner.y * kAtlas * 3 / 2 + corner.x + x];
       EXPECT_EQ(std::bit_cast<std::uint32_t>(held) & 63u, 0u) << "mip " << mip << " column " << x;
+      const float middle = (static_cast<float>(x) + 0.5f) * static_cast<float>(1u << mip) - 0.5f;
+      EXPECT_NEAR(held, plane_at(middle), 2e-5f * held) << "mip " << mip << " column " << x;
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "shaders/shadows/shadows_shared.h"
 #include "tests/modules/shadows/hard_shadows.h"
 
 namespace gloam {
@@ -43,21 +44,23 @@ TEST_P(ShadowPenumbrae, across_two_and_three_faces_of_a_cube_are_as_right_as_ins
   const Entity wall = thing(test::quad(2.5f, stone)), bar = thing(test::box(vec3(0.25f, 0.25f, 0.03f), stone));
   const Entity bulb = lamp(point(0.2f), dvec3(0.0), dvec3(0.0, 0.0, -1.0));
   const dmat4 camera = test::look_at(dvec3(0.9, 0.7, 0.4), dvec3(0.0, 0.0, -3.0), 96, 54).world_from_camera;
-  double inside = 0.0;
+  double inside = 0.0;  // the worst within a face: that depends on how edges lie on texels
   for (const auto& [name, direction] : {std::pair{"one face", dvec3(0.0, 0.0, -1.0)},
+                                        {"one face above", dvec3(0.2, 0.3, -1.0)},
+                                        {"one face below", dvec3(-0.3, -0.1, -1.0)},
                                         {"two faces", dvec3(1.0, 0.0, -1.0)},
                                         {"two faces below", dvec3(0.0, -1.0, -1.0)},
                                         {"three faces", dvec3(1.0, 1.0, -1.0)},
                                         {"three faces behind", dvec3(-1.0, -1.0, 1.0)}}) {
-    const dmat4 turn = turn_towards(direction);
+    const dmat4 turn = turn_towards(mat3(GLOAM_CUBE_X, GLOAM_CUBE_Y, GLOAM_CUBE_Z) * vec3(direction));  // of the cube
     place(wall, turn * at(0.0, 0.0, -3.0));
     place(bar, turn * at(0.05, -0.03, -1.4));
     settings.world_from_camera = turn * camera;
     const ShadowError e = error(bulb, trace());
     expect_right(name, e);
     EXPECT_GT(e.penumbra_pairs, 150u) << name;
-    if (direction.x == 0.0 && direction.y == 0.0) inside = e.penumbra_mean();
-    EXPECT_LE(e.penumbra_mean(), inside + 0.01) << name;
+    if (std::abs(direction.x) < 0.5 && std::abs(direction.y) < 0.5) inside = std::max(inside, e.penumbra_mean());
+    EXPECT_LE(e.penumbra_mean(), inside + 0.015) << name;
   }
 }
 
