@@ -38,6 +38,7 @@ gpu::ShaderCode shading_code(bool tiled, const ShadowsOutputs* shadows) {
   using namespace shaders::lighting;
   if (shadows == nullptr) return tiled ? deferred_tiled_frag : deferred_frag;
   if (shadows->cookies_only) return tiled ? deferred_tiled_cookies_frag : deferred_cookies_frag;
+  if (shadows->standard) return tiled ? deferred_tiled_shadowed_standard_frag : deferred_shadowed_standard_frag;
   return tiled ? deferred_tiled_shadowed_frag : deferred_shadowed_frag;
 }
 

@@ -23,14 +23,18 @@ SurfacePass make_surface_pass(std::string name, gpu::ShaderCode fragment) {
 }
 
 /// `shadows`: null without.
-SurfacePass forward_surface_pass(bool tiled, const ShadowsOutputs* shadows) {
+gpu::ShaderCode shading_code(bool tiled, const ShadowsOutputs* shadows) {
   using namespace shaders::lighting;
-  const std::string name = tiled ? "forward_tiled" : "forward";
-  if (shadows == nullptr) return make_surface_pass(name, tiled ? forward_tiled_frag : forward_frag);
-  const gpu::ShaderCode shadowed = tiled ? forward_tiled_shadowed_frag : forward_shadowed_frag;
-  const gpu::ShaderCode cookies = tiled ? forward_tiled_cookies_frag : forward_cookies_frag;
-  SurfacePass pass = make_surface_pass(name + "/" + shadows->variant, shadows->cookies_only ? cookies : shadowed);
-  pass.constants = shadows->constants;
+  if (shadows == nullptr) return tiled ? forward_tiled_frag : forward_frag;
+  if (shadows->cookies_only) return tiled ? forward_tiled_cookies_frag : forward_cookies_frag;
+  if (shadows->standard) return tiled ? forward_tiled_shadowed_standard_frag : forward_shadowed_standard_frag;
+  return tiled ? forward_tiled_shadowed_frag : forward_shadowed_frag;
+}
+
+SurfacePass forward_surface_pass(bool tiled, const ShadowsOutputs* shadows) {
+  const std::string variant = shadows == nullptr ? "" : "/" + shadows->variant;
+  SurfacePass pass = make_surface_pass((tiled ? "forward_tiled" : "forward") + variant, shading_code(tiled, shadows));
+  if (shadows != nullptr) pass.constants = shadows->constants;
   return pass;
 }
 

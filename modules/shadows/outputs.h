@@ -26,6 +26,8 @@ struct ShadowsOutputs {
 
   /// No light asks for a map or traced visibility: shaders may take cookies_api.glsl in place of shadows_api.glsl, many times smaller.
   bool cookies_only = false;
+  /// The filter is what GLOAM_SHADOWS_STANDARD compiles, half as large.
+  bool standard = false;
   /// GLOAM_SHADOWS_…_ID, the same for every shader of the frame. `variant` names them, for names of pipelines.
   std::vector<gpu::SpecConstant> constants;
   std::string variant;

@@ -37,6 +37,7 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   outputs.pyramid = maps.pyramid ? maps.pyramid : outputs.rows;
   const std::uint32_t filter = traced ? kTracedShadows : maps.atlas ? knobs.filter : kNoShadows;
   outputs.cookies_only = filter == kNoShadows;
+  outputs.standard = filter == kStandardShadows && knobs.kernel == 8;
   // Knobs are of no use to cookies.
   outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
   const std::size_t cookies = count_cookie_lights(frame.world());

@@ -122,11 +122,11 @@ vec4 cone_depths(SearchCone cone, vec4 off) {
   return max(cone.apex + (abs(off) - cone.reach) * cone.depth_per_texel, vec4(cone.least));
 }
 
-// threshold: of the corner where the texels meet; corner: what they differ by. least: of each. left, right: shares of the columns.
-void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, vec4 threshold, vec4 least, float left, float right) {
+// threshold: of each texel. rows, columns: least depths of the cone, lower and upper, left and right. left, right: shares of the columns.
+void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, vec4 threshold, vec2 rows, vec2 columns, float left, float right) {
   vec4 depth = textureGather(shadow_atlas, at);
   vec4 distance = p.orthographic ? depth : 1.0 / depth;
-  bvec4 blocks = is_nearer(depth, threshold, least);
+  bvec4 blocks = is_nearer(depth, threshold, rows.xxyy, columns.xyyx);
   sums.count.x = blocks.x ? sums.count.x + left : sums.count.x;
   sums.count.x = blocks.y ? sums.count.x + right : sums.count.x;
   sums.count.y = blocks.z ? sums.count.y + right : sums.count.y;
@@ -137,7 +137,17 @@ void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, vec4 threshold
   sums.distance.y = blocks.w ? sums.distance.y + left * distance.w : sums.distance.y;
 }
 
-// Blockers of 8×8 texels with bilinear edges, see find_blockers.
+// Four gathers beside each other. rows: least depths of the lower and the upper texel row, shares: of what they add.
+void add_blocker_row(inout vec2 sums, ShadowPoint p, Gathers8 g, float v, float row, vec2 rows, vec4 left, vec4 right, vec2 shares, vec2 ends) {
+  BlockerSums s = BlockerSums(vec2(0.0), vec2(0.0));
+  add_blockers(s, p, vec2(g.u.x, v), g.column.x + row + g.corner, rows, vec2(left.x, right.x), ends.x, 1.0);
+  add_blockers(s, p, vec2(g.u.y, v), g.column.y + row + g.corner, rows, vec2(left.y, right.y), 1.0, 1.0);
+  add_blockers(s, p, vec2(g.u.z, v), g.column.z + row + g.corner, rows, vec2(left.z, right.z), 1.0, 1.0);
+  add_blockers(s, p, vec2(g.u.w, v), g.column.w + row + g.corner, rows, vec2(left.w, right.w), 1.0, ends.y);
+  sums += vec2(dot(s.count, shares), dot(s.distance, shares));
+}
+
+// Blockers of 8×8 texels, see find_blockers. Bilinear edges are for the kernel that is as wide as it is; a cone has its own.
 Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
@@ -146,38 +156,31 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
   vec4 right = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.x);
   vec4 upper = cone_depths(cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.y);
   vec4 lower = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
-  vec4 v = g.v, row = g.row;
-  float share = 1.0 - k.fraction.y, count = 0.0, distance = 0.0;
+  vec2 first = whole_plane ? 1.0 - k.fraction : vec2(1.0), last = whole_plane ? k.fraction : vec2(1.0);
+  vec2 ends = vec2(first.x, last.x), sums = vec2(0.0);
   int turn = 0;
   do {
-    vec2 shares = vec2(turn < 3 ? 1.0 : k.fraction.y, share);
-    vec4 rows = vec4(lower.xx, upper.xx);
-    BlockerSums sums = BlockerSums(vec2(0.0), vec2(0.0));
-    add_blockers(sums, p, vec2(g.u.x, v.x), g.column.x + row.x + g.corner, max(rows, vec4(left.x, right.xx, left.x)), 1.0 - k.fraction.x, 1.0);
-    add_blockers(sums, p, vec2(g.u.y, v.x), g.column.y + row.x + g.corner, max(rows, vec4(left.y, right.yy, left.y)), 1.0, 1.0);
-    add_blockers(sums, p, vec2(g.u.z, v.x), g.column.z + row.x + g.corner, max(rows, vec4(left.z, right.zz, left.z)), 1.0, 1.0);
-    add_blockers(sums, p, vec2(g.u.w, v.x), g.column.w + row.x + g.corner, max(rows, vec4(left.w, right.ww, left.w)), 1.0, k.fraction.x);
-    count += dot(sums.count, shares);
-    distance += dot(sums.distance, shares);
-    share = 1.0;
-    upper = upper.yzww;
-    lower = lower.yzww;
-    v = v.yzww;
-    row = row.yzww;
-  } while (++turn < 4);
-  return blockers_of(p, count, distance);
+    bool near = turn == 0;
+    add_blocker_row(sums, p, g, near ? g.v.x : g.v.z, near ? g.row.x : g.row.z, near ? vec2(lower.x, upper.x) : vec2(lower.z, upper.z), left,
+                    right, vec2(1.0, near ? first.y : 1.0), ends);
+    add_blocker_row(sums, p, g, near ? g.v.y : g.v.w, near ? g.row.y : g.row.w, near ? vec2(lower.y, upper.y) : vec2(lower.w, upper.w), left,
+                    right, vec2(near ? 1.0 : last.y, 1.0), ends);
+  } while (++turn < 2);
+  return blockers_of(p, sums.x, sums.y);
 }
 
-// Blockers of N × N texels with bilinear edges, (N / 2)² gathers.
+#ifndef GLOAM_SHADOWS_STANDARD
+// Blockers of N × N texels, (N / 2)² gathers.
 Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, texels);
   SearchCone cone = make_cone(p, k, half_width, whole_plane);
+  vec2 first = whole_plane ? 1.0 - k.fraction : vec2(1.0), last = whole_plane ? k.fraction : vec2(1.0);
   vec4 count = vec4(0.0), sum = vec4(0.0);
   for (int y = 0; y < texels; y += 2) {
-    vec2 share_y = vec2(y == 0 ? 1.0 - k.fraction.y : 1.0, y + 2 == texels ? k.fraction.y : 1.0);
+    vec2 share_y = vec2(y == 0 ? first.y : 1.0, y + 2 == texels ? last.y : 1.0);
     float corner_y = k.base.y + float(y) + 1.0;
     for (int x = 0; x < texels; x += 2) {
-      vec2 share_x = vec2(x == 0 ? 1.0 - k.fraction.x : 1.0, x + 2 == texels ? k.fraction.x : 1.0);
+      vec2 share_x = vec2(x == 0 ? first.x : 1.0, x + 2 == texels ? last.x : 1.0);
       vec2 corner = vec2(k.base.x + float(x) + 1.0, corner_y);
       vec2 off = corner - k.at;
       vec4 least = max(cone_depths(cone, off.x + vec4(-0.5, 0.5, 0.5, -0.5)), cone_depths(cone, off.y + vec4(0.5, 0.5, -0.5, -0.5)));
@@ -191,6 +194,7 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, flo
   }
   return blockers_of(p, dot(count, vec4(1.0)), dot(sum, vec4(1.0)));
 }
+#endif
 
 // The same where other faces of a cube have part in it: texel by texel.
 Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
@@ -199,7 +203,7 @@ Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_pla
   float count = 0.0, sum = 0.0;
   for (int i = 0; i < texels * texels; ++i) {
     vec2 cell = vec2(i % texels, i / texels);
-    vec2 share = edge_shares(k.fraction, cell, float(texels));
+    vec2 share = whole_plane ? edge_shares(k.fraction, cell, float(texels)) : vec2(1.0);
     vec2 at = (k.base + cell + 0.5) * k.square.texel;
     vec4 least = cone_depths(cone, vec4(k.base + cell + 0.5 - k.at, 0.0, 0.0));
     float rise, covered_share;
@@ -216,7 +220,11 @@ Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, floa
   Blockers found = Blockers(0.0, p.depth);
   bool across = leaves_cube_face(p, kernel_reach(mip, texels));
   if (!across) do {
+#ifdef GLOAM_SHADOWS_STANDARD
+    found = find_blockers_8(p, mip, whole_plane, half_width);
+#else
     found = texels == 8 ? find_blockers_8(p, mip, whole_plane, half_width) : find_blockers(p, mip, texels, whole_plane, half_width);
+#endif
   } while (never(p));
   if (across) do {
     found = find_blockers_across(p, mip, texels, whole_plane, half_width);

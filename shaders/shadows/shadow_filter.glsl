@@ -11,7 +11,7 @@
 // What a kernel adds up to when its middle is texel column 3 (x), and when it is column 4 (y); between, by the fraction.
 void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, float least, vec4 at_3, vec4 at_4) {
   vec4 depth = textureGather(shadow_atlas, at);
-  bvec4 blocked = is_nearer(depth, threshold + corner, vec4(least));
+  bvec4 blocked = is_nearer(depth, threshold + corner, least);
   vec4 share = coverage(depth);
   sums = blocked.x ? sums + share.x * vec2(at_3.x, at_4.x) : sums;
   sums = blocked.y ? sums + share.y * vec2(at_3.y, at_4.y) : sums;
@@ -32,18 +32,12 @@ float blocked_share_8(ShadowPoint p, int mip, float width) {
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
   FilterRows rows = filter_rows(clamp(width / (8.0 * k.square.texel), 0.0, 1.0), kKernelShape != 0u);
-  vec4 outside = vec4(0.0), middle = rows.row3, inside = rows.row2;
   vec2 sums = vec2(0.0);
-  int turn = 0;
-  do {
-    vec4 first_near = mix(outside, middle, 1.0 - k.fraction.y), first_far = mix(outside, middle, k.fraction.y);
-    vec4 second_near = mix(middle, inside, 1.0 - k.fraction.y), second_far = mix(middle, inside, k.fraction.y);
-    add_gathers(sums, g, turn == 0 ? g.v.x : g.v.y, turn == 0 ? g.row.x : g.row.y, k.least, first_near, second_near);
-    add_gathers(sums, g, turn == 0 ? g.v.w : g.v.z, turn == 0 ? g.row.w : g.row.z, k.least, second_far, first_far);
-    outside = rows.row2;
-    middle = rows.row1;
-    inside = rows.row0;
-  } while (++turn < 2);
+  float near = 1.0 - k.fraction.y, far = k.fraction.y;
+  add_gathers(sums, g, g.v.x, g.row.x, k.least, rows.row3 * near, mix(rows.row3, rows.row2, near));
+  add_gathers(sums, g, g.v.w, g.row.w, k.least, mix(rows.row3, rows.row2, far), rows.row3 * far);
+  add_gathers(sums, g, g.v.y, g.row.y, k.least, mix(rows.row2, rows.row1, near), mix(rows.row1, rows.row0, near));
+  add_gathers(sums, g, g.v.z, g.row.z, k.least, mix(rows.row1, rows.row0, far), mix(rows.row2, rows.row1, far));
   return mix(sums.x, sums.y, k.fraction.x);
 }
 
@@ -58,6 +52,7 @@ float covering_radius(Kernel k, float width, int texels) {
   return clamp(0.5 * width / k.square.texel, 0.5, 0.5 * float(texels - 1));
 }
 
+#ifndef GLOAM_SHADOWS_STANDARD
 // Blocked share under N × N texels, each weighted by what the disc (or square) covers of it.
 float blocked_share_any(ShadowPoint p, int mip, float width, int texels) {
   Kernel k = make_kernel(p, mip, texels);
@@ -76,6 +71,7 @@ float blocked_share_any(ShadowPoint p, int mip, float width, int texels) {
   }
   return dot(blocked, vec4(1.0)) / dot(all, vec4(1.0));
 }
+#endif
 
 // The two mips that a penumbra of some width is filtered in.
 struct FilterMips {
@@ -131,7 +127,11 @@ float filtered_visibility(ShadowPoint p, float width) {
   do {
     int mip = turn == 0 ? mips.fine : mips.coarse;
     float part = turn == 0 ? 1.0 - mips.blend : mips.blend;
+#ifdef GLOAM_SHADOWS_STANDARD
+    float blocked = blocked_share_8(p, mip, width);
+#else
     float blocked = kKernel == 8 ? blocked_share_8(p, mip, width) : blocked_share_any(p, mip, width, kKernel);
+#endif
     share += leaves_cube_face(p, kernel_reach(mip, kKernel)) ? 0.0 : part * blocked;
   } while (++turn < turns);
   return 1.0 - share - blocked_share_across(p, mips, width);

@@ -69,10 +69,15 @@ Gathers8 make_gathers(Kernel k) {
                   k.threshold + k.slope.y * (y - k.at.y), corner_slopes(k));
 }
 
-// Whether depths are above both: two comparisons are cheaper than what max does for numbers that are none.
-bvec4 is_nearer(vec4 depth, vec4 threshold, vec4 least) {
-  return bvec4(depth.x > threshold.x && depth.x > least.x, depth.y > threshold.y && depth.y > least.y,
-               depth.z > threshold.z && depth.z > least.z, depth.w > threshold.w && depth.w > least.w);
+// Whether depths are above all: comparisons are cheaper than what max does for numbers that are none.
+bvec4 is_nearer(vec4 depth, vec4 threshold, float least) {
+  return bvec4(depth.x > threshold.x && depth.x > least, depth.y > threshold.y && depth.y > least, depth.z > threshold.z && depth.z > least,
+               depth.w > threshold.w && depth.w > least);
+}
+
+bvec4 is_nearer(vec4 depth, vec4 threshold, vec4 a, vec4 b) {
+  return bvec4(depth.x > threshold.x && depth.x > a.x && depth.x > b.x, depth.y > threshold.y && depth.y > a.y && depth.y > b.y,
+               depth.z > threshold.z && depth.z > a.z && depth.z > b.z, depth.w > threshold.w && depth.w > a.w && depth.w > b.w);
 }
 
 // Threshold at a texel coordinate of mip 0.

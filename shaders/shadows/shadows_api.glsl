@@ -7,6 +7,7 @@
 
 // How much of a light a point sees. Before including this, define GLOAM_SHADOWS_BINDING: six bindings from there are ShadowsOutputs' block,
 // rows, atlas, pyramid, cookies and traced (append_shadow_bindings). Specialisation constants are ShadowsOutputs::constants.
+// GLOAM_SHADOWS_STANDARD: contact-hardening with 8 × 8 texels and nothing else, half of the code, for pipelines that must be there soon.
 // Shaders that are not fragment shaders define GLOAM_SHADOWS_PIXEL, the ivec2 that traced visibility is read at.
 
 #ifndef GLOAM_SHADOWS_PIXEL
@@ -20,8 +21,13 @@ layout(set = 0, binding = GLOAM_SHADOWS_BINDING + 3) uniform sampler2D shadow_py
 layout(set = 0, binding = GLOAM_SHADOWS_BINDING + 4) uniform sampler2DArray shadow_cookies;
 layout(set = 0, binding = GLOAM_SHADOWS_BINDING + 5) uniform sampler2DArray shadow_traced;
 
+#ifdef GLOAM_SHADOWS_STANDARD
+const uint kFilter = 3u;
+const int kKernel = 8;
+#else
 layout(constant_id = GLOAM_SHADOWS_FILTER_ID) const uint kFilter = 3u;
 layout(constant_id = GLOAM_SHADOWS_KERNEL_ID) const int kKernel = 8;
+#endif
 layout(constant_id = GLOAM_SHADOWS_MIPS_ID) const uint kMips = 1u;
 layout(constant_id = GLOAM_SHADOWS_RECEIVER_PLANE_ID) const uint kReceiverPlane = 1u;
 layout(constant_id = GLOAM_SHADOWS_BIAS_ID) const uint kBias = 1u;
@@ -42,7 +48,11 @@ struct ShadowReceiver {
 vec2 shadow_texel_size() { return vec2(1.0 / 1.5, 1.0) / shadow_block.atlas_size; }
 
 #include "shaders/shadows/cookies.glsl"
+#ifdef GLOAM_SHADOWS_STANDARD
+#include "shaders/shadows/shadow_filter.glsl"
+#else
 #include "shaders/shadows/fixed_filters.glsl"
+#endif
 
 // What a slot of visibility keeps.
 float quantised_visibility(float visibility) {
@@ -59,7 +69,11 @@ float traced_visibility(float layer) {
 }
 
 float shadow_visibility(ShadowPoint p) {
+#ifdef GLOAM_SHADOWS_STANDARD
+  float visibility = chs_visibility(p);
+#else
   float visibility = kFilter == 0u ? hard_visibility(p) : kFilter == 1u ? pcf_visibility(p) : kFilter == 2u ? pcss_visibility(p) : chs_visibility(p);
+#endif
   return quantised_visibility(visibility * p.horizon);
 }
 

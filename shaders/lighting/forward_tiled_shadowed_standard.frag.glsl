@@ -1,0 +1,8 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define GLOAM_Z_BINS_BINDING 5
+#define GLOAM_SHADOWS_STANDARD
+#define GLOAM_SHADOWS_BINDING 7
+#include "shaders/lighting/forward_tile_lights.glsl"
