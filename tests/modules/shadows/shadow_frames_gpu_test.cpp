@@ -17,8 +17,8 @@ class ShadowFrames : public test::ShadowedScene {
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(ShadowedScene::SetUp());
     if (IsSkipped()) return;
-    left = box(dvec3(-1.0, 0.0, 0.8), dvec3(0.05));
-    right = box(dvec3(1.0, 0.5, 0.8), dvec3(0.05));
+    left = box(dvec3(-0.3, 0.0, 0.8), dvec3(0.05));
+    right = box(dvec3(0.2, 0.3, 0.8), dvec3(0.05));
     made = lamp("lamp", LightKind::point, dvec3(0.0, 0.0, 1.5));
     settings = test::look_at(dvec3(0.4, 0.3, 4.0), dvec3(0.0), 95, 63);
     world.get<ShadowCaster>(made).resolution = 128;
@@ -82,7 +82,7 @@ TEST_F(ShadowFrames, a_camera_that_moves_draws_no_map_of_a_local_light) {
 TEST_F(ShadowFrames, kept_maps_equal_maps_drawn_anew) {
   draw();
   settings = test::look_at(dvec3(-0.5, 0.6, 3.5), dvec3(0.2, 0.0, 0.0), 95, 63);
-  move(left, dvec3(-1.05, 0.2, 0.8));
+  move(left, dvec3(-0.35, 0.2, 0.8));
   const LinearPicture kept = drawn();
   EXPECT_EQ(drawn_faces(), 1.0);
   // An atlas of another size and back: everything is new.
@@ -94,7 +94,7 @@ TEST_F(ShadowFrames, kept_maps_equal_maps_drawn_anew) {
 
 TEST_F(ShadowFrames, a_box_that_moves_draws_the_faces_that_see_it) {
   draw();
-  move(right, dvec3(1.05, 0.6, 0.8));
+  move(right, dvec3(0.25, 0.35, 0.8));
   draw();
   EXPECT_EQ(drawn_faces(), 1.0);
   EXPECT_EQ(counter("shadows.faces_cached"), 5.0);
