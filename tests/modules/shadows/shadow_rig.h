@@ -66,8 +66,7 @@ struct SpotRig {
   const bool usual = width == nullptr || std::string_view(width) == "256";
   std::vector<ProbeSettings> all;
   all.push_back({.filter = 0});
-  for (const std::uint32_t kernel :
-       usual ? std::vector<std::uint32_t>{4, 8, 16} : std::vector<std::uint32_t>{8, 12}) {
+  for (const std::uint32_t kernel : usual ? std::vector<std::uint32_t>{4, 8, 16} : std::vector<std::uint32_t>{8, 12}) {
     for (const std::uint32_t filter : {1u, 2u, 3u}) all.push_back({.filter = filter, .kernel = kernel});
     all.push_back({.filter = 3, .kernel = kernel, .mips = 0});
     all.push_back({.filter = 3, .kernel = kernel, .shape = 1});
@@ -78,6 +77,21 @@ struct SpotRig {
 [[nodiscard]] inline std::string name_of(const ProbeSettings& s) {
   return "filter " + std::to_string(s.filter) + " kernel " + std::to_string(s.kernel) + " mips " +
          std::to_string(s.mips) + " shape " + std::to_string(s.shape);
+}
+
+inline constexpr dvec3 kUp = dvec3(0.0, 1.0, 0.0);
+
+inline RayScene floor_plane() { return plane(dvec3(0.0), kUp); }
+
+/// A rig above the floor's origin at `height`, whose face is tilted from straight down by `tilt` radians toward −Z.
+inline SpotRig tilted(double height, double tilt, double tan_half) {
+  SpotRig rig;
+  rig.pose.origin = dvec3(0.0, height, 0.0);
+  rig.pose.forward = dvec3(0.0, -std::cos(tilt), -std::sin(tilt));
+  rig.pose.up = dvec3(0.0, std::sin(tilt), -std::cos(tilt));
+  rig.pose.tan_half = tan_half;
+  rig.tan_inner = tan_half * 0.9;
+  return rig;
 }
 
 }  // namespace gloam::test
