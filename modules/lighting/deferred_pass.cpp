@@ -31,7 +31,7 @@ gpu::GraphicsPipelineDesc tested_pipeline(std::string name, gpu::ShaderCode frag
   return desc;
 }
 
-constexpr const char* kNames[] = {"deferred/brute/", "deferred/tiled/", "deferred/listed/"};
+constexpr const char* kNames[] = {"deferred/brute", "deferred/tiled", "deferred/listed"};
 
 /// `shadows`: null without.
 gpu::ShaderCode shading_code(bool tiled, const ShadowsOutputs* shadows) {
@@ -47,7 +47,7 @@ gpu::GraphicsPipelineDesc shading_pipeline(LocalLights source, std::uint32_t dir
   const bool tiled = source != LocalLights::all;
   const bool shadowed = shadows != nullptr && !shadows->cookies_only;
   std::vector<gpu::SpecConstant> constants = shadows == nullptr ? std::vector<gpu::SpecConstant>{} : shadows->constants;
-  std::string variant = shadows == nullptr ? "" : shadows->variant;
+  std::string variant = shadows == nullptr ? "" : "/" + shadows->variant;
   // What a shadow takes is not unrolled: one pipeline for any number of directional lights.
   if (!shadowed) {
     constants.push_back({1, directional_lights});

@@ -24,7 +24,7 @@ struct FaceAxes {
 /// Axes of a cube's face 0…5, as shadows_shared.h has them.
 [[nodiscard]] FaceAxes cube_axes(std::uint32_t face);
 
-/// The cube's face that a direction from the light belongs to: that of its greatest component, the first of equals in the order X, Y, Z.
+/// The cube's face that a direction from the light belongs to: that of its greatest component in the cube's axes.
 [[nodiscard]] std::uint32_t cube_face_of(const dvec3& direction);
 
 /// How a point or spot light casts shadows.
@@ -33,7 +33,7 @@ struct LocalShadow {
   dvec3 position = dvec3(0.0);
   FaceAxes axes;  ///< of its node
   float range_m = 0.0f;
-  float near_m = 0.05f;  ///< where the near planes of its faces are
+  float near_m = 0.0f;   ///< where the near planes of its faces are
   float width_m = 0.0f;  ///< ≥ 0
   float tan_inner = 1.0f;
   float tan_half = 1.0f;
@@ -44,7 +44,7 @@ struct LocalShadow {
   }
 };
 
-/// kernel_rim: ShadowSettings::kernel_rim. Kind none for directional lights, for lights that reach no farther than their near plane, and
+/// kernel_rim: ShadowSettings::kernel_rim. Kind none for directional lights, for lights that reach no farther than 5 cm, and
 /// for positions and angles that are not finite; axes and cookie_tan are there all the same.
 [[nodiscard]] LocalShadow local_shadow(const Light& light, const dmat4& world_from_node, float kernel_rim);
 

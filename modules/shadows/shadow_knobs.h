@@ -42,7 +42,7 @@ void add_shadow_knobs(KnobRegistry& registry);
 [[nodiscard]] std::string shadow_variant(const std::vector<gpu::SpecConstant>& constants);
 
 // Of GLOAM_SHADOWS_FILTER_ID.
-inline constexpr std::uint32_t kStandardShadows = 3;  ///< contact-hardening
+inline constexpr std::uint32_t kContactHardening = 3;
 inline constexpr std::uint32_t kTracedShadows = 4;
 inline constexpr std::uint32_t kNoShadows = 5;  ///< cookies alone
 

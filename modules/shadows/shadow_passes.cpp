@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/shadow_passes.h"
 
-#include <algorithm>
-
 #include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_cookies.h"
 #include "modules/shadows/shadow_knobs.h"
@@ -11,6 +9,17 @@
 #include "modules/shadows/shadow_uploads.h"
 
 namespace gloam {
+namespace {
+
+/// Of GLOAM_COOKIE_LIGHTS_ID: few values, as each makes pipelines.
+std::uint32_t looked_up_cookies(std::size_t lights) {
+  constexpr std::uint32_t kMost = GLOAM_COOKIE_LIGHTS;
+  return lights <= 1 ? static_cast<std::uint32_t>(lights) : lights <= kMost ? kMost : kMost + 1;
+}
+
+constexpr std::uint32_t kStandardKernel = 8;  // of GLOAM_SHADOWS_STANDARD
+
+}  // namespace
 
 Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   const ShadowKnobs knobs = shadow_knobs(frame.knobs());
@@ -37,12 +46,10 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   outputs.pyramid = maps.pyramid ? maps.pyramid : outputs.rows;
   const std::uint32_t filter = traced ? kTracedShadows : maps.atlas ? knobs.filter : kNoShadows;
   outputs.cookies_only = filter == kNoShadows;
-  outputs.standard = filter == kStandardShadows && knobs.kernel == 8;
+  outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
   // Knobs are of no use to cookies.
   outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
-  const std::size_t cookies = count_cookie_lights(frame.world());
-  outputs.constants.push_back(
-      {GLOAM_COOKIE_LIGHTS_ID, static_cast<std::uint32_t>(std::min<std::size_t>(cookies, GLOAM_COOKIE_LIGHTS + 1))});
+  outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(count_cookie_lights(frame.world()))});
   outputs.variant = shadow_variant(outputs.constants);
   frame.put(std::move(outputs));
   return {};

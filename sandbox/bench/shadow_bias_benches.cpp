@@ -22,8 +22,8 @@ namespace gloam {
 namespace {
 
 constexpr const char* kScene = "builtin:shadows";  // unless the user names one
-constexpr std::uint32_t kErrorWidth = 320;
-constexpr std::uint32_t kErrorHeight = 180;
+constexpr std::uint32_t kErrorWidth = 640;
+constexpr std::uint32_t kErrorHeight = 360;
 constexpr int kPairs = 15;
 constexpr int kWarmUp = 2;
 constexpr double kNsPerMs = 1e6;

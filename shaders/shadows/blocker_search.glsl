@@ -85,7 +85,7 @@ SearchRegion find_region(ShadowPoint p) {
 }
 
 struct Blockers {
-  float count;  // weighted; (N − 1)² when every texel blocks
+  float count;  // texels in the cone; whole_plane: weighted, (N − 1)² when every texel blocks
   float depth;  // of their mean distance; that of the receiver when there are none
 };
 
@@ -100,6 +100,9 @@ struct BlockerSums {
   vec2 distance;
 };
 
+// Half the width of a search in texels: what is narrower would miss an edge for want of texels.
+const float kLeastHalfWidth = 1.5;
+
 // What can hide part of the emitter from the receiver lies in the cone between them: the farther from the receiver's texel, the nearer to the
 // light. In texels of a mip; reach: how much farther out texels still count.
 struct SearchCone {
@@ -113,8 +116,7 @@ struct SearchCone {
 // kernel that is as wide as it is whatever the light; else blockers are nearer to the light than the receiver.
 SearchCone make_cone(ShadowPoint p, Kernel k, float half_width, bool whole_plane) {
   if (whole_plane) return SearchCone(0.0, 0.0, 0.0, p.least);
-  // Narrow cones would miss edges for want of texels.
-  return SearchCone(p.depth, 2.0 * k.square.texel / max(p.scale, 1e-6), max(2.0 - half_width, 0.5), max(k.least, p.threshold));
+  return SearchCone(p.depth, 2.0 * k.square.texel / max(p.scale, 1e-6), 0.5 + max(kLeastHalfWidth - half_width, 0.0), max(k.least, p.threshold));
 }
 
 // Least depths at distances in texels.
@@ -231,9 +233,6 @@ Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, floa
   } while (never(p));
   return found;
 }
-
-// Of a search, in texels: what is narrower would miss an edge for want of texels.
-const float kLeastHalfWidth = 1.5;
 
 // The mip whose kernel holds a search region.
 int region_mip(ShadowPoint p, SearchRegion region) {

@@ -20,7 +20,8 @@ struct Kernel {
   float least;      // of any tap
 };
 
-// A texel of a mip holds the nearest of a block, which may lie half a block nearer on the receiver's own plane: thresholds rise by that.
+// A texel of a mip may hold the nearest of a block, which may lie half a block nearer on the receiver's own plane: thresholds rise by that.
+// Mean depths of one surface need it too where the plane is too steep to be one.
 Kernel make_kernel(ShadowPoint p, int mip, int texels) {
   Kernel k;
   k.square = mip_square(p.origin, p.size, mip, shadow_block.atlas_size);

@@ -31,7 +31,7 @@
 #define GLOAM_SHADOW_PYRAMID_MIP 2
 #define GLOAM_SHADOW_MIPS_NEAREST 0   // a mip's texel is the nearest of its four
 #define GLOAM_SHADOW_MIPS_AVERAGE 1   // their mean by linear depth, empty ones left out
-#define GLOAM_SHADOW_MIPS_COVERAGE 2  // the nearest, and in the 6 lowest bits how many 64ths of the texel that surface leaves free
+#define GLOAM_SHADOW_MIPS_COVERAGE 2  // mean depth of the nearest surface, and in the 6 lowest bits how many 64ths of the texel that surface leaves free
 #define GLOAM_SHADOW_SMALLEST_FACE 16 // texels; faces are 16 … 4096
 #define GLOAM_MAX_CASCADES 4
 #define GLOAM_COOKIE_LIGHTS 4          // that ShadowBlock names
@@ -112,10 +112,10 @@ GLOAM_SHARED_END
 #define GLOAM_SHADOWS_KERNEL_SHAPE_ID 13   // 0 disc, 1 square
 #define GLOAM_SHADOWS_LEVELS_ID 14         // steps of visibility: 255 or 15; 0: not quantised
 #define GLOAM_SHADOWS_FULL_PENUMBRA_ID 15  // 1: no early-outs, for measuring the filter alone
-#define GLOAM_SHADOWS_COVERAGE_ID 17       // 1: maps hold what a texel's nearest surface leaves free (GLOAM_SHADOW_MIPS_COVERAGE)
 #define GLOAM_SHADOWS_KINDS_ID 16          // kinds of lights that are asked about: GLOAM_SHADOWS_SPOTS | …
+#define GLOAM_SHADOWS_COVERAGE_ID 17       // 1: maps hold what a texel's nearest surface leaves free (GLOAM_SHADOW_MIPS_COVERAGE)
 
-#define GLOAM_COOKIE_LIGHTS_ID 18          // the scene's lights with cookies, at most GLOAM_COOKIE_LIGHTS + 1 (arriving_light.glsl)
+#define GLOAM_COOKIE_LIGHTS_ID 18          // lights with cookies that shaders look up first; more than GLOAM_COOKIE_LIGHTS: none (arriving_light.glsl)
 
 #define GLOAM_SHADOWS_SPOTS 1u
 #define GLOAM_SHADOWS_CUBES 2u

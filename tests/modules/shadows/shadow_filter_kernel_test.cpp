@@ -196,6 +196,29 @@ TEST_F(ShadowFilter, no_blocker_is_lit_and_all_blocked_is_dark_with_every_filter
   }
 }
 
+TEST_F(ShadowFilter, the_standard_filters_own_shader_gives_the_same_to_the_bit) {
+  for (const double width : {0.0, 0.02, 0.3}) {
+    SpotRig rig;
+    rig.width_m = width;
+    const auto depths = over_floor(rig.size, [](std::uint32_t x, std::uint32_t y) {
+      return (x - 130u) * (x - 130u) + (y - 120u) * (y - 120u) < 900u;
+    });
+    std::vector<ShadowProbe> probes;
+    for (int i = 0; i < 1024; ++i)
+      probes.push_back(rig.at(floor_at(rig, 60.0 + (i % 32) * 4.1, 60.0 + (i / 32) * 4.1)));
+    for (const std::uint32_t coverage : {0u, 1u}) {
+      const auto any = rig.look(device(), depths, probes, {.coverage = coverage});
+      const auto standard = rig.look(device(), depths, probes, {.coverage = coverage, .standard = true});
+      int between = 0;
+      for (std::size_t i = 0; i < probes.size(); ++i) {
+        EXPECT_EQ(any[i].visibility, standard[i].visibility) << "width " << width << " probe " << i;
+        between += standard[i].visibility > 0.01f && standard[i].visibility < 0.99f;
+      }
+      EXPECT_GT(between, width > 0.1 ? 100 : 0);
+    }
+  }
+}
+
 TEST_F(ShadowFilter, early_outs_do_not_change_what_is_seen) {
   SpotRig rig;
   rig.width_m = 0.3;

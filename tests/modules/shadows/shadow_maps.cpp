@@ -34,13 +34,15 @@ ProbePipelines& probe_pipelines() {
 
 gpu::PipelineHandle probe_pipeline(gpu::Device& device, const ProbeSettings& settings) {
   const auto constants = settings.constants();
-  std::vector<std::uint32_t> key;
+  std::vector<std::uint32_t> key = {settings.standard ? 1u : 0u};
   for (const gpu::SpecConstant& constant : constants) key.push_back(constant.value);
   probe_pipelines().device = &device;
   gpu::PipelineHandle& pipeline = probe_pipelines().by_constants[key];
   if (!pipeline)
-    pipeline = value_of(device.create_pipeline(
-        gpu::ComputePipelineDesc{"shadow_probe", "test", shaders::shadows::shadow_probe_comp, constants}));
+    pipeline = value_of(device.create_pipeline(gpu::ComputePipelineDesc{
+        "shadow_probe", "test",
+        settings.standard ? shaders::shadows::shadow_probe_standard_comp : shaders::shadows::shadow_probe_comp,
+        constants}));
   return pipeline;
 }
 

@@ -211,6 +211,31 @@ TEST_F(CookiePictures, a_spot_projects_its_cookie_upright_with_and_without_shado
   EXPECT_EQ(plain.rgba, drawn("shadows.mode", "monolithic").rgba);
 }
 
+// Up to four cookies are looked up before a surface's lights are added up, more of them light by light: the same picture.
+TEST_F(CookiePictures, any_number_of_lights_project_with_and_without_shadows_and_out_of_view) {
+  const LinearPicture one = drawn();
+  const std::uint32_t cookie = world.get<Light>(spot).cookie;
+  std::vector<Entity> behind;
+  for (int i = 0; i < 5; ++i) {
+    behind.push_back(
+        lamp("behind " + std::to_string(i), LightKind::spot, dvec3(0.0, 0.0, 40.0 + i), dvec3(0.0, 0.0, 1.0)));
+    world.get<Light>(behind.back()).cookie = cookie;
+    EXPECT_EQ(drawn().rgba, one.rgba) << i << " lights that reach nothing in view";
+    EXPECT_EQ(drawn("shadows.mode", "off").rgba, one.rgba) << i;
+    set("shadows.mode", "monolithic");
+  }
+  // Six of a sixth of its brightness, in its place and looking its way.
+  for (const Entity entity : behind) world.get<WorldTransform>(entity) = world.get<WorldTransform>(spot);
+  for (const Entity entity : behind) world.get<Light>(entity).intensity = world.get<Light>(spot).intensity / 6.0f;
+  world.get<Light>(spot).intensity /= 6.0f;
+  for (const char* mode : {"monolithic", "off"}) {
+    const LinearPicture six = drawn("shadows.mode", mode);
+    ASSERT_EQ(six.rgba.size(), one.rgba.size());
+    for (std::size_t i = 0; i < one.rgba.size(); ++i)
+      ASSERT_NEAR(six.rgba[i], one.rgba[i], 2e-3f * (1.0f + one.rgba[i])) << mode << " component " << i;
+  }
+}
+
 TEST_F(CookiePictures, a_file_that_cannot_be_read_is_told_and_white) {
   const LinearPicture with = drawn();
   world.get<Light>(spot).cookie = world.resource<SceneStrings>().intern("absent.png");
