@@ -113,8 +113,7 @@ TEST_F(ShadowBias, a_flat_floor_in_grazing_light_has_no_acne_with_any_filter) {
   using Knobs = std::vector<std::pair<const char*, const char*>>;
   for (const Knobs& knobs :
        {Knobs{{"filter", "hard"}}, Knobs{{"filter", "pcf"}, {"kernel", "16"}}, Knobs{{"filter", "pcss"}},
-        Knobs{{"filter", "chs"}}, Knobs{{"filter", "chs"}, {"mip_operator", "average"}},
-        Knobs{{"filter", "chs"}, {"early_outs", "off"}}}) {
+        Knobs{{"filter", "chs"}}, Knobs{{"filter", "chs"}, {"mip_operator", "average"}}}) {
     std::string what;
     for (const auto& [knob, value] : knobs) {
       set(std::string("shadows.") + knob, value);

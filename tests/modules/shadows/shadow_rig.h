@@ -94,4 +94,19 @@ inline SpotRig tilted(double height, double tilt, double tan_half) {
   return rig;
 }
 
+/// Depths of a face that looks at a floor at distance 4, with blockers at distance 2 where blocks(x, y) of a texel holds.
+template <class Blocks>
+std::vector<float> over_floor(std::uint32_t size, Blocks&& blocks) {
+  std::vector<float> depths;
+  for (std::uint32_t y = 0; y < size; ++y)
+    for (std::uint32_t x = 0; x < size; ++x) depths.push_back(blocks(x, y) ? 0.05f / 2.0f : 0.05f / 4.0f);
+  return depths;
+}
+
+/// A point of the floor by texel coordinate of mip 0.
+inline dvec3 floor_at(const SpotRig& rig, double x, double y) {
+  const double half = 0.5 * rig.size;
+  return dvec3((x - half) * rig.texel() * 4.0, 0.0, (y - half) * rig.texel() * 4.0);
+}
+
 }  // namespace gloam::test
