@@ -45,8 +45,7 @@ void add_shadow_knobs(KnobRegistry& registry) {
   registry.add(choice_knob("mips", "whether wide penumbrae are looked up in mips of the maps", {"off", "on"}, 1));
   registry.add(choice_knob("mip_operator",
                            "what a texel of a mip is: the nearest depth of its four, their mean, or the mean of the "
-                           "nearest surface with the "
-                           "share of the texel that it covers",
+                           "nearest surface with the share of the texel that it covers",
                            {"nearest", "average", "coverage"}, GLOAM_SHADOW_MIPS_COVERAGE));
   registry.add(choice_knob("kernel_shape", "shape of the widest kernel", {"disc", "square"}, 0));
   registry.add(choice_knob("receiver_plane",

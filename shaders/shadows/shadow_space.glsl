@@ -123,8 +123,7 @@ ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r
   }
   p.face = cube ? cube_face_of(v) : -1;
   p.light = light;
-  float mirrored = texelFetch(shadow_rows, ivec2(6, light), 0).w;
-  mat3 axes = mat3(right.xyz, up.xyz, cross(up.xyz, right.xyz) * (1.0 - 2.0 * mirrored));
+  mat3 axes = mat3(right.xyz, up.xyz, spot_forward(light, right.xyz, up.xyz));
   if (cube) axes = cube_face_axes(p.face);
   vec3 local = v * axes;
   float near = first.y, z = local.z;
