@@ -66,6 +66,10 @@ class CountingCommands final : public gpu::CommandList {
     ++draws_;
     next_.draw_indexed(indices, instances, first_index, vertex_offset, first_instance);
   }
+  void draw_indirect(gpu::BufferHandle buffer, std::uint64_t offset) override {
+    ++draws_;
+    next_.draw_indirect(buffer, offset);
+  }
   void draw_indexed_indirect(gpu::BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) override {
     draws_ += draw_count;
     next_.draw_indexed_indirect(buffer, offset, draw_count);

@@ -59,6 +59,8 @@ class CommandList {
                     std::uint32_t first_instance) = 0;
   virtual void draw_indexed(std::uint32_t indices, std::uint32_t instances, std::uint32_t first_index,
                             std::int32_t vertex_offset, std::uint32_t first_instance) = 0;
+  /// One draw without indices, its four words (vertices, instances, first vertex, first instance) from a buffer.
+  virtual void draw_indirect(BufferHandle buffer, std::uint64_t offset) = 0;
   virtual void draw_indexed_indirect(BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) = 0;
   virtual void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) = 0;
   virtual void dispatch_indirect(BufferHandle buffer, std::uint64_t offset) = 0;

@@ -283,6 +283,8 @@ struct RenderingDesc {
   DepthTarget depth;  ///< view.image none: no depth
   std::uint32_t width = 0;
   std::uint32_t height = 0;
+  std::uint32_t x = 0;  ///< corner of what is drawn and cleared, texels from the top left; width and height count from there
+  std::uint32_t y = 0;
 };
 
 enum class DeviceType : std::uint8_t { discrete, integrated, cpu, other };

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <cstddef>
 #include <optional>
 
 #include "modules/lighting/environment.h"
 #include "modules/lighting/passes.h"
 #include "modules/shadows/outputs.h"
 #include "shaders/lighting/shaders.h"
+#include "shaders/shadows/final_lists_shared.h"
 
 namespace gloam {
 
@@ -16,10 +18,14 @@ enum class LocalLights : std::uint8_t {
   all,             ///< every light of the view
   lists_or_masks,  ///< the tile's list, or its group's mask where the list found no room
   lists,           ///< the tile's list; for LightsOutputs::lists_always_fit
+  final_lists,     ///< the tile's final list, directional lights included; tiles without one are drawn after the others
 };
 
 /// Of the bindings behind which shadows come: GLOAM_SHADOWS_BINDING or GLOAM_COOKIES_BINDING of the shaders.
 constexpr std::uint32_t kFirstShadowBinding = 13;
+/// Of four bindings; GLOAM_FINAL_LISTS_BINDING of the shaders.
+constexpr std::uint32_t kFirstFinalListBinding = 9;
+constexpr std::uint32_t kFallbackTilesBinding = 19;
 
 /// A full-screen triangle at depth 0, which is the sky's: the test picks pixels of surfaces or of sky. Devices pass over pixels that fail
 /// it, software devices too, which run both sides of every condition.
@@ -31,11 +37,16 @@ gpu::GraphicsPipelineDesc tested_pipeline(std::string name, gpu::ShaderCode frag
   return desc;
 }
 
-constexpr const char* kNames[] = {"deferred/brute", "deferred/tiled", "deferred/listed"};
+constexpr const char* kNames[] = {"deferred/brute", "deferred/tiled", "deferred/listed", "deferred/final"};
+
+bool has_cookies(const ShadowsOutputs& shadows) { return shadows.cookie_lights > 0; }
 
 /// `shadows`: null without.
-gpu::ShaderCode shading_code(bool tiled, const ShadowsOutputs* shadows) {
+gpu::ShaderCode shading_code(LocalLights source, const ShadowsOutputs* shadows) {
   using namespace shaders::lighting;
+  const bool tiled = source != LocalLights::all;
+  if (source == LocalLights::final_lists)
+    return has_cookies(*shadows) ? deferred_final_cookies_frag : deferred_final_frag;
   if (shadows == nullptr) return tiled ? deferred_tiled_frag : deferred_frag;
   if (shadows->cookies_only) return tiled ? deferred_tiled_cookies_frag : deferred_cookies_frag;
   if (shadows->standard) return tiled ? deferred_tiled_shadowed_standard_frag : deferred_shadowed_standard_frag;
@@ -44,8 +55,8 @@ gpu::ShaderCode shading_code(bool tiled, const ShadowsOutputs* shadows) {
 
 gpu::GraphicsPipelineDesc shading_pipeline(LocalLights source, std::uint32_t directional_lights,
                                            const ShadowsOutputs* shadows) {
-  const bool tiled = source != LocalLights::all;
-  const bool shadowed = shadows != nullptr && !shadows->cookies_only;
+  const bool tiled = source != LocalLights::all, final_lists = source == LocalLights::final_lists;
+  const bool shadowed = shadows != nullptr && !shadows->cookies_only && !final_lists;
   std::vector<gpu::SpecConstant> constants = shadows == nullptr ? std::vector<gpu::SpecConstant>{} : shadows->constants;
   std::string variant = shadows == nullptr ? "" : "/" + shadows->variant;
   // What a shadow takes is not unrolled: one pipeline for any number of directional lights.
@@ -53,10 +64,25 @@ gpu::GraphicsPipelineDesc shading_pipeline(LocalLights source, std::uint32_t dir
     constants.push_back({1, directional_lights});
     variant += "/" + std::to_string(directional_lights);
   }
-  if (tiled) constants.push_back({2, source == LocalLights::lists ? 1u : 0u});
+  if (final_lists) {
+    const FinalLists& lists = *shadows->final_lists;
+    constants.insert(constants.end(), lists.constants.begin(), lists.constants.end());
+    variant += "/" + lists.variant;
+  } else if (tiled) {
+    constants.push_back({2, source == LocalLights::lists ? 1u : 0u});
+  }
   gpu::GraphicsPipelineDesc desc = tested_pipeline(kNames[static_cast<std::size_t>(source)] + variant,
-                                                   shading_code(tiled, shadows), gpu::CompareOp::less);
+                                                   shading_code(source, shadows), gpu::CompareOp::less);
   desc.constants = std::move(constants);
+  return desc;
+}
+
+/// Draws tiles without a final list as shadows.mode = monolithic does.
+gpu::GraphicsPipelineDesc fallback_pipeline(const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
+  const LocalLights source = inputs.outputs.has_lists() ? LocalLights::lists_or_masks : LocalLights::all;
+  gpu::GraphicsPipelineDesc desc = shading_pipeline(source, inputs.directional_count, &shadows);
+  desc.name = "deferred/fallback/" + desc.name;
+  desc.vertex = shaders::lighting::deferred_fallback_vert;
   return desc;
 }
 
@@ -68,11 +94,12 @@ gpu::GraphicsPipelineDesc sky_pipeline() {
 struct Deferred {
   ShadingInputs inputs;
   const ShadowsOutputs* shadows = nullptr;  ///< on the frame's board
-  bool tiled = false;
+  LocalLights source = LocalLights::all;
   GeometryOutputs geometry;
   ImageRef texels;
   ImageRef color;
   gpu::PipelineHandle surfaces;
+  gpu::PipelineHandle fallback;  ///< none where every tile has a final list
   gpu::PipelineHandle sky;
   gpu::SamplerHandle sampler;
 };
@@ -85,19 +112,31 @@ void declare_reads(PassBuilder& pass, const Deferred& d) {
   const LightsOutputs& lights = d.inputs.outputs;
   if (lights.texels) pass.read(lights.texels, gpu::Access::fragment_read);
   if (d.shadows != nullptr) declare_arriving_reads(pass, *d.shadows, gpu::Access::fragment_read);
-  if (!d.tiled) return;
+  if (d.source == LocalLights::final_lists) {
+    const FinalLists& lists_of_tiles = *d.shadows->final_lists;
+    declare_final_list_reads(pass, lists_of_tiles, gpu::Access::fragment_read);
+    pass.read(lists_of_tiles.fallback_tiles, gpu::Access::vertex_read);
+    pass.read(lists_of_tiles.commands, gpu::Access::indirect_read);
+  }
+  if (d.source == LocalLights::all || !lights.has_lists()) return;
   pass.read(lights.tile_lists, gpu::Access::fragment_read);
   pass.read(lights.early_lists, gpu::Access::fragment_read);
   pass.read(lights.group_masks, gpu::Access::fragment_read);
 }
 
-std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context, const Deferred& d) {
+std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context, const Deferred& d,
+                                      LocalLights source) {
   const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, d.sampler}; };
   const GeometryOutputs& g = d.geometry;
   std::vector<gpu::Binding> bindings = {frame.view_binding(),       {1, d.inputs.lights},    {2, d.inputs.environment},
                                         {3, sampled(g.base_color)}, {4, sampled(g.normals)}, {5, sampled(g.material)},
                                         {6, sampled(g.emissive)},   {7, sampled(g.depth)},   {8, sampled(d.texels)}};
-  if (d.tiled) {
+  if (source == LocalLights::final_lists) {
+    append_final_list_bindings(bindings, kFirstFinalListBinding, context, *d.shadows->final_lists, d.shadows->nearest);
+    if (has_cookies(*d.shadows)) append_cookie_bindings(bindings, kFirstShadowBinding, context, *d.shadows);
+    return bindings;
+  }
+  if (source != LocalLights::all) {
     const LightsOutputs& lights = d.inputs.outputs;
     bindings.push_back({9, lights.grid});
     bindings.push_back({10, sampled(lights.tile_lists)});
@@ -106,6 +145,17 @@ std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassConte
   }
   if (d.shadows != nullptr) append_arriving_bindings(bindings, kFirstShadowBinding, context, *d.shadows);
   return bindings;
+}
+
+void record_fallback(FrameBuilder& frame, PassContext& context, const Deferred& d) {
+  const FinalLists& lists = *d.shadows->final_lists;
+  const LocalLights source = d.inputs.outputs.has_lists() ? LocalLights::lists_or_masks : LocalLights::all;
+  std::vector<gpu::Binding> bindings = bindings_of(frame, context, d, source);
+  bindings.push_back({kFallbackTilesBinding, gpu::Binding::BufferRange{context.buffer(lists.fallback_tiles)}});
+  gpu::CommandList& commands = context.commands();
+  commands.bind_pipeline(d.fallback);
+  commands.bind(bindings);
+  commands.draw_indirect(context.buffer(lists.commands), offsetof(shaders::ShadowListCommands, fallback_draw));
 }
 
 void record(FrameBuilder& frame, PassContext& context, const Deferred& d) {
@@ -119,8 +169,9 @@ void record(FrameBuilder& frame, PassContext& context, const Deferred& d) {
   commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
   commands.set_scissor(0, 0, rendering.width, rendering.height);
   commands.bind_pipeline(d.surfaces);
-  commands.bind(bindings_of(frame, context, d));
+  commands.bind(bindings_of(frame, context, d, d.source));
   commands.draw(3, 1, 0, 0);
+  if (d.fallback) record_fallback(frame, context, d);
   commands.bind_pipeline(d.sky);
   const gpu::Binding sky[] = {frame.view_binding(), {2, d.inputs.environment}};
   commands.bind(sky);
@@ -145,11 +196,20 @@ std::optional<LocalLights> ready_source(const FrameServices& services, const Sha
   return std::nullopt;
 }
 
+bool final_lists_ready(const FrameServices& services, const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
+  if (services.wait_for_pipelines) return true;
+  PipelineList wanted = {shading_pipeline(LocalLights::final_lists, inputs.directional_count, &shadows)};
+  if (!shadows.final_lists->always_complete) wanted.push_back(fallback_pipeline(inputs, shadows));
+  return services.pipelines.request(wanted, services.log);
+}
+
 /// Sets `shadows`, returns the source. Frames come without shadows while no pipeline with them is there, and with brute force, which is
 /// waited for, while none is there at all.
 LocalLights choose_variant(FrameBuilder& frame, Deferred& d) {
   const FrameServices& services = frame.services();
   d.shadows = frame.find<ShadowsOutputs>();
+  if (d.shadows != nullptr && d.shadows->final_lists && final_lists_ready(services, d.inputs, *d.shadows))
+    return LocalLights::final_lists;
   const LocalLights best = best_source(d.inputs);
   if (services.wait_for_pipelines) return best;
   if (d.shadows != nullptr)
@@ -167,11 +227,15 @@ Status add_deferred_pass(FrameBuilder& frame) {
   if (!inputs.ok()) return inputs.error();
   Deferred d;
   d.inputs = *inputs;
-  const LocalLights source = choose_variant(frame, d);
-  d.tiled = source != LocalLights::all;
-  auto surfaces = services.pipelines.get(shading_pipeline(source, inputs->directional_count, d.shadows));
+  d.source = choose_variant(frame, d);
+  auto surfaces = services.pipelines.get(shading_pipeline(d.source, inputs->directional_count, d.shadows));
   if (!surfaces.ok()) return surfaces.error();
   d.surfaces = *surfaces;
+  if (d.source == LocalLights::final_lists && !d.shadows->final_lists->always_complete) {
+    auto fallback = services.pipelines.get(fallback_pipeline(*inputs, *d.shadows));
+    if (!fallback.ok()) return fallback.error();
+    d.fallback = *fallback;
+  }
   auto sky = services.pipelines.get(sky_pipeline());
   if (!sky.ok()) return sky.error();
   d.sky = *sky;

@@ -10,6 +10,7 @@
 
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/components.h"
+#include "modules/shadows/final_list_buffers.h"
 #include "modules/shadows/shadow_cookies.h"
 #include "modules/shadows/shadow_keys.h"
 #include "modules/shadows/shadow_knobs.h"
@@ -79,6 +80,18 @@ class ShadowsModule final : public Module {
     return add_shadow_passes(frame, states_);
   }
 
+  void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {
+    if (name != kShadowListResult) return;
+    const auto& note = std::any_cast<const FinalListNote&>(result.note);
+    world.set_view_resource(view, final_list_feedback(result.value<shaders::ShadowListCounters>(), note,
+                                                      world.try_view_resource<FinalListFeedback>(view)));
+  }
+
+  void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
+    if (name == kShadowListResult)
+      count_final_lists(result.value<shaders::ShadowListCounters>(), std::any_cast<const FinalListNote&>(result.note), sink);
+  }
+
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
     const ShadowViews& views = world.view_resource<ShadowViews>(view.id);
     const ViewShadows* kept = states_.find(world.resource<ShadowWorld>(), view.id);
@@ -88,6 +101,7 @@ class ShadowsModule final : public Module {
     sink.count("shadows.faces_drawn", counts.drawn);
     sink.count("shadows.faces_cached", counts.cached);
     sink.count("shadows.faces_skipped", counts.skipped);
+    sink.count("shadows.texels_drawn", static_cast<double>(counts.texels));
     sink.count("shadows.faces_shrunk", views.faces_shrunk);
     sink.count("shadows.faces_left_out", views.faces_left_out);
     sink.count("shadows.atlas_used", static_cast<double>(views.atlas.used_texels()) / std::max(texels, 1.0));

@@ -32,8 +32,12 @@ Knob number_knob(std::string name, std::string meaning, std::string unit, double
 }  // namespace
 
 void add_shadow_knobs(KnobRegistry& registry) {
-  registry.add(choice_knob("mode", "shadows of lights: none, or looked up in shadow maps where light is added up",
-                           {"off", "monolithic"}, 1));
+  registry.add(choice_knob("mode",
+                           "shadows of lights: none, looked up in shadow maps where light is added up, or before that, a light and tile "
+                           "at a time and only where a tile is neither lit nor unlit as a whole",
+                           {"off", "monolithic", "deferred"}, 1));
+  registry.add(choice_knob("classify", "whether shadow maps are asked about whole tiles before pixels (shadows.mode=deferred)",
+                           {"off", "on"}, 1));
   registry.add(
       choice_knob("filter",
                   "how shadow maps are looked up: one texel, a fixed kernel, penumbrae by single fetches, penumbrae by "
@@ -79,6 +83,12 @@ void add_shadow_knobs(KnobRegistry& registry) {
   registry.add(choice_knob("casters",
                            "meshes that are drawn into shadow maps: as the camera sees them, or with fewer triangles",
                            {"full", "simplified"}, 0));
+  for (const auto& [name, meaning] : {std::pair("slot_limit", "slots of visibility that a view may have; tiles that find none are shaded as by monolithic"),
+                                      std::pair("pair_limit", "pairs of a tile and a light whose pixels are asked; likewise")}) {
+    Knob limit = number_knob(name, meaning, "", 4194301.0, 4194301.0);
+    limit.type = Knob::Type::integer;
+    registry.add(limit);
+  }
   registry.add(choice_knob("early_outs", "whether a filter ends early where it knows the answer; off: for measuring it",
                            {"off", "on"}, 1));
 }
@@ -104,6 +114,10 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.texels_per_pixel = static_cast<float>(registry.number("shadows.texels_per_pixel"));
   knobs.simplified = registry.is("shadows.casters", "simplified");
   knobs.early_outs = registry.is("shadows.early_outs", "on");
+  knobs.deferred = registry.is("shadows.mode", "deferred");
+  knobs.classify = registry.is("shadows.classify", "on");
+  knobs.slot_limit = static_cast<std::uint32_t>(registry.number("shadows.slot_limit"));
+  knobs.pair_limit = static_cast<std::uint32_t>(registry.number("shadows.pair_limit"));
   return knobs;
 }
 

@@ -15,6 +15,10 @@ namespace gloam {
 /// The module's knobs as numbers.
 struct ShadowKnobs {
   bool enabled = true;
+  bool deferred = true;      ///< final lists are made, with a visibility for every pixel that needs one
+  bool classify = true;      ///< whole tiles before pixels
+  std::uint32_t slot_limit = ~0u;  ///< most slots of visibility of a view
+  std::uint32_t pair_limit = ~0u;  ///< most pairs of a tile and a light whose pixels are asked
   std::uint32_t filter = 3;  ///< GLOAM_SHADOWS_FILTER_ID
   std::uint32_t kernel = 8;  ///< texels
   bool mips = true;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/shadow_passes.h"
 
+#include "modules/shadows/generate_shadows.h"
 #include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_cookies.h"
 #include "modules/shadows/shadow_knobs.h"
@@ -49,8 +50,11 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
   // Knobs are of no use to cookies.
   outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
-  outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(count_cookie_lights(frame.world()))});
+  const std::size_t cookie_lights = count_cookie_lights(frame.world());
+  outputs.cookie_lights = static_cast<std::uint32_t>(cookie_lights);
+  outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(cookie_lights)});
   outputs.variant = shadow_variant(outputs.constants);
+  if (!outputs.cookies_only && !traced && can_generate(frame, knobs)) GLOAM_TRY(add_generate_passes(frame, knobs, outputs));
   frame.put(std::move(outputs));
   return {};
 }

@@ -27,17 +27,37 @@ layout(location = 0) out vec4 out_light;
 
 #include "shaders/lighting/arriving_light.glsl"
 
-vec3 add_local(ShadingPoint p, uint index) {
+// share: of the light that the surface sees, beside what arriving_local knows.
+vec3 add_local(ShadingPoint p, uint index, float share) {
   vec3 to_light;
   LocalLight light = fetch_light(light_texels, index);
   vec3 illuminance = local_illuminance(light, p.position, to_light);
-  illuminance = arriving_local(illuminance, index, light.position, p.normal, to_light);
+  illuminance = arriving_local(illuminance, index, light.position, p.normal, to_light) * share;
   return reflected(p, to_light, illuminance);
 }
+
+// What directional lights give the surface under a pixel.
+vec3 directional_lights(ShadingPoint p, uvec2 pixel);
 
 // What local lights give the surface under a pixel. Lights in ascending order: whoever leaves out only lights that do not reach gets the
 // same sum to the bit.
 vec3 local_lights(ShadingPoint p, uvec2 pixel);
+
+#ifndef GLOAM_FINAL_LISTS_BINDING
+vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
+#ifdef GLOAM_SHADOWS_BINDING
+  uint count = lights.directional_count;  // what a shadow takes is not to be unrolled
+#else
+  const uint count = kDirectionalLights;
+#endif
+  vec3 sum = vec3(0.0);
+  for (uint i = 0u; i < count; ++i) {
+    DirectionalLight d = lights.directional[i];
+    sum += reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal));
+  }
+  return sum;
+}
+#endif
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -49,15 +69,7 @@ void main() {
   ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
   vec3 light = texelFetch(emissive_image, pixel, 0).rgb + ambient(environment, p, g.roughness, g.occlusion);
   set_receiver(position, g.face_normal, g.subsurface);
-#ifdef GLOAM_SHADOWS_BINDING
-  uint directional_lights = lights.directional_count;  // what a shadow takes is not to be unrolled
-#else
-  const uint directional_lights = kDirectionalLights;
-#endif
-  for (uint i = 0u; i < directional_lights; ++i) {
-    DirectionalLight d = lights.directional[i];
-    light += reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal));
-  }
+  light += directional_lights(p, uvec2(pixel));
   light += local_lights(p, uvec2(pixel));
   out_light = vec4(min(light, vec3(65504.0)), 1.0);
 }

@@ -9,7 +9,7 @@
 
 vec3 local_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);
-  for (uint i = 0u; i < lights.local_count; ++i) sum += add_local(p, i);
+  for (uint i = 0u; i < lights.local_count; ++i) sum += add_local(p, i, 1.0);
   return sum;
 }
 

@@ -21,7 +21,7 @@ vec3 group_lights(ShadingPoint p, uvec2 pixel) {
   for (uint groups = group_masks[mask]; groups != 0u; groups &= groups - 1u) {
     uint word = uint(findLSB(groups));
     for (uint bits = group_masks[mask + 1u + word]; bits != 0u; bits &= bits - 1u)
-      sum += add_local(p, word * 32u + uint(findLSB(bits)));
+      sum += add_local(p, word * 32u + uint(findLSB(bits)), 1.0);
   }
   return sum;
 }
@@ -36,7 +36,7 @@ vec3 local_lights(ShadingPoint p, uvec2 pixel) {
   // The condition stands at the end: software devices run the rest of a loop once more when it fails at the start.
   uint i = 0u;
   if (count > 0u) do {
-    sum += add_local(p, bitfieldExtract(early_lists[at], int(shift), 10));
+    sum += add_local(p, bitfieldExtract(early_lists[at], int(shift), 10), 1.0);
     shift += 10u;
     at += shift / 30u;
     shift = shift == 30u ? 0u : shift;

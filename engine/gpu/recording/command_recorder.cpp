@@ -27,7 +27,8 @@ std::string text_of_barrier(const Barrier& barrier, const std::string& object) {
 
 constexpr std::uint64_t kNanosecondsPerTimestamp = 1000;
 constexpr std::uint64_t kDispatchCommandBytes = 12;
-constexpr std::uint64_t kDrawCommandBytes = 20;
+constexpr std::uint64_t kDrawCommandBytes = 20;  // with indices
+constexpr std::uint64_t kPlainDrawCommandBytes = 16;
 
 }  // namespace
 
@@ -110,6 +111,7 @@ void CommandRecorder::use_target(const ImageView& view, ImageUsage usage, Access
 
 void CommandRecorder::begin_rendering(const RenderingDesc& desc) {
   std::string text = numbers({desc.width, desc.height});
+  if (desc.x != 0 || desc.y != 0) text += " at " + numbers({desc.x, desc.y});
   for (const ColorTarget& color : desc.colors) text += " color " + name(color.view.image);
   if (desc.depth.view.image) text += " depth " + name(desc.depth.view.image);
   note("begin_rendering", std::move(text), Place::outside_rendering);
@@ -214,6 +216,14 @@ void CommandRecorder::draw_indexed(std::uint32_t indices, std::uint32_t instance
   note("draw_indexed", numbers({indices, instances, first_index, vertex_offset, first_instance}),
        Place::inside_rendering);
   use_for_draw(true, "draw_indexed");
+}
+
+void CommandRecorder::draw_indirect(BufferHandle buffer, std::uint64_t offset) {
+  note("draw_indirect", name(buffer) + " " + std::to_string(offset), Place::inside_rendering);
+  use_for_draw(false, "draw_indirect");
+  if (buffer_for(buffer, BufferUsage::indirect, offset, kPlainDrawCommandBytes, "draw_indirect")) {
+    tracker_.use(buffer, mask_of(Access::indirect_read), "draw_indirect");
+  }
 }
 
 void CommandRecorder::draw_indexed_indirect(BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) {

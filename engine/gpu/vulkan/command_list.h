@@ -67,6 +67,7 @@ class VulkanCommandList final : public CommandList {
             std::uint32_t first_instance) override;
   void draw_indexed(std::uint32_t indices, std::uint32_t instances, std::uint32_t first_index,
                     std::int32_t vertex_offset, std::uint32_t first_instance) override;
+  void draw_indirect(BufferHandle buffer, std::uint64_t offset) override;
   void draw_indexed_indirect(BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) override;
   void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) override;
   void dispatch_indirect(BufferHandle buffer, std::uint64_t offset) override;

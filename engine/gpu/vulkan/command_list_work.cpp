@@ -53,15 +53,17 @@ void VulkanCommandList::begin_rendering(const RenderingDesc& desc) {
     depth->storeOp = desc.depth.read_only ? VK_ATTACHMENT_STORE_OP_NONE : VK_ATTACHMENT_STORE_OP_STORE;
     depth->clearValue.depthStencil = {desc.depth.clear, 0};
   }
+  const VkOffset2D corner = {static_cast<std::int32_t>(desc.x), static_cast<std::int32_t>(desc.y)};
   const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                .renderArea = {{0, 0}, {desc.width, desc.height}},
+                                .renderArea = {corner, {desc.width, desc.height}},
                                 .layerCount = colors.empty() && !depth ? 1 : layers,
                                 .colorAttachmentCount = static_cast<std::uint32_t>(colors.size()),
                                 .pColorAttachments = colors.data(),
                                 .pDepthAttachment = depth ? &*depth : nullptr};
   context_.vk.vkCmdBeginRendering(commands_, &info);
-  set_viewport(0.0f, 0.0f, static_cast<float>(desc.width), static_cast<float>(desc.height));
-  set_scissor(0, 0, desc.width, desc.height);
+  set_viewport(static_cast<float>(desc.x), static_cast<float>(desc.y), static_cast<float>(desc.width),
+               static_cast<float>(desc.height));
+  set_scissor(corner.x, corner.y, desc.width, desc.height);
 }
 
 void VulkanCommandList::end_rendering() { context_.vk.vkCmdEndRendering(commands_); }
@@ -139,6 +141,11 @@ void VulkanCommandList::draw(std::uint32_t vertices, std::uint32_t instances, st
 void VulkanCommandList::draw_indexed(std::uint32_t indices, std::uint32_t instances, std::uint32_t first_index,
                                      std::int32_t vertex_offset, std::uint32_t first_instance) {
   context_.vk.vkCmdDrawIndexed(commands_, indices, instances, first_index, vertex_offset, first_instance);
+}
+
+void VulkanCommandList::draw_indirect(BufferHandle buffer, std::uint64_t offset) {
+  check_range(buffer, offset, sizeof(VkDrawIndirectCommand));
+  context_.vk.vkCmdDrawIndirect(commands_, buffers_.get(buffer).buffer, offset, 1, 0);
 }
 
 void VulkanCommandList::draw_indexed_indirect(BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) {

@@ -58,6 +58,7 @@
   X(vkCmdDispatchIndirect)               \
   X(vkCmdDraw)                           \
   X(vkCmdDrawIndexed)                    \
+  X(vkCmdDrawIndirect)                   \
   X(vkCmdDrawIndexedIndirect)            \
   X(vkCmdEndRendering)                   \
   X(vkCmdFillBuffer)                     \

@@ -200,6 +200,29 @@ TEST_F(CommandLists, indexed_and_indirect_draws_take_their_vertices_and_the_scis
   EXPECT_EQ(at(texels, kSize - 2, 2), kClear);
 }
 
+TEST_F(CommandLists, a_draw_without_indices_takes_its_counts_from_a_buffer) {
+  const auto pipeline = test::value_of(device().create_pipeline(desc()));
+  const ResourceSetHandle set = make_set(pipeline);
+  const BufferHandle vertices = test::make_upload(device(), lower_left(0.5f, {255, 0, 0, 255}));
+  const BufferHandle arguments = test::make_upload(device(), std::vector<std::uint32_t>{7, 3, 0, 0, 0, 3, 1, 0, 0});
+  const auto drawn = [&](std::uint64_t offset) {
+    BufferHandle read;
+    test::run_frame(device(), [&](CommandList& commands) {
+      begin(commands);
+      bind(commands, pipeline, set, 0);
+      commands.bind_vertex_stream(0, vertices, 0);
+      commands.set_scissor(0, 0, kSize, kSize);
+      commands.set_viewport(0, 0, kSize, kSize);
+      commands.draw_indirect(arguments, offset);
+      commands.end_rendering();
+      read = read_layer(commands, color_, Access::color_target);
+    });
+    return at(test::items_of<Texel>(device(), read), 2, kSize - 3);
+  };
+  EXPECT_EQ(drawn(5 * sizeof(std::uint32_t)), (Texel{255, 0, 0, 255}));
+  EXPECT_EQ(drawn(2 * sizeof(std::uint32_t)), kClear) << "no vertices";
+}
+
 TEST_F(CommandLists, depth_may_be_tested_and_kept_read_only) {
   GraphicsPipelineDesc testing = desc();
   testing.depth_write = false;

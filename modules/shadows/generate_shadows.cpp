@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/generate_shadows.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "modules/lights/outputs.h"
+#include "modules/shadows/final_list_buffers.h"
+#include "shaders/lights/lights_shared.h"
+#include "shaders/shadows/shaders.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kFirstShadowBinding = 12;
+constexpr std::uint32_t kTilesAGroup = 8;  // along a side
+
+/// A device that is a CPU swaps the state of all threads of a workgroup at every barrier: few threads, of many pixels each.
+std::uint32_t threads_a_pair(const gpu::DeviceInfo& device) { return device.type == gpu::DeviceType::cpu ? 8 : 64; }
+
+gpu::ComputePipelineDesc classify_pipeline(const ShadowsOutputs& shadows) {
+  return {"classify_shadows/" + shadows.variant, "shadows", shaders::shadows::classify_shadows_comp, shadows.constants};
+}
+
+gpu::ComputePipelineDesc generate_pipeline(const ShadowsOutputs& shadows, const FinalLists& lists,
+                                           const gpu::DeviceInfo& device) {
+  gpu::ComputePipelineDesc desc{
+      "generate_shadows/" + shadows.variant + "/" + lists.variant, "shadows",
+      shadows.standard ? shaders::shadows::generate_shadows_standard_comp : shaders::shadows::generate_shadows_comp,
+      shadows.constants};
+  desc.constants.push_back({0, threads_a_pair(device)});
+  for (const gpu::SpecConstant& constant : lists.constants)
+    if (constant.id == GLOAM_FINAL_BITS_ID) desc.constants.push_back(constant);
+  return desc;
+}
+
+gpu::ComputePipelineDesc finish_pipeline() {
+  return {"finish_lists", "shadows", shaders::shadows::finish_lists_comp, {}};
+}
+
+/// What all passes record with.
+struct Generate {
+  FinalListBuffers buffers;
+  LightsOutputs lights;
+  GeometryOutputs geometry;
+  ImageRef texels;      ///< of local lights; any image when there are none
+  ImageRef tile_lists;  ///< early ones; likewise
+  gpu::SamplerHandle sampler;
+  ShadowsOutputs shadows;
+  uvec2 tiles;
+  [[nodiscard]] FinalLists& lists() { return buffers.lists; }
+};
+
+gpu::Binding::BufferRange whole(const PassContext& context, BufferRef buffer) { return {context.buffer(buffer)}; }
+
+void add_start_pass(FrameBuilder& frame, Generate& g) {
+  PassBuilder pass = frame.graph().add_pass("shadow_list_start", "shadows");
+  g.lists().commands = pass.write(g.lists().commands, gpu::Access::transfer_write);
+  g.lists().counters = pass.write(g.lists().counters, gpu::Access::transfer_write);
+  pass.execute([commands_ref = g.lists().commands, counters = g.lists().counters](PassContext& context) {
+    constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+    constexpr std::uint32_t kStart[] = {GLOAM_PAIRS_ROW, 0, 1, 0, 6, 0, 0, 0};
+    static_assert(sizeof(kStart) == sizeof(shaders::ShadowListCommands));
+    gpu::CommandList& commands = context.commands();
+    commands.fill_buffer(context.buffer(counters), 0, sizeof(shaders::ShadowListCounters), 0);
+    for (std::size_t i = 0; i < std::size(kStart); ++i)
+      commands.fill_buffer(context.buffer(commands_ref), i * kWord, kWord, kStart[i]);
+  });
+}
+
+Status add_classify_pass(FrameBuilder& frame, Generate& g) {
+  auto pipeline = frame.services().pipelines.get(classify_pipeline(g.shadows));
+  if (!pipeline.ok()) return pipeline.error();
+  FinalLists& lists = g.lists();
+  PassBuilder pass = frame.graph().add_pass("classify_shadows", "shadows");
+  for (const ImageRef image : {g.geometry.depth_bounds, g.geometry.depth, g.geometry.normals, g.tile_lists, g.texels})
+    pass.read(image, gpu::Access::compute_read);
+  if (g.lights.has_lists()) pass.read(g.lights.early_lists, gpu::Access::compute_read);
+  declare_shadow_reads(pass, g.shadows, gpu::Access::compute_read);
+  lists.tiles = pass.write(lists.tiles, gpu::Access::compute_write);
+  for (BufferRef* buffer : {&lists.entries, &g.buffers.pairs, &lists.counters, &lists.commands})
+    *buffer = pass.write(*buffer, gpu::Access::compute_write);
+  pass.execute([&frame, g, pipeline = *pipeline](PassContext& context) mutable {
+    const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, g.sampler}; };
+    const FinalLists& l = g.lists();
+    const BufferRef early = g.lights.has_lists() ? g.lights.early_lists : l.entries;
+    std::vector<gpu::Binding> bindings = {frame.view_binding(),
+                                          {1, g.lights.lights},
+                                          {2, g.buffers.grid},
+                                          {3, sampled(g.geometry.depth_bounds)},
+                                          {4, sampled(g.tile_lists)},
+                                          {5, whole(context, early)},
+                                          {6, sampled(g.texels)},
+                                          {7, gpu::Binding::Storage{{.image = context.image(l.tiles)}}},
+                                          {8, whole(context, l.entries)},
+                                          {9, whole(context, g.buffers.pairs)},
+                                          {10, whole(context, l.counters)},
+                                          {11, whole(context, l.commands)}};
+    append_shadow_bindings(bindings, kFirstShadowBinding, context, g.shadows);
+    gpu::CommandList& commands = context.commands();
+    commands.bind_pipeline(pipeline);
+    commands.bind(bindings);
+    commands.dispatch((g.tiles.x + kTilesAGroup - 1) / kTilesAGroup, (g.tiles.y + kTilesAGroup - 1) / kTilesAGroup, 1);
+  });
+  return {};
+}
+
+Status add_pairs_pass(FrameBuilder& frame, Generate& g) {
+  auto pipeline =
+      frame.services().pipelines.get(generate_pipeline(g.shadows, g.lists(), frame.services().device.info()));
+  if (!pipeline.ok()) return pipeline.error();
+  FinalLists& lists = g.lists();
+  PassBuilder pass = frame.graph().add_pass("generate_shadows", "shadows");
+  for (const ImageRef image : {g.geometry.depth, g.geometry.normals, g.geometry.base_color, g.texels})
+    pass.read(image, gpu::Access::compute_read);
+  pass.read(g.buffers.pairs, gpu::Access::compute_read);
+  pass.read(lists.commands, gpu::Access::indirect_read);
+  declare_shadow_reads(pass, g.shadows, gpu::Access::compute_read);
+  const bool split = lists.visibilities[1].resource != lists.visibilities[0].resource;
+  for (BufferRef* buffer : {&lists.entries, &lists.visibilities[0], &lists.counters})
+    *buffer = pass.write(*buffer, gpu::Access::compute_write);
+  lists.visibilities[1] = split ? pass.write(lists.visibilities[1], gpu::Access::compute_write) : lists.visibilities[0];
+  pass.execute([&frame, g, pipeline = *pipeline](PassContext& context) mutable {
+    const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, g.sampler}; };
+    const FinalLists& l = g.lists();
+    std::vector<gpu::Binding> bindings = {frame.view_binding(),
+                                          {1, g.lights.lights},
+                                          {2, g.buffers.grid},
+                                          {3, sampled(g.geometry.depth)},
+                                          {4, sampled(g.geometry.normals)},
+                                          {5, sampled(g.geometry.base_color)},
+                                          {6, sampled(g.texels)},
+                                          {7, whole(context, g.buffers.pairs)},
+                                          {8, whole(context, l.entries)},
+                                          {9, whole(context, l.visibilities[0])},
+                                          {10, whole(context, l.visibilities[1])},
+                                          {11, whole(context, l.counters)}};
+    append_shadow_bindings(bindings, kFirstShadowBinding, context, g.shadows);
+    gpu::CommandList& commands = context.commands();
+    commands.bind_pipeline(pipeline);
+    commands.bind(bindings);
+    commands.dispatch_indirect(context.buffer(l.commands), offsetof(shaders::ShadowListCommands, pair_groups));
+  });
+  return {};
+}
+
+Status add_finish_pass(FrameBuilder& frame, Generate& g) {
+  auto pipeline = frame.services().pipelines.get(finish_pipeline());
+  if (!pipeline.ok()) return pipeline.error();
+  FinalLists& lists = g.lists();
+  PassBuilder pass = frame.graph().add_pass("finish_lists", "shadows");
+  lists.tiles = pass.write(lists.tiles, gpu::Access::compute_write);
+  for (BufferRef* buffer : {&lists.entries, &lists.fallback_tiles, &lists.counters, &lists.commands})
+    *buffer = pass.write(*buffer, gpu::Access::compute_write);
+  pass.execute([g, pipeline = *pipeline](PassContext& context) mutable {
+    const FinalLists& l = g.lists();
+    gpu::CommandList& commands = context.commands();
+    commands.bind_pipeline(pipeline);
+    const gpu::Binding bindings[] = {{0, g.buffers.grid},
+                                     {1, gpu::Binding::Storage{{.image = context.image(l.tiles)}}},
+                                     {2, whole(context, l.entries)},
+                                     {3, whole(context, l.fallback_tiles)},
+                                     {4, whole(context, l.counters)},
+                                     {5, whole(context, l.commands)}};
+    commands.bind(bindings);
+    commands.dispatch((g.tiles.x + kTilesAGroup - 1) / kTilesAGroup, (g.tiles.y + kTilesAGroup - 1) / kTilesAGroup, 1);
+  });
+  return {};
+}
+
+}  // namespace
+
+bool can_generate(const FrameBuilder& frame, const ShadowKnobs& knobs) {
+  const LightsOutputs* lights = frame.find<LightsOutputs>();
+  return knobs.deferred && knobs.levels != 0 && lights != nullptr && (lights->local_count == 0 || lights->has_lists());
+}
+
+Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ShadowsOutputs& shadows) {
+  Generate g;
+  auto buffers = make_final_list_buffers(frame, knobs);
+  if (!buffers.ok()) return buffers.error();
+  g.buffers = std::move(*buffers);
+  g.lights = frame.get<LightsOutputs>();
+  g.geometry = frame.get<GeometryOutputs>();
+  g.texels = g.lights.texels ? g.lights.texels : g.geometry.base_color;
+  g.tile_lists = g.lights.has_lists() ? g.lights.tile_lists : g.geometry.normals;
+  g.shadows = shadows;
+  g.sampler = shadows.nearest;
+  const gpu::ImageDesc& tiles = frame.graph().desc(g.lists().tiles);
+  g.tiles = {tiles.width, tiles.height};
+  add_start_pass(frame, g);
+  GLOAM_TRY(add_classify_pass(frame, g));
+  GLOAM_TRY(add_pairs_pass(frame, g));
+  GLOAM_TRY(add_finish_pass(frame, g));
+  frame.keep_result("shadows", kShadowListResult, g.lists().counters, g.buffers.note);
+  shadows.final_lists = std::move(g.lists());
+  return {};
+}
+
+}  // namespace gloam

@@ -1,0 +1,6 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define GLOAM_COOKIES_BINDING 13
+#include "shaders/lighting/deferred_final_lights.glsl"
