@@ -77,9 +77,35 @@ FaceVolume face_volume(const ShadowFace& face) {
   return volume;
 }
 
+FaceVolume face_volume(const ShadowFace& face, const TexelRect& region) {
+  FaceVolume volume = face_volume(face);
+  const bool perspective = face.tan_half > 0.0f;
+  const float extent = perspective ? face.tan_half : face.half_extent_m;
+  const float texel = 2.0f * extent / static_cast<float>(face.square.size);
+  const auto from_edge = [&](std::uint32_t texels) { return static_cast<float>(texels) * texel - extent; };
+  // Where its sides lie, seen from the middle to the inside: left, right, lower and upper.
+  const float distances[] = {from_edge(region.begin.x) - texel, -from_edge(region.end.x) - texel,
+                             -from_edge(region.end.y) - texel, from_edge(region.begin.y) - texel};
+  const vec3 inward[] = {face.right, -face.right, face.up, -face.up};
+  for (std::size_t i = 0; i < 4; ++i)
+    volume.frustum.planes[i] = perspective ? Plane{glm::normalize(inward[i] - face.forward * distances[i]), 0.0f}
+                                           : Plane{inward[i], -distances[i]};
+  return volume;
+}
+
+CasterBox relative_box(const dvec3& origin, const CasterBox& box) {
+  Aabb relative{vec3(box.low - origin), vec3(box.high - origin)};
+  widen(relative);
+  return {dvec3(relative.min), dvec3(relative.max)};
+}
+
+bool may_see(const FaceVolume& volume, const CasterBox& box) {
+  if (!box.known()) return true;  // nobody knows where it is
+  return may_see(volume, Aabb{vec3(box.low - volume.origin), vec3(box.high - volume.origin)});
+}
+
 bool may_see(const FaceVolume& volume, const Caster& caster) {
-  if (!(caster.bounds_min.x <= caster.bounds_max.x)) return true;  // nobody knows where it is
-  return may_see(volume, Aabb{vec3(caster.bounds_min - volume.origin), vec3(caster.bounds_max - volume.origin)});
+  return may_see(volume, CasterBox{caster.bounds_min, caster.bounds_max});
 }
 
 mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh) {

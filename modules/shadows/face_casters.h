@@ -8,6 +8,8 @@
 
 #include "engine/math/frustum.h"
 #include "engine/render/casters.h"
+#include "modules/shadows/caster_states.h"
+#include "modules/shadows/face_regions.h"
 #include "modules/shadows/shadow_views.h"
 
 namespace gloam {
@@ -19,9 +21,15 @@ struct FaceVolume {
   float reach_m = 0.0f;  ///< radius round the origin beyond which nothing is lit; 0: without one
 };
 [[nodiscard]] FaceVolume face_volume(const ShadowFace& face);
+/// The part of it that is drawn into these texels, and a texel more at each side.
+[[nodiscard]] FaceVolume face_volume(const ShadowFace& face, const TexelRect& region);
+
+/// The box relative to `origin`, widened by what GPU and CPU may lose of its place.
+[[nodiscard]] CasterBox relative_box(const dvec3& origin, const CasterBox& box);
 
 /// Whether a caster may be drawn into the face; false only when it certainly is not.
 [[nodiscard]] bool may_see(const FaceVolume& volume, const Caster& caster);
+[[nodiscard]] bool may_see(const FaceVolume& volume, const CasterBox& box);
 
 /// From a caster's mesh to the face's clip space, composed in double relative to the light.
 [[nodiscard]] mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh);

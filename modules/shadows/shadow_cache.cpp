@@ -20,15 +20,6 @@ void add(Hasher& hasher, const dvec3& v) {
   for (int i = 0; i < 3; ++i) add(hasher, v[i]);
 }
 
-/// Where the caster is and what it is made of; the meshes' and materials' own content has a version, which is part of the salt.
-std::uint64_t hash_of(const Caster& caster) {
-  Hasher hasher;
-  hasher.value(caster.primitive->first_index).value(caster.primitive->first_vertex).value(caster.primitive->material);
-  hasher.value(caster.variant.features);
-  for (int column = 0; column < 4; ++column) add(hasher, dvec3(caster.world_from_mesh[column]));
-  return hasher.digest();
-}
-
 std::uint64_t hash_of(const ShadowFace& face) {
   Hasher hasher;
   add(hasher, face.origin);
@@ -54,11 +45,6 @@ std::uint64_t place_of(const AtlasSquare& square) {
 
 FaceKey key_of(const ShadowFace& face) { return {face.light, face.index}; }
 
-/// Casters' bounds side by side: they are looked at once a light, casters themselves only by faces of lights that reach them.
-struct Bounds {
-  dvec3 min, max;
-};
-
 /// Faces of one light that look from one point; or one orthographic face.
 struct FaceGroup {
   std::size_t begin = 0;
@@ -78,12 +64,12 @@ std::vector<FaceGroup> groups_of(std::span<const ShadowFace> faces) {
 }
 
 /// Indices of casters that a group's faces may see: a few more, never fewer, than may_see finds for all its faces together.
-std::vector<std::uint32_t> casters_in_reach(const ShadowFace& face, std::span<const Bounds> bounds) {
+std::vector<std::uint32_t> casters_in_reach(const ShadowFace& face, std::span<const CasterState> casters) {
   constexpr double kSlack = 1e-4;  // above what may_see loses in floats, as a share of the lengths that take part
   const bool everywhere = !(face.tan_half > 0.0f && face.far_m > 0.0f);
   std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < bounds.size(); ++i) {
-    const dvec3 low = bounds[i].min - face.origin, high = bounds[i].max - face.origin;
+  for (std::uint32_t i = 0; i < casters.size(); ++i) {
+    const dvec3 low = casters[i].box.low - face.origin, high = casters[i].box.high - face.origin;
     const dvec3 nearest = glm::max(glm::max(low, -high), dvec3(0.0));
     const dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
     const double reach = face.far_m + kSlack * (face.far_m + farthest.x + farthest.y + farthest.z);
@@ -95,30 +81,23 @@ std::vector<std::uint32_t> casters_in_reach(const ShadowFace& face, std::span<co
 
 }  // namespace
 
-std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces, std::span<const Caster> casters,
+std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces, std::span<const CasterState> casters,
                                        std::uint64_t salt, JobExecutor& executor) {
-  std::vector<std::uint64_t> hashes(casters.size());
-  std::vector<Bounds> bounds(casters.size());
-  executor.parallel_for(casters.size(), 256, [&](JobRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      hashes[i] = hash_of(casters[i]);
-      bounds[i] = {casters[i].bounds_min, casters[i].bounds_max};
-    }
-  });
   std::vector<FaceContent> contents(faces.size());
   const std::vector<FaceGroup> groups = groups_of(faces);
   executor.parallel_for(groups.size(), 4, [&](JobRange range) {
     for (std::size_t g = range.begin; g < range.end; ++g) {
-      const std::vector<std::uint32_t> reached = casters_in_reach(faces[groups[g].begin], bounds);
+      const std::vector<std::uint32_t> reached = casters_in_reach(faces[groups[g].begin], casters);
       for (std::size_t f = groups[g].begin; f < groups[g].end; ++f) {
         const FaceVolume volume = face_volume(faces[f]);
         FaceContent& content = contents[f];
+        content.pose = Hasher().value(salt).value(hash_of(faces[f])).digest();
         Hasher hasher;
-        hasher.value(salt).value(hash_of(faces[f]));
+        hasher.value(content.pose);
         for (const std::uint32_t i : reached) {
-          if (!may_see(volume, casters[i])) continue;
-          hasher.value(hashes[i]);
-          content.moving = content.moving || casters[i].moving;
+          if (!may_see(volume, casters[i].box)) continue;
+          hasher.value(casters[i].hash);
+          content.moving = content.moving || casters[i].unsteady;
           ++content.casters;
         }
         content.hash = hasher.digest();
@@ -134,6 +113,18 @@ bool ShadowCache::holds(const ShadowFace& face, const FaceContent& content) cons
   return found != maps_.end() && found->second.square == face.square && found->second.content == content;
 }
 
+bool ShadowCache::held(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) const {
+  const auto found = maps_.find(key_of(face));
+  return found != maps_.end() && found->second.square == face.square && found->second.content.pose == content.pose &&
+         found->second.frame == frame && frame > 0;
+}
+
+void ShadowCache::keep(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) {
+  Map& map = maps_.at(key_of(face));
+  map.content = content;
+  map.frame = frame;
+}
+
 void ShadowCache::forget_overlapping(const AtlasSquare& square) {
   const std::uint64_t begin = place_of(square), end = begin + std::uint64_t{square.size} * square.size;
   auto at = places_.upper_bound(begin);
@@ -144,11 +135,11 @@ void ShadowCache::forget_overlapping(const AtlasSquare& square) {
   }
 }
 
-void ShadowCache::set_drawn(const ShadowFace& face, const FaceContent& content) {
+void ShadowCache::set_drawn(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) {
   const FaceKey key = key_of(face);
   if (const auto before = maps_.find(key); before != maps_.end()) places_.erase(place_of(before->second.square));
   forget_overlapping(face.square);
-  maps_.insert_or_assign(key, Map{face.square, content});
+  maps_.insert_or_assign(key, Map{face.square, content, frame});
   const std::uint64_t place = place_of(face.square);
   places_[place] = {place + std::uint64_t{face.square.size} * face.square.size, key};
 }

@@ -10,6 +10,7 @@
 
 #include "engine/jobs/executor.h"
 #include "engine/render/casters.h"
+#include "modules/shadows/caster_states.h"
 #include "modules/shadows/shadow_views.h"
 
 namespace gloam {
@@ -17,22 +18,29 @@ namespace gloam {
 /// What a face's map is made from.
 struct FaceContent {
   std::uint64_t hash = 0;  ///< of the face, of what it may see and of `salt`
-  bool moving = false;     ///< it may see something whose vertices move: its map is never good for another frame
+  std::uint64_t pose = 0;  ///< of the face and of `salt` alone
+  bool moving = false;     ///< it may see something that is unsteady: its map is never good for another frame
   std::uint32_t casters = 0;
   bool operator==(const FaceContent&) const = default;
 };
 
 /// One a face. `salt`: whatever else maps depend on (knobs, version of the meshes). The result does not depend on the number of threads.
-[[nodiscard]] std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces, std::span<const Caster> casters,
-                                                     std::uint64_t salt, JobExecutor& executor);
+[[nodiscard]] std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces,
+                                                     std::span<const CasterState> casters, std::uint64_t salt,
+                                                     JobExecutor& executor);
 
 /// Which maps an atlas holds.
 class ShadowCache {
  public:
   /// Whether the atlas holds this face's map, drawn from this content, where the face says.
   [[nodiscard]] bool holds(const ShadowFace& face, const FaceContent& content) const;
-  /// The face's map has been drawn where the face says; what lay there is gone.
-  void set_drawn(const ShadowFace& face, const FaceContent& content);
+  /// Whether the atlas holds this face's map as it was to be in that frame of the CasterHistory: it differs from what it is to be in the next
+  /// by nothing but what changed() says.
+  [[nodiscard]] bool held(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) const;
+  /// The face's map has been drawn where the face says, with the casters of that frame; what lay there is gone.
+  void set_drawn(const ShadowFace& face, const FaceContent& content, std::uint64_t frame = 0);
+  /// The face's map, which is there, is as it would be drawn in that frame.
+  void keep(const ShadowFace& face, const FaceContent& content, std::uint64_t frame);
   void clear() {
     maps_.clear();
     places_.clear();
@@ -43,6 +51,7 @@ class ShadowCache {
   struct Map {
     AtlasSquare square;
     FaceContent content;
+    std::uint64_t frame = 0;  ///< the newest whose casters it shows
   };
   void forget_overlapping(const AtlasSquare& square);
 

@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/shadow_map_passes.h"
 
-#include <algorithm>
 #include <bit>
 #include <memory>
 #include <utility>
 
-#include "engine/core/hash.h"
 #include "engine/render/mesh_packing.h"
-#include "modules/shadows/face_casters.h"
+#include "modules/shadows/drawn_faces.h"
 #include "modules/shadows/scratch_plan.h"
 #include "shaders/shadows/shaders.h"
 #include "shaders/shadows/shadow_map_shared.h"
@@ -46,14 +44,6 @@ gpu::ComputePipelineDesc mips_pipeline(bool d16) {
   return {"shadow_map_mips/d32", "shadows", shaders::shadows::shadow_mips_comp, {}};
 }
 
-/// One face that is drawn in this frame.
-struct DrawnFace {
-  ShadowFace face;
-  FaceContent content;
-  std::vector<FaceDraw> draws;
-  std::vector<mat4> matrices;  ///< clip from mesh, of `draws`
-};
-
 /// All that is drawn in this frame; outlives the declaration, as pass functions run later.
 struct MapWork {
   std::vector<DrawnFace> faces;
@@ -66,65 +56,21 @@ struct MapWork {
   gpu::SamplerHandle sampler;
 };
 
-/// Whatever maps depend on beside face and casters.
-std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
-  return Hasher()
-      .value(frame.world().resource<SceneAssets>().version)
-      .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
-      .value(knobs.mip_operator)
-      .value(knobs.simplified)
-      .digest();
-}
-
-/// Sorts the view's faces into those that are there and those that must be drawn.
-std::vector<DrawnFace> faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
-                                     const ShadowKnobs& knobs) {
-  std::vector<ShadowFace> placed;
-  for (const ShadowFace& face : views.faces)
-    if (face.square.size > 0) placed.push_back(face);
-  const std::vector<Caster>& casters = frame.casters().casters;
-  JobExecutor& executor = frame.services().executor;
-  const std::vector<FaceContent> contents = face_contents(placed, casters, salt_of(frame, knobs), executor);
-  std::vector<DrawnFace> drawn;
-  kept.counts = {};
-  kept.drawn.clear();
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (kept.cache.holds(placed[i], contents[i])) {
-      ++kept.counts.cached;
-      continue;
-    }
-    drawn.push_back({placed[i], contents[i], {}, {}});
-    kept.drawn.push_back({placed[i].light, placed[i].index});
-    if (contents[i].casters == 0) ++kept.counts.skipped;
-  }
-  kept.counts.drawn = static_cast<std::uint32_t>(drawn.size()) - kept.counts.skipped;
-  executor.parallel_for(drawn.size(), 1, [&](JobRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      DrawnFace& face = drawn[i];
-      if (face.content.casters == 0) continue;
-      face.draws = face_draws(face_volume(face.face), casters, knobs.simplified);
-      for (const FaceDraw& draw : face.draws)
-        face.matrices.push_back(clip_from_mesh(face.face, draw.caster->world_from_mesh));
-    }
-  });
-  return drawn;
-}
-
-/// Records the draws of one face; the viewport is set.
+/// Records the draws of regions; the viewport is set.
 class FaceRecorder {
  public:
   FaceRecorder(FrameBuilder& frame, PassContext& context, const MapWork& work)
       : frame_(frame), context_(context), commands_(context.commands()), work_(work) {}
 
-  void record(const DrawnFace& face) {
-    for (std::size_t i = 0; i < face.draws.size(); ++i) {
-      const FaceDraw& draw = face.draws[i];
+  void record(const DrawnFace& face, const DrawnRegion& region) {
+    for (std::size_t i = 0; i < region.draws.size(); ++i) {
+      const FaceDraw& draw = region.draws[i];
       const Caster& caster = *draw.caster;
       const bool cut_out = is_cut_out(caster);
       bind(cut_out ? work_.cut_out : work_.opaque);
       frame_.bind_caster_vertices(context_, caster, cut_out);
       if (cut_out) commands_.bind_set(1, frame_.scene().materials()[caster.primitive->material].set);
-      commands_.push(shaders::ShadowDrawConstants{face.matrices[i], face.face.tan_half > 0.0f ? 0u : 1u});
+      commands_.push(shaders::ShadowDrawConstants{region.matrices[i], face.face.tan_half > 0.0f ? 0u : 1u});
       commands_.draw_indexed(draw.index_count, 1, draw.first_index, 0, 0);
     }
   }
@@ -144,21 +90,36 @@ class FaceRecorder {
   gpu::PipelineHandle bound_;
 };
 
+/// Begins drawing into a part of a layer; what lies there is cleared. Viewport: the whole face, so that depths do not depend on the part.
+void begin_region(gpu::CommandList& commands, const gpu::ImageView& layer, std::uint32_t size,
+                  const TexelRect& texels) {
+  gpu::RenderingDesc rendering;
+  rendering.depth.view = layer;
+  const uvec2 extent = texels.end - texels.begin;
+  rendering.x = texels.begin.x;
+  rendering.y = texels.begin.y;
+  rendering.width = extent.x;
+  rendering.height = extent.y;
+  commands.begin_rendering(rendering);
+  const auto side = static_cast<float>(size);
+  commands.set_viewport(0.0f, 0.0f, side, side);
+  commands.set_scissor(static_cast<std::int32_t>(texels.begin.x), static_cast<std::int32_t>(texels.begin.y), extent.x,
+                       extent.y);
+}
+
 void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch) {
   gpu::CommandList& commands = context.commands();
   FaceRecorder recorder(frame, context, work);
   work.scratch->begin_drawing(commands, batch.size);
+  commands.bind_indices(frame.scene().indices(), 0);
   for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
-    gpu::RenderingDesc rendering;
-    rendering.depth.view = {.image = work.scratch->image(batch.size), .first_layer = layer, .layer_count = 1};
-    rendering.width = rendering.height = batch.size;
-    commands.begin_rendering(rendering);
-    const auto side = static_cast<float>(batch.size);
-    commands.set_viewport(0.0f, 0.0f, side, side);
-    commands.set_scissor(0, 0, batch.size, batch.size);
-    commands.bind_indices(frame.scene().indices(), 0);
-    recorder.record(work.faces[batch.items[layer]]);
-    commands.end_rendering();
+    const DrawnFace& face = work.faces[batch.items[layer]];
+    const gpu::ImageView view{.image = work.scratch->image(batch.size), .first_layer = layer, .layer_count = 1};
+    for (const DrawnRegion& region : face.regions) {
+      begin_region(commands, view, batch.size, region.texels);
+      recorder.record(face, region);
+      commands.end_rendering();
+    }
   }
 }
 
@@ -170,31 +131,46 @@ float surface_gap(const ShadowFace& face, std::uint32_t size) {
   return kSteepest * 2.0f * face.half_extent_m / texels / face.far_m;
 }
 
-/// One dispatch a face of each run of mips; `first` is the mip that a run begins at.
-void record_run(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, std::uint32_t first,
-                const ShadowMaps& maps) {
+/// One dispatch a region of each run of mips; `first` is the mip that a run begins at.
+void record_run(gpu::CommandList& commands, shaders::ShadowMipConstants constants, const TexelRect& texels,
+                std::uint32_t first) {
+  constants.source = first == 0 ? uvec2(0) : constants.origin >> first;
+  constants.first = first;
+  constants.begin = texels.begin;
+  constants.end = texels.end;
+  commands.push(constants);
+  const std::uint32_t block = kBlockTexels << first;
+  const uvec2 blocks = (texels.end + block - 1u) / block - texels.begin / block;
+  const uvec2 groups = (blocks + (GLOAM_SHADOW_MIP_GROUP - 1u)) / std::uint32_t{GLOAM_SHADOW_MIP_GROUP};
+  commands.dispatch(groups.x, groups.y, 1);
+}
+
+/// What all runs of a face's mips have in common.
+shaders::ShadowMipConstants mip_constants(const ShadowFace& face, const ShadowKnobs& knobs) {
+  shaders::ShadowMipConstants constants{};
+  constants.origin = face.square.origin;
+  constants.size = face.square.size;
+  constants.mips = static_cast<std::uint32_t>(std::bit_width(face.square.size));
+  constants.mip_operator = knobs.mip_operator;
+  constants.atlas_size = knobs.atlas_size;
+  constants.orthographic = face.tan_half > 0.0f ? 0u : 1u;
+  constants.gap = surface_gap(face, face.square.size);
+  return constants;
+}
+
+/// One run of mips of all of a batch's regions.
+void record_runs(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, std::uint32_t first,
+                 const ShadowMaps& maps) {
   gpu::CommandList& commands = context.commands();
-  const std::uint32_t blocks = ((batch.size >> first) + kBlockTexels - 1) / kBlockTexels;
-  const std::uint32_t groups = (blocks + GLOAM_SHADOW_MIP_GROUP - 1) / GLOAM_SHADOW_MIP_GROUP;
   for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
-    const ShadowFace& face = work.faces[batch.items[layer]].face;
+    const DrawnFace& face = work.faces[batch.items[layer]];
     const gpu::ImageView source{.image = work.scratch->image(batch.size), .first_layer = layer, .layer_count = 1};
     const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{source, work.sampler}},
                                      {1, gpu::Binding::Storage{{.image = context.image(maps.atlas)}}},
                                      {2, gpu::Binding::Storage{{.image = context.image(maps.pyramid)}}}};
     commands.bind(bindings);
-    shaders::ShadowMipConstants constants{};
-    constants.source = first == 0 ? uvec2(0) : face.square.origin >> first;
-    constants.origin = face.square.origin;
-    constants.size = batch.size;
-    constants.first = first;
-    constants.mips = static_cast<std::uint32_t>(std::bit_width(batch.size));
-    constants.mip_operator = work.knobs.mip_operator;
-    constants.atlas_size = work.knobs.atlas_size;
-    constants.orthographic = face.tan_half > 0.0f ? 0u : 1u;
-    constants.gap = surface_gap(face, batch.size);
-    commands.push(constants);
-    commands.dispatch(groups, groups, 1);
+    const shaders::ShadowMipConstants constants = mip_constants(face.face, work.knobs);
+    for (const DrawnRegion& region : face.regions) record_run(commands, constants, region.texels, first);
   }
 }
 
@@ -210,15 +186,16 @@ void record_mips(PassContext& context, const MapWork& work, const ScratchPlan::B
           {context.image(maps.pyramid), gpu::Access::compute_write, gpu::Access::compute_write}};
       commands.barrier({}, written);
     }
-    record_run(context, work, batch, first, maps);
+    record_runs(context, work, batch, first, maps);
   }
 }
 
 Status make_pipelines(FrameBuilder& frame, MapWork& work) {
   Pipelines& pipelines = frame.services().pipelines;
-  const bool any_cut_out = std::any_of(work.faces.begin(), work.faces.end(), [](const DrawnFace& face) {
-    return !face.draws.empty() && is_cut_out(*face.draws.back().caster);  // they come last
-  });
+  bool any_cut_out = false;
+  for (const DrawnFace& face : work.faces)
+    for (const DrawnRegion& region : face.regions)  // cut-out casters come last
+      any_cut_out = any_cut_out || (!region.draws.empty() && is_cut_out(*region.draws.back().caster));
   auto opaque = pipelines.get(map_pipeline(false));
   if (!opaque.ok()) return opaque.error();
   work.opaque = *opaque;
@@ -251,13 +228,13 @@ void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, 
   maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
   maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);
   if (!there) return;
-  mips.execute([work, index, maps, &kept](PassContext& context) {
+  mips.execute([work, index, maps, &kept, drawn_in = kept.history.frame()](PassContext& context) {
     const ScratchPlan::Batch& batch = work->plan.batches[index];
     record_mips(context, *work, batch, maps);
     // Only now: a frame that ended before has drawn nothing.
     kept.atlas.filled = kept.pyramid.filled = true;
     for (const std::uint32_t item : batch.items)
-      kept.cache.set_drawn(work->faces[item].face, work->faces[item].content);
+      kept.cache.set_drawn(work->faces[item].face, work->faces[item].content, drawn_in);
   });
 }
 
@@ -281,6 +258,7 @@ Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& stat
                               gpu::Access::fragment_read);
   };
   ShadowMaps maps{import("shadow_atlas", kept.atlas), import("shadow_pyramid", kept.pyramid)};
+  frame.expose(maps.pyramid);
   if (work->faces.empty()) return maps;
   GLOAM_TRY(make_pipelines(frame, *work));
   std::vector<std::uint32_t> sizes;
@@ -292,6 +270,7 @@ Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& stat
   // Few different numbers of passes, so that the frame's plans are met again.
   const std::size_t batches = std::bit_ceil(work->plan.batches.size());
   for (std::size_t batch = 0; batch < batches; ++batch) add_batch(frame, work, batch, kept, maps);
+  frame.expose(maps.pyramid);
   return maps;
 }
 

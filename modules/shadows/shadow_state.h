@@ -12,6 +12,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/upload.h"
 #include "engine/gpu/device.h"
+#include "modules/shadows/caster_states.h"
 #include "modules/shadows/shadow_cache.h"
 #include "modules/shadows/shadow_scratch.h"
 
@@ -27,6 +28,7 @@ struct ShadowCounts {
   std::uint32_t drawn = 0;    ///< faces that were drawn
   std::uint32_t cached = 0;   ///< whose map was there already
   std::uint32_t skipped = 0;  ///< drawn without anything in them
+  std::uint64_t texels = 0;   ///< that were drawn, of all faces
 };
 
 /// An image that lives on between frames.
@@ -42,6 +44,7 @@ struct ViewShadows {
   std::uint32_t atlas_size = 0;
   bool d16 = false;
   ShadowCache cache;
+  CasterHistory history;  ///< of this view's frames
   ShadowCounts counts;
   std::vector<FaceKey> drawn;    ///< in the newest frame
   std::uint64_t last_frame = 0;  ///< Device::frame_number of its last use

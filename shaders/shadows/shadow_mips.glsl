@@ -96,8 +96,9 @@ float source_texel(uvec2 at, out vec2 bounds) {
 }
 
 void main() {
-  uvec2 block = gl_GlobalInvocationID.xy;
-  if (any(greaterThanEqual(block * 8u, uvec2(face.size >> face.first)))) return;
+  uint side = 8u << face.first;  // of a block, texels of mip 0
+  uvec2 block = face.begin / side + gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(block * side, face.end))) return;
   Texels third = kNone;
   float gap = face.gap * float(1u << (face.first + 1u));
   for (uint quarter = 0u; quarter < 4u; ++quarter) {

@@ -98,6 +98,8 @@ struct ShadowMipConstants {
   uint mip_operator;  // GLOAM_SHADOW_MIPS_…
   uint atlas_size;
   uint orthographic;  // depth is linear already
+  uvec2 begin;        // corner of what is made anew in the face, texels of mip 0, a multiple of 8; coarser mips: what it has a part in
+  uvec2 end;          // the corner across from it, before which it ends
   float gap;          // coverage: how far a surface recedes over a texel of mip 0 at most, as a share of its distance (orthographic: depth)
 };
 

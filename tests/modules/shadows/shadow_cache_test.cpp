@@ -46,7 +46,7 @@ class ShadowCacheTest : public ::testing::Test {
     caster.bounds_max = at + dvec3(0.2);
   }
   [[nodiscard]] std::vector<FaceContent> contents(std::uint64_t salt = 1) const {
-    return face_contents(faces, casters, salt, *executor);
+    return face_contents(faces, caster_states(casters, {}, *executor), salt, *executor);
   }
   /// Faces whose map is not there.
   [[nodiscard]] std::vector<std::uint32_t> dirty() const {
@@ -187,7 +187,7 @@ TEST_F(ShadowCacheTest, other_knobs_are_other_content) {
 
 TEST_F(ShadowCacheTest, content_does_not_depend_on_the_number_of_threads) {
   const auto serial = make_serial_executor();
-  EXPECT_EQ(face_contents(faces, casters, 1, *serial), contents());
+  EXPECT_EQ(face_contents(faces, caster_states(casters, {}, *serial), 1, *serial), contents());
 }
 
 }  // namespace

@@ -163,6 +163,8 @@ void ShadowMaps::add_face(const std::vector<float>& depths, uvec2 origin, std::u
                                         .mip_operator = mip_operator,
                                         .atlas_size = size_,
                                         .orthographic = orthographic ? 1u : 0u,
+                                        .begin = uvec2(0),
+                                        .end = uvec2(size),
                                         .gap = gap};
   run_frame(device_, [&](gpu::CommandList& commands) {
     turn(commands, atlas_, Access::compute_read, Access::compute_write);

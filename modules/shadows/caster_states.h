@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/jobs/executor.h"
+#include "engine/math/types.h"
+#include "engine/render/draw_lists.h"
+
+namespace gloam {
+
+/// Where a caster was in a frame; low above high where that is not known.
+struct CasterBox {
+  dvec3 low = dvec3(0.0);
+  dvec3 high = dvec3(0.0);
+  [[nodiscard]] bool known() const { return low.x <= high.x && low.y <= high.y && low.z <= high.z; }
+};
+
+/// What a caster is in one frame.
+struct CasterState {
+  std::uint64_t hash = 0;  ///< of where it is, how it is posed and what it is made of: equal ones draw the same
+  bool unsteady = false;   ///< its vertices move and nobody knows how: two frames' are never the same
+  CasterBox box;
+};
+
+/// Numbers for how casters are posed, by index; of one whose vertices the GPU does not move, or whose pose is not known, 0.
+[[nodiscard]] std::vector<std::uint64_t> caster_poses(const World& world, const DrawLists& draws);
+
+/// One a caster. `poses`: as caster_poses gives them, or none.
+[[nodiscard]] std::vector<CasterState> caster_states(std::span<const Caster> casters,
+                                                     std::span<const std::uint64_t> poses, JobExecutor& executor);
+
+/// How casters differ from frame to frame. Frames are numbered from 1.
+class CasterHistory {
+ public:
+  /// The newest frame's casters; every call is a frame.
+  void advance(std::vector<CasterState> states);
+  /// Number of the newest frame.
+  [[nodiscard]] std::uint64_t frame() const { return frame_; }
+  /// Where something is in the newest frame that was not there, or not so, in the one before; and the other way round.
+  [[nodiscard]] std::span<const CasterBox> changed() const { return changed_; }
+
+ private:
+  std::uint64_t frame_ = 0;
+  std::vector<CasterState> states_;
+  std::vector<CasterBox> changed_;
+};
+
+}  // namespace gloam
