@@ -17,10 +17,18 @@ if(GLOAM_SANITIZE)
   target_link_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE})
 endif()
 
-# gloam_add_layer(<name> SOURCES … [PUBLIC targets…] [PRIVATE targets…])
-# Static library gloam_<name>, exported as gloam::<name>. Included by full path from the root.
+# gloam_compile_together(<target> [source…]): several sources of a target a compiler run, which halves the time, for most of it goes
+# into the same headers again and again. The sources named here stay alone, as those must that share a file-local name with another one.
+function(gloam_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# gloam_add_layer(<name> [APART] SOURCES … [ALONE sources…] [PUBLIC targets…] [PRIVATE targets…])
+# Static library gloam_<name>, exported as gloam::<name>. Included by full path from the root. Only sanitized layers are compiled
+# together, so that the release build proves that each source includes what it uses; ALONE: not these; APART: none.
 function(gloam_add_layer name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "APART" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
   add_library(gloam_${name} STATIC ${ARG_SOURCES})
   add_library(gloam::${name} ALIAS gloam_${name})
   set_target_properties(gloam_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
@@ -28,21 +36,29 @@ function(gloam_add_layer name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:include>)
   target_link_libraries(gloam_${name} PUBLIC gloam_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  if(GLOAM_SANITIZE AND GLOAM_TOGETHER AND NOT ARG_APART)
+    gloam_compile_together(gloam_${name} ${ARG_ALONE})
+  endif()
   set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_${name})
 endfunction()
 
-# gloam_add_test(<suite> SOURCES … [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])
-# GoogleTest program <suite>; one CTest entry, or one a subgroup width (in bits of a lavapipe vector) when WIDTHS are given.
+# gloam_add_test(<suite> SOURCES … [ALONE …] [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])
+# GoogleTest program <suite>; one CTest entry, or one a subgroup width (in bits of a lavapipe vector) when WIDTHS are given. Its
+# sources are compiled together, without those in ALONE.
 function(gloam_add_test suite)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;WIDTHS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LIBRARIES;LABELS;WIDTHS;ENVIRONMENT" ${ARGN})
   add_executable(${suite} ${ARG_SOURCES})
   target_link_libraries(${suite} PRIVATE ${ARG_LIBRARIES} gloam_options GTest::gmock GTest::gtest_main)
   target_include_directories(${suite} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
   target_compile_definitions(${suite} PRIVATE GLOAM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     GLOAM_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared" GLOAM_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  # Sanitized test code is compiled once and run once: optimising it takes longer than it saves. Properties run their code very often.
-  if(GLOAM_SANITIZE AND NOT suite MATCHES "_properties$")
-    target_compile_options(${suite} PRIVATE -O0)
+  list(LENGTH ARG_SOURCES count)
+  if(GLOAM_TOGETHER AND count GREATER 1)
+    gloam_compile_together(${suite} ${ARG_ALONE})
+  endif()
+  # Test code is compiled once and run once: optimising it fully takes longer than it saves. Properties run their code very often.
+  if(NOT suite MATCHES "_properties$")
+    target_compile_options(${suite} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   if("sanitize" IN_LIST ARG_LABELS)
     # Builds what the sanitizer presets run, and nothing else.

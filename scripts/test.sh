@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 # Builds and runs all tests: first everything in the release build, then the suites labelled `sanitize` under ASan and UBSan.
-# The long form of the second half, by hand: cmake --build --preset asan; ctest --test-dir build-asan -L "sanitize|asan_long".
+# The long form of the second half, with the suites labelled `sanitize_long`, by hand: cmake --build --preset asan; ctest --preset asan-long.
 # usage: scripts/test.sh [arguments of ctest, e.g. -R ecs]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
