@@ -134,7 +134,7 @@ Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const Shad
   grid.entry_capacity = at_most(entries, kMostBytes / sizeof(std::uint32_t));
   grid.pair_capacity = c.pairs;
   grid.slot_capacity = c.slots;
-  grid.classify = knobs.classify ? 1 : 0;
+  grid.classify = knobs.classify && knobs.early_outs ? 1 : 0;
   lists.always_complete =
       c.fit_all && grid.entry_capacity == entries && (!lights.has_lists() || lights.lists_always_fit);
   auto range = frame.services().uniforms.write_value(grid);

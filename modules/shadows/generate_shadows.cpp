@@ -46,6 +46,7 @@ struct Generate {
   GeometryOutputs geometry;
   ImageRef texels;      ///< of local lights; any image when there are none
   ImageRef tile_lists;  ///< early ones; likewise
+  ImageRef planes;      ///< any image when tiles are not classified
   gpu::SamplerHandle sampler;
   ShadowsOutputs shadows;
   uvec2 tiles;
@@ -74,7 +75,8 @@ Status add_classify_pass(FrameBuilder& frame, Generate& g) {
   if (!pipeline.ok()) return pipeline.error();
   FinalLists& lists = g.lists();
   PassBuilder pass = frame.graph().add_pass("classify_shadows", "shadows");
-  for (const ImageRef image : {g.geometry.depth_bounds, g.geometry.depth, g.geometry.normals, g.tile_lists, g.texels})
+  for (const ImageRef image : {g.geometry.depth_bounds, g.geometry.depth, g.geometry.normals, g.geometry.base_color,
+                               g.tile_lists, g.texels, g.planes})
     pass.read(image, gpu::Access::compute_read);
   if (g.lights.has_lists()) pass.read(g.lights.early_lists, gpu::Access::compute_read);
   declare_shadow_reads(pass, g.shadows, gpu::Access::compute_read);
@@ -98,6 +100,10 @@ Status add_classify_pass(FrameBuilder& frame, Generate& g) {
                                           {10, whole(context, l.counters)},
                                           {11, whole(context, l.commands)}};
     append_shadow_bindings(bindings, kFirstShadowBinding, context, g.shadows);
+    bindings.push_back({18, sampled(g.planes)});
+    bindings.push_back({19, sampled(g.geometry.depth)});
+    bindings.push_back({20, sampled(g.geometry.normals)});
+    bindings.push_back({21, sampled(g.geometry.base_color)});
     gpu::CommandList& commands = context.commands();
     commands.bind_pipeline(pipeline);
     commands.bind(bindings);
@@ -176,7 +182,7 @@ bool can_generate(const FrameBuilder& frame, const ShadowKnobs& knobs) {
   return knobs.deferred && knobs.levels != 0 && lights != nullptr && (lights->local_count == 0 || lights->has_lists());
 }
 
-Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ShadowsOutputs& shadows) {
+Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes, ShadowsOutputs& shadows) {
   Generate g;
   auto buffers = make_final_list_buffers(frame, knobs);
   if (!buffers.ok()) return buffers.error();
@@ -186,6 +192,7 @@ Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, Shadow
   g.texels = g.lights.texels ? g.lights.texels : g.geometry.base_color;
   g.tile_lists = g.lights.has_lists() ? g.lights.tile_lists : g.geometry.normals;
   g.shadows = shadows;
+  g.planes = planes ? planes : shadows.rows;
   g.sampler = shadows.nearest;
   const gpu::ImageDesc& tiles = frame.graph().desc(g.lists().tiles);
   g.tiles = {tiles.width, tiles.height};

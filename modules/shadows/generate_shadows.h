@@ -13,6 +13,7 @@ namespace gloam {
 [[nodiscard]] bool can_generate(const FrameBuilder& frame, const ShadowKnobs& knobs);
 
 /// Makes final lists of early ones: passes shadow_list_start, classify_shadows, generate_shadows, finish_lists. Sets shadows.final_lists.
-[[nodiscard]] Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ShadowsOutputs& shadows);
+/// planes: of add_shadow_planes_pass; none: no tile is classified.
+[[nodiscard]] Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes, ShadowsOutputs& shadows);
 
 }  // namespace gloam

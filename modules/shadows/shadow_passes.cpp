@@ -7,6 +7,7 @@
 #include "modules/shadows/shadow_cookies.h"
 #include "modules/shadows/shadow_knobs.h"
 #include "modules/shadows/shadow_map_passes.h"
+#include "modules/shadows/shadow_planes.h"
 #include "modules/shadows/shadow_uploads.h"
 
 namespace gloam {
@@ -19,6 +20,21 @@ std::uint32_t looked_up_cookies(std::size_t lights) {
 }
 
 constexpr std::uint32_t kStandardKernel = 8;  // of GLOAM_SHADOWS_STANDARD
+
+/// Planes first, if tiles are to be classified by them.
+Status add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
+                       ShadowsOutputs& outputs) {
+  auto kept = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  if (!kept.ok()) return kept.error();
+  ImageRef planes;
+  if (knobs.classify) {
+    const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+    auto made = add_shadow_planes_pass(frame, states, **kept, maps, views);
+    if (!made.ok()) return made.error();
+    planes = *made;
+  }
+  return add_generate_passes(frame, knobs, planes, outputs);
+}
 
 }  // namespace
 
@@ -38,6 +54,8 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
     auto made = add_shadow_map_passes(frame, states, **kept, views, knobs);
     if (!made.ok()) return made.error();
     maps = *made;
+    // Planes are made of what the atlas holds now; frames that do not look at them do not keep them.
+    if (!maps.drawn.empty() && !(knobs.deferred && knobs.classify)) (*kept)->planes.filled = false;
     if (maps.atlas) frame.expose(maps.atlas, "shadow_atlas");
   } else {
     states.rest(frame.world().resource<ShadowWorld>(), frame.view().id);
@@ -54,7 +72,8 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   outputs.cookie_lights = static_cast<std::uint32_t>(cookie_lights);
   outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(cookie_lights)});
   outputs.variant = shadow_variant(outputs.constants);
-  if (!outputs.cookies_only && !traced && can_generate(frame, knobs)) GLOAM_TRY(add_generate_passes(frame, knobs, outputs));
+  if (!outputs.cookies_only && !traced && can_generate(frame, knobs))
+    GLOAM_TRY(add_final_lists(frame, states, maps, knobs, outputs));
   frame.put(std::move(outputs));
   return {};
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/shadow_state.h"
 
+#include "shaders/shadows/shadow_planes_shared.h"
 #include "shaders/shadows/shadows_shared.h"
 
 namespace gloam {
@@ -41,6 +42,7 @@ void ShadowStates::begin(gpu::Device& device) {
     }
     destroy(at->second.atlas);
     destroy(at->second.pyramid);
+    destroy(at->second.planes);
     at = views_.erase(at);
   }
   for (auto at = cookies_.begin(); at != cookies_.end();) {
@@ -66,6 +68,7 @@ Result<ViewShadows*> ShadowStates::view(ShadowWorld world, ViewId view, std::uin
   if (found.atlas.image && found.pyramid.image && found.atlas_size == atlas_size && found.d16 == d16) return &found;
   destroy(found.atlas);
   destroy(found.pyramid);
+  destroy(found.planes);
   found.cache.clear();
   found.atlas_size = atlas_size;
   found.d16 = d16;
@@ -76,6 +79,15 @@ Result<ViewShadows*> ShadowStates::view(ShadowWorld world, ViewId view, std::uin
   if (!pyramid.ok()) return pyramid.error();
   found.pyramid.image = *pyramid;
   return &found;
+}
+
+Status ShadowStates::reserve_planes(ViewShadows& view) {
+  if (view.planes.image) return {};
+  auto planes =
+      make(kept_image("shadow_planes", gpu::Format::rgba32_float, view.atlas_size / GLOAM_SHADOW_PLANE_BLOCK));
+  if (!planes.ok()) return planes.error();
+  view.planes.image = *planes;
+  return {};
 }
 
 const ViewShadows* ShadowStates::find(ShadowWorld world, ViewId view) const {
@@ -132,6 +144,7 @@ void ShadowStates::release() {
   for (auto& [key, view] : views_) {
     destroy(view.atlas);
     destroy(view.pyramid);
+    destroy(view.planes);
   }
   for (auto& [key, cookies] : cookies_) destroy(cookies.images);
   views_.clear();

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define GLOAM_EARLY_LISTS_BINDING 5
 #define GLOAM_SHADOWS_BINDING 12
+#define GLOAM_SHADOW_PLANES_BINDING 18
 #define GLOAM_SHADOWS_PIXEL ivec2(0)
 #include "shaders/lights/light_lists_api.glsl"
 #include "shaders/lights/lights_api.glsl"
@@ -30,6 +31,19 @@ layout(set = 0, binding = 8, scalar) writeonly buffer Entries { uint entries[]; 
 layout(set = 0, binding = 9, scalar) writeonly buffer Pairs { uint pairs[]; };
 layout(set = 0, binding = 10, scalar) buffer Counters { ShadowListCounters counters; };
 layout(set = 0, binding = 11, scalar) buffer Commands { ShadowListCommands commands; };
+layout(set = 0, binding = 19) uniform sampler2D depth_image;
+layout(set = 0, binding = 20) uniform usampler2D normal_image;
+layout(set = 0, binding = 21) uniform sampler2D base_color_image;
+
+bool casts(bool directional, uint light) {
+  return directional ? shadow_block.directional[min(light, 15u)].cascade_count > 0u
+                     : texelFetch(shadow_rows, ivec2(0, light), 0).x != float(GLOAM_SHADOW_NONE);
+}
+
+uint classify(TileBounds tile, bool directional, uint light) {
+  if (directional) return classify_directional(tile, min(light, 15u), lights.directional[min(light, 15u)].direction);
+  return classify_local(tile, light, texelFetch(light_texels, ivec2(0, light), 0).xyz);
+}
 
 // What a thread has counted.
 uint unshadowed, lit_at_once, unlit_at_once;
@@ -45,7 +59,7 @@ uint add_pair(uint entry, uint tile_index, bool directional) {
 
 // Adds the light's entry at `entry`, if it has one.
 void add_light(TileBounds tile, uint tile_index, bool directional, uint light, inout uint entry) {
-  uint verdict = classify(tile, directional, light);
+  uint verdict = grid.classify != 0u ? classify(tile, directional, light) : casts(directional, light) ? kUnknown : kCastsNone;
   unshadowed += uint(verdict == kCastsNone);
   lit_at_once += uint(verdict == kLit);
   unlit_at_once += uint(verdict == kUnlit);
@@ -81,7 +95,7 @@ void main() {
     return;
   }
   unshadowed = lit_at_once = unlit_at_once = 0u;
-  TileBounds tile = make_tile_bounds(at, bounds);
+  TileBounds tile = make_tile_bounds(view, depth_image, normal_image, base_color_image, at, bounds);
   uvec2 first = uvec2(tile_index * grid.directional_count, shared_entries + list.x), end = first;
   for (uint i = 0u; i < grid.directional_count; ++i) add_light(tile, tile_index, true, i, end.x);
   for (uint i = 0u; i < count; ++i) add_light(tile, tile_index, false, list_light(list.x, i), end.y);
