@@ -50,7 +50,7 @@ struct VisualizerInfo {
   std::string legend;    ///< what colours mean, one line
   bool built = true;     ///< false: known, not built yet
   std::string knob = {};   ///< what must be set so for the view to have something to show; empty: nothing
-  std::string value = {};
+  std::string value = {};  ///< one choice, or some: "monolithic|deferred"
   /// Set when the view shows what has to be traced first: computes it from a frame that has been drawn without the view (whose pictures
   /// and redraw may be absent) and puts it into the world, for the frame that shows it. Who cannot wait for that does not offer the view.
   std::function<Status(World& world, const ReferenceInput& input)> trace = {};

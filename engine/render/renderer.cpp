@@ -15,6 +15,15 @@ namespace {
 /// The renderer's own pictures of its geometry buffer; position + 1 is the code of debug_view.frag.
 constexpr const char* kEngineVisualizers[] = {"albedo", "normal", "depth"};
 
+/// `choices`: one, or some with '|' between.
+bool is_one_of(const KnobRegistry& knobs, std::string_view knob, std::string_view choices) {
+  for (std::size_t end = 0; !choices.empty(); choices.remove_prefix(std::min(end + 1, choices.size()))) {
+    end = std::min(choices.find('|'), choices.size());
+    if (knobs.text(knob) == choices.substr(0, end)) return true;
+  }
+  return false;
+}
+
 std::uint32_t engine_visualizer_code(std::string_view name) {
   for (std::uint32_t i = 0; i < std::size(kEngineVisualizers); ++i)
     if (name == kEngineVisualizers[i]) return i + 1;
@@ -297,7 +306,7 @@ Status Renderer::check_visualizer(const World& world, std::string_view name) con
     list += (list.empty() ? "" : ", ") + info.name + (info.argument.empty() ? "" : ":" + info.argument);
     if (info.name != stem) continue;
     if (!info.built) return Error{ErrorKind::usage, "view " + info.name + " is not built yet"};
-    if (!info.knob.empty() && !state_->knobs.is(info.knob, info.value))
+    if (!info.knob.empty() && !is_one_of(state_->knobs, info.knob, info.value))
       return Error{ErrorKind::usage, "view " + info.name + " needs " + info.knob + "=" + info.value};
     if (info.argument.empty() != (stem.size() == name.size()))
       return Error{ErrorKind::usage, "view " + info.name + (info.argument.empty() ? " takes no argument" : " needs :" + info.argument)};

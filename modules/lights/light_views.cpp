@@ -140,17 +140,32 @@ std::vector<VisualizerInfo> light_visualizers() {
        "tile's list (green); red: it is not, though it reaches a pixel of the tile"},
       {"light_list", "lights", "LIGHT",
        "pixels whose tile's list holds the light: blue, those that it reaches yellow; red: reached, but not in the "
-       "list"},
+       "list. With shadows.mode=deferred: yellow lit as a whole, green a slot, bright where it is seen, blue left out as "
+       "unlit, magenta shaded from shadow maps"},
       {"lights_approx", "lights", "", "lights of each 8x8 tile after the approximate search" + heat},
       {"lights_accurate", "lights", "", "lights of each 8x8 tile after the accurate search" + heat},
-      {"lights_difference", "lights", "", "lights of each 8x8 tile that only the approximate search finds" + heat},
-      {"lights_final", "lights", "", "lights a tile in the final list", false}};
+      {"lights_difference", "lights", "", "lights of each 8x8 tile that only the approximate search finds" + heat}};
   for (VisualizerInfo& view : views) {
     view.knob = "lights.culling";
     view.value = "tiled";
   }
   return views;
 }
+
+namespace {
+
+/// Whether a later module shows the view of this light.
+bool is_taken(const FrameBuilder& frame, LightView view, std::string_view light) {
+  if (view != LightView::list || frame.find<LightListViewTaken>() == nullptr) return false;
+  const auto entity = frame.world().resource<SceneNames>().find("light", light);
+  const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
+  const auto holds = [&](const std::vector<Entity>& lights) {
+    return std::find(lights.begin(), lights.end(), *entity) != lights.end();
+  };
+  return entity.ok() && (holds(visible.local_entities) || holds(visible.directional_entities));
+}
+
+}  // namespace
 
 std::optional<std::uint32_t> LightViews::shown_light(const FrameBuilder& frame, std::string_view name) {
   const World& world = frame.world();
@@ -182,7 +197,9 @@ Status LightViews::add_pass(FrameBuilder& frame) {
   draw.geometry = frame.get<GeometryOutputs>();
   draw.view = draw.lights.has_lists() ? named->view : LightView::nothing;
   if (shows_one_light(named->view)) {
-    const std::optional<std::uint32_t> light = shown_light(frame, shown.substr(stem.size() + 1));
+    const std::string_view name = shown.substr(stem.size() + 1);
+    if (is_taken(frame, named->view, name)) return {};
+    const std::optional<std::uint32_t> light = shown_light(frame, name);
     if (!light) draw.view = LightView::nothing;
     draw.light = light.value_or(0);
     draw.opacity = 0.75f;

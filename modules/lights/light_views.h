@@ -20,7 +20,7 @@ namespace gloam {
 class LightViews {
  public:
   /// Adds the pass of FrameBuilder::visualizer(), if that is one of this module's. Usage error unless lights.culling = tiled. A light
-  /// that is in no list of the frame gives a dark picture without a tile; why is told once.
+  /// that is in no list of the frame gives a dark picture without a tile; why is told once. Leaves alone what LightListViewTaken says.
   [[nodiscard]] Status add_pass(FrameBuilder& frame);
 
  private:

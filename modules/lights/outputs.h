@@ -37,6 +37,10 @@ struct LightsOutputs {
   [[nodiscard]] bool has_lists() const { return static_cast<bool>(tile_lists); }
 };
 
+/// A later module puts this on the board, before PassPhase::visualize, when it shows view light_list of the view's lights itself: what became
+/// of the early lists.
+struct LightListViewTaken {};
+
 /// The lights of one view; a view resource that system light_sort makes. What other modules' systems may ask of it stands here.
 struct VisibleLights;
 /// Point and spot lights that may touch the view's frustum, in the order of LightBlock::local. None has NaN or infinity where no sense can

@@ -11,11 +11,14 @@
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/components.h"
 #include "modules/shadows/final_list_buffers.h"
+#include "modules/shadows/final_list_views.h"
 #include "modules/shadows/shadow_cookies.h"
 #include "modules/shadows/shadow_keys.h"
 #include "modules/shadows/shadow_knobs.h"
 #include "modules/shadows/shadow_map_passes.h"
+#include "modules/shadows/shadow_measures.h"
 #include "modules/shadows/shadow_passes.h"
+#include "modules/shadows/shadow_pick.h"
 #include "modules/shadows/shadow_reference.h"
 #include "modules/shadows/shadow_reference_views.h"
 #include "modules/shadows/shadow_state.h"
@@ -38,6 +41,7 @@ class ShadowsModule final : public Module {
   void scene_keys(KeyRegistry& registry) const override { add_shadow_keys(registry); }
   void knobs(KnobRegistry& registry) const override { add_shadow_knobs(registry); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override { return shadow_references(); }
+  [[nodiscard]] std::vector<MeasureInfo> measures() const override { return shadow_measures(); }
   void add_systems(Schedule& schedule) override { add_shadow_systems(schedule); }
 
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
@@ -60,6 +64,7 @@ class ShadowsModule final : public Module {
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
     std::vector<VisualizerInfo> views = shadow_visualizers();
     for (VisualizerInfo& view : shadow_reference_visualizers()) views.push_back(std::move(view));
+    for (VisualizerInfo& view : final_list_visualizers()) views.push_back(std::move(view));
     return views;
   }
 
@@ -73,11 +78,23 @@ class ShadowsModule final : public Module {
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::visualize) {
       GLOAM_TRY(add_shadow_reference_view_pass(frame));
+      GLOAM_TRY(add_final_list_view_pass(frame, [&](const std::string& sentence) { warn_once(frame, sentence); }));
       return add_shadow_view_pass(frame, states_);
     }
     if (phase != PassPhase::lists) return {};
     warn(frame);
-    return add_shadow_passes(frame, states_);
+    GLOAM_TRY(add_shadow_passes(frame, states_));
+    take_light_list_view(frame);
+    return {};
+  }
+
+  [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {
+    return add_shadow_pick_copies(frame, copies);
+  }
+
+  [[nodiscard]] std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
+                                              const Captures& copies) const override {
+    return shadow_pick_lines(frame, pixel, copies);
   }
 
   void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {

@@ -32,10 +32,12 @@ Knob number_knob(std::string name, std::string meaning, std::string unit, double
 }  // namespace
 
 void add_shadow_knobs(KnobRegistry& registry) {
-  registry.add(choice_knob("mode",
+  Knob mode = choice_knob("mode",
                            "shadows of lights: none, looked up in shadow maps where light is added up, or before that, a light and tile "
                            "at a time and only where a tile is neither lit nor unlit as a whole",
-                           {"off", "monolithic", "deferred"}, 1));
+                           {"off", "monolithic", "deferred"}, 1);
+  mode.exact = "monolithic";
+  registry.add(mode);
   registry.add(choice_knob("classify", "whether shadow maps are asked about whole tiles before pixels (shadows.mode=deferred)",
                            {"off", "on"}, 1));
   registry.add(
@@ -68,8 +70,10 @@ void add_shadow_knobs(KnobRegistry& registry) {
   Knob units = number_knob("bias_units", "constant bias of bias=hardware", "units of depth", 1e6, 2000.0);
   units.ledger_values = {200.0, 1000.0, 2000.0, 10000.0, 50000.0};
   registry.add(units);
-  registry.add(choice_knob("visibility_bits", "steps that a light's visibility at a pixel is rounded to",
-                           {"4", "8", "exact"}, 1));
+  Knob bits = choice_knob("visibility_bits", "steps that a light's visibility at a pixel is rounded to",
+                           {"4", "8", "exact"}, 1);
+  bits.exact = "exact";
+  registry.add(bits);
   Knob atlas = choice_knob("atlas", "side of the image that all shadow maps of a view share",
                            {"1024", "2048", "4096", "8192"}, 2);
   atlas.unit = "texels";

@@ -109,7 +109,7 @@ std::vector<VisualizerInfo> shadow_reference_visualizers() {
        "green 0.3, yellow 0.4, red 0.5, white more"}};
   for (VisualizerInfo& view : views) {
     view.knob = "shadows.mode";
-    view.value = "monolithic";
+    view.value = "monolithic|deferred";
     view.trace = put_traced_visibility;
   }
   return views;

@@ -17,6 +17,7 @@ namespace gloam {
 namespace {
 
 constexpr std::uint32_t kFirstShadowBinding = 6;
+constexpr std::uint32_t kFirstFinalListBinding = 12;
 
 /// GLOAM_SHADOWS_…: what the shader may leave out of account.
 std::uint32_t kind_of(const FrameBuilder& frame, const shaders::ShownLightConstants& light) {
@@ -27,12 +28,20 @@ std::uint32_t kind_of(const FrameBuilder& frame, const shaders::ShownLightConsta
 }
 
 gpu::GraphicsPipelineDesc visibility_pipeline(const ShadowsOutputs& shadows, gpu::Format format, std::uint32_t kind) {
-  gpu::GraphicsPipelineDesc desc =
-      fullscreen_pipeline("shadow_visibility_view/" + std::to_string(kind) + "/" + std::string(gpu::name_of(format)) +
-                              "/" + shadows.variant,
-                          "shadows", shaders::shadows::shadow_visibility_view_frag, format);
+  const FinalLists* lists = shadows.final_lists ? &*shadows.final_lists : nullptr;
+  const bool fallback = lists != nullptr && !lists->always_complete;
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(
+      "shadow_visibility_view/" + std::to_string(kind) + "/" + std::string(gpu::name_of(format)) + "/" +
+          shadows.variant + (lists == nullptr ? "" : "/" + lists->variant + (fallback ? "/fallback" : "")),
+      "shadows",
+      lists == nullptr ? shaders::shadows::shadow_visibility_view_frag : shaders::shadows::final_visibility_view_frag,
+      format);
   desc.color_formats.push_back(gpu::Format::r32_float);
   desc.constants = shadows.constants;
+  if (lists != nullptr) {
+    desc.constants.insert(desc.constants.end(), lists->constants.begin(), lists->constants.end());
+    desc.constants.push_back({1, fallback ? 1u : 0u});
+  }
   desc.constants.push_back({0, gpu::encodes_srgb(format) ? 0u : 1u});
   desc.constants.push_back({GLOAM_SHADOWS_KINDS_ID, kind});
   return desc;
@@ -76,6 +85,7 @@ Status add_visibility_view(FrameBuilder& frame, const shaders::ShownLightConstan
   for (const ImageRef image : {geometry.depth, geometry.normals, geometry.base_color, texels})
     pass.read(image, gpu::Access::fragment_read);
   declare_shadow_reads(pass, shadows, gpu::Access::fragment_read);
+  if (shadows.final_lists) declare_final_list_reads(pass, *shadows.final_lists, gpu::Access::fragment_read);
   targets.named = pass.write(targets.named, gpu::Access::color_target);
   target.color = targets.picture = pass.write(target.color, gpu::Access::color_target);
   frame.expose(targets.named);
@@ -89,6 +99,8 @@ Status add_visibility_view(FrameBuilder& frame, const shaders::ShownLightConstan
                                           {4, sampled(geometry.base_color)},
                                           {5, sampled(texels)}};
     append_shadow_bindings(bindings, kFirstShadowBinding, context, shadows);
+    if (shadows.final_lists)
+      append_final_list_bindings(bindings, kFirstFinalListBinding, context, *shadows.final_lists, sampler);
     gpu::CommandList& commands = context.commands();
     begin(commands, context, targets);
     commands.bind_pipeline(pipeline);
@@ -159,14 +171,16 @@ Status add_atlas_view(FrameBuilder& frame, const ShadowsOutputs& shadows, const 
 std::vector<VisualizerInfo> shadow_visualizers() {
   std::vector<VisualizerInfo> views = {
       {"shadow", "shadows", "LIGHT",
-       "how much of the light each surface sees: black nothing, white all of it; blue: beyond its reach"},
+       "how much of the light each surface sees: black nothing, white all of it; blue: beyond its reach. With "
+       "shadows.mode=deferred as its tile's list says: black too where the light comes from behind, unless the tile is "
+       "lit as a whole"},
       {"shadow_atlas", "shadows", "",
        "the view's shadow maps where they lie: white near the light, dark far from it, blue nothing; orange border: "
-       "drawn in this "
-       "frame, green: kept from an earlier one"}};
+       "drawn in this frame, "
+       "green: kept from an earlier one"}};
   for (VisualizerInfo& view : views) {
     view.knob = "shadows.mode";
-    view.value = "monolithic";
+    view.value = "monolithic|deferred";
   }
   return views;
 }

@@ -15,6 +15,7 @@ namespace gloam {
 
 /// Adds the pass of FrameBuilder::visualizer(), if that is one of this module's: "shadow:LIGHT" draws one light's visibility over the
 /// picture and into the exposed image "shadow_visibility" (r32f; −1 where the light does not reach), "shadow_atlas" the maps of the frame.
+/// Where there are final lists, visibility is what they hold; tiles without a list are asked about as in shadows.mode = monolithic.
 [[nodiscard]] Status add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states);
 
 }  // namespace gloam

@@ -3,7 +3,7 @@
 #ifndef GLOAM_SHADERS_LIGHTS_ONE_LIGHT_VIEW_GLSL
 #define GLOAM_SHADERS_LIGHTS_ONE_LIGHT_VIEW_GLSL
 
-// Where one light is in the lists, for the views that show it.
+// Where one light is in the lists, for the views that show it. GLOAM_SHOWN_DIRECTIONAL: it may be a directional one.
 
 #define GLOAM_EARLY_LISTS_BINDING 6
 #include "shaders/lights/light_lists_api.glsl"
@@ -18,7 +18,12 @@ layout(set = 0, binding = 3) uniform sampler2D light_texels;
 layout(set = 0, binding = 4, scalar) readonly buffer GroupMasks { uint group_masks[]; };
 layout(set = 0, binding = 5) uniform usampler2D tile_lists;
 
-layout(push_constant, scalar) uniform Push { uint shown_light; };  // its place among the sorted lights
+layout(push_constant, scalar) uniform Push {
+  uint shown_light;  // its place among the sorted lights
+#ifdef GLOAM_SHOWN_DIRECTIONAL
+  uint shown_directional;  // 1: its place among the directional ones
+#endif
+};
 
 // Whether the mask of a pixel's tile group holds the light.
 bool group_mask_holds(uvec2 pixel) {
