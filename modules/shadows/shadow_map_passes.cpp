@@ -131,7 +131,7 @@ float surface_gap(const ShadowFace& face, std::uint32_t size) {
   return kSteepest * 2.0f * face.half_extent_m / texels / face.far_m;
 }
 
-/// One dispatch a region of each run of mips; `first` is the mip that a run begins at.
+/// One dispatch of a run of mips; `first` is the mip that it begins at.
 void record_run(gpu::CommandList& commands, shaders::ShadowMipConstants constants, const TexelRect& texels,
                 std::uint32_t first) {
   constants.source = first == 0 ? uvec2(0) : constants.origin >> first;
@@ -158,6 +158,13 @@ shaders::ShadowMipConstants mip_constants(const ShadowFace& face, const ShadowKn
   return constants;
 }
 
+TexelRect bounds_of(const DrawnFace& face) {
+  TexelRect bounds = face.regions.front().texels;
+  for (const DrawnRegion& region : face.regions)
+    bounds = {glm::min(bounds.begin, region.texels.begin), glm::max(bounds.end, region.texels.end)};
+  return bounds;
+}
+
 /// One run of mips of all of a batch's regions.
 void record_runs(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, std::uint32_t first,
                  const ShadowMaps& maps) {
@@ -170,7 +177,10 @@ void record_runs(PassContext& context, const MapWork& work, const ScratchPlan::B
                                      {2, gpu::Binding::Storage{{.image = context.image(maps.pyramid)}}}};
     commands.bind(bindings);
     const shaders::ShadowMipConstants constants = mip_constants(face.face, work.knobs);
-    for (const DrawnRegion& region : face.regions) record_run(commands, constants, region.texels, first);
+    // Coarser mips have few texels: one dispatch for all regions of a face.
+    if (first > 0) record_run(commands, constants, bounds_of(face), first);
+    for (const DrawnRegion& region : face.regions)
+      if (first == 0) record_run(commands, constants, region.texels, first);
   }
 }
 
@@ -262,7 +272,10 @@ Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& stat
   if (work->faces.empty()) return maps;
   GLOAM_TRY(make_pipelines(frame, *work));
   std::vector<std::uint32_t> sizes;
-  for (const DrawnFace& face : work->faces) sizes.push_back(face.face.square.size);
+  for (const DrawnFace& face : work->faces) {
+    sizes.push_back(face.face.square.size);
+    for (const DrawnRegion& region : face.regions) maps.drawn.push_back({face.face.square, region.texels});
+  }
   work->plan = plan_scratch(sizes);
   auto scratch = states.scratch(work->plan.texels());
   if (!scratch.ok()) return scratch.error();

@@ -41,6 +41,7 @@ struct KeptImage {
 struct ViewShadows {
   KeptImage atlas;
   KeptImage pyramid;
+  KeptImage planes;  ///< made when they are first wanted; filled: those of all faces are as the atlas is
   std::uint32_t atlas_size = 0;
   bool d16 = false;
   ShadowCache cache;
@@ -71,6 +72,8 @@ class ShadowStates {
   void begin(gpu::Device& device);
   /// The view's images, made anew when size or format are others: then its cache is empty.
   [[nodiscard]] Result<ViewShadows*> view(ShadowWorld world, ViewId view, std::uint32_t atlas_size, bool d16);
+  /// Makes sure that the view has an image of planes, of the size of its atlas.
+  [[nodiscard]] Status reserve_planes(ViewShadows& view);
   [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId view) const;
   /// A frame of the view draws no maps: what earlier ones did is no news any more.
   void rest(ShadowWorld world, ViewId view);

@@ -67,40 +67,75 @@ ivec2 mip_corner(uint mip, uint atlas_size) {
   return mip == 0u ? ivec2(0) : ivec2(atlas_size, atlas_size - (2u * atlas_size >> mip));
 }
 
+void store_depth(uint mip, uvec2 at, float depth) {
+  imageStore(atlas, mip_corner(mip, face.atlas_size) + ivec2((face.origin >> mip) + at), vec4(depth));
+}
+
+void store_bounds(uint mip, uvec2 at, vec2 bounds) {
+  ivec2 corner = mip_corner(mip - uint(GLOAM_SHADOW_PYRAMID_MIP), face.atlas_size / 4u);
+  imageStore(pyramid, corner + ivec2((face.origin >> mip) + at), vec4(bounds, 0.0, 0.0));
+}
+
+// Of mips that small faces may lack.
 void store(uint mip, uvec2 at, float depth, vec2 bounds) {
   uint size = face.size >> mip;
   if (mip >= face.mips || at.x >= size || at.y >= size) return;
-  imageStore(atlas, mip_corner(mip, face.atlas_size) + ivec2((face.origin >> mip) + at), vec4(depth));
-  if (mip < uint(GLOAM_SHADOW_PYRAMID_MIP)) return;
-  uint level = mip - uint(GLOAM_SHADOW_PYRAMID_MIP);
-  imageStore(pyramid, mip_corner(level, face.atlas_size / 4u) + ivec2((face.origin >> mip) + at), vec4(bounds, 0.0, 0.0));
+  store_depth(mip, at, depth);
+  store_bounds(mip, at, bounds);
+}
+
+float held_depth(float depth) {
+#ifdef GLOAM_SHADOW_ATLAS_STEPS
+  depth = floor(clamp(depth, 0.0, 1.0) * GLOAM_SHADOW_ATLAS_STEPS + 0.5) / GLOAM_SHADOW_ATLAS_STEPS;
+#endif
+  return face.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE) ? without_free_bits(depth) : depth;
+}
+
+// Four texels of the scratch map, which move into the atlas: what becomes texel `at1` of mip 1.
+Texels moved_texels(uvec2 at1, float gap) {
+  vec4 gathered = textureGather(scratch, vec2(face.source + at1 * 2u + 1u) / float(face.size));
+  float depths[4] = float[4](gathered.w, gathered.z, gathered.x, gathered.y);
+  Texels texels = kNone;
+  for (uint one = 0u; one < 4u; ++one) {
+    float depth = held_depth(depths[one]);
+    store_depth(0u, at1 * 2u + uvec2(one & 1u, one >> 1), depth);
+    add(texels, depth, vec2(depth), gap);
+  }
+  return texels;
+}
+
+// Mips 0 to 3 of a block. All faces have them: the smallest is 16 texels wide.
+void make_first_mips(uvec2 block, float gap) {
+  Texels third = kNone;
+  for (uint quarter = 0u; quarter < 4u; ++quarter) {
+    uvec2 at2 = block * 2u + uvec2(quarter & 1u, quarter >> 1);
+    Texels second = kNone;
+    for (uint four = 0u; four < 4u; ++four) {
+      uvec2 at1 = at2 * 2u + uvec2(four & 1u, four >> 1);
+      Texels first = moved_texels(at1, gap);
+      float depth = depth_of(first);
+      store_depth(1u, at1, depth);
+      add(second, depth, first.bounds, 2.0 * gap);
+    }
+    float depth = depth_of(second);
+    store_depth(2u, at2, depth);
+    store_bounds(2u, at2, second.bounds);
+    add(third, depth, second.bounds, 4.0 * gap);
+  }
+  store_depth(3u, block, depth_of(third));
+  store_bounds(3u, block, third.bounds);
 }
 
 float source_texel(uvec2 at, out vec2 bounds) {
   at = min(at, uvec2((face.size >> face.first) - 1u));
-  float depth;
-  if (face.first == 0u) {
-    depth = texelFetch(scratch, ivec2(face.source + at), 0).x;
-#ifdef GLOAM_SHADOW_ATLAS_STEPS
-    depth = floor(clamp(depth, 0.0, 1.0) * GLOAM_SHADOW_ATLAS_STEPS + 0.5) / GLOAM_SHADOW_ATLAS_STEPS;
-#endif
-    if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) depth = without_free_bits(depth);
-    bounds = vec2(depth);
-    store(0u, at, depth, bounds);
-  } else {
-    depth = imageLoad(atlas, mip_corner(face.first, face.atlas_size) + ivec2(face.source + at)).x;
-    ivec2 corner = mip_corner(face.first - uint(GLOAM_SHADOW_PYRAMID_MIP), face.atlas_size / 4u);
-    bounds = imageLoad(pyramid, corner + ivec2(face.source + at)).xy;
-  }
-  return depth;
+  ivec2 corner = mip_corner(face.first - uint(GLOAM_SHADOW_PYRAMID_MIP), face.atlas_size / 4u);
+  bounds = imageLoad(pyramid, corner + ivec2(face.source + at)).xy;
+  return imageLoad(atlas, mip_corner(face.first, face.atlas_size) + ivec2(face.source + at)).x;
 }
 
-void main() {
-  uint side = 8u << face.first;  // of a block, texels of mip 0
-  uvec2 block = face.begin / side + gl_GlobalInvocationID.xy;
-  if (any(greaterThanEqual(block * side, face.end))) return;
+// The three mips after `first` of a block.
+void make_next_mips(uvec2 block, float gap) {
   Texels third = kNone;
-  float gap = face.gap * float(1u << (face.first + 1u));
   for (uint quarter = 0u; quarter < 4u; ++quarter) {
     uvec2 at2 = block * 2u + uvec2(quarter & 1u, quarter >> 1);
     Texels second = kNone;
@@ -121,6 +156,16 @@ void main() {
     add(third, depth, second.bounds, 4.0 * gap);
   }
   store(face.first + 3u, block, depth_of(third), third.bounds);
+}
+
+void main() {
+  uint side = 8u << face.first;  // of a block, texels of mip 0
+  uvec2 block = face.begin / side + gl_GlobalInvocationID.xy;
+  bool inside = all(lessThan(block * side, face.end));
+  float gap = face.gap * float(1u << (face.first + 1u));
+  // Loops of one turn: a device that runs threads in lockstep on a CPU skips these, but no branches.
+  for (bool go = inside && face.first == 0u; go; go = false) make_first_mips(block, gap);
+  for (bool go = inside && face.first != 0u; go; go = false) make_next_mips(block, gap);
 }
 
 #endif

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/caster_states.h"
+
+#include <gtest/gtest.h>
+
+namespace gloam {
+namespace {
+
+CasterState state(std::uint64_t hash, bool unsteady = false) {
+  const dvec3 at(static_cast<double>(hash));
+  return {hash, unsteady, {at, at}};
+}
+std::vector<double> changed(const CasterHistory& history) {
+  std::vector<double> found;
+  for (const CasterBox& box : history.changed()) found.push_back(box.low.x);
+  return found;
+}
+using Changed = std::vector<double>;
+
+TEST(CasterHistory, tells_what_came_went_and_changed) {
+  CasterHistory history;
+  history.advance({state(1), state(2), state(3)});
+  EXPECT_EQ(history.frame(), 1u);
+  EXPECT_EQ(changed(history), (Changed{1, 2, 3}));
+  history.advance({state(1), state(2), state(3)});
+  EXPECT_EQ(changed(history), Changed{});
+  history.advance({state(1), state(7), state(3)});
+  EXPECT_EQ(changed(history), (Changed{2, 7})) << "where it was and where it is";
+  history.advance({state(7), state(3)});
+  EXPECT_EQ(changed(history), Changed{1}) << "others have moved up in the list, that is all";
+  history.advance({state(9), state(7), state(3)});
+  EXPECT_EQ(changed(history), Changed{9});
+  EXPECT_EQ(history.frame(), 5u);
+}
+
+TEST(CasterHistory, unsteady_casters_change_every_frame) {
+  CasterHistory history;
+  for (int i = 0; i < 3; ++i) history.advance({state(1), state(2, true)});
+  EXPECT_EQ(changed(history), (Changed{2, 2}));
+}
+
+TEST(CasterHistory, one_of_two_equal_casters_goes) {
+  CasterHistory history;
+  history.advance({state(4), state(4), state(5)});
+  history.advance({state(4), state(5)});
+  EXPECT_EQ(changed(history), Changed{4});
+}
+
+TEST(CasterStates, depend_on_the_pose_and_are_steady_where_it_is_known) {
+  const auto executor = make_serial_executor();
+  GpuPrimitive primitive;
+  std::vector<Caster> casters(2);
+  for (Caster& caster : casters) caster.primitive = &primitive;
+  casters[1].moving = true;
+  const std::uint64_t rest[] = {0, 11}, bent[] = {0, 12}, lost[] = {0, 0};
+  const auto a = caster_states(casters, rest, *executor), b = caster_states(casters, bent, *executor),
+             c = caster_states(casters, lost, *executor);
+  EXPECT_EQ(a[0].hash, b[0].hash);
+  EXPECT_NE(a[1].hash, b[1].hash);
+  EXPECT_FALSE(a[1].unsteady);
+  EXPECT_TRUE(c[1].unsteady);
+  EXPECT_FALSE(c[0].unsteady);
+}
+
+}  // namespace
+}  // namespace gloam
