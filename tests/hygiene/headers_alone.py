@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: MIT
 """Fails on a header that does not compile alone. usage: headers_alone.py ROOT BUILD [FOLDER]
 
-FOLDER checks the headers below it alone.
+FOLDER, a name or a pattern of names, checks the headers below it alone.
 
 A header that some built source includes first has been compiled alone already. The others are compiled here, twice in one file
 (so that a missing guard shows), with the flags of the nearest source in BUILD/compile_commands.json and with the standard
-library and GLM precompiled, for speed. Precompiling hides an absent standard include, so a header that uses a name from the
-table below without naming its header is compiled without. Headers that passed with the same text, includes and flags before
-are not compiled again (BUILD/hygiene/headers_alone.json)."""
+library, GLM and GoogleTest precompiled, for speed. Precompiling hides an absent standard include, so a header that uses a name
+from the table below without naming its header is compiled without. Headers that passed with the same text, includes and flags
+before are not compiled again (BUILD/hygiene/headers_alone.json)."""
 import collections
 import concurrent.futures
+import fnmatch
 import hashlib
 import json
 import re
@@ -133,14 +134,14 @@ class Build:
         users = collections.Counter()
         for header in headers:
             for _, include, quoted in include_arrows.includes(source_text.read(self.root, header)):
-                if not quoted and (re.fullmatch(r"[a-z_]+", include) or include.startswith("glm/")):
+                if not quoted and (re.fullmatch(r"[a-z_]+|gtest/gtest\.h|gmock/gmock\.h", include) or include.startswith("glm/")):
                     users[include] += 1
         wanted = [i for i, count in users.items() if i.startswith("glm/ext") or count * 12 >= len(headers)]
         text = "".join(f"#include <{include}>\n" for include in sorted(wanted))
         header = self.build / "hygiene" / "system.h"
         compiled = header.with_name("system.h.gch")
         header.parent.mkdir(exist_ok=True)
-        command = self.flags_near("engine/core") + ["-x", "c++-header", str(header), "-o", str(compiled)]
+        command = self.flags_near(headers[0]) + ["-x", "c++-header", str(header), "-o", str(compiled)]
         stamp = hashlib.sha256((text + "\0".join(command)).encode()).hexdigest()
         stamp_file = header.with_name("system.h.stamp")
         if not (compiled.is_file() and stamp_file.is_file() and stamp_file.read_text(encoding="utf-8") == stamp):
@@ -162,12 +163,12 @@ class Build:
 
 
 def in_share(header, share):
-    return not share or header.startswith(share + "/")
+    return not share or fnmatch.fnmatchcase(header, share + "/*")
 
 
 def check(root, build, share=""):
     build = Build(Path(root).resolve(), Path(build).resolve())
-    memory = build.build / "hygiene" / f"headers_alone{share}.json"
+    memory = build.build / "hygiene" / f"headers_alone{re.sub('[^a-z]', '_', share)}.json"
     known = json.loads(memory.read_text(encoding="utf-8")) if memory.is_file() else {}
     headers = [header for header in source_text.files(build.root, (".h",)) if in_share(header, share)]
     proven = build.first_includes()
