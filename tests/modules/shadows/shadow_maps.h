@@ -73,6 +73,9 @@ class ShadowMaps {
   [[nodiscard]] std::vector<float> atlas() const;
   [[nodiscard]] std::vector<vec2> pyramid() const;
   [[nodiscard]] std::uint32_t atlas_size() const { return size_; }
+  /// Ready for compute_read.
+  [[nodiscard]] gpu::ImageHandle atlas_image() const { return atlas_; }
+  [[nodiscard]] gpu::ImageHandle pyramid_image() const { return pyramid_; }
   /// Corner of mip m in the atlas, or of level m in the pyramid when `size` is a quarter of the atlas'.
   [[nodiscard]] static uvec2 mip_corner(std::uint32_t size, std::uint32_t mip);
 

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "modules/fog/components.h"
+#include "tests/modules/shadows/deferred_shadows_scene.h"
+
+// The same with cookies, which are pipelines of their own.
+
+namespace gloam {
+namespace {
+
+using DeferredShadows = test::DeferredShadowsTest;
+
+TEST_F(DeferredShadows, with_cookies_glass_and_fog_are_the_same) {
+  for (const int cookies : {1, 4, 6}) {
+    clear_scene();
+    put_pillars();
+    put_glass();
+    put_light(point(0.05f), dvec3(0.4, 1.2, 1.1));
+    put_cookies(cookies);
+    expect_deferred_is_monolithic(std::to_string(cookies) + " cookies");
+    EXPECT_EQ(lists().frames, 1u);
+  }
+  things.push_back(world.create(Fog{0.15f, vec3(0.05f, 0.06f, 0.08f)}));
+  expect_deferred_is_monolithic("fog");
+}
+
+}  // namespace
+}  // namespace gloam

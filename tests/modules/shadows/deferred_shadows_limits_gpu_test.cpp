@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "tests/modules/shadows/deferred_shadows_scene.h"
+
+// shadows.mode = deferred draws what monolithic draws, however little room there is.
+
+namespace gloam {
+namespace {
+
+using test::Dice;
+using test::ReadFinalLists;
+using DeferredShadows = test::DeferredShadowsTest;
+
+/// Room for a share of what a frame without limits asks for.
+class DeferredShadowsLimits : public DeferredShadows, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(DeferredShadowsLimits, change_no_picture_at_any_share_of_the_need) {
+  const std::string bits = GetParam();
+  set("shadows.visibility_bits", bits);
+  for (const std::uint32_t seed : {0u, 1u, 2u}) {
+    clear_scene();
+    put_pillars();
+    put_glass();
+    put_three_lights();
+    if (seed == 1) put_cookies(2);
+    if (seed == 2) {
+      Dice dice(21);
+      put_lights(dice, 8);
+    }
+    const Drawn monolithic = frame("monolithic");
+    expect_same(frame("deferred"), monolithic, "unlimited");
+    const double slots = counter("shadows.slots"), pairs = counter("shadows.tile_lights_filtered");
+    ASSERT_GT(slots, 20.0);
+    ASSERT_EQ(counter("shadows.fallback_tiles"), 0.0);
+    for (const auto& [knob, need] : {std::pair("shadows.slot_limit", slots), std::pair("shadows.pair_limit", pairs)}) {
+      double least = 1e9;
+      for (const double share : {0.0, 0.01, 0.5, 0.99}) {
+        const std::string what =
+            bits + " bits, scene " + std::to_string(seed) + ", " + knob + " " + std::to_string(share);
+        set(knob, std::to_string(static_cast<int>(need * share)));
+        expect_same(frame("deferred"), monolithic, what);
+        EXPECT_GT(counter("shadows.fallback_tiles"), 0.0) << what;
+        EXPECT_LE(counter("shadows.fallback_tiles"), least) << what;
+        least = counter("shadows.fallback_tiles");
+        const ReadFinalLists found = lists();
+        EXPECT_EQ(found.counters.fallback_tiles, found.fallback_tiles.size()) << what;
+        for (const std::uint32_t tile : found.fallback_tiles)
+          EXPECT_FALSE(found.complete((tile >> 16) * found.tiles.x + (tile & 0xFFFFu))) << what;
+      }
+      EXPECT_LT(least, 48.0) << "nearly all that is needed leaves tiles with lists";
+      set(knob, std::to_string(static_cast<int>(need)));
+      expect_same(frame("deferred"), monolithic, "just enough");
+      EXPECT_EQ(counter("shadows.fallback_tiles"), 0.0) << knob;
+      set(knob, "4194301");
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bits, DeferredShadowsLimits, ::testing::Values("8", "4"));
+
+// More (tile, light) than fit at once, so that room is made for what frames ask for.
+TEST_F(DeferredShadows, whose_buffers_are_too_small_are_the_same_and_soon_fit) {
+  put_pillars();
+  Dice dice(30);
+  set("shadows.filter", "hard");
+  set("shadows.classify", "off");
+  for (int i = 0; i < 8; ++i) {
+    Light made = point(0.0f);
+    made.intensity = 1.0f;
+    put_light(made, dvec3(-1.4 + 0.4 * i, 1.9, 0.9), dvec3(0.0, -1.0, 0.0), 64);
+  }
+  for (int i = 0; i < 130; ++i) {
+    Light made = point(0.0f);
+    made.range_m = 0.4f;
+    made.intensity = 0.2f;
+    put_light(made, dice.in_box(dvec3(-1.5, 0.1, -1.5), dvec3(1.5, 0.6, 0.8)), dvec3(0.0, -1.0, 0.0), 16, false);
+  }
+  settings = test::look_at(dvec3(0.0, 1.4, 2.2), dvec3(0.0, 0.4, -0.5), 320, 200);
+  const Drawn monolithic = frame("monolithic");
+  std::vector<double> fallbacks;
+  for (int i = 0; i < 7 && !HasFailure(); ++i) {
+    expect_same(frame("deferred"), monolithic, "frame " + std::to_string(i));
+    fallbacks.push_back(counter("shadows.fallback_tiles"));
+  }
+  EXPECT_GT(fallbacks.front(), 0.0) << "the first frames cannot know the need";
+  EXPECT_EQ(fallbacks[5], 0.0);
+  EXPECT_EQ(fallbacks[6], 0.0);
+  EXPECT_GE(counter("shadows.slot_capacity"), counter("shadows.slots"));
+  EXPECT_LE(counter("shadows.slot_capacity"), 1.5 * counter("shadows.slots") + 2000.0);
+  EXPECT_EQ(counter("shadows.visibility_bytes"), 64.0 * counter("shadows.slot_capacity"));
+  // Another need.
+  settings = test::look_at(dvec3(0.0, 2.6, 0.4), dvec3(0.0, 0.0, -0.2), 320, 200);
+  const Drawn from_above = frame("monolithic");
+  for (int i = 0; i < 6 && !HasFailure(); ++i) expect_same(frame("deferred"), from_above, "from above");
+  EXPECT_EQ(counter("shadows.fallback_tiles"), 0.0);
+  EXPECT_GE(counter("shadows.slot_capacity"), counter("shadows.slots"));
+  // Frames that are not waited for.
+  set("shadows.mode", "deferred");
+  const ViewRequest request{settings, {}};
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(renderer->render(world, std::span(&request, 1)).ok());
+  ASSERT_TRUE(renderer->wait().ok());
+  expect_same({linear(), picture()}, from_above, "without waits");
+}
+
+}  // namespace
+}  // namespace gloam
