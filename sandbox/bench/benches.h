@@ -24,6 +24,14 @@ void add_shadow_bias_benches(BenchRegistry& registry);
 void add_shadow_penumbra_benches(BenchRegistry& registry);
 /// The contact-hardening filter against the bare gathers of the same footprints.
 void add_shadow_gather_benches(BenchRegistry& registry);
+/// FF table 1 and figure 13: shadows in the lighting pass against shadows before it, with tiles classified and without.
+void add_shadow_deferred_benches(BenchRegistry& registry);
+/// Memory of light lists and visibilities against a fixed number of lights a tile (FF §2).
+void add_shadow_memory_benches(BenchRegistry& registry);
+/// Cost of each phase against the number of shadowed lights and against resolution.
+void add_shadow_curve_benches(BenchRegistry& registry);
+/// Whole frames with moving casters against a pass of 48 gathers a pixel, and what they consist of.
+void add_shadow_frame_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

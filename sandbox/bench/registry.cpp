@@ -50,6 +50,10 @@ BenchRegistry make_bench_registry() {
   add_light_gpu_benches(registry);
   add_light_false_positive_benches(registry);
   add_shadow_benches(registry);
+  add_shadow_deferred_benches(registry);
+  add_shadow_memory_benches(registry);
+  add_shadow_curve_benches(registry);
+  add_shadow_frame_benches(registry);
   return registry;
 }
 

@@ -90,6 +90,13 @@ Result<std::uint64_t> ShadowCase::picture_hash() {
   return hash_bytes(std::as_bytes(std::span(picture->rgba)));
 }
 
+Result<Picture> ShadowCase::picture() { return session_.renderer->read_picture(settings_.id); }
+
+void ShadowCase::look_from(const dmat4& pose) {
+  settings_.follow_camera = false;
+  settings_.world_from_camera = pose;
+}
+
 double pass_ms(const FrameSample& sample, std::string_view name) {
   double ms = 0.0;
   for (const PassTime& pass : sample.report.passes) ms += pass.name == name ? pass.ms : 0.0;

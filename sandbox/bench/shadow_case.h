@@ -41,6 +41,10 @@ class ShadowCase {
   [[nodiscard]] Result<ShadowError> error();
   /// Hash of the last picture that `draw` drew.
   [[nodiscard]] Result<std::uint64_t> picture_hash();
+  /// The last picture that `draw` drew.
+  [[nodiscard]] Result<Picture> picture();
+  /// From here on frames are drawn from a pose (world_from_camera, rigid) instead of the camera's, with its lens.
+  void look_from(const dmat4& pose);
 
  private:
   /// A name of the light that no other has.

@@ -6,6 +6,7 @@
 #include "sandbox/scenes/many_lights.h"
 #include "sandbox/scenes/penumbra.h"
 #include "sandbox/scenes/plain.h"
+#include "sandbox/scenes/shadow_grid.h"
 #include "sandbox/scenes/shadows.h"
 
 namespace gloam {
@@ -18,6 +19,8 @@ constexpr BuiltinScene kScenes[] = {
     {"penumbra", "the penumbra of one straight edge under a wide lamp", &build_penumbra_scene},
     {"shadows", "soft shadows of columns, bars, a table and thin sheets under a lamp, a spot and a moon",
      &build_shadows_scene},
+    {"shadow_grid", "256 lamps under a pergola that all cast shadows, about three at a point",
+     &build_shadow_grid_scene},
 };
 
 }  // namespace

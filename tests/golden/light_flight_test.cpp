@@ -31,7 +31,7 @@ struct FlightSize {
 /// One frame after the other, as a player flies: nothing is settled before it is looked at.
 class Flight {
  public:
-  Flight(Session& session, std::span<const FlightKey> keys, const FlightSize& size)
+  Flight(Session& session, std::span<const PathKey> keys, const FlightSize& size)
       : session_(session),
         keys_(keys),
         frames_(size.frames),
@@ -40,7 +40,7 @@ class Flight {
   }
 
   [[nodiscard]] Result<Picture> draw(std::size_t frame) {
-    request_.settings.world_from_camera = flight_pose(keys_, frame, frames_);
+    request_.settings.world_from_camera = path_pose(keys_, frame, frames_);
     session_.set_clock(static_cast<double>(frame) / 60.0, 1.0 / 60.0);
     const auto sample = session_.render_frame(request_);
     if (!sample) return sample.error();
@@ -56,7 +56,7 @@ class Flight {
 
  private:
   Session& session_;
-  std::span<const FlightKey> keys_;
+  std::span<const PathKey> keys_;
   std::size_t frames_;
   ViewRequest request_;
   FrameCounters counters_;
@@ -74,7 +74,7 @@ std::size_t differing_pixels(const Picture& a, const Picture& b) {
 }
 
 /// Flies once with brute force and once with light lists.
-void expect_flight_without_flicker(Session& session, std::span<const FlightKey> keys, const FlightSize& size) {
+void expect_flight_without_flicker(Session& session, std::span<const PathKey> keys, const FlightSize& size) {
   KnobRegistry& knobs = session.renderer->knobs();
   std::vector<Picture> brute;
   // Maps hold on to the size they had: on the second flight not always that of the first.
@@ -137,7 +137,7 @@ TEST_F(LightFlight, each_frame_through_the_courtyard_equals_brute_force) {
   if (!std::filesystem::exists(scene)) GTEST_SKIP() << "the shared scene " << scene << " is absent";
   const auto session = open(scene);
   ASSERT_NE(session, nullptr);
-  const std::vector<FlightKey> keys = camera_flight(session->world, session->info);
+  const std::vector<PathKey> keys = path_through_cameras(session->world, session->info);
   expect_flight_without_flicker(*session, keys, {.frames = 40});
 }
 
