@@ -140,7 +140,8 @@ std::vector<VisualizerInfo> light_visualizers() {
        "tile's list (green); red: it is not, though it reaches a pixel of the tile"},
       {"light_list", "lights", "LIGHT",
        "pixels whose tile's list holds the light: blue, those that it reaches yellow; red: reached, but not in the "
-       "list. With shadows.mode=deferred: yellow lit as a whole, green a slot, bright where it is seen, blue left out as "
+       "list. With shadows.mode=deferred: yellow lit as a whole, green a slot, bright where it is seen, blue left out "
+       "as "
        "unlit, magenta shaded from shadow maps"},
       {"lights_approx", "lights", "", "lights of each 8x8 tile after the approximate search" + heat},
       {"lights_accurate", "lights", "", "lights of each 8x8 tile after the accurate search" + heat},

@@ -43,10 +43,9 @@ gpu::GraphicsPipelineDesc view_pipeline(const ViewDraw& draw, gpu::Format format
              early = draw.lights.has_lists();
   std::string name = one_light ? "final_light_view" : slots ? "visibility_slots_view" : "final_count_view";
   name += "/" + std::string(gpu::name_of(format)) + "/" + draw.lists.variant + (early ? "" : "/directional");
-  gpu::GraphicsPipelineDesc desc =
-      fullscreen_pipeline(std::move(name), "shadows",
-                          one_light ? shaders::shadows::final_light_view_frag : shaders::shadows::final_count_view_frag,
-                          format);
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(
+      std::move(name), "shadows",
+      one_light ? shaders::shadows::final_light_view_frag : shaders::shadows::final_count_view_frag, format);
   desc.color_formats.push_back(gpu::Format::rgba8_unorm);
   desc.blend = gpu::BlendMode::alpha;
   desc.constants = draw.lists.constants;
@@ -111,8 +110,10 @@ void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& dra
 /// Why a frame with shadows has no final lists.
 std::string reason_without_lists(const FrameBuilder& frame) {
   const KnobRegistry& knobs = frame.knobs();
-  if (!knobs.is("shadows.mode", "deferred")) return "there are no final lists with shadows.mode=" + knobs.text("shadows.mode");
-  if (knobs.is("shadows.visibility_bits", "exact")) return "there are no final lists with shadows.visibility_bits=exact";
+  if (!knobs.is("shadows.mode", "deferred"))
+    return "there are no final lists with shadows.mode=" + knobs.text("shadows.mode");
+  if (knobs.is("shadows.visibility_bits", "exact"))
+    return "there are no final lists with shadows.visibility_bits=exact";
   if (knobs.is("lights.culling", "brute")) return "there are no final lists with lights.culling=brute";
   return "no light in view looks at a shadow map";
 }

@@ -22,8 +22,7 @@ using Words = std::vector<std::uint32_t>;
 void append_words(Words& words, std::span<const std::byte> bytes) {
   const std::size_t first = words.size();
   words.resize(first + bytes.size() / sizeof(std::uint32_t));
-  if (!bytes.empty())
-    std::memcpy(words.data() + first, bytes.data(), (words.size() - first) * sizeof(std::uint32_t));
+  if (!bytes.empty()) std::memcpy(words.data() + first, bytes.data(), (words.size() - first) * sizeof(std::uint32_t));
 }
 
 /// A run of lights: all directional ones of the view, or all local ones.
