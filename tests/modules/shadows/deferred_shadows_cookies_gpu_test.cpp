@@ -22,8 +22,9 @@ TEST_F(DeferredShadows, with_cookies_glass_and_fog_are_the_same) {
     expect_deferred_is_monolithic(std::to_string(cookies) + " cookies");
     EXPECT_EQ(lists().frames, 1u);
   }
+  const Drawn clear = expect_deferred_is_monolithic("clear");
   things.push_back(world.create(Fog{0.15f, vec3(0.05f, 0.06f, 0.08f)}));
-  expect_deferred_is_monolithic("fog");
+  EXPECT_NE(expect_deferred_is_monolithic("fog").picture.rgba, clear.picture.rgba);
 }
 
 }  // namespace

@@ -90,7 +90,8 @@ class DeferredShadowsTest : public HardShadows {
                mesh(quad(0.5f, scene.material(leaf))),
                mesh(test::box(vec3(0.5f), scene.material(skin))),
                mesh(quad(0.5f, scene.material(grid))),
-               mesh(test::box(vec3(0.5f, 0.5f, 0.004f), stone))};
+               mesh(test::box(vec3(0.5f, 0.5f, 0.004f), stone)),
+               mesh(ball(0.5f, scene.material(skin)))};
   }
   Entity put(std::uint32_t mesh, const dmat4& matrix) {
     return things.emplace_back(scene.draw(mesh, glm::translate(dmat4(1.0), origin) * matrix));

@@ -147,6 +147,65 @@ class ClassifyShadowsTest : public DeferredShadowsTest {
     }
     EXPECT_EQ(off, 0u) << what << (place.directional ? ", sun " : ", lamp ") << place.light << " at " << first;
   }
+  /// Scenes in which classification is right or wrong by little.
+  void close_scene(std::uint32_t seed, uvec2 size) {
+    clear_scene();
+    Dice dice(seed);
+    const std::uint32_t kind = seed % 6;
+    const double half = kind == 4 ? 400.0 : 2.5;
+    put(plane_, flat(0.0) * glm::scale(dmat4(1.0), dvec3(half)));
+    const auto thing = [&](std::size_t shape, const dvec3& place, const dvec3& size_m, double turn, const dvec3& axis) {
+      put(shapes_[shape], glm::scale(glm::rotate(glm::translate(dmat4(1.0), place), turn, axis), size_m));
+    };
+    for (int i = 0; i < 10; ++i) {
+      const dvec3 on_floor(dice.between(-1.2, 1.2), 0.0, dice.between(-1.2, 1.2));
+      const double large = dice.between(0.1, 0.5), small = dice.between(0.02, 0.1);
+      const dvec3 up(0.0, 1.0, 0.0);
+      // Millimetres above the floor.
+      if (kind == 0)
+        thing(dice.one_in(2) ? 3 : 6, on_floor + up * dice.between(0.001, 0.012), dvec3(large), 1.5707963,
+              dvec3(1, 0, 0));
+      // Little things in wide light.
+      if (kind == 1)
+        thing(dice.random() % 2, on_floor + up * dice.between(0.1, 1.5),
+              dvec3(small, dice.one_in(3) ? 0.6 : small, small), 0.5, up);
+      // Plates over each other, slanted, some so large that nothing else is near.
+      if (kind == 2 && i < 4) {
+        const double turn = dice.between(0.8, 2.3), apart = dice.between(0.003, 0.05), wide = i == 0 ? 1.5 : large;
+        const dvec3 axis = glm::normalize(dvec3(1.0, 0.4 * dice.between(-1.0, 1.0), 0.0));
+        thing(3, on_floor + up * 0.3, dvec3(wide), turn, axis);
+        thing(3, on_floor + up * (0.3 + apart), dvec3(wide * 1.3), turn + dice.between(-0.02, 0.02), axis);
+      }
+      // All round low lamps.
+      if (kind == 3)
+        thing(dice.random() % 2, on_floor + up * dice.between(0.0, 0.8), dvec3(large * 0.5), 0.7 * i,
+              dvec3(0.6, 0.8, 0.0));
+      // A plain with blocks near and far.
+      if (kind == 4)
+        thing(0, on_floor * dice.between(1.0, 12.0) + up * large,
+              dvec3(large, 6.0 * large, large) * dice.between(0.5, 4.0), 0.4 * i, up);
+      // Subsurface things against others.
+      if (kind == 5) thing(i % 3 == 0 ? 4 : i % 3 == 1 ? 7 : 1, on_floor * 0.5 + up * 0.15, dvec3(0.3), 0.3 * i, up);
+    }
+    if (kind == 4 && dice.one_in(2)) put(plane_, flat(4.0) * glm::scale(dmat4(1.0), dvec3(half)));
+    for (int i = 0; i < 3 && kind != 4; ++i) {
+      Light made = dice.one_in(2) || kind == 3 ? point() : spot(dice.between(20.0, 70.0));
+      made.width_m = kind == 1 ? dice.one_of({0.2f, 0.5f, 1.0f}) : dice.one_of({0.0f, 0.03f, 0.1f, 0.3f});
+      const double height = kind == 3 ? dice.between(0.1, 0.5) : dice.between(0.5, 2.2);
+      const dvec3 position(dice.between(-1.0, 1.0), height, dice.between(-1.0, 1.0));
+      put_light(made, position, dvec3(0.4 * dice.between(-1.0, 1.0), -1.0, 0.3) - 0.3 * position,
+                dice.one_of({64u, 256u, 512u}));
+    }
+    for (int i = 0; i < 3 && kind == 4; ++i)
+      put_light(sun(dice.one_of({0.0f, 0.01f, 0.05f, 0.2f})), dvec3(0.0),
+                dvec3(dice.between(-1.0, 1.0), -dice.between(0.2, 1.5), dice.between(-1.0, 1.0)),
+                dice.one_of({64u, 256u}));
+    const dvec3 eye(dice.between(-1.5, 1.5), kind == 4 ? dice.between(0.5, 6.0) : dice.between(0.2, 1.2),
+                    dice.between(0.3, 1.6));
+    settings =
+        look_at(eye, kind == 4 ? dvec3(eye.x, 0.0, -8.0) : dice.in_box(dvec3(-0.5, 0.0, -0.5), dvec3(0.5, 0.1, 0.2)),
+                size.x, size.y);
+  }
   void print(const char* what) const {
     std::printf("%-40s %llu candidates: %llu lit, %llu unlit at once, %llu open; %llu harmless, %llu compared\n", what,
                 count(candidates), count(lit), count(unlit), count(open), count(harmless), count(compared));
@@ -162,6 +221,7 @@ struct ClassifyWay {
   std::vector<std::pair<const char*, const char*>> knobs;
   int scenes = 20;
   uvec2 size = uvec2(64, 48);
+  bool close = false;  ///< close_scene
 };
 inline std::string name_of_way(const ::testing::TestParamInfo<ClassifyWay>& way) { return way.param.name; }
 
@@ -171,7 +231,10 @@ class ClassifyShadowsWays : public ClassifyShadowsTest, public ::testing::WithPa
     for (const auto& [knob, value] : GetParam().knobs) set(knob, value);
     const int count = scaled(GetParam().scenes);
     for (int seed = 0; seed < count; ++seed) {
-      random_scene(static_cast<std::uint32_t>(seed) * 977u + 3u, GetParam().size.x, GetParam().size.y);
+      if (GetParam().close)
+        close_scene(static_cast<std::uint32_t>(seed), GetParam().size);
+      else
+        random_scene(static_cast<std::uint32_t>(seed) * 977u + 3u, GetParam().size.x, GetParam().size.y);
       ASSERT_NO_FATAL_FAILURE(expect_no_contradiction("seed " + std::to_string(seed)));
       if (HasFailure()) return;
     }

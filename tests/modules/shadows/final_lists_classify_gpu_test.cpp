@@ -17,10 +17,11 @@ TEST_P(ClassifyMaps, never_contradict_the_filter) { run(); }
 
 INSTANTIATE_TEST_SUITE_P(
     Of, ClassifyMaps,
-    ::testing::Values(Way{"standard", {}, 60}, Way{"larger_pictures", {}, 10, {160, 120}},
-                      Way{"nearest", {{"shadows.mip_operator", "nearest"}}, 30},
+    ::testing::Values(Way{"standard", {}, 40}, Way{"larger_pictures", {}, 10, {160, 120}},
+                      Way{"nearest", {{"shadows.mip_operator", "nearest"}}, 12, {64, 48}, true},
                       Way{"average", {{"shadows.mip_operator", "average"}}}, Way{"no_bias", {{"shadows.bias_mm", "0"}}},
-                      Way{"large_bias", {{"shadows.bias_mm", "20"}}}, Way{"d16", {{"shadows.depth", "d16"}}},
+                      Way{"large_bias", {{"shadows.bias_mm", "20"}}, 12, {64, 48}, true},
+                      Way{"d16", {{"shadows.depth", "d16"}}, 12, {64, 48}, true},
                       Way{"coarse_maps", {{"shadows.texels_per_pixel", "0.25"}, {"shadows.visibility_bits", "4"}}}),
     test::name_of_way);
 
