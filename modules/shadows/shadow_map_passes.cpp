@@ -9,14 +9,13 @@
 #include "engine/render/mesh_packing.h"
 #include "modules/shadows/drawn_faces.h"
 #include "modules/shadows/scratch_plan.h"
+#include "modules/shadows/shadow_mips.h"
 #include "shaders/shadows/shaders.h"
 #include "shaders/shadows/shadow_map_shared.h"
 
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kBlockTexels = 8;  // of the source level a thread of shadow_mips.comp reads, along one side
-constexpr std::uint32_t kMipsADispatch = 3;
 constexpr float kSlopeBias = 1.0f;
 
 gpu::GraphicsPipelineDesc map_pipeline(bool cut_out) {
@@ -39,11 +38,6 @@ gpu::GraphicsPipelineDesc map_pipeline(bool cut_out) {
   return desc;
 }
 
-gpu::ComputePipelineDesc mips_pipeline(bool d16) {
-  if (d16) return {"shadow_map_mips/d16", "shadows", shaders::shadows::shadow_mips_r16_comp, {}};
-  return {"shadow_map_mips/d32", "shadows", shaders::shadows::shadow_mips_comp, {}};
-}
-
 /// All that is drawn in this frame; outlives the declaration, as pass functions run later.
 struct MapWork {
   std::vector<DrawnFace> faces;
@@ -52,8 +46,7 @@ struct MapWork {
   ShadowKnobs knobs;
   gpu::PipelineHandle opaque;
   gpu::PipelineHandle cut_out;
-  gpu::PipelineHandle mips;
-  gpu::SamplerHandle sampler;
+  ShadowMipWork mips;
 };
 
 /// Records the draws of regions; the viewport is set.
@@ -123,83 +116,6 @@ void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work
   }
 }
 
-/// ShadowMipConstants::gap: what recedes more steeply is taken for two surfaces.
-float surface_gap(const ShadowFace& face, std::uint32_t size) {
-  constexpr float kSteepest = 3.0f;  // metres away from the light a metre across
-  const auto texels = static_cast<float>(size);
-  if (face.tan_half > 0.0f) return kSteepest * 2.0f * face.tan_half / texels;
-  return kSteepest * 2.0f * face.half_extent_m / texels / face.far_m;
-}
-
-/// One dispatch of a run of mips; `first` is the mip that it begins at.
-void record_run(gpu::CommandList& commands, shaders::ShadowMipConstants constants, const TexelRect& texels,
-                std::uint32_t first) {
-  constants.source = first == 0 ? uvec2(0) : constants.origin >> first;
-  constants.first = first;
-  constants.begin = texels.begin;
-  constants.end = texels.end;
-  commands.push(constants);
-  const std::uint32_t block = kBlockTexels << first;
-  const uvec2 blocks = (texels.end + block - 1u) / block - texels.begin / block;
-  const uvec2 groups = (blocks + (GLOAM_SHADOW_MIP_GROUP - 1u)) / std::uint32_t{GLOAM_SHADOW_MIP_GROUP};
-  commands.dispatch(groups.x, groups.y, 1);
-}
-
-/// What all runs of a face's mips have in common.
-shaders::ShadowMipConstants mip_constants(const ShadowFace& face, const ShadowKnobs& knobs) {
-  shaders::ShadowMipConstants constants{};
-  constants.origin = face.square.origin;
-  constants.size = face.square.size;
-  constants.mips = static_cast<std::uint32_t>(std::bit_width(face.square.size));
-  constants.mip_operator = knobs.mip_operator;
-  constants.atlas_size = knobs.atlas_size;
-  constants.orthographic = face.tan_half > 0.0f ? 0u : 1u;
-  constants.gap = surface_gap(face, face.square.size);
-  return constants;
-}
-
-TexelRect bounds_of(const DrawnFace& face) {
-  TexelRect bounds = face.regions.front().texels;
-  for (const DrawnRegion& region : face.regions)
-    bounds = {glm::min(bounds.begin, region.texels.begin), glm::max(bounds.end, region.texels.end)};
-  return bounds;
-}
-
-/// One run of mips of all of a batch's regions.
-void record_runs(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, std::uint32_t first,
-                 const ShadowMaps& maps) {
-  gpu::CommandList& commands = context.commands();
-  for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
-    const DrawnFace& face = work.faces[batch.items[layer]];
-    const gpu::ImageView source{.image = work.scratch->image(batch.size), .first_layer = layer, .layer_count = 1};
-    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{source, work.sampler}},
-                                     {1, gpu::Binding::Storage{{.image = context.image(maps.atlas)}}},
-                                     {2, gpu::Binding::Storage{{.image = context.image(maps.pyramid)}}}};
-    commands.bind(bindings);
-    const shaders::ShadowMipConstants constants = mip_constants(face.face, work.knobs);
-    // Coarser mips have few texels: one dispatch for all regions of a face.
-    if (first > 0) record_run(commands, constants, bounds_of(face), first);
-    for (const DrawnRegion& region : face.regions)
-      if (first == 0) record_run(commands, constants, region.texels, first);
-  }
-}
-
-void record_mips(PassContext& context, const MapWork& work, const ScratchPlan::Batch& batch, const ShadowMaps& maps) {
-  gpu::CommandList& commands = context.commands();
-  work.scratch->begin_reading(commands, batch.size);
-  commands.bind_pipeline(work.mips);
-  for (std::uint32_t first = 0; batch.size >> first > 1; first += kMipsADispatch) {
-    if (first > 0) {
-      // Each run of mips reads the last of the one before.
-      const gpu::ImageBarrier written[] = {
-          {context.image(maps.atlas), gpu::Access::compute_write, gpu::Access::compute_write},
-          {context.image(maps.pyramid), gpu::Access::compute_write, gpu::Access::compute_write}};
-      commands.barrier({}, written);
-    }
-    record_runs(context, work, batch, first, maps);
-  }
-}
-
 Status make_pipelines(FrameBuilder& frame, MapWork& work) {
   Pipelines& pipelines = frame.services().pipelines;
   bool any_cut_out = false;
@@ -214,18 +130,15 @@ Status make_pipelines(FrameBuilder& frame, MapWork& work) {
     if (!cut_out.ok()) return cut_out.error();
     work.cut_out = *cut_out;
   }
-  auto mips = pipelines.get(mips_pipeline(work.knobs.d16));
-  if (!mips.ok()) return mips.error();
-  work.mips = *mips;
-  auto sampler = frame.nearest_sampler();
-  if (!sampler.ok()) return sampler.error();
-  work.sampler = *sampler;
   return {};
 }
 
+ShadowMipImages mip_images(PassContext& context, const MapWork& work, std::size_t batch, const ShadowMaps& maps) {
+  return {work.scratch->image(work.plan.batches[batch].size), context.image(maps.atlas), context.image(maps.pyramid)};
+}
+
 /// Draws a batch and moves it into the atlas; nothing where the plan has no such batch.
-void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, std::size_t index, ViewShadows& kept,
-               ShadowMaps& maps) {
+void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, std::size_t index, ShadowMaps& maps) {
   const bool there = index < work->plan.batches.size();
   PassBuilder draw = frame.graph().add_pass("shadow_map_draw", "shadows");
   frame.read_vertices(draw);
@@ -238,13 +151,24 @@ void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, 
   maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
   maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);
   if (!there) return;
-  mips.execute([work, index, maps, &kept, drawn_in = kept.history.frame()](PassContext& context) {
-    const ScratchPlan::Batch& batch = work->plan.batches[index];
-    record_mips(context, *work, batch, maps);
+  mips.execute([work, index, maps](PassContext& context) {
+    work->scratch->begin_reading(context.commands(), work->plan.batches[index].size);
+    record_batch_mips(context.commands(), work->mips, index, mip_images(context, *work, index, maps));
+  });
+}
+
+/// The last of the passes: then the atlas holds what was drawn.
+void add_coarse_mips(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, ViewShadows& kept,
+                     ShadowMaps& maps) {
+  PassBuilder mips = frame.graph().add_pass("shadow_map_mips", "shadows");
+  maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
+  maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);
+  mips.execute([work, maps, &kept, drawn_in = kept.history.frame()](PassContext& context) {
+    const std::size_t last_batch = work->plan.batches.size() - 1;
+    record_coarse_mips(context.commands(), work->mips, mip_images(context, *work, last_batch, maps));
     // Only now: a frame that ended before has drawn nothing.
     kept.atlas.filled = kept.pyramid.filled = true;
-    for (const std::uint32_t item : batch.items)
-      kept.cache.set_drawn(work->faces[item].face, work->faces[item].content, drawn_in);
+    for (const DrawnFace& face : work->faces) kept.cache.set_drawn(face.face, face.content, drawn_in);
   });
 }
 
@@ -253,7 +177,7 @@ void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, 
 void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list) {
   list.push_back(map_pipeline(false));
   list.push_back(map_pipeline(true));
-  list.push_back(mips_pipeline(knobs.d16));
+  list.push_back(shadow_mips_pipeline(knobs.d16));
 }
 
 Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
@@ -277,12 +201,16 @@ Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& stat
     for (const DrawnRegion& region : face.regions) maps.drawn.push_back({face.face.square, region.texels});
   }
   work->plan = plan_scratch(sizes);
+  auto mips = plan_shadow_mips(frame, work->faces, work->plan, knobs);
+  if (!mips.ok()) return mips.error();
+  work->mips = *mips;
   auto scratch = states.scratch(work->plan.texels());
   if (!scratch.ok()) return scratch.error();
   work->scratch = *scratch;
   // Few different numbers of passes, so that the frame's plans are met again.
   const std::size_t batches = std::bit_ceil(work->plan.batches.size());
-  for (std::size_t batch = 0; batch < batches; ++batch) add_batch(frame, work, batch, kept, maps);
+  for (std::size_t batch = 0; batch < batches; ++batch) add_batch(frame, work, batch, maps);
+  add_coarse_mips(frame, work, kept, maps);
   frame.expose(maps.pyramid);
   return maps;
 }

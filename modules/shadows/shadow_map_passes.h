@@ -30,7 +30,7 @@ struct ShadowMaps {
 };
 
 /// Draws the faces whose maps the atlas does not hold, batch by batch through ShadowScratch: passes shadow_map_draw and shadow_map_mips, of which
-/// those beyond the last batch do nothing.
+/// those beyond the last batch do nothing, then coarser mips of all of them: one more shadow_map_mips.
 [[nodiscard]] Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
                                                        const ShadowViews& views, const ShadowKnobs& knobs);
 

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/shadow_planes.h"
 
-#include <utility>
 #include <vector>
 
+#include "modules/shadows/work_groups.h"
 #include "shaders/shadows/shaders.h"
 #include "shaders/shadows/shadow_planes_shared.h"
 
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kGroup = 8;  // threads along a side of a workgroup
 constexpr std::uint32_t kCoarsest = GLOAM_SHADOW_PLANE_BLOCK
                                     << (GLOAM_SHADOW_PLANE_LEVELS - 1);  // texels of a block of the last level
 
@@ -27,23 +26,43 @@ std::vector<FacePart> parts_of(const ShadowMaps& maps, const ShadowViews& views,
   return parts;
 }
 
-/// One dispatch a part. `level`: the first that is made.
-void record_parts(gpu::CommandList& commands, std::span<const FacePart> parts, std::uint32_t level,
-                  std::uint32_t atlas_size) {
-  const std::uint32_t block = level == 0 ? GLOAM_SHADOW_PLANE_BLOCK : kCoarsest;
+/// Parts of one face follow each other: one part for all of them.
+std::vector<FacePart> joined_by_face(std::span<const FacePart> parts) {
+  std::vector<FacePart> joined;
   for (const FacePart& part : parts) {
-    const uvec2 first = part.texels.begin / block, end = (part.texels.end + block - 1u) / block;
-    shaders::ShadowPlaneConstants constants{};
-    constants.origin = part.square.origin;
-    constants.first = first * block;
-    constants.texels = (end - first) * block;
-    constants.first_level = level;
-    constants.atlas_size = atlas_size;
-    constants.face_size = part.square.size;
-    commands.push(constants);
-    const uvec2 groups = (end - first + (kGroup - 1u)) / kGroup;
-    commands.dispatch(groups.x, groups.y, 1);
+    if (joined.empty() || joined.back().square != part.square) {
+      joined.push_back(part);
+      continue;
+    }
+    TexelRect& texels = joined.back().texels;
+    texels = {glm::min(texels.begin, part.texels.begin), glm::max(texels.end, part.texels.end)};
   }
+  return joined;
+}
+
+/// Dispatches of shadow_planes.comp: level 0, then the others.
+struct PlaneWork {
+  std::vector<shaders::ShadowPlaneGroup> groups;
+  GroupRange ranges[2];
+
+  /// block: texels of mip 0 along the side of what a thread makes.
+  [[nodiscard]] GroupRange add(std::span<const FacePart> parts, std::uint32_t block) {
+    GroupRange range{static_cast<std::uint32_t>(groups.size()), 0};
+    for (const FacePart& part : parts)
+      add_groups(part.texels.begin / block, (part.texels.end + block - 1u) / block, GLOAM_SHADOW_PLANE_GROUP,
+                 [&](uvec2 begin, uvec2 end) {
+                   groups.push_back({part.square.origin, begin, end, part.square.size});
+                 });
+    range.count = static_cast<std::uint32_t>(groups.size()) - range.first;
+    return range;
+  }
+};
+
+PlaneWork work_of(std::span<const FacePart> parts) {
+  PlaneWork work;
+  work.ranges[0] = work.add(parts, GLOAM_SHADOW_PLANE_BLOCK);
+  work.ranges[1] = work.add(joined_by_face(parts), kCoarsest);  // few texels, and none of them twice
+  return work;
 }
 
 }  // namespace
@@ -57,8 +76,11 @@ Result<ImageRef> add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& state
   ImageRef planes =
       frame.graph().import_image("shadow_planes", kept.planes.image,
                                  all ? gpu::Access::none : gpu::Access::fragment_read, gpu::Access::fragment_read);
-  std::vector<FacePart> parts = parts_of(maps, views, all);
+  const std::vector<FacePart> parts = parts_of(maps, views, all);
   if (parts.empty()) return planes;
+  const PlaneWork work = work_of(parts);
+  auto groups = frame.services().storage.write(std::as_bytes(std::span(work.groups)));
+  if (!groups.ok()) return groups.error();
   auto pipeline = frame.services().pipelines.get(planes_pipeline());
   if (!pipeline.ok()) return pipeline.error();
   auto sampler = frame.nearest_sampler();
@@ -66,18 +88,19 @@ Result<ImageRef> add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& state
   PassBuilder pass = frame.graph().add_pass("shadow_planes", "shadows");
   pass.read(maps.atlas, gpu::Access::compute_read);
   planes = pass.write(planes, gpu::Access::compute_write);
-  pass.execute([&kept, parts = std::move(parts), atlas = maps.atlas, planes, pipeline = *pipeline,
-                sampler = *sampler](PassContext& context) {
+  pass.execute([&kept, first = work.ranges[0], others = work.ranges[1], groups = *groups, atlas = maps.atlas, planes,
+                pipeline = *pipeline, sampler = *sampler](PassContext& context) {
     gpu::CommandList& commands = context.commands();
     commands.bind_pipeline(pipeline);
     const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(atlas)}, sampler}},
-                                     {1, gpu::Binding::Storage{{.image = context.image(planes)}}}};
+                                     {1, gpu::Binding::Storage{{.image = context.image(planes)}}},
+                                     {2, groups}};
     commands.bind(bindings);
-    record_parts(commands, parts, 0, kept.atlas_size);
+    dispatch_groups(commands, shaders::ShadowPlaneConstants{0, kept.atlas_size, 0}, first);
     const gpu::ImageBarrier written[] = {
         {context.image(planes), gpu::Access::compute_write, gpu::Access::compute_write}};
     commands.barrier({}, written);
-    record_parts(commands, parts, 1, kept.atlas_size);
+    dispatch_groups(commands, shaders::ShadowPlaneConstants{1, kept.atlas_size, 0}, others);
     kept.planes.filled = true;  // only now: a frame that ended before has made none
   });
   return planes;

@@ -3,17 +3,21 @@
 #ifndef GLOAM_SHADERS_SHADOWS_SHADOW_MIPS_GLSL
 #define GLOAM_SHADERS_SHADOWS_SHADOW_MIPS_GLSL
 
+#include "shaders/shadows/shadow_mips_shared.h"
 #include "shaders/shadows/shadows_shared.h"
 
-// Moves a face's depth from the scratch map into the atlas and makes mips 1 to 3 of it, or makes the next three mips of a mip that is
-// there, and the pyramid along with them. One thread takes a block of 8 × 8 texels of its source. Before including this, define
+// Moves faces' depth from the scratch map into the atlas and makes mips 1 to 3 of it, or makes the next three mips of a mip that is
+// there, and the pyramid along with them. One thread takes a block of 8 × 8 texels of its source; a workgroup belongs to one face. Before including this, define
 // GLOAM_SHADOW_ATLAS_FORMAT, and GLOAM_SHADOW_ATLAS_STEPS when the atlas holds less than the scratch map: what it holds is what counts.
 
 layout(local_size_x = GLOAM_SHADOW_MIP_GROUP, local_size_y = GLOAM_SHADOW_MIP_GROUP) in;
-layout(set = 0, binding = 0) uniform sampler2D scratch;
+layout(set = 0, binding = 0) uniform sampler2DArray scratch;
 layout(set = 0, binding = 1, GLOAM_SHADOW_ATLAS_FORMAT) uniform image2D atlas;
 layout(set = 0, binding = 2, rg32f) uniform image2D pyramid;
-layout(push_constant, scalar) uniform Constants { ShadowMipConstants face; };
+layout(set = 0, binding = 3, scalar) readonly buffer Groups { ShadowMipGroup groups[]; };
+layout(push_constant, scalar) uniform Constants { ShadowMipConstants run; };
+
+ShadowMipGroup face;  // of this workgroup
 
 // What becomes one texel of the next mip.
 struct Texels {
@@ -46,7 +50,7 @@ void add_covered(inout Texels t, float texel, float gap) {
 // gap: of the mip that the texels become.
 void add(inout Texels t, float depth, vec2 bounds, float gap) {
   bool occupied = depth > 0.0;
-  if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) add_covered(t, depth, gap);
+  if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) add_covered(t, depth, gap);
   else t.nearest = max(t.nearest, depth);
   t.sum += occupied ? (face.orthographic != 0u ? depth : 1.0 / depth) : 0.0;
   t.count += occupied ? 1.0 : 0.0;
@@ -54,12 +58,12 @@ void add(inout Texels t, float depth, vec2 bounds, float gap) {
 }
 
 float depth_of(Texels t) {
-  if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) {
+  if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) {
     uint free = uint(clamp(floor((1.0 - 0.25 * t.covered) * 64.0 + 0.5), 0.0, float(kFreeBits)));
     // The mean of a plane's depths is its depth in the middle.
     return t.nearest > 0.0 ? uintBitsToFloat(floatBitsToUint(without_free_bits(t.depths / t.covered)) | free) : 0.0;
   }
-  if (face.mip_operator == uint(GLOAM_SHADOW_MIPS_NEAREST) || t.count == 0.0) return t.nearest;
+  if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_NEAREST) || t.count == 0.0) return t.nearest;
   return face.orthographic != 0u ? t.sum / t.count : t.count / t.sum;
 }
 
@@ -68,18 +72,18 @@ ivec2 mip_corner(uint mip, uint atlas_size) {
 }
 
 void store_depth(uint mip, uvec2 at, float depth) {
-  imageStore(atlas, mip_corner(mip, face.atlas_size) + ivec2((face.origin >> mip) + at), vec4(depth));
+  imageStore(atlas, mip_corner(mip, run.atlas_size) + ivec2((face.origin >> mip) + at), vec4(depth));
 }
 
 void store_bounds(uint mip, uvec2 at, vec2 bounds) {
-  ivec2 corner = mip_corner(mip - uint(GLOAM_SHADOW_PYRAMID_MIP), face.atlas_size / 4u);
+  ivec2 corner = mip_corner(mip - uint(GLOAM_SHADOW_PYRAMID_MIP), run.atlas_size / 4u);
   imageStore(pyramid, corner + ivec2((face.origin >> mip) + at), vec4(bounds, 0.0, 0.0));
 }
 
 // Of mips that small faces may lack.
 void store(uint mip, uvec2 at, float depth, vec2 bounds) {
-  uint size = face.size >> mip;
-  if (mip >= face.mips || at.x >= size || at.y >= size) return;
+  uint size = face.size >> mip;  // 0 for mips it lacks
+  if (at.x >= size || at.y >= size) return;
   store_depth(mip, at, depth);
   store_bounds(mip, at, bounds);
 }
@@ -88,12 +92,12 @@ float held_depth(float depth) {
 #ifdef GLOAM_SHADOW_ATLAS_STEPS
   depth = floor(clamp(depth, 0.0, 1.0) * GLOAM_SHADOW_ATLAS_STEPS + 0.5) / GLOAM_SHADOW_ATLAS_STEPS;
 #endif
-  return face.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE) ? without_free_bits(depth) : depth;
+  return run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE) ? without_free_bits(depth) : depth;
 }
 
 // Four texels of the scratch map, which move into the atlas: what becomes texel `at1` of mip 1.
 Texels moved_texels(uvec2 at1, float gap) {
-  vec4 gathered = textureGather(scratch, vec2(face.source + at1 * 2u + 1u) / float(face.size));
+  vec4 gathered = textureGather(scratch, vec3(vec2(at1 * 2u + 1u) / float(face.size), float(face.layer)));
   float depths[4] = float[4](gathered.w, gathered.z, gathered.x, gathered.y);
   Texels texels = kNone;
   for (uint one = 0u; one < 4u; ++one) {
@@ -127,10 +131,10 @@ void make_first_mips(uvec2 block, float gap) {
 }
 
 float source_texel(uvec2 at, out vec2 bounds) {
-  at = min(at, uvec2((face.size >> face.first) - 1u));
-  ivec2 corner = mip_corner(face.first - uint(GLOAM_SHADOW_PYRAMID_MIP), face.atlas_size / 4u);
-  bounds = imageLoad(pyramid, corner + ivec2(face.source + at)).xy;
-  return imageLoad(atlas, mip_corner(face.first, face.atlas_size) + ivec2(face.source + at)).x;
+  at = min(at, uvec2((face.size >> run.first) - 1u));
+  ivec2 corner = mip_corner(run.first - uint(GLOAM_SHADOW_PYRAMID_MIP), run.atlas_size / 4u);
+  bounds = imageLoad(pyramid, corner + ivec2((face.origin >> run.first) + at)).xy;
+  return imageLoad(atlas, mip_corner(run.first, run.atlas_size) + ivec2((face.origin >> run.first) + at)).x;
 }
 
 // The three mips after `first` of a block.
@@ -148,24 +152,24 @@ void make_next_mips(uvec2 block, float gap) {
         add(first, depth, bounds, gap);
       }
       float depth = depth_of(first);
-      store(face.first + 1u, at1, depth, first.bounds);
+      store(run.first + 1u, at1, depth, first.bounds);
       add(second, depth, first.bounds, 2.0 * gap);
     }
     float depth = depth_of(second);
-    store(face.first + 2u, at2, depth, second.bounds);
+    store(run.first + 2u, at2, depth, second.bounds);
     add(third, depth, second.bounds, 4.0 * gap);
   }
-  store(face.first + 3u, block, depth_of(third), third.bounds);
+  store(run.first + 3u, block, depth_of(third), third.bounds);
 }
 
 void main() {
-  uint side = 8u << face.first;  // of a block, texels of mip 0
-  uvec2 block = face.begin / side + gl_GlobalInvocationID.xy;
-  bool inside = all(lessThan(block * side, face.end));
-  float gap = face.gap * float(1u << (face.first + 1u));
+  face = groups[run.first_group + gl_WorkGroupID.x];
+  uvec2 block = face.begin + gl_LocalInvocationID.xy;
+  bool inside = all(lessThan(block, face.end));
+  float gap = face.gap * float(1u << (run.first + 1u));
   // Loops of one turn: a device that runs threads in lockstep on a CPU skips these, but no branches.
-  for (bool go = inside && face.first == 0u; go; go = false) make_first_mips(block, gap);
-  for (bool go = inside && face.first != 0u; go; go = false) make_next_mips(block, gap);
+  for (bool go = inside && run.first == 0u; go; go = false) make_first_mips(block, gap);
+  for (bool go = inside && run.first != 0u; go; go = false) make_next_mips(block, gap);
 }
 
 #endif

@@ -6,22 +6,25 @@
 
 // Planes above what shadow maps hold. One thread makes one texel of level 0, or one of the last level with all of the levels between.
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GLOAM_SHADOW_PLANE_GROUP, local_size_y = GLOAM_SHADOW_PLANE_GROUP) in;
 
 layout(set = 0, binding = 0) uniform sampler2D atlas;
 layout(set = 0, binding = 1, rgba32f) uniform image2D planes;
-layout(push_constant, scalar) uniform Constants { ShadowPlaneConstants stretch; };
+layout(set = 0, binding = 2, scalar) readonly buffer Groups { ShadowPlaneGroup groups[]; };
+layout(push_constant, scalar) uniform Constants { ShadowPlaneConstants run; };
+
+ShadowPlaneGroup stretch;  // of this workgroup
 
 const int kBlock = GLOAM_SHADOW_PLANE_BLOCK;
 
 ivec2 level_corner(int level) {
-  int size = int(stretch.atlas_size) / kBlock;
+  int size = int(run.atlas_size) / kBlock;
   return level == 0 ? ivec2(0) : ivec2(size, size - (2 * size >> level));
 }
 
 // Four texels of the atlas in the order (0,1), (1,1), (1,0), (0,0).
 vec4 quad_depths(ivec2 texel) {
-  return textureGather(atlas, vec2(texel + 1) / (vec2(1.5, 1.0) * float(stretch.atlas_size)));
+  return textureGather(atlas, vec2(texel + 1) / (vec2(1.5, 1.0) * float(run.atlas_size)));
 }
 
 float greatest(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
@@ -73,7 +76,7 @@ vec4 merged(Merge m, float child_texels) {
 ivec2 level_texel(int level, ivec2 in_face) { return level_corner(level) + (ivec2(stretch.origin) / kBlock >> level) + in_face; }
 
 // Whether the face has a texel of this level there.
-bool in_face(int level, ivec2 texel) { return all(lessThan(texel, ivec2(stretch.face_size / uint(kBlock) >> level))); }
+bool in_face(int level, ivec2 texel) { return all(lessThan(texel, ivec2(stretch.size / uint(kBlock) >> level))); }
 
 void store(int level, ivec2 texel, vec4 plane) {
   if (in_face(level, texel)) imageStore(planes, level_texel(level, texel), plane);
@@ -100,11 +103,11 @@ void make_levels(ivec2 at) {
 }
 
 void main() {
-  int texels = stretch.first_level == 0u ? kBlock : kBlock << (GLOAM_SHADOW_PLANE_LEVELS - 1);
-  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(at * texels, ivec2(stretch.texels)))) return;
-  ivec2 texel = ivec2(stretch.first) / texels + at;
-  if (stretch.first_level == 0u) {
+  stretch = groups[run.first_group + gl_WorkGroupID.x];
+  uvec2 at = stretch.begin + gl_LocalInvocationID.xy;
+  if (any(greaterThanEqual(at, stretch.end))) return;
+  ivec2 texel = ivec2(at);
+  if (run.first_level == 0u) {
     store(0, texel, plane_of_block(ivec2(stretch.origin) + texel * kBlock));
     return;
   }

@@ -11,17 +11,23 @@
 
 #define GLOAM_SHADOW_PLANE_BLOCK 8
 #define GLOAM_SHADOW_PLANE_LEVELS 4
+#define GLOAM_SHADOW_PLANE_GROUP 8  // threads of a side of a workgroup of shadow_planes.comp
 
 GLOAM_SHARED_BEGIN
 
-/// One stretch of a face (shadow_planes.comp).
+/// One dispatch of shadow_planes.comp: stretches of any number of faces.
 struct ShadowPlaneConstants {
-  uvec2 origin;     // of the face in the atlas, texels of mip 0
-  uvec2 first;      // of the stretch in the face, texels of mip 0; a multiple of 64, or 0
-  uvec2 texels;     // of the stretch; likewise, or what the face has
-  uint first_level; // 0: level 0 from the atlas; 1: the others from level 0
+  uint first_level;  // 0: level 0 from the atlas; 1: the others from level 0
   uint atlas_size;
-  uint face_size;   // texels of mip 0
+  uint first_group;  // of the dispatch's workgroups, in the buffer of groups
+};
+
+/// One workgroup's part of a face.
+struct ShadowPlaneGroup {
+  uvec2 origin;  // of the face in the atlas, texels of mip 0
+  uvec2 begin;   // corner of the stretch in the face, in texels of level 0, or of the last one where the others are made
+  uvec2 end;     // the corner across from it, before which it ends
+  uint size;     // of the face, texels of mip 0
 };
 
 GLOAM_SHARED_END

@@ -35,7 +35,6 @@
 #define GLOAM_SHADOW_SMALLEST_FACE 16 // texels; faces are 16 … 4096
 #define GLOAM_MAX_CASCADES 4
 #define GLOAM_COOKIE_LIGHTS 4          // that ShadowBlock names
-#define GLOAM_SHADOW_MIP_GROUP 8       // threads of a side of a workgroup of shadow_mips.comp; each takes 8 × 8 texels of the source
 
 GLOAM_SHARED_BEGIN
 
@@ -86,21 +85,6 @@ struct ShadowBlock {
   float relative_quantum;
   uint cookie_lights[GLOAM_COOKIE_LIGHTS];  // of the view, with cookies, while the scene has no more of them; else and beyond: no light's index
   DirectionalShadow directional[16];  // by index of the view's directional lights
-};
-
-/// One face whose depth moves from the scratch map into the atlas, or one run of mips (shadow_mips.comp).
-struct ShadowMipConstants {
-  uvec2 source;   // corner in the scratch map (mip 0) or in mip `first` (texels of that mip, atlas coordinates without corner(first))
-  uvec2 origin;   // of the face in the atlas, texels of mip 0
-  uint size;      // of the face, texels of mip 0
-  uint first;     // 0: from the scratch map; else the mip that is there already
-  uint mips;      // of a face of this size: log2(size) + 1
-  uint mip_operator;  // GLOAM_SHADOW_MIPS_…
-  uint atlas_size;
-  uint orthographic;  // depth is linear already
-  uvec2 begin;        // corner of what is made anew in the face, texels of mip 0, a multiple of 8; coarser mips: what it has a part in
-  uvec2 end;          // the corner across from it, before which it ends
-  float gap;          // coverage: how far a surface recedes over a texel of mip 0 at most, as a share of its distance (orthographic: depth)
 };
 
 GLOAM_SHARED_END

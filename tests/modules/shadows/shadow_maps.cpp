@@ -9,7 +9,9 @@
 #include <map>
 
 #include "engine/frame/upload.h"
+#include "modules/shadows/work_groups.h"
 #include "shaders/shadows/shaders.h"
+#include "shaders/shadows/shadow_mips_shared.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam::test {
@@ -151,40 +153,49 @@ uvec2 ShadowMaps::mip_corner(std::uint32_t size, std::uint32_t mip) {
 
 void ShadowMaps::add_face(const std::vector<float>& depths, uvec2 origin, std::uint32_t size, bool orthographic,
                           std::uint32_t mip_operator, float gap) {
-  const gpu::ImageHandle scratch = texture(gpu::Format::r32_float, uvec2(size), std::as_bytes(std::span(depths)));
-  const std::vector<gpu::Binding> bindings = {{0, gpu::Binding::Sampled{{.image = scratch}, nearest_}},
-                                              {1, gpu::Binding::Storage{{.image = atlas_}}},
-                                              {2, gpu::Binding::Storage{{.image = pyramid_}}}};
-  shaders::ShadowMipConstants constants{.source = uvec2(0),
-                                        .origin = origin,
-                                        .size = size,
-                                        .first = 0,
-                                        .mips = static_cast<std::uint32_t>(std::bit_width(size)),
-                                        .mip_operator = mip_operator,
-                                        .atlas_size = size_,
-                                        .orthographic = orthographic ? 1u : 0u,
-                                        .begin = uvec2(0),
-                                        .end = uvec2(size),
-                                        .gap = gap};
+  const gpu::ImageHandle scratch =
+      texture(gpu::Format::r32_float, uvec2(size), std::as_bytes(std::span(depths)), gpu::ImageShape::array);
+  shaders::ShadowMipConstants constants{0, mip_operator, size_, 0};
+  shaders::ShadowMipGroup group{};
+  group.origin = origin;
+  group.size = size;
+  group.orthographic = orthographic ? 1u : 0u;
+  group.gap = gap;
+  std::vector<shaders::ShadowMipGroup> groups;
+  std::vector<GroupRange> runs;
+  for (std::uint32_t first = 0; first == 0 || size >> first > 1; first += GLOAM_SHADOW_MIP_RUN) {
+    runs.push_back({static_cast<std::uint32_t>(groups.size()), 0});
+    const std::uint32_t block = std::uint32_t{GLOAM_SHADOW_MIP_BLOCK} << first;
+    add_groups(uvec2(0), uvec2((size + block - 1) / block), GLOAM_SHADOW_MIP_GROUP, [&](uvec2 begin, uvec2 end) {
+      group.begin = begin;
+      group.end = end;
+      groups.push_back(group);
+    });
+    runs.back().count = static_cast<std::uint32_t>(groups.size()) - runs.back().first;
+  }
+  const gpu::BufferHandle buffer = make_upload(device_, groups);
+  const std::vector<gpu::Binding> bindings = {
+      {0, gpu::Binding::Sampled{{.image = scratch, .as_array = true}, nearest_}},
+      {1, gpu::Binding::Storage{{.image = atlas_}}},
+      {2, gpu::Binding::Storage{{.image = pyramid_}}},
+      {3, gpu::Binding::BufferRange{buffer}}};
   run_frame(device_, [&](gpu::CommandList& commands) {
     turn(commands, atlas_, Access::compute_read, Access::compute_write);
     turn(commands, pyramid_, Access::compute_read, Access::compute_write);
-    for (constants.first = 0; constants.first == 0 || constants.first + 1 < constants.mips; constants.first += 3) {
+    commands.bind_pipeline(mips_);
+    commands.bind(bindings);
+    for (const GroupRange& run : runs) {
       if (constants.first != 0) {
-        constants.source = origin / (1u << constants.first);
         turn(commands, atlas_, Access::compute_write, Access::compute_write);
         turn(commands, pyramid_, Access::compute_write, Access::compute_write);
       }
-      constexpr std::uint32_t kTexels = GLOAM_SHADOW_MIP_GROUP * 8;
-      const std::uint32_t groups = ((size >> constants.first) + kTexels - 1) / kTexels;
-      commands.bind_pipeline(mips_);
-      commands.bind(bindings);
-      commands.push_constants(std::as_bytes(std::span(&constants, 1)));
-      commands.dispatch(groups, groups, 1);
+      dispatch_groups(commands, constants, run);
+      constants.first += GLOAM_SHADOW_MIP_RUN;
     }
     turn(commands, atlas_, Access::compute_write, Access::compute_read);
     turn(commands, pyramid_, Access::compute_write, Access::compute_read);
   });
+  device_.destroy(buffer);
   device_.destroy(scratch);
 }
 

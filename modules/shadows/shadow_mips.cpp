@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/shadow_mips.h"
+
+#include "shaders/shadows/shaders.h"
+
+namespace gloam {
+namespace {
+
+/// ShadowMipGroup::gap: what recedes more steeply is taken for two surfaces.
+float surface_gap(const ShadowFace& face) {
+  constexpr float kSteepest = 3.0f;  // metres away from the light a metre across
+  const auto texels = static_cast<float>(face.square.size);
+  if (face.tan_half > 0.0f) return kSteepest * 2.0f * face.tan_half / texels;
+  return kSteepest * 2.0f * face.half_extent_m / texels / face.far_m;
+}
+
+TexelRect bounds_of(const DrawnFace& face) {
+  TexelRect bounds = face.regions.front().texels;
+  for (const DrawnRegion& region : face.regions)
+    bounds = {glm::min(bounds.begin, region.texels.begin), glm::max(bounds.end, region.texels.end)};
+  return bounds;
+}
+
+class GroupList {
+ public:
+  /// What one dispatch makes of these texels of a face: the run of mips after `first`.
+  void add(const ShadowFace& face, std::uint32_t layer, const TexelRect& texels, std::uint32_t first) {
+    const std::uint32_t block = std::uint32_t{GLOAM_SHADOW_MIP_BLOCK} << first;
+    shaders::ShadowMipGroup group{};
+    group.origin = face.square.origin;
+    group.size = face.square.size;
+    group.layer = layer;
+    group.orthographic = face.tan_half > 0.0f ? 0u : 1u;
+    group.gap = surface_gap(face);
+    add_groups(texels.begin / block, (texels.end + block - 1u) / block, GLOAM_SHADOW_MIP_GROUP,
+               [&](uvec2 begin, uvec2 end) {
+                 group.begin = begin;
+                 group.end = end;
+                 groups_.push_back(group);
+               });
+  }
+  /// All that was added since the last call.
+  [[nodiscard]] GroupRange take_range() {
+    const GroupRange range{taken_, static_cast<std::uint32_t>(groups_.size()) - taken_};
+    taken_ += range.count;
+    return range;
+  }
+  [[nodiscard]] const std::vector<shaders::ShadowMipGroup>& groups() const { return groups_; }
+
+ private:
+  std::vector<shaders::ShadowMipGroup> groups_;
+  std::uint32_t taken_ = 0;
+};
+
+void record(gpu::CommandList& commands, const ShadowMipWork& work, const GroupRange& groups, std::uint32_t first) {
+  shaders::ShadowMipConstants constants = work.constants;
+  constants.first = first;
+  dispatch_groups(commands, constants, groups);
+}
+
+void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images) {
+  const gpu::ImageView scratch{.image = images.scratch, .as_array = true};
+  const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{scratch, work.sampler}},
+                                   {1, gpu::Binding::Storage{{.image = images.atlas}}},
+                                   {2, gpu::Binding::Storage{{.image = images.pyramid}}},
+                                   {3, work.groups}};
+  commands.bind_pipeline(work.pipeline);
+  commands.bind(bindings);
+}
+
+}  // namespace
+
+gpu::ComputePipelineDesc shadow_mips_pipeline(bool d16) {
+  if (d16) return {"shadow_map_mips/d16", "shadows", shaders::shadows::shadow_mips_r16_comp, {}};
+  return {"shadow_map_mips/d32", "shadows", shaders::shadows::shadow_mips_comp, {}};
+}
+
+Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, std::span<const DrawnFace> faces, const ScratchPlan& plan,
+                                       const ShadowKnobs& knobs) {
+  ShadowMipWork work;
+  work.constants.mip_operator = knobs.mip_operator;
+  work.constants.atlas_size = knobs.atlas_size;
+  GroupList list;
+  for (const ScratchPlan::Batch& batch : plan.batches) {
+    for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
+      const DrawnFace& face = faces[batch.items[layer]];
+      for (const DrawnRegion& region : face.regions) list.add(face.face, layer, region.texels, 0);
+    }
+    work.batches.push_back(list.take_range());
+  }
+  for (std::uint32_t first = GLOAM_SHADOW_MIP_RUN; plan.batches.front().size >> first > 1;
+       first += GLOAM_SHADOW_MIP_RUN) {
+    // Coarser mips have few texels: what lies between a face's regions is made along with them, and nothing twice.
+    for (const DrawnFace& face : faces)
+      if (face.face.square.size >> first > 1) list.add(face.face, 0, bounds_of(face), first);
+    work.coarse.push_back(list.take_range());
+  }
+  auto groups = frame.services().storage.write(std::as_bytes(std::span(list.groups())));
+  if (!groups.ok()) return groups.error();
+  work.groups = *groups;
+  auto pipeline = frame.services().pipelines.get(shadow_mips_pipeline(knobs.d16));
+  if (!pipeline.ok()) return pipeline.error();
+  work.pipeline = *pipeline;
+  auto sampler = frame.nearest_sampler();
+  if (!sampler.ok()) return sampler.error();
+  work.sampler = *sampler;
+  return work;
+}
+
+void record_batch_mips(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,
+                       const ShadowMipImages& images) {
+  bind(commands, work, images);
+  record(commands, work, work.batches[batch], 0);
+}
+
+void record_coarse_mips(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images) {
+  bind(commands, work, images);
+  for (std::uint32_t run = 0; run < work.coarse.size(); ++run) {
+    if (run > 0) {
+      // Each run of mips reads the last of the one before.
+      const gpu::ImageBarrier written[] = {{images.atlas, gpu::Access::compute_write, gpu::Access::compute_write},
+                                           {images.pyramid, gpu::Access::compute_write, gpu::Access::compute_write}};
+      commands.barrier({}, written);
+    }
+    record(commands, work, work.coarse[run], (run + 1) * GLOAM_SHADOW_MIP_RUN);
+  }
+}
+
+}  // namespace gloam

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/render/frame_builder.h"
+#include "modules/shadows/drawn_faces.h"
+#include "modules/shadows/scratch_plan.h"
+#include "modules/shadows/shadow_knobs.h"
+#include "modules/shadows/work_groups.h"
+#include "shaders/shadows/shadow_mips_shared.h"
+
+namespace gloam {
+
+[[nodiscard]] gpu::ComputePipelineDesc shadow_mips_pipeline(bool d16);
+
+/// Dispatches of shadow_mips.comp for what a frame draws: one a batch that moves its faces out of the scratch map, then one a run of
+/// coarser mips for the faces of all batches.
+struct ShadowMipWork {
+  std::vector<GroupRange> batches;
+  std::vector<GroupRange> coarse;    ///< from mip GLOAM_SHADOW_MIP_RUN on
+  gpu::Binding::BufferRange groups;  ///< this frame's
+  shaders::ShadowMipConstants constants{};
+  gpu::PipelineHandle pipeline;
+  gpu::SamplerHandle sampler;
+};
+
+[[nodiscard]] Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, std::span<const DrawnFace> faces,
+                                                     const ScratchPlan& plan, const ShadowKnobs& knobs);
+
+struct ShadowMipImages {
+  gpu::ImageHandle scratch;  ///< of the batch; for coarse mips any that may be read
+  gpu::ImageHandle atlas;
+  gpu::ImageHandle pyramid;
+};
+
+void record_batch_mips(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,
+                       const ShadowMipImages& images);
+void record_coarse_mips(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images);
+
+}  // namespace gloam

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_SHADOW_MIPS_SHARED_H
+#define GLOAM_SHADERS_SHADOWS_SHADOW_MIPS_SHARED_H
+
+#include "shaders/common/prelude.h"
+
+#define GLOAM_SHADOW_MIP_BLOCK 8  // texels of the source, along a side, that a thread of shadow_mips.comp takes
+#define GLOAM_SHADOW_MIP_GROUP 8  // threads of a side of its workgroups
+#define GLOAM_SHADOW_MIP_RUN 3    // mips that a dispatch makes
+
+GLOAM_SHARED_BEGIN
+
+/// One dispatch of shadow_mips.comp: a run of mips of parts of any number of faces.
+struct ShadowMipConstants {
+  uint first;         // 0: from the scratch map; else the mip that is there already
+  uint mip_operator;  // GLOAM_SHADOW_MIPS_…
+  uint atlas_size;
+  uint first_group;   // of the dispatch's workgroups, in the buffer of groups
+};
+
+/// One workgroup's part of a face.
+struct ShadowMipGroup {
+  uvec2 origin;       // of the face in the atlas, texels of mip 0
+  uvec2 begin;        // corner of what is made anew in the face, in blocks of the source
+  uvec2 end;          // the corner across from it, before which it ends
+  uint size;          // of the face, texels of mip 0
+  uint layer;         // of the scratch map
+  uint orthographic;  // depth is linear already
+  float gap;          // coverage: how far a surface recedes over a texel of mip 0 at most, as a share of its distance (orthographic: depth)
+};
+
+GLOAM_SHARED_END
+
+#endif
