@@ -23,12 +23,17 @@ gpu::ComputePipelineDesc classify_pipeline(const ShadowsOutputs& shadows) {
   return {"classify_shadows/" + shadows.variant, "shadows", shaders::shadows::classify_shadows_comp, shadows.constants};
 }
 
-gpu::ComputePipelineDesc generate_pipeline(const ShadowsOutputs& shadows, const FinalLists& lists,
+gpu::ShaderCode generate_code(bool directional, bool standard) {
+  using namespace shaders::shadows;
+  if (directional) return standard ? generate_shadows_suns_standard_comp : generate_shadows_suns_comp;
+  return standard ? generate_shadows_local_standard_comp : generate_shadows_local_comp;
+}
+
+gpu::ComputePipelineDesc generate_pipeline(const ShadowsOutputs& shadows, const FinalLists& lists, bool directional,
                                            const gpu::DeviceInfo& device) {
   gpu::ComputePipelineDesc desc{
-      "generate_shadows/" + shadows.variant + "/" + lists.variant, "shadows",
-      shadows.standard ? shaders::shadows::generate_shadows_standard_comp : shaders::shadows::generate_shadows_comp,
-      shadows.constants};
+      std::string("generate_shadows/") + (directional ? "suns/" : "local/") + shadows.variant + "/" + lists.variant,
+      "shadows", generate_code(directional, shadows.standard), shadows.constants};
   desc.constants.push_back({0, threads_a_pair(device)});
   for (const gpu::SpecConstant& constant : lists.constants)
     if (constant.id == GLOAM_FINAL_BITS_ID) desc.constants.push_back(constant);
@@ -61,7 +66,7 @@ void add_start_pass(FrameBuilder& frame, Generate& g) {
   g.lists().counters = pass.write(g.lists().counters, gpu::Access::transfer_write);
   pass.execute([commands_ref = g.lists().commands, counters = g.lists().counters](PassContext& context) {
     constexpr std::uint64_t kWord = sizeof(std::uint32_t);
-    constexpr std::uint32_t kStart[] = {GLOAM_PAIRS_ROW, 0, 1, 0, 6, 0, 0, 0};
+    constexpr std::uint32_t kStart[] = {GLOAM_PAIRS_ROW, 0, 1, 0, GLOAM_PAIRS_ROW, 0, 1, 0, 6, 0, 0, 0};
     static_assert(sizeof(kStart) == sizeof(shaders::ShadowListCommands));
     gpu::CommandList& commands = context.commands();
     commands.fill_buffer(context.buffer(counters), 0, sizeof(shaders::ShadowListCounters), 0);
@@ -112,41 +117,88 @@ Status add_classify_pass(FrameBuilder& frame, Generate& g) {
   return {};
 }
 
+/// Of the two kinds of pairs; none for lights that the view has none of.
+struct PairPipelines {
+  gpu::PipelineHandle local;
+  gpu::PipelineHandle directional;
+};
+
+Result<PairPipelines> pair_pipelines(FrameBuilder& frame, Generate& g) {
+  PairPipelines made;
+  const FrameServices& services = frame.services();
+  const auto get = [&](bool directional, gpu::PipelineHandle& pipeline) -> Status {
+    auto found = services.pipelines.get(generate_pipeline(g.shadows, g.lists(), directional, services.device.info()));
+    if (!found.ok()) return found.error();
+    pipeline = *found;
+    return {};
+  };
+  if (g.lights.local_count > 0) GLOAM_TRY(get(false, made.local));
+  if (g.lights.directional_count > 0) GLOAM_TRY(get(true, made.directional));
+  return made;
+}
+
+std::vector<gpu::Binding> pair_bindings(const FrameBuilder& frame, const PassContext& context, Generate& g) {
+  const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, g.sampler}; };
+  const FinalLists& l = g.lists();
+  std::vector<gpu::Binding> bindings = {frame.view_binding(),
+                                        {1, g.lights.lights},
+                                        {2, g.buffers.grid},
+                                        {3, sampled(g.geometry.depth)},
+                                        {4, sampled(g.geometry.normals)},
+                                        {5, sampled(g.geometry.base_color)},
+                                        {6, sampled(g.texels)},
+                                        {7, whole(context, g.buffers.pairs)},
+                                        {8, whole(context, l.entries)},
+                                        {9, whole(context, l.visibilities[0])},
+                                        {10, whole(context, l.visibilities[1])},
+                                        {11, whole(context, l.counters)}};
+  append_shadow_bindings(bindings, kFirstShadowBinding, context, g.shadows);
+  bindings.push_back({18, whole(context, l.commands)});
+  return bindings;
+}
+
+void record_pairs(const FrameBuilder& frame, PassContext& context, Generate& g, const PairPipelines& pipelines) {
+  const FinalLists& l = g.lists();
+  const gpu::BufferHandle arguments = context.buffer(l.commands);
+  const std::vector<gpu::Binding> bindings = pair_bindings(frame, context, g);
+  gpu::CommandList& commands = context.commands();
+  if (pipelines.local) {
+    commands.bind_pipeline(pipelines.local);
+    commands.bind(bindings);
+    commands.dispatch_indirect(arguments, offsetof(shaders::ShadowListCommands, local_groups));
+  }
+  if (!pipelines.directional) return;
+  if (pipelines.local) {
+    // They write different places of the same buffers.
+    std::vector<gpu::BufferBarrier> written;
+    for (const BufferRef buffer : {l.entries, l.visibilities[0], l.counters})
+      written.push_back({context.buffer(buffer), gpu::Access::compute_write, gpu::Access::compute_write});
+    if (l.visibilities[1].resource != l.visibilities[0].resource)
+      written.push_back({context.buffer(l.visibilities[1]), gpu::Access::compute_write, gpu::Access::compute_write});
+    commands.barrier(written, {});
+  }
+  commands.bind_pipeline(pipelines.directional);
+  commands.bind(bindings);
+  commands.dispatch_indirect(arguments, offsetof(shaders::ShadowListCommands, directional_groups));
+}
+
 Status add_pairs_pass(FrameBuilder& frame, Generate& g) {
-  auto pipeline =
-      frame.services().pipelines.get(generate_pipeline(g.shadows, g.lists(), frame.services().device.info()));
-  if (!pipeline.ok()) return pipeline.error();
+  auto pipelines = pair_pipelines(frame, g);
+  if (!pipelines.ok()) return pipelines.error();
   FinalLists& lists = g.lists();
   PassBuilder pass = frame.graph().add_pass("generate_shadows", "shadows");
   for (const ImageRef image : {g.geometry.depth, g.geometry.normals, g.geometry.base_color, g.texels})
     pass.read(image, gpu::Access::compute_read);
   pass.read(g.buffers.pairs, gpu::Access::compute_read);
   pass.read(lists.commands, gpu::Access::indirect_read);
+  pass.read(lists.commands, gpu::Access::compute_read);
   declare_shadow_reads(pass, g.shadows, gpu::Access::compute_read);
   const bool split = lists.visibilities[1].resource != lists.visibilities[0].resource;
   for (BufferRef* buffer : {&lists.entries, &lists.visibilities[0], &lists.counters})
     *buffer = pass.write(*buffer, gpu::Access::compute_write);
   lists.visibilities[1] = split ? pass.write(lists.visibilities[1], gpu::Access::compute_write) : lists.visibilities[0];
-  pass.execute([&frame, g, pipeline = *pipeline](PassContext& context) mutable {
-    const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, g.sampler}; };
-    const FinalLists& l = g.lists();
-    std::vector<gpu::Binding> bindings = {frame.view_binding(),
-                                          {1, g.lights.lights},
-                                          {2, g.buffers.grid},
-                                          {3, sampled(g.geometry.depth)},
-                                          {4, sampled(g.geometry.normals)},
-                                          {5, sampled(g.geometry.base_color)},
-                                          {6, sampled(g.texels)},
-                                          {7, whole(context, g.buffers.pairs)},
-                                          {8, whole(context, l.entries)},
-                                          {9, whole(context, l.visibilities[0])},
-                                          {10, whole(context, l.visibilities[1])},
-                                          {11, whole(context, l.counters)}};
-    append_shadow_bindings(bindings, kFirstShadowBinding, context, g.shadows);
-    gpu::CommandList& commands = context.commands();
-    commands.bind_pipeline(pipeline);
-    commands.bind(bindings);
-    commands.dispatch_indirect(context.buffer(l.commands), offsetof(shaders::ShadowListCommands, pair_groups));
+  pass.execute([&frame, g, pipelines = *pipelines](PassContext& context) mutable {
+    record_pairs(frame, context, g, pipelines);
   });
   return {};
 }

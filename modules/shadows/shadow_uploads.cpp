@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "modules/lights/outputs.h"
+#include "modules/lights/light_list.h"
+#include "modules/shadows/cascade_rows.h"
 #include "modules/shadows/shadow_cookies.h"
 
 namespace gloam {
@@ -82,8 +84,6 @@ shaders::ShadowBlock block_of(const FrameBuilder& frame, const ShadowViews& view
 
 Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, std::vector<shaders::ShadowRow> rows,
                           std::vector<Copy>& copies) {
-  // Few heights, so that the frame's plan stays as it is while lights come and go.
-  rows.resize(std::bit_ceil(std::max<std::size_t>(rows.size(), kFewestRows)));
   gpu::ImageDesc desc;
   desc.name = "shadow_rows";
   desc.module = "shadows";
@@ -145,7 +145,12 @@ Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const Shado
                           ShadowsOutputs& outputs) {
   const TracedVisibility* traced = traced_visibility_of(frame.world(), frame.view());
   std::vector<shaders::ShadowRow> rows_now = rows_of(frame, views, traced);
-  auto block = frame.services().uniforms.write_value(block_of(frame, views, knobs, traced, rows_now));
+  shaders::ShadowBlock block_now = block_of(frame, views, knobs, traced, rows_now);
+  // Few heights, so that the frame's plan stays as it is while lights come and go.
+  rows_now.resize(std::bit_ceil(std::max<std::size_t>(rows_now.size(), kFewestRows)));
+  const shaders::LightBlock& lights = frame.world().view_resource<VisibleLights>(frame.view().id).block;
+  append_cascade_rows(std::span(lights.directional, lights.directional_count), block_now, rows_now);
+  auto block = frame.services().uniforms.write_value(block_now);
   if (!block.ok()) return block.error();
   outputs.block = *block;
   auto nearest = frame.nearest_sampler();

@@ -28,6 +28,23 @@ vec2 pyramid_corner(ShadowPoint p, int level) {
   return (square.corner + clamp(corner, vec2(1.0), vec2(square.size - 1.0))) * 4.0 * shadow_texel_size();
 }
 
+#if (GLOAM_SHADOWS_KINDS & 2) != 0
+// Whether another face of a cube, whose nearest depth is this, may hold anything between the emitter and a receiver of `depth` that is
+// `off` texels from that face's border. What lies at the tangent t ≥ 1 has t times its depth in the receiver's own face, and the cone
+// (SearchCone) begins at depth + 2 (t − tangent of the receiver) / (scale · to_tangent) there: if not at the border, then nowhere.
+bool may_block_from_other_face(float nearest, float depth, float off, float scale, float to_tangent) {
+  float a_texel = 2.0 / max(scale, 1e-6);
+  return nearest * to_tangent > a_texel || nearest > depth + a_texel * max(off - 4.0, 0.0);
+}
+
+// Texels from a place in a face of a cube to the border with another face; far where they have none.
+float texels_to_face(int own, int face, vec2 at, float size, float to_tangent) {
+  mat3 axes = cube_face_axes(own);
+  vec3 toward = cube_face_axes(face)[2] * axes;
+  float along = dot(vec2(toward.x, -toward.y), at - 0.5 * size);
+  return toward.z == 0.0 ? 1.0 / to_tangent - along : 1e9;
+}
+
 // A cube's region, from the pyramid's texels. across: the region leaves the face.
 SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
   const int faces = 6, taps = 9;
@@ -36,6 +53,7 @@ SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
   float to_tangent = p.tan_half * 2.0 / p.size, nearest = 0.0;
   SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
   across = false;
+  bool others = false;
   int i = 0, end = faces;
   // First all faces, whole: any of them may see what another holds within its field of view twice over. When the square that this gives leaves
   // the face, nine texels of it, then of the smaller square that these give. One loop, so that devices which run an idle loop once run little.
@@ -49,14 +67,20 @@ SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
     vec2 there = whole ? vec2(0.0) : vec2(local.x, -local.y) / local.z / to_tangent + 0.5 * p.size;
     MipSquare square = mip_square(cube_face_origin(p.light, face) * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
     vec2 cell = clamp(floor(there * 0.25 / square.texel), vec2(0.0), vec2(square.size - 1.0));
-    float factor = whole ? (face == p.face ? 1.0 : 2.0) : local.z;
-    nearest = max(nearest, texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).y * factor);
+    float held = texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).y;
+    float factor = local.z;
+    if (whole) {
+      bool other = face != p.face && may_block_from_other_face(held, p.depth, texels_to_face(p.face, face, p.at, p.size, to_tangent), p.scale, to_tangent);
+      others = others || other;
+      factor = face == p.face ? 1.0 : other ? 2.0 : 0.0;
+    }
+    nearest = max(nearest, held * factor);
     ++i;
     if (i == faces || i == faces + taps || i == faces + 2 * taps) {
       float width = penumbra_width(p, nearest);
       region.width = whole ? width : min(region.width, width);
       region.nearest = whole ? 0.0 : nearest;
-      across = leaves_cube_face(p, 0.5 * region.width) && (whole || across);
+      across = leaves_cube_face(p, 0.5 * region.width) && (whole ? others : across);
       end = whole ? (across ? faces + 2 * taps : faces) : end;
       level = pyramid_level(0.5 * region.width, last);
       nearest = 0.0;
@@ -64,13 +88,16 @@ SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
   } while (i < end);
   return region;
 }
+#endif
 
 // From coarse to fine: the nearest thing in a square that is too large gives a smaller one that is still large enough.
 SearchRegion find_region(ShadowPoint p) {
   int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
   bool across = false;
   SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
+#if (GLOAM_SHADOWS_KINDS & 2) != 0
   if ((kKinds & GLOAM_SHADOWS_CUBES) != 0u) region = find_region_of_cube(p, across);
+#endif
   if (!across) do {
     vec2 corner = pyramid_corner(p, last);
     for (int step = 0; step < 2; ++step) {
@@ -198,6 +225,7 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, flo
 }
 #endif
 
+#if (GLOAM_SHADOWS_KINDS & 2) != 0
 // The same where other faces of a cube have part in it: texel by texel.
 Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, texels);
@@ -217,6 +245,7 @@ Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_pla
   }
   return Blockers(count, count <= 1e-6 ? p.depth : count / sum);
 }
+#endif
 
 Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Blockers found = Blockers(0.0, p.depth);
@@ -228,9 +257,11 @@ Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, floa
     found = texels == 8 ? find_blockers_8(p, mip, whole_plane, half_width) : find_blockers(p, mip, texels, whole_plane, half_width);
 #endif
   } while (never(p));
+#if (GLOAM_SHADOWS_KINDS & 2) != 0
   if (across) do {
     found = find_blockers_across(p, mip, texels, whole_plane, half_width);
   } while (never(p));
+#endif
   return found;
 }
 

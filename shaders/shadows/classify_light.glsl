@@ -32,7 +32,7 @@ bool tile_in_local_face(TileBounds t, uint light, vec3 light_position, out TileI
   mat3 axes = mat3(right.xyz, up.xyz, spot_forward(light, right.xyz, up.xyz));
   if (f.cube) axes = kCube * cube_face_axes(face);
   float near = first.y, texel = 2.0 * right.w / first.w, width = max(first.z, 0.0);
-  vec2 low = vec2(1e30), high = vec2(-1e30);
+  vec2 texels[8];
   float least_z = 1e30, most_z = 0.0, most_stretch = 1.0, outermost = -1e30, least_r = 1e30, most_r = 0.0;
   for (int i = 0; i < 8; ++i) {
     vec3 v = t.corners[i] - light_position;
@@ -42,16 +42,16 @@ bool tile_in_local_face(TileBounds t, uint light, vec3 light_position, out TileI
     most_z = max(most_z, local.z);
     outermost = max(outermost, max(abs(local.x), abs(local.y)) - local.z * up.w);
     vec2 tangent = local.xy / max(local.z, 1e-9);
-    low = min(low, vec2(tangent.x, -tangent.y));
-    high = max(high, vec2(tangent.x, -tangent.y));
+    texels[i] = vec2(tangent.x, -tangent.y) / texel + 0.5 * first.w;
     most_stretch = max(most_stretch, distance / max(local.z, 1e-9));
     most_r = max(most_r, distance);
   }
   least_r = max(length(t.center - light_position) - t.radius, 1e-9);
+  f.face = face;
+  f.tan_half = right.w;
   f.origin = cube_face_origin(light, face);
   f.size = first.w;
-  f.low = low / texel + 0.5 * f.size - 1.0 / 16.0;
-  f.high = high / texel + 0.5 * f.size + 1.0 / 16.0;
+  set_texels(texels, 1.0 / 16.0, f);
   const float slack = 4e-6;
   f.nearest = near / max(least_z, 1e-9) * (1.0 + slack);
   f.farthest = near / max(most_z, 1e-9) * (1.0 - slack);
@@ -90,8 +90,10 @@ vec3 cascade_texel(ShadowCascade c, vec3 point) {
 // outside: no pixel lies in the cascade.
 void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, out TileInFace f, out bool outside) {
   vec3 low = vec3(1e30), high = vec3(-1e30);
+  vec2 texels[8];
   for (int i = 0; i < 8; ++i) {
     vec3 at = cascade_texel(c, t.corners[i]);
+    texels[i] = at.xy;
     low = min(low, at);
     high = max(high, at);
   }
@@ -102,12 +104,11 @@ void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, 
   f.cube = false;
   f.origin = c.origin;
   f.size = c.size;
-  f.low = low.xy - slack;
-  f.high = high.xy + slack;
+  set_texels(texels, slack, f);
   float rounding = 1e-6 + 4e-7 * max(abs(low.z), abs(high.z));
   f.nearest = high.z + rounding;
   f.farthest = low.z - rounding;
-  float penumbra = max(shadow_block.directional[light].penumbra_m_per_m, 0.0);
+  float penumbra = max(fetch_sun(light).y, 0.0);
   f.scale = penumbra * c.depth_m / c.texel_m * 1.00001;
   float along = dot(t.normal, direction);
   set_facing(f, vec2(along - t.spread, along + t.spread), vec2(0.5 * penumbra), t.subsurface);
@@ -128,19 +129,19 @@ void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, 
 }
 
 // A pixel looks at the first cascade that it lies in: what all cascades agree on that may be one's first holds for the tile.
-uint classify_directional(TileBounds t, uint light, vec3 direction) {
-  uint count = min(shadow_block.directional[light].cascade_count, uint(GLOAM_MAX_CASCADES));
+uint classify_directional(TileBounds t, uint light, vec3 direction, int most_turns) {
+  uint count = min(uint(fetch_sun(light).x), uint(GLOAM_MAX_CASCADES));
   if (count == 0u) return kCastsNone;
   uint verdict = kUnknown, i = 0u;
   bool first = true, done = false;
   do {
     TileInFace f;
     bool outside;
-    tile_in_cascade(t, light, direction, shadow_block.directional[light].cascades[i], f, outside);
+    tile_in_cascade(t, light, direction, fetch_cascade(cascade_row(light, i)), f, outside);
     bool surrounded = f.surrounded;
     // Pixels that are not in this cascade have no part in what it says.
     f.surrounded = f.nearest < 0.9999;
-    uint here = classify_in_face(f);
+    uint here = classify_in_face(f, most_turns);
     verdict = outside ? verdict : first || here == verdict ? here : kUnknown;
     first = first && outside;
     done = surrounded || (!outside && here == kUnknown);
@@ -149,22 +150,30 @@ uint classify_directional(TileBounds t, uint light, vec3 direction) {
   return done ? verdict : verdict == kLit || first ? kLit : kUnknown;
 }
 
-uint classify_local(TileBounds t, uint light, vec3 light_position) {
+// Whether the pixels of the tile may look at other faces of a cube before they know that what they need is in their own.
+bool other_faces_matter(TileInFace f, uint light) {
+  int last = floor_log2(f.size) - GLOAM_SHADOW_PYRAMID_MIP;
+  float to_tangent = 2.0 * f.tan_half / f.size;
+  float nearest = 0.0;
+  bool matter = false;
+  for (int i = 0; i < 6; ++i) {
+    MipSquare square = mip_square(cube_face_origin(light, i) * 0.25, f.size * 0.25, last, shadow_block.atlas_size * 0.25);
+    float held = texelFetch(shadow_pyramid, ivec2(square.corner), 0).y;
+    float off = min(texels_to_face(f.face, i, f.low, f.size, to_tangent), texels_to_face(f.face, i, f.high, f.size, to_tangent));
+    bool other = i != f.face && may_block_from_other_face(held * 1.00001, f.farthest, off - 0.1, f.scale, to_tangent);
+    matter = matter || other;
+    nearest = max(nearest, i == f.face ? held : other ? 2.0 * held : 0.0);
+  }
+  return matter && leaves_face(f, 0.5 * widest(f, nearest) + 1.0);
+}
+
+uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turns) {
   TileInFace f;
   float kind = texelFetch(shadow_rows, ivec2(0, light), 0).x;
   bool inside = tile_in_local_face(t, light, light_position, f);
   if (kind == float(GLOAM_SHADOW_NONE)) return kCastsNone;
-  // A cube's pixels look at all faces before they know that what they need is in one.
-  float nearest = 0.0;
-  if (f.cube) {
-    int last = floor_log2(f.size) - GLOAM_SHADOW_PYRAMID_MIP;
-    for (int i = 0; i < 6; ++i) {
-      MipSquare square = mip_square(cube_face_origin(light, i) * 0.25, f.size * 0.25, last, shadow_block.atlas_size * 0.25);
-      nearest = max(nearest, 2.0 * texelFetch(shadow_pyramid, ivec2(square.corner), 0).y);
-    }
-  }
-  if (!inside || leaves_face(f, 0.5 * widest(f, nearest) + 1.0)) return f.turned_away && inside ? kUnlit : kUnknown;
-  return classify_in_face(f);
+  if (!inside || (f.cube && other_faces_matter(f, light))) return f.turned_away && inside ? kUnlit : kUnknown;
+  return classify_in_face(f, most_turns);
 }
 
 #endif

@@ -16,7 +16,7 @@
 // shows that nothing can hide it from any of the tile's pixels, is lit; one that something hides from all of them is left out; the others
 // become pairs for generate_shadows.comp. One thread is a tile.
 //
-// lavapipe ends all loops of a thread after 65,535 turns together: a light takes at most GLOAM_CLASSIFY_TURNS.
+// lavapipe ends all loops of a thread after 65,535 turns together: a light takes at most kMostTurns.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -36,30 +36,39 @@ layout(set = 0, binding = 20) uniform usampler2D normal_image;
 layout(set = 0, binding = 21) uniform sampler2D base_color_image;
 
 bool casts(bool directional, uint light) {
-  return directional ? shadow_block.directional[min(light, 15u)].cascade_count > 0u
+  return directional ? fetch_sun(light).x > 0.0
                      : texelFetch(shadow_rows, ivec2(0, light), 0).x != float(GLOAM_SHADOW_NONE);
 }
 
-uint classify(TileBounds tile, bool directional, uint light) {
-  if (directional) return classify_directional(tile, min(light, 15u), lights.directional[min(light, 15u)].direction);
-  return classify_local(tile, light, texelFetch(light_texels, ivec2(0, light), 0).xyz);
+uint classify(TileBounds tile, bool directional, uint light, int most_turns) {
+  if (directional) return classify_directional(tile, light, texelFetch(shadow_rows, ivec2(6, cascade_row(light, 0u)), 0).xyz, most_turns);
+  return classify_local(tile, light, texelFetch(light_texels, ivec2(0, light), 0).xyz, most_turns);
 }
+
+// Blocks that are looked at of a light; where a tile has very many lights, fewer.
+const int kMostTurns = 192;
+const int kFewTurns = 48;
 
 // What a thread has counted.
 uint unshadowed, lit_at_once, unlit_at_once;
 
 // Slot of an entry that pixels are asked about: until they have been, its tile.
 uint add_pair(uint entry, uint tile_index, bool directional) {
-  uint pair = atomicAdd(counters.pairs, 1u);
-  if (pair >= grid.pair_capacity) return GLOAM_NO_ROOM;
-  pairs[pair] = entry | (directional ? GLOAM_PAIR_DIRECTIONAL : 0u);
-  if (pair % GLOAM_PAIRS_ROW == 0u) atomicMax(commands.pair_groups.y, pair / GLOAM_PAIRS_ROW + 1u);
+  if (atomicAdd(counters.pairs, 1u) >= grid.pair_capacity) return GLOAM_NO_ROOM;
+  // Pairs of local lights lie from the begin of the buffer, those of directional ones from its end.
+  uint pair = directional ? atomicAdd(commands.directional_pairs, 1u) : atomicAdd(commands.local_pairs, 1u);
+  pairs[directional ? grid.pair_capacity - 1u - pair : pair] = entry;
+  if (pair % GLOAM_PAIRS_ROW == 0u) {
+    uint rows = pair / GLOAM_PAIRS_ROW + 1u;
+    if (directional) atomicMax(commands.directional_groups.y, rows);
+    else atomicMax(commands.local_groups.y, rows);
+  }
   return tile_index;
 }
 
 // Adds the light's entry at `entry`, if it has one.
-void add_light(TileBounds tile, uint tile_index, bool directional, uint light, inout uint entry) {
-  uint verdict = grid.classify != 0u ? classify(tile, directional, light) : casts(directional, light) ? kUnknown : kCastsNone;
+void add_light(TileBounds tile, uint tile_index, bool directional, uint light, int most_turns, inout uint entry) {
+  uint verdict = grid.classify != 0u ? classify(tile, directional, light, most_turns) : casts(directional, light) ? kUnknown : kCastsNone;
   unshadowed += uint(verdict == kCastsNone);
   lit_at_once += uint(verdict == kLit);
   unlit_at_once += uint(verdict == kUnlit);
@@ -96,9 +105,10 @@ void main() {
   }
   unshadowed = lit_at_once = unlit_at_once = 0u;
   TileBounds tile = make_tile_bounds(view, depth_image, normal_image, base_color_image, at, bounds);
+  int most_turns = count <= 256u ? kMostTurns : kFewTurns;
   uvec2 first = uvec2(tile_index * grid.directional_count, shared_entries + list.x), end = first;
-  for (uint i = 0u; i < grid.directional_count; ++i) add_light(tile, tile_index, true, i, end.x);
-  for (uint i = 0u; i < count; ++i) add_light(tile, tile_index, false, list_light(list.x, i), end.y);
+  for (uint i = 0u; i < grid.directional_count; ++i) add_light(tile, tile_index, true, i, most_turns, end.x);
+  for (uint i = 0u; i < count; ++i) add_light(tile, tile_index, false, list_light(list.x, i), most_turns, end.y);
   imageStore(final_tiles, ivec2(at), uvec4(first, (end.x - first.x) << 16 | (end.y - first.y), 0u));
   count_tile(grid.directional_count + count);
 }

@@ -23,7 +23,7 @@ const uint kLit = 1u;
 const uint kUnlit = 2u;
 const uint kCastsNone = 3u;
 
-const int kMostBlocks = 6;         // along a side of what is looked at
+const int kMostBlocks = 6;         // along a side of what is looked at, in the largest of them
 const float kPlaneMargin = 0.75;   // share of the bias that planes may differ by
 
 // A tile in one face's texels and depths.
@@ -40,10 +40,37 @@ struct TileInFace {
   float least_bias;   // depth
   float most_bias;
   bool cube;          // what leaves the face goes on in others
+  int face;           // of a cube
+  float tan_half;     // of a local light's face
+  mat2 sides;         // columns: across the tile's two sides, texels of mip 0, so long that |x| + |y| = 1
+  vec4 side_ranges;   // least and greatest dot products of pixels with the first, and with the second
   bool surrounded;    // all pixels look at this face
   bool faces_light;   // all pixels see all of the emitter above their own surface
   bool turned_away;   // none sees any of it
 };
+
+// The tile's corners in texels of mip 0: `corners[i]` and `corners[i + 4]` lie on the same ray.
+void set_texels(vec2 corners[8], float slack, inout TileInFace f) {
+  f.low = f.high = corners[0];
+  for (int i = 1; i < 8; ++i) {
+    f.low = min(f.low, corners[i]);
+    f.high = max(f.high, corners[i]);
+  }
+  f.low -= slack;
+  f.high += slack;
+  // Pixels of a tile that is seen at a low angle lie along a diagonal of that box.
+  vec2 right = corners[1] + corners[3] - corners[0] - corners[2], down = corners[2] + corners[3] - corners[0] - corners[1];
+  vec2 first = vec2(-right.y, right.x) / max(abs(right.x) + abs(right.y), 1e-9);
+  vec2 second = vec2(-down.y, down.x) / max(abs(down.x) + abs(down.y), 1e-9);
+  f.sides = mat2(first, second);
+  vec2 least = corners[0] * f.sides, most = least;
+  for (int i = 1; i < 8; ++i) {
+    vec2 along = corners[i] * f.sides;
+    least = min(least, along);
+    most = max(most, along);
+  }
+  f.side_ranges = vec4(least.x, most.x, least.y, most.y) + slack * vec4(-1.0, 1.0, -1.0, 1.0);
+}
 
 // Texels [low, high] of the face; whatever is beyond it is left out.
 float nearest_in(TileInFace f, vec2 low, vec2 high, out float farthest) {
@@ -82,52 +109,100 @@ float kernels_reach(float width, out float coarse) {
   return (0.5 * float(kKernel) + 1.0) * coarse + 1.0;
 }
 
+// What a tile's pixels may look at in a face.
+struct Looks {
+  vec2 low, high;  // texels of mip 0
+  float reach;     // of kernels beyond the tile
+  float slack;     // a texel counts for the cone where it lies this much farther out
+};
+
+// Depth that a thing at this distance from the tile must exceed to be in the cone of any of its pixels; only one filter has a cone.
+float cone_depth(TileInFace f, Looks looks, float off) {
+  return kFilter == 3u ? f.farthest + 2.0 * max(off - looks.slack, 0.0) / max(f.scale, 1e-6) : 2.0;
+}
+
 // Whether nothing in a block of texels can be a blocker for any of the pixels. middle: of the block; half_side: from there to its outermost
 // texels' middles.
-bool is_harmless(TileInFace f, vec4 block, vec2 middle, float half_side, float coarse) {
-  vec2 beyond = max(max(f.low - middle, middle - f.high), vec2(0.0));
+bool is_harmless(TileInFace f, Looks looks, vec4 block, vec2 middle, float half_side) {
+  vec2 beyond = max(max(f.low - middle, middle - f.high) - half_side, vec2(0.0));
   vec2 farthest_off = max(abs(middle - f.low), abs(middle - f.high)) + half_side;
-  // Above the plane.
+  vec2 along = middle * f.sides;
+  vec2 aside = max(f.side_ranges.xz - along, along - f.side_ranges.yw) - half_side;
+  float off = max(max(beyond.x, beyond.y), max(aside.x, aside.y));
   vec2 steeper = abs(block.yz - f.plane.yz);
   float excess = block.x - (f.plane.x + dot(f.plane.yz, middle)) + (steeper.x + steeper.y) * half_side;
   bool below = excess + f.tilt * max(farthest_off.x, farthest_off.y) <= kPlaneMargin * f.least_bias;
-  // In the cone; only the filter that has one knows it. See SearchCone: a texel of a mip may hold what lies half of it farther out.
-  float off = max(beyond.x, beyond.y) - half_side - 0.5 - max(2.0 + 0.5 * coarse, coarse);
-  bool outside = kFilter == 3u && block.w <= f.farthest + 2.0 * max(off, 0.0) / max(f.scale, 1e-6);
-  return block.w <= 0.0 || below || outside;
+  return block.w <= 0.0 || below || off > looks.reach || (kFilter == 3u && block.w <= cone_depth(f, looks, off));
 }
 
-bool all_harmless(TileInFace f, vec2 low, vec2 high, float coarse) {
-  low = clamp(low, vec2(0.0), vec2(f.size - 1.0));
-  high = clamp(high, vec2(0.0), vec2(f.size - 1.0));
-  float side = float(GLOAM_SHADOW_PLANE_BLOCK);
-  int level = 0;
-  ivec2 first = ivec2(low / side), count = ivec2(high / side) - first + 1;
-  for (int i = 1; i < GLOAM_SHADOW_PLANE_LEVELS; ++i) {
-    bool more = max(count.x, count.y) > kMostBlocks;
-    side = more ? 2.0 * side : side;
-    level = more ? i : level;
-    first = ivec2(low / side);
-    count = ivec2(high / side) - first + 1;
-  }
-  if (max(count.x, count.y) > kMostBlocks || side > f.size) return false;
-  MipSquare square = mip_square(f.origin / float(GLOAM_SHADOW_PLANE_BLOCK), f.size / float(GLOAM_SHADOW_PLANE_BLOCK), level,
-                                shadow_block.atlas_size / float(GLOAM_SHADOW_PLANE_BLOCK));
-  bool harmless = true;
-  int i = 0;
+// The same of one texel.
+bool is_harmless(TileInFace f, Looks looks, float depth, vec2 middle) { return is_harmless(f, looks, vec4(depth, f.plane.yz, depth), middle, 0.0); }
+
+// A block of texels in the order in which all_harmless looks at them.
+struct BlockCursor {
+  ivec2 block;  // of its level
+  int level;
+  int quad;     // of level 0: the four texels that are looked at; kQuads: the block itself
+};
+
+const int kQuads = GLOAM_SHADOW_PLANE_BLOCK * GLOAM_SHADOW_PLANE_BLOCK / 4;
+
+bool looks_harmless(TileInFace f, Looks looks, BlockCursor c) {
+  float side = float(GLOAM_SHADOW_PLANE_BLOCK << c.level);
+  const float per_block = 1.0 / float(GLOAM_SHADOW_PLANE_BLOCK);
+  MipSquare square = mip_square(f.origin * per_block, f.size * per_block, c.level, shadow_block.atlas_size * per_block);
+  vec4 plane = texelFetch(shadow_planes, ivec2(square.corner) + c.block, 0);
+  bool harmless = is_harmless(f, looks, plane, (vec2(c.block) + 0.5) * side, 0.5 * side - 0.5);
+  vec2 corner = vec2(c.block) * side + 2.0 * vec2(c.quad % 4, c.quad / 4) + 1.0;
+  vec4 depths = textureGather(shadow_atlas, (f.origin + corner) * shadow_texel_size());
+  bool closer = is_harmless(f, looks, depths.x, corner + vec2(-0.5, 0.5)) && is_harmless(f, looks, depths.y, corner + vec2(0.5, 0.5)) &&
+                is_harmless(f, looks, depths.z, corner + vec2(0.5, -0.5)) && is_harmless(f, looks, depths.w, corner + vec2(-0.5, -0.5));
+  return c.quad == kQuads ? harmless : closer;
+}
+
+// From large blocks to small ones, and to texels: only where a block may hold a blocker. Gives up after so many turns.
+bool all_harmless(TileInFace f, Looks looks, int most_turns) {
+  vec2 low = clamp(looks.low, vec2(0.0), vec2(f.size - 1.0));
+  vec2 high = clamp(looks.high, vec2(0.0), vec2(f.size - 1.0));
+  int top = 0;
+  ivec2 first = ivec2(low) / GLOAM_SHADOW_PLANE_BLOCK, last = ivec2(high) / GLOAM_SHADOW_PLANE_BLOCK;
+  for (int i = 1; i < GLOAM_SHADOW_PLANE_LEVELS; ++i)
+    top = max((last.x >> top) - (first.x >> top), (last.y >> top) - (first.y >> top)) >= kMostBlocks ? i : top;
+  first >>= top;
+  ivec2 count = (last >> top) - first + 1;
+  if (max(count.x, count.y) > kMostBlocks || float(GLOAM_SHADOW_PLANE_BLOCK << top) > f.size) return false;
+  BlockCursor c = BlockCursor(first, top, kQuads);
+  int done = 0, turn = 0;
+  bool harmless = true, up = false;
   do {
-    ivec2 block = first + ivec2(i % count.x, i / count.x);
-    vec4 plane = texelFetch(shadow_planes, ivec2(square.corner) + block, 0);
-    harmless = is_harmless(f, plane, (vec2(block) + 0.5) * side, 0.5 * side - 0.5, coarse);
-  } while (harmless && ++i < count.x * count.y);
-  return harmless;
+    bool fine = up || looks_harmless(f, looks, c);
+    bool whole = c.quad == kQuads;
+    harmless = fine || whole;
+    ivec2 child = c.block & 1;
+    if (!fine) {
+      // Closer: the first of the four blocks that it consists of, or its texels.
+      c.block = c.level > 0 ? c.block * 2 : c.block;
+      c.quad = c.level > 0 ? kQuads : 0;
+      c.level = max(c.level - 1, 0);
+    } else if (!whole && c.quad + 1 < kQuads) {
+      ++c.quad;
+    } else {
+      c.quad = kQuads;
+      up = c.level < top && child == ivec2(1);
+      if (c.level == top) c.block = first + ivec2((done + 1) % count.x, (done + 1) / count.x);
+      else c.block = up ? c.block >> 1 : c.block + ivec2(child.x == 0 ? 1 : -1, child.x);
+      done += int(c.level == top);
+      c.level += int(up);
+    }
+  } while (harmless && done < count.x * count.y && ++turn < most_turns);
+  return harmless && done == count.x * count.y;
 }
 
 bool leaves_face(TileInFace f, float reach) {
   return f.cube && (min(f.low.x, f.low.y) < reach || max(f.high.x, f.high.y) > f.size - reach);
 }
 
-uint classify_in_face(TileInFace f) {
+uint classify_in_face(TileInFace f, int most_turns) {
   float farthest;
   float width = widest(f, nearest_in(f, vec2(0.0), vec2(f.size), farthest)), look = 0.0;
   for (int step = 0; step < 2; ++step) {
@@ -142,7 +217,9 @@ uint classify_in_face(TileInFace f) {
   bool unlit = f.turned_away || farthest > f.nearest + f.most_bias + f.slope * max(0.5 * width + 2.0, reach);
   if (unlit) return f.surrounded ? kUnlit : kUnknown;
   if (!f.faces_light || leaves_face(f, reach)) return kUnknown;
-  return all_harmless(f, f.low - reach, f.high + reach, coarse) ? kLit : kUnknown;
+  // A texel of a mip may hold what lies half of it farther out; see SearchCone for its own reach.
+  Looks looks = Looks(f.low - reach, f.high + reach, reach, max(2.0 + 0.5 * coarse, coarse));
+  return all_harmless(f, looks, most_turns) ? kLit : kUnknown;
 }
 
 #include "shaders/shadows/classify_light.glsl"

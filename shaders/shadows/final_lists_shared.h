@@ -24,7 +24,6 @@
 #define GLOAM_VISIBILITY_BUFFERS 2        // that slots are spread over, in order
 #define GLOAM_BUFFER_WORDS 33554432u      // of one of them: 128 MiB
 #define GLOAM_PAIRS_ROW 256               // workgroups of a row of the dispatch over pairs
-#define GLOAM_PAIR_DIRECTIONAL 0x80000000u
 
 GLOAM_SHARED_BEGIN
 
@@ -41,8 +40,10 @@ struct FinalGrid {
 
 /// Arguments of indirect commands, made on the GPU.
 struct ShadowListCommands {
-  uvec3 pair_groups;    // workgroups over pairs: GLOAM_PAIRS_ROW, rows, 1
-  uint reserved;
+  uvec3 local_groups;        // workgroups over pairs of local lights: GLOAM_PAIRS_ROW, rows, 1
+  uint local_pairs;          // that found room
+  uvec3 directional_groups;  // the same of directional lights
+  uint directional_pairs;
   uvec4 fallback_draw;  // 6 vertices, tiles without a final list, 0, 0
 };
 

@@ -3,6 +3,8 @@
 #ifndef GLOAM_SHADERS_SHADOWS_GENERATE_SHADOWS_GLSL
 #define GLOAM_SHADERS_SHADOWS_GENERATE_SHADOWS_GLSL
 
+// Before including this, define GLOAM_SHADOWS_KINDS: 3 for local lights, 4 for directional ones.
+//
 // Generate shadows (FF XVI paper, §2.2): how much of one light each pixel of a tile sees, into a slot, unless all of them see all of it or
 // none sees any. One workgroup is a pair of a tile and a light. Pixels without a surface, or that the light gives nothing, have no say.
 //
@@ -10,8 +12,7 @@
 // thread after 65,535 turns together. A thread has 64 / kThreads pixels of a row; devices that run threads in turn swap the state of few.
 
 #define GLOAM_SHADOWS_BINDING 12
-ivec2 generated_pixel;
-#define GLOAM_SHADOWS_PIXEL generated_pixel
+#define GLOAM_SHADOWS_PIXEL ivec2(0)  // what is traced is shaded without lists
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
@@ -34,6 +35,7 @@ layout(set = 0, binding = 8, scalar) buffer Entries { uint entries[]; };
 layout(set = 0, binding = 9, scalar) writeonly buffer Visibilities0 { uint visibilities_0[]; };
 layout(set = 0, binding = 10, scalar) writeonly buffer Visibilities1 { uint visibilities_1[]; };
 layout(set = 0, binding = 11, scalar) buffer Counters { ShadowListCounters counters; };
+layout(set = 0, binding = 18, scalar) readonly buffer Commands { ShadowListCommands commands; };
 
 const uint kThreads = gl_WorkGroupSize.x;
 const uint kPixels = uint(GLOAM_SLOT_PIXELS) / kThreads;
@@ -41,44 +43,99 @@ const uint kSomeSeeLess = 1u;
 const uint kSomeSeeAny = 2u;
 
 shared uint packed_words[16];
+shared float widths[GLOAM_SLOT_PIXELS];  // of penumbrae; each thread has its own pixels
 shared uint found;  // kSome… of all pixels
 shared uint slot;
 
-// Visibility in steps of the slot; `matters`: the light gives the pixel anything.
-uint pixel_steps(bool directional, uint light, uvec2 pixel, out bool matters) {
-  generated_pixel = ivec2(min(pixel, view.size - 1u));
-  float depth = texelFetch(depth_image, generated_pixel, 0).r;
-  ShadowReceiver r;
-  r.position = relative_position(view, vec2(generated_pixel), max(depth, 1e-9));
-  uvec2 normals = texelFetch(normal_image, generated_pixel, 0).xy;
-  r.face_normal = unpack_normal(normals.y);
-  r.subsurface = texelFetch(base_color_image, generated_pixel, 0).a > 0.5;
-  LocalLight local = fetch_light(light_texels, directional ? 0u : light);
-  vec3 to_light;
-  vec3 illuminance = local_illuminance(local, r.position, to_light);
-  vec3 light_vector = local.position;
-  if (directional) {
-    illuminance = lights.directional[light & 15u].color;
-    light_vector = lights.directional[light & 15u].direction;
-    to_light = -light_vector;
-  }
-  matters = depth > 0.0 && all(lessThan(pixel, view.size)) && max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 &&
-            dot(unpack_normal(normals.x), to_light) > 0.0;
-  float visibility = light_visibility(directional, light, light_vector, r);
-  return uint(visibility * float((1u << kVisibilityBits) - 1u) + 0.5);
+// A pixel of the tile and the light.
+struct PixelOfPair {
+  ShadowPoint point;
+  bool matters;  // the light gives the pixel anything
+};
+
+// What is the same for all pixels of a pair.
+#if GLOAM_SHADOWS_KINDS == 4
+struct LightOfPair {
+  uint light;
+  float brightest;
+  vec3 direction;
+};
+
+LightOfPair light_of_pair(uint light) {
+  return LightOfPair(light, fetch_sun(light).w, texelFetch(shadow_rows, ivec2(6, cascade_row(light, 0u)), 0).xyz);
 }
 
-void ask_pixels(bool directional, uint light, uvec2 tile, uint lane) {
+ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) { return directional_shadow_point(l.light, l.direction, r); }
+
+bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return l.brightest > 0.0 && dot(normal, -l.direction) > 0.0; }
+#else
+struct LightOfPair {
+  LocalShadow shadow;
+  LocalLight light;
+};
+
+LightOfPair light_of_pair(uint light) {
+  LocalLight local = fetch_light(light_texels, light);
+  return LightOfPair(fetch_local_shadow(light, local.position), local);
+}
+
+ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) { return local_shadow_point(l.shadow, r); }
+
+bool gives_light(LightOfPair l, vec3 position, vec3 normal) {
+  vec3 to_light;
+  vec3 illuminance = local_illuminance(l.light, position, to_light);
+  return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && dot(normal, to_light) > 0.0;
+}
+#endif
+
+PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
+  ivec2 at = ivec2(min(pixel, view.size - 1u));
+  float depth = texelFetch(depth_image, at, 0).r;
+  ShadowReceiver r;
+  r.position = relative_position(view, vec2(at), max(depth, 1e-9));
+  uvec2 normals = texelFetch(normal_image, at, 0).xy;
+  r.face_normal = unpack_normal(normals.y);
+  r.subsurface = texelFetch(base_color_image, at, 0).a > 0.5;
+  PixelOfPair p;
+  p.matters = depth > 0.0 && all(lessThan(pixel, view.size)) && gives_light(light, r.position, unpack_normal(normals.x));
+  p.point = shadow_point(light, r);
+  p.point.live = p.point.live && p.matters;
+  return p;
+}
+
+// Keeps what a pixel sees; returns what it says of the tile.
+uint keep_visibility(uint pixel, PixelOfPair p, float visibility) {
   const uint most = (1u << kVisibilityBits) - 1u;
-  uint some = 0u;
-  uint p = 0u;
+  uint steps = uint(quantised_visibility(visibility * p.point.horizon) * float(most) + 0.5);
+  if (!p.matters) return 0u;
+  atomicOr(packed_words[pixel * kVisibilityBits >> 5], steps << (pixel * kVisibilityBits & 31u));
+  return (steps < most ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u);
+}
+
+uvec2 pixel_at(uvec2 tile, uint pixel) { return tile * uint(GLOAM_SHADOW_TILE) + uvec2(pixel & 7u, pixel >> 3); }
+
+// All pixels of a thread, first as far as it goes without the filter; then those that need it, which are one after the other in every
+// thread: devices that run threads side by side take as many turns as the thread with the most of them.
+void ask_pixels(uint light_index, uvec2 tile, uint lane) {
+  LightOfPair light = light_of_pair(light_index);
+  uint some = 0u, left = 0u, i = 0u;
   do {
-    uint pixel = lane * kPixels + p;
-    bool matters;
-    uint steps = pixel_steps(directional, light, tile * uint(GLOAM_SHADOW_TILE) + uvec2(pixel & 7u, pixel >> 3), matters);
-    some |= matters ? (steps < most ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u) : 0u;
-    atomicOr(packed_words[pixel * kVisibilityBits >> 5], (matters ? steps : 0u) << (pixel * kVisibilityBits & 31u));
-  } while (++p < kPixels);
+    uint pixel = lane * kPixels + i;
+    PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+    bool known = true;
+    float visibility, width = 0.0;
+    if (kFilter == 3u) known = known_before_filter(p.point, visibility, width) || !p.matters;
+    else visibility = unquantised_visibility(p.point);
+    widths[pixel] = width;
+    left |= known ? 0u : 1u << i;
+    if (known) some |= keep_visibility(pixel, p, visibility);
+  } while (++i < kPixels);
+  if (kFilter == 3u && left != 0u) do {
+    uint pixel = lane * kPixels + uint(findLSB(left));
+    PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+    some |= keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]));
+    left &= left - 1u;
+  } while (left != 0u);
   if (some != 0u) atomicOr(found, some);
 }
 
@@ -97,15 +154,20 @@ uint take_slot(uint some) {
 
 void main() {
   uint pair = gl_WorkGroupID.y * uint(GLOAM_PAIRS_ROW) + gl_WorkGroupID.x;
-  if (pair >= min(counters.pairs, grid.pair_capacity)) return;  // the same for the whole workgroup
+  // Pairs of local lights lie from the begin of the buffer, those of directional ones from its end.
+#if GLOAM_SHADOWS_KINDS == 4
+  uint asked = commands.directional_pairs, place = grid.pair_capacity - 1u - pair;
+#else
+  uint asked = commands.local_pairs, place = pair;
+#endif
+  if (pair >= asked) return;  // the same for the whole workgroup
   uint lane = gl_LocalInvocationIndex;
   for (uint i = lane; i < 16u; i += kThreads) packed_words[i] = 0u;
   if (lane == 0u) found = 0u;
   barrier();
-  bool directional = (pairs[pair] & GLOAM_PAIR_DIRECTIONAL) != 0u;
-  uint at = pairs[pair] & ~GLOAM_PAIR_DIRECTIONAL;
+  uint at = pairs[place];
   uint entry = entries[at], light = entry & 1023u, tile_index = entry >> 10;
-  ask_pixels(directional, light, uvec2(tile_index % grid.tiles.x, tile_index / grid.tiles.x), lane);
+  ask_pixels(light, uvec2(tile_index % grid.tiles.x, tile_index / grid.tiles.x), lane);
   barrier();
   if (lane == 0u) {
     slot = take_slot(found);

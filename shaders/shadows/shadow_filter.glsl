@@ -88,6 +88,7 @@ FilterMips filter_mips(ShadowPoint p, float width) {
   return FilterMips(fine, min(fine + 1, last), blend);
 }
 
+#if (GLOAM_SHADOWS_KINDS & 2) != 0
 // What kernels that other faces of a cube have part in add to the blocked share: texel by texel, first in the fine mip, if that leaves the
 // face, then in the coarse one, which does if the fine one does.
 float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
@@ -117,6 +118,7 @@ float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
   } while (i < end);
   return share;
 }
+#endif
 
 // Visibility under a penumbra of this width, texels of mip 0.
 float filtered_visibility(ShadowPoint p, float width) {
@@ -134,10 +136,15 @@ float filtered_visibility(ShadowPoint p, float width) {
 #endif
     share += leaves_cube_face(p, kernel_reach(mip, kKernel)) ? 0.0 : part * blocked;
   } while (++turn < turns);
-  return 1.0 - share - blocked_share_across(p, mips, width);
+#if (GLOAM_SHADOWS_KINDS & 2) != 0
+  share += blocked_share_across(p, mips, width);
+#endif
+  return 1.0 - share;
 }
 
-float chs_visibility(ShadowPoint p) {
+// Whether all of a receiver's visibility is known before the filter: then it is `visibility`, else the filter's for a penumbra of `width` texels
+// of mip 0.
+bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
   SearchRegion region = SearchRegion(0.0, 0.0, 0.0);
   if (p.live) do {
     region = find_region(p);
@@ -145,13 +152,22 @@ float chs_visibility(ShadowPoint p) {
   float reach = slope_per_texel(p) * (0.5 * region.width + 2.0);
   bool unlit = region.farthest > p.threshold + reach && kFullPenumbra == 0u;
   bool unsure = region.nearest > p.threshold || kFullPenumbra != 0u;
-  float visibility = unlit && p.live ? 0.0 : 1.0;
+  visibility = unlit && p.live ? 0.0 : 1.0;
+  width = 0.0;
+  bool known = true;
   if (p.live && unsure && !unlit) do {
     Blockers blockers = region_blockers(p, region);
-    float width = penumbra_width(p, blockers.depth);
-    if (blockers.count > 1e-3 || kFullPenumbra != 0u) do {
-      visibility = filtered_visibility(p, width);
-    } while (never(p));
+    width = penumbra_width(p, blockers.depth);
+    known = blockers.count <= 1e-3 && kFullPenumbra == 0u;
+  } while (never(p));
+  return known;
+}
+
+float chs_visibility(ShadowPoint p) {
+  float visibility, width;
+  bool known = known_before_filter(p, visibility, width);
+  if (!known) do {
+    visibility = filtered_visibility(p, width);
   } while (never(p));
   return visibility;
 }

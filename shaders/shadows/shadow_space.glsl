@@ -108,11 +108,26 @@ vec2 cube_face_origin(uint light, int face) {
   return (face & 1) == 0 ? two.xy : two.zw;
 }
 
-ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r) {
+// What is the same for all receivers of a local light.
+struct LocalShadow {
+  uint light;
+  vec3 position;  // camera-relative
+  vec4 first;     // kind, near, width, size
+  vec4 right;     // right, tan_half
+  vec4 up;        // up, tan_inner
+  vec3 forward;
+};
+
+LocalShadow fetch_local_shadow(uint light, vec3 light_position) {
+  vec4 right = texelFetch(shadow_rows, ivec2(1, light), 0), up = texelFetch(shadow_rows, ivec2(2, light), 0);
+  return LocalShadow(light, light_position, texelFetch(shadow_rows, ivec2(0, light), 0), right, up, spot_forward(light, right.xyz, up.xyz));
+}
+
+ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   ShadowPoint p = no_shadow_point();
-  vec4 first = texelFetch(shadow_rows, ivec2(0, light), 0);  // kind, near, width, size
-  vec4 right = texelFetch(shadow_rows, ivec2(1, light), 0);  // right, tan_half
-  vec4 up = texelFetch(shadow_rows, ivec2(2, light), 0);     // up, tan_inner
+  vec4 first = l.first, right = l.right, up = l.up;
+  uint light = l.light;
+  vec3 light_position = l.position;
   vec3 v = r.position - light_position;
   bool cube = first.x == float(GLOAM_SHADOW_CUBE);
   cube = kKinds == GLOAM_SHADOWS_CUBES || (cube && (kKinds & GLOAM_SHADOWS_CUBES) != 0u);
@@ -123,7 +138,7 @@ ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r
   }
   p.face = cube ? cube_face_of(v) : -1;
   p.light = light;
-  mat3 axes = mat3(right.xyz, up.xyz, spot_forward(light, right.xyz, up.xyz));
+  mat3 axes = mat3(right.xyz, up.xyz, l.forward);
   if (cube) axes = cube_face_axes(p.face);
   vec3 local = v * axes;
   float near = first.y, z = local.z;
@@ -150,18 +165,35 @@ ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r
   return p;
 }
 
+ShadowPoint local_shadow_point(uint light, vec3 light_position, ShadowReceiver r) {
+  return local_shadow_point(fetch_local_shadow(light, light_position), r);
+}
+
+int cascade_row(uint light, uint cascade) {
+  return int(shadow_block.cascade_row + min(light, uint(GLOAM_MAX_DIRECTIONAL_SHADOWS) - 1u) * uint(GLOAM_MAX_CASCADES) + cascade);
+}
+
+ShadowCascade fetch_cascade(int row) {
+  vec4 d = texelFetch(shadow_rows, ivec2(3, row), 0), e = texelFetch(shadow_rows, ivec2(4, row), 0);
+  return ShadowCascade(texelFetch(shadow_rows, ivec2(0, row), 0), texelFetch(shadow_rows, ivec2(1, row), 0),
+                       texelFetch(shadow_rows, ivec2(2, row), 0), d.xy, d.z, d.w, e.x, e.y, vec2(0.0));
+}
+
+// Of a directional light: CascadeRow's cascade_count, penumbra_m_per_m, traced_layer, brightest.
+vec4 fetch_sun(uint light) { return texelFetch(shadow_rows, ivec2(5, cascade_row(light, 0u)), 0); }
+
 ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowReceiver r) {
   ShadowPoint p = no_shadow_point();
   p.orthographic = true;
-  light = min(light, 15u);
-  uint count = min(shadow_block.directional[light].cascade_count, uint(GLOAM_MAX_CASCADES));
+  vec4 sun = fetch_sun(light);
+  uint count = min(uint(sun.x), uint(GLOAM_MAX_CASCADES));
   float facing = dot(r.face_normal, light_direction);
   float along = abs(facing) < 1e-5 ? (facing < 0.0 ? -1e-5 : 1e-5) : facing;
   float depth_per_m = 0.0;
   uint i = 0u;
   // Until every thread has its cascade: loads of cascades are dear.
   do {
-    ShadowCascade c = shadow_block.directional[light].cascades[i];
+    ShadowCascade c = fetch_cascade(cascade_row(light, i));
     vec4 position = vec4(r.position, 1.0);
     vec3 at = vec3(dot(c.row_u, position), dot(c.row_v, position), dot(c.row_depth, position));
     float inside = min(min(at.x, at.y), c.size - max(at.x, at.y)) - c.rim;
@@ -172,11 +204,11 @@ ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowRec
       p.at = at.xy;
       p.depth = at.z;
       depth_per_m = 1.0 / c.depth_m;
-      p.scale = max(shadow_block.directional[light].penumbra_m_per_m, 0.0) * c.depth_m / c.texel_m;
+      p.scale = max(sun.y, 0.0) * c.depth_m / c.texel_m;
       p.slope = vec2(dot(r.face_normal, c.row_u.xyz), dot(r.face_normal, c.row_v.xyz)) * (c.texel_m * c.texel_m * depth_per_m / along);
     }
   } while (!p.live && ++i < count);
-  set_threshold(p, facing, 0.5 * max(shadow_block.directional[light].penumbra_m_per_m, 0.0), depth_per_m, r.subsurface);
+  set_threshold(p, facing, 0.5 * max(sun.y, 0.0), depth_per_m, r.subsurface);
   return p;
 }
 

@@ -35,8 +35,14 @@ layout(constant_id = GLOAM_SHADOWS_KERNEL_SHAPE_ID) const uint kKernelShape = 0u
 layout(constant_id = GLOAM_SHADOWS_LEVELS_ID) const uint kLevels = 255u;
 layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 0u;
 layout(constant_id = GLOAM_SHADOWS_COVERAGE_ID) const uint kCoverage = 0u;
-// Who knows the kind of light spares software devices the code of the others, which they would run for nothing.
+// Who knows the kind of light spares software devices the code of the others, which they would run for nothing; who knows it when the
+// shader is written defines GLOAM_SHADOWS_KINDS, and spares them reading it as well.
+#ifdef GLOAM_SHADOWS_KINDS
+const uint kKinds = GLOAM_SHADOWS_KINDS;
+#else
+#define GLOAM_SHADOWS_KINDS 7
 layout(constant_id = GLOAM_SHADOWS_KINDS_ID) const uint kKinds = GLOAM_SHADOWS_ALL_KINDS;
+#endif
 
 struct ShadowReceiver {
   vec3 position;     // camera-relative
@@ -68,14 +74,16 @@ float traced_visibility(float layer) {
   return layer < 0.0 ? 1.0 : texelFetch(shadow_traced, ivec3(GLOAM_SHADOWS_PIXEL, int(layer)), 0).x;
 }
 
-float shadow_visibility(ShadowPoint p) {
+float unquantised_visibility(ShadowPoint p) {
 #ifdef GLOAM_SHADOWS_STANDARD
   float visibility = chs_visibility(p);
 #else
   float visibility = kFilter == 0u ? hard_visibility(p) : kFilter == 1u ? pcf_visibility(p) : kFilter == 2u ? pcss_visibility(p) : chs_visibility(p);
 #endif
-  return quantised_visibility(visibility * p.horizon);
+  return visibility;
 }
+
+float shadow_visibility(ShadowPoint p) { return quantised_visibility(unquantised_visibility(p) * p.horizon); }
 
 // 0 … 1, quantised, of a local light of the view; 1 for one that casts no shadows.
 float local_visibility(uint light, vec3 light_position, ShadowReceiver r) {
@@ -87,26 +95,31 @@ float local_visibility(uint light, vec3 light_position, ShadowReceiver r) {
 // The same of a directional light; light_direction: where it shines.
 float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r) {
   if (kFilter == 5u) return 1.0;
-  if (kFilter == 4u) return quantised_visibility(traced_visibility(shadow_block.directional[light].traced_layer));
+  if (kFilter == 4u) return quantised_visibility(traced_visibility(fetch_sun(light).z));
   return shadow_visibility(directional_shadow_point(light, light_direction, r));
 }
 
 // Either; light_vector: the position of a local light, or where a directional one shines. Software devices run what both branches of a
 // condition hold, so whoever does not know the kind of light calls this.
-float light_visibility(bool directional, uint light, vec3 light_vector, ShadowReceiver r) {
-  if (kFilter == 5u) return 1.0;
+ShadowPoint light_shadow_point(bool directional, uint light, vec3 light_vector, ShadowReceiver r) {
   uint local = directional ? 0u : light, distant = directional ? light : 0u;
-  if (kFilter == 4u) {
-    float layer = directional ? shadow_block.directional[distant].traced_layer : texelFetch(shadow_rows, ivec2(6, local), 0).z;
-    return quantised_visibility(traced_visibility(layer));
-  }
-  if (kKinds == GLOAM_SHADOWS_SUNS) return shadow_visibility(directional_shadow_point(distant, light_vector, r));
+  if (kKinds == GLOAM_SHADOWS_SUNS) return directional_shadow_point(distant, light_vector, r);
   ShadowPoint p = local_shadow_point(local, light_vector, r);
   if ((kKinds & GLOAM_SHADOWS_SUNS) != 0u) {
     ShadowPoint other = directional_shadow_point(distant, light_vector, r);
     if (directional) p = other;
   }
-  return shadow_visibility(p);
+  return p;
+}
+
+float light_visibility(bool directional, uint light, vec3 light_vector, ShadowReceiver r) {
+  if (kFilter == 5u) return 1.0;
+  uint local = directional ? 0u : light, distant = directional ? light : 0u;
+  if (kFilter == 4u) {
+    float layer = directional ? fetch_sun(distant).z : texelFetch(shadow_rows, ivec2(6, local), 0).z;
+    return quantised_visibility(traced_visibility(layer));
+  }
+  return shadow_visibility(light_shadow_point(directional, light, light_vector, r));
 }
 
 #endif

@@ -34,6 +34,7 @@
 #define GLOAM_SHADOW_MIPS_COVERAGE 2  // mean depth of the nearest surface, and in the 6 lowest bits how many 64ths of the texel that surface leaves free
 #define GLOAM_SHADOW_SMALLEST_FACE 16 // texels; faces are 16 … 4096
 #define GLOAM_MAX_CASCADES 4
+#define GLOAM_MAX_DIRECTIONAL_SHADOWS 16
 #define GLOAM_COOKIE_LIGHTS 4          // that ShadowBlock names
 
 GLOAM_SHARED_BEGIN
@@ -69,6 +70,19 @@ struct ShadowCascade {
   vec2 reserved;
 };
 
+/// One cascade as GLOAM_SHADOW_ROW_TEXELS texels of the image of rows, with what its light's cascades have in common: threads that look at
+/// different lights read texels faster than constants.
+struct CascadeRow {
+  ShadowCascade cascade;
+  float cascade_count;     // of the light; 0: casts none
+  float penumbra_m_per_m;  // width of the penumbra a metre between blocker and receiver: 2 tan(angle / 2)
+  float traced_layer;      // as a local light's
+  float brightest;         // lux, of the light's brightest component
+  vec3 direction;          // where the light shines
+  float reserved0;
+  vec4 reserved1;
+};
+
 struct DirectionalShadow {
   uint cascade_count;         // 0: casts none
   float penumbra_m_per_m;     // width of the penumbra a metre between blocker and receiver: 2 tan(angle / 2)
@@ -83,8 +97,9 @@ struct ShadowBlock {
   float bias_m;         // oriented bias
   float depth_quantum;  // of the atlas' format at depth d: max(depth_quantum, d · relative_quantum)
   float relative_quantum;
+  uint cascade_row;     // of the image of rows, where CascadeRow begin: GLOAM_MAX_CASCADES a directional light
   uint cookie_lights[GLOAM_COOKIE_LIGHTS];  // of the view, with cookies, while the scene has no more of them; else and beyond: no light's index
-  DirectionalShadow directional[16];  // by index of the view's directional lights
+  DirectionalShadow directional[GLOAM_MAX_DIRECTIONAL_SHADOWS];  // by index of the view's directional lights
 };
 
 GLOAM_SHARED_END

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "engine/frame/upload.h"
+#include "modules/shadows/cascade_rows.h"
 #include "modules/shadows/work_groups.h"
 #include "shaders/shadows/shaders.h"
 #include "shaders/shadows/shadow_mips_shared.h"
@@ -265,11 +266,13 @@ std::vector<vec2> ShadowMaps::pyramid() const {
 
 std::vector<shaders::ShadowProbeResult> ShadowMaps::probe(std::span<const shaders::ShadowProbe> probes,
                                                           const std::vector<shaders::ShadowRow>& rows,
-                                                          const shaders::ShadowBlock& block,
+                                                          const shaders::ShadowBlock& without_cascade_rows,
                                                           const ProbeSettings& settings) {
   static_assert(sizeof(shaders::ShadowRow) == GLOAM_SHADOW_ROW_TEXELS * sizeof(vec4));
   const gpu::PipelineHandle pipeline = probe_pipeline(device_, settings);
-  const std::vector<shaders::ShadowRow> some_rows = rows.empty() ? std::vector<shaders::ShadowRow>(1) : rows;
+  std::vector<shaders::ShadowRow> some_rows = rows.empty() ? std::vector<shaders::ShadowRow>(1) : rows;
+  shaders::ShadowBlock block = without_cascade_rows;
+  append_cascade_rows({}, block, some_rows);
   const gpu::ImageHandle row_image =
       texture(gpu::Format::rgba32_float, {GLOAM_SHADOW_ROW_TEXELS, static_cast<std::uint32_t>(some_rows.size())},
               std::as_bytes(std::span(some_rows)));
