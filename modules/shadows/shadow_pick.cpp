@@ -11,11 +11,14 @@
 #include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
-#include "shaders/lights/lights_shared.h"
 #include "shaders/shadows/final_lists_shared.h"
 
 namespace gloam {
 namespace {
+
+/// Pixels along one side of a shadow tile.
+constexpr std::uint32_t kTileSide = 8;
+static_assert(kTileSide * kTileSide == GLOAM_SLOT_PIXELS);
 
 using Words = std::vector<std::uint32_t>;
 
@@ -39,9 +42,9 @@ class PickLines {
         lists_(lists),
         local_{"local", local_lights(frame.world().view_resource<VisibleLights>(frame.view().id))},
         directional_{"directional", directional_lights(frame.world().view_resource<VisibleLights>(frame.view().id))},
-        pixel_((pixel.y % GLOAM_SHADOW_TILE) * GLOAM_SHADOW_TILE + pixel.x % GLOAM_SHADOW_TILE) {
-    const std::uint32_t columns = (frame.view().width + GLOAM_SHADOW_TILE - 1) / GLOAM_SHADOW_TILE;
-    tile_ = std::size_t{pixel.y / GLOAM_SHADOW_TILE} * columns + pixel.x / GLOAM_SHADOW_TILE;
+        pixel_((pixel.y % kTileSide) * kTileSide + pixel.x % kTileSide) {
+    const std::uint32_t columns = (frame.view().width + kTileSide - 1) / kTileSide;
+    tile_ = std::size_t{pixel.y / kTileSide} * columns + pixel.x / kTileSide;
     append_words(entries_, copies.bytes("shadows.final_entries"));
     append_words(visibilities_, copies.bytes("shadows.visibilities"));
     append_words(visibilities_, copies.bytes("shadows.visibilities_1"));

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/common/heat.glsl"
-#include "shaders/lights/light_views.glsl"
+#include "shaders/lights/light_views_api.glsl"
 
 // How many lights each tile has after one of the searches: heat colours of 0 to 31, white from 32 on.
 

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GLOAM_Z_BINS_BINDING 8
-#include "shaders/lights/one_light_view.glsl"
+#include "shaders/lights/one_light_view_api.glsl"
 #include "shaders/lights/z_bins_api.glsl"
 
 // How far one light got in each tile: the CPU's mask tile, the zBins of the tile's depths, the mask of the tile group, the tile's list.

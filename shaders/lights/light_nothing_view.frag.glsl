@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/lights/light_views.glsl"
+#include "shaders/lights/light_views_api.glsl"
 
 // A view of lists where there are none: no tile has a light, or the light is in no tile.
 

@@ -5,7 +5,7 @@
 #define GLOAM_EARLY_LISTS_BINDING 6
 #include "shaders/common/heat.glsl"
 #include "shaders/lights/light_lists_api.glsl"
-#include "shaders/lights/light_views.glsl"
+#include "shaders/lights/light_views_api.glsl"
 #include "shaders/shadows/final_list_views.glsl"
 
 // What each tile's final list holds: how many lights, or how many slots of visibility and, where there are none, why.

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GLOAM_SHOWN_DIRECTIONAL
-#include "shaders/lights/one_light_view.glsl"
+#include "shaders/lights/one_light_view_api.glsl"
 #include "shaders/shadows/final_list_views.glsl"
 
 // What became of one light in each tile whose early list holds it: lit as a whole, a slot (as bright as the pixel's visibility), or left

@@ -3,7 +3,7 @@
 #ifndef GLOAM_SHADERS_SHADOWS_FINAL_LIST_VIEWS_GLSL
 #define GLOAM_SHADERS_SHADOWS_FINAL_LIST_VIEWS_GLSL
 
-// What the views of final lists share beside one_light_view.glsl or light_views.glsl, whose bindings 0 to 6 are as there.
+// What the views of final lists share beside one_light_view_api.glsl or light_views_api.glsl, whose bindings 0 to 6 are as there.
 
 #define GLOAM_FINAL_LISTS_BINDING 9
 #include "shaders/shadows/final_entry.glsl"

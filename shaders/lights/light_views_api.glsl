@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#ifndef GLOAM_SHADERS_LIGHTS_LIGHT_VIEWS_GLSL
-#define GLOAM_SHADERS_LIGHTS_LIGHT_VIEWS_GLSL
+#ifndef GLOAM_SHADERS_LIGHTS_LIGHT_VIEWS_API_GLSL
+#define GLOAM_SHADERS_LIGHTS_LIGHT_VIEWS_API_GLSL
 
 // What the fragment shaders of the light views share: the two targets, colours and the tile grid.
 

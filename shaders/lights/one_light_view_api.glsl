@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#ifndef GLOAM_SHADERS_LIGHTS_ONE_LIGHT_VIEW_GLSL
-#define GLOAM_SHADERS_LIGHTS_ONE_LIGHT_VIEW_GLSL
+#ifndef GLOAM_SHADERS_LIGHTS_ONE_LIGHT_VIEW_API_GLSL
+#define GLOAM_SHADERS_LIGHTS_ONE_LIGHT_VIEW_API_GLSL
 
 // Where one light is in the lists, for the views that show it. GLOAM_SHOWN_DIRECTIONAL: it may be a directional one.
 
 #define GLOAM_EARLY_LISTS_BINDING 6
 #include "shaders/lights/light_lists_api.glsl"
-#include "shaders/lights/light_views.glsl"
+#include "shaders/lights/light_views_api.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 

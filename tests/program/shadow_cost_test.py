@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""`cost` of the knobs of deferred shadows: all values draw one picture, or what they round off. Needs a Vulkan device."""
+from program_case import ProgramCase, main
+
+
+class ShadowCost(ProgramCase):
+    def setUp(self):
+        super().setUp()
+        self.require_device()
+
+    def test_deferred_shadows_are_judged_by_frames_of_the_same_model(self):
+        knobs = ("shadows.mode", "shadows.classify", "shadows.visibility_bits")
+        self.expect(0, "cost", "builtin:shadows", "--size", "32x18", "--knobs", ",".join(knobs), "--out", "ledger",
+                    "--set", "shadows.mode=deferred", "--set", "shadows.filter=hard", "--set", "shadows.atlas=1024")
+        rows = {(row["knob"], row["value"]): row for row in self.read_json("ledger/ledger.json")["rows"]}
+        self.assertEqual(sorted(rows), sorted(
+            [("shadows.mode", value) for value in ("off", "monolithic", "deferred")] +
+            [("shadows.classify", value) for value in ("off", "on")] +
+            [("shadows.visibility_bits", value) for value in ("4", "8", "exact")]))
+        for key, row in rows.items():
+            self.assertEqual((row["wrong"], row["reference"]["kind"]), ("", "brute force"), key)
+        flip = {key: row["error"]["flip"]["mean"] for key, row in rows.items()}
+        self.assertEqual(flip["shadows.mode", "monolithic"], 0.0)
+        self.assertLess(flip["shadows.mode", "deferred"], 1e-4)
+        self.assertGreater(flip["shadows.mode", "off"], 0.01)
+        self.assertEqual(flip["shadows.visibility_bits", "exact"], 0.0)
+        self.assertLessEqual(flip["shadows.visibility_bits", "8"], flip["shadows.visibility_bits", "4"])
+        counted = {value: rows["shadows.classify", value]["error"]["counted"] for value in ("off", "on")}
+        self.assertEqual(counted["off"]["unit"], "share of tile-light pairs asked pixel by pixel")
+        self.assertLess(counted["on"]["value"], counted["off"]["value"])
+        self.assertLess(flip["shadows.classify", "on"], 1e-4)
+        self.assertEqual(flip["shadows.classify", "off"], 0.0)
+
+
+if __name__ == "__main__":
+    main()
