@@ -7,7 +7,6 @@
 #include "modules/lighting/passes.h"
 #include "modules/shadows/outputs.h"
 #include "shaders/lighting/shaders.h"
-#include "shaders/shadows/final_lists_shared.h"
 
 namespace gloam {
 
@@ -155,7 +154,7 @@ void record_fallback(FrameBuilder& frame, PassContext& context, const Deferred& 
   gpu::CommandList& commands = context.commands();
   commands.bind_pipeline(d.fallback);
   commands.bind(bindings);
-  commands.draw_indirect(context.buffer(lists.commands), offsetof(shaders::ShadowListCommands, fallback_draw));
+  commands.draw_indirect(context.buffer(lists.commands), lists.fallback_draw);
 }
 
 void record(FrameBuilder& frame, PassContext& context, const Deferred& d) {

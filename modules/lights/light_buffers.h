@@ -44,7 +44,7 @@ void count_lights(const shaders::LightCounters& counters, const LightCountersNot
 /// Bytes a view's lists may have.
 inline constexpr std::uint64_t kMostListBytes = std::uint64_t{128} << 20;
 /// Entries a tile that a view's lists begin with.
-inline constexpr std::uint32_t kFirstEntriesPerTile = 9;
+inline constexpr std::uint32_t kFirstEntriesPerTile = 6;
 
 /// Entries a tile that few local lights get without being asked for, so that all of them fit into every list and shading needs no way out
 /// (LightsOutputs::lists_always_fit); 0: too many lights. In steps: buffers do not change with every light that comes into view.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lights/outputs.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "engine/core/assert.h"
@@ -13,6 +14,17 @@ namespace gloam {
 std::span<const Entity> local_lights(const VisibleLights& visible) { return visible.local_entities; }
 
 std::span<const Entity> directional_lights(const VisibleLights& visible) { return visible.directional_entities; }
+
+static_assert(kShadowTile == GLOAM_SHADOW_TILE);
+
+std::vector<DirectionalLook> directional_looks(const VisibleLights& visible) {
+  std::vector<DirectionalLook> looks;
+  for (std::uint32_t i = 0; i < visible.block.directional_count; ++i) {
+    const shaders::DirectionalLight& light = visible.block.directional[i];
+    looks.push_back({light.direction, std::max({light.color.r, light.color.g, light.color.b})});
+  }
+  return looks;
+}
 
 std::span<const std::byte> empty_light_block() {
   static const shaders::LightBlock block{};

@@ -49,6 +49,17 @@ struct VisibleLights;
 /// The same for LightBlock::directional.
 [[nodiscard]] std::span<const Entity> directional_lights(const VisibleLights& visible);
 
+/// What of a directional light does not depend on where one looks.
+struct DirectionalLook {
+  vec3 direction = vec3(0.0f, -1.0f, 0.0f);  ///< where it shines, unit
+  float brightest = 0.0f;                    ///< lux, of its brightest component
+};
+/// By index of LightBlock::directional.
+[[nodiscard]] std::vector<DirectionalLook> directional_looks(const VisibleLights& visible);
+
+/// Pixels along a side of a shadow tile, which has a light list.
+inline constexpr std::uint32_t kShadowTile = 8;
+
 /// Bytes of a LightBlock without lights, for shading a scene that has none.
 [[nodiscard]] std::span<const std::byte> empty_light_block();
 

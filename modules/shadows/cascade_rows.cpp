@@ -15,7 +15,7 @@ shaders::ShadowRow as_row(const shaders::CascadeRow& cascade) { return std::bit_
 
 }  // namespace
 
-void append_cascade_rows(std::span<const shaders::DirectionalLight> lights, shaders::ShadowBlock& block,
+void append_cascade_rows(std::span<const DirectionalLook> lights, shaders::ShadowBlock& block,
                          std::vector<shaders::ShadowRow>& rows) {
   block.cascade_row = static_cast<std::uint32_t>(rows.size());
   const std::size_t count = std::clamp<std::size_t>(lights.size(), 1, std::size(block.directional));
@@ -27,7 +27,7 @@ void append_cascade_rows(std::span<const shaders::DirectionalLight> lights, shad
     row.traced_layer = shadow.traced_layer;
     if (i < lights.size()) {
       row.direction = lights[i].direction;
-      row.brightest = std::max({lights[i].color.r, lights[i].color.g, lights[i].color.b});
+      row.brightest = lights[i].brightest;
     }
     for (const shaders::ShadowCascade& cascade : shadow.cascades) {
       row.cascade = cascade;

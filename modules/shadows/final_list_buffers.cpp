@@ -3,16 +3,16 @@
 #include "modules/shadows/final_list_buffers.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "modules/lights/outputs.h"
-#include "shaders/lights/lights_shared.h"
 
 namespace gloam {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{4} * GLOAM_BUFFER_WORDS;  // of one buffer
-constexpr std::uint32_t kMostSlots = GLOAM_NO_ROOM;                          // numbers 0 … GLOAM_NO_ROOM - 1
-constexpr std::uint32_t kMostPairs = kMostBytes / sizeof(std::uint32_t);
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} * GLOAM_BUFFER_WORDS;   // of one buffer
+constexpr std::uint32_t kMostSlots = GLOAM_NO_ROOM;                           // numbers 0 … GLOAM_NO_ROOM - 1
+constexpr std::uint32_t kMostPairs = kMostBytes / sizeof(std::uint32_t) / 2;  // see GLOAM_PAIRS_…
 
 std::uint32_t slot_bytes(std::uint32_t bits) { return GLOAM_SLOT_PIXELS * bits / 8; }
 std::uint32_t slots_per_buffer(std::uint32_t bits) { return static_cast<std::uint32_t>(kMostBytes / slot_bytes(bits)); }
@@ -46,8 +46,9 @@ Capacities capacities(const FrameBuilder& frame, const ShadowKnobs& knobs, std::
   const FinalListFeedback* feedback = frame.world().try_view_resource<FinalListFeedback>(frame.view().id);
   const FinalListFeedback asked = feedback == nullptr ? FinalListFeedback{} : *feedback;
   const std::uint32_t least = at_most(std::uint64_t{tiles} * kFirstSlotsPerTile, kMostSlots);
+  const std::uint32_t least_pairs = at_most(std::uint64_t{tiles} * kFirstPairsPerTile, kMostPairs);
   c.pairs = c.fit_all ? static_cast<std::uint32_t>(all)
-                      : kept_capacity(asked.pair_capacity, asked.pairs_asked, least, kMostPairs);
+                      : kept_capacity(asked.pair_capacity, asked.pairs_asked, least_pairs, kMostPairs);
   c.slots = c.fit_all ? static_cast<std::uint32_t>(all)
                       : kept_capacity(asked.slot_capacity, asked.slots_asked, least, kMostSlots);
   c.pairs = std::min(c.pairs, knobs.pair_limit);
@@ -85,8 +86,9 @@ FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counter
       pairs_full ? std::uint64_t{counters.slots} * counters.pairs / std::max(note.pair_capacity, 1u) : counters.slots;
   feedback.slots_asked = at_most(std::max<std::uint64_t>(share, counters.slots), kMostSlots);
   const std::uint32_t least = at_most(std::uint64_t{note.tiles} * kFirstSlotsPerTile, kMostSlots);
+  const std::uint32_t least_pairs = at_most(std::uint64_t{note.tiles} * kFirstPairsPerTile, kMostPairs);
   feedback.pair_capacity = kept_capacity(last == nullptr ? note.pair_capacity : last->pair_capacity,
-                                         feedback.pairs_asked, least, kMostPairs);
+                                         feedback.pairs_asked, least_pairs, kMostPairs);
   feedback.slot_capacity = kept_capacity(last == nullptr ? note.slot_capacity : last->slot_capacity,
                                          feedback.slots_asked, least, kMostSlots);
   return feedback;
@@ -115,8 +117,7 @@ void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote
 Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs) {
   FrameGraph& graph = frame.graph();
   const LightsOutputs& lights = *frame.find<LightsOutputs>();
-  const uvec2 tiles =
-      (uvec2(frame.view().width, frame.view().height) + uvec2(GLOAM_SHADOW_TILE - 1)) / uvec2(GLOAM_SHADOW_TILE);
+  const uvec2 tiles = (uvec2(frame.view().width, frame.view().height) + uvec2(kShadowTile - 1)) / uvec2(kShadowTile);
   const std::uint32_t tile_count = tiles.x * tiles.y;
   FinalListBuffers made;
   FinalLists& lists = made.lists;
@@ -150,15 +151,16 @@ Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const Shad
   lists.tiles = graph.create_image(image);
   constexpr std::uint64_t kWord = sizeof(std::uint32_t);
   lists.entries = create(graph, "final_light_entries", kWord * grid.entry_capacity);
-  made.pairs = create(graph, "shadow_pairs", kWord * c.pairs);
+  made.pairs = create(graph, "shadow_pairs", 2 * kWord * c.pairs);
   lists.fallback_tiles = create(graph, "shadow_fallback_tiles", kWord * tile_count);
   lists.commands = create(graph, "shadow_list_commands", sizeof(shaders::ShadowListCommands));
   lists.counters = create(graph, "shadow_list_counters", sizeof(shaders::ShadowListCounters));
+  lists.fallback_draw = offsetof(shaders::ShadowListCommands, fallback_draw);
   create_visibilities(graph, lists);
   made.note = {tile_count,
                c.slots,
                c.pairs,
-               kWord * (std::uint64_t{grid.entry_capacity} + c.pairs) +
+               kWord * (std::uint64_t{grid.entry_capacity} + 2 * std::uint64_t{c.pairs}) +
                    (lights.has_lists() ? std::uint64_t{lights.slot_capacity} / 3 * kWord : 0),
                std::uint64_t{c.slots} * slot_bytes(lists.visibility_bits),
                lists.visibility_bits};

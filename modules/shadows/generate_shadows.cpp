@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/generate_shadows.h"
 
+#include <array>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "modules/lights/outputs.h"
 #include "modules/shadows/final_list_buffers.h"
-#include "shaders/lights/lights_shared.h"
 #include "shaders/shadows/shaders.h"
 
 namespace gloam {
@@ -23,17 +24,22 @@ gpu::ComputePipelineDesc classify_pipeline(const ShadowsOutputs& shadows) {
   return {"classify_shadows/" + shadows.variant, "shadows", shaders::shadows::classify_shadows_comp, shadows.constants};
 }
 
-gpu::ShaderCode generate_code(bool directional, bool standard) {
+constexpr const char* kPairKinds[GLOAM_PAIR_KINDS] = {"in_face", "crossing", "suns"};
+
+gpu::ShaderCode generate_code(std::uint32_t kind, bool standard) {
   using namespace shaders::shadows;
-  if (directional) return standard ? generate_shadows_suns_standard_comp : generate_shadows_suns_comp;
-  return standard ? generate_shadows_local_standard_comp : generate_shadows_local_comp;
+  if (kind == GLOAM_PAIRS_DIRECTIONAL)
+    return standard ? generate_shadows_suns_standard_comp : generate_shadows_suns_comp;
+  if (kind == GLOAM_PAIRS_CROSSING)
+    return standard ? generate_shadows_crossing_standard_comp : generate_shadows_crossing_comp;
+  return standard ? generate_shadows_in_face_standard_comp : generate_shadows_in_face_comp;
 }
 
-gpu::ComputePipelineDesc generate_pipeline(const ShadowsOutputs& shadows, const FinalLists& lists, bool directional,
+gpu::ComputePipelineDesc generate_pipeline(const ShadowsOutputs& shadows, const FinalLists& lists, std::uint32_t kind,
                                            const gpu::DeviceInfo& device) {
   gpu::ComputePipelineDesc desc{
-      std::string("generate_shadows/") + (directional ? "suns/" : "local/") + shadows.variant + "/" + lists.variant,
-      "shadows", generate_code(directional, shadows.standard), shadows.constants};
+      std::string("generate_shadows/") + kPairKinds[kind] + "/" + shadows.variant + "/" + lists.variant, "shadows",
+      generate_code(kind, shadows.standard), shadows.constants};
   desc.constants.push_back({0, threads_a_pair(device)});
   for (const gpu::SpecConstant& constant : lists.constants)
     if (constant.id == GLOAM_FINAL_BITS_ID) desc.constants.push_back(constant);
@@ -66,7 +72,8 @@ void add_start_pass(FrameBuilder& frame, Generate& g) {
   g.lists().counters = pass.write(g.lists().counters, gpu::Access::transfer_write);
   pass.execute([commands_ref = g.lists().commands, counters = g.lists().counters](PassContext& context) {
     constexpr std::uint64_t kWord = sizeof(std::uint32_t);
-    constexpr std::uint32_t kStart[] = {GLOAM_PAIRS_ROW, 0, 1, 0, GLOAM_PAIRS_ROW, 0, 1, 0, 6, 0, 0, 0};
+    constexpr std::uint32_t kStart[] = {
+        GLOAM_PAIRS_ROW, 0, 1, 0, GLOAM_PAIRS_ROW, 0, 1, 0, GLOAM_PAIRS_ROW, 0, 1, 0, 6, 0, 0, 0};
     static_assert(sizeof(kStart) == sizeof(shaders::ShadowListCommands));
     gpu::CommandList& commands = context.commands();
     commands.fill_buffer(context.buffer(counters), 0, sizeof(shaders::ShadowListCounters), 0);
@@ -117,23 +124,18 @@ Status add_classify_pass(FrameBuilder& frame, Generate& g) {
   return {};
 }
 
-/// Of the two kinds of pairs; none for lights that the view has none of.
-struct PairPipelines {
-  gpu::PipelineHandle local;
-  gpu::PipelineHandle directional;
-};
+/// By kind of pair; none of lights that the view has none of.
+using PairPipelines = std::array<gpu::PipelineHandle, GLOAM_PAIR_KINDS>;
 
 Result<PairPipelines> pair_pipelines(FrameBuilder& frame, Generate& g) {
   PairPipelines made;
   const FrameServices& services = frame.services();
-  const auto get = [&](bool directional, gpu::PipelineHandle& pipeline) -> Status {
-    auto found = services.pipelines.get(generate_pipeline(g.shadows, g.lists(), directional, services.device.info()));
+  for (std::uint32_t kind = 0; kind < GLOAM_PAIR_KINDS; ++kind) {
+    if ((kind == GLOAM_PAIRS_DIRECTIONAL ? g.lights.directional_count : g.lights.local_count) == 0) continue;
+    auto found = services.pipelines.get(generate_pipeline(g.shadows, g.lists(), kind, services.device.info()));
     if (!found.ok()) return found.error();
-    pipeline = *found;
-    return {};
-  };
-  if (g.lights.local_count > 0) GLOAM_TRY(get(false, made.local));
-  if (g.lights.directional_count > 0) GLOAM_TRY(get(true, made.directional));
+    made[kind] = *found;
+  }
   return made;
 }
 
@@ -161,25 +163,22 @@ void record_pairs(const FrameBuilder& frame, PassContext& context, Generate& g, 
   const FinalLists& l = g.lists();
   const gpu::BufferHandle arguments = context.buffer(l.commands);
   const std::vector<gpu::Binding> bindings = pair_bindings(frame, context, g);
+  // Pairs write different places of the same buffers.
+  std::vector<gpu::BufferBarrier> written;
+  for (const BufferRef buffer : {l.entries, l.visibilities[0], l.counters})
+    written.push_back({context.buffer(buffer), gpu::Access::compute_write, gpu::Access::compute_write});
+  if (l.visibilities[1].resource != l.visibilities[0].resource)
+    written.push_back({context.buffer(l.visibilities[1]), gpu::Access::compute_write, gpu::Access::compute_write});
   gpu::CommandList& commands = context.commands();
-  if (pipelines.local) {
-    commands.bind_pipeline(pipelines.local);
+  bool first = true;
+  for (std::uint32_t kind = 0; kind < GLOAM_PAIR_KINDS; ++kind) {
+    if (!pipelines[kind]) continue;
+    if (!first) commands.barrier(written, {});
+    first = false;
+    commands.bind_pipeline(pipelines[kind]);
     commands.bind(bindings);
-    commands.dispatch_indirect(arguments, offsetof(shaders::ShadowListCommands, local_groups));
+    commands.dispatch_indirect(arguments, offsetof(shaders::ShadowListCommands, pairs) + kind * sizeof(uvec4));
   }
-  if (!pipelines.directional) return;
-  if (pipelines.local) {
-    // They write different places of the same buffers.
-    std::vector<gpu::BufferBarrier> written;
-    for (const BufferRef buffer : {l.entries, l.visibilities[0], l.counters})
-      written.push_back({context.buffer(buffer), gpu::Access::compute_write, gpu::Access::compute_write});
-    if (l.visibilities[1].resource != l.visibilities[0].resource)
-      written.push_back({context.buffer(l.visibilities[1]), gpu::Access::compute_write, gpu::Access::compute_write});
-    commands.barrier(written, {});
-  }
-  commands.bind_pipeline(pipelines.directional);
-  commands.bind(bindings);
-  commands.dispatch_indirect(arguments, offsetof(shaders::ShadowListCommands, directional_groups));
 }
 
 Status add_pairs_pass(FrameBuilder& frame, Generate& g) {

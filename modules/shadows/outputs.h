@@ -21,6 +21,7 @@ struct FinalLists {
   BufferRef entries;          ///< a word an entry
   BufferRef visibilities[2];  ///< words of slots; the second is the first when one is enough
   BufferRef commands;         ///< ShadowListCommands
+  std::uint64_t fallback_draw = 0;  ///< where in `commands` the arguments of the draw of fallback_tiles lie, bytes
   BufferRef counters;         ///< ShadowListCounters
   BufferRef fallback_tiles;  ///< y << 16 | x of tiles without a list, as many as ShadowListCommands::fallback_draw says
   bool always_complete = false;  ///< there is room for every light of every tile: no tile is without a list

@@ -32,13 +32,15 @@ Knob number_knob(std::string name, std::string meaning, std::string unit, double
 }  // namespace
 
 void add_shadow_knobs(KnobRegistry& registry) {
-  Knob mode = choice_knob("mode",
-                           "shadows of lights: none, looked up in shadow maps where light is added up, or before that, a light and tile "
-                           "at a time and only where a tile is neither lit nor unlit as a whole",
-                           {"off", "monolithic", "deferred"}, 1);
+  Knob mode = choice_knob(
+      "mode",
+      "shadows of lights: none, looked up in shadow maps where light is added up, or before that, a light and tile "
+      "at a time and only where a tile is neither lit nor unlit as a whole",
+      {"off", "monolithic", "deferred"}, 2);
   mode.exact = "monolithic";
   registry.add(mode);
-  registry.add(choice_knob("classify", "whether shadow maps are asked about whole tiles before pixels (shadows.mode=deferred)",
+  registry.add(choice_knob("classify",
+                           "whether shadow maps are asked about whole tiles before pixels (shadows.mode=deferred)",
                            {"off", "on"}, 1));
   registry.add(
       choice_knob("filter",
@@ -71,7 +73,7 @@ void add_shadow_knobs(KnobRegistry& registry) {
   units.ledger_values = {200.0, 1000.0, 2000.0, 10000.0, 50000.0};
   registry.add(units);
   Knob bits = choice_knob("visibility_bits", "steps that a light's visibility at a pixel is rounded to",
-                           {"4", "8", "exact"}, 1);
+                          {"4", "8", "exact"}, 1);
   bits.exact = "exact";
   registry.add(bits);
   Knob atlas = choice_knob("atlas", "side of the image that all shadow maps of a view share",
@@ -87,8 +89,10 @@ void add_shadow_knobs(KnobRegistry& registry) {
   registry.add(choice_knob("casters",
                            "meshes that are drawn into shadow maps: as the camera sees them, or with fewer triangles",
                            {"full", "simplified"}, 0));
-  for (const auto& [name, meaning] : {std::pair("slot_limit", "slots of visibility that a view may have; tiles that find none are shaded as by monolithic"),
-                                      std::pair("pair_limit", "pairs of a tile and a light whose pixels are asked; likewise")}) {
+  for (const auto& [name, meaning] :
+       {std::pair("slot_limit",
+                  "slots of visibility that a view may have; tiles that find none are shaded as by monolithic"),
+        std::pair("pair_limit", "pairs of a tile and a light whose pixels are asked; likewise")}) {
     Knob limit = number_knob(name, meaning, "", 4194301.0, 4194301.0);
     limit.type = Knob::Type::integer;
     registry.add(limit);

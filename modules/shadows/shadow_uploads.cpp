@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "modules/lights/outputs.h"
-#include "modules/lights/light_list.h"
 #include "modules/shadows/cascade_rows.h"
 #include "modules/shadows/shadow_cookies.h"
 
@@ -148,8 +147,8 @@ Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const Shado
   shaders::ShadowBlock block_now = block_of(frame, views, knobs, traced, rows_now);
   // Few heights, so that the frame's plan stays as it is while lights come and go.
   rows_now.resize(std::bit_ceil(std::max<std::size_t>(rows_now.size(), kFewestRows)));
-  const shaders::LightBlock& lights = frame.world().view_resource<VisibleLights>(frame.view().id).block;
-  append_cascade_rows(std::span(lights.directional, lights.directional_count), block_now, rows_now);
+  append_cascade_rows(directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id)), block_now,
+                      rows_now);
   auto block = frame.services().uniforms.write_value(block_now);
   if (!block.ok()) return block.error();
   outputs.block = *block;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/lights/lights_shared.h"
+#include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 
 // Tiles without a final light list, one an instance: two triangles at depth 0.

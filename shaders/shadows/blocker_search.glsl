@@ -28,7 +28,7 @@ vec2 pyramid_corner(ShadowPoint p, int level) {
   return (square.corner + clamp(corner, vec2(1.0), vec2(square.size - 1.0))) * 4.0 * shadow_texel_size();
 }
 
-#if (GLOAM_SHADOWS_KINDS & 2) != 0
+#ifdef GLOAM_SHADOWS_CROSSING
 // Whether another face of a cube, whose nearest depth is this, may hold anything between the emitter and a receiver of `depth` that is
 // `off` texels from that face's border. What lies at the tangent t ≥ 1 has t times its depth in the receiver's own face, and the cone
 // (SearchCone) begins at depth + 2 (t − tangent of the receiver) / (scale · to_tangent) there: if not at the border, then nowhere.
@@ -95,7 +95,7 @@ SearchRegion find_region(ShadowPoint p) {
   int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
   bool across = false;
   SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
-#if (GLOAM_SHADOWS_KINDS & 2) != 0
+#ifdef GLOAM_SHADOWS_CROSSING
   if ((kKinds & GLOAM_SHADOWS_CUBES) != 0u) region = find_region_of_cube(p, across);
 #endif
   if (!across) do {
@@ -225,7 +225,7 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, flo
 }
 #endif
 
-#if (GLOAM_SHADOWS_KINDS & 2) != 0
+#ifdef GLOAM_SHADOWS_CROSSING
 // The same where other faces of a cube have part in it: texel by texel.
 Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, texels);
@@ -257,7 +257,7 @@ Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, floa
     found = texels == 8 ? find_blockers_8(p, mip, whole_plane, half_width) : find_blockers(p, mip, texels, whole_plane, half_width);
 #endif
   } while (never(p));
-#if (GLOAM_SHADOWS_KINDS & 2) != 0
+#ifdef GLOAM_SHADOWS_CROSSING
   if (across) do {
     found = find_blockers_across(p, mip, texels, whole_plane, half_width);
   } while (never(p));

@@ -141,7 +141,8 @@ uint classify_directional(TileBounds t, uint light, vec3 direction, int most_tur
     bool surrounded = f.surrounded;
     // Pixels that are not in this cascade have no part in what it says.
     f.surrounded = f.nearest < 0.9999;
-    uint here = classify_in_face(f, most_turns);
+    bool in_face;
+    uint here = classify_in_face(f, most_turns, in_face);
     verdict = outside ? verdict : first || here == verdict ? here : kUnknown;
     first = first && outside;
     done = surrounded || (!outside && here == kUnknown);
@@ -167,13 +168,16 @@ bool other_faces_matter(TileInFace f, uint light) {
   return matter && leaves_face(f, 0.5 * widest(f, nearest) + 1.0);
 }
 
-uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turns) {
+// in_face: all that the tile's pixels look at lies in one face.
+uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turns, out bool in_face) {
   TileInFace f;
   float kind = texelFetch(shadow_rows, ivec2(0, light), 0).x;
   bool inside = tile_in_local_face(t, light, light_position, f);
+  bool alone = inside && (!f.cube || !other_faces_matter(f, light));
+  in_face = kind == float(GLOAM_SHADOW_SPOT);
   if (kind == float(GLOAM_SHADOW_NONE)) return kCastsNone;
-  if (!inside || (f.cube && other_faces_matter(f, light))) return f.turned_away && inside ? kUnlit : kUnknown;
-  return classify_in_face(f, most_turns);
+  if (!alone) return f.turned_away && inside ? kUnlit : kUnknown;
+  return classify_in_face(f, most_turns, in_face);
 }
 
 #endif

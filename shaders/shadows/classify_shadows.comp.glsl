@@ -9,14 +9,14 @@
 #include "shaders/lights/light_lists_api.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
-#include "shaders/shadows/final_lists_shared.h"
+#include "shaders/shadows/pair_places.glsl"
 #include "shaders/shadows/classify_tile.glsl"
 
 // Makes final lists of early ones, as far as they are known before any pixel is asked: a light that casts no shadow, or whose shadow map
 // shows that nothing can hide it from any of the tile's pixels, is lit; one that something hides from all of them is left out; the others
 // become pairs for generate_shadows.comp. One thread is a tile.
 //
-// lavapipe ends all loops of a thread after 65,535 turns together: a light takes at most kMostTurns.
+// lavapipe ends all loops of a thread after 65,535 turns together: a light takes at most kMostTurns in blocks and 256 in texels.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -35,46 +35,42 @@ layout(set = 0, binding = 19) uniform sampler2D depth_image;
 layout(set = 0, binding = 20) uniform usampler2D normal_image;
 layout(set = 0, binding = 21) uniform sampler2D base_color_image;
 
-bool casts(bool directional, uint light) {
-  return directional ? fetch_sun(light).x > 0.0
-                     : texelFetch(shadow_rows, ivec2(0, light), 0).x != float(GLOAM_SHADOW_NONE);
-}
+int local_kind(uint light) { return int(texelFetch(shadow_rows, ivec2(0, light), 0).x); }
 
-uint classify(TileBounds tile, bool directional, uint light, int most_turns) {
+bool casts(bool directional, uint light) { return directional ? fetch_sun(light).x > 0.0 : local_kind(light) != GLOAM_SHADOW_NONE; }
+
+uint classify(TileBounds tile, bool directional, uint light, int most_turns, out bool in_face) {
+  in_face = false;
   if (directional) return classify_directional(tile, light, texelFetch(shadow_rows, ivec2(6, cascade_row(light, 0u)), 0).xyz, most_turns);
-  return classify_local(tile, light, texelFetch(light_texels, ivec2(0, light), 0).xyz, most_turns);
+  return classify_local(tile, light, texelFetch(light_texels, ivec2(0, light), 0).xyz, most_turns, in_face);
 }
 
 // Blocks that are looked at of a light; where a tile has very many lights, fewer.
-const int kMostTurns = 192;
-const int kFewTurns = 48;
+const int kMostTurns = 160;
+const int kFewTurns = 1;
 
 // What a thread has counted.
 uint unshadowed, lit_at_once, unlit_at_once;
 
 // Slot of an entry that pixels are asked about: until they have been, its tile.
-uint add_pair(uint entry, uint tile_index, bool directional) {
+uint add_pair(uint entry, uint tile_index, uint kind) {
   if (atomicAdd(counters.pairs, 1u) >= grid.pair_capacity) return GLOAM_NO_ROOM;
-  // Pairs of local lights lie from the begin of the buffer, those of directional ones from its end.
-  uint pair = directional ? atomicAdd(commands.directional_pairs, 1u) : atomicAdd(commands.local_pairs, 1u);
-  pairs[directional ? grid.pair_capacity - 1u - pair : pair] = entry;
-  if (pair % GLOAM_PAIRS_ROW == 0u) {
-    uint rows = pair / GLOAM_PAIRS_ROW + 1u;
-    if (directional) atomicMax(commands.directional_groups.y, rows);
-    else atomicMax(commands.local_groups.y, rows);
-  }
+  uint pair = atomicAdd(commands.pairs[kind].w, 1u);
+  pairs[pair_place(grid, kind, pair)] = entry;
+  if (pair % GLOAM_PAIRS_ROW == 0u) atomicMax(commands.pairs[kind].y, pair / GLOAM_PAIRS_ROW + 1u);
   return tile_index;
 }
 
 // Adds the light's entry at `entry`, if it has one.
 void add_light(TileBounds tile, uint tile_index, bool directional, uint light, int most_turns, inout uint entry) {
-  uint verdict = grid.classify != 0u ? classify(tile, directional, light, most_turns) : casts(directional, light) ? kUnknown : kCastsNone;
+  bool in_face = directional || local_kind(light) == GLOAM_SHADOW_SPOT;
+  uint verdict = grid.classify != 0u ? classify(tile, directional, light, most_turns, in_face) : casts(directional, light) ? kUnknown : kCastsNone;
   unshadowed += uint(verdict == kCastsNone);
   lit_at_once += uint(verdict == kLit);
   unlit_at_once += uint(verdict == kUnlit);
   if (verdict == kUnlit) return;
   uint slot = GLOAM_ALL_LIT;
-  if (verdict == kUnknown) slot = add_pair(entry, tile_index, directional);
+  if (verdict == kUnknown) slot = add_pair(entry, tile_index, directional ? uint(GLOAM_PAIRS_DIRECTIONAL) : in_face ? uint(GLOAM_PAIRS_IN_FACE) : uint(GLOAM_PAIRS_CROSSING));
   entries[entry++] = light | slot << 10;
 }
 
@@ -105,7 +101,7 @@ void main() {
   }
   unshadowed = lit_at_once = unlit_at_once = 0u;
   TileBounds tile = make_tile_bounds(view, depth_image, normal_image, base_color_image, at, bounds);
-  int most_turns = count <= 256u ? kMostTurns : kFewTurns;
+  int most_turns = count <= 128u ? kMostTurns : kFewTurns;
   uvec2 first = uvec2(tile_index * grid.directional_count, shared_entries + list.x), end = first;
   for (uint i = 0u; i < grid.directional_count; ++i) add_light(tile, tile_index, true, i, most_turns, end.x);
   for (uint i = 0u; i < count; ++i) add_light(tile, tile_index, false, list_light(list.x, i), most_turns, end.y);

@@ -132,77 +132,108 @@ bool is_harmless(TileInFace f, Looks looks, vec4 block, vec2 middle, float half_
   vec2 steeper = abs(block.yz - f.plane.yz);
   float excess = block.x - (f.plane.x + dot(f.plane.yz, middle)) + (steeper.x + steeper.y) * half_side;
   bool below = excess + f.tilt * max(farthest_off.x, farthest_off.y) <= kPlaneMargin * f.least_bias;
-  return block.w <= 0.0 || below || off > looks.reach || (kFilter == 3u && block.w <= cone_depth(f, looks, off));
+  // A pixel that is this far off lies on the plane or above it, and its cone rises faster than the plane falls.
+  float cone_slope = 2.0 / max(f.scale, 1e-6), rise = cone_slope - abs(f.plane.y) - abs(f.plane.z);
+  bool aslant = kFilter == 3u && rise > 0.0 && excess <= rise * off - cone_slope * looks.slack;
+  return block.w <= 0.0 || below || aslant || off > looks.reach || (kFilter == 3u && block.w <= cone_depth(f, looks, off));
 }
 
 // The same of one texel.
 bool is_harmless(TileInFace f, Looks looks, float depth, vec2 middle) { return is_harmless(f, looks, vec4(depth, f.plane.yz, depth), middle, 0.0); }
 
-// A block of texels in the order in which all_harmless looks at them.
-struct BlockCursor {
-  ivec2 block;  // of its level
-  int level;
-  int quad;     // of level 0: the four texels that are looked at; kQuads: the block itself
+// Blocks of level 0, few enough to be looked at texel by texel, a byte a coordinate: the newest in the lowest 16 bits of first.x.
+struct CloseBlocks {
+  uvec4 first;
+  uvec4 rest;
+  int count;
 };
 
-const int kQuads = GLOAM_SHADOW_PLANE_BLOCK * GLOAM_SHADOW_PLANE_BLOCK / 4;
+const int kMostCloseBlocks = 16;
 
-bool looks_harmless(TileInFace f, Looks looks, BlockCursor c) {
-  float side = float(GLOAM_SHADOW_PLANE_BLOCK << c.level);
-  const float per_block = 1.0 / float(GLOAM_SHADOW_PLANE_BLOCK);
-  MipSquare square = mip_square(f.origin * per_block, f.size * per_block, c.level, shadow_block.atlas_size * per_block);
-  vec4 plane = texelFetch(shadow_planes, ivec2(square.corner) + c.block, 0);
-  bool harmless = is_harmless(f, looks, plane, (vec2(c.block) + 0.5) * side, 0.5 * side - 0.5);
-  vec2 corner = vec2(c.block) * side + 2.0 * vec2(c.quad % 4, c.quad / 4) + 1.0;
-  vec4 depths = textureGather(shadow_atlas, (f.origin + corner) * shadow_texel_size());
-  bool closer = is_harmless(f, looks, depths.x, corner + vec2(-0.5, 0.5)) && is_harmless(f, looks, depths.y, corner + vec2(0.5, 0.5)) &&
-                is_harmless(f, looks, depths.z, corner + vec2(0.5, -0.5)) && is_harmless(f, looks, depths.w, corner + vec2(-0.5, -0.5));
-  return c.quad == kQuads ? harmless : closer;
+void push(inout CloseBlocks c, uvec2 block) {
+  c.rest = c.rest << 16 | uvec4(c.first.w >> 16, c.rest.xyz >> 16);
+  c.first = c.first << 16 | uvec4(block.x & 255u | (block.y & 255u) << 8, c.first.xyz >> 16);
+  ++c.count;
 }
 
-// From large blocks to small ones, and to texels: only where a block may hold a blocker. Gives up after so many turns.
-bool all_harmless(TileInFace f, Looks looks, int most_turns) {
-  vec2 low = clamp(looks.low, vec2(0.0), vec2(f.size - 1.0));
-  vec2 high = clamp(looks.high, vec2(0.0), vec2(f.size - 1.0));
+ivec2 newest(CloseBlocks c) { return ivec2(c.first.x & 255u, c.first.x >> 8 & 255u); }
+
+void pop(inout CloseBlocks c) {
+  c.first = c.first >> 16 | uvec4(c.first.yzw, c.rest.x) << 16;
+  c.rest = c.rest >> 16 | uvec4(c.rest.yzw, 0u) << 16;
+  --c.count;
+}
+
+bool block_is_harmless(TileInFace f, Looks looks, ivec2 block, int level) {
+  float side = float(GLOAM_SHADOW_PLANE_BLOCK << level);
+  const float per_block = 1.0 / float(GLOAM_SHADOW_PLANE_BLOCK);
+  MipSquare square = mip_square(f.origin * per_block, f.size * per_block, level, shadow_block.atlas_size * per_block);
+  vec4 plane = texelFetch(shadow_planes, ivec2(square.corner) + block, 0);
+  return is_harmless(f, looks, plane, (vec2(block) + 0.5) * side, 0.5 * side - 0.5);
+}
+
+// quad: four texels of a block of level 0, row by row.
+bool quad_is_harmless(TileInFace f, Looks looks, ivec2 block, int quad) {
+  vec2 corner = vec2(block) * float(GLOAM_SHADOW_PLANE_BLOCK) + 2.0 * vec2(quad % 4, quad / 4) + 1.0;
+  vec4 depths = textureGather(shadow_atlas, (f.origin + corner) * shadow_texel_size());
+  return is_harmless(f, looks, depths.x, corner + vec2(-0.5, 0.5)) && is_harmless(f, looks, depths.y, corner + vec2(0.5, 0.5)) &&
+         is_harmless(f, looks, depths.z, corner + vec2(0.5, -0.5)) && is_harmless(f, looks, depths.w, corner + vec2(-0.5, -0.5));
+}
+
+// From large blocks to small ones, only where a block may hold a blocker. What is left of level 0 is looked at closely; false when that is
+// too much, or after so many turns.
+bool blocks_harmless(TileInFace f, ivec2 low, ivec2 high, Looks looks, int most_turns, out CloseBlocks close) {
+  close = CloseBlocks(uvec4(0u), uvec4(0u), 0);
   int top = 0;
-  ivec2 first = ivec2(low) / GLOAM_SHADOW_PLANE_BLOCK, last = ivec2(high) / GLOAM_SHADOW_PLANE_BLOCK;
   for (int i = 1; i < GLOAM_SHADOW_PLANE_LEVELS; ++i)
-    top = max((last.x >> top) - (first.x >> top), (last.y >> top) - (first.y >> top)) >= kMostBlocks ? i : top;
-  first >>= top;
-  ivec2 count = (last >> top) - first + 1;
+    top = max((high.x >> top) - (low.x >> top), (high.y >> top) - (low.y >> top)) >= kMostBlocks ? i : top;
+  ivec2 first = low >> top, count = (high >> top) - first + 1;
   if (max(count.x, count.y) > kMostBlocks || float(GLOAM_SHADOW_PLANE_BLOCK << top) > f.size) return false;
-  BlockCursor c = BlockCursor(first, top, kQuads);
-  int done = 0, turn = 0;
-  bool harmless = true, up = false;
+  ivec2 block = first;
+  int level = top, done = 0, turn = 0;
+  bool up = false;
   do {
-    bool fine = up || looks_harmless(f, looks, c);
-    bool whole = c.quad == kQuads;
-    harmless = fine || whole;
-    ivec2 child = c.block & 1;
-    if (!fine) {
-      // Closer: the first of the four blocks that it consists of, or its texels.
-      c.block = c.level > 0 ? c.block * 2 : c.block;
-      c.quad = c.level > 0 ? kQuads : 0;
-      c.level = max(c.level - 1, 0);
-    } else if (!whole && c.quad + 1 < kQuads) {
-      ++c.quad;
-    } else {
-      c.quad = kQuads;
-      up = c.level < top && child == ivec2(1);
-      if (c.level == top) c.block = first + ivec2((done + 1) % count.x, (done + 1) / count.x);
-      else c.block = up ? c.block >> 1 : c.block + ivec2(child.x == 0 ? 1 : -1, child.x);
-      done += int(c.level == top);
-      c.level += int(up);
+    bool fine = up || block_is_harmless(f, looks, block, level);
+    bool closer = !fine && level == 0;
+    if (closer) push(close, uvec2(block - low));
+    if (!fine && !closer) {
+      --level;
+      block *= 2;
+      continue;
     }
-  } while (harmless && done < count.x * count.y && ++turn < most_turns);
-  return harmless && done == count.x * count.y;
+    // The next of the four blocks that are one of the next level; after the last, that one is done.
+    ivec2 child = block & 1;
+    bool at_top = level == top;
+    ++done;
+    done -= int(!at_top);
+    up = !at_top && child == ivec2(1);
+    block = at_top ? first + ivec2(done % count.x, done / count.x) : up ? block >> 1 : block + ivec2(child.x == 0 ? 1 : -1, child.x);
+    level += int(up);
+  } while (++turn < most_turns && done < count.x * count.y && close.count <= kMostCloseBlocks);
+  return done == count.x * count.y && close.count <= kMostCloseBlocks;
+}
+
+bool all_harmless(TileInFace f, Looks looks, int most_turns) {
+  ivec2 low = ivec2(clamp(looks.low, vec2(0.0), vec2(f.size - 1.0))) / GLOAM_SHADOW_PLANE_BLOCK;
+  ivec2 high = ivec2(clamp(looks.high, vec2(0.0), vec2(f.size - 1.0))) / GLOAM_SHADOW_PLANE_BLOCK;
+  CloseBlocks close;
+  bool harmless = blocks_harmless(f, low, high, looks, most_turns, close);
+  int quad = 0;
+  const int quads = GLOAM_SHADOW_PLANE_BLOCK * GLOAM_SHADOW_PLANE_BLOCK / 4;
+  if (harmless && close.count > 0) do {
+    harmless = quad_is_harmless(f, looks, low + newest(close), quad);
+    quad = (quad + 1) % quads;
+    if (quad == 0) pop(close);
+  } while (harmless && close.count > 0);
+  return harmless;
 }
 
 bool leaves_face(TileInFace f, float reach) {
   return f.cube && (min(f.low.x, f.low.y) < reach || max(f.high.x, f.high.y) > f.size - reach);
 }
 
-uint classify_in_face(TileInFace f, int most_turns) {
+// in_face: kernels of all pixels stay in the face.
+uint classify_in_face(TileInFace f, int most_turns, out bool in_face) {
   float farthest;
   float width = widest(f, nearest_in(f, vec2(0.0), vec2(f.size), farthest)), look = 0.0;
   for (int step = 0; step < 2; ++step) {
@@ -211,6 +242,8 @@ uint classify_in_face(TileInFace f, int most_turns) {
   }
   float coarse;
   float reach = kernels_reach(width, coarse);
+  // The filter's coarser mip is up to half as coarse as its penumbra is wide, its kernel eight of its texels.
+  in_face = !leaves_face(f, max(reach, 2.0 * width + 2.0));
   // Filters that do not search for a region look at all that their kernel holds.
   look = max(look, reach);
   nearest_in(f, f.low - look, f.high + look, farthest);

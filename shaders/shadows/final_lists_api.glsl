@@ -3,7 +3,7 @@
 #ifndef GLOAM_SHADERS_SHADOWS_FINAL_LISTS_API_GLSL
 #define GLOAM_SHADERS_SHADOWS_FINAL_LISTS_API_GLSL
 
-#include "shaders/lights/lights_shared.h"
+#include "shaders/lights/lights_api.glsl"
 #include "shaders/shadows/final_lists_shared.h"
 
 // Readers of final light lists (see final_lists_shared.h). Before including this, define GLOAM_FINAL_LISTS_BINDING: four bindings from there

@@ -23,6 +23,12 @@
 #define GLOAM_SLOT_PIXELS 64
 #define GLOAM_VISIBILITY_BUFFERS 2        // that slots are spread over, in order
 #define GLOAM_BUFFER_WORDS 33554432u      // of one of them: 128 MiB
+// Kinds of pairs, each with a shader of its own. Pairs lie in one buffer of twice pair_capacity: those in one face from its begin, directional
+// ones from its middle backwards, crossing ones from its middle.
+#define GLOAM_PAIRS_IN_FACE 0      // local lights, all that their pixels look at lies in one face
+#define GLOAM_PAIRS_CROSSING 1     // of cubes, other faces may have part in it
+#define GLOAM_PAIRS_DIRECTIONAL 2
+#define GLOAM_PAIR_KINDS 3
 #define GLOAM_PAIRS_ROW 256               // workgroups of a row of the dispatch over pairs
 
 GLOAM_SHARED_BEGIN
@@ -40,10 +46,7 @@ struct FinalGrid {
 
 /// Arguments of indirect commands, made on the GPU.
 struct ShadowListCommands {
-  uvec3 local_groups;        // workgroups over pairs of local lights: GLOAM_PAIRS_ROW, rows, 1
-  uint local_pairs;          // that found room
-  uvec3 directional_groups;  // the same of directional lights
-  uint directional_pairs;
+  uvec4 pairs[GLOAM_PAIR_KINDS];  // of each kind: workgroups (GLOAM_PAIRS_ROW, rows, 1) and pairs that found room
   uvec4 fallback_draw;  // 6 vertices, tiles without a final list, 0, 0
 };
 

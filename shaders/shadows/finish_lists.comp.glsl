@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/lights/lights_shared.h"
 #include "shaders/shadows/final_lists_shared.h"
 
 // Takes entries that no pixel needs out of final lists, and names the tiles that must do without one. One thread is a tile.

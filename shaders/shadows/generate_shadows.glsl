@@ -3,7 +3,8 @@
 #ifndef GLOAM_SHADERS_SHADOWS_GENERATE_SHADOWS_GLSL
 #define GLOAM_SHADERS_SHADOWS_GENERATE_SHADOWS_GLSL
 
-// Before including this, define GLOAM_SHADOWS_KINDS: 3 for local lights, 4 for directional ones.
+// Before including this, define GLOAM_SHADOWS_KINDS: 3 for local lights, 4 for directional ones; and GLOAM_SHADOWS_IN_FACE for
+// GLOAM_PAIRS_IN_FACE.
 //
 // Generate shadows (FF XVI paper, §2.2): how much of one light each pixel of a tile sees, into a slot, unless all of them see all of it or
 // none sees any. One workgroup is a pair of a tile and a light. Pixels without a surface, or that the light gives nothing, have no say.
@@ -16,7 +17,7 @@
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
-#include "shaders/shadows/final_lists_shared.h"
+#include "shaders/shadows/pair_places.glsl"
 #include "shaders/shadows/shadows_api.glsl"
 
 layout(local_size_x = 64, local_size_x_id = 0) in;  // constant 0: 8, 16, 32 or 64
@@ -39,6 +40,13 @@ layout(set = 0, binding = 18, scalar) readonly buffer Commands { ShadowListComma
 
 const uint kThreads = gl_WorkGroupSize.x;
 const uint kPixels = uint(GLOAM_SLOT_PIXELS) / kThreads;
+#if GLOAM_SHADOWS_KINDS == 4
+const uint kPairKind = uint(GLOAM_PAIRS_DIRECTIONAL);
+#elif defined(GLOAM_SHADOWS_IN_FACE)
+const uint kPairKind = uint(GLOAM_PAIRS_IN_FACE);
+#else
+const uint kPairKind = uint(GLOAM_PAIRS_CROSSING);
+#endif
 const uint kSomeSeeLess = 1u;
 const uint kSomeSeeAny = 2u;
 
@@ -116,8 +124,7 @@ uvec2 pixel_at(uvec2 tile, uint pixel) { return tile * uint(GLOAM_SHADOW_TILE) +
 
 // All pixels of a thread, first as far as it goes without the filter; then those that need it, which are one after the other in every
 // thread: devices that run threads side by side take as many turns as the thread with the most of them.
-void ask_pixels(uint light_index, uvec2 tile, uint lane) {
-  LightOfPair light = light_of_pair(light_index);
+void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
   uint some = 0u, left = 0u, i = 0u;
   do {
     uint pixel = lane * kPixels + i;
@@ -154,20 +161,15 @@ uint take_slot(uint some) {
 
 void main() {
   uint pair = gl_WorkGroupID.y * uint(GLOAM_PAIRS_ROW) + gl_WorkGroupID.x;
-  // Pairs of local lights lie from the begin of the buffer, those of directional ones from its end.
-#if GLOAM_SHADOWS_KINDS == 4
-  uint asked = commands.directional_pairs, place = grid.pair_capacity - 1u - pair;
-#else
-  uint asked = commands.local_pairs, place = pair;
-#endif
+  uint asked = commands.pairs[kPairKind].w;
   if (pair >= asked) return;  // the same for the whole workgroup
   uint lane = gl_LocalInvocationIndex;
   for (uint i = lane; i < 16u; i += kThreads) packed_words[i] = 0u;
   if (lane == 0u) found = 0u;
   barrier();
-  uint at = pairs[place];
+  uint at = pairs[pair_place(grid, kPairKind, pair)];
   uint entry = entries[at], light = entry & 1023u, tile_index = entry >> 10;
-  ask_pixels(light, uvec2(tile_index % grid.tiles.x, tile_index / grid.tiles.x), lane);
+  ask_pixels(light_of_pair(light), uvec2(tile_index % grid.tiles.x, tile_index / grid.tiles.x), lane);
   barrier();
   if (lane == 0u) {
     slot = take_slot(found);

@@ -88,7 +88,7 @@ FilterMips filter_mips(ShadowPoint p, float width) {
   return FilterMips(fine, min(fine + 1, last), blend);
 }
 
-#if (GLOAM_SHADOWS_KINDS & 2) != 0
+#ifdef GLOAM_SHADOWS_CROSSING
 // What kernels that other faces of a cube have part in add to the blocked share: texel by texel, first in the fine mip, if that leaves the
 // face, then in the coarse one, which does if the fine one does.
 float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
@@ -136,7 +136,7 @@ float filtered_visibility(ShadowPoint p, float width) {
 #endif
     share += leaves_cube_face(p, kernel_reach(mip, kKernel)) ? 0.0 : part * blocked;
   } while (++turn < turns);
-#if (GLOAM_SHADOWS_KINDS & 2) != 0
+#ifdef GLOAM_SHADOWS_CROSSING
   share += blocked_share_across(p, mips, width);
 #endif
   return 1.0 - share;

@@ -91,6 +91,9 @@ float tap_threshold(ShadowPoint p, Kernel k, vec2 at, float least, float rise) {
 
 // Whether a kernel that reaches this many texels of mip 0 needs other faces of a cube.
 bool leaves_cube_face(ShadowPoint p, float reach) {
+#ifndef GLOAM_SHADOWS_CROSSING
+  return false;
+#endif
   vec2 off = abs(p.at - 0.5 * p.size);
   return (kKinds & GLOAM_SHADOWS_CUBES) != 0u && p.face >= 0 && max(off.x, off.y) + reach > 0.5 * p.size;
 }

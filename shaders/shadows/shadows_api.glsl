@@ -37,11 +37,15 @@ layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 
 layout(constant_id = GLOAM_SHADOWS_COVERAGE_ID) const uint kCoverage = 0u;
 // Who knows the kind of light spares software devices the code of the others, which they would run for nothing; who knows it when the
 // shader is written defines GLOAM_SHADOWS_KINDS, and spares them reading it as well.
+// GLOAM_SHADOWS_IN_FACE likewise: no kernel leaves its receiver's face of a cube.
 #ifdef GLOAM_SHADOWS_KINDS
 const uint kKinds = GLOAM_SHADOWS_KINDS;
 #else
 #define GLOAM_SHADOWS_KINDS 7
 layout(constant_id = GLOAM_SHADOWS_KINDS_ID) const uint kKinds = GLOAM_SHADOWS_ALL_KINDS;
+#endif
+#if (GLOAM_SHADOWS_KINDS & 2) != 0 && !defined(GLOAM_SHADOWS_IN_FACE)
+#define GLOAM_SHADOWS_CROSSING
 #endif
 
 struct ShadowReceiver {

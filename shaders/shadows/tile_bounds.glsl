@@ -4,7 +4,7 @@
 #define GLOAM_SHADERS_SHADOWS_TILE_BOUNDS_GLSL
 
 #include "shaders/common/math.glsl"
-#include "shaders/lights/lights_shared.h"
+#include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 
 // What holds the surfaces of a shadow tile: points, planes and normals. Sky is left out.
@@ -13,7 +13,7 @@ struct TileBounds {
   vec3 corners[8];   // camera-relative; their hull holds every surface point of the tile
   vec3 center;       // of the corners
   float radius;      // of a sphere round the center that holds them
-  vec3 normal;       // face normal of one of the pixels, unit
+  vec3 normal;       // mean face normal of a few of the pixels, unit
   float spread;      // no pixel's face normal is farther than this from it (length of the difference)
   vec2 offsets;      // least and greatest dot(normal, point) of the pixels
   bool subsurface;   // of any pixel
@@ -77,11 +77,12 @@ TileBounds make_tile_bounds(ViewConstants view, sampler2D depth_image, usampler2
   TileBounds t;
   ivec2 first = ivec2(tile) * GLOAM_SHADOW_TILE;
   // Normals of pixels without a surface hold anything.
-  t.normal = vec3(0.0, 1.0, 0.0);
+  vec3 sum = vec3(0.0, 1e-6, 0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 at = min(first + ivec2(2 + 3 * (i & 1), 2 + 3 * (i >> 1)), ivec2(view.size) - 1);
-    if (texelFetch(depth_image, at, 0).r > 0.0) t.normal = unpack_normal(texelFetch(normal_image, at, 0).y);
+    if (texelFetch(depth_image, at, 0).r > 0.0) sum += unpack_normal(texelFetch(normal_image, at, 0).y);
   }
+  t.normal = normalize(sum);
   t.spread = 0.0;
   t.offsets = vec2(1e30, -1e30);
   t.subsurface = false;

@@ -13,6 +13,7 @@
 #include "engine/math/packing.h"
 #include "engine/render/view.h"
 #include "engine/render/view_constants.h"
+#include "modules/shadows/cascade_rows.h"
 #include "shaders/lights/lights_shared.h"
 #include "shaders/shadows/final_lists_shared.h"
 #include "shaders/shadows/shaders.h"
@@ -155,6 +156,15 @@ struct Settings {
   std::uint32_t pair_capacity = 1u << 20;
 };
 
+gpu::ShaderCode generate_code(std::uint32_t kind, bool standard) {
+  using namespace shaders::shadows;
+  if (kind == GLOAM_PAIRS_DIRECTIONAL)
+    return standard ? generate_shadows_suns_standard_comp : generate_shadows_suns_comp;
+  if (kind == GLOAM_PAIRS_IN_FACE)
+    return standard ? generate_shadows_in_face_standard_comp : generate_shadows_in_face_comp;
+  return standard ? generate_shadows_crossing_standard_comp : generate_shadows_crossing_comp;
+}
+
 /// Entries as classification leaves them, and what becomes of them.
 struct Generated {
   std::vector<std::uint32_t> entries_before, entries, pairs;
@@ -174,14 +184,12 @@ class GenerateShadows : public test::ShadowKernelTest {
       for (std::uint32_t i = 0; i < suns; ++i) g.entries.push_back(tile << 10 | i);
     for (std::uint32_t tile = 0; tile < count; ++tile)
       for (std::uint32_t i = 0; i < local; ++i) g.entries.push_back(tile << 10 | i);
-    for (std::uint32_t i = 0; i < g.entries.size(); ++i)
-      g.pairs.push_back(i | (i < count * suns ? GLOAM_PAIR_DIRECTIONAL : 0u));
+    for (std::uint32_t i = 0; i < g.entries.size(); ++i) g.pairs.push_back(i);
     std::mt19937 random(count);
     std::shuffle(g.pairs.begin(), g.pairs.end(), random);
     g.entries_before = g.entries;
     g.words = {std::vector<std::uint32_t>(first_words, kGuard), std::vector<std::uint32_t>(more_words, kGuard)};
-    const auto pair_count = static_cast<std::uint32_t>(g.pairs.size());
-    g.counters[0].pairs = pair_count;
+    g.counters[0].pairs = static_cast<std::uint32_t>(g.pairs.size());
     g.counters[0].slots = s.slots_before;
     shaders::FinalGrid grid{};
     grid.tiles = tiles;
@@ -191,6 +199,27 @@ class GenerateShadows : public test::ShadowKernelTest {
     grid.pair_capacity = s.pair_capacity;
     grid.slot_capacity = s.slot_capacity;
 
+    // Every other local one may cross faces, though it need not.
+    shaders::ShadowListCommands commands{};
+    for (uvec4& kind : commands.pairs) kind = {GLOAM_PAIRS_ROW, 0, 1, 0};
+    std::vector<std::uint32_t> pair_words(2 * std::size_t{s.pair_capacity}, ~0u);
+    for (std::size_t i = 0; i < std::min<std::size_t>(g.pairs.size(), s.pair_capacity); ++i) {
+      const std::uint32_t kind = g.pairs[i] < count * suns ? GLOAM_PAIRS_DIRECTIONAL
+                                 : g.pairs[i] % 2 == 0     ? GLOAM_PAIRS_IN_FACE
+                                                           : GLOAM_PAIRS_CROSSING;
+      const std::uint32_t at = commands.pairs[kind].w++;
+      commands.pairs[kind].y = at / GLOAM_PAIRS_ROW + 1;
+      const std::uint32_t place = kind == GLOAM_PAIRS_IN_FACE       ? at
+                                  : kind == GLOAM_PAIRS_DIRECTIONAL ? s.pair_capacity - 1 - at
+                                                                    : s.pair_capacity + at;
+      pair_words[place] = g.pairs[i];
+    }
+    shaders::ShadowBlock block = test::shadow_block(maps);
+    std::vector<shaders::ShadowRow> rows = lights.rows;
+    std::vector<DirectionalLook> looks;
+    for (std::uint32_t i = 0; i < suns; ++i) looks.push_back({lights.block.directional[i].direction, 1.0f});
+    append_cascade_rows(looks, block, rows);
+
     test::ListDispatch d(device());
     d.input(0, std::vector{view_constants(room.view)});
     d.input(1, std::vector{lights.block});
@@ -199,27 +228,29 @@ class GenerateShadows : public test::ShadowKernelTest {
     d.sampled(4, gpu::Format::rg32_uint, room.size(), room.normals);
     d.sampled(5, gpu::Format::rgba8_unorm, room.size(), room.base_color);
     d.sampled(6, gpu::Format::rgba32_float, {3, local}, lights.texels);
-    d.input(7, g.pairs);
+    d.input(7, pair_words);
     d.in_out(8, g.entries);
     d.in_out(9, g.words[0]);
     d.in_out(10, g.words[1]);
     d.in_out(11, g.counters);
-    d.input(12, std::vector{test::shadow_block(maps)});
-    d.sampled(13, gpu::Format::rgba32_float, {GLOAM_SHADOW_ROW_TEXELS, local}, lights.rows);
+    d.input(12, std::vector{block});
+    d.sampled(13, gpu::Format::rgba32_float, {GLOAM_SHADOW_ROW_TEXELS, static_cast<std::uint32_t>(rows.size())}, rows);
     d.sampled(14, maps.atlas_image());
     d.sampled(15, maps.pyramid_image());
     const std::vector<std::uint32_t> white(1, ~0u);
     d.sampled(16, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
     d.sampled(17, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
+    d.input(18, std::vector{commands});
     auto constants = s.filter.constants();
     constants.push_back({0, s.threads});
     constants.push_back({GLOAM_FINAL_BITS_ID, s.bits});
-    const gpu::ShaderCode code =
-        s.filter.standard ? shaders::shadows::generate_shadows_standard_comp : shaders::shadows::generate_shadows_comp;
-    const auto pipeline =
-        test::value_of(device().create_pipeline(gpu::ComputePipelineDesc{"generate_shadows", "test", code, constants}));
-    d.run(pipeline, {GLOAM_PAIRS_ROW, (pair_count + GLOAM_PAIRS_ROW - 1) / GLOAM_PAIRS_ROW});
-    device().destroy(pipeline);
+    for (std::uint32_t kind = 0; kind < GLOAM_PAIR_KINDS; ++kind) {
+      if (commands.pairs[kind].w == 0) continue;
+      const auto pipeline = test::value_of(device().create_pipeline(
+          gpu::ComputePipelineDesc{"generate_shadows", "test", generate_code(kind, s.filter.standard), constants}));
+      d.run(pipeline, {commands.pairs[kind].x, commands.pairs[kind].y});
+      device().destroy(pipeline);
+    }
     return g;
   }
 
@@ -399,7 +430,7 @@ TEST_F(GenerateShadows, of_pairs_beyond_the_buffer_are_left_alone) {
   const Settings s{.filter = {.levels = 255, .standard = true}, .threads = 8, .pair_capacity = 20};
   const Generated g = generate(room, lights, maps, s, 1 << 16, 16);
   for (std::size_t i = 20; i < g.pairs.size(); ++i) {
-    const std::uint32_t entry = g.pairs[i] & ~GLOAM_PAIR_DIRECTIONAL;
+    const std::uint32_t entry = g.pairs[i];
     EXPECT_EQ(g.entries[entry], g.entries_before[entry]) << "pair " << i;
   }
   const auto& c = g.counters[0];

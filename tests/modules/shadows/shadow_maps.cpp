@@ -281,7 +281,7 @@ std::vector<shaders::ShadowProbeResult> ShadowMaps::probe(std::span<const shader
   const gpu::ImageHandle cookie =
       texture(gpu::Format::rgba8_unorm, {2, 2}, std::as_bytes(std::span(kCookie)), gpu::ImageShape::array);
   const gpu::BufferHandle inputs = make_upload(device_, probes);
-  const gpu::BufferHandle constants = make_upload(device_, std::span(&block, 1));
+  const gpu::BufferHandle constants = make_upload(device_, std::span<const shaders::ShadowBlock>(&block, 1));
   const gpu::BufferHandle outputs = make_readback(device_, probes.size() * sizeof(shaders::ShadowProbeResult));
   const std::vector<gpu::Binding> bindings = {
       {0, gpu::Binding::BufferRange{inputs}},

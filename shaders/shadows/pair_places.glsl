@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_PAIR_PLACES_GLSL
+#define GLOAM_SHADERS_SHADOWS_PAIR_PLACES_GLSL
+
+#include "shaders/shadows/final_lists_shared.h"
+
+// Where in the buffer of pairs a pair of some kind lies. All kinds together are no more than pair_capacity.
+uint pair_place(FinalGrid grid, uint kind, uint pair) {
+  uint middle = grid.pair_capacity;
+  return kind == uint(GLOAM_PAIRS_IN_FACE) ? pair : kind == uint(GLOAM_PAIRS_DIRECTIONAL) ? middle - 1u - pair : middle + pair;
+}
+
+#endif
