@@ -84,11 +84,11 @@ Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLigh
   grid.z_near = bins.params.near_m;
   grid.z_scale = bins.params.scale();
   grid.fixed_slots = fixed_slots_of(static_cast<std::uint32_t>(frame.knobs().number("lights.fixed_slots")));
-  grid.slot_capacity =
-      list_capacity(tile_count, grid.fixed_slots, feedback == nullptr ? LightFeedback{} : *feedback);
+  grid.slot_capacity = list_capacity(tile_count, grid.fixed_slots, feedback == nullptr ? LightFeedback{} : *feedback);
   if (grid.fixed_slots == 0)
     grid.slot_capacity =
-        std::max(grid.slot_capacity, to_whole_words(std::uint64_t{tile_count} * entries_that_fit_all(grid.local_count)));
+        std::max(grid.slot_capacity,
+                 to_whole_words(std::uint64_t{tile_count} * entries_that_fit_all(grid.local_count, tile_count)));
   outputs.lists_always_fit = grid.slot_capacity >= std::uint64_t{tile_count} * ((grid.local_count + 2) / 3 * 3);
   outputs.slot_capacity = grid.slot_capacity;
 

@@ -44,13 +44,15 @@ void count_lights(const shaders::LightCounters& counters, const LightCountersNot
 /// Bytes a view's lists may have.
 inline constexpr std::uint64_t kMostListBytes = std::uint64_t{128} << 20;
 /// Entries a tile that a view's lists begin with.
-inline constexpr std::uint32_t kFirstEntriesPerTile = 6;
+inline constexpr std::uint32_t kFirstEntriesPerTile = 3;
+/// Bytes of lists that are spent on room for all lights in every list (entries_that_fit_all), and no more.
+inline constexpr std::uint64_t kListBytesThatFitAll = std::uint64_t{512} << 10;
 
 /// Entries a tile that few local lights get without being asked for, so that all of them fit into every list and shading needs no way out
-/// (LightsOutputs::lists_always_fit); 0: too many lights. In steps: buffers do not change with every light that comes into view.
-[[nodiscard]] constexpr std::uint32_t entries_that_fit_all(std::uint32_t local_count) {
-  if (local_count > 48) return 0;
-  return local_count > 24 ? 48 : 24;
+/// (LightsOutputs::lists_always_fit); 0: too many lights, or tiles. In steps: buffers do not change with every light that comes into view.
+[[nodiscard]] constexpr std::uint32_t entries_that_fit_all(std::uint32_t local_count, std::uint32_t tiles) {
+  const std::uint32_t entries = local_count > 24 ? 48 : 24;
+  return local_count <= 48 && std::uint64_t{tiles} * entries / 3 * 4 <= kListBytesThatFitAll ? entries : 0;
 }
 
 /// Entries a tile gets in fixed-slot mode: rounded up to whole words. 0: as many as it needs.

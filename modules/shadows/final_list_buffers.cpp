@@ -114,6 +114,8 @@ void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote
   sink.count("shadows.fixed_visibility_bytes", note.tiles * 32.0 * slot_bytes(note.visibility_bits));
 }
 
+std::uint32_t visibility_bits_of(const ShadowKnobs& knobs) { return knobs.levels == 15 ? 4 : 8; }
+
 Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs) {
   FrameGraph& graph = frame.graph();
   const LightsOutputs& lights = *frame.find<LightsOutputs>();
@@ -121,7 +123,7 @@ Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const Shad
   const std::uint32_t tile_count = tiles.x * tiles.y;
   FinalListBuffers made;
   FinalLists& lists = made.lists;
-  lists.visibility_bits = knobs.levels == 15 ? 4 : 8;
+  lists.visibility_bits = visibility_bits_of(knobs);
   const Capacities c = capacities(frame, knobs, lists.visibility_bits, tile_count);
   lists.pair_capacity = c.pairs;
   lists.slot_capacity = c.slots;

@@ -59,6 +59,9 @@ struct FinalListBuffers {
   gpu::Binding::BufferRange grid;  ///< a FinalGrid, uniform
   FinalListNote note;
 };
+/// Of a slot.
+[[nodiscard]] std::uint32_t visibility_bits_of(const ShadowKnobs& knobs);
+
 [[nodiscard]] Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs);
 
 }  // namespace gloam

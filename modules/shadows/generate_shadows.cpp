@@ -9,6 +9,7 @@
 
 #include "modules/lights/outputs.h"
 #include "modules/shadows/final_list_buffers.h"
+#include "modules/shadows/shadow_planes.h"
 #include "shaders/shadows/shaders.h"
 
 namespace gloam {
@@ -35,15 +36,19 @@ gpu::ShaderCode generate_code(std::uint32_t kind, bool standard) {
   return standard ? generate_shadows_in_face_standard_comp : generate_shadows_in_face_comp;
 }
 
-gpu::ComputePipelineDesc generate_pipeline(const ShadowsOutputs& shadows, const FinalLists& lists, std::uint32_t kind,
-                                           const gpu::DeviceInfo& device) {
-  gpu::ComputePipelineDesc desc{
-      std::string("generate_shadows/") + kPairKinds[kind] + "/" + shadows.variant + "/" + lists.variant, "shadows",
-      generate_code(kind, shadows.standard), shadows.constants};
+gpu::ComputePipelineDesc generate_pipeline(const ShadowsOutputs& shadows, std::uint32_t visibility_bits,
+                                           std::uint32_t kind, const gpu::DeviceInfo& device) {
+  gpu::ComputePipelineDesc desc{std::string("generate_shadows/") + kPairKinds[kind] + "/" + shadows.variant + "/" +
+                                    std::to_string(visibility_bits),
+                                "shadows", generate_code(kind, shadows.standard), shadows.constants};
   desc.constants.push_back({0, threads_a_pair(device)});
-  for (const gpu::SpecConstant& constant : lists.constants)
-    if (constant.id == GLOAM_FINAL_BITS_ID) desc.constants.push_back(constant);
+  desc.constants.push_back({GLOAM_FINAL_BITS_ID, visibility_bits});
   return desc;
+}
+
+/// Whether the view has lights of which there may be such pairs.
+bool has_pairs(const LightsOutputs& lights, std::uint32_t kind) {
+  return (kind == GLOAM_PAIRS_DIRECTIONAL ? lights.directional_count : lights.local_count) > 0;
 }
 
 gpu::ComputePipelineDesc finish_pipeline() {
@@ -131,8 +136,9 @@ Result<PairPipelines> pair_pipelines(FrameBuilder& frame, Generate& g) {
   PairPipelines made;
   const FrameServices& services = frame.services();
   for (std::uint32_t kind = 0; kind < GLOAM_PAIR_KINDS; ++kind) {
-    if ((kind == GLOAM_PAIRS_DIRECTIONAL ? g.lights.directional_count : g.lights.local_count) == 0) continue;
-    auto found = services.pipelines.get(generate_pipeline(g.shadows, g.lists(), kind, services.device.info()));
+    if (!has_pairs(g.lights, kind)) continue;
+    auto found =
+        services.pipelines.get(generate_pipeline(g.shadows, g.lists().visibility_bits, kind, services.device.info()));
     if (!found.ok()) return found.error();
     made[kind] = *found;
   }
@@ -231,6 +237,18 @@ Status add_finish_pass(FrameBuilder& frame, Generate& g) {
 bool can_generate(const FrameBuilder& frame, const ShadowKnobs& knobs) {
   const LightsOutputs* lights = frame.find<LightsOutputs>();
   return knobs.deferred && knobs.levels != 0 && lights != nullptr && (lights->local_count == 0 || lights->has_lists());
+}
+
+bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows) {
+  const FrameServices& services = frame.services();
+  if (services.wait_for_pipelines) return true;
+  const LightsOutputs& lights = *frame.find<LightsOutputs>();
+  PipelineList list = {classify_pipeline(shadows), finish_pipeline()};
+  for (std::uint32_t kind = 0; kind < GLOAM_PAIR_KINDS; ++kind)
+    if (has_pairs(lights, kind))
+      list.push_back(generate_pipeline(shadows, visibility_bits_of(knobs), kind, services.device.info()));
+  if (knobs.classify) list_shadow_plane_pipelines(list);
+  return services.pipelines.request(list, services.log);
 }
 
 Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes, ShadowsOutputs& shadows) {

@@ -72,7 +72,7 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   outputs.cookie_lights = static_cast<std::uint32_t>(cookie_lights);
   outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(cookie_lights)});
   outputs.variant = shadow_variant(outputs.constants);
-  if (!outputs.cookies_only && !traced && can_generate(frame, knobs))
+  if (!outputs.cookies_only && !traced && can_generate(frame, knobs) && generate_pipelines_ready(frame, knobs, outputs))
     GLOAM_TRY(add_final_lists(frame, states, maps, knobs, outputs));
   frame.put(std::move(outputs));
   return {};

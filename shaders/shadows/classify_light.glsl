@@ -57,6 +57,7 @@ bool tile_in_local_face(TileBounds t, uint light, vec3 light_position, out TileI
   f.farthest = near / max(most_z, 1e-9) * (1.0 - slack);
   f.scale = width / (near * texel) * (f.cube ? sqrt(most_stretch) : 1.0) * (1.0 + slack);
   f.surrounded = outermost < 0.0;
+  f.clear = least_r > 1.74 * near;  // of a cube's near planes, which are farthest in its corners
   // Planes: n · v = h for points v of the tile, relative to the light. The plane farthest from it lies below all others.
   float shift = dot(t.normal, light_position), error = 1e-6 * (abs(shift) + most_r);
   vec2 heights = t.offsets - shift + vec2(-error, error);
@@ -176,7 +177,8 @@ uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turn
   bool alone = inside && (!f.cube || !other_faces_matter(f, light));
   in_face = kind == float(GLOAM_SHADOW_SPOT);
   if (kind == float(GLOAM_SHADOW_NONE)) return kCastsNone;
-  if (!alone) return f.turned_away && inside ? kUnlit : kUnknown;
+  // Turned away is turned away, whatever the face; beyond its near plane all of a cube's pixels look at one.
+  if (!alone) return f.turned_away && (inside || (f.cube && f.clear)) ? kUnlit : kUnknown;
   return classify_in_face(f, most_turns, in_face);
 }
 

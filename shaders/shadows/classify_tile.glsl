@@ -45,6 +45,7 @@ struct TileInFace {
   mat2 sides;         // columns: across the tile's two sides, texels of mip 0, so long that |x| + |y| = 1
   vec4 side_ranges;   // least and greatest dot products of pixels with the first, and with the second
   bool surrounded;    // all pixels look at this face
+  bool clear;         // no pixel is as near to a local light as near planes may be
   bool faces_light;   // all pixels see all of the emitter above their own surface
   bool turned_away;   // none sees any of it
 };

@@ -30,9 +30,9 @@ RenderView view_of(bool orthographic) {
   return make_view(settings, 0);
 }
 
-TEST(ListCapacity, begins_with_nine_entries_a_tile) {
-  EXPECT_EQ(list_capacity(40, 0, {}), 360u);
-  EXPECT_EQ(list_capacity(1, 0, {}), 9u);
+TEST(ListCapacity, begins_with_three_entries_a_tile) {
+  EXPECT_EQ(list_capacity(40, 0, {}), 120u);
+  EXPECT_EQ(list_capacity(1, 0, {}), 3u);
 }
 
 TEST(ListCapacity, follows_what_was_asked_for_with_a_quarter_more) {
@@ -44,11 +44,11 @@ TEST(ListCapacity, stays_while_it_is_enough_and_not_far_too_much) {
   EXPECT_EQ(list_capacity(40, 0, {.entries_asked = 1251, .slot_capacity = 1251}), 1251u);
   EXPECT_EQ(list_capacity(40, 0, {.entries_asked = 400, .slot_capacity = 1251}), 1251u);
   EXPECT_EQ(list_capacity(40, 0, {.entries_asked = 400, .slot_capacity = 12000}), 501u);
-  EXPECT_EQ(list_capacity(40, 0, {.entries_asked = 0, .slot_capacity = 12000}), 360u);
+  EXPECT_EQ(list_capacity(40, 0, {.entries_asked = 0, .slot_capacity = 12000}), 120u);
 }
 
 TEST(ListCapacity, of_a_picture_that_has_grown_has_room_for_its_tiles) {
-  EXPECT_EQ(list_capacity(400, 0, {.entries_asked = 300, .slot_capacity = 360}), 3600u);
+  EXPECT_EQ(list_capacity(400, 0, {.entries_asked = 300, .slot_capacity = 360}), 1200u);
 }
 
 TEST(ListCapacity, never_needs_more_than_128_mib) {
@@ -60,12 +60,13 @@ TEST(ListCapacity, never_needs_more_than_128_mib) {
 TEST(ListCapacity, fits_all_of_few_lights_and_changes_in_few_steps) {
   std::set<std::uint32_t> steps;
   for (std::uint32_t lights = 1; lights <= 48; ++lights) {
-    EXPECT_GE(entries_that_fit_all(lights), lights);
-    EXPECT_EQ(entries_that_fit_all(lights) % 3, 0u);
-    steps.insert(entries_that_fit_all(lights));
+    EXPECT_GE(entries_that_fit_all(lights, 3600), lights);
+    EXPECT_EQ(entries_that_fit_all(lights, 3600) % 3, 0u);
+    steps.insert(entries_that_fit_all(lights, 3600));
   }
   EXPECT_LE(steps.size(), 2u);
-  EXPECT_EQ(entries_that_fit_all(49), 0u);
+  EXPECT_EQ(entries_that_fit_all(49, 3600), 0u);
+  EXPECT_EQ(entries_that_fit_all(1, 1u << 20), 0u) << "for so many tiles that would be megabytes";
 }
 
 TEST(ListCapacity, of_fixed_slots_is_so_many_a_tile) {

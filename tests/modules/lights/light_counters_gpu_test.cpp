@@ -50,7 +50,7 @@ TEST_F(LightCounterTest, of_lamps_each_in_one_tile_are_one_a_tile) {
   EXPECT_EQ(counter(frame, "lights.per_tile_accurate_mean"), 1.0);
   EXPECT_EQ(counter(frame, "lights.per_tile_group_mean"), 12.0);
   EXPECT_EQ(counter(frame, "lights.list_entries"), 36.0) << "one, rounded up to a word of three, in 12 tiles";
-  EXPECT_EQ(counter(frame, "lights.list_capacity"), 12.0 * entries_that_fit_all(12));
+  EXPECT_EQ(counter(frame, "lights.list_capacity"), 12.0 * entries_that_fit_all(12, 12));
   EXPECT_EQ(counter(frame, "lights.overflow_tiles"), 0.0);
   EXPECT_EQ(counter(frame, "lights.culling_errors"), 0.0);
   renderer->release_world(*s.world);

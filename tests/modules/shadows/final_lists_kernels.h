@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/frame/upload.h"
+#include "engine/math/types.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam::test {

@@ -199,14 +199,13 @@ class GenerateShadows : public test::ShadowKernelTest {
     grid.pair_capacity = s.pair_capacity;
     grid.slot_capacity = s.slot_capacity;
 
-    // Every other local one may cross faces, though it need not.
+    // All lie in one face; the shader of those that cross faces must give the same.
+    const std::uint32_t local_kind = s.threads == 16 ? GLOAM_PAIRS_CROSSING : GLOAM_PAIRS_IN_FACE;
     shaders::ShadowListCommands commands{};
     for (uvec4& kind : commands.pairs) kind = {GLOAM_PAIRS_ROW, 0, 1, 0};
     std::vector<std::uint32_t> pair_words(2 * std::size_t{s.pair_capacity}, ~0u);
     for (std::size_t i = 0; i < std::min<std::size_t>(g.pairs.size(), s.pair_capacity); ++i) {
-      const std::uint32_t kind = g.pairs[i] < count * suns ? GLOAM_PAIRS_DIRECTIONAL
-                                 : g.pairs[i] % 2 == 0     ? GLOAM_PAIRS_IN_FACE
-                                                           : GLOAM_PAIRS_CROSSING;
+      const std::uint32_t kind = g.pairs[i] < count * suns ? GLOAM_PAIRS_DIRECTIONAL : local_kind;
       const std::uint32_t at = commands.pairs[kind].w++;
       commands.pairs[kind].y = at / GLOAM_PAIRS_ROW + 1;
       const std::uint32_t place = kind == GLOAM_PAIRS_IN_FACE       ? at

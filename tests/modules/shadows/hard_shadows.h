@@ -14,6 +14,7 @@
 #include "modules/shadows/shadow_reference.h"
 #include "modules/shadows/shadow_statistics.h"
 #include "tests/modules/lighting/lit_scene.h"
+#include "tests/render/small_scene.h"
 
 namespace gloam::test {
 
@@ -77,6 +78,23 @@ struct SharedRenderer {
 /// Whole frames whose shadows are held against rays.
 class HardShadows : public LitSceneTest {
  protected:
+  /// A small scene whose second box may move; returns it.
+  static Entity fill(World& into) {
+    test::SceneMaker maker(into);
+    into.resource<SceneEnvironment>().has_exposure = true;
+    const std::uint32_t material = maker.material(exact_material(180, 170, 160, 255, 0));
+    maker.draw(maker.mesh(test::quad(3.0f, material)), flat(0.0));
+    maker.draw(maker.mesh(test::box(vec3(0.2f), material)), at(-0.6, 0.2, 0.1));
+    const Entity mover = maker.draw(maker.mesh(test::box(vec3(0.15f), material)), at(0.5, 0.5, 0.0));
+    into.create(point(0.1f), WorldTransform{at(0.2, 1.8, 0.4)}, ShadowCaster{true, 256});
+    Light cone = spot(40.0, 0.1f);
+    into.create(cone, WorldTransform{at(-1.5, 1.5, 1.0) * test::turn_towards(dvec3(1.5, -1.3, -1.0))},
+                ShadowCaster{true, 256});
+    Light day = sun(0.02f);
+    into.create(day, WorldTransform{test::turn_towards(dvec3(0.5, -0.8, -0.4))}, ShadowCaster{true, 256});
+    return mover;
+  }
+
   [[nodiscard]] bool with_shadows() const override { return true; }
   void SetUp() override {
     GLOAM_REQUIRE_GPU(shared_device());
