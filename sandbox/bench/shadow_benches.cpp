@@ -66,8 +66,7 @@ Status time_lookup(ShadowCase& shadows, LookupCost& cost) {
     cost.shadows_ns.push_back(*with - *without);
     cost.shading_ns.push_back(*with);
   }
-  shadows.set_back("shadows.mode");
-  return {};
+  return shadows.set("shadows.mode", "monolithic");
 }
 
 Result<LookupCosts> measure_lookups(Session& session, const Options& options) {

@@ -18,7 +18,9 @@ constexpr std::uint32_t kSamples = 256;
 }  // namespace
 
 ShadowCase::ShadowCase(Session& session, std::uint32_t width, std::uint32_t height)
-    : session_(session), settings_(session.view_settings(width, height, "none")) {}
+    : session_(session), settings_(session.view_settings(width, height, "none")) {
+  static_cast<void>(set("shadows.mode", "monolithic"));  // the knob is there, and has the value
+}
 
 ShadowCase::~ShadowCase() {
   for (const auto& [knob, value] : users_) static_cast<void>(session_.renderer->knobs().set(knob, value));

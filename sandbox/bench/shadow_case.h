@@ -19,7 +19,8 @@
 
 namespace gloam {
 
-/// Frames of a session from one camera, and what of each light they show held against rays. Knobs that it sets it sets back.
+/// Frames of a session from one camera, and what of each light they show held against rays. Knobs that it sets it sets back. Shadow maps are
+/// looked up where light is added up until shadows.mode is set otherwise: filters are what most benches time and judge.
 class ShadowCase {
  public:
   ShadowCase(Session& session, std::uint32_t width, std::uint32_t height);
