@@ -17,8 +17,7 @@ namespace gloam {
 namespace {
 
 /// Pixels along one side of a shadow tile.
-constexpr std::uint32_t kTileSide = 8;
-static_assert(kTileSide * kTileSide == GLOAM_SLOT_PIXELS);
+static_assert(kShadowTile * kShadowTile == GLOAM_SLOT_PIXELS);
 
 using Words = std::vector<std::uint32_t>;
 
@@ -42,9 +41,9 @@ class PickLines {
         lists_(lists),
         local_{"local", local_lights(frame.world().view_resource<VisibleLights>(frame.view().id))},
         directional_{"directional", directional_lights(frame.world().view_resource<VisibleLights>(frame.view().id))},
-        pixel_((pixel.y % kTileSide) * kTileSide + pixel.x % kTileSide) {
-    const std::uint32_t columns = (frame.view().width + kTileSide - 1) / kTileSide;
-    tile_ = std::size_t{pixel.y / kTileSide} * columns + pixel.x / kTileSide;
+        pixel_((pixel.y % kShadowTile) * kShadowTile + pixel.x % kShadowTile) {
+    const std::uint32_t columns = (frame.view().width + kShadowTile - 1) / kShadowTile;
+    tile_ = std::size_t{pixel.y / kShadowTile} * columns + pixel.x / kShadowTile;
     append_words(entries_, copies.bytes("shadows.final_entries"));
     append_words(visibilities_, copies.bytes("shadows.visibilities"));
     append_words(visibilities_, copies.bytes("shadows.visibilities_1"));

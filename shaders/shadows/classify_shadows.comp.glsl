@@ -16,7 +16,7 @@
 // shows that nothing can hide it from any of the tile's pixels, is lit; one that something hides from all of them is left out; the others
 // become pairs for generate_shadows.comp. One thread is a tile.
 //
-// lavapipe ends all loops of a thread after 65,535 turns together: a light takes at most kMostTurns in blocks and 256 in texels.
+// lavapipe ends all loops of a thread after 65,535 turns together: a face of a light takes at most kMostTurns in blocks and 256 in texels.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -45,9 +45,9 @@ uint classify(TileBounds tile, bool directional, uint light, int most_turns, out
   return classify_local(tile, light, texelFetch(light_texels, ivec2(0, light), 0).xyz, most_turns, in_face);
 }
 
-// Blocks that are looked at of a light; where a tile has very many lights, fewer.
+// Blocks that are looked at of a light, if the tile has no more faces of lights than this; else none, and no light is lit at once.
 const int kMostTurns = 160;
-const int kFewTurns = 1;
+const uint kMostFaces = 128u;
 
 // What a thread has counted.
 uint unshadowed, lit_at_once, unlit_at_once;
@@ -101,7 +101,7 @@ void main() {
   }
   unshadowed = lit_at_once = unlit_at_once = 0u;
   TileBounds tile = make_tile_bounds(view, depth_image, normal_image, base_color_image, at, bounds);
-  int most_turns = count <= 128u ? kMostTurns : kFewTurns;
+  int most_turns = count + grid.directional_count * uint(GLOAM_MAX_CASCADES) <= kMostFaces ? kMostTurns : 0;
   uvec2 first = uvec2(tile_index * grid.directional_count, shared_entries + list.x), end = first;
   for (uint i = 0u; i < grid.directional_count; ++i) add_light(tile, tile_index, true, i, most_turns, end.x);
   for (uint i = 0u; i < count; ++i) add_light(tile, tile_index, false, list_light(list.x, i), most_turns, end.y);

@@ -117,11 +117,6 @@ struct Looks {
   float slack;     // a texel counts for the cone where it lies this much farther out
 };
 
-// Depth that a thing at this distance from the tile must exceed to be in the cone of any of its pixels; only one filter has a cone.
-float cone_depth(TileInFace f, Looks looks, float off) {
-  return kFilter == 3u ? f.farthest + 2.0 * max(off - looks.slack, 0.0) / max(f.scale, 1e-6) : 2.0;
-}
-
 // Whether nothing in a block of texels can be a blocker for any of the pixels. middle: of the block; half_side: from there to its outermost
 // texels' middles.
 bool is_harmless(TileInFace f, Looks looks, vec4 block, vec2 middle, float half_side) {
@@ -133,10 +128,12 @@ bool is_harmless(TileInFace f, Looks looks, vec4 block, vec2 middle, float half_
   vec2 steeper = abs(block.yz - f.plane.yz);
   float excess = block.x - (f.plane.x + dot(f.plane.yz, middle)) + (steeper.x + steeper.y) * half_side;
   bool below = excess + f.tilt * max(farthest_off.x, farthest_off.y) <= kPlaneMargin * f.least_bias;
-  // A pixel that is this far off lies on the plane or above it, and its cone rises faster than the plane falls.
+  // Only one filter has a cone. Below it: seen from the farthest pixel, or from pixels that lie on the plane or above it, where the cone
+  // rises faster than the plane falls.
   float cone_slope = 2.0 / max(f.scale, 1e-6), rise = cone_slope - abs(f.plane.y) - abs(f.plane.z);
-  bool aslant = kFilter == 3u && rise > 0.0 && excess <= rise * off - cone_slope * looks.slack;
-  return block.w <= 0.0 || below || aslant || off > looks.reach || (kFilter == 3u && block.w <= cone_depth(f, looks, off));
+  bool outside = block.w <= f.farthest + cone_slope * max(off - looks.slack, 0.0) ||
+                 (rise > 0.0 && excess <= rise * off - cone_slope * looks.slack);
+  return block.w <= 0.0 || below || off > looks.reach || (kFilter == 3u && outside);
 }
 
 // The same of one texel.
@@ -205,8 +202,7 @@ bool blocks_harmless(TileInFace f, ivec2 low, ivec2 high, Looks looks, int most_
     // The next of the four blocks that are one of the next level; after the last, that one is done.
     ivec2 child = block & 1;
     bool at_top = level == top;
-    ++done;
-    done -= int(!at_top);
+    done += int(at_top);
     up = !at_top && child == ivec2(1);
     block = at_top ? first + ivec2(done % count.x, done / count.x) : up ? block >> 1 : block + ivec2(child.x == 0 ? 1 : -1, child.x);
     level += int(up);
@@ -226,7 +222,7 @@ bool all_harmless(TileInFace f, Looks looks, int most_turns) {
     quad = (quad + 1) % quads;
     if (quad == 0) pop(close);
   } while (harmless && close.count > 0);
-  return harmless;
+  return harmless && close.count == 0;  // a device that ends long loops has not looked at all
 }
 
 bool leaves_face(TileInFace f, float reach) {
@@ -235,22 +231,19 @@ bool leaves_face(TileInFace f, float reach) {
 
 // in_face: kernels of all pixels stay in the face.
 uint classify_in_face(TileInFace f, int most_turns, out bool in_face) {
-  float farthest;
-  float width = widest(f, nearest_in(f, vec2(0.0), vec2(f.size), farthest)), look = 0.0;
+  float farthest, coarse;
+  float width = widest(f, nearest_in(f, vec2(0.0), vec2(f.size), farthest));
   for (int step = 0; step < 2; ++step) {
-    look = footprint(width);
+    // Filters that do not search for a region look at all that their kernel holds.
+    float look = max(footprint(width), kernels_reach(width, coarse));
     width = widest(f, nearest_in(f, f.low - look, f.high + look, farthest));
   }
-  float coarse;
   float reach = kernels_reach(width, coarse);
   // The filter's coarser mip is up to half as coarse as its penumbra is wide, its kernel eight of its texels.
   in_face = !leaves_face(f, max(reach, 2.0 * width + 2.0));
-  // Filters that do not search for a region look at all that their kernel holds.
-  look = max(look, reach);
-  nearest_in(f, f.low - look, f.high + look, farthest);
   bool unlit = f.turned_away || farthest > f.nearest + f.most_bias + f.slope * max(0.5 * width + 2.0, reach);
   if (unlit) return f.surrounded ? kUnlit : kUnknown;
-  if (!f.faces_light || leaves_face(f, reach)) return kUnknown;
+  if (!f.faces_light || leaves_face(f, reach) || most_turns == 0) return kUnknown;
   // A texel of a mip may hold what lies half of it farther out; see SearchCone for its own reach.
   Looks looks = Looks(f.low - reach, f.high + reach, reach, max(2.0 + 0.5 * coarse, coarse));
   return all_harmless(f, looks, most_turns) ? kLit : kUnknown;
