@@ -105,7 +105,6 @@ Status add_classify_pass(FrameBuilder& frame, Generate& g) {
     const FinalLists& l = g.lists();
     const BufferRef early = g.lights.has_lists() ? g.lights.early_lists : l.entries;
     std::vector<gpu::Binding> bindings = {frame.view_binding(),
-                                          {1, g.lights.lights},
                                           {2, g.buffers.grid},
                                           {3, sampled(g.geometry.depth_bounds)},
                                           {4, sampled(g.tile_lists)},
@@ -149,7 +148,6 @@ std::vector<gpu::Binding> pair_bindings(const FrameBuilder& frame, const PassCon
   const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, g.sampler}; };
   const FinalLists& l = g.lists();
   std::vector<gpu::Binding> bindings = {frame.view_binding(),
-                                        {1, g.lights.lights},
                                         {2, g.buffers.grid},
                                         {3, sampled(g.geometry.depth)},
                                         {4, sampled(g.geometry.normals)},

@@ -21,7 +21,6 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
-layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
 layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid grid; };
 layout(set = 0, binding = 3) uniform sampler2D depth_bounds;
 layout(set = 0, binding = 4) uniform usampler2D tile_lists;

@@ -25,7 +25,6 @@ layout(local_size_x = 64, local_size_x_id = 0) in;  // constant 0: 8, 16, 32 or 
 layout(constant_id = GLOAM_FINAL_BITS_ID) const uint kVisibilityBits = 8u;
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
-layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
 layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid grid; };
 layout(set = 0, binding = 3) uniform sampler2D depth_image;
 layout(set = 0, binding = 4) uniform usampler2D normal_image;

@@ -221,7 +221,6 @@ class GenerateShadows : public test::ShadowKernelTest {
 
     test::ListDispatch d(device());
     d.input(0, std::vector{view_constants(room.view)});
-    d.input(1, std::vector{lights.block});
     d.input(2, std::vector{grid});
     d.sampled(3, gpu::Format::r32_float, room.size(), room.depth);
     d.sampled(4, gpu::Format::rg32_uint, room.size(), room.normals);
