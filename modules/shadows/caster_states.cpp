@@ -57,17 +57,15 @@ std::uint64_t pose_of(const shaders::DeformConstants& deform, const std::map<std
 
 bool same(const CasterState& a, const CasterState& b) { return a.hash == b.hash && !a.unsteady && !b.unsteady; }
 
-/// Appends boxes of those in `a` that have no equal in `b`; both ordered by hash.
-void add_difference(std::span<const CasterState* const> a, std::span<const CasterState* const> b,
-                    std::vector<CasterBox>& boxes) {
+/// Calls pair(one of `a`, its equal in `b` or none); both ordered by hash.
+template <class Pair>
+void for_each_pair(std::span<const CasterState* const> a, std::span<const CasterState* const> b, const Pair& pair) {
   std::size_t at = 0;
   for (const CasterState* state : a) {
     while (at < b.size() && b[at]->hash < state->hash) ++at;
-    if (at < b.size() && same(*state, *b[at])) {
-      ++at;
-      continue;
-    }
-    boxes.push_back(state->box);
+    const bool equal = at < b.size() && same(*state, *b[at]);
+    pair(state, equal ? b[at] : nullptr);
+    if (equal) ++at;
   }
 }
 
@@ -101,8 +99,13 @@ std::vector<CasterState> caster_states(std::span<const Caster> casters, std::spa
 void CasterHistory::advance(std::vector<CasterState> states) {
   // Most stand where they stood, at the same place of the list.
   std::vector<const CasterState*> gone, come;
+  ++frame_;
+  std::vector<std::uint64_t> since(states.size(), frame_);
   for (std::size_t i = 0; i < std::max(states.size(), states_.size()); ++i) {
-    if (i < states.size() && i < states_.size() && same(states[i], states_[i])) continue;
+    if (i < states.size() && i < states_.size() && same(states[i], states_[i])) {
+      since[i] = since_[i];
+      continue;
+    }
     if (i < states_.size()) gone.push_back(&states_[i]);
     if (i < states.size()) come.push_back(&states[i]);
   }
@@ -110,10 +113,16 @@ void CasterHistory::advance(std::vector<CasterState> states) {
   std::sort(gone.begin(), gone.end(), by_hash);
   std::sort(come.begin(), come.end(), by_hash);
   changed_.clear();
-  add_difference(gone, come, changed_);
-  add_difference(come, gone, changed_);
+  for_each_pair(gone, come, [&](const CasterState* state, const CasterState* equal) {
+    if (equal == nullptr) changed_.push_back(state->box);
+  });
+  for_each_pair(come, gone, [&](const CasterState* state, const CasterState* equal) {
+    if (equal == nullptr) changed_.push_back(state->box);
+    if (equal != nullptr)
+      since[static_cast<std::size_t>(state - states.data())] = since_[static_cast<std::size_t>(equal - states_.data())];
+  });
   states_ = std::move(states);
-  ++frame_;
+  since_ = std::move(since);
 }
 
 }  // namespace gloam

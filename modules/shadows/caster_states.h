@@ -41,11 +41,19 @@ class CasterHistory {
   void advance(std::vector<CasterState> states);
   /// Number of the newest frame.
   [[nodiscard]] std::uint64_t frame() const { return frame_; }
+  /// Of the newest frame.
+  [[nodiscard]] std::span<const CasterState> states() const { return states_; }
   /// Where something is in the newest frame that was not there, or not so, in the one before; and the other way round.
   [[nodiscard]] std::span<const CasterBox> changed() const { return changed_; }
+  /// Whether a caster of the newest frame has been as it is for kRestFrames frames, or since the first.
+  [[nodiscard]] bool rests(std::size_t caster) const {
+    return since_[caster] <= 1 || since_[caster] + kRestFrames <= frame_;
+  }
+  static constexpr std::uint64_t kRestFrames = 16;
 
  private:
   std::uint64_t frame_ = 0;
+  std::vector<std::uint64_t> since_;  ///< the frame that each has been the same since
   std::vector<CasterState> states_;
   std::vector<CasterBox> changed_;
 };

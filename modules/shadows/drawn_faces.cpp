@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/drawn_faces.h"
 
+#include <algorithm>
 #include <bit>
 #include <span>
 #include <utility>
@@ -34,11 +35,58 @@ std::vector<TexelRect> stale_regions(const ViewShadows& kept, const ShadowFace& 
   return covered_regions(face, history.changed());
 }
 
-void find_draws(DrawnFace& face, DrawnRegion& region, std::span<const Caster> casters, bool simplified) {
+/// Of a background: casters that rest and that its part of the face may see.
+std::uint64_t hash_of_resting(const ViewShadows& kept, const ShadowFace& face, const TexelRect& texels) {
+  const FaceVolume volume = face_volume(face, texels);
+  const std::span<const CasterState> states = kept.history.states();
+  Hasher hasher;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (kept.history.rests(i) && may_see(volume, states[i].box)) hasher.value(states[i].hash);
+  return hasher.digest();
+}
+
+/// Room for what moves to move on.
+TexelRect widened(const ShadowFace& face, const TexelRect& texels) {
+  constexpr std::uint32_t kLeast = 16;
+  const uvec2 more = glm::max((texels.end - texels.begin) / 4u / kRegionStep * kRegionStep, uvec2(kLeast));
+  return {texels.begin - glm::min(texels.begin, more), glm::min(texels.end + more, uvec2(face.square.size))};
+}
+
+/// Puts the face's regions on backgrounds. Those that are not there become regions of `made`.
+void find_backgrounds(const ViewShadows& kept, DrawnFace& face, DrawnFace& made) {
+  constexpr std::size_t kMost = 2 * kMostRegions;
+  if (face.regions.front().texels == whole_face(face.face)) return;
+  std::vector<FaceBackground>& there = face.backgrounds;
+  for (const FaceBackground& background : kept.cache.backgrounds(face.face))
+    if (background.hash == hash_of_resting(kept, face.face, background.texels)) there.push_back(background);
+  for (DrawnRegion& region : face.regions) {
+    region.on_background = true;
+    const auto holds = [&](const FaceBackground& background) { return background.texels.contains(region.texels); };
+    const auto found = std::find_if(there.begin(), there.end(), holds);
+    if (found != there.end()) {
+      std::rotate(found, found + 1, there.end());  // last: it is of use
+      continue;
+    }
+    const TexelRect texels = widened(face.face, region.texels);
+    there.push_back({texels, hash_of_resting(kept, face.face, texels)});
+    made.regions.push_back({texels, {}, {}});
+  }
+  if (there.size() > kMost) there.erase(there.begin(), there.end() - kMost);
+}
+
+/// Which casters draw into a region.
+enum class Casters : std::uint8_t { all, resting, restless };
+
+void find_draws(const CasterHistory& history, DrawnFace& face, DrawnRegion& region, std::span<const Caster> casters,
+                bool simplified, Casters which) {
   if (face.content.casters == 0) return;
   const bool whole = region.texels == whole_face(face.face);
   const FaceVolume volume = whole ? face_volume(face.face) : face_volume(face.face, region.texels);
   region.draws = face_draws(volume, casters, simplified);
+  if (which != Casters::all)
+    std::erase_if(region.draws, [&](const FaceDraw& draw) {
+      return history.rests(static_cast<std::size_t>(draw.caster - casters.data())) != (which == Casters::resting);
+    });
   for (const FaceDraw& draw : region.draws)
     region.matrices.push_back(clip_from_mesh(face.face, draw.caster->world_from_mesh));
 }
@@ -69,10 +117,10 @@ PlacedFaces placed_faces(FrameBuilder& frame, ViewShadows& kept, const ShadowVie
 
 }  // namespace
 
-std::vector<DrawnFace> faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
-                                     const ShadowKnobs& knobs) {
+DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views, const ShadowKnobs& knobs) {
   const PlacedFaces placed = placed_faces(frame, kept, views, knobs);
-  std::vector<DrawnFace> drawn;
+  DrawnMaps maps;
+  std::vector<DrawnFace>& drawn = maps.faces;
   kept.counts = {};
   kept.drawn.clear();
   for (std::size_t i = 0; i < placed.faces.size(); ++i) {
@@ -83,7 +131,7 @@ std::vector<DrawnFace> faces_to_draw(FrameBuilder& frame, ViewShadows& kept, con
       ++kept.counts.cached;
       continue;
     }
-    DrawnFace& added = drawn.emplace_back(DrawnFace{face, content, {}});
+    DrawnFace& added = drawn.emplace_back(DrawnFace{face, content, {}, {}});
     for (const TexelRect& texels : placed.stale[i]) {
       added.regions.push_back({texels, {}, {}});
       kept.counts.texels += texels.texels();
@@ -93,11 +141,22 @@ std::vector<DrawnFace> faces_to_draw(FrameBuilder& frame, ViewShadows& kept, con
   }
   kept.counts.drawn = static_cast<std::uint32_t>(drawn.size()) - kept.counts.skipped;
   const std::span<const Caster> casters = frame.casters().casters;
+  for (const DrawnFace& face : drawn) maps.backgrounds.push_back({face.face, face.content, {}, {}});
   frame.services().executor.parallel_for(drawn.size(), 1, [&](JobRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i)
-      for (DrawnRegion& region : drawn[i].regions) find_draws(drawn[i], region, casters, knobs.simplified);
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      DrawnFace &face = drawn[i], &background = maps.backgrounds[i];
+      find_backgrounds(kept, face, background);
+      for (DrawnRegion& region : face.regions)
+        find_draws(kept.history, face, region, casters, knobs.simplified,
+                   region.on_background ? Casters::restless : Casters::all);
+      for (DrawnRegion& region : background.regions)
+        find_draws(kept.history, background, region, casters, knobs.simplified, Casters::resting);
+    }
   });
-  return drawn;
+  std::erase_if(maps.backgrounds, [](const DrawnFace& face) { return face.regions.empty(); });
+  for (const DrawnFace& face : maps.backgrounds)
+    for (const DrawnRegion& region : face.regions) kept.counts.texels += region.texels.texels();
+  return maps;
 }
 
 }  // namespace gloam

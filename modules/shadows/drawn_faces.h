@@ -20,18 +20,28 @@ struct DrawnRegion {
   TexelRect texels;
   std::vector<FaceDraw> draws;
   std::vector<mat4> matrices;  ///< clip from mesh, of `draws`
+  /// `draws` are of casters that do not rest; the others' depth is in the image of backgrounds.
+  bool on_background = false;
 };
 
 /// One face that is drawn in this frame.
 struct DrawnFace {
   ShadowFace face;
   FaceContent content;
-  std::vector<DrawnRegion> regions;  ///< they do not overlap
+  std::vector<DrawnRegion> regions;         ///< they do not overlap
+  std::vector<FaceBackground> backgrounds;  ///< that the image of backgrounds will hold
+};
+
+/// What one frame draws.
+struct DrawnMaps {
+  std::vector<DrawnFace> faces;
+  /// Before them, into the image of backgrounds: what casters that rest make of regions of faces.
+  std::vector<DrawnFace> backgrounds;
 };
 
 /// Sorts the view's faces into those whose maps the atlas holds and those that must be drawn: those with regions, where casters have changed
 /// since the last frame, or whole. Counts them, and advances the view's history.
-[[nodiscard]] std::vector<DrawnFace> faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
-                                                   const ShadowKnobs& knobs);
+[[nodiscard]] DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
+                                      const ShadowKnobs& knobs);
 
 }  // namespace gloam

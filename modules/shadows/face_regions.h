@@ -20,6 +20,9 @@ struct TexelRect {
   [[nodiscard]] std::uint64_t texels() const {
     return empty() ? 0 : std::uint64_t{end.x - begin.x} * (end.y - begin.y);
   }
+  [[nodiscard]] bool contains(const TexelRect& other) const {
+    return begin.x <= other.begin.x && begin.y <= other.begin.y && end.x >= other.end.x && end.y >= other.end.y;
+  }
   bool operator==(const TexelRect&) const = default;
 };
 

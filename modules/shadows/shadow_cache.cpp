@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <iterator>
+#include <utility>
 
 #include "engine/core/hash.h"
 #include "modules/shadows/face_casters.h"
@@ -139,9 +140,19 @@ void ShadowCache::set_drawn(const ShadowFace& face, const FaceContent& content, 
   const FaceKey key = key_of(face);
   if (const auto before = maps_.find(key); before != maps_.end()) places_.erase(place_of(before->second.square));
   forget_overlapping(face.square);
-  maps_.insert_or_assign(key, Map{face.square, content, frame});
+  maps_.insert_or_assign(key, Map{face.square, content, frame, {}});
   const std::uint64_t place = place_of(face.square);
   places_[place] = {place + std::uint64_t{face.square.size} * face.square.size, key};
+}
+
+std::span<const FaceBackground> ShadowCache::backgrounds(const ShadowFace& face) const {
+  const auto found = maps_.find(key_of(face));
+  if (found == maps_.end()) return {};
+  return found->second.backgrounds;
+}
+
+void ShadowCache::set_backgrounds(const ShadowFace& face, std::vector<FaceBackground> backgrounds) {
+  maps_.at(key_of(face)).backgrounds = std::move(backgrounds);
 }
 
 }  // namespace gloam

@@ -11,6 +11,7 @@
 #include "engine/jobs/executor.h"
 #include "engine/render/casters.h"
 #include "modules/shadows/caster_states.h"
+#include "modules/shadows/face_regions.h"
 #include "modules/shadows/shadow_views.h"
 
 namespace gloam {
@@ -22,6 +23,12 @@ struct FaceContent {
   bool moving = false;     ///< it may see something that is unsteady: its map is never good for another frame
   std::uint32_t casters = 0;
   bool operator==(const FaceContent&) const = default;
+};
+
+/// A part of a face that the view's image of backgrounds holds: the map as casters that rest make it.
+struct FaceBackground {
+  TexelRect texels;
+  std::uint64_t hash = 0;  ///< of these casters
 };
 
 /// One a face. `salt`: whatever else maps depend on (knobs, version of the meshes). The result does not depend on the number of threads.
@@ -41,6 +48,9 @@ class ShadowCache {
   void set_drawn(const ShadowFace& face, const FaceContent& content, std::uint64_t frame = 0);
   /// The face's map, which is there, is as it would be drawn in that frame.
   void keep(const ShadowFace& face, const FaceContent& content, std::uint64_t frame);
+  /// What the image of backgrounds holds of a face's map, which the atlas holds.
+  [[nodiscard]] std::span<const FaceBackground> backgrounds(const ShadowFace& face) const;
+  void set_backgrounds(const ShadowFace& face, std::vector<FaceBackground> backgrounds);
   void clear() {
     maps_.clear();
     places_.clear();
@@ -52,6 +62,7 @@ class ShadowCache {
     AtlasSquare square;
     FaceContent content;
     std::uint64_t frame = 0;  ///< the newest whose casters it shows
+    std::vector<FaceBackground> backgrounds;
   };
   void forget_overlapping(const AtlasSquare& square);
 

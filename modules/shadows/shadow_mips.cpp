@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/shadow_mips.h"
 
+#include <utility>
+
 #include "shaders/shadows/shaders.h"
 
 namespace gloam {
@@ -25,13 +27,15 @@ TexelRect bounds_of(const DrawnFace& face) {
 class GroupList {
  public:
   /// What one dispatch makes of these texels of a face: the run of mips after `first`.
-  void add(const ShadowFace& face, std::uint32_t layer, const TexelRect& texels, std::uint32_t first) {
+  void add(const ShadowFace& face, std::uint32_t layer, const TexelRect& texels, std::uint32_t first,
+           bool on_background = false) {
     const std::uint32_t block = std::uint32_t{GLOAM_SHADOW_MIP_BLOCK} << first;
     shaders::ShadowMipGroup group{};
     group.origin = face.square.origin;
     group.size = face.square.size;
     group.layer = layer;
     group.orthographic = face.tan_half > 0.0f ? 0u : 1u;
+    group.on_background = on_background ? 1u : 0u;
     group.gap = surface_gap(face);
     add_groups(texels.begin / block, (texels.end + block - 1u) / block, GLOAM_SHADOW_MIP_GROUP,
                [&](uvec2 begin, uvec2 end) {
@@ -39,6 +43,18 @@ class GroupList {
                  group.end = end;
                  groups_.push_back(group);
                });
+  }
+  /// All regions of a plan's batches; a range for each.
+  [[nodiscard]] std::vector<GroupRange> add_batches(const FacePlan& faces) {
+    std::vector<GroupRange> ranges;
+    for (const ScratchPlan::Batch& batch : faces.plan.batches) {
+      for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
+        const DrawnFace& face = faces.faces[batch.items[layer]];
+        for (const DrawnRegion& region : face.regions) add(face.face, layer, region.texels, 0, region.on_background);
+      }
+      ranges.push_back(take_range());
+    }
+    return ranges;
   }
   /// All that was added since the last call.
   [[nodiscard]] GroupRange take_range() {
@@ -61,10 +77,12 @@ void record(gpu::CommandList& commands, const ShadowMipWork& work, const GroupRa
 
 void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images) {
   const gpu::ImageView scratch{.image = images.scratch, .as_array = true};
+  const gpu::ImageView backgrounds{.image = images.backgrounds ? images.backgrounds : images.scratch, .as_array = true};
   const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{scratch, work.sampler}},
                                    {1, gpu::Binding::Storage{{.image = images.atlas}}},
                                    {2, gpu::Binding::Storage{{.image = images.pyramid}}},
-                                   {3, work.groups}};
+                                   {3, work.groups},
+                                   {4, gpu::Binding::Sampled{backgrounds, work.sampler}}};
   commands.bind_pipeline(work.pipeline);
   commands.bind(bindings);
 }
@@ -76,23 +94,28 @@ gpu::ComputePipelineDesc shadow_mips_pipeline(bool d16) {
   return {"shadow_map_mips/d32", "shadows", shaders::shadows::shadow_mips_comp, {}};
 }
 
-Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, std::span<const DrawnFace> faces, const ScratchPlan& plan,
+gpu::ComputePipelineDesc shadow_backgrounds_pipeline() {
+  return {"shadow_backgrounds", "shadows", shaders::shadows::shadow_backgrounds_comp, {}};
+}
+
+FacePlan plan_faces(std::vector<DrawnFace> faces) {
+  std::vector<std::uint32_t> sizes;
+  for (const DrawnFace& face : faces) sizes.push_back(face.face.square.size);
+  return {std::move(faces), plan_scratch(sizes)};
+}
+
+Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,
                                        const ShadowKnobs& knobs) {
   ShadowMipWork work;
   work.constants.mip_operator = knobs.mip_operator;
   work.constants.atlas_size = knobs.atlas_size;
   GroupList list;
-  for (const ScratchPlan::Batch& batch : plan.batches) {
-    for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
-      const DrawnFace& face = faces[batch.items[layer]];
-      for (const DrawnRegion& region : face.regions) list.add(face.face, layer, region.texels, 0);
-    }
-    work.batches.push_back(list.take_range());
-  }
-  for (std::uint32_t first = GLOAM_SHADOW_MIP_RUN; plan.batches.front().size >> first > 1;
+  work.backgrounds = list.add_batches(backgrounds);
+  work.batches = list.add_batches(faces);
+  for (std::uint32_t first = GLOAM_SHADOW_MIP_RUN; faces.plan.batches.front().size >> first > 1;
        first += GLOAM_SHADOW_MIP_RUN) {
     // Coarser mips have few texels: what lies between a face's regions is made along with them, and nothing twice.
-    for (const DrawnFace& face : faces)
+    for (const DrawnFace& face : faces.faces)
       if (face.face.square.size >> first > 1) list.add(face.face, 0, bounds_of(face), first);
     work.coarse.push_back(list.take_range());
   }
@@ -102,10 +125,26 @@ Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, std::span<const Draw
   auto pipeline = frame.services().pipelines.get(shadow_mips_pipeline(knobs.d16));
   if (!pipeline.ok()) return pipeline.error();
   work.pipeline = *pipeline;
+  if (!work.backgrounds.empty()) {
+    auto made = frame.services().pipelines.get(shadow_backgrounds_pipeline());
+    if (!made.ok()) return made.error();
+    work.backgrounds_pipeline = *made;
+  }
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
   work.sampler = *sampler;
   return work;
+}
+
+void record_backgrounds(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,
+                        const ShadowMipImages& images) {
+  const gpu::ImageView scratch{.image = images.scratch, .as_array = true};
+  const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{scratch, work.sampler}},
+                                   {1, gpu::Binding::Storage{{.image = images.backgrounds, .as_array = true}}},
+                                   {2, work.groups}};
+  commands.bind_pipeline(work.backgrounds_pipeline);
+  commands.bind(bindings);
+  record(commands, work, work.backgrounds[batch], 0);
 }
 
 void record_batch_mips(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,

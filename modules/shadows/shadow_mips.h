@@ -16,26 +16,40 @@
 namespace gloam {
 
 [[nodiscard]] gpu::ComputePipelineDesc shadow_mips_pipeline(bool d16);
+[[nodiscard]] gpu::ComputePipelineDesc shadow_backgrounds_pipeline();
 
-/// Dispatches of shadow_mips.comp for what a frame draws: one a batch that moves its faces out of the scratch map, then one a run of
-/// coarser mips for the faces of all batches.
+/// Faces, and the batches that they are drawn in.
+struct FacePlan {
+  std::vector<DrawnFace> faces;
+  ScratchPlan plan;
+};
+[[nodiscard]] FacePlan plan_faces(std::vector<DrawnFace> faces);
+
+/// Dispatches for what a frame draws: of shadow_backgrounds.comp one a batch of backgrounds; of shadow_mips.comp one a batch, which moves
+/// its faces out of the scratch map, then one a run of coarser mips for the faces of all batches.
 struct ShadowMipWork {
+  std::vector<GroupRange> backgrounds;
   std::vector<GroupRange> batches;
   std::vector<GroupRange> coarse;    ///< from mip GLOAM_SHADOW_MIP_RUN on
   gpu::Binding::BufferRange groups;  ///< this frame's
   shaders::ShadowMipConstants constants{};
   gpu::PipelineHandle pipeline;
+  gpu::PipelineHandle backgrounds_pipeline;  ///< where there are any
   gpu::SamplerHandle sampler;
 };
 
-[[nodiscard]] Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, std::span<const DrawnFace> faces,
-                                                     const ScratchPlan& plan, const ShadowKnobs& knobs);
+[[nodiscard]] Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds,
+                                                     const FacePlan& faces, const ShadowKnobs& knobs);
 
 struct ShadowMipImages {
   gpu::ImageHandle scratch;  ///< of the batch; for coarse mips any that may be read
   gpu::ImageHandle atlas;
   gpu::ImageHandle pyramid;
+  gpu::ImageHandle backgrounds;  ///< none: there are none yet
 };
+
+void record_backgrounds(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,
+                        const ShadowMipImages& images);
 
 void record_batch_mips(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,
                        const ShadowMipImages& images);

@@ -43,6 +43,7 @@ void ShadowStates::begin(gpu::Device& device) {
     destroy(at->second.atlas);
     destroy(at->second.pyramid);
     destroy(at->second.planes);
+    destroy(at->second.backgrounds);
     at = views_.erase(at);
   }
   for (auto at = cookies_.begin(); at != cookies_.end();) {
@@ -69,6 +70,7 @@ Result<ViewShadows*> ShadowStates::view(ShadowWorld world, ViewId view, std::uin
   destroy(found.atlas);
   destroy(found.pyramid);
   destroy(found.planes);
+  destroy(found.backgrounds);
   found.cache.clear();
   found.atlas_size = atlas_size;
   found.d16 = d16;
@@ -87,6 +89,17 @@ Status ShadowStates::reserve_planes(ViewShadows& view) {
       make(kept_image("shadow_planes", gpu::Format::rgba32_float, view.atlas_size / GLOAM_SHADOW_PLANE_BLOCK));
   if (!planes.ok()) return planes.error();
   view.planes.image = *planes;
+  return {};
+}
+
+Status ShadowStates::reserve_backgrounds(ViewShadows& view) {
+  if (view.backgrounds.image) return {};
+  gpu::ImageDesc desc = kept_image("shadow_backgrounds", gpu::Format::r32_float, view.atlas_size);
+  desc.width = view.atlas_size;
+  desc.shape = gpu::ImageShape::array;  // as the scratch map is, which stands in for it where nobody looks at it
+  auto backgrounds = make(desc);
+  if (!backgrounds.ok()) return backgrounds.error();
+  view.backgrounds.image = *backgrounds;
   return {};
 }
 
@@ -145,6 +158,7 @@ void ShadowStates::release() {
     destroy(view.atlas);
     destroy(view.pyramid);
     destroy(view.planes);
+    destroy(view.backgrounds);
   }
   for (auto& [key, cookies] : cookies_) destroy(cookies.images);
   views_.clear();

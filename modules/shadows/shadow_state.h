@@ -42,6 +42,8 @@ struct ViewShadows {
   KeptImage atlas;
   KeptImage pyramid;
   KeptImage planes;  ///< made when they are first wanted; filled: those of all faces are as the atlas is
+  /// An array of one, laid out as the atlas' mip 0: depth of casters that rest, where others move. Made when it is first wanted.
+  KeptImage backgrounds;
   std::uint32_t atlas_size = 0;
   bool d16 = false;
   ShadowCache cache;
@@ -74,6 +76,8 @@ class ShadowStates {
   [[nodiscard]] Result<ViewShadows*> view(ShadowWorld world, ViewId view, std::uint32_t atlas_size, bool d16);
   /// Makes sure that the view has an image of planes, of the size of its atlas.
   [[nodiscard]] Status reserve_planes(ViewShadows& view);
+  /// The same for its image of backgrounds.
+  [[nodiscard]] Status reserve_backgrounds(ViewShadows& view);
   [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId view) const;
   /// A frame of the view draws no maps: what earlier ones did is no news any more.
   void rest(ShadowWorld world, ViewId view);

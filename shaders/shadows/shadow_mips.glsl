@@ -15,6 +15,7 @@ layout(set = 0, binding = 0) uniform sampler2DArray scratch;
 layout(set = 0, binding = 1, GLOAM_SHADOW_ATLAS_FORMAT) uniform image2D atlas;
 layout(set = 0, binding = 2, rg32f) uniform image2D pyramid;
 layout(set = 0, binding = 3, scalar) readonly buffer Groups { ShadowMipGroup groups[]; };
+layout(set = 0, binding = 4) uniform sampler2DArray backgrounds;  // depth of casters that the scratch map lacks, laid out as mip 0 of the atlas
 layout(push_constant, scalar) uniform Constants { ShadowMipConstants run; };
 
 ShadowMipGroup face;  // of this workgroup
@@ -98,6 +99,9 @@ float held_depth(float depth) {
 // Four texels of the scratch map, which move into the atlas: what becomes texel `at1` of mip 1.
 Texels moved_texels(uvec2 at1, float gap) {
   vec4 gathered = textureGather(scratch, vec3(vec2(at1 * 2u + 1u) / float(face.size), float(face.layer)));
+  // Whatever is drawn, the nearest is what a map holds.
+  for (bool go = face.on_background != 0u; go; go = false)
+    gathered = max(gathered, textureGather(backgrounds, vec3(vec2(face.origin + at1 * 2u + 1u) / float(run.atlas_size), 0.0)));
   float depths[4] = float[4](gathered.w, gathered.z, gathered.x, gathered.y);
   Texels texels = kNone;
   for (uint one = 0u; one < 4u; ++one) {

@@ -11,7 +11,7 @@
 
 GLOAM_SHARED_BEGIN
 
-/// One dispatch of shadow_mips.comp: a run of mips of parts of any number of faces.
+/// One dispatch of shadow_mips.comp or shadow_backgrounds.comp: a run of mips of parts of any number of faces.
 struct ShadowMipConstants {
   uint first;         // 0: from the scratch map; else the mip that is there already
   uint mip_operator;  // GLOAM_SHADOW_MIPS_…
@@ -27,6 +27,7 @@ struct ShadowMipGroup {
   uint size;          // of the face, texels of mip 0
   uint layer;         // of the scratch map
   uint orthographic;  // depth is linear already
+  uint on_background; // run 0: what the image of backgrounds holds there is drawn too
   float gap;          // coverage: how far a surface recedes over a texel of mip 0 at most, as a share of its distance (orthographic: depth)
 };
 

@@ -47,6 +47,21 @@ TEST(CasterHistory, one_of_two_equal_casters_goes) {
   EXPECT_EQ(changed(history), Changed{4});
 }
 
+TEST(CasterHistory, casters_rest_that_have_not_changed_for_long) {
+  CasterHistory history;
+  history.advance({state(1), state(2), state(3, true)});
+  history.advance({state(1), state(9), state(3, true)});
+  EXPECT_TRUE(history.rests(0)) << "it has never changed";
+  EXPECT_FALSE(history.rests(1));
+  EXPECT_FALSE(history.rests(2));
+  for (std::uint64_t i = 1; i < CasterHistory::kRestFrames; ++i) history.advance({state(9), state(1), state(3, true)});
+  EXPECT_FALSE(history.rests(0)) << "wherever in the list it is";
+  EXPECT_TRUE(history.rests(1));
+  history.advance({state(9), state(1), state(3, true)});
+  EXPECT_TRUE(history.rests(0));
+  EXPECT_FALSE(history.rests(2)) << "unsteady ones never do";
+}
+
 TEST(CasterStates, depend_on_the_pose_and_are_steady_where_it_is_known) {
   const auto executor = make_serial_executor();
   GpuPrimitive primitive;

@@ -179,7 +179,8 @@ void ShadowMaps::add_face(const std::vector<float>& depths, uvec2 origin, std::u
       {0, gpu::Binding::Sampled{{.image = scratch, .as_array = true}, nearest_}},
       {1, gpu::Binding::Storage{{.image = atlas_}}},
       {2, gpu::Binding::Storage{{.image = pyramid_}}},
-      {3, gpu::Binding::BufferRange{buffer}}};
+      {3, gpu::Binding::BufferRange{buffer}},
+      {4, gpu::Binding::Sampled{{.image = scratch, .as_array = true}, nearest_}}};
   run_frame(device_, [&](gpu::CommandList& commands) {
     turn(commands, atlas_, Access::compute_read, Access::compute_write);
     turn(commands, pyramid_, Access::compute_read, Access::compute_write);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <random>
 #include <span>
 
@@ -123,7 +124,15 @@ class ShadowRegions : public test::ShadowedScene {
   }
 
   /// Frames of a walk; every one drawn from nothing when `anew`.
-  [[nodiscard]] std::vector<WalkedFrame> walk(std::uint32_t seed, int frames, bool anew) {
+  using Step = std::function<void(std::mt19937& random, int frame)>;
+  /// Most rest most of the time, long enough to count as resting, while one moves on in front of them.
+  void resting_step(std::mt19937& random, int frame) {
+    if (frame % 12 == 11) return step(random);
+    std::uniform_real_distribution<double> nudge(-0.05, 0.05);
+    world.get<WorldTransform>(movers[0]).matrix[3] += dvec4(nudge(random), nudge(random), nudge(random), 0.0);
+  }
+
+  [[nodiscard]] std::vector<WalkedFrame> walk(std::uint32_t seed, int frames, bool anew, const Step& one_step) {
     for (const Entity guest : guests) world.destroy(guest);
     guests.clear();
     for (std::size_t i = 0; i < movers.size(); ++i)
@@ -132,7 +141,7 @@ class ShadowRegions : public test::ShadowedScene {
     std::mt19937 random(seed);
     std::vector<WalkedFrame> walked;
     for (int i = 0; i < frames && !HasFatalFailure(); ++i) {
-      step(random);
+      one_step(random, i);
       if (anew) {
         set("shadows.casters", "simplified");  // nothing here has fewer triangles; maps count as others all the same
         draw();
@@ -144,10 +153,11 @@ class ShadowRegions : public test::ShadowedScene {
     return walked;
   }
 
-  void expect_equal_walks(std::uint32_t seed, int frames, double most_share) {
+  void expect_equal_walks(std::uint32_t seed, int frames, double most_share, const Step& one_step) {
     add_movers();
     draw();
-    const std::vector<WalkedFrame> parts = walk(seed, frames, false), whole = walk(seed, frames, true);
+    const std::vector<WalkedFrame> parts = walk(seed, frames, false, one_step),
+                                   whole = walk(seed, frames, true, one_step);
     double part_texels = 0.0, whole_texels = 0.0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       ASSERT_EQ(parts[i].faces.size(), whole[i].faces.size());
@@ -160,6 +170,14 @@ class ShadowRegions : public test::ShadowedScene {
     }
     EXPECT_GT(part_texels, 0.0);
     EXPECT_LT(part_texels, most_share * whole_texels);
+  }
+
+  void expect_equal_walks(std::uint32_t seed, int frames, double most_share) {
+    expect_equal_walks(seed, frames, most_share, [this](std::mt19937& random, int) { step(random); });
+  }
+  void expect_equal_resting_walks(std::uint32_t seed, int frames, double most_share) {
+    expect_equal_walks(seed, frames, most_share,
+                       [this](std::mt19937& random, int frame) { resting_step(random, frame); });
   }
 
   std::uint32_t mesh = 0, outline = 0;
@@ -188,6 +206,18 @@ TEST_F(ShadowRegions, parts_of_maps_of_sixteen_bits_and_means_equal_the_whole) {
   set("shadows.mip_operator", "average");
   world.get<ShadowCaster>(lamp("spot", LightKind::spot, dvec3(0.2, 0.1, 2.5))).resolution = 512;
   expect_equal_walks(9, 8, 0.7);
+}
+
+TEST_F(ShadowRegions, casters_that_rest_and_move_again_leave_maps_as_the_whole) {
+  world.get<ShadowCaster>(lamp("spot", LightKind::spot, dvec3(0.2, 0.1, 2.5))).resolution = 512;
+  world.get<ShadowCaster>(lamp("lamp", LightKind::point, dvec3(0.1, 0.0, 0.9))).resolution = 128;
+  expect_equal_resting_walks(11, 60, 0.6);
+}
+
+TEST_F(ShadowRegions, casters_that_rest_leave_maps_of_sixteen_bits_as_the_whole) {
+  set("shadows.depth", "d16");
+  world.get<ShadowCaster>(lamp("spot", LightKind::spot, dvec3(0.2, 0.1, 2.5))).resolution = 512;
+  expect_equal_resting_walks(13, 26, 0.6);
 }
 
 TEST_F(ShadowRegions, a_small_box_draws_few_texels_and_a_rested_scene_none) {
