@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} * GLOAM_BUFFER_WORDS;   // of one buffer
 constexpr std::uint32_t kMostSlots = GLOAM_NO_ROOM;                           // numbers 0 … GLOAM_NO_ROOM - 1
-constexpr std::uint32_t kMostPairs = kMostBytes / sizeof(std::uint32_t) / 2;  // see GLOAM_PAIRS_…
+constexpr std::uint32_t kMostPairs = kMostBytes / sizeof(std::uint32_t) / 2;  // and as many directional ones
 
 std::uint32_t slot_bytes(std::uint32_t bits) { return GLOAM_SLOT_PIXELS * bits / 8; }
 std::uint32_t slots_per_buffer(std::uint32_t bits) { return static_cast<std::uint32_t>(kMostBytes / slot_bytes(bits)); }
@@ -153,7 +153,9 @@ Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const Shad
   lists.tiles = graph.create_image(image);
   constexpr std::uint64_t kWord = sizeof(std::uint32_t);
   lists.entries = create(graph, "final_light_entries", kWord * grid.entry_capacity);
-  made.pairs = create(graph, "shadow_pairs", 2 * kWord * c.pairs);
+  const std::uint64_t pairs =
+      std::uint64_t{c.pairs} + std::min<std::uint64_t>(c.pairs, std::uint64_t{tile_count} * lights.directional_count);
+  made.pairs = create(graph, "shadow_pairs", kWord * pairs);
   lists.fallback_tiles = create(graph, "shadow_fallback_tiles", kWord * tile_count);
   lists.commands = create(graph, "shadow_list_commands", sizeof(shaders::ShadowListCommands));
   lists.counters = create(graph, "shadow_list_counters", sizeof(shaders::ShadowListCounters));
@@ -162,7 +164,7 @@ Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const Shad
   made.note = {tile_count,
                c.slots,
                c.pairs,
-               kWord * (std::uint64_t{grid.entry_capacity} + 2 * std::uint64_t{c.pairs}) +
+               kWord * (std::uint64_t{grid.entry_capacity} + pairs) +
                    (lights.has_lists() ? std::uint64_t{lights.slot_capacity} / 3 * kWord : 0),
                std::uint64_t{c.slots} * slot_bytes(lists.visibility_bits),
                lists.visibility_bits};

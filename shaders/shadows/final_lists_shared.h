@@ -23,8 +23,8 @@
 #define GLOAM_SLOT_PIXELS 64
 #define GLOAM_VISIBILITY_BUFFERS 2        // that slots are spread over, in order
 #define GLOAM_BUFFER_WORDS 33554432u      // of one of them: 128 MiB
-// Kinds of pairs, each with a shader of its own. Pairs lie in one buffer of twice pair_capacity: those in one face from its begin, directional
-// ones from its middle backwards, crossing ones from its middle.
+// Kinds of pairs, each with a shader of its own. Pairs lie in one buffer: those in one face from its begin, crossing ones from pair_capacity
+// backwards, directional ones, of which a tile has no more than the view, from there on.
 #define GLOAM_PAIRS_IN_FACE 0      // local lights, all that their pixels look at lies in one face
 #define GLOAM_PAIRS_CROSSING 1     // of cubes, other faces may have part in it
 #define GLOAM_PAIRS_DIRECTIONAL 2

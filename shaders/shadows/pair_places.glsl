@@ -7,8 +7,8 @@
 
 // Where in the buffer of pairs a pair of some kind lies. All kinds together are no more than pair_capacity.
 uint pair_place(FinalGrid grid, uint kind, uint pair) {
-  uint middle = grid.pair_capacity;
-  return kind == uint(GLOAM_PAIRS_IN_FACE) ? pair : kind == uint(GLOAM_PAIRS_DIRECTIONAL) ? middle - 1u - pair : middle + pair;
+  uint end = grid.pair_capacity;
+  return kind == uint(GLOAM_PAIRS_IN_FACE) ? pair : kind == uint(GLOAM_PAIRS_CROSSING) ? end - 1u - pair : end + pair;
 }
 
 #endif

@@ -208,9 +208,9 @@ class GenerateShadows : public test::ShadowKernelTest {
       const std::uint32_t kind = g.pairs[i] < count * suns ? GLOAM_PAIRS_DIRECTIONAL : local_kind;
       const std::uint32_t at = commands.pairs[kind].w++;
       commands.pairs[kind].y = at / GLOAM_PAIRS_ROW + 1;
-      const std::uint32_t place = kind == GLOAM_PAIRS_IN_FACE       ? at
-                                  : kind == GLOAM_PAIRS_DIRECTIONAL ? s.pair_capacity - 1 - at
-                                                                    : s.pair_capacity + at;
+      const std::uint32_t place = kind == GLOAM_PAIRS_IN_FACE    ? at
+                                  : kind == GLOAM_PAIRS_CROSSING ? s.pair_capacity - 1 - at
+                                                                 : s.pair_capacity + at;
       pair_words[place] = g.pairs[i];
     }
     shaders::ShadowBlock block = test::shadow_block(maps);
