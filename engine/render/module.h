@@ -32,6 +32,7 @@ struct Demand {
 
 /// Where in the frame a module adds passes; inside a phase, modules come in the order of their list.
 enum class PassPhase {
+  announce,     ///< no passes: what modules leave on the board for modules that come before them
   lists,        ///< after geometry and depth bounds: light lists, shadows
   shading,      ///< opaque surfaces and sky into linear light
   translucent,  ///< forward-lit things over them
@@ -39,7 +40,7 @@ enum class PassPhase {
   output,       ///< linear light → picture: meters (where no exposure is set), then maps tones
   visualize,    ///< over the picture, when FrameBuilder::visualizer() names one of the module's
 };
-inline constexpr PassPhase kAllPhases[] = {PassPhase::lists, PassPhase::shading, PassPhase::translucent, PassPhase::post,
+inline constexpr PassPhase kAllPhases[] = {PassPhase::announce, PassPhase::lists, PassPhase::shading, PassPhase::translucent, PassPhase::post,
                                            PassPhase::output, PassPhase::visualize};
 
 /// A picture a module can show instead of the lit one.

@@ -45,12 +45,17 @@ class LightingModule final : public Module {
 
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
     switch (phase) {
-      case PassPhase::shading: return add_deferred_pass(frame);
-      case PassPhase::translucent: return add_forward_pass(frame);
-      case PassPhase::output: return add_tone_map_passes(frame, exposures_);
+      case PassPhase::shading:
+        return add_deferred_pass(frame);
+      case PassPhase::translucent:
+        return add_forward_pass(frame);
+      case PassPhase::output:
+        return add_tone_map_passes(frame, exposures_);
       case PassPhase::lists:
       case PassPhase::post:
-      case PassPhase::visualize: break;
+      case PassPhase::announce:
+      case PassPhase::visualize:
+        break;
     }
     return {};
   }

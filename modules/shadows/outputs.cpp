@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/outputs.h"
 
+#include <algorithm>
+
 #include "shaders/shadows/final_lists_shared.h"
 
 namespace gloam {
@@ -13,6 +15,13 @@ gpu::Binding::Sampled sampled(const PassContext& context, ImageRef image, gpu::S
 }
 
 }  // namespace
+
+std::span<const Entity> WithheldCasters::of(Entity light) const {
+  const auto found = std::lower_bound(lights.begin(), lights.end(), light,
+                                      [](const OfLight& a, Entity b) { return a.light.index < b.index; });
+  if (found == lights.end() || found->light != light) return {};
+  return found->casters;
+}
 
 void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access) {
   for (const ImageRef image : {shadows.rows, shadows.atlas, shadows.pyramid, shadows.cookies, shadows.traced})

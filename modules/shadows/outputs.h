@@ -11,18 +11,19 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
+#include "modules/shadows/shadow_views.h"
 
 namespace gloam {
 
 /// What lights each shadow tile of a view and how much of each light its pixels see (shaders/shadows/final_lists_shared.h), for shaders that
 /// include shaders/shadows/final_lists_api.glsl. Opaque surfaces only.
 struct FinalLists {
-  ImageRef tiles;             ///< rgba32ui, one texel a shadow tile
-  BufferRef entries;          ///< a word an entry
-  BufferRef visibilities[2];  ///< words of slots; the second is the first when one is enough
-  BufferRef commands;         ///< ShadowListCommands
+  ImageRef tiles;                   ///< rgba32ui, one texel a shadow tile
+  BufferRef entries;                ///< a word an entry
+  BufferRef visibilities[2];        ///< words of slots; the second is the first when one is enough
+  BufferRef commands;               ///< ShadowListCommands
   std::uint64_t fallback_draw = 0;  ///< where in `commands` the arguments of the draw of fallback_tiles lie, bytes
-  BufferRef counters;         ///< ShadowListCounters
+  BufferRef counters;               ///< ShadowListCounters
   BufferRef fallback_tiles;  ///< y << 16 | x of tiles without a list, as many as ShadowListCommands::fallback_draw says
   bool always_complete = false;  ///< there is room for every light of every tile: no tile is without a list
   std::uint32_t visibility_bits = 8;
@@ -78,6 +79,17 @@ void append_cookie_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t f
 void declare_final_list_reads(PassBuilder& pass, const FinalLists& lists, gpu::Access access);
 void append_final_list_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                                 const FinalLists& lists, gpu::SamplerHandle nearest);
+
+/// Casters that the maps of a light leave out, because a later module sees to what they keep of it. Put on the board in PassPhase::announce;
+/// looked at only in frames that have final lists.
+struct WithheldCasters {
+  struct OfLight {
+    Entity light;
+    std::vector<Entity> casters;  ///< Caster::entity, ascending by Entity::index
+  };
+  std::vector<OfLight> lights;  ///< ascending by Entity::index
+  [[nodiscard]] std::span<const Entity> of(Entity light) const;
+};
 
 /// One texel of FinalLists::tiles.
 struct FinalList {
