@@ -30,18 +30,20 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
 std::vector<TexelRect> stale_regions(const ViewShadows& kept, const ShadowFace& face, const FaceContent& content) {
   const CasterHistory& history = kept.history;
   if (kept.cache.holds(face, content)) return {};
-  if (!kept.cache.held(face, content, history.frame() - 1) || history.changed().size() > kMostChanges)
-    return {whole_face(face)};
-  return covered_regions(face, history.changed());
+  const std::span<const CasterBox> changed = history.changed(face.light);
+  if (!kept.cache.held(face, content, history.frame() - 1) || changed.size() > kMostChanges) return {whole_face(face)};
+  return covered_regions(face, changed);
 }
 
 /// Of a background: casters that rest and that its part of the face may see.
 std::uint64_t hash_of_resting(const ViewShadows& kept, const ShadowFace& face, const TexelRect& texels) {
   const FaceVolume volume = face_volume(face, texels);
   const std::span<const CasterState> states = kept.history.states();
+  const std::span<const Entity> withheld = kept.history.withheld(face.light);
   Hasher hasher;
   for (std::size_t i = 0; i < states.size(); ++i)
-    if (kept.history.rests(i) && may_see(volume, states[i].box)) hasher.value(states[i].hash);
+    if (kept.history.rests(i) && may_see(volume, states[i].box) && !is_withheld(withheld, states[i].entity))
+      hasher.value(states[i].hash);
   return hasher.digest();
 }
 
@@ -82,7 +84,7 @@ void find_draws(const CasterHistory& history, DrawnFace& face, DrawnRegion& regi
   if (face.content.casters == 0) return;
   const bool whole = region.texels == whole_face(face.face);
   const FaceVolume volume = whole ? face_volume(face.face) : face_volume(face.face, region.texels);
-  region.draws = face_draws(volume, casters, simplified);
+  region.draws = face_draws(volume, casters, simplified, history.withheld(face.face.light));
   if (which != Casters::all)
     std::erase_if(region.draws, [&](const FaceDraw& draw) {
       return history.rests(static_cast<std::size_t>(draw.caster - casters.data())) != (which == Casters::resting);
@@ -105,8 +107,9 @@ PlacedFaces placed_faces(FrameBuilder& frame, ViewShadows& kept, const ShadowVie
     if (face.square.size > 0) placed.faces.push_back(face);
   std::vector<CasterState> states =
       caster_states(frame.casters().casters, caster_poses(frame.world(), frame.draws()), executor);
-  placed.contents = face_contents(placed.faces, states, salt_of(frame, knobs), executor);
   kept.history.advance(std::move(states));
+  placed.contents =
+      face_contents(placed.faces, kept.history.states(), salt_of(frame, knobs), executor, kept.history.withheld());
   placed.stale.resize(placed.faces.size());
   executor.parallel_for(placed.faces.size(), 8, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i)

@@ -40,7 +40,8 @@ struct DrawnMaps {
 };
 
 /// Sorts the view's faces into those whose maps the atlas holds and those that must be drawn: those with regions, where casters have changed
-/// since the last frame, or whole. Counts them, and advances the view's history.
+/// since the last frame, or whole. Counts them, and advances the view's history: casters that it withholds are not there for faces of their
+/// lights.
 [[nodiscard]] DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
                                       const ShadowKnobs& knobs);
 

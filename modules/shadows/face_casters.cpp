@@ -130,10 +130,12 @@ mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh) {
 
 bool is_cut_out(const Caster& caster) { return (caster.variant.features & GLOAM_SURFACE_MASK) != 0; }
 
-std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters, bool simplified) {
+std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters, bool simplified,
+                                 std::span<const Entity> withheld) {
   std::vector<FaceDraw> draws;
   for (const Caster& caster : casters)
-    if (caster.primitive->index_count > 0 && may_see(volume, caster)) add_clusters(volume, caster, simplified, draws);
+    if (caster.primitive->index_count > 0 && may_see(volume, caster) && !is_withheld(withheld, caster.entity))
+      add_clusters(volume, caster, simplified, draws);
   std::stable_partition(draws.begin(), draws.end(), [](const FaceDraw& draw) { return !is_cut_out(*draw.caster); });
   return draws;
 }

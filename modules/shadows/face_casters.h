@@ -41,9 +41,10 @@ struct FaceDraw {
   std::uint32_t index_count = 0;
 };
 /// Clusters that the face may see, as few runs as they make; opaque casters come before cut-out ones. `simplified`: those that
-/// have fewer triangles for it (GpuPrimitive::simplified_index_count) are drawn so, whole.
+/// have fewer triangles for it (GpuPrimitive::simplified_index_count) are drawn so, whole. `withheld`: casters that are left out, as
+/// WithheldCasters::of gives them.
 [[nodiscard]] std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters,
-                                               bool simplified = false);
+                                               bool simplified = false, std::span<const Entity> withheld = {});
 
 [[nodiscard]] bool is_cut_out(const Caster& caster);
 

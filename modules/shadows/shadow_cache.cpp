@@ -83,12 +83,14 @@ std::vector<std::uint32_t> casters_in_reach(const ShadowFace& face, std::span<co
 }  // namespace
 
 std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces, std::span<const CasterState> casters,
-                                       std::uint64_t salt, JobExecutor& executor) {
+                                       std::uint64_t salt, JobExecutor& executor, const WithheldCasters& withheld) {
   std::vector<FaceContent> contents(faces.size());
   const std::vector<FaceGroup> groups = groups_of(faces);
   executor.parallel_for(groups.size(), 4, [&](JobRange range) {
     for (std::size_t g = range.begin; g < range.end; ++g) {
-      const std::vector<std::uint32_t> reached = casters_in_reach(faces[groups[g].begin], casters);
+      std::vector<std::uint32_t> reached = casters_in_reach(faces[groups[g].begin], casters);
+      if (const std::span<const Entity> left_out = withheld.of(faces[groups[g].begin].light); !left_out.empty())
+        std::erase_if(reached, [&](std::uint32_t i) { return is_withheld(left_out, casters[i].entity); });
       for (std::size_t f = groups[g].begin; f < groups[g].end; ++f) {
         const FaceVolume volume = face_volume(faces[f]);
         FaceContent& content = contents[f];

@@ -12,6 +12,7 @@
 #include "engine/render/casters.h"
 #include "modules/shadows/caster_states.h"
 #include "modules/shadows/face_regions.h"
+#include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_views.h"
 
 namespace gloam {
@@ -31,10 +32,11 @@ struct FaceBackground {
   std::uint64_t hash = 0;  ///< of these casters
 };
 
-/// One a face. `salt`: whatever else maps depend on (knobs, version of the meshes). The result does not depend on the number of threads.
+/// One a face. `salt`: whatever else maps depend on (knobs, version of the meshes). `withheld`: casters that are not there for a light's faces.
+/// The result does not depend on the number of threads.
 [[nodiscard]] std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces,
                                                      std::span<const CasterState> casters, std::uint64_t salt,
-                                                     JobExecutor& executor);
+                                                     JobExecutor& executor, const WithheldCasters& withheld = {});
 
 /// Which maps an atlas holds.
 class ShadowCache {
@@ -42,7 +44,7 @@ class ShadowCache {
   /// Whether the atlas holds this face's map, drawn from this content, where the face says.
   [[nodiscard]] bool holds(const ShadowFace& face, const FaceContent& content) const;
   /// Whether the atlas holds this face's map as it was to be in that frame of the CasterHistory: it differs from what it is to be in the next
-  /// by nothing but what changed() says.
+  /// by nothing but what changed(light) says.
   [[nodiscard]] bool held(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) const;
   /// The face's map has been drawn where the face says, with the casters of that frame; what lay there is gone.
   void set_drawn(const ShadowFace& face, const FaceContent& content, std::uint64_t frame = 0);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/shadow_passes.h"
 
+#include <algorithm>
+
 #include "modules/shadows/generate_shadows.h"
 #include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_cookies.h"
@@ -20,6 +22,40 @@ std::uint32_t looked_up_cookies(std::size_t lights) {
 }
 
 constexpr std::uint32_t kStandardKernel = 8;  // of GLOAM_SHADOWS_STANDARD
+
+bool has_placed_face(const ShadowViews& views) {
+  return std::any_of(views.faces.begin(), views.faces.end(),
+                     [](const ShadowFace& face) { return face.square.size > 0; });
+}
+
+/// What shading is compiled with. `filter`: GLOAM_SHADOWS_FILTER_ID.
+void set_constants(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutputs& outputs) {
+  outputs.cookies_only = filter == kNoShadows;
+  outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
+  // Knobs are of no use to cookies.
+  outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
+  const std::size_t cookie_lights = count_cookie_lights(frame.world());
+  outputs.cookie_lights = static_cast<std::uint32_t>(cookie_lights);
+  outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(cookie_lights)});
+  outputs.variant = shadow_variant(outputs.constants);
+}
+
+/// Brings the maps of the view's faces, of which at least one has a place, up to date. Only where final lists will be made of them, they leave
+/// casters out: else nobody would see to those.
+Result<ShadowMaps> add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
+  const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+  auto found = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  if (!found.ok()) return found.error();
+  ViewShadows& kept = **found;
+  const WithheldCasters* withheld = for_lists ? frame.find<WithheldCasters>() : nullptr;
+  kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
+  auto maps = add_shadow_map_passes(frame, states, kept, views, knobs);
+  if (!maps.ok()) return maps.error();
+  // Planes are made of what the atlas holds now; frames that do not look at them do not keep them.
+  if (!maps->drawn.empty() && !(for_lists && knobs.classify)) kept.planes.filled = false;
+  frame.expose(maps->atlas, "shadow_atlas");
+  return maps;
+}
 
 /// Planes first, if tiles are to be classified by them.
 Status add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
@@ -47,33 +83,21 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
 
   const TracedVisibility* found = traced_visibility_of(frame.world(), frame.view());
   const bool traced = knobs.enabled && found != nullptr && found->shades;
+  const bool has_maps = knobs.enabled && !traced && has_placed_face(views);
+  set_constants(frame, knobs, traced ? kTracedShadows : has_maps ? knobs.filter : kNoShadows, outputs);
+  const bool has_lists = has_maps && can_generate(frame, knobs) && generate_pipelines_ready(frame, knobs, outputs);
   ShadowMaps maps;
-  if (knobs.enabled && !traced && !views.faces.empty()) {
-    auto kept = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
-    if (!kept.ok()) return kept.error();
-    auto made = add_shadow_map_passes(frame, states, **kept, views, knobs);
+  if (has_maps) {
+    auto made = add_maps(frame, states, knobs, has_lists);
     if (!made.ok()) return made.error();
     maps = *made;
-    // Planes are made of what the atlas holds now; frames that do not look at them do not keep them.
-    if (!maps.drawn.empty() && !(knobs.deferred && knobs.classify)) (*kept)->planes.filled = false;
-    if (maps.atlas) frame.expose(maps.atlas, "shadow_atlas");
   } else {
     states.rest(frame.world().resource<ShadowWorld>(), frame.view().id);
   }
   // Without a map no light asks for one, but every binding must be given.
-  outputs.atlas = maps.atlas ? maps.atlas : outputs.rows;
-  outputs.pyramid = maps.pyramid ? maps.pyramid : outputs.rows;
-  const std::uint32_t filter = traced ? kTracedShadows : maps.atlas ? knobs.filter : kNoShadows;
-  outputs.cookies_only = filter == kNoShadows;
-  outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
-  // Knobs are of no use to cookies.
-  outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
-  const std::size_t cookie_lights = count_cookie_lights(frame.world());
-  outputs.cookie_lights = static_cast<std::uint32_t>(cookie_lights);
-  outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(cookie_lights)});
-  outputs.variant = shadow_variant(outputs.constants);
-  if (!outputs.cookies_only && !traced && can_generate(frame, knobs) && generate_pipelines_ready(frame, knobs, outputs))
-    GLOAM_TRY(add_final_lists(frame, states, maps, knobs, outputs));
+  outputs.atlas = has_maps ? maps.atlas : outputs.rows;
+  outputs.pyramid = has_maps ? maps.pyramid : outputs.rows;
+  if (has_lists) GLOAM_TRY(add_final_lists(frame, states, maps, knobs, outputs));
   frame.put(std::move(outputs));
   return {};
 }

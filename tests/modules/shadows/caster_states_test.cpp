@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace gloam {
 namespace {
 
@@ -32,6 +35,75 @@ TEST(CasterHistory, tells_what_came_went_and_changed) {
   history.advance({state(9), state(7), state(3)});
   EXPECT_EQ(changed(history), Changed{9});
   EXPECT_EQ(history.frame(), 5u);
+}
+
+/// The same of entities, as maps of one light have it.
+CasterState state_of(std::uint32_t entity, std::uint64_t hash, bool unsteady = false) {
+  CasterState made = state(hash, unsteady);
+  made.entity = {entity, 1};
+  return made;
+}
+constexpr Entity kLight = {50, 1};
+WithheldCasters withheld(std::vector<Entity> casters) { return {{{kLight, std::move(casters)}}}; }
+Changed changed_of(const CasterHistory& history, Entity light = kLight) {
+  Changed found;
+  for (const CasterBox& box : history.changed(light)) found.push_back(box.low.x);
+  return found;
+}
+
+TEST(CasterHistory, withheld_casters_that_change_are_no_news_for_their_light) {
+  CasterHistory history;
+  history.withhold(withheld({{2, 1}, {3, 1}}));
+  history.advance({state_of(1, 10), state_of(2, 20), state_of(3, 30)});
+  EXPECT_EQ(changed_of(history), Changed{10});
+  history.advance({state_of(1, 10), state_of(2, 21), state_of(3, 30, true)});
+  EXPECT_EQ(changed_of(history), Changed{});
+  EXPECT_EQ(changed_of(history, {51, 1}), (Changed{20, 30, 21, 30}));
+  EXPECT_EQ(changed(history), (Changed{20, 30, 21, 30}));
+  history.advance({state_of(1, 11), state_of(3, 31)});
+  EXPECT_EQ(changed_of(history), (Changed{10, 11}));
+}
+
+TEST(CasterHistory, casters_are_news_where_they_go_from_when_they_are_withheld_and_where_they_come_back) {
+  CasterHistory history;
+  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 25)});
+  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 25)});
+  EXPECT_EQ(changed_of(history), Changed{});
+  history.withhold(withheld({{2, 1}}));
+  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 25)});
+  EXPECT_EQ(changed_of(history), (Changed{20, 25})) << "all its primitives";
+  EXPECT_EQ(changed(history), Changed{});
+  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 26)});
+  EXPECT_EQ(changed_of(history), Changed{});
+  history.withhold({});
+  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 26)});
+  EXPECT_EQ(changed_of(history), (Changed{20, 26}));
+  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 26)});
+  EXPECT_EQ(changed_of(history), Changed{});
+}
+
+TEST(CasterHistory, casters_that_move_while_they_are_withheld_or_come_back_are_news_at_one_place) {
+  const auto places = [](Changed found) {
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  };
+  CasterHistory history;
+  history.advance({state_of(2, 20)});
+  history.withhold(withheld({{2, 1}}));
+  history.advance({state_of(2, 21)});
+  EXPECT_EQ(places(changed_of(history)), Changed{20});
+  history.withhold({});
+  history.advance({state_of(2, 22)});
+  EXPECT_EQ(places(changed_of(history)), Changed{22});
+}
+
+TEST(CasterHistory, of_two_that_change_places_only_the_one_that_is_withheld_is_no_news) {
+  CasterHistory history;
+  history.withhold(withheld({{2, 1}}));
+  history.advance({state_of(1, 10), state_of(2, 20)});
+  history.advance({state_of(1, 20), state_of(2, 10)});
+  EXPECT_EQ(changed_of(history), (Changed{10, 20}));
 }
 
 TEST(CasterHistory, unsteady_casters_change_every_frame) {

@@ -180,6 +180,28 @@ TEST_F(ShadowCacheTest, a_faces_content_has_all_casters_that_it_may_see) {
   }
 }
 
+TEST_F(ShadowCacheTest, withheld_casters_are_as_if_they_were_not_there) {
+  const std::size_t own = faces.size();
+  for (std::size_t i = 0; i < own; ++i) {
+    faces.push_back(faces[i]);
+    faces.back().light = {8, 1};
+  }
+  casters[4].moving = true;
+  const auto states = caster_states(casters, {}, *executor);
+  const WithheldCasters withheld = {{{{7, 1}, {{2, 1}, {4, 1}}}, {{9, 1}, {{3, 1}}}}};
+  const auto found = face_contents(faces, states, 1, *executor, withheld), with_all = contents();
+  casters.erase(casters.begin() + 4);
+  casters.erase(casters.begin() + 2);
+  const auto without = contents();
+  for (std::size_t i = 0; i < own; ++i) {
+    EXPECT_EQ(found[i], without[i]) << i;
+    EXPECT_EQ(found[own + i], with_all[own + i]) << "another light " << i;
+  }
+  EXPECT_NE(found[2], with_all[2]);
+  EXPECT_TRUE(with_all[4].moving);
+  EXPECT_FALSE(found[4].moving);
+}
+
 TEST_F(ShadowCacheTest, other_knobs_are_other_content) {
   const auto one = contents(1), other = contents(2);
   for (std::size_t i = 0; i < faces.size(); ++i) EXPECT_NE(one[i].hash, other[i].hash);

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstddef>
 #include <functional>
 #include <random>
-#include <span>
+#include <vector>
 
-#include "modules/shadows/shadow_views.h"
+#include "tests/modules/shadows/held_faces.h"
 #include "tests/modules/shadows/shadowed_scene.h"
 #include "tests/render/small_scene.h"
 
@@ -17,10 +16,8 @@
 namespace gloam {
 namespace {
 
-/// All mips of one face in the atlas, then all of its pyramid.
-using FaceTexels = std::vector<std::byte>;
 struct WalkedFrame {
-  std::vector<FaceTexels> faces;
+  std::vector<test::FaceTexels> faces;
   double texels = 0.0;
 };
 
@@ -99,28 +96,8 @@ class ShadowRegions : public test::ShadowedScene {
   [[nodiscard]] WalkedFrame held() {
     WalkedFrame frame;
     frame.texels = counter("shadows.texels_drawn");  // reading images draws frames
-    const std::vector<std::byte> atlas = test::value_of(renderer->read_image(world, ViewId{0}, "shadow_atlas")).bytes;
-    const std::vector<std::byte> pyramid =
-        test::value_of(renderer->read_image(world, ViewId{0}, "shadow_pyramid")).bytes;
-    for (const ShadowFace& face : world.view_resource<ShadowViews>(ViewId{0}).faces) {
-      FaceTexels& texels = frame.faces.emplace_back();
-      for (std::uint32_t mip = 0; face.square.size >> mip != 0; ++mip) {
-        append(texels, atlas, kAtlas, mip, mip, face.square);
-        if (mip >= GLOAM_SHADOW_PYRAMID_MIP)
-          append(texels, pyramid, kAtlas / 4, mip - GLOAM_SHADOW_PYRAMID_MIP, mip, face.square);
-      }
-    }
+    frame.faces = test::held_faces(*renderer, world, kAtlas);
     return frame;
-  }
-  static void append(FaceTexels& texels, const std::vector<std::byte>& image, std::uint32_t size, std::uint32_t level,
-                     std::uint32_t mip, const AtlasSquare& square) {
-    const std::size_t width = size * 3 / 2, texel = image.size() / (width * size);
-    const uvec2 corner = (level == 0 ? uvec2(0) : uvec2(size, size - (2 * size >> level))) + (square.origin >> mip);
-    const std::uint32_t side = square.size >> mip;
-    for (std::uint32_t y = 0; y < side; ++y) {
-      const auto row = std::span(image).subspan(((corner.y + y) * width + corner.x) * texel, side * texel);
-      texels.insert(texels.end(), row.begin(), row.end());
-    }
   }
 
   /// Frames of a walk; every one drawn from nothing when `anew`.
