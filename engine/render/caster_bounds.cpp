@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace gloam {
 namespace {
@@ -28,6 +29,31 @@ WorldBox world_box(const Aabb& box, const dmat4& m) {
   const dvec3 center(m * dvec4(middle, 1.0));
   const dvec3 reach = glm::abs(dvec3(m[0])) * half.x + glm::abs(dvec3(m[1])) * half.y + glm::abs(dvec3(m[2])) * half.z;
   return {center - reach, center + reach};
+}
+
+std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primitive,
+                                                         std::span<const PackedInfluence> influences) {
+  std::map<std::uint32_t, Aabb> bounds;
+  for (std::size_t v = 0; v < influences.size(); ++v) {
+    const PackedInfluence& packed = influences[v];
+    const std::uint32_t joints[] = {packed.joints01 & 0xFFFFu, packed.joints01 >> 16, packed.joints23 & 0xFFFFu,
+                                    packed.joints23 >> 16};
+    const std::uint32_t weights[] = {packed.weights01 & 0xFFFFu, packed.weights01 >> 16, packed.weights23 & 0xFFFFu,
+                                     packed.weights23 >> 16};
+    for (std::size_t k = 0; k < 4; ++k)
+      if (weights[k] > 0) bounds[joints[k]].grow(primitive.positions[v]);
+  }
+  return {bounds.begin(), bounds.end()};
+}
+
+std::vector<Aabb> morph_bounds(const Primitive& primitive) {
+  std::vector<Aabb> bounds;
+  for (const Primitive::MorphTarget& target : primitive.morph_targets) {
+    Aabb& box = bounds.emplace_back();
+    for (std::size_t v = 0; v < primitive.positions.size(); ++v)
+      box.grow(v < target.positions.size() ? target.positions[v] : vec3(0.0f));
+  }
+  return bounds;
 }
 
 Aabb morph_reach(const GpuPrimitive& primitive, std::span<const float> weights) {

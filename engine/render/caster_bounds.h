@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "engine/math/bounds.h"
 #include "engine/render/gpu_scene.h"
@@ -23,6 +26,13 @@ struct WorldBox {
 
 /// Box of a transformed box. The matrix is affine.
 [[nodiscard]] WorldBox world_box(const Aabb& box, const dmat4& world_from_box);
+
+/// GpuPrimitive::joint_bounds. `influences`: one a position. From the packed weights, because those are what the GPU skins with.
+[[nodiscard]] std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primitive,
+                                                                       std::span<const PackedInfluence> influences);
+
+/// GpuPrimitive::morph_bounds.
+[[nodiscard]] std::vector<Aabb> morph_bounds(const Primitive& primitive);
 
 /// Bounds of what the targets add to a vertex with these weights: as many as the primitive has targets, of any sign.
 [[nodiscard]] Aabb morph_reach(const GpuPrimitive& primitive, std::span<const float> weights);

@@ -3,8 +3,8 @@
 #include "engine/render/gpu_scene.h"
 
 #include <algorithm>
-#include <map>
 
+#include "engine/render/caster_bounds.h"
 #include "engine/render/material_packing.h"
 #include "engine/render/mip_chain.h"
 #include "shaders/render/shaders.h"
@@ -22,32 +22,6 @@ void append(std::vector<std::byte>& stream, const std::vector<T>& values) {
   const auto bytes = std::as_bytes(std::span(values));
   stream.resize(at + aligned(values.size()) * sizeof(T));
   std::copy(bytes.begin(), bytes.end(), stream.begin() + static_cast<std::ptrdiff_t>(at));
-}
-
-/// From the packed weights, because those are what the GPU skins with.
-std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primitive,
-                                                         const std::vector<PackedInfluence>& influences) {
-  std::map<std::uint32_t, Aabb> bounds;
-  for (std::size_t v = 0; v < influences.size(); ++v) {
-    const PackedInfluence& packed = influences[v];
-    const std::uint32_t joints[] = {packed.joints01 & 0xFFFFu, packed.joints01 >> 16, packed.joints23 & 0xFFFFu,
-                                    packed.joints23 >> 16};
-    const std::uint32_t weights[] = {packed.weights01 & 0xFFFFu, packed.weights01 >> 16, packed.weights23 & 0xFFFFu,
-                                     packed.weights23 >> 16};
-    for (std::size_t k = 0; k < 4; ++k)
-      if (weights[k] > 0) bounds[joints[k]].grow(primitive.positions[v]);
-  }
-  return {bounds.begin(), bounds.end()};
-}
-
-std::vector<Aabb> morph_bounds(const Primitive& primitive) {
-  std::vector<Aabb> bounds;
-  for (const Primitive::MorphTarget& target : primitive.morph_targets) {
-    Aabb& box = bounds.emplace_back();
-    for (std::size_t v = 0; v < primitive.positions.size(); ++v)
-      box.grow(v < target.positions.size() ? target.positions[v] : vec3(0.0f));
-  }
-  return bounds;
 }
 
 /// The scene's, and one more for primitives that name none.

@@ -12,6 +12,8 @@
 
 namespace gloam {
 
+class SceneNames;
+
 enum class LightKind : std::uint8_t { point, spot, directional };
 
 /// A light at its entity's WorldTransform, shining along the node's −Z.
@@ -38,6 +40,9 @@ struct LightBounds {
 [[nodiscard]] float effective_range(const Light& light);
 
 /// The lights a comma-separated list of names means. Input error when one is absent or two lights share it; the message names `key`.
+[[nodiscard]] Result<std::vector<Entity>> resolve_light_names(const SceneNames& scene, std::string_view names,
+                                                              std::string_view key);
+/// The same with the world's SceneNames.
 [[nodiscard]] Result<std::vector<Entity>> resolve_light_names(const World& world, std::string_view names, std::string_view key);
 
 }  // namespace gloam

@@ -14,18 +14,22 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-Result<std::vector<Entity>> resolve_light_names(const World& world, std::string_view names, std::string_view key) {
+Result<std::vector<Entity>> resolve_light_names(const SceneNames& scene, std::string_view names, std::string_view key) {
   std::vector<Entity> lights;
   while (!names.empty()) {
     const std::size_t comma = names.find(',');
     const std::string_view name = trimmed(names.substr(0, comma));
     names = comma == std::string_view::npos ? std::string_view() : names.substr(comma + 1);
     if (name.empty()) continue;
-    auto light = world.resource<SceneNames>().find("light", name);
+    auto light = scene.find("light", name);
     if (!light.ok()) return Error{ErrorKind::input, std::string(key) + ": " + light.error().message};
     lights.push_back(*light);
   }
   return lights;
+}
+
+Result<std::vector<Entity>> resolve_light_names(const World& world, std::string_view names, std::string_view key) {
+  return resolve_light_names(world.resource<SceneNames>(), names, key);
 }
 
 }  // namespace gloam

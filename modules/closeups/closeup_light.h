@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "engine/math/types.h"
+#include "modules/lights/components.h"
+
+namespace gloam {
+
+/// A light at its place, as close-ups look at it: every number is finite.
+struct CloseupLight {
+  LightKind kind = LightKind::point;
+  dvec3 position = dvec3(0.0);         ///< world
+  dvec3 right = dvec3(1.0, 0.0, 0.0);  ///< right, up, forward: unit vectors at right angles, forward where it shines
+  dvec3 up = dvec3(0.0, 1.0, 0.0);
+  dvec3 forward = dvec3(0.0, 0.0, -1.0);
+  double half_angle = 0.0;  ///< spot: of its cone, radians, at most π/2
+  double radius_m = 0.0;    ///< local: of its emitter
+  double spread = 0.0;      ///< directional: tangent of half its apparent diameter
+  double range_m = 0.0;     ///< local
+};
+
+/// Nothing for a light whose place or angles are not finite.
+[[nodiscard]] std::optional<CloseupLight> closeup_light(const Light& light, const dmat4& world_from_node);
+
+}  // namespace gloam
