@@ -182,7 +182,63 @@ class FacePlacer {
   std::array<std::vector<std::uint32_t>, kMostLevels> used_;
 };
 
+/// A block of an atlas as a stretch of its smallest blocks.
+struct BlockStretch {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+/// Adds the greatest blocks within a block in which nothing lies. `taken`: stretches inside it, ascending.
+void add_free(std::uint32_t level, std::uint32_t block, std::span<const BlockStretch> taken,
+              std::vector<std::vector<std::uint32_t>>& free) {
+  if (taken.empty()) return free[level].push_back(block);
+  const auto begin_of = [](std::uint32_t b, std::uint32_t l) { return b << 2 * l; };
+  if (taken.front().begin == begin_of(block, level) && taken.front().end == begin_of(block + 1, level)) return;
+  GLOAM_ASSERT(level > 0, "squares of an atlas do not overlap");
+  for (std::uint32_t quarter = block * 4; quarter < block * 4 + 4; ++quarter) {
+    const auto past = std::partition_point(taken.begin(), taken.end(), [&](const BlockStretch& stretch) {
+      return stretch.begin < begin_of(quarter + 1, level - 1);
+    });
+    add_free(level - 1, quarter, {taken.begin(), past}, free);
+    taken = {past, taken.end()};
+  }
+}
+
 }  // namespace
+
+FreeSquares::FreeSquares(std::uint32_t size, std::span<const AtlasSquare> taken) {
+  GLOAM_ASSERT(std::has_single_bit(size) && size >= kSmallest && level_of(size) < kMostLevels,
+               "an atlas' side is a power of two, at least the smallest face's");
+  std::vector<BlockStretch> stretches;
+  for (const AtlasSquare& square : taken) {
+    const std::uint32_t level = level_of(square.size), block = block_of(square);
+    stretches.push_back({block << 2 * level, (block + 1) << 2 * level});
+  }
+  std::sort(stretches.begin(), stretches.end(),
+            [](const BlockStretch& a, const BlockStretch& b) { return a.begin < b.begin; });
+  free_.resize(level_of(size) + 1);
+  add_free(level_of(size), 0, stretches, free_);
+}
+
+AtlasSquare FreeSquares::take(std::uint32_t size) {
+  const std::uint32_t wanted = level_of(size);
+  std::uint32_t level = wanted;
+  while (level < free_.size() && free_[level].empty()) ++level;
+  if (level >= free_.size()) return {};
+  std::uint32_t block = free_[level].back();
+  free_[level].pop_back();
+  for (; level > wanted; --level, block *= 4)
+    for (std::uint32_t quarter = 3; quarter > 0; --quarter) free_[level - 1].push_back(block * 4 + quarter);
+  return square_of(block, size);
+}
+
+FreeSquares ShadowAtlas::free_squares() const {
+  if (size_ == 0) return {};
+  std::vector<AtlasSquare> taken;
+  taken.reserve(places_.size());
+  for (const auto& [key, square] : places_) taken.push_back(square);
+  return {size_, taken};
+}
 
 FacePlaces ShadowAtlas::place(std::uint32_t size, std::span<const FaceRequest> requests) {
   GLOAM_ASSERT(std::has_single_bit(size) && size >= kSmallest,

@@ -47,6 +47,20 @@ struct FacePlaces {
   std::uint32_t left_out = 0;  ///< faces that got nothing
 };
 
+/// Squares of an atlas in which nothing lies.
+class FreeSquares {
+ public:
+  FreeSquares() = default;
+  /// size: of the atlas. `taken` do not overlap.
+  FreeSquares(std::uint32_t size, std::span<const AtlasSquare> taken);
+  /// A square of this size out of the smallest free place that holds one; size 0 when none does. For several or none: take from a copy.
+  [[nodiscard]] AtlasSquare take(std::uint32_t size);
+
+ private:
+  /// Blocks in Z order by size, from the smallest face's on.
+  std::vector<std::vector<std::uint32_t>> free_;
+};
+
 /// Places faces in a square of texels. A face keeps its square while it asks for the same size and nothing has to shrink. When not all fit,
 /// the least important halve, ties the last one first, until all do: each halves once before any halves again. At the smallest size the
 /// least important are left out. Faces of one light that follow each other and ask for the same at the same importance are one: they halve
@@ -59,6 +73,8 @@ class ShadowAtlas {
   [[nodiscard]] std::uint32_t size() const { return size_; }
   /// Texels that are taken.
   [[nodiscard]] std::uint64_t used_texels() const { return used_texels_; }
+  /// What is left: nothing that is placed moves, and nothing is placed by looking.
+  [[nodiscard]] FreeSquares free_squares() const;
 
  private:
   void remember(std::span<const FaceRequest> requests, std::span<const AtlasSquare> squares);

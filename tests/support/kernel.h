@@ -62,19 +62,24 @@ class Kernel {
     uploader.image(image, {bytes.begin(), bytes.end()}, gpu::Access::compute_read);
     const Status uploaded = uploader.flush();
     EXPECT_TRUE(uploaded.ok()) << (uploaded.ok() ? "" : uploaded.error().message);
+    sampled_image(binding, image);
+  }
+  /// One that others own, ready for compute_read.
+  void sampled_image(std::uint32_t binding, gpu::ImageHandle image) {
     gpu::SamplerDesc nearest;
     nearest.address_u = nearest.address_v = gpu::AddressMode::clamp_to_edge;
     nearest.min_filter = nearest.mag_filter = nearest.mip_filter = gpu::Filter::nearest;
     bindings_.push_back({binding, gpu::Binding::Sampled{{.image = image}, value_of(device_.create_sampler(nearest))}});
   }
   /// A storage image to be read back, row by row.
-  void output_image(std::uint32_t binding, gpu::Format format, std::uint32_t width, std::uint32_t height) {
+  void output_image(std::uint32_t binding, gpu::Format format, std::uint32_t width, std::uint32_t height,
+                    bool as_array = false) {
     using enum gpu::ImageUsage;
     const gpu::ImageHandle image = make_image(format, width, height, storage | transfer_source | transfer_target);
     const gpu::BufferHandle buffer =
         make_readback(device_, std::uint64_t{width} * height * gpu::bytes_per_texel(format));
     buffers_.push_back(buffer);
-    bindings_.push_back({binding, gpu::Binding::Storage{{.image = image}}});
+    bindings_.push_back({binding, gpu::Binding::Storage{{.image = image, .as_array = as_array}}});
     results_[binding] = buffer;
     image_results_.emplace_back(image, buffer);
   }
