@@ -26,7 +26,7 @@ struct CloseupSettings {
   std::uint32_t max_pairs = 8;    ///< closeups.max_pairs
   std::uint32_t map_size = 2048;  ///< texels of the side of the map that all pairs share, a power of two
   std::uint32_t batch = 1;        ///< pairs that share it at a time: 1, 2, 4
-  float texels_per_pixel = 3.0f;  ///< texels to a pixel's side, where the map has room
+  float texels_per_pixel = 1.0f;  ///< texels to a pixel's side, where the map has room
 };
 
 /// A pair as one view shows it.

@@ -2,9 +2,19 @@
 // SPDX-License-Identifier: MIT
 #include "modules/closeups/module.h"
 
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "engine/render/frame_builder.h"
 #include "engine/scene/key_table.h"
+#include "modules/closeups/closeup_frame.h"
+#include "modules/closeups/closeup_knobs.h"
+#include "modules/closeups/closeup_passes.h"
+#include "modules/closeups/closeup_systems.h"
 #include "modules/closeups/components.h"
 #include "modules/lights/components.h"
+#include "modules/shadows/shadow_state.h"
 
 namespace gloam {
 namespace {
@@ -22,29 +32,108 @@ Status check_light_names(World& world) {
 class CloseupsModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "closeups"; }
-  [[nodiscard]] bool built() const override { return false; }
   void register_components(World& world) const override {
     world.register_component<CloseupSubject>("closeup_subject");
     world.register_component<CloseupPair>("closeup_pair");
+    register_closeup_resources(world);
   }
+  void knobs(KnobRegistry& registry) const override { add_closeup_knobs(registry); }
+  void add_systems(Schedule& schedule) override { add_closeup_systems(schedule); }
   void scene_keys(KeyRegistry& registry) const override {
-    registry.add(boolean_key(key_line("closeups", KeyElement::node, "gloam.closeup", "false", "",
-                                      "this subtree is a close-up subject"),
-                             &CloseupSubject::enabled));
+    registry.add(boolean_key(
+        key_line("closeups", KeyElement::node, "gloam.closeup", "false", "", "this subtree is a close-up subject"),
+        &CloseupSubject::enabled));
     registry.add(text_key(key_line("closeups", KeyElement::node, "gloam.closeup.lights", "", "",
                                    "comma-separated light node names; default: every shadowed light that reaches it"),
                           &CloseupSubject::lights));
-    registry.add(number_key(key_line("closeups", KeyElement::node, "gloam.closeup.priority", "1", "",
-                                     "order when the budget is short"),
-                            -1e6, 1e6, &CloseupSubject::priority));
+    registry.add(number_key(
+        key_line("closeups", KeyElement::node, "gloam.closeup.priority", "1", "", "order when the budget is short"),
+        -1e6, 1e6, &CloseupSubject::priority));
     registry.add_finish("closeups", &check_light_names);
   }
-  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
+  /// Of a view: the pairs that have maps in it.
+  [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t subjects = 0;
     world.view<const CloseupSubject>().each([&](const CloseupSubject& s) { subjects += s.enabled ? 1 : 0; });
     if (subjects == 0) return {false, "no close-up subject"};
-    return {true, std::to_string(subjects) + (subjects == 1 ? " close-up subject" : " close-up subjects")};
+    if (view == nullptr)
+      return {true, std::to_string(subjects) + (subjects == 1 ? " close-up subject" : " close-up subjects")};
+    const CloseupViews& views = world.view_resource<CloseupViews>(view->id);
+    return {!views.pairs.empty(), std::to_string(views.in_view) + " closeup pairs in view, " +
+                                      std::to_string(views.pairs.size()) + " with maps of their own"};
   }
+
+  [[nodiscard]] bool needs_casters(const World&, const KnobRegistry& knobs) const override {
+    return knobs.is("shadows.mode", "deferred") && closeup_knobs(knobs).max_pairs > 0;
+  }
+
+  void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
+    prepare_closeup_view(world, view);
+    world.view_resource<CloseupSettings>(view) =
+        closeup_settings(closeup_knobs(knobs), knobs.is("shadows.mode", "deferred"));
+  }
+
+  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::announce) {
+      // Casters are left out of other maps only when what draws them instead is there.
+      if (frame.services().wait_for_pipelines || ready_)
+        announce(frame);
+      else
+        last_.erase(key_of(frame.world(), frame.view()));
+      return {};
+    }
+    if (phase != PassPhase::lists) return {};
+    keep_completeness(frame);
+    if (frame.find<CloseupFrame>() == nullptr) {
+      ready_ = closeup_pipelines_ready(frame);
+      return {};
+    }
+    return add_closeup_passes(frame, closeup_knobs(frame.knobs()));
+  }
+
+  void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
+    const auto found = last_.find(key_of(world, view));
+    const LastFrame last = found == last_.end() ? LastFrame{} : found->second;
+    sink.count("closeups.pairs", last.pairs);
+    sink.count("closeups.skipped", last.skipped);
+    sink.count("closeups.tiles", static_cast<double>(last.tiles));
+  }
+
+ private:
+  /// What a view's last frame had.
+  struct LastFrame {
+    std::optional<bool> complete;  ///< FinalLists::always_complete
+    std::uint32_t pairs = 0;
+    std::uint32_t skipped = 0;
+    std::uint64_t tiles = 0;
+    std::uint64_t number = 0;  ///< Device::frame_number
+  };
+  using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< world and view
+  static Key key_of(const World& world, const RenderView& view) {
+    return {world.resource<ShadowWorld>().number, view.id.value};
+  }
+
+  void announce(FrameBuilder& frame) {
+    constexpr std::uint64_t kFramesKept = 120;
+    const std::uint64_t number = frame.services().device.frame_number();
+    std::erase_if(last_, [&](const auto& item) { return item.second.number + kFramesKept < number; });
+    LastFrame& last = last_[key_of(frame.world(), frame.view())];
+    CloseupFrame closeups = plan_closeup_frame(frame, last.complete);
+    last = {last.complete, static_cast<std::uint32_t>(closeups.pairs.size()), closeups.skipped, 0, number};
+    for (const CloseupView& pair : closeups.pairs) last.tiles += pair.tiles.tiles();
+    frame.put(withheld_casters(closeups.pairs, frame.world().resource<CloseupSubjects>()));
+    frame.put(std::move(closeups));
+  }
+  void keep_completeness(const FrameBuilder& frame) {
+    const auto found = last_.find(key_of(frame.world(), frame.view()));
+    if (found == last_.end()) return;
+    const auto* shadows = frame.find<ShadowsOutputs>();
+    const bool has_lists = shadows != nullptr && shadows->final_lists;
+    found->second.complete = has_lists ? std::optional(shadows->final_lists->always_complete) : std::nullopt;
+  }
+
+  std::map<Key, LastFrame> last_;
+  bool ready_ = false;  ///< the pipelines of an earlier frame were
 };
 
 }  // namespace

@@ -46,7 +46,8 @@ Capacities capacities(const FrameBuilder& frame, const ShadowKnobs& knobs, std::
   const FinalListFeedback* feedback = frame.world().try_view_resource<FinalListFeedback>(frame.view().id);
   const FinalListFeedback asked = feedback == nullptr ? FinalListFeedback{} : *feedback;
   const std::uint32_t least = at_most(std::uint64_t{tiles} * kFirstSlotsPerTile, kMostSlots);
-  const std::uint32_t least_pairs = at_most(std::uint64_t{tiles} * kFirstPairsPerTile, kMostPairs);
+  const std::uint32_t least_pairs =
+      at_most(std::uint64_t{tiles} * (feedback == nullptr ? kFirstPairsPerTile : kLeastPairsPerTile), kMostPairs);
   c.pairs = c.fit_all ? static_cast<std::uint32_t>(all)
                       : kept_capacity(asked.pair_capacity, asked.pairs_asked, least_pairs, kMostPairs);
   c.slots = c.fit_all ? static_cast<std::uint32_t>(all)
@@ -86,9 +87,10 @@ FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counter
       pairs_full ? std::uint64_t{counters.slots} * counters.pairs / std::max(note.pair_capacity, 1u) : counters.slots;
   feedback.slots_asked = at_most(std::max<std::uint64_t>(share, counters.slots), kMostSlots);
   const std::uint32_t least = at_most(std::uint64_t{note.tiles} * kFirstSlotsPerTile, kMostSlots);
-  const std::uint32_t least_pairs = at_most(std::uint64_t{note.tiles} * kFirstPairsPerTile, kMostPairs);
-  feedback.pair_capacity = kept_capacity(last == nullptr ? note.pair_capacity : last->pair_capacity,
-                                         feedback.pairs_asked, least_pairs, kMostPairs);
+  const std::uint32_t least_pairs = at_most(std::uint64_t{note.tiles} * kLeastPairsPerTile, kMostPairs);
+  // What a view begins with was a guess.
+  feedback.pair_capacity =
+      kept_capacity(last == nullptr ? 0 : last->pair_capacity, feedback.pairs_asked, least_pairs, kMostPairs);
   feedback.slot_capacity = kept_capacity(last == nullptr ? note.slot_capacity : last->slot_capacity,
                                          feedback.slots_asked, least, kMostSlots);
   return feedback;
@@ -142,7 +144,7 @@ Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const Shad
       c.fit_all && grid.entry_capacity == entries && (!lights.has_lists() || lights.lists_always_fit);
   auto range = frame.services().uniforms.write_value(grid);
   if (!range.ok()) return range.error();
-  made.grid = *range;
+  made.grid = lists.grid = *range;
 
   gpu::ImageDesc image;
   image.name = "final_light_lists";

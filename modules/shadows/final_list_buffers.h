@@ -37,9 +37,11 @@ inline constexpr const char* kShadowListResult = "shadow_list_counters";
 /// Bytes of visibilities that a view may have at once without its frames asking for them, so that all lights fit and shading needs no other
 /// way (FinalLists::always_complete).
 inline constexpr std::uint64_t kBytesThatFitAll = std::uint64_t{8} << 20;
-/// Slots a tile that a view begins with, and pairs.
+/// Slots a tile that a view has at least.
 inline constexpr std::uint32_t kFirstSlotsPerTile = 2;
-inline constexpr std::uint32_t kFirstPairsPerTile = 1;
+/// Pairs a tile that a view begins with: many, as its first picture may be the only one; and has at least when it knows what frames ask for.
+inline constexpr std::uint32_t kFirstPairsPerTile = 4;
+inline constexpr std::uint32_t kLeastPairsPerTile = 1;
 
 /// Room for `asked` and a quarter more; stays as it is while that is enough and it is not four times too large. At least `least`.
 [[nodiscard]] std::uint32_t kept_capacity(std::uint32_t there, std::uint32_t asked, std::uint32_t least,

@@ -18,9 +18,6 @@ namespace {
 constexpr std::uint32_t kFirstShadowBinding = 12;
 constexpr std::uint32_t kTilesAGroup = 8;  // along a side
 
-/// A device that is a CPU swaps the state of all threads of a workgroup at every barrier: few threads, of many pixels each.
-std::uint32_t threads_a_pair(const gpu::DeviceInfo& device) { return device.type == gpu::DeviceType::cpu ? 8 : 64; }
-
 gpu::ComputePipelineDesc classify_pipeline(const ShadowsOutputs& shadows) {
   return {"classify_shadows/" + shadows.variant, "shadows", shaders::shadows::classify_shadows_comp, shadows.constants};
 }
@@ -41,7 +38,7 @@ gpu::ComputePipelineDesc generate_pipeline(const ShadowsOutputs& shadows, std::u
   gpu::ComputePipelineDesc desc{std::string("generate_shadows/") + kPairKinds[kind] + "/" + shadows.variant + "/" +
                                     std::to_string(visibility_bits),
                                 "shadows", generate_code(kind, shadows.standard), shadows.constants};
-  desc.constants.push_back({0, threads_a_pair(device)});
+  desc.constants.push_back({0, threads_a_tile(device)});
   desc.constants.push_back({GLOAM_FINAL_BITS_ID, visibility_bits});
   return desc;
 }
@@ -267,7 +264,7 @@ Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageR
   GLOAM_TRY(add_classify_pass(frame, g));
   GLOAM_TRY(add_pairs_pass(frame, g));
   GLOAM_TRY(add_finish_pass(frame, g));
-  frame.keep_result("shadows", kShadowListResult, g.lists().counters, g.buffers.note);
+  frame.put(g.buffers.note);
   shadows.final_lists = std::move(g.lists());
   return {};
 }

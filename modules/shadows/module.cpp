@@ -12,6 +12,7 @@
 #include "modules/shadows/components.h"
 #include "modules/shadows/final_list_buffers.h"
 #include "modules/shadows/final_list_views.h"
+#include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_cookies.h"
 #include "modules/shadows/shadow_keys.h"
 #include "modules/shadows/shadow_knobs.h"
@@ -81,9 +82,14 @@ class ShadowsModule final : public Module {
       GLOAM_TRY(add_final_list_view_pass(frame, [&](const std::string& sentence) { warn_once(frame, sentence); }));
       return add_shadow_view_pass(frame, states_);
     }
+    if (phase == PassPhase::shading) keep_list_counters(frame);
     if (phase != PassPhase::lists) return {};
     warn(frame);
     GLOAM_TRY(add_shadow_passes(frame, states_));
+    if (const auto* outputs = frame.find<ShadowsOutputs>(); outputs != nullptr && outputs->final_lists) {
+      frame.put(ShadowMapDrawer(states_, shadow_knobs(frame.knobs()), outputs->block_values));
+      frame.put(OverlayMaps(states_, shadow_knobs(frame.knobs())));
+    }
     take_light_list_view(frame);
     return {};
   }
@@ -127,6 +133,12 @@ class ShadowsModule final : public Module {
   void release() override { states_.release(); }
 
  private:
+  /// Only now: later modules may have taken slots.
+  static void keep_list_counters(FrameBuilder& frame) {
+    const auto* note = frame.find<FinalListNote>();
+    if (note != nullptr)
+      frame.keep_result("shadows", kShadowListResult, frame.get<ShadowsOutputs>().final_lists->counters, *note);
+  }
   void warn_once(FrameBuilder& frame, const std::string& sentence) {
     if (told_.insert(sentence).second) frame.services().log.warning(sentence);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,8 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
+#include "modules/shadows/extra_maps.h"  // IWYU pragma: export
+#include "modules/shadows/overlay_maps.h"  // IWYU pragma: export
 #include "modules/shadows/shadow_views.h"
 
 namespace gloam {
@@ -25,6 +28,7 @@ struct FinalLists {
   std::uint64_t fallback_draw = 0;  ///< where in `commands` the arguments of the draw of fallback_tiles lie, bytes
   BufferRef counters;               ///< ShadowListCounters
   BufferRef fallback_tiles;  ///< y << 16 | x of tiles without a list, as many as ShadowListCommands::fallback_draw says
+  gpu::Binding::BufferRange grid;  ///< a FinalGrid, uniform
   bool always_complete = false;  ///< there is room for every light of every tile: no tile is without a list
   std::uint32_t visibility_bits = 8;
   std::uint32_t slot_capacity = 0;  ///< slots the visibilities hold
@@ -38,7 +42,9 @@ struct FinalLists {
 /// to be looked at.
 struct ShadowsOutputs {
   gpu::Binding::BufferRange block;  ///< a ShadowBlock (shaders/shadows/shadows_shared.h), uniform
+  shaders::ShadowBlock block_values{};  ///< what it holds
   ImageRef rows;                    ///< rgba32f, GLOAM_SHADOW_ROW_TEXELS × local lights: ShadowRow
+  std::shared_ptr<const std::vector<shaders::ShadowRow>> row_values;  ///< what it holds; directional lights' are CascadeRow
   ImageRef atlas;                   ///< r32f or r16_unorm: depth of all faces and their mips
   ImageRef pyramid;                 ///< rg32f: farthest and nearest depth
   ImageRef cookies;  ///< rgba8_srgb, an array: cookies of spot lights; one white layer when there is none

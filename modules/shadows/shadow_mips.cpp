@@ -11,7 +11,8 @@ namespace {
 
 /// ShadowMipGroup::gap: what recedes more steeply is taken for two surfaces.
 float surface_gap(const ShadowFace& face) {
-  constexpr float kSteepest = 3.0f;  // metres away from the light a metre across
+  // Metres away from the light a metre across. With less, the rims of round things count as a second surface, which coverage leaves out.
+  constexpr float kSteepest = 25.0f;
   const auto texels = static_cast<float>(face.square.size);
   if (face.tan_half > 0.0f) return kSteepest * 2.0f * face.tan_half / texels;
   return kSteepest * 2.0f * face.half_extent_m / texels / face.far_m;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 #include "modules/lights/outputs.h"
@@ -81,7 +82,7 @@ shaders::ShadowBlock block_of(const FrameBuilder& frame, const ShadowViews& view
   return block;
 }
 
-Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, std::vector<shaders::ShadowRow> rows,
+Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, std::span<const shaders::ShadowRow> rows,
                           std::vector<Copy>& copies) {
   gpu::ImageDesc desc;
   desc.name = "shadow_rows";
@@ -89,7 +90,7 @@ Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, std::vector
   desc.format = gpu::Format::rgba32_float;
   desc.width = GLOAM_SHADOW_ROW_TEXELS;
   desc.height = static_cast<std::uint32_t>(rows.size());
-  auto slice = stage(states.staging(), std::as_bytes(std::span(rows)));
+  auto slice = stage(states.staging(), std::as_bytes(rows));
   if (!slice.ok()) return slice.error();
   copies.push_back({frame.graph().create_image(desc), *slice});
   return copies.back().target;
@@ -140,6 +141,21 @@ const TracedVisibility* traced_visibility_of(const World& world, const RenderVie
   return traced != nullptr && traced->width == view.width && traced->height == view.height ? traced : nullptr;
 }
 
+Result<ImageRef> upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::string_view pass_name,
+                                    std::span<const shaders::ShadowRow> rows) {
+  std::vector<Copy> copies;
+  auto made = add_rows(frame, states, rows, copies);
+  if (!made.ok()) return made;
+  Copy copy = copies.front();
+  PassBuilder pass = frame.graph().add_pass(pass_name, "shadows");
+  copy.target = pass.write(copy.target, gpu::Access::transfer_write);
+  pass.execute([copy](PassContext& context) {
+    context.commands().copy_buffer_to_image(copy.source.buffer, copy.source.offset, context.image(copy.target), 0, 0,
+                                            copy.layers);
+  });
+  return copy.target;
+}
+
 Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
                           ShadowsOutputs& outputs) {
   const TracedVisibility* traced = traced_visibility_of(frame.world(), frame.view());
@@ -152,6 +168,7 @@ Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const Shado
   auto block = frame.services().uniforms.write_value(block_now);
   if (!block.ok()) return block.error();
   outputs.block = *block;
+  outputs.block_values = block_now;
   auto nearest = frame.nearest_sampler();
   if (!nearest.ok()) return nearest.error();
   outputs.nearest = *nearest;
@@ -160,7 +177,8 @@ Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const Shado
   outputs.linear = *linear;
 
   std::vector<Copy> copies;
-  auto rows = add_rows(frame, states, std::move(rows_now), copies);
+  outputs.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(rows_now));
+  auto rows = add_rows(frame, states, *outputs.row_values, copies);
   if (!rows.ok()) return rows.error();
   auto cookies = add_cookies(frame, states, copies);
   if (!cookies.ok()) return cookies.error();

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/outputs.h"
@@ -19,5 +22,9 @@ namespace gloam {
 /// those members of the outputs, and the samplers.
 [[nodiscard]] Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views,
                                         const ShadowKnobs& knobs, ShadowsOutputs& outputs);
+
+/// Another version of ShadowsOutputs::rows with these values (pass `pass_name`).
+[[nodiscard]] Result<ImageRef> upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::string_view pass_name,
+                                                  std::span<const shaders::ShadowRow> rows);
 
 }  // namespace gloam

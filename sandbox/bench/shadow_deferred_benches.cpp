@@ -27,8 +27,8 @@ constexpr int kRounds = 11;
 constexpr int kWarmUp = 2;
 constexpr double kNsPerMs = 1e6;
 
-enum Way : std::size_t { kMono, kPlain, kTiles };
-constexpr std::array<ShadowVariant, 3> kWays = {kMonolithic, kUnclassified, kClassified};
+enum Way : std::size_t { kMono, kPlain, kTiles, kPairs };
+constexpr std::array<ShadowVariant, 4> kWays = {kMonolithic, kUnclassified, kClassified, kWithCloseups};
 
 struct WayCost {
   std::vector<double> total_ns;
@@ -128,14 +128,16 @@ void add_paper_row(BenchRegistry& registry, const char* id, const char* unit, do
 
 void add_table(BenchRegistry& registry, const Shared& shared) {
   constexpr std::pair<const char*, Way> kColumns[] = {
-      {"monolithic", kMono}, {"deferred_unclassified", kPlain}, {"deferred", kTiles}};
+      {"monolithic", kMono}, {"deferred_unclassified", kPlain}, {"deferred", kTiles}, {"deferred_8_closeups", kPairs}};
   for (const auto& [name, way] : kColumns)
     registry.add(way_row(std::string("table1.") + name, "ms", shared,
                          [way = way](const WayCosts& c) { return per_item(c[way].total_ns, kNsPerMs, c[way].hash); }));
   add_ratio(registry, shared, "deferred_unclassified_over_monolithic", kPlain, std::nullopt);
   add_ratio(registry, shared, "deferred_over_monolithic", kTiles, 0.5);
+  add_ratio(registry, shared, "deferred_8_closeups_over_monolithic", kPairs, 0.9);
   add_paper_row(registry, "monolithic", "ms on a console", 5.73);
   add_paper_row(registry, "deferred", "ms on a console", 3.94);
+  add_paper_row(registry, "deferred_8_closeups", "ms on a console", 6.29);
   add_paper_row(registry, "deferred_over_monolithic", "ratio on a console", 3.94 / 5.73);
   constexpr std::pair<const char*, Way> kHeld[] = {{"deferred_unclassified", kPlain}, {"deferred", kTiles}};
   for (const auto& [name, way] : kHeld) {
@@ -148,6 +150,8 @@ void add_table(BenchRegistry& registry, const Shared& shared) {
         way_row(std::string("table1.") + name + "_equal_pixels", "share of pixels", shared,
                 [way = way](const WayCosts& c) { return plain(equal_share(c[kMono].picture, c[way].picture)); }));
   }
+  registry.add(way_row("table1.closeup_pairs", "pairs", shared,
+                       [](const WayCosts& c) { return plain(counter_of(c[kPairs].report, "closeups.pairs")); }));
   registry.add(way_row("table1.lights_a_tile", "lights", shared, [](const WayCosts& c) {
     return plain(counter_of(c[kTiles].report, "lights.per_tile_accurate_mean"));
   }));

@@ -46,6 +46,7 @@ FramePart part_of(const PassTime& pass) {
     case ShadowPhase::classify:
     case ShadowPhase::generate:
     case ShadowPhase::finish:
+    case ShadowPhase::closeups:
       return kShadows;
     case ShadowPhase::lighting:
       break;

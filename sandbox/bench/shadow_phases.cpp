@@ -32,6 +32,7 @@ std::optional<ShadowPhase> shadow_phase_of(const PassTime& pass) {
   if (makes_shadow_maps(pass)) return std::nullopt;
   const auto* const found = std::ranges::find(kPasses, std::string_view(pass.name), &NamedPhase::pass);
   if (found != std::end(kPasses)) return found->phase;
+  if (pass.module == "closeups") return ShadowPhase::closeups;
   if (pass.module == "lights" || pass.module == "shadows") return ShadowPhase::prepare;
   return std::nullopt;
 }

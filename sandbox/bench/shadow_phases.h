@@ -20,11 +20,12 @@ enum class ShadowPhase : std::uint8_t {
   classify,  ///< tiles that are lit or unlit as a whole
   generate,  ///< visibilities of the others
   finish,    ///< final lists
+  closeups,  ///< what close-up subjects keep of the light, into final lists and into maps for forward-lit things
   lighting,
 };
-inline constexpr std::size_t kShadowPhases = 7;
+inline constexpr std::size_t kShadowPhases = 8;
 inline constexpr std::array<const char*, kShadowPhases> kShadowPhaseNames = {
-    "prepare", "find_approx", "find_accurate", "classify", "generate", "finish", "lighting"};
+    "prepare", "find_approx", "find_accurate", "classify", "generate", "finish", "closeups", "lighting"};
 
 /// Of a pass; none for maps, geometry and what comes after lighting. Passes of the modules lights and shadows that are not known here
 /// are counted as `prepare`, so that none is left out by mistake.

@@ -14,6 +14,7 @@ constexpr int kMostFrames = 10;
 Result<FrameSample> draw_settled(ShadowCase& shadows, const ShadowVariant& variant) {
   GLOAM_TRY(shadows.set("shadows.mode", variant.mode));
   GLOAM_TRY(shadows.set("shadows.classify", variant.classify));
+  GLOAM_TRY(shadows.set("closeups.max_pairs", variant.closeups));
   for (int i = 0; i < kMostFrames; ++i) {
     auto sample = shadows.draw();
     if (!sample || (i > 0 && lists_had_room(sample->report))) return sample;

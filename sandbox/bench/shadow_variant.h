@@ -12,12 +12,14 @@ namespace gloam {
 
 /// A way to have shadows.
 struct ShadowVariant {
-  const char* mode;      ///< shadows.mode
-  const char* classify;  ///< shadows.classify
+  const char* mode;            ///< shadows.mode
+  const char* classify;        ///< shadows.classify
+  const char* closeups = "0";  ///< closeups.max_pairs
 };
 inline constexpr ShadowVariant kMonolithic{"monolithic", "on"};
 inline constexpr ShadowVariant kUnclassified{"deferred", "off"};
 inline constexpr ShadowVariant kClassified{"deferred", "on"};
+inline constexpr ShadowVariant kWithCloseups{"deferred", "on", "8"};
 
 /// Draws by a variant until buffers have grown to what it needs; the last frame, which is never the first one after a change of knobs. Fails
 /// when they do not.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/scenes/builtin.h"
 
+#include "sandbox/scenes/closeups.h"
 #include "sandbox/scenes/lanterns.h"
 #include "sandbox/scenes/many_lights.h"
 #include "sandbox/scenes/penumbra.h"
@@ -21,6 +22,7 @@ constexpr BuiltinScene kScenes[] = {
      &build_shadows_scene},
     {"shadow_grid", "256 lamps under a pergola that all cast shadows, about three at a point",
      &build_shadow_grid_scene},
+    {"closeups", "eight figures, all close-up subjects, under eight lamps and a moon", &build_closeups_scene},
 };
 
 }  // namespace

@@ -38,6 +38,11 @@ Entity SceneBuilder::add_instance(const std::string& name, std::uint32_t mesh, d
   return entity;
 }
 
+Entity SceneBuilder::add_group(const std::string& name, dvec3 position, double heading) {
+  const dquat rotation(std::cos(heading * 0.5), 0.0, std::sin(heading * 0.5), 0.0);
+  return add_node("node", name, {.translation = position, .rotation = rotation});
+}
+
 Entity SceneBuilder::add_camera(const std::string& name, dvec3 eye, dvec3 target, float fov_y) {
   const Entity entity = add_node("camera", name, {.translation = eye, .rotation = rotation_towards(target - eye)});
   world_.add<Camera>(entity, {.fov_y = fov_y});

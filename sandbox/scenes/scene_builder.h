@@ -25,6 +25,8 @@ class SceneBuilder {
   /// heading: radians about +Y.
   Entity add_instance(const std::string& name, std::uint32_t mesh, dvec3 position, double heading = 0.0,
                       dvec3 scale = dvec3(1.0));
+  /// A root without a mesh, for others to hang on to by Parent.
+  Entity add_group(const std::string& name, dvec3 position, double heading = 0.0);
   Entity add_camera(const std::string& name, dvec3 eye, dvec3 target, float fov_y);
   /// direction: where it shines, any length above 0; a point light's does not matter.
   Entity add_light(const std::string& name, const Light& light, dvec3 position, dvec3 direction, bool casts_shadows);

@@ -15,6 +15,27 @@ struct SearchRegion {
 float nearest_of(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 float farthest_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
+// Nearest and farthest depth of texels [low, high] of a face, from its pyramid; whatever is beyond it is left out.
+float nearest_in_face(vec2 origin, float size, vec2 low, vec2 high, out float farthest) {
+  low = clamp(low, vec2(0.0), vec2(size)) * 0.25;
+  high = clamp(high, vec2(0.0), vec2(size)) * 0.25;
+  int last = floor_log2(size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
+  float side = max(high.x - low.x, high.y - low.y);
+  int level = clamp(ceil_log2(max(side / 3.0, 1.0)), 0, last);
+  MipSquare square = mip_square(origin * 0.25, size * 0.25, level, shadow_block.atlas_size * 0.25);
+  // Four texels a side hold what is three of them wide; in the coarsest level two are all there is.
+  vec2 first = floor(low / square.texel) + 1.0;
+  float nearest = 0.0;
+  farthest = 1.0;
+  for (int i = 0; i < 4; ++i) {
+    vec2 corner = clamp(first + 2.0 * vec2(i & 1, i >> 1), vec2(1.0), vec2(square.size - 1.0));
+    vec2 at = (square.corner + corner) * 4.0 * shadow_texel_size();
+    nearest = max(nearest, nearest_of(textureGather(shadow_pyramid, at, 1)));
+    farthest = min(farthest, farthest_of(textureGather(shadow_pyramid, at, 0)));
+  }
+  return nearest;
+}
+
 float penumbra_width(ShadowPoint p, float blocker) { return clamp(p.scale * (blocker - p.depth), 0.0, p.size); }
 
 // The pyramid's level whose texel is at least this wide; there, two by two texels hold a square of that width round any point.

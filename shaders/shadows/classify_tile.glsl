@@ -73,26 +73,7 @@ void set_texels(vec2 corners[8], float slack, inout TileInFace f) {
   f.side_ranges = vec4(least.x, most.x, least.y, most.y) + slack * vec4(-1.0, 1.0, -1.0, 1.0);
 }
 
-// Texels [low, high] of the face; whatever is beyond it is left out.
-float nearest_in(TileInFace f, vec2 low, vec2 high, out float farthest) {
-  low = clamp(low, vec2(0.0), vec2(f.size)) * 0.25;
-  high = clamp(high, vec2(0.0), vec2(f.size)) * 0.25;
-  int last = floor_log2(f.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
-  float side = max(high.x - low.x, high.y - low.y);
-  int level = clamp(ceil_log2(max(side / 3.0, 1.0)), 0, last);
-  MipSquare square = mip_square(f.origin * 0.25, f.size * 0.25, level, shadow_block.atlas_size * 0.25);
-  // Four texels a side hold what is three of them wide; in the coarsest level two are all there is.
-  vec2 first = floor(low / square.texel) + 1.0;
-  float nearest = 0.0;
-  farthest = 1.0;
-  for (int i = 0; i < 4; ++i) {
-    vec2 corner = clamp(first + 2.0 * vec2(i & 1, i >> 1), vec2(1.0), vec2(square.size - 1.0));
-    vec2 at = (square.corner + corner) * 4.0 * shadow_texel_size();
-    nearest = max(nearest, nearest_of(textureGather(shadow_pyramid, at, 1)));
-    farthest = min(farthest, farthest_of(textureGather(shadow_pyramid, at, 0)));
-  }
-  return nearest;
-}
+float nearest_in(TileInFace f, vec2 low, vec2 high, out float farthest) { return nearest_in_face(f.origin, f.size, low, high, farthest); }
 
 float widest(TileInFace f, float nearest) { return clamp(f.scale * (nearest - f.farthest), 0.0, f.size); }
 

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/closeups/closeup_knobs.h"
+
+#include <utility>
+
+namespace gloam {
+namespace {
+
+Knob closeup_knob(std::string name, std::string meaning, std::vector<std::string> choices, double fallback) {
+  Knob knob;
+  knob.name = "closeups." + std::move(name);
+  knob.module = "closeups";
+  knob.meaning = std::move(meaning);
+  knob.choices = std::move(choices);
+  knob.default_number = fallback;
+  return knob;
+}
+
+}  // namespace
+
+void add_closeup_knobs(KnobRegistry& registry) {
+  Knob pairs = closeup_knob("max_pairs",
+                            "most pairs of a close-up subject and a light that have a shadow map of their own; the "
+                            "others are drawn into the light's standard map",
+                            {}, 8.0);
+  pairs.type = Knob::Type::integer;
+  pairs.max = 256.0;
+  pairs.ledger_values = {0.0, 1.0, 2.0, 4.0, 8.0, 16.0};
+  registry.add(pairs);
+  registry.add(closeup_knob("batch", "pairs that share the close-up map at a time", {"1", "2", "4"}, 0.0));
+  registry.add(closeup_knob("standard",
+                            "how forward-lit things see close-up subjects: their close-up maps are transferred into "
+                            "the light's standard map, or they are drawn into it",
+                            {"transfer", "draw"}, 0.0));
+}
+
+CloseupKnobs closeup_knobs(const KnobRegistry& registry) {
+  CloseupKnobs knobs;
+  knobs.max_pairs = static_cast<std::uint32_t>(registry.number("closeups.max_pairs"));
+  knobs.batch = 1u << registry.choice("closeups.batch");
+  knobs.draws_standard = registry.is("closeups.standard", "draw");
+  return knobs;
+}
+
+CloseupSettings closeup_settings(const CloseupKnobs& knobs, bool enabled) {
+  CloseupSettings settings;
+  settings.enabled = enabled && knobs.max_pairs > 0;
+  settings.max_pairs = knobs.max_pairs;
+  settings.batch = knobs.batch;
+  return settings;
+}
+
+}  // namespace gloam

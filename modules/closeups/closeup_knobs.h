@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "engine/render/knobs.h"
+#include "modules/closeups/closeup_views.h"
+
+namespace gloam {
+
+struct CloseupKnobs {
+  std::uint32_t max_pairs = 8;
+  std::uint32_t batch = 1;
+  bool draws_standard = false;  ///< what forward-lit things see of a subject is drawn, not transferred
+};
+
+void add_closeup_knobs(KnobRegistry& registry);
+[[nodiscard]] CloseupKnobs closeup_knobs(const KnobRegistry& registry);
+[[nodiscard]] CloseupSettings closeup_settings(const CloseupKnobs& knobs, bool enabled);
+
+}  // namespace gloam

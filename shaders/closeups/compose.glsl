@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_CLOSEUPS_COMPOSE_GLSL
+#define GLOAM_SHADERS_CLOSEUPS_COMPOSE_GLSL
+
+// Before including this, define GLOAM_SHADOWS_KINDS: 1 for local lights, 4 for directional ones.
+//
+// Takes what a subject keeps of a light from the pixels of a tile (FF XVI paper, §3.4). One workgroup is a tile of the pair's range. A tile
+// that does not list the light, or that sees none of it already, stays as it is; pixels that the close-up map does not hold keep what they
+// see. What is new is the lesser of both: a lit tile takes a slot, one that nobody sees the light from any more becomes unlit. A tile that
+// finds no slot left loses its list and is shaded from maps.
+
+#define GLOAM_SHADOWS_BINDING 12
+#define GLOAM_SHADOWS_PIXEL ivec2(0)  // what is traced is shaded without lists
+#include "shaders/closeups/closeups_shared.h"
+#include "shaders/shadows/pair_pixels_api.glsl"
+
+layout(set = 0, binding = 1, scalar) uniform Closeup { CloseupConstants closeup; };
+layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid grid; };
+layout(set = 0, binding = 7, rgba32ui) uniform uimage2D final_tiles;
+layout(set = 0, binding = 8, scalar) buffer Entries { uint entries[]; };
+layout(set = 0, binding = 9, scalar) buffer Visibilities0 { uint visibilities_0[]; };
+layout(set = 0, binding = 10, scalar) buffer Visibilities1 { uint visibilities_1[]; };
+layout(set = 0, binding = 11, scalar) buffer Counters { ShadowListCounters counters; };
+layout(set = 0, binding = 18, scalar) buffer Commands { ShadowListCommands commands; };
+layout(set = 0, binding = 20) uniform sampler2D depth_bounds;
+layout(set = 0, binding = 19, scalar) writeonly buffer FallbackTiles { uint fallback_tiles[]; };
+
+const uint kSomeChanged = 4u;
+const uint kNoEntry = 0xFFFFFFFFu;
+const uint kWords = 2u * kVisibilityBits;
+const uint kSlotsPerBuffer = GLOAM_BUFFER_WORDS / kWords;
+
+shared uint place;                  // of the entry
+shared uint slot;                   // it has, then gets
+shared uint old_words[16];          // what its pixels saw
+
+// What is the same for all pixels.
+#if GLOAM_SHADOWS_KINDS == 4
+struct LightOfPair {
+  uint light;
+};
+
+LightOfPair light_of_pair() { return LightOfPair(closeup.light); }
+
+// Place in the face, texels and depth; w: 1, or less where the place is none.
+vec4 place_in_face(LightOfPair l, vec3 position) {
+  vec4 p = vec4(position, 1.0);
+  return vec4(dot(closeup.row_u, p), dot(closeup.row_v, p), dot(closeup.row_depth, p), 1.0);
+}
+
+float penumbra_texels() { return closeup.penumbra_m_per_m * closeup.depth_m / closeup.texel_m; }
+
+ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
+  ShadowPoint p = no_shadow_point();
+  float facing = dot(r.face_normal, closeup.direction);
+  float along = abs(facing) < 1e-5 ? (facing < 0.0 ? -1e-5 : 1e-5) : facing;
+  vec4 position = vec4(r.position, 1.0);
+  vec3 at = vec3(dot(closeup.row_u, position), dot(closeup.row_v, position), dot(closeup.row_depth, position));
+  float depth_per_m = 1.0 / closeup.depth_m;
+  p.orthographic = true;
+  p.live = min(min(at.x, at.y), closeup.size - max(at.x, at.y)) >= 0.0 && at.z < 1.0 && at.z > -1e18;
+  p.origin = closeup.origin;
+  p.size = closeup.size;
+  p.at = p.live ? at.xy : p.at;
+  p.depth = p.live ? at.z : p.depth;
+  p.scale = penumbra_texels();
+  p.slope = vec2(dot(r.face_normal, closeup.row_u.xyz), dot(r.face_normal, closeup.row_v.xyz)) *
+            (closeup.texel_m * closeup.texel_m * depth_per_m / along);
+  set_threshold(p, facing, 0.5 * closeup.penumbra_m_per_m, depth_per_m, r.subsurface);
+  return p;
+}
+
+bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return sun_gives(closeup.brightest, closeup.direction, normal); }
+#else
+struct LightOfPair {
+  LocalLight light;
+};
+
+LightOfPair light_of_pair() { return LightOfPair(fetch_light(light_texels, closeup.light)); }
+
+// Place in the face, times w > 0: metres in front of the light; depth is near_m / w.
+vec4 place_in_face(LightOfPair l, vec3 position) {
+  vec3 v = position - l.light.position;
+  float z = dot(v, cross(closeup.up, closeup.right)), texels = 0.5 * closeup.size / closeup.tan_half;
+  return vec4(dot(v, closeup.right) * texels + 0.5 * closeup.size * z, -dot(v, closeup.up) * texels + 0.5 * closeup.size * z, closeup.near_m, z);
+}
+
+// Of a penumbra, for every unit of depth between blocker and receiver.
+float penumbra_texels() { return closeup.width_m * closeup.size / (closeup.near_m * 2.0 * closeup.tan_half); }
+
+ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
+  LocalShadow shadow = LocalShadow(closeup.light, l.light.position, vec4(GLOAM_SHADOW_SPOT, closeup.near_m, closeup.width_m, closeup.size),
+                                   vec4(closeup.right, closeup.tan_half), vec4(closeup.up, closeup.tan_inner), cross(closeup.up, closeup.right));
+  ShadowPoint p = local_shadow_point(shadow, r);
+  p.origin = closeup.origin;
+  return p;
+}
+
+bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return local_light_gives(l.light, position, normal); }
+#endif
+
+// Keeps the lesser of what the pixel saw and what the subject leaves; returns what it says of the tile.
+uint keep_visibility(uint pixel, PixelOfPair p, float visibility) {
+  uint old = old_words[pixel * kVisibilityBits >> 5] >> (pixel * kVisibilityBits & 31u) & kMostSteps;
+  uint steps = p.point.live ? min(visibility_steps(p, visibility), old) : old;
+  pack_steps(pixel, steps);
+  if (!p.matters) return 0u;
+  return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u) | (steps < old ? kSomeChanged : 0u);
+}
+
+#include "shaders/shadows/pair_pixels_asked_api.glsl"
+
+// Whether the subject certainly keeps no light from any pixel of the tile: all lie beside what the map shows, or nothing in the map is near
+// enough to the way between them and the emitter.
+bool subject_is_aside(LightOfPair light, uvec2 tile) {
+  vec2 bounds = texelFetch(depth_bounds, ivec2(tile), 0).xy;
+  if (bounds.y <= 0.0) return true;
+  vec2 begin = vec2(tile * uint(GLOAM_SHADOW_TILE)) - 0.5, end = min(begin + float(GLOAM_SHADOW_TILE), vec2(view.size) - 0.5);
+  vec2 low = vec2(1e30), high = vec2(-1e30);
+  bvec4 outside = bvec4(true);
+  float farthest = 1e30, least_w = 1e30, most_w = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    vec2 pixel = vec2((i & 1) != 0 ? end.x : begin.x, (i & 2) != 0 ? end.y : begin.y);
+    vec4 at = place_in_face(light, relative_position(view, pixel, i < 4 ? bounds.x : bounds.y));
+    outside.xy = bvec2(outside.x && at.x < 0.0, outside.y && at.y < 0.0);
+    outside.zw = bvec2(outside.z && at.x > closeup.size * at.w, outside.w && at.y > closeup.size * at.w);
+    least_w = min(least_w, at.w);
+    most_w = max(most_w, at.w);
+    vec3 place = at.xyz / max(at.w, 1e-9);
+    low = min(low, place.xy);
+    high = max(high, place.xy);
+    farthest = min(farthest, place.z);
+  }
+  if (any(outside) || most_w < closeup.near_m) return true;
+  if (least_w < 1e-3) return false;
+  // Twice: what is nearest in a wide square gives a smaller one.
+  float nearest = 1.0;
+  for (int step = 0; step < 2; ++step) {
+    // Farther than any kernel of a penumbra this wide looks.
+    float reach = 2.0 * clamp(penumbra_texels() * (nearest - farthest), 0.0, closeup.size) + 14.0, unused;
+    nearest = nearest_in_face(closeup.origin, closeup.size, low - reach, high + reach, unused);
+  }
+  return nearest <= 0.999 * farthest;
+}
+
+// Threads look through the tile's list together.
+void find_entry(uvec3 list, uint lane) {
+#if GLOAM_SHADOWS_KINDS == 4
+  uint first = list.x, count = list.z >> 16;
+#else
+  uint first = list.y, count = list.z & 0xFFFFu;
+#endif
+  for (uint i = lane; i < count; i += kThreads) {
+    uint entry = entries[first + i];
+    if ((entry & 1023u) != closeup.light) continue;
+    place = first + i;
+    slot = entry >> 10;
+  }
+}
+
+void load_slot(uint lane) {
+  for (uint i = lane; i < kWords; i += kThreads) {
+    uint at = (slot % kSlotsPerBuffer) * kWords + i;
+    old_words[i] = slot >= GLOAM_NO_ROOM ? 0xFFFFFFFFu : slot < kSlotsPerBuffer ? visibilities_0[at] : visibilities_1[at];
+  }
+}
+
+// The tile's list is gone.
+void give_tile_up(uvec2 tile) {
+  imageStore(final_tiles, ivec2(tile), uvec4(GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0u, 0u));
+  fallback_tiles[atomicAdd(commands.fallback_draw.y, 1u)] = tile.y << 16 | tile.x;
+  atomicAdd(counters.fallback_tiles, 1u);
+}
+
+// The slot that the entry gets, or GLOAM_ALL_UNLIT, or GLOAM_NO_ROOM for nothing to be stored.
+uint changed_slot(uvec2 tile, uint some) {
+  if ((some & kSomeChanged) == 0u) return GLOAM_NO_ROOM;
+  if ((some & kSomeSeeAny) == 0u) return GLOAM_ALL_UNLIT;
+  if (slot < GLOAM_NO_ROOM) return slot;
+  uint taken = atomicAdd(counters.slots, 1u);
+  if (taken < grid.slot_capacity) return taken;
+  give_tile_up(tile);
+  return GLOAM_NO_ROOM;
+}
+
+void main() {
+  uvec2 tile = closeup.first_tile + gl_WorkGroupID.xy;
+  uint lane = gl_LocalInvocationIndex;
+  uvec3 list = imageLoad(final_tiles, ivec2(tile)).xyz;
+  if (lane == 0u) place = kNoEntry;
+  if (lane == 0u) slot = GLOAM_ALL_UNLIT;
+  start_pixels(lane);
+  barrier();
+  if (list.y != GLOAM_NO_FINAL_LIST) find_entry(list, lane);
+  barrier();
+  // The same for the whole workgroup.
+  if (place == kNoEntry || slot == GLOAM_ALL_UNLIT) return;
+  LightOfPair light = light_of_pair();
+  if (subject_is_aside(light, tile)) return;
+  load_slot(lane);
+  barrier();
+  ask_pixels(light, tile, lane);
+  barrier();
+  if (lane == 0u) {
+    slot = changed_slot(tile, found);
+    if (slot != GLOAM_NO_ROOM) entries[place] = closeup.light | slot << 10;
+  }
+  barrier();
+  if (slot >= GLOAM_NO_ROOM) return;
+  for (uint i = lane; i < kWords; i += kThreads) {
+    if (slot < kSlotsPerBuffer) visibilities_0[slot * kWords + i] = packed_words[i];
+    else visibilities_1[(slot - kSlotsPerBuffer) * kWords + i] = packed_words[i];
+  }
+}
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_PAIR_PIXELS_ASKED_API_GLSL
+#define GLOAM_SHADERS_SHADOWS_PAIR_PIXELS_ASKED_API_GLSL
+
+#include "shaders/shadows/pair_pixels_api.glsl"
+
+// See there.
+
+PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
+  ivec2 at = ivec2(min(pixel, view.size - 1u));
+  float depth = texelFetch(depth_image, at, 0).r;
+  ShadowReceiver r;
+  r.position = relative_position(view, vec2(at), max(depth, 1e-9));
+  uvec2 normals = texelFetch(normal_image, at, 0).xy;
+  r.face_normal = unpack_normal(normals.y);
+  r.subsurface = texelFetch(base_color_image, at, 0).a > 0.5;
+  PixelOfPair p;
+  p.matters = depth > 0.0 && all(lessThan(pixel, view.size)) && gives_light(light, r.position, unpack_normal(normals.x));
+  p.point = shadow_point(light, r);
+  p.point.live = p.point.live && p.matters;
+  return p;
+}
+
+uvec2 pixel_at(uvec2 tile, uint pixel) { return tile * uint(GLOAM_SHADOW_TILE) + uvec2(pixel & 7u, pixel >> 3); }
+
+// All pixels of a thread, first as far as it goes without the filter; then those that need it, which are one after the other in every
+// thread: devices that run threads side by side take as many turns as the thread with the most of them.
+void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
+  uint some = 0u, left = 0u, i = 0u;
+  do {
+    uint pixel = lane * kPixels + i;
+    PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+    bool known = true;
+    float visibility, width = 0.0;
+    if (kFilter == 3u) known = known_before_filter(p.point, visibility, width) || !p.matters;
+    else visibility = unquantised_visibility(p.point);
+    widths[pixel] = width;
+    left |= known ? 0u : 1u << i;
+    if (known) some |= keep_visibility(pixel, p, visibility);
+  } while (++i < kPixels);
+  if (kFilter == 3u && left != 0u) do {
+    uint pixel = lane * kPixels + uint(findLSB(left));
+    PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+    some |= keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]));
+    left &= left - 1u;
+  } while (left != 0u);
+  if (some != 0u) atomicOr(found, some);
+}
+
+#endif
