@@ -10,9 +10,7 @@ bool add_copies(const FrameBuilder& frame, const CloseupView& pair, OverlayPlan&
   return overlay.add(pair.light, subject.low, subject.high);
 }
 
-OverlayPlan empty_plan(const FrameBuilder& frame) {
-  return OverlayPlan(frame.world().view_resource<ShadowViews>(frame.view().id));
-}
+OverlayPlan empty_plan(const FrameBuilder& frame) { return OverlayPlan(frame.world(), frame.view().id); }
 
 }  // namespace
 

@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "modules/closeups/closeup_transfer.h"
-#include "modules/shadows/scratch_plan.h"
-#include "modules/shadows/shadow_faces.h"
 #include "shaders/closeups/shaders.h"
 
 namespace gloam {
@@ -25,13 +23,13 @@ const CloseupSubjects::Subject& subject_of(const FrameBuilder& frame, const Clos
 }
 
 TexelRect covered_by(const CloseupSubjects::Subject& subject, const ShadowFace& face) {
-  return covered_texels(face, CasterBox{subject.low, subject.high});
+  return covered_texels(face, subject.low, subject.high);
 }
 
 /// Faces of one size that are drawn into a map of this side at a time.
 std::size_t most_at_a_time(std::uint32_t size, std::uint32_t map_size) {
   const std::size_t squares = std::size_t{map_size / size} * (map_size / size);
-  return std::min<std::size_t>({squares, std::max(kScratchTexels / size / size, 1u), kMostScratchLayers});
+  return std::min<std::size_t>(squares, ShadowMapDrawer::most_maps(size));
 }
 
 /// The face in the map's i-th square of its size.

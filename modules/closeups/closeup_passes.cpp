@@ -165,7 +165,8 @@ void compose_batch(FrameBuilder& frame, Batch batch, const ExtraAtlas& atlas, gp
   c.shadows.atlas = atlas.atlas;
   c.shadows.pyramid = atlas.pyramid;
   PassBuilder pass = frame.graph().add_pass("closeup_compose", kModule);
-  for (const ImageRef image : {c.geometry.depth, c.geometry.depth_bounds, c.geometry.normals, c.geometry.base_color, c.texels})
+  for (const ImageRef image :
+       {c.geometry.depth, c.geometry.depth_bounds, c.geometry.normals, c.geometry.base_color, c.texels})
     pass.read(image, gpu::Access::compute_read);
   declare_shadow_reads(pass, c.shadows, gpu::Access::compute_read);
   FinalLists& lists = *shadows.final_lists;

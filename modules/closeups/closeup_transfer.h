@@ -4,8 +4,7 @@
 
 #include <cstdint>
 
-#include "modules/shadows/face_regions.h"
-#include "modules/shadows/shadow_views.h"
+#include "modules/shadows/outputs.h"
 #include "shaders/closeups/closeups_shared.h"
 
 namespace gloam {

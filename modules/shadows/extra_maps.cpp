@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/shadows/extra_maps.h"
 
 #include <algorithm>
 #include <memory>
@@ -8,6 +7,8 @@
 #include <utility>
 
 #include "modules/shadows/map_recording.h"
+#include "modules/shadows/map_tools.h"
+#include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_cascades.h"
 
 namespace gloam {
@@ -86,7 +87,7 @@ ExtraAtlas ShadowMapDrawer::create(FrameGraph& graph, const char* module, std::u
   gpu::ImageDesc desc;
   desc.module = module;
   desc.name = std::string(module) + "_atlas";
-  desc.format = knobs_.d16 ? gpu::Format::r16_unorm : gpu::Format::r32_float;
+  desc.format = tools_->knobs.d16 ? gpu::Format::r16_unorm : gpu::Format::r32_float;
   desc.width = size + size / 2;
   desc.height = size;
   ExtraAtlas made;
@@ -98,6 +99,10 @@ ExtraAtlas ShadowMapDrawer::create(FrameGraph& graph, const char* module, std::u
   desc.width = desc.height + desc.height / 2;
   made.pyramid = graph.create_image(desc);
   return made;
+}
+
+std::size_t ShadowMapDrawer::most_maps(std::uint32_t size) {
+  return std::min(std::max(kScratchTexels / size / size, 1u), kMostScratchLayers);
 }
 
 Status ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, const char* module, std::span<const ExtraMap> maps,
@@ -112,20 +117,20 @@ Status ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, const char* 
   std::vector<DrawnFace> faces;
   std::span<const Caster> left = work->casters;
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    faces.push_back(drawn_face(maps[i], left.first(counts[i]), knobs_.simplified));
+    faces.push_back(drawn_face(maps[i], left.first(counts[i]), tools_->knobs.simplified));
     left = left.subspan(counts[i]);
   }
   work->faces = plan_faces(std::move(faces));
   GLOAM_ASSERT(work->faces.plan.batches.size() == 1, "maps of one size, few enough for one image, are drawn at a time");
   const FacePlan* const plans[] = {&work->faces};
   GLOAM_TRY(make_map_pipelines(frame, plans, work->map));
-  work->map.bias_units = knobs_.bias_units;
-  ShadowKnobs knobs = knobs_;
+  work->map.bias_units = tools_->knobs.bias_units;
+  ShadowKnobs knobs = tools_->knobs;
   knobs.atlas_size = into.size;
   auto mips = plan_shadow_mips(frame, work->backgrounds, work->faces, knobs);
   if (!mips.ok()) return mips.error();
   work->mips = *mips;
-  auto scratch = states_->scratch(work->faces.plan.texels());
+  auto scratch = tools_->states.scratch(work->faces.plan.texels());
   if (!scratch.ok()) return scratch.error();
   work->map.scratch = *scratch;
   add_passes(frame, std::string("shadow_map_") + name, module, work, into);
@@ -133,7 +138,7 @@ Status ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, const char* 
 }
 
 Result<gpu::Binding::BufferRange> ShadowMapDrawer::block(FrameBuilder& frame, std::uint32_t size) const {
-  shaders::ShadowBlock block = block_;
+  shaders::ShadowBlock block = tools_->block;
   block.atlas_size = static_cast<float>(size);
   return frame.services().uniforms.write_value(block);
 }

@@ -108,6 +108,10 @@ bool join_two(std::vector<TexelRect>& regions) {
 
 TexelRect whole_face(const ShadowFace& face) { return {uvec2(0), uvec2(face.square.size)}; }
 
+TexelRect covered_texels(const ShadowFace& face, const dvec3& low, const dvec3& high) {
+  return covered_texels(face, CasterBox{low, high});
+}
+
 TexelRect covered_texels(const ShadowFace& face, const CasterBox& box) {
   if (!box.known()) return whole_face(face);
   const CasterBox relative = relative_box(face.origin, box);

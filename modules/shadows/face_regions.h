@@ -12,20 +12,6 @@
 
 namespace gloam {
 
-/// Texels of a face, rows from its upper edge: from `begin` to before `end`.
-struct TexelRect {
-  uvec2 begin = uvec2(0);
-  uvec2 end = uvec2(0);
-  [[nodiscard]] bool empty() const { return begin.x >= end.x || begin.y >= end.y; }
-  [[nodiscard]] std::uint64_t texels() const {
-    return empty() ? 0 : std::uint64_t{end.x - begin.x} * (end.y - begin.y);
-  }
-  [[nodiscard]] bool contains(const TexelRect& other) const {
-    return begin.x <= other.begin.x && begin.y <= other.begin.y && end.x >= other.end.x && end.y >= other.end.y;
-  }
-  bool operator==(const TexelRect&) const = default;
-};
-
 [[nodiscard]] TexelRect whole_face(const ShadowFace& face);
 
 /// Corners of regions are multiples of this, in texels: what a thread of shadow_mips.comp takes.

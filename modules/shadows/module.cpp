@@ -12,6 +12,7 @@
 #include "modules/shadows/components.h"
 #include "modules/shadows/final_list_buffers.h"
 #include "modules/shadows/final_list_views.h"
+#include "modules/shadows/map_tools.h"
 #include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_cookies.h"
 #include "modules/shadows/shadow_keys.h"
@@ -87,8 +88,10 @@ class ShadowsModule final : public Module {
     warn(frame);
     GLOAM_TRY(add_shadow_passes(frame, states_));
     if (const auto* outputs = frame.find<ShadowsOutputs>(); outputs != nullptr && outputs->final_lists) {
-      frame.put(ShadowMapDrawer(states_, shadow_knobs(frame.knobs()), outputs->block_values));
-      frame.put(OverlayMaps(states_, shadow_knobs(frame.knobs())));
+      const auto tools =
+          std::make_shared<ShadowMapTools>(ShadowMapTools{states_, shadow_knobs(frame.knobs()), outputs->block_values});
+      frame.put(ShadowMapDrawer(tools));
+      frame.put(OverlayMaps(tools));
     }
     take_light_list_view(frame);
     return {};
@@ -112,7 +115,8 @@ class ShadowsModule final : public Module {
 
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
     if (name == kShadowListResult)
-      count_final_lists(result.value<shaders::ShadowListCounters>(), std::any_cast<const FinalListNote&>(result.note), sink);
+      count_final_lists(result.value<shaders::ShadowListCounters>(), std::any_cast<const FinalListNote&>(result.note),
+                        sink);
   }
 
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/shadows/overlay_maps.h"
 
 #include <algorithm>
 #include <bit>
 #include <utility>
 
 #include "modules/lights/outputs.h"
+#include "modules/shadows/map_tools.h"
 #include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_faces.h"
 #include "modules/shadows/shadow_mips.h"
@@ -152,9 +152,13 @@ std::vector<shaders::ShadowRow> redirected_rows(const FrameBuilder& frame, const
 
 }  // namespace
 
+OverlayPlan::OverlayPlan(const World& world, ViewId view)
+    : views_(&world.view_resource<ShadowViews>(view)),
+      free_(std::make_shared<const FreeSquares>(views_->atlas.free_squares())) {}
+
 bool OverlayPlan::add(Entity light, const dvec3& low, const dvec3& high) {
   if (views_ == nullptr) return false;
-  FreeSquares free = free_;
+  FreeSquares free = *free_;
   std::vector<OverlayFace> added;
   for (const ShadowFace& face : views_->faces) {
     if (face.light != light || face.square.size == 0 || !face_may_see(face, low, high)) continue;
@@ -163,7 +167,7 @@ bool OverlayPlan::add(Entity light, const dvec3& low, const dvec3& high) {
     if (copy.size == 0) return false;
     added.push_back({face, copy});
   }
-  free_ = std::move(free);
+  free_ = std::make_shared<const FreeSquares>(std::move(free));
   faces_.insert(faces_.end(), added.begin(), added.end());
   return true;
 }
@@ -194,9 +198,10 @@ Result<OverlayCopies> OverlayMaps::start(FrameBuilder& frame, const char* module
 }
 
 Status OverlayMaps::finish(FrameBuilder& frame, const OverlayCopies& copies) const {
-  auto work = plan_shadow_mips(frame, {}, *copies.plan, knobs_);
+  auto work = plan_shadow_mips(frame, {}, *copies.plan, tools_->knobs);
   if (!work.ok()) return work.error();
-  auto found = states_->view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs_.atlas_size, knobs_.d16);
+  auto found = tools_->states.view(frame.world().resource<ShadowWorld>(), frame.view().id, tools_->knobs.atlas_size,
+                                   tools_->knobs.d16);
   if (!found.ok()) return found.error();
   ViewShadows& kept = **found;
   auto& outputs = frame.get<ShadowsOutputs>();
@@ -210,7 +215,7 @@ Status OverlayMaps::finish(FrameBuilder& frame, const OverlayCopies& copies) con
         record_mips(context, work, copies.images, atlas, pyramid);
       });
   std::vector<shaders::ShadowRow> values = redirected_rows(frame, outputs, copies.faces);
-  auto rows = upload_shadow_rows(frame, *states_, "shadow_overlay_rows", values);
+  auto rows = upload_shadow_rows(frame, tools_->states, "shadow_overlay_rows", values);
   if (!rows.ok()) return rows.error();
   outputs.rows = *rows;
   outputs.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(values));

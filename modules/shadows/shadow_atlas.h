@@ -10,15 +10,9 @@
 
 #include "engine/ecs/entity.h"
 #include "engine/math/types.h"
+#include "modules/shadows/outputs.h"
 
 namespace gloam {
-
-/// A square of the atlas; its corner is a multiple of its side.
-struct AtlasSquare {
-  uvec2 origin = uvec2(0);
-  std::uint32_t size = 0;  ///< texels, a power of two; 0: has no place
-  bool operator==(const AtlasSquare&) const = default;
-};
 
 /// Names a face: a light and which of its faces.
 struct FaceKey {

@@ -69,9 +69,4 @@ struct FacePoint {
 /// The world position that a face sees at these texels, along_m in front of it.
 [[nodiscard]] dvec3 unproject(const ShadowFace& face, double x, double y, double along_m);
 
-/// False only if nothing in the box can block light in this face: what is nearer than a perspective face's near plane or out of the light's
-/// range cannot. An orthographic face has no near side: whatever lies towards the light from it may block. Boxes with min above max or
-/// with NaN may be anywhere.
-[[nodiscard]] bool face_may_see(const ShadowFace& face, const dvec3& min, const dvec3& max);
-
 }  // namespace gloam

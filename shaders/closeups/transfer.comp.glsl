@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/closeups/closeups_shared.h"
-#include "shaders/shadows/shadows_shared.h"
+#include "shaders/shadows/shadow_maps_api.glsl"
 
 // Adds what a pair's map holds to a standard face (FF XVI paper, §3.5), the other way round: each texel of the standard face looks at the area
 // of the pair's map that it covers, so that none is missed and each is written once. It reads the mip that has two texels across the smaller

@@ -9,6 +9,7 @@
 
 #include "modules/closeups/closeup_transfer.h"
 #include "shaders/closeups/shaders.h"
+#include "modules/shadows/face_regions.h"
 #include "tests/modules/closeups/transfer_cases.h"
 #include "tests/modules/shadows/shadow_maps.h"
 #include "tests/support/kernel.h"

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "modules/shadows/face_regions.h"
 #include "tests/modules/closeups/transfer_cases.h"
 
 namespace gloam {
