@@ -11,7 +11,9 @@
 #include "modules/closeups/closeup_frame.h"
 #include "modules/closeups/closeup_knobs.h"
 #include "modules/closeups/closeup_passes.h"
+#include "modules/closeups/closeup_pick.h"
 #include "modules/closeups/closeup_systems.h"
+#include "modules/closeups/closeup_view_passes.h"
 #include "modules/closeups/components.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/shadow_state.h"
@@ -39,6 +41,7 @@ class CloseupsModule final : public Module {
   }
   void knobs(KnobRegistry& registry) const override { add_closeup_knobs(registry); }
   void add_systems(Schedule& schedule) override { add_closeup_systems(schedule); }
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return closeup_visualizers(); }
   void scene_keys(KeyRegistry& registry) const override {
     registry.add(boolean_key(
         key_line("closeups", KeyElement::node, "gloam.closeup", "false", "", "this subtree is a close-up subject"),
@@ -82,6 +85,7 @@ class CloseupsModule final : public Module {
         last_.erase(key_of(frame.world(), frame.view()));
       return {};
     }
+    if (phase == PassPhase::visualize) return views_.add_pass(frame);
     if (phase != PassPhase::lists) return {};
     keep_completeness(frame);
     if (frame.find<CloseupFrame>() == nullptr) {
@@ -89,6 +93,11 @@ class CloseupsModule final : public Module {
       return {};
     }
     return add_closeup_passes(frame, closeup_knobs(frame.knobs()));
+  }
+
+  [[nodiscard]] std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
+                                              const Captures& copies) const override {
+    return closeup_pick_lines(frame, pixel, copies);
   }
 
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
@@ -133,6 +142,7 @@ class CloseupsModule final : public Module {
   }
 
   std::map<Key, LastFrame> last_;
+  CloseupViewPasses views_;
   bool ready_ = false;  ///< the pipelines of an earlier frame were
 };
 
