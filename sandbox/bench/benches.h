@@ -32,6 +32,12 @@ void add_shadow_memory_benches(BenchRegistry& registry);
 void add_shadow_curve_benches(BenchRegistry& registry);
 /// Whole frames with moving casters against a pass of 48 gathers a pixel, and what they consist of.
 void add_shadow_frame_benches(BenchRegistry& registry);
+/// Shadows of close-up subjects against traced ones, beside those of standard maps with as many texels.
+void add_closeup_benches(BenchRegistry& registry);
+/// What close-ups cost: memory by number of pairs, FF figure 14, batches of pairs and ways to let forward-lit things see them.
+void add_closeup_cost_benches(BenchRegistry& registry);
+/// Shadows of a walking subject from frame to frame, likewise beside standard maps.
+void add_closeup_flicker_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

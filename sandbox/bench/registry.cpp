@@ -54,6 +54,9 @@ BenchRegistry make_bench_registry() {
   add_shadow_memory_benches(registry);
   add_shadow_curve_benches(registry);
   add_shadow_frame_benches(registry);
+  add_closeup_benches(registry);
+  add_closeup_cost_benches(registry);
+  add_closeup_flicker_benches(registry);
   return registry;
 }
 
