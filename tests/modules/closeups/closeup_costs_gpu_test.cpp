@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/modules/closeups/closeup_scene.h"
+
+// A program of its own: memory and pipelines are counted by module, whichever renderer of the device made them.
+
+namespace gloam::test {
+namespace {
+
+/// With a renderer of its own, which has made no pipelines for other scenes.
+class CloseupCosts : public LitSceneTest {
+ protected:
+  [[nodiscard]] bool with_shadows() const override { return true; }
+};
+
+TEST_F(CloseupCosts, are_nothing_for_a_world_without_subjects) {
+  EXPECT_TRUE(renderer->knobs().set("shadows.mode", "deferred").ok());
+  const std::uint32_t stone = scene.material(exact_material(180, 170, 160, 255, 0));
+  scene.draw(scene.mesh(quad(4.0f, stone)));
+  const Entity block = scene.draw(scene.mesh(box(vec3(0.3f), stone)), glm::translate(dmat4(1.0), dvec3(0.0, 0.0, 0.6)));
+  Light lamp{.kind = LightKind::point, .intensity = 20.0f, .range_m = 12.0f};
+  world.add(light(lamp, dvec3(0.5, 0.5, 2.0)), ShadowCaster{true, 128});
+  draw();
+  draw();
+  const ModuleState without = module_state("closeups");
+  EXPECT_FALSE(without.demanded);
+  EXPECT_EQ(without.pipelines, 0u);
+  EXPECT_EQ(without.gpu_bytes, 0u);
+  for (const PassTime& pass : renderer->report().passes) EXPECT_NE(pass.module, "closeups") << pass.name;
+  std::size_t pairs = 0;
+  world.view<const CloseupPair>().each([&](const CloseupPair&) { ++pairs; });
+  EXPECT_EQ(pairs, 0u);
+  world.add(block, CloseupSubject{true});
+  draw();
+  draw();
+  EXPECT_TRUE(module_state("closeups").demanded);
+  EXPECT_GT(module_state("closeups").pipelines, 0u);
+  EXPECT_EQ(renderer->report().counters.at("closeups.pairs"), 1.0);
+}
+
+TEST_F(CloseupCosts, in_memory_do_not_depend_on_the_number_of_pairs) {
+  EXPECT_TRUE(renderer->knobs().set("shadows.mode", "deferred").ok());
+  const std::uint32_t stone = scene.material(exact_material(180, 170, 160, 255, 0));
+  scene.draw(scene.mesh(quad(4.0f, stone)));
+  std::vector<Entity> blocks;
+  for (int i = 0; i < 8; ++i)
+    blocks.push_back(
+        scene.draw(scene.mesh(box(vec3(0.08f), stone)), glm::translate(dmat4(1.0), dvec3(-0.9 + 0.25 * i, 0.1, 0.4))));
+  Light lamp{.kind = LightKind::point, .intensity = 20.0f, .range_m = 12.0f};
+  world.add(light(lamp, dvec3(0.5, 0.5, 2.0)), ShadowCaster{true, 128});
+  std::map<int, std::uint64_t> bytes;
+  for (const int count : {1, 2, 8}) {
+    for (int i = 0; i < count; ++i)
+      if (!world.has<CloseupSubject>(blocks[static_cast<std::size_t>(i)]))
+        world.add(blocks[static_cast<std::size_t>(i)], CloseupSubject{true});
+    for (int i = 0; i < 3; ++i) draw();
+    renderer->free_idle_memory();
+    draw();
+    EXPECT_EQ(renderer->report().counters.at("closeups.pairs"), static_cast<double>(count));
+    bytes[count] = module_state("closeups").gpu_bytes;
+  }
+  EXPECT_EQ(bytes[1], bytes[2]);
+  EXPECT_EQ(bytes[1], bytes[8]);
+}
+
+}  // namespace
+}  // namespace gloam::test
