@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/closeups/module.h"
 
+#include <atomic>
 #include <map>
 #include <optional>
 #include <utility>
@@ -16,7 +17,6 @@
 #include "modules/closeups/closeup_view_passes.h"
 #include "modules/closeups/components.h"
 #include "modules/lights/components.h"
-#include "modules/shadows/shadow_state.h"
 
 namespace gloam {
 namespace {
@@ -31,6 +31,11 @@ Status check_light_names(World& world) {
   return status;
 }
 
+/// Number of a world among those that a closeups module has prepared; a resource of the world.
+struct CloseupWorld {
+  std::uint64_t number = 0;
+};
+
 class CloseupsModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "closeups"; }
@@ -38,8 +43,15 @@ class CloseupsModule final : public Module {
     world.register_component<CloseupSubject>("closeup_subject");
     world.register_component<CloseupPair>("closeup_pair");
     register_closeup_resources(world);
+    world.set_resource(CloseupWorld{++worlds_});
   }
   void knobs(KnobRegistry& registry) const override { add_closeup_knobs(registry); }
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override {
+    std::vector<ReferenceInfo> references;
+    for (const char* knob : {"closeups.max_pairs", "closeups.batch", "closeups.standard"})
+      references.push_back(traced_shadows(knob));
+    return references;
+  }
   void add_systems(Schedule& schedule) override { add_closeup_systems(schedule); }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return closeup_visualizers(); }
   void scene_keys(KeyRegistry& registry) const override {
@@ -119,7 +131,7 @@ class CloseupsModule final : public Module {
   };
   using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< world and view
   static Key key_of(const World& world, const RenderView& view) {
-    return {world.resource<ShadowWorld>().number, view.id.value};
+    return {world.resource<CloseupWorld>().number, view.id.value};
   }
 
   void announce(FrameBuilder& frame) {
@@ -143,6 +155,7 @@ class CloseupsModule final : public Module {
 
   std::map<Key, LastFrame> last_;
   CloseupViewPasses views_;
+  mutable std::atomic<std::uint64_t> worlds_ = 0;
   bool ready_ = false;  ///< the pipelines of an earlier frame were
 };
 

@@ -17,6 +17,7 @@
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
 #include "engine/render/frame_builder.h"
+#include "engine/render/reference.h"
 #include "modules/lights/components.h"
 #include "shaders/shadows/shadows_shared.h"
 
@@ -278,5 +279,8 @@ class OverlayMaps {
 
 /// Pipelines that only overlays take.
 void list_overlay_map_pipelines(PipelineList& list);
+
+/// What a knob of shadows is held against: the frame shaded with traced visibility.
+[[nodiscard]] ReferenceInfo traced_shadows(std::string knob);
 
 }  // namespace gloam

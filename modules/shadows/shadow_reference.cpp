@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "modules/shadows/outputs.h"
 #include "modules/shadows/shadow_knobs.h"
 
 namespace gloam {
@@ -113,6 +114,14 @@ Status put_traced_visibility(World& world, const ReferenceInput& input) {
   return {};
 }
 
+ReferenceInfo traced_shadows(std::string knob) {
+  return {.knob = std::move(knob),
+          .kind = "traced",
+          .name = "lights with width, traced",
+          .samples = true,
+          .draw = draw_shadow_reference};
+}
+
 std::vector<ReferenceInfo> shadow_references() {
   KnobRegistry registry;
   add_shadow_knobs(registry);
@@ -123,11 +132,7 @@ std::vector<ReferenceInfo> shadow_references() {
   std::vector<ReferenceInfo> references;
   for (const Knob& knob : registry.knobs()) {
     if (std::find(std::begin(kOthers), std::end(kOthers), knob.name) != std::end(kOthers)) continue;
-    references.push_back({.knob = knob.name,
-                          .kind = "traced",
-                          .name = "lights with width, traced",
-                          .samples = true,
-                          .draw = draw_shadow_reference});
+    references.push_back(traced_shadows(knob.name));
   }
   return references;
 }
