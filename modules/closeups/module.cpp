@@ -48,7 +48,7 @@ class CloseupsModule final : public Module {
   void knobs(KnobRegistry& registry) const override { add_closeup_knobs(registry); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
     std::vector<ReferenceInfo> references;
-    for (const char* knob : {"closeups.max_pairs", "closeups.batch", "closeups.standard"})
+    for (const char* knob : {"closeups.max_pairs", "closeups.texels_per_pixel", "closeups.batch", "closeups.standard"})
       references.push_back(traced_shadows(knob));
     return references;
   }
@@ -74,8 +74,8 @@ class CloseupsModule final : public Module {
     if (view == nullptr)
       return {true, std::to_string(subjects) + (subjects == 1 ? " close-up subject" : " close-up subjects")};
     const CloseupViews& views = world.view_resource<CloseupViews>(view->id);
-    return {!views.pairs.empty(), std::to_string(views.in_view) + " closeup pairs in view, " +
-                                      std::to_string(views.pairs.size()) + " with maps of their own"};
+    return {views.in_view > 0, std::to_string(views.in_view) + " closeup pairs in view, " +
+                                   std::to_string(views.pairs.size()) + " with maps of their own"};
   }
 
   [[nodiscard]] bool needs_casters(const World&, const KnobRegistry& knobs) const override {

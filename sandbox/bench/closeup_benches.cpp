@@ -23,7 +23,8 @@
 //
 // Equal texels: standard maps alone get more texels a pixel, in steps of 2^⅛, until they have no less than the standard maps and the
 // close-up maps of the other side together. Where faces of powers of two make that more than 5 % too much, standard maps beside close-ups get
-// fewer instead, until both have no more than standard maps alone; the nearer of the two is taken.
+// fewer instead, until both have no more than standard maps alone; the nearer of the two is taken. What is then still missing to as many
+// texels as the standard maps alone have goes to the close-up maps, if that is enough for twice as many along a side.
 
 namespace gloam {
 namespace {
@@ -130,10 +131,26 @@ Result<MeanError> measure_error(ShadowCase& shadows, const ShadowVariant& varian
   return error;
 }
 
+/// Gives close-up maps the texels that are missing to equal.
+Status spend_the_rest(ShadowCase& shadows, EqualTexels& texels) {
+  for (const char* density : {"4", "2"}) {
+    GLOAM_TRY(shadows.set("closeups.texels_per_pixel", density));
+    GLOAM_TRY(use_closeups(shadows, texels, kMostPairs));
+    if (const auto frame = draw_settled(shadows, {"deferred", "on", kMostPairs}); !frame) return frame.error();
+    const std::uint64_t total = map_texels(shadows.session()).total();
+    if (total > texels.standard) continue;
+    texels.with = total;
+    return {};
+  }
+  shadows.set_back("closeups.texels_per_pixel");
+  return {};
+}
+
 Result<CloseupErrors> measure_errors(Session& session, const Options& options) {
   ShadowCase shadows(session, options.width, options.height);
-  const auto texels = find_equal_texels(shadows, kMostPairs);
+  auto texels = find_equal_texels(shadows, kMostPairs);
   if (!texels) return texels.error();
+  GLOAM_TRY(spend_the_rest(shadows, *texels));
   const ShadowVariant with{"deferred", "on", kMostPairs};
   GLOAM_TRY(use_closeups(shadows, *texels, kMostPairs));
   auto frame = draw_settled(shadows, with);
