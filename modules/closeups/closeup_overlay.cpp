@@ -3,6 +3,7 @@
 #include "modules/closeups/closeup_overlay.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "modules/closeups/closeup_transfer.h"
@@ -14,8 +15,9 @@ namespace {
 constexpr const char* kModule = "closeups";
 constexpr std::uint32_t kGroup = 8;  // threads of a side of transfer.comp's workgroups
 
-gpu::ComputePipelineDesc transfer_pipeline() {
-  return {"closeup_transfer", kModule, shaders::closeups::transfer_comp, {}};
+gpu::ComputePipelineDesc transfer_pipeline(bool d16) {
+  if (d16) return {"closeup_transfer/d16", kModule, shaders::closeups::transfer_r16_comp, {}};
+  return {"closeup_transfer/d32", kModule, shaders::closeups::transfer_comp, {}};
 }
 
 const CloseupSubjects::Subject& subject_of(const FrameBuilder& frame, const CloseupView& pair) {
@@ -44,7 +46,7 @@ ShadowFace in_square(ShadowFace face, std::size_t i, std::uint32_t map_size) {
 Status CloseupOverlay::start(FrameBuilder& frame, const OverlayPlan& plan) {
   const auto* maps = frame.find<OverlayMaps>();
   if (plan.faces().empty() || maps == nullptr) return {};
-  auto copies = maps->start(frame, kModule, plan.faces());
+  auto copies = maps->start(frame, plan.faces());
   if (!copies.ok()) return copies.error();
   copies_ = std::move(*copies);
   return {};
@@ -63,47 +65,48 @@ std::vector<std::size_t> CloseupOverlay::faces_of(const FrameBuilder& frame, con
 
 Status CloseupOverlay::add_transfer(FrameBuilder& frame, const CloseupView& pair, const ShadowFace& from,
                                     std::size_t face, const ExtraAtlas& map, Transfers& transfers) const {
-  const ShadowFace& to = copies_.faces[face].face;
+  const ShadowFace to = copies_.faces[face].at_copy();
   const TexelRect texels = covered_by(subject_of(frame, pair), to);
   shaders::CloseupTransfer constants = transfer_constants(from, map.size, to, texels);
-  constants.layer = copies_.layers[face].layer;
+  constants.depth_bits = copies_.depth_bits;
   auto range = frame.services().uniforms.write_value(constants);
   if (!range.ok()) return range.error();
-  transfers.push_back({*range, copies_.layers[face].image, (texels.end - texels.begin + kGroup - 1u) / kGroup});
+  transfers.push_back({*range, face, (texels.end - texels.begin + kGroup - 1u) / kGroup});
   return {};
 }
 
-Status CloseupOverlay::add_pass(FrameBuilder& frame, Transfers transfers, const ExtraAtlas& map) {
+Status CloseupOverlay::add_pass(FrameBuilder& frame, Transfers transfers, const ExtraAtlas& map) const {
   if (transfers.empty()) return {};
-  auto pipeline = frame.services().pipelines.get(transfer_pipeline());
+  auto pipeline = frame.services().pipelines.get(transfer_pipeline(copies_.d16));
   if (!pipeline.ok()) return pipeline.error();
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
+  ImageRef& atlas = frame.get<ShadowsOutputs>().atlas;
   PassBuilder pass = frame.graph().add_pass("closeup_transfer", kModule);
   pass.read(map.atlas, gpu::Access::compute_read);
   pass.read(map.pyramid, gpu::Access::compute_read);
-  for (ImageRef& image : copies_.images) image = pass.write(image, gpu::Access::compute_write);
-  pass.execute([transfers = std::move(transfers), images = copies_.images, map, pipeline = *pipeline,
-                sampler = *sampler](PassContext& context) {
-    gpu::CommandList& commands = context.commands();
-    commands.bind_pipeline(pipeline);
-    std::vector<bool> written(images.size(), false);
-    for (const Transfer& transfer : transfers) {
-      const gpu::ImageHandle image = context.image(images[transfer.image]);
-      // Pairs of one light may share faces.
-      if (written[transfer.image]) {
-        const gpu::ImageBarrier again{image, gpu::Access::compute_write, gpu::Access::compute_write};
-        commands.barrier({}, {&again, 1});
-      }
-      written[transfer.image] = true;
-      const gpu::Binding bindings[] = {{0, transfer.constants},
-                                       {1, gpu::Binding::Sampled{{.image = context.image(map.atlas)}, sampler}},
-                                       {2, gpu::Binding::Sampled{{.image = context.image(map.pyramid)}, sampler}},
-                                       {3, gpu::Binding::Storage{{.image = image, .as_array = true}}}};
-      commands.bind(bindings);
-      commands.dispatch(transfer.groups.x, transfer.groups.y, 1);
-    }
-  });
+  atlas = pass.write(atlas, gpu::Access::compute_write);
+  pass.execute(
+      [transfers = std::move(transfers), atlas, map, pipeline = *pipeline, sampler = *sampler](PassContext& context) {
+        gpu::CommandList& commands = context.commands();
+        commands.bind_pipeline(pipeline);
+        const gpu::ImageHandle image = context.image(atlas);
+        std::set<std::size_t> written;  // since the last barrier
+        for (const Transfer& transfer : transfers) {
+          // Pairs of one light may share faces.
+          if (!written.insert(transfer.face).second) {
+            const gpu::ImageBarrier again{image, gpu::Access::compute_write, gpu::Access::compute_write};
+            commands.barrier({}, {&again, 1});
+            written = {transfer.face};
+          }
+          const gpu::Binding bindings[] = {{0, transfer.constants},
+                                           {1, gpu::Binding::Sampled{{.image = context.image(map.atlas)}, sampler}},
+                                           {2, gpu::Binding::Sampled{{.image = context.image(map.pyramid)}, sampler}},
+                                           {3, gpu::Binding::Storage{{.image = image}}}};
+          commands.bind(bindings);
+          commands.dispatch(transfer.groups.x, transfer.groups.y, 1);
+        }
+      });
   return {};
 }
 
@@ -147,9 +150,9 @@ Status CloseupOverlay::finish(FrameBuilder& frame) {
   return copies_.empty() ? Status{} : frame.get<OverlayMaps>().finish(frame, copies_);
 }
 
-void list_closeup_overlay_pipelines(PipelineList& list) {
-  list.push_back(transfer_pipeline());
-  list_overlay_map_pipelines(list);
+void list_closeup_overlay_pipelines(bool d16, PipelineList& list) {
+  list.push_back(transfer_pipeline(d16));
+  list_overlay_map_pipelines(d16, list);
 }
 
 }  // namespace gloam

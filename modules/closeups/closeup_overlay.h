@@ -19,18 +19,18 @@ class CloseupOverlay {
   /// the pairs' maps hold.
   explicit CloseupOverlay(bool draws) : draws_(draws) {}
 
-  /// Copies the faces (pass shadow_overlay_copy).
+  /// Copies the faces within the atlas (pass shadow_overlay_copy).
   [[nodiscard]] Status start(FrameBuilder& frame, const OverlayPlan& plan);
   /// Adds the subjects of pairs whose maps lie in `map` (pass closeup_transfer). Their faces are placed. Drawing, it uses the map: then it
   /// comes after all else that looks at these maps.
   [[nodiscard]] Status add(FrameBuilder& frame, std::span<const CloseupView> pairs, ExtraAtlas& map);
-  /// ShadowsOutputs on the board with the copies.
+  /// ShadowsOutputs on the board with the copies and their mips.
   [[nodiscard]] Status finish(FrameBuilder& frame);
 
  private:
   struct Transfer {
     gpu::Binding::BufferRange constants;
-    std::size_t image = 0;  ///< in OverlayCopies::images
+    std::size_t face = 0;  ///< in OverlayCopies
     uvec2 groups = uvec2(0);
   };
   using Transfers = std::vector<Transfer>;
@@ -40,13 +40,13 @@ class CloseupOverlay {
                                     std::size_t face, const ExtraAtlas& map, Transfers& transfers) const;
   [[nodiscard]] Status draw_and_add(FrameBuilder& frame, const CloseupView& pair, std::span<const std::size_t> faces,
                                     ExtraAtlas& map);
-  [[nodiscard]] Status add_pass(FrameBuilder& frame, Transfers transfers, const ExtraAtlas& map);
+  [[nodiscard]] Status add_pass(FrameBuilder& frame, Transfers transfers, const ExtraAtlas& map) const;
 
   bool draws_;
   OverlayCopies copies_;
 };
 
-/// Pipelines that these passes take.
-void list_closeup_overlay_pipelines(PipelineList& list);
+/// Pipelines that these passes take; d16: of OverlayMaps.
+void list_closeup_overlay_pipelines(bool d16, PipelineList& list);
 
 }  // namespace gloam

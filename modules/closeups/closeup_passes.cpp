@@ -199,12 +199,13 @@ WithheldCasters withheld_casters(std::span<const CloseupView> pairs, const Close
 
 bool closeup_pipelines_ready(const FrameBuilder& frame) {
   const auto* shadows = frame.find<ShadowsOutputs>();
-  if (shadows == nullptr || !shadows->final_lists) return false;
+  const auto* maps = frame.find<OverlayMaps>();
+  if (shadows == nullptr || !shadows->final_lists || maps == nullptr) return false;
   const FrameServices& services = frame.services();
   PipelineList list;
   for (const bool directional : {false, true})
     list.push_back(compose_pipeline(*shadows, directional, services.device.info()));
-  list_closeup_overlay_pipelines(list);
+  list_closeup_overlay_pipelines(maps->d16(), list);
   return services.pipelines.request(list, services.log);
 }
 

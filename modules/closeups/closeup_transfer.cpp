@@ -94,6 +94,8 @@ shaders::CloseupTransfer transfer_constants(const ShadowFace& from, std::uint32_
   made.origin = from.square.origin;
   made.size = from.square.size;
   made.map_size = map_size;
+  made.target = to.square.origin;
+  made.depth_bits = ~0u;
   made.orthographic = is_perspective(to) ? 0 : 1;
   return made;
 }

@@ -14,7 +14,7 @@ namespace gloam {
 [[nodiscard]] std::uint32_t transfer_level(vec2 texels, std::uint32_t size);
 
 /// How what `from` holds, a face in a close-up map of side `map_size`, moves into these texels of `to`, a face of the same light. Both are
-/// perspective from one point, or both orthographic along one direction. Without the layer.
+/// perspective from one point, or both orthographic along one direction. Depths keep all bits.
 [[nodiscard]] shaders::CloseupTransfer transfer_constants(const ShadowFace& from, std::uint32_t map_size,
                                                           const ShadowFace& to, const TexelRect& texels);
 

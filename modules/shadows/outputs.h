@@ -246,19 +246,13 @@ class OverlayPlan {
   std::vector<OverlayFace> faces_;
 };
 
-struct FacePlan;
-
-/// Copies of faces while they are added to.
+/// Copies of faces while they are added to: compute shaders write to mip 0 of their squares in ShadowsOutputs::atlas, reversed depth. Whoever
+/// does so leaves the version written on the board.
 struct OverlayCopies {
-  struct Layer {
-    std::size_t image = 0;  ///< in `images`
-    std::uint32_t layer = 0;
-  };
   std::vector<OverlayFace> faces;
-  std::vector<Layer> layers;  ///< by face
-  std::vector<ImageRef>
-      images;  ///< r32f, arrays: reversed depth as mip 0 of the standard map has it. For compute shaders to write to.
-  std::shared_ptr<const FacePlan> plan;
+  bool d16 = false;  ///< the atlas is r16_unorm; else r32f
+  std::uint32_t depth_bits =
+      ~0u;  ///< mask of a depth's bits, as a float, that mip 0 holds: coarser mips use the others
   [[nodiscard]] bool empty() const { return faces.empty(); }
 };
 
@@ -266,10 +260,11 @@ struct OverlayCopies {
 class OverlayMaps {
  public:
   explicit OverlayMaps(std::shared_ptr<const ShadowMapTools> tools) : tools_(std::move(tools)) {}
-  /// Copies the faces, at least one (pass shadow_overlay_copy). The images' memory counts as the module's.
-  [[nodiscard]] Result<OverlayCopies> start(FrameBuilder& frame, const char* module,
-                                            std::span<const OverlayFace> faces) const;
-  /// Moves copies into the atlas, with mips and pyramids (pass shadow_overlay_mips), and lets ShadowsOutputs on the board point to them (pass
+  /// The atlas is r16_unorm.
+  [[nodiscard]] bool d16() const;
+  /// Copies mip 0 of the faces, at least one, within the atlas (pass shadow_overlay_copy). It takes no memory.
+  [[nodiscard]] Result<OverlayCopies> start(FrameBuilder& frame, std::span<const OverlayFace> faces) const;
+  /// Makes the copies' mips and pyramids (pass shadow_overlay_mips), and lets ShadowsOutputs on the board point to them (pass
   /// shadow_overlay_rows).
   [[nodiscard]] Status finish(FrameBuilder& frame, const OverlayCopies& copies) const;
 
@@ -277,8 +272,8 @@ class OverlayMaps {
   std::shared_ptr<const ShadowMapTools> tools_;
 };
 
-/// Pipelines that only overlays take.
-void list_overlay_map_pipelines(PipelineList& list);
+/// Pipelines that only overlays take; d16: of OverlayMaps.
+void list_overlay_map_pipelines(bool d16, PipelineList& list);
 
 /// What a knob of shadows is held against: the frame shaded with traced visibility.
 [[nodiscard]] ReferenceInfo traced_shadows(std::string knob);

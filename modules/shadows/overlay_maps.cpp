@@ -17,75 +17,49 @@
 namespace gloam {
 namespace {
 
-gpu::ComputePipelineDesc copy_pipeline() {
-  return {"shadow_overlay_copy", "shadows", shaders::shadows::shadow_overlay_copy_comp, {}};
+gpu::ComputePipelineDesc copy_pipeline(bool d16) {
+  if (d16) return {"shadow_overlay_copy/d16", "shadows", shaders::shadows::shadow_overlay_copy_r16_comp, {}};
+  return {"shadow_overlay_copy/d32", "shadows", shaders::shadows::shadow_overlay_copy_comp, {}};
 }
 
 bool is_same(const ShadowFace& a, const ShadowFace& b) { return a.light == b.light && a.index == b.index; }
 
-DrawnFace drawn_face(const ShadowFace& face) { return {face, {}, {DrawnRegion{whole_face(face), {}, {}}}, {}}; }
-
-ImageRef create_layers(FrameGraph& graph, const char* module, const ScratchPlan::Batch& batch) {
-  gpu::ImageDesc desc;
-  desc.name = "shadow_overlay";
-  desc.module = module;
-  desc.format = gpu::Format::r32_float;
-  desc.width = desc.height = batch.size;
-  // Few different numbers, so that the frame's plans are met again.
-  desc.layers = std::bit_ceil(static_cast<std::uint32_t>(batch.items.size()));
-  desc.shape = gpu::ImageShape::array;
-  return graph.create_image(desc);
-}
-
-/// Dispatches of the copies, one an image.
 struct CopyWork {
-  std::vector<GroupRange> images;
+  GroupRange all;
   gpu::Binding::BufferRange groups;
   gpu::PipelineHandle pipeline;
-  gpu::SamplerHandle sampler;
 };
 
-Result<CopyWork> plan_copies(FrameBuilder& frame, std::span<const OverlayFace> faces, const ScratchPlan& plan) {
-  CopyWork work;
-  std::vector<shaders::ShadowMipGroup> groups;
-  for (const ScratchPlan::Batch& batch : plan.batches) {
-    const auto first = static_cast<std::uint32_t>(groups.size());
-    for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
-      shaders::ShadowMipGroup group{};
-      group.origin = faces[batch.items[layer]].face.square.origin;
-      group.layer = layer;
-      add_groups(uvec2(0), uvec2(batch.size / GLOAM_SHADOW_MIP_BLOCK), GLOAM_SHADOW_MIP_GROUP,
-                 [&](uvec2 begin, uvec2 end) {
-                   group.begin = begin;
-                   group.end = end;
-                   groups.push_back(group);
-                 });
-    }
-    work.images.push_back({first, static_cast<std::uint32_t>(groups.size()) - first});
+Result<CopyWork> plan_copies(FrameBuilder& frame, std::span<const OverlayFace> faces, bool d16) {
+  std::vector<shaders::ShadowCopyGroup> groups;
+  for (const OverlayFace& overlaid : faces) {
+    shaders::ShadowCopyGroup group{};
+    group.origin = overlaid.face.square.origin;
+    group.copy = overlaid.copy.origin;
+    add_groups(uvec2(0), uvec2(overlaid.copy.size / GLOAM_SHADOW_MIP_BLOCK), GLOAM_SHADOW_MIP_GROUP,
+               [&](uvec2 begin, uvec2 end) {
+                 group.begin = begin;
+                 group.end = end;
+                 groups.push_back(group);
+               });
   }
+  CopyWork work;
+  work.all.count = static_cast<std::uint32_t>(groups.size());
   auto written = frame.services().storage.write(std::as_bytes(std::span(groups)));
   if (!written.ok()) return written.error();
   work.groups = *written;
-  auto pipeline = frame.services().pipelines.get(copy_pipeline());
+  auto pipeline = frame.services().pipelines.get(copy_pipeline(d16));
   if (!pipeline.ok()) return pipeline.error();
   work.pipeline = *pipeline;
-  auto sampler = frame.nearest_sampler();
-  if (!sampler.ok()) return sampler.error();
-  work.sampler = *sampler;
   return work;
 }
 
-void record_copies(PassContext& context, const CopyWork& work, ImageRef atlas, std::span<const ImageRef> images) {
+void record_copies(PassContext& context, const CopyWork& work, ImageRef atlas) {
   gpu::CommandList& commands = context.commands();
+  const gpu::Binding bindings[] = {{0, gpu::Binding::Storage{{.image = context.image(atlas)}}}, {1, work.groups}};
   commands.bind_pipeline(work.pipeline);
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const gpu::ImageView layers{.image = context.image(images[i]), .as_array = true};
-    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(atlas)}, work.sampler}},
-                                     {1, gpu::Binding::Storage{layers}},
-                                     {2, work.groups}};
-    commands.bind(bindings);
-    dispatch_groups(commands, shaders::ShadowMipConstants{}, work.images[i]);
-  }
+  commands.bind(bindings);
+  dispatch_groups(commands, shaders::ShadowCopyConstants{}, work.all);
 }
 
 /// What lay in the copies' squares, of faces that are not in view now, is gone when they come back.
@@ -99,14 +73,10 @@ void forget_what_lay_there(ShadowCache& cache, std::span<const OverlayFace> face
   }
 }
 
-void record_mips(PassContext& context, const ShadowMipWork& work, std::span<const ImageRef> images, ImageRef atlas,
-                 ImageRef pyramid) {
+void record_mips(PassContext& context, const ShadowMipWork& work, ImageRef atlas, ImageRef pyramid) {
   gpu::CommandList& commands = context.commands();
-  ShadowMipImages of{{}, context.image(atlas), context.image(pyramid), {}};
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    of.scratch = context.image(images[i]);
-    record_batch_mips(commands, work, i, of);
-  }
+  const ShadowMipImages of{{}, context.image(atlas), context.image(pyramid), {}};
+  record_batch_mips(commands, work, 0, of);
   if (work.coarse.empty()) return;
   const gpu::ImageBarrier written[] = {{of.atlas, gpu::Access::compute_write, gpu::Access::compute_write},
                                        {of.pyramid, gpu::Access::compute_write, gpu::Access::compute_write}};
@@ -172,48 +142,39 @@ bool OverlayPlan::add(Entity light, const dvec3& low, const dvec3& high) {
   return true;
 }
 
-Result<OverlayCopies> OverlayMaps::start(FrameBuilder& frame, const char* module,
-                                         std::span<const OverlayFace> faces) const {
-  OverlayCopies copies;
-  copies.faces.assign(faces.begin(), faces.end());
-  copies.layers.resize(faces.size());
-  std::vector<DrawnFace> drawn;
-  for (const OverlayFace& overlaid : faces) drawn.push_back(drawn_face(overlaid.at_copy()));
-  copies.plan = std::make_shared<const FacePlan>(plan_faces(std::move(drawn)));
-  const ScratchPlan& plan = copies.plan->plan;
-  auto work = plan_copies(frame, faces, plan);
+bool OverlayMaps::d16() const { return tools_->knobs.d16; }
+
+Result<OverlayCopies> OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFace> faces) const {
+  const ShadowKnobs& knobs = tools_->knobs;
+  OverlayCopies copies{{faces.begin(), faces.end()}, knobs.d16};
+  if (knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) copies.depth_bits = ~GLOAM_SHADOW_FREE_BITS;
+  auto work = plan_copies(frame, faces, knobs.d16);
   if (!work.ok()) return work.error();
-  const ImageRef atlas = frame.get<ShadowsOutputs>().atlas;
+  auto found = tools_->states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  if (!found.ok()) return found.error();
+  ViewShadows& kept = **found;
+  ImageRef& atlas = frame.get<ShadowsOutputs>().atlas;
   PassBuilder pass = frame.graph().add_pass("shadow_overlay_copy", "shadows");
-  pass.read(atlas, gpu::Access::compute_read);
-  for (const ScratchPlan::Batch& batch : plan.batches) {
-    for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer)
-      copies.layers[batch.items[layer]] = {copies.images.size(), layer};
-    copies.images.push_back(pass.write(create_layers(frame.graph(), module, batch), gpu::Access::compute_write));
-  }
-  pass.execute([work = std::move(*work), atlas, images = copies.images](PassContext& context) {
-    record_copies(context, work, atlas, images);
+  atlas = pass.write(atlas, gpu::Access::compute_write);
+  pass.execute([work = std::move(*work), faces = copies.faces, &kept, atlas](PassContext& context) {
+    forget_what_lay_there(kept.cache, faces);
+    record_copies(context, work, atlas);
   });
   return copies;
 }
 
 Status OverlayMaps::finish(FrameBuilder& frame, const OverlayCopies& copies) const {
-  auto work = plan_shadow_mips(frame, {}, *copies.plan, tools_->knobs);
+  std::vector<ShadowFace> made;
+  for (const OverlayFace& overlaid : copies.faces) made.push_back(overlaid.at_copy());
+  auto work = plan_shadow_mips_in_place(frame, made, tools_->knobs);
   if (!work.ok()) return work.error();
-  auto found = tools_->states.view(frame.world().resource<ShadowWorld>(), frame.view().id, tools_->knobs.atlas_size,
-                                   tools_->knobs.d16);
-  if (!found.ok()) return found.error();
-  ViewShadows& kept = **found;
   auto& outputs = frame.get<ShadowsOutputs>();
   PassBuilder pass = frame.graph().add_pass("shadow_overlay_mips", "shadows");
-  for (const ImageRef image : copies.images) pass.read(image, gpu::Access::compute_read);
   outputs.atlas = pass.write(outputs.atlas, gpu::Access::compute_write);
   outputs.pyramid = pass.write(outputs.pyramid, gpu::Access::compute_write);
-  pass.execute(
-      [work = std::move(*work), copies, &kept, atlas = outputs.atlas, pyramid = outputs.pyramid](PassContext& context) {
-        forget_what_lay_there(kept.cache, copies.faces);
-        record_mips(context, work, copies.images, atlas, pyramid);
-      });
+  pass.execute([work = std::move(*work), atlas = outputs.atlas, pyramid = outputs.pyramid](PassContext& context) {
+    record_mips(context, work, atlas, pyramid);
+  });
   std::vector<shaders::ShadowRow> values = redirected_rows(frame, outputs, copies.faces);
   auto rows = upload_shadow_rows(frame, tools_->states, "shadow_overlay_rows", values);
   if (!rows.ok()) return rows.error();
@@ -222,6 +183,9 @@ Status OverlayMaps::finish(FrameBuilder& frame, const OverlayCopies& copies) con
   return {};
 }
 
-void list_overlay_map_pipelines(PipelineList& list) { list.push_back(copy_pipeline()); }
+void list_overlay_map_pipelines(bool d16, PipelineList& list) {
+  list.push_back(copy_pipeline(d16));
+  list.push_back(shadow_mips_in_place_pipeline(d16));
+}
 
 }  // namespace gloam

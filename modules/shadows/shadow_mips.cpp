@@ -77,6 +77,14 @@ void record(gpu::CommandList& commands, const ShadowMipWork& work, const GroupRa
 }
 
 void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images) {
+  commands.bind_pipeline(work.pipeline);
+  if (!images.scratch) {
+    const gpu::Binding in_place[] = {{1, gpu::Binding::Storage{{.image = images.atlas}}},
+                                     {2, gpu::Binding::Storage{{.image = images.pyramid}}},
+                                     {3, work.groups}};
+    commands.bind(in_place);
+    return;
+  }
   const gpu::ImageView scratch{.image = images.scratch, .as_array = true};
   const gpu::ImageView backgrounds{.image = images.backgrounds ? images.backgrounds : images.scratch, .as_array = true};
   const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{scratch, work.sampler}},
@@ -84,8 +92,31 @@ void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMip
                                    {2, gpu::Binding::Storage{{.image = images.pyramid}}},
                                    {3, work.groups},
                                    {4, gpu::Binding::Sampled{backgrounds, work.sampler}}};
-  commands.bind_pipeline(work.pipeline);
   commands.bind(bindings);
+}
+
+void add_coarse_runs(const FacePlan& faces, GroupList& list, ShadowMipWork& work) {
+  for (std::uint32_t first = GLOAM_SHADOW_MIP_RUN; faces.plan.batches.front().size >> first > 1;
+       first += GLOAM_SHADOW_MIP_RUN) {
+    // Coarser mips have few texels: what lies between a face's regions is made along with them, and nothing twice.
+    for (const DrawnFace& face : faces.faces)
+      if (face.face.square.size >> first > 1) list.add(face.face, 0, bounds_of(face), first);
+    work.coarse.push_back(list.take_range());
+  }
+}
+
+/// What both ways to make mips need on the device.
+Status prepare(FrameBuilder& frame, const GroupList& list, const gpu::ComputePipelineDesc& desc,
+               const ShadowKnobs& knobs, ShadowMipWork& work) {
+  work.constants.mip_operator = knobs.mip_operator;
+  work.constants.atlas_size = knobs.atlas_size;
+  auto groups = frame.services().storage.write(std::as_bytes(std::span(list.groups())));
+  if (!groups.ok()) return groups.error();
+  work.groups = *groups;
+  auto pipeline = frame.services().pipelines.get(desc);
+  if (!pipeline.ok()) return pipeline.error();
+  work.pipeline = *pipeline;
+  return {};
 }
 
 }  // namespace
@@ -93,6 +124,11 @@ void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMip
 gpu::ComputePipelineDesc shadow_mips_pipeline(bool d16) {
   if (d16) return {"shadow_map_mips/d16", "shadows", shaders::shadows::shadow_mips_r16_comp, {}};
   return {"shadow_map_mips/d32", "shadows", shaders::shadows::shadow_mips_comp, {}};
+}
+
+gpu::ComputePipelineDesc shadow_mips_in_place_pipeline(bool d16) {
+  if (d16) return {"shadow_map_mips/in_place/d16", "shadows", shaders::shadows::shadow_mips_in_place_r16_comp, {}};
+  return {"shadow_map_mips/in_place/d32", "shadows", shaders::shadows::shadow_mips_in_place_comp, {}};
 }
 
 gpu::ComputePipelineDesc shadow_backgrounds_pipeline() {
@@ -108,24 +144,11 @@ FacePlan plan_faces(std::vector<DrawnFace> faces) {
 Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,
                                        const ShadowKnobs& knobs) {
   ShadowMipWork work;
-  work.constants.mip_operator = knobs.mip_operator;
-  work.constants.atlas_size = knobs.atlas_size;
   GroupList list;
   work.backgrounds = list.add_batches(backgrounds);
   work.batches = list.add_batches(faces);
-  for (std::uint32_t first = GLOAM_SHADOW_MIP_RUN; faces.plan.batches.front().size >> first > 1;
-       first += GLOAM_SHADOW_MIP_RUN) {
-    // Coarser mips have few texels: what lies between a face's regions is made along with them, and nothing twice.
-    for (const DrawnFace& face : faces.faces)
-      if (face.face.square.size >> first > 1) list.add(face.face, 0, bounds_of(face), first);
-    work.coarse.push_back(list.take_range());
-  }
-  auto groups = frame.services().storage.write(std::as_bytes(std::span(list.groups())));
-  if (!groups.ok()) return groups.error();
-  work.groups = *groups;
-  auto pipeline = frame.services().pipelines.get(shadow_mips_pipeline(knobs.d16));
-  if (!pipeline.ok()) return pipeline.error();
-  work.pipeline = *pipeline;
+  add_coarse_runs(faces, list, work);
+  GLOAM_TRY(prepare(frame, list, shadow_mips_pipeline(knobs.d16), knobs, work));
   if (!work.backgrounds.empty()) {
     auto made = frame.services().pipelines.get(shadow_backgrounds_pipeline());
     if (!made.ok()) return made.error();
@@ -134,6 +157,21 @@ Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& back
   auto sampler = frame.nearest_sampler();
   if (!sampler.ok()) return sampler.error();
   work.sampler = *sampler;
+  return work;
+}
+
+Result<ShadowMipWork> plan_shadow_mips_in_place(FrameBuilder& frame, std::span<const ShadowFace> faces,
+                                                const ShadowKnobs& knobs) {
+  ShadowMipWork work;
+  GroupList list;
+  std::vector<DrawnFace> whole;
+  for (const ShadowFace& face : faces) {
+    list.add(face, 0, whole_face(face), 0);
+    whole.push_back({face, {}, {DrawnRegion{whole_face(face), {}, {}}}, {}});
+  }
+  work.batches.push_back(list.take_range());
+  add_coarse_runs(plan_faces(std::move(whole)), list, work);
+  GLOAM_TRY(prepare(frame, list, shadow_mips_in_place_pipeline(knobs.d16), knobs, work));
   return work;
 }
 

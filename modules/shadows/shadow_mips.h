@@ -16,6 +16,7 @@
 namespace gloam {
 
 [[nodiscard]] gpu::ComputePipelineDesc shadow_mips_pipeline(bool d16);
+[[nodiscard]] gpu::ComputePipelineDesc shadow_mips_in_place_pipeline(bool d16);
 [[nodiscard]] gpu::ComputePipelineDesc shadow_backgrounds_pipeline();
 
 /// Faces, and the batches that they are drawn in.
@@ -41,8 +42,12 @@ struct ShadowMipWork {
 [[nodiscard]] Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds,
                                                      const FacePlan& faces, const ShadowKnobs& knobs);
 
+/// The same for faces with their mip 0 in the atlas: one batch of all.
+[[nodiscard]] Result<ShadowMipWork> plan_shadow_mips_in_place(FrameBuilder& frame, std::span<const ShadowFace> faces,
+                                                              const ShadowKnobs& knobs);
+
 struct ShadowMipImages {
-  gpu::ImageHandle scratch;  ///< of the batch; for coarse mips any that may be read
+  gpu::ImageHandle scratch;  ///< of the batch; for coarse mips any that may be read; none: in place
   gpu::ImageHandle atlas;
   gpu::ImageHandle pyramid;
   gpu::ImageHandle backgrounds;  ///< none: there are none yet

@@ -32,7 +32,7 @@ struct CloseupConstants {
   uint reserved;
 };
 
-/// Moves what a pair's map holds into a part of a standard face's map of the same light. Points are in texels of a face, from its corner.
+/// Moves what a pair's map holds into a part of a standard face of the same light, which lies in the atlas. Points are in texels of a face, from its corner.
 struct CloseupTransfer {
   // Where a point p = (x, y, 1) of the standard face lies in the pair's: (dot(row_u, p), dot(row_v, p)) / dot(row_w, p).
   vec3 row_u;
@@ -50,7 +50,8 @@ struct CloseupTransfer {
   uvec2 origin;       // of the pair's face in the close-up map
   uint size;          // texels of its side
   uint map_size;      // of the close-up map
-  uint layer;         // of the image of standard faces
+  uvec2 target;       // of the standard face in the atlas
+  uint depth_bits;    // mask of a depth's bits that mip 0 of the atlas holds
   uint orthographic;  // what is nearer than the standard face's near side stands at it; else nobody sees it
 };
 

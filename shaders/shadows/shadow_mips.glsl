@@ -8,14 +8,19 @@
 
 // Moves faces' depth from the scratch map into the atlas and makes mips 1 to 3 of it, or makes the next three mips of a mip that is
 // there, and the pyramid along with them. One thread takes a block of 8 × 8 texels of its source; a workgroup belongs to one face. Before including this, define
-// GLOAM_SHADOW_ATLAS_FORMAT, and GLOAM_SHADOW_ATLAS_STEPS when the atlas holds less than the scratch map: what it holds is what counts.
+// GLOAM_SHADOW_ATLAS_FORMAT, and GLOAM_SHADOW_ATLAS_STEPS when the atlas holds less than the scratch map: what it holds is what counts. With
+// GLOAM_SHADOW_MIPS_IN_PLACE there is no scratch map: mip 0 is in the atlas already.
 
 layout(local_size_x = GLOAM_SHADOW_MIP_GROUP, local_size_y = GLOAM_SHADOW_MIP_GROUP) in;
+#ifndef GLOAM_SHADOW_MIPS_IN_PLACE
 layout(set = 0, binding = 0) uniform sampler2DArray scratch;
+#endif
 layout(set = 0, binding = 1, GLOAM_SHADOW_ATLAS_FORMAT) uniform image2D atlas;
 layout(set = 0, binding = 2, rg32f) uniform image2D pyramid;
 layout(set = 0, binding = 3, scalar) readonly buffer Groups { ShadowMipGroup groups[]; };
+#ifndef GLOAM_SHADOW_MIPS_IN_PLACE
 layout(set = 0, binding = 4) uniform sampler2DArray backgrounds;  // depth of casters that the scratch map lacks, laid out as mip 0 of the atlas
+#endif
 layout(push_constant, scalar) uniform Constants { ShadowMipConstants run; };
 
 ShadowMipGroup face;  // of this workgroup
@@ -32,7 +37,7 @@ struct Texels {
 
 const Texels kNone = Texels(0.0, 0.0, 0.0, 0.0, 0.0, vec2(1.0, 0.0));
 
-const uint kFreeBits = 63u;
+const uint kFreeBits = GLOAM_SHADOW_FREE_BITS;
 
 float without_free_bits(float depth) { return uintBitsToFloat(floatBitsToUint(depth) & ~kFreeBits); }
 
@@ -96,8 +101,21 @@ float held_depth(float depth) {
   return run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE) ? without_free_bits(depth) : depth;
 }
 
+#ifdef GLOAM_SHADOW_MIPS_IN_PLACE
+// Four texels of mip 0: what becomes texel `at1` of mip 1.
+Texels first_texels(uvec2 at1, float gap) {
+  Texels texels = kNone;
+  for (uint one = 0u; one < 4u; ++one) {
+    uvec2 at = at1 * 2u + uvec2(one & 1u, one >> 1);
+    // Loading may round what storing did not.
+    float depth = held_depth(imageLoad(atlas, ivec2(face.origin + at)).x);
+    add(texels, depth, vec2(depth), gap);
+  }
+  return texels;
+}
+#else
 // Four texels of the scratch map, which move into the atlas: what becomes texel `at1` of mip 1.
-Texels moved_texels(uvec2 at1, float gap) {
+Texels first_texels(uvec2 at1, float gap) {
   vec4 gathered = textureGather(scratch, vec3(vec2(at1 * 2u + 1u) / float(face.size), float(face.layer)));
   // Whatever is drawn, the nearest is what a map holds.
   for (bool go = face.on_background != 0u; go; go = false)
@@ -111,8 +129,9 @@ Texels moved_texels(uvec2 at1, float gap) {
   }
   return texels;
 }
+#endif
 
-// Mips 0 to 3 of a block. All faces have them: the smallest is 16 texels wide.
+// Mips 0 to 3 of a block (in place: 1 to 3). All faces have them: the smallest is 16 texels wide.
 void make_first_mips(uvec2 block, float gap) {
   Texels third = kNone;
   for (uint quarter = 0u; quarter < 4u; ++quarter) {
@@ -120,7 +139,7 @@ void make_first_mips(uvec2 block, float gap) {
     Texels second = kNone;
     for (uint four = 0u; four < 4u; ++four) {
       uvec2 at1 = at2 * 2u + uvec2(four & 1u, four >> 1);
-      Texels first = moved_texels(at1, gap);
+      Texels first = first_texels(at1, gap);
       float depth = depth_of(first);
       store_depth(1u, at1, depth);
       add(second, depth, first.bounds, 2.0 * gap);

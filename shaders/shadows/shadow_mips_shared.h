@@ -9,11 +9,13 @@
 #define GLOAM_SHADOW_MIP_GROUP 8  // threads of a side of its workgroups
 #define GLOAM_SHADOW_MIP_RUN 3    // mips that a dispatch makes
 
+#define GLOAM_SHADOW_FREE_BITS 63u  // of a depth: what its surface leaves free of a texel, in 64ths (GLOAM_SHADOW_MIPS_COVERAGE); 0 in mip 0
+
 GLOAM_SHARED_BEGIN
 
-/// One dispatch of shadow_mips.comp or shadow_backgrounds.comp: a run of mips of parts of any number of faces.
+/// One dispatch of shadow_mips.comp, shadow_mips_in_place.comp or shadow_backgrounds.comp: a run of mips of parts of any number of faces.
 struct ShadowMipConstants {
-  uint first;         // 0: from the scratch map; else the mip that is there already
+  uint first;         // 0: from the scratch map, or in place from mip 0; else the mip that is there already
   uint mip_operator;  // GLOAM_SHADOW_MIPS_…
   uint atlas_size;
   uint first_group;   // of the dispatch's workgroups, in the buffer of groups
@@ -29,6 +31,19 @@ struct ShadowMipGroup {
   uint orthographic;  // depth is linear already
   uint on_background; // run 0: what the image of backgrounds holds there is drawn too
   float gap;          // coverage: how far a surface recedes over a texel of mip 0 at most, as a share of its distance (orthographic: depth)
+};
+
+/// One dispatch of shadow_overlay_copy.comp: parts of any number of faces.
+struct ShadowCopyConstants {
+  uint first_group;  // of the dispatch's workgroups, in the buffer of groups
+};
+
+/// One workgroup's part of a face.
+struct ShadowCopyGroup {
+  uvec2 origin;  // of the face in the atlas, texels of mip 0
+  uvec2 copy;    // the same of its copy
+  uvec2 begin;   // corner of the part in the face, in blocks of texels
+  uvec2 end;     // the corner across from it, before which it ends
 };
 
 GLOAM_SHARED_END

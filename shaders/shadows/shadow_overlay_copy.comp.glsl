@@ -2,22 +2,5 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/shadows/shadow_mips_shared.h"
-
-// Copies mip 0 of faces out of the atlas. One thread takes a block of 8 × 8 texels.
-
-layout(local_size_x = GLOAM_SHADOW_MIP_GROUP, local_size_y = GLOAM_SHADOW_MIP_GROUP) in;
-layout(set = 0, binding = 0) uniform sampler2D atlas;
-layout(set = 0, binding = 1, r32f) writeonly uniform image2DArray copies;
-layout(set = 0, binding = 2, scalar) readonly buffer Groups { ShadowMipGroup groups[]; };
-layout(push_constant, scalar) uniform Constants { ShadowMipConstants run; };
-
-void main() {
-  ShadowMipGroup face = groups[run.first_group + gl_WorkGroupID.x];
-  uvec2 block = face.begin + gl_LocalInvocationID.xy;
-  if (any(greaterThanEqual(block, face.end))) return;
-  for (uint i = 0u; i < GLOAM_SHADOW_MIP_BLOCK * GLOAM_SHADOW_MIP_BLOCK; ++i) {
-    uvec2 at = block * GLOAM_SHADOW_MIP_BLOCK + uvec2(i % GLOAM_SHADOW_MIP_BLOCK, i / GLOAM_SHADOW_MIP_BLOCK);
-    imageStore(copies, ivec3(at, face.layer), vec4(texelFetch(atlas, ivec2(face.origin + at), 0).x));
-  }
-}
+#define GLOAM_SHADOW_ATLAS_FORMAT r32f
+#include "shaders/shadows/shadow_overlay_copy.glsl"

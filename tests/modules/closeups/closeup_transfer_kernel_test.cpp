@@ -3,13 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <vector>
 
 #include "modules/closeups/closeup_transfer.h"
-#include "shaders/closeups/shaders.h"
 #include "modules/shadows/face_regions.h"
+#include "shaders/closeups/shaders.h"
+#include "shaders/shadows/shadow_mips_shared.h"
 #include "tests/modules/closeups/transfer_cases.h"
 #include "tests/modules/shadows/shadow_maps.h"
 #include "tests/support/kernel.h"
@@ -18,6 +20,7 @@ namespace gloam::test {
 namespace {
 
 constexpr std::uint32_t kMap = 512;
+constexpr std::uint32_t kStandard = 256;  // side of the image of standard faces
 
 /// An area in a pair's face.
 struct Area {
@@ -116,17 +119,51 @@ class Twin {
 class CloseupTransferKernel : public KernelTest {
  protected:
   [[nodiscard]] std::vector<float> transferred(const TransferCase& pair, const ShadowMaps& maps,
-                                               const TexelRect& texels) {
+                                               const TexelRect& texels, std::uint32_t depth_bits = ~0u) {
     Kernel kernel(device(), shaders::closeups::transfer_comp);
-    kernel.input(0, std::vector{transfer_constants(pair.from, kMap, pair.to, texels)});
+    prepare(kernel, pair, maps, texels, depth_bits);
+    kernel.output_image(3, gpu::Format::r32_float, kStandard, kStandard);
+    run(kernel, texels);
+    return face_of(kernel.read<float>(3), pair.to.square);
+  }
+  /// Into an atlas of 16 bits.
+  [[nodiscard]] std::vector<std::uint16_t> transferred_steps(const TransferCase& pair, const ShadowMaps& maps,
+                                                             const TexelRect& texels) {
+    Kernel kernel(device(), shaders::closeups::transfer_r16_comp);
+    prepare(kernel, pair, maps, texels, ~0u);
+    kernel.output_image(3, gpu::Format::r16_unorm, kStandard, kStandard);
+    run(kernel, texels);
+    return face_of(kernel.read<std::uint16_t>(3), pair.to.square);
+  }
+  static void prepare(Kernel& kernel, const TransferCase& pair, const ShadowMaps& maps, const TexelRect& texels,
+                      std::uint32_t depth_bits) {
+    shaders::CloseupTransfer constants = transfer_constants(pair.from, kMap, pair.to, texels);
+    constants.depth_bits = depth_bits;
+    kernel.input(0, std::vector{constants});
     kernel.sampled_image(1, maps.atlas_image());
     kernel.sampled_image(2, maps.pyramid_image());
-    const std::uint32_t side = pair.to.square.size;
-    kernel.output_image(3, gpu::Format::r32_float, side, side, true);
+  }
+  static void run(Kernel& kernel, const TexelRect& texels) {
     const uvec2 extent = texels.end - texels.begin;
     kernel.run((extent.x + 7) / 8, (extent.y + 7) / 8);
-    return kernel.read<float>(3);
   }
+  /// The face's texels of an image of standard faces. Beside it nothing is written.
+  template <class Texel>
+  [[nodiscard]] static std::vector<Texel> face_of(const std::vector<Texel>& image, const AtlasSquare& square) {
+    std::vector<Texel> face;
+    std::size_t beside = 0;
+    for (std::uint32_t i = 0; i < kStandard * kStandard; ++i) {
+      const uvec2 at(i % kStandard, i / kStandard);
+      const bool inside = at.x - square.origin.x < square.size && at.y - square.origin.y < square.size;
+      if (inside)
+        face.push_back(image[i]);
+      else
+        beside += is_untouched(image[i]) ? 0 : 1;
+    }
+    EXPECT_EQ(beside, 0u);
+    return face;
+  }
+  static bool is_untouched(std::uint16_t steps) { return steps == 0; }
   static bool is_untouched(float value) {
     std::uint32_t word = 0;
     std::memcpy(&word, &value, sizeof(word));
@@ -144,7 +181,8 @@ TEST_F(CloseupTransferKernel, texels_hold_the_nearest_of_what_they_cover) {
   TransferDice dice(3);
   std::size_t held = 0, empty = 0;
   for (int round = 0; round < 24; ++round) {
-    const TransferCase pair = dice.pair(round % 2 == 0);
+    TransferCase pair = dice.pair(round % 2 == 0);
+    pair.to.square.origin = uvec2(pair.to.square.size, 0);
     const std::vector<float> depths = random_depths(dice, pair.from.square.size);
     ShadowMaps maps(device(), kMap);
     maps.add_face(depths, pair.from.square.origin, pair.from.square.size);
@@ -167,6 +205,33 @@ TEST_F(CloseupTransferKernel, texels_hold_the_nearest_of_what_they_cover) {
   }
   EXPECT_GT(held, 1000u);
   EXPECT_GT(empty, 1000u);
+}
+
+TEST_F(CloseupTransferKernel, depths_are_held_as_the_atlas_holds_them) {
+  TransferDice dice(4);
+  std::size_t held = 0;
+  for (int round = 0; round < 6; ++round) {
+    TransferCase pair = dice.pair(round % 2 == 0);
+    pair.to.square.origin = uvec2(128, pair.to.square.size);
+    ShadowMaps maps(device(), kMap);
+    maps.add_face(random_depths(dice, pair.from.square.size), pair.from.square.origin, pair.from.square.size);
+    const TexelRect texels = whole_face(pair.to);
+    const std::vector<float> all = transferred(pair, maps, texels);
+    const std::vector<float> without = transferred(pair, maps, texels, ~GLOAM_SHADOW_FREE_BITS);
+    const std::vector<std::uint16_t> steps = transferred_steps(pair, maps, texels);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      ASSERT_EQ(is_untouched(all[i]), is_untouched(without[i]));
+      if (is_untouched(all[i])) {
+        EXPECT_EQ(steps[i], 0u);
+        continue;
+      }
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(without[i]),
+                std::bit_cast<std::uint32_t>(all[i]) & ~GLOAM_SHADOW_FREE_BITS);
+      EXPECT_EQ(static_cast<float>(steps[i]), std::floor(all[i] * 65535.0f + 0.5f));
+      ++held;
+    }
+  }
+  EXPECT_GT(held, 500u);
 }
 
 TEST_F(CloseupTransferKernel, fifteen_by_thirty_seven_texels_are_read_at_level_three) {
@@ -193,7 +258,7 @@ TEST_F(CloseupTransferKernel, fifteen_by_thirty_seven_texels_are_read_at_level_t
     kernel.input(0, std::vector{t});
     kernel.sampled_image(1, maps.atlas_image());
     kernel.sampled_image(2, maps.pyramid_image());
-    kernel.output_image(3, gpu::Format::r32_float, 16, 16, true);
+    kernel.output_image(3, gpu::Format::r32_float, 16, 16);
     kernel.run(1);
     return !is_untouched(kernel.read<float>(3)[0]);
   };

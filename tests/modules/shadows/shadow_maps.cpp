@@ -10,7 +10,6 @@
 
 #include "engine/frame/upload.h"
 #include "modules/shadows/cascade_rows.h"
-#include "modules/shadows/work_groups.h"
 #include "shaders/shadows/shaders.h"
 #include "shaders/shadows/shadow_mips_shared.h"
 #include "tests/support/gpu_device.h"
@@ -47,6 +46,32 @@ gpu::PipelineHandle probe_pipeline(gpu::Device& device, const ProbeSettings& set
         settings.standard ? shaders::shadows::shadow_probe_standard_comp : shaders::shadows::shadow_probe_comp,
         constants}));
   return pipeline;
+}
+
+/// Workgroups that make all mips of a face, a range a run.
+struct MipRuns {
+  std::vector<shaders::ShadowMipGroup> groups;
+  std::vector<GroupRange> runs;
+};
+
+MipRuns mip_runs(uvec2 origin, std::uint32_t size, bool orthographic, float gap) {
+  MipRuns made;
+  shaders::ShadowMipGroup group{};
+  group.origin = origin;
+  group.size = size;
+  group.orthographic = orthographic ? 1u : 0u;
+  group.gap = gap;
+  for (std::uint32_t first = 0; first == 0 || size >> first > 1; first += GLOAM_SHADOW_MIP_RUN) {
+    made.runs.push_back({static_cast<std::uint32_t>(made.groups.size()), 0});
+    const std::uint32_t block = std::uint32_t{GLOAM_SHADOW_MIP_BLOCK} << first;
+    add_groups(uvec2(0), uvec2((size + block - 1) / block), GLOAM_SHADOW_MIP_GROUP, [&](uvec2 begin, uvec2 end) {
+      group.begin = begin;
+      group.end = end;
+      made.groups.push_back(group);
+    });
+    made.runs.back().count = static_cast<std::uint32_t>(made.groups.size()) - made.runs.back().first;
+  }
+  return made;
 }
 
 }  // namespace
@@ -156,25 +181,8 @@ void ShadowMaps::add_face(const std::vector<float>& depths, uvec2 origin, std::u
                           std::uint32_t mip_operator, float gap) {
   const gpu::ImageHandle scratch =
       texture(gpu::Format::r32_float, uvec2(size), std::as_bytes(std::span(depths)), gpu::ImageShape::array);
-  shaders::ShadowMipConstants constants{0, mip_operator, size_, 0};
-  shaders::ShadowMipGroup group{};
-  group.origin = origin;
-  group.size = size;
-  group.orthographic = orthographic ? 1u : 0u;
-  group.gap = gap;
-  std::vector<shaders::ShadowMipGroup> groups;
-  std::vector<GroupRange> runs;
-  for (std::uint32_t first = 0; first == 0 || size >> first > 1; first += GLOAM_SHADOW_MIP_RUN) {
-    runs.push_back({static_cast<std::uint32_t>(groups.size()), 0});
-    const std::uint32_t block = std::uint32_t{GLOAM_SHADOW_MIP_BLOCK} << first;
-    add_groups(uvec2(0), uvec2((size + block - 1) / block), GLOAM_SHADOW_MIP_GROUP, [&](uvec2 begin, uvec2 end) {
-      group.begin = begin;
-      group.end = end;
-      groups.push_back(group);
-    });
-    runs.back().count = static_cast<std::uint32_t>(groups.size()) - runs.back().first;
-  }
-  const gpu::BufferHandle buffer = make_upload(device_, groups);
+  const MipRuns work = mip_runs(origin, size, orthographic, gap);
+  const gpu::BufferHandle buffer = make_upload(device_, work.groups);
   const std::vector<gpu::Binding> bindings = {
       {0, gpu::Binding::Sampled{{.image = scratch, .as_array = true}, nearest_}},
       {1, gpu::Binding::Storage{{.image = atlas_}}},
@@ -186,19 +194,59 @@ void ShadowMaps::add_face(const std::vector<float>& depths, uvec2 origin, std::u
     turn(commands, pyramid_, Access::compute_read, Access::compute_write);
     commands.bind_pipeline(mips_);
     commands.bind(bindings);
-    for (const GroupRange& run : runs) {
-      if (constants.first != 0) {
-        turn(commands, atlas_, Access::compute_write, Access::compute_write);
-        turn(commands, pyramid_, Access::compute_write, Access::compute_write);
-      }
-      dispatch_groups(commands, constants, run);
-      constants.first += GLOAM_SHADOW_MIP_RUN;
-    }
+    record_mips(commands, work.runs, mip_operator);
     turn(commands, atlas_, Access::compute_write, Access::compute_read);
     turn(commands, pyramid_, Access::compute_write, Access::compute_read);
   });
   device_.destroy(buffer);
   device_.destroy(scratch);
+}
+
+void ShadowMaps::record_mips(gpu::CommandList& commands, std::span<const GroupRange> runs,
+                             std::uint32_t mip_operator) const {
+  shaders::ShadowMipConstants constants{0, mip_operator, size_, 0};
+  for (const GroupRange& run : runs) {
+    if (constants.first != 0) {
+      turn(commands, atlas_, Access::compute_write, Access::compute_write);
+      turn(commands, pyramid_, Access::compute_write, Access::compute_write);
+    }
+    dispatch_groups(commands, constants, run);
+    constants.first += GLOAM_SHADOW_MIP_RUN;
+  }
+}
+
+void ShadowMaps::copy_face(uvec2 origin, uvec2 copy, std::uint32_t size, bool orthographic, std::uint32_t mip_operator,
+                           float gap) {
+  using namespace shaders::shadows;
+  const bool d16 = format_ == gpu::Format::r16_unorm;
+  const gpu::PipelineHandle copying = value_of(device_.create_pipeline(gpu::ComputePipelineDesc{
+      "shadow_overlay_copy", "test", d16 ? shadow_overlay_copy_r16_comp : shadow_overlay_copy_comp, {}}));
+  const gpu::PipelineHandle mips = value_of(device_.create_pipeline(gpu::ComputePipelineDesc{
+      "shadow_mips_in_place", "test", d16 ? shadow_mips_in_place_r16_comp : shadow_mips_in_place_comp, {}}));
+  std::vector<shaders::ShadowCopyGroup> parts;
+  add_groups(uvec2(0), uvec2(size / GLOAM_SHADOW_MIP_BLOCK), GLOAM_SHADOW_MIP_GROUP, [&](uvec2 begin, uvec2 end) {
+    parts.push_back({origin, copy, begin, end});
+  });
+  const MipRuns work = mip_runs(copy, size, orthographic, gap);
+  const gpu::BufferHandle part_buffer = make_upload(device_, parts), buffer = make_upload(device_, work.groups);
+  run_frame(device_, [&](gpu::CommandList& commands) {
+    turn(commands, atlas_, Access::compute_read, Access::compute_write);
+    turn(commands, pyramid_, Access::compute_read, Access::compute_write);
+    commands.bind_pipeline(copying);
+    commands.bind(std::vector<gpu::Binding>{{0, gpu::Binding::Storage{{.image = atlas_}}},
+                                            {1, gpu::Binding::BufferRange{part_buffer}}});
+    dispatch_groups(commands, shaders::ShadowCopyConstants{}, {0, static_cast<std::uint32_t>(parts.size())});
+    turn(commands, atlas_, Access::compute_write, Access::compute_write);
+    commands.bind_pipeline(mips);
+    commands.bind(std::vector<gpu::Binding>{{1, gpu::Binding::Storage{{.image = atlas_}}},
+                                            {2, gpu::Binding::Storage{{.image = pyramid_}}},
+                                            {3, gpu::Binding::BufferRange{buffer}}});
+    record_mips(commands, work.runs, mip_operator);
+    turn(commands, atlas_, Access::compute_write, Access::compute_read);
+    turn(commands, pyramid_, Access::compute_write, Access::compute_read);
+  });
+  for (const gpu::BufferHandle used : {part_buffer, buffer}) device_.destroy(used);
+  for (const gpu::PipelineHandle used : {copying, mips}) device_.destroy(used);
 }
 
 void ShadowMaps::write_atlas(const std::vector<float>& texels) {

@@ -9,6 +9,7 @@
 
 #include "engine/gpu/device.h"
 #include "engine/math/types.h"
+#include "modules/shadows/work_groups.h"
 #include "shaders/shadows/shadow_probe_shared.h"
 #include "shaders/shadows/shadows_shared.h"
 
@@ -68,6 +69,9 @@ class ShadowMaps {
 
   void add_face(const std::vector<float>& depths, uvec2 origin, std::uint32_t size, bool orthographic = false,
                 std::uint32_t mip_operator = GLOAM_SHADOW_MIPS_NEAREST, float gap = 0.0f);
+  /// Copies mip 0 of a face to another square (shadow_overlay_copy.comp) and makes the rest there (shadow_mips_in_place.comp).
+  void copy_face(uvec2 origin, uvec2 copy, std::uint32_t size, bool orthographic = false,
+                 std::uint32_t mip_operator = GLOAM_SHADOW_MIPS_NEAREST, float gap = 0.0f);
   /// Overwrites texels of the atlas image, mips included; the pyramid stays.
   void write_atlas(const std::vector<float>& texels);
   [[nodiscard]] std::vector<float> atlas() const;
@@ -89,6 +93,8 @@ class ShadowMaps {
   gpu::ImageHandle texture(gpu::Format format, uvec2 size, std::span<const std::byte> texels,
                            gpu::ImageShape shape = gpu::ImageShape::plain);
   [[nodiscard]] std::vector<std::byte> read(gpu::ImageHandle image) const;
+  /// Every run of mips; the images are ready for compute_write.
+  void record_mips(gpu::CommandList& commands, std::span<const GroupRange> runs, std::uint32_t mip_operator) const;
 
   gpu::Device& device_;
   std::uint32_t size_;

@@ -172,6 +172,42 @@ TEST_F(ShadowMips, sixteen_bits_hold_rounded_depths_in_all_mips) {
   expect_face(maps.atlas(), maps.pyramid(), depths, {128, 256}, 128);
 }
 
+/// Texels of all mips (or levels of the pyramid) of a face in an image as wide as one and a half of `side`.
+template <class Texel>
+std::vector<Texel> all_mips(const std::vector<Texel>& image, std::uint32_t side, uvec2 origin, std::uint32_t size) {
+  std::vector<Texel> found;
+  for (std::uint32_t mip = 0; size >> mip != 0; ++mip) {
+    const uvec2 corner = ShadowMaps::mip_corner(side, mip) + origin / (1u << mip);
+    for (std::uint32_t i = 0; i < (size >> mip) * (size >> mip); ++i) {
+      const uvec2 at = corner + uvec2(i % (size >> mip), i / (size >> mip));
+      found.push_back(image[std::size_t{at.y} * side * 3 / 2 + at.x]);
+    }
+  }
+  return found;
+}
+
+TEST_F(ShadowMips, a_copy_of_a_face_has_its_mips_and_pyramid_to_the_bit) {
+  for (const gpu::Format format : {gpu::Format::r32_float, gpu::Format::r16_unorm})
+    for (const std::uint32_t how : {GLOAM_SHADOW_MIPS_NEAREST, GLOAM_SHADOW_MIPS_AVERAGE, GLOAM_SHADOW_MIPS_COVERAGE})
+      for (const std::uint32_t size : {16u, 32u, 128u}) {
+        const bool orthographic = size == 32;
+        ShadowMaps maps(device(), kAtlas, format);
+        const auto beside = random_depths(size, 3, 20);
+        const uvec2 from(128, 256), to(256, 128), other(to.x + size, to.y);
+        maps.add_face(beside, other, size, orthographic, how, 0.01f);
+        maps.add_face(random_depths(size, size, 20), from, size, orthographic, how, 0.01f);
+        const auto before = maps.atlas();
+        maps.copy_face(from, to, size, orthographic, how, 0.01f);
+        const auto atlas = maps.atlas();
+        const auto pyramid = maps.pyramid();
+        EXPECT_EQ(all_mips(atlas, kAtlas, to, size), all_mips(before, kAtlas, from, size)) << how << ' ' << size;
+        EXPECT_EQ(all_mips(atlas, kAtlas, from, size), all_mips(before, kAtlas, from, size)) << how << ' ' << size;
+        EXPECT_EQ(all_mips(atlas, kAtlas, other, size), all_mips(before, kAtlas, other, size)) << how << ' ' << size;
+        EXPECT_EQ(all_mips(pyramid, kAtlas / 4, to / 4u, size / 4), all_mips(pyramid, kAtlas / 4, from / 4u, size / 4))
+            << how << ' ' << size;
+      }
+}
+
 TEST_F(ShadowMips, means_are_of_distances_and_leave_empty_texels_out) {
   for (const bool orthographic : {false, true}) {
     ShadowMaps maps(device(), kAtlas);
