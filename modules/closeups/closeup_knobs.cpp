@@ -39,6 +39,11 @@ void add_closeup_knobs(KnobRegistry& registry) {
   density.max = 8.0;
   density.ledger_values = {0.25, 0.5, 1.0, 2.0, 4.0};
   registry.add(density);
+  registry.add(closeup_knob(
+      "filter",
+      "how close-up maps are looked up when shadows.filter=chs: like standard maps, or by single fetches, which "
+      "are more exact in the wide penumbrae of small things",
+      {"chs", "pcss"}, 1.0));
   registry.add(closeup_knob("batch", "pairs that share the close-up map at a time", {"1", "2", "4"}, 0.0));
   registry.add(closeup_knob("standard",
                             "how forward-lit things see close-up subjects: their close-up maps are transferred into "
@@ -51,6 +56,7 @@ CloseupKnobs closeup_knobs(const KnobRegistry& registry) {
   knobs.max_pairs = static_cast<std::uint32_t>(registry.number("closeups.max_pairs"));
   knobs.texels_per_pixel = static_cast<float>(registry.number("closeups.texels_per_pixel"));
   knobs.batch = 1u << registry.choice("closeups.batch");
+  knobs.single_fetches = registry.is("closeups.filter", "pcss");
   knobs.draws_standard = registry.is("closeups.standard", "draw");
   return knobs;
 }

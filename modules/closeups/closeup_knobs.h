@@ -13,6 +13,7 @@ struct CloseupKnobs {
   std::uint32_t max_pairs = 8;
   float texels_per_pixel = 1.0f;
   std::uint32_t batch = 1;
+  bool single_fetches = true;  ///< of maps; else as standard maps are looked at
   bool draws_standard = false;  ///< what forward-lit things see of a subject is drawn, not transferred
 };
 

@@ -75,6 +75,7 @@ void place(std::vector<CloseupView>& pairs) {
   for (std::uint32_t i = 0; i < pairs.size(); ++i) pairs[i].face.square = {uvec2(i & 1u, i >> 1) * size, size};
 }
 
+/// shadows: as the maps of pairs are looked at.
 Result<Batch> make_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, const ShadowsOutputs& shadows) {
   const FrameServices& services = frame.services();
   const std::vector<DirectionalLook> suns =
@@ -197,14 +198,15 @@ WithheldCasters withheld_casters(std::span<const CloseupView> pairs, const Close
   return withheld;
 }
 
-bool closeup_pipelines_ready(const FrameBuilder& frame) {
+bool closeup_pipelines_ready(const FrameBuilder& frame, const CloseupKnobs& knobs) {
   const auto* shadows = frame.find<ShadowsOutputs>();
   const auto* maps = frame.find<OverlayMaps>();
   if (shadows == nullptr || !shadows->final_lists || maps == nullptr) return false;
   const FrameServices& services = frame.services();
+  const ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
   PipelineList list;
   for (const bool directional : {false, true})
-    list.push_back(compose_pipeline(*shadows, directional, services.device.info()));
+    list.push_back(compose_pipeline(looked, directional, services.device.info()));
   list_closeup_overlay_pipelines(maps->d16(), list);
   return services.pipelines.request(list, services.log);
 }
@@ -224,9 +226,10 @@ Status add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
   CloseupOverlay overlay(knobs.draws_standard);
   if (seen) GLOAM_TRY(overlay.start(frame, closeups->overlay));
   const std::span<const CloseupView> pairs = closeups->pairs;
+  const ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
   for (std::size_t first = 0; first < pairs.size(); first += knobs.batch) {
     const std::size_t count = std::min<std::size_t>(knobs.batch, pairs.size() - first);
-    auto batch = make_batch(frame, pairs.subspan(first, count), *shadows);
+    auto batch = make_batch(frame, pairs.subspan(first, count), looked);
     if (!batch.ok()) return batch.error();
     GLOAM_TRY(draw_batch(frame, *batch, subjects, atlas));
     const std::vector<CloseupView> placed = batch->pairs;

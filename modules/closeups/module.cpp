@@ -48,7 +48,8 @@ class CloseupsModule final : public Module {
   void knobs(KnobRegistry& registry) const override { add_closeup_knobs(registry); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
     std::vector<ReferenceInfo> references;
-    for (const char* knob : {"closeups.max_pairs", "closeups.texels_per_pixel", "closeups.batch", "closeups.standard"})
+    for (const char* knob :
+         {"closeups.max_pairs", "closeups.texels_per_pixel", "closeups.filter", "closeups.batch", "closeups.standard"})
       references.push_back(traced_shadows(knob));
     return references;
   }
@@ -101,7 +102,7 @@ class CloseupsModule final : public Module {
     if (phase != PassPhase::lists) return {};
     keep_completeness(frame);
     if (frame.find<CloseupFrame>() == nullptr) {
-      ready_ = closeup_pipelines_ready(frame);
+      ready_ = closeup_pipelines_ready(frame, closeup_knobs(frame.knobs()));
       return {};
     }
     return add_closeup_passes(frame, closeup_knobs(frame.knobs()));

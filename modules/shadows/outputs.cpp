@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "modules/shadows/shadow_knobs.h"
 #include "shaders/shadows/final_lists_shared.h"
 
 namespace gloam {
@@ -21,6 +22,17 @@ std::span<const Entity> WithheldCasters::of(Entity light) const {
                                       [](const OfLight& a, Entity b) { return a.light.index < b.index; });
   if (found == lights.end() || found->light != light) return {};
   return found->casters;
+}
+
+ShadowsOutputs by_single_fetches(ShadowsOutputs shadows) {
+  constexpr std::uint32_t kSingleFetches = 2;
+  for (gpu::SpecConstant& constant : shadows.constants) {
+    if (constant.id != GLOAM_SHADOWS_FILTER_ID || constant.value != kContactHardening) continue;
+    constant.value = kSingleFetches;
+    shadows.standard = false;
+  }
+  shadows.variant = shadow_variant(shadows.constants);
+  return shadows;
 }
 
 void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access) {

@@ -120,6 +120,10 @@ struct ShadowsOutputs {
   std::optional<FinalLists> final_lists;
 };
 
+/// For shaders that look at maps with contact-hardening shadows: the same penumbrae by single fetches from mip 0 (shadows.filter=pcss). What
+/// other filter they have stays.
+[[nodiscard]] ShadowsOutputs by_single_fetches(ShadowsOutputs shadows);
+
 void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access);
 /// Bindings that shadows_api.glsl takes, from number `first` on: block, rows, atlas, pyramid, cookies, traced.
 void append_shadow_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
