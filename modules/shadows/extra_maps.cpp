@@ -127,7 +127,7 @@ Status ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, const char* 
   work->map.bias_units = tools_->knobs.bias_units;
   ShadowKnobs knobs = tools_->knobs;
   knobs.atlas_size = into.size;
-  auto mips = plan_shadow_mips(frame, work->backgrounds, work->faces, knobs);
+  auto mips = plan_shadow_mips(frame, work->backgrounds, work->faces, knobs, kSteepestSubject);
   if (!mips.ok()) return mips.error();
   work->mips = *mips;
   auto scratch = tools_->states.scratch(work->faces.plan.texels());

@@ -10,12 +10,10 @@ namespace gloam {
 namespace {
 
 /// ShadowMipGroup::gap: what recedes more steeply is taken for two surfaces.
-float surface_gap(const ShadowFace& face) {
-  // Metres away from the light a metre across. With less, the rims of round things count as a second surface, which coverage leaves out.
-  constexpr float kSteepest = 25.0f;
+float surface_gap(const ShadowFace& face, float steepest) {
   const auto texels = static_cast<float>(face.square.size);
-  if (face.tan_half > 0.0f) return kSteepest * 2.0f * face.tan_half / texels;
-  return kSteepest * 2.0f * face.half_extent_m / texels / face.far_m;
+  if (face.tan_half > 0.0f) return steepest * 2.0f * face.tan_half / texels;
+  return steepest * 2.0f * face.half_extent_m / texels / face.far_m;
 }
 
 TexelRect bounds_of(const DrawnFace& face) {
@@ -27,6 +25,7 @@ TexelRect bounds_of(const DrawnFace& face) {
 
 class GroupList {
  public:
+  explicit GroupList(float steepest = kSteepestSurface) : steepest_(steepest) {}
   /// What one dispatch makes of these texels of a face: the run of mips after `first`.
   void add(const ShadowFace& face, std::uint32_t layer, const TexelRect& texels, std::uint32_t first,
            bool on_background = false) {
@@ -37,7 +36,7 @@ class GroupList {
     group.layer = layer;
     group.orthographic = face.tan_half > 0.0f ? 0u : 1u;
     group.on_background = on_background ? 1u : 0u;
-    group.gap = surface_gap(face);
+    group.gap = surface_gap(face, steepest_);
     add_groups(texels.begin / block, (texels.end + block - 1u) / block, GLOAM_SHADOW_MIP_GROUP,
                [&](uvec2 begin, uvec2 end) {
                  group.begin = begin;
@@ -66,6 +65,7 @@ class GroupList {
   [[nodiscard]] const std::vector<shaders::ShadowMipGroup>& groups() const { return groups_; }
 
  private:
+  float steepest_;
   std::vector<shaders::ShadowMipGroup> groups_;
   std::uint32_t taken_ = 0;
 };
@@ -142,9 +142,9 @@ FacePlan plan_faces(std::vector<DrawnFace> faces) {
 }
 
 Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,
-                                       const ShadowKnobs& knobs) {
+                                       const ShadowKnobs& knobs, float steepest) {
   ShadowMipWork work;
-  GroupList list;
+  GroupList list(steepest);
   work.backgrounds = list.add_batches(backgrounds);
   work.batches = list.add_batches(faces);
   add_coarse_runs(faces, list, work);

@@ -39,8 +39,14 @@ struct ShadowMipWork {
   gpu::SamplerHandle sampler;
 };
 
+/// Metres that a surface recedes from the light a metre across; what recedes more is taken for two surfaces.
+inline constexpr float kSteepestSurface = 3.0f;
+/// The same in maps that hold little but one subject: its rims are not to be left out of what it covers.
+inline constexpr float kSteepestSubject = 25.0f;
+
 [[nodiscard]] Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds,
-                                                     const FacePlan& faces, const ShadowKnobs& knobs);
+                                                     const FacePlan& faces, const ShadowKnobs& knobs,
+                                                     float steepest = kSteepestSurface);
 
 /// The same for faces with their mip 0 in the atlas: one batch of all.
 [[nodiscard]] Result<ShadowMipWork> plan_shadow_mips_in_place(FrameBuilder& frame, std::span<const ShadowFace> faces,
