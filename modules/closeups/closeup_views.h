@@ -37,7 +37,8 @@ struct CloseupView {
   std::uint32_t subject_index = 0;  ///< in CloseupSubjects::subjects
   bool directional = false;
   std::uint32_t light_index = 0;  ///< in the view's local, or directional, lights
-  /// Kind spot, or directional; index 0. The square has a size, a power of two, and no place yet. Its border texels hold nothing.
+  /// Kind spot, or directional; index 0. The square has a size, a power of two, and no place yet. Its border texels hold
+  /// nothing, unless it is a spot's own cone, which the subject reaches out of.
   ShadowFace face;
   float tan_inner = 0.0f;             ///< perspective: without the rim that only kernels look at
   float width_m = 0.0f;               ///< of a local light's emitter

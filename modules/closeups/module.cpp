@@ -67,7 +67,7 @@ class CloseupsModule final : public Module {
         -1e6, 1e6, &CloseupSubject::priority));
     registry.add_finish("closeups", &check_light_names);
   }
-  /// Of a view: the pairs that have maps in it.
+  /// Of a view: whether pairs touch it, be it that none of them gets a map (counter closeups.skipped).
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t subjects = 0;
     world.view<const CloseupSubject>().each([&](const CloseupSubject& s) { subjects += s.enabled ? 1 : 0; });
