@@ -24,9 +24,17 @@ function(gloam_compile_together target)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
+# gloam_compile_layer_together(<target> [source…]): the same for a library of the product. Only sanitized ones are compiled together
+# unless GLOAM_LAYERS_TOGETHER asks for all, so that a usual release build proves that each source includes what it uses.
+function(gloam_compile_layer_together target)
+  if(GLOAM_TOGETHER AND (GLOAM_SANITIZE OR GLOAM_LAYERS_TOGETHER))
+    gloam_compile_together(${target} ${ARGN})
+  endif()
+endfunction()
+
 # gloam_add_layer(<name> [APART] SOURCES … [ALONE sources…] [PUBLIC targets…] [PRIVATE targets…])
-# Static library gloam_<name>, exported as gloam::<name>. Included by full path from the root. Only sanitized layers are compiled
-# together, so that the release build proves that each source includes what it uses; ALONE: not these; APART: none.
+# Static library gloam_<name>, exported as gloam::<name>. Included by full path from the root. Where layers are compiled together,
+# ALONE: not these; APART: none.
 function(gloam_add_layer name)
   cmake_parse_arguments(ARG "APART" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
   add_library(gloam_${name} STATIC ${ARG_SOURCES})
@@ -36,30 +44,70 @@ function(gloam_add_layer name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:include>)
   target_link_libraries(gloam_${name} PUBLIC gloam_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(GLOAM_SANITIZE AND GLOAM_TOGETHER AND NOT ARG_APART)
-    gloam_compile_together(gloam_${name} ${ARG_ALONE})
+  if(NOT ARG_APART)
+    gloam_compile_layer_together(gloam_${name} ${ARG_ALONE})
   endif()
   set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_${name})
 endfunction()
 
-# gloam_add_test(<suite> SOURCES … [ALONE …] [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])
-# GoogleTest program <suite>; one CTest entry, or one a subgroup width (in bits of a lavapipe vector) when WIDTHS are given. Its
-# sources are compiled together, without those in ALONE.
-function(gloam_add_test suite)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LIBRARIES;LABELS;WIDTHS;ENVIRONMENT" ${ARGN})
-  add_executable(${suite} ${ARG_SOURCES})
-  target_link_libraries(${suite} PRIVATE ${ARG_LIBRARIES} gloam_options GTest::gmock GTest::gtest_main)
-  target_include_directories(${suite} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
-  target_compile_definitions(${suite} PRIVATE GLOAM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+# What every target of test code has. It is compiled once and run once: optimising it fully takes longer than it saves. Properties run
+# their code very often.
+function(gloam_set_up_test_code target)
+  target_link_libraries(${target} PRIVATE ${ARGN} gloam_options GTest::gmock)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+  target_compile_definitions(${target} PRIVATE GLOAM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     GLOAM_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared" GLOAM_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(NOT target MATCHES "_properties$")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+endfunction()
+
+# gloam_add_test_support(<name> SOURCES … [LIBRARIES …]): what several test programs link, compiled once.
+function(gloam_add_test_support name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  gloam_set_up_test_code(${name} ${ARG_LIBRARIES})
+endfunction()
+
+# gloam_add_test_program(<program> SOURCES … [ALONE …] [LIBRARIES …]): a GoogleTest program, of which CTest knows nothing yet. Its
+# sources are compiled together, without those in ALONE.
+function(gloam_add_test_program program)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LIBRARIES" ${ARGN})
+  add_executable(${program} ${ARG_SOURCES})
+  gloam_set_up_test_code(${program} ${ARG_LIBRARIES})
+  target_link_libraries(${program} PRIVATE GTest::gtest_main)
   list(LENGTH ARG_SOURCES count)
   if(GLOAM_TOGETHER AND count GREATER 1)
-    gloam_compile_together(${suite} ${ARG_ALONE})
+    gloam_compile_together(${program} ${ARG_ALONE})
   endif()
-  # Test code is compiled once and run once: optimising it fully takes longer than it saves. Properties run their code very often.
-  if(NOT suite MATCHES "_properties$")
-    target_compile_options(${suite} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# gloam_add_entries(<suite> COMMAND program [arguments…] [LABELS …] [WIDTHS …] [ENVIRONMENT …])
+# One CTest entry, or one a subgroup width (in bits of a lavapipe vector) when WIDTHS are given.
+function(gloam_add_entries suite)
+  cmake_parse_arguments(ARG "" "" "COMMAND;LABELS;WIDTHS;ENVIRONMENT" ${ARGN})
+  set(entries "")
+  if(NOT ARG_WIDTHS)
+    list(APPEND entries ${suite})
+    add_test(NAME ${suite} COMMAND ${ARG_COMMAND})
+    set_tests_properties(${suite} PROPERTIES ENVIRONMENT "${ARG_ENVIRONMENT}")
   endif()
+  foreach(bits IN LISTS ARG_WIDTHS)
+    math(EXPR lanes "${bits} / 32")
+    list(APPEND entries ${suite}.width${lanes})
+    add_test(NAME ${suite}.width${lanes} COMMAND ${ARG_COMMAND})
+    set_tests_properties(${suite}.width${lanes} PROPERTIES ENVIRONMENT "${ARG_ENVIRONMENT};LP_NATIVE_VECTOR_WIDTH=${bits}")
+  endforeach()
+  # A filter that fits no test would be a success otherwise.
+  set_tests_properties(${entries} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${GLOAM_TEST_TIMEOUT}
+    FAIL_REGULAR_EXPRESSION "Running 0 tests")
+endfunction()
+
+# gloam_add_test(<suite> SOURCES … [ALONE …] [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])
+# GoogleTest program <suite> with CTest entries of its own: see gloam_add_test_program and gloam_add_entries.
+function(gloam_add_test suite)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LIBRARIES;LABELS;WIDTHS;ENVIRONMENT" ${ARGN})
+  gloam_add_test_program(${suite} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE} LIBRARIES ${ARG_LIBRARIES})
   if("sanitize" IN_LIST ARG_LABELS)
     # Builds what the sanitizer presets run, and nothing else.
     if(NOT TARGET gloam_sanitize_tests)
@@ -67,16 +115,66 @@ function(gloam_add_test suite)
     endif()
     add_dependencies(gloam_sanitize_tests ${suite})
   endif()
-  if(NOT ARG_WIDTHS)
-    add_test(NAME ${suite} COMMAND ${suite})
-    set_tests_properties(${suite} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${GLOAM_TEST_TIMEOUT}
-      ENVIRONMENT "${ARG_ENVIRONMENT}")
-  endif()
-  foreach(bits IN LISTS ARG_WIDTHS)
-    math(EXPR lanes "${bits} / 32")
-    add_test(NAME ${suite}.width${lanes} COMMAND ${suite})
-    set_tests_properties(${suite}.width${lanes} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${GLOAM_TEST_TIMEOUT}
-      ENVIRONMENT "${ARG_ENVIRONMENT};LP_NATIVE_VECTOR_WIDTH=${bits}")
+  gloam_add_entries(${suite} COMMAND ${suite} LABELS ${ARG_LABELS} WIDTHS ${ARG_WIDTHS} ENVIRONMENT ${ARG_ENVIRONMENT})
+endfunction()
+
+# gloam_find_tests(<filter> <program> <source>…): sets <filter> to the GoogleTest filter of the tests of these sources, which must be
+# the only ones of the program with suites of their names.
+function(gloam_find_tests filter program)
+  set(patterns "")
+  foreach(source IN LISTS ARGN)
+    set(path ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
+    file(STRINGS ${path} lines REGEX "^(TEST|TEST_F|TEST_P|TYPED_TEST|TYPED_TEST_P)\\(")
+    set(found "")
+    foreach(line IN LISTS lines)
+      if(NOT line MATCHES "^([A-Z_]+)\\( *([A-Za-z0-9_]+) *,")
+        message(FATAL_ERROR "${path}: the name of the suite must be on the line of its macro: ${line}")
+      endif()
+      set(pattern_TEST "${CMAKE_MATCH_2}.*")
+      set(pattern_TEST_F "${CMAKE_MATCH_2}.*")
+      set(pattern_TEST_P "*/${CMAKE_MATCH_2}.*")
+      set(pattern_TYPED_TEST "${CMAKE_MATCH_2}/*")
+      set(pattern_TYPED_TEST_P "*/${CMAKE_MATCH_2}/*")
+      list(APPEND found ${CMAKE_MATCH_2})
+      list(APPEND patterns ${pattern_${CMAKE_MATCH_1}})
+    endforeach()
+    if(NOT found)
+      message(FATAL_ERROR "${path}: no test found")
+    endif()
+    list(REMOVE_DUPLICATES found)
+    foreach(suite IN LISTS found)
+      get_property(other TARGET ${program} PROPERTY GLOAM_SOURCE_OF_${suite})
+      if(other)
+        message(FATAL_ERROR "${other} and ${source} both have a suite ${suite}, but are one program (${program}): rename one of them")
+      endif()
+      set_property(TARGET ${program} PROPERTY GLOAM_SOURCE_OF_${suite} ${source})
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES patterns)
+  list(JOIN patterns ":" patterns)
+  set(${filter} ${patterns} PARENT_SCOPE)
+endfunction()
+
+# gloam_add_suites(<program> KIND <kind> SUITES … [ALONE …] [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])
+# Several suites in one GoogleTest program, which costs much less than a program each, and the same CTest entries: <suite>_tests runs
+# the tests of <suite>_<kind>_test.cpp, and `suite=a,b` those of a_<kind>_test.cpp and of b_<kind>_test.cpp.
+function(gloam_add_suites program)
+  cmake_parse_arguments(ARG "" "KIND" "SUITES;ALONE;LIBRARIES;LABELS;WIDTHS" ${ARGN})
+  set(sources "")
+  foreach(suite IN LISTS ARG_SUITES)
+    string(REGEX REPLACE "^.*=" "" names ${suite})
+    string(REGEX REPLACE "=.*$" "" suite ${suite})
+    string(REPLACE "," ";" names ${names})
+    list(TRANSFORM names APPEND _${ARG_KIND}_test.cpp)
+    set(sources_${suite} ${names})
+    list(APPEND sources ${names})
+  endforeach()
+  gloam_add_test_program(${program} SOURCES ${sources} ALONE ${ARG_ALONE} LIBRARIES ${ARG_LIBRARIES})
+  foreach(suite IN LISTS ARG_SUITES)
+    string(REGEX REPLACE "=.*$" "" suite ${suite})
+    gloam_find_tests(filter ${program} ${sources_${suite}})
+    gloam_add_entries(${suite}_tests COMMAND ${program} --gtest_filter=${filter} LABELS ${ARG_LABELS} WIDTHS ${ARG_WIDTHS})
   endforeach()
 endfunction()
 

@@ -11,9 +11,9 @@ namespace {
 
 using test::Dice;
 using test::ReadFinalLists;
-using DeferredShadows = test::DeferredShadowsTest;
+using DeferredShadowsCases = test::DeferredShadowsTest;
 
-TEST_F(DeferredShadows, of_pictures_smaller_than_a_tile_and_of_odd_sizes_are_the_same) {
+TEST_F(DeferredShadowsCases, of_pictures_smaller_than_a_tile_and_of_odd_sizes_are_the_same) {
   put_pillars();
   put_three_lights();
   for (const uvec2 size : {uvec2(1, 1), uvec2(7, 5), uvec2(33, 31), uvec2(65, 9)}) {
@@ -25,7 +25,7 @@ TEST_F(DeferredShadows, of_pictures_smaller_than_a_tile_and_of_odd_sizes_are_the
   }
 }
 
-TEST_F(DeferredShadows, of_any_number_of_lights_in_one_place_are_the_same) {
+TEST_F(DeferredShadowsCases, of_any_number_of_lights_in_one_place_are_the_same) {
   put_pillars();
   int there = 0;
   for (const int count : {0, 1, 2, 31, 32, 33}) {
@@ -40,7 +40,7 @@ TEST_F(DeferredShadows, of_any_number_of_lights_in_one_place_are_the_same) {
   EXPECT_EQ(lists().local.size(), 33u);
 }
 
-TEST_F(DeferredShadows, of_directional_lights_alone_and_of_lights_without_shadows_are_the_same) {
+TEST_F(DeferredShadowsCases, of_directional_lights_alone_and_of_lights_without_shadows_are_the_same) {
   put_pillars();
   Dice dice(4);
   put_suns(dice, 1);

@@ -10,9 +10,9 @@
 namespace gloam {
 namespace {
 
-using DeferredShadows = test::DeferredShadowsTest;
+using DeferredShadowsCookies = test::DeferredShadowsTest;
 
-TEST_F(DeferredShadows, with_cookies_glass_and_fog_are_the_same) {
+TEST_F(DeferredShadowsCookies, with_cookies_glass_and_fog_are_the_same) {
   for (const int cookies : {1, 4, 6}) {
     clear_scene();
     put_pillars();

@@ -10,10 +10,10 @@ namespace gloam {
 namespace {
 
 using test::Dice;
-using DeferredShadows = test::DeferredShadowsTest;
+using DeferredShadowsGrowth = test::DeferredShadowsTest;
 
 // More (tile, light) than fit at once, so that room is made for what frames ask for.
-TEST_F(DeferredShadows, whose_buffers_are_too_small_are_the_same_and_soon_fit) {
+TEST_F(DeferredShadowsGrowth, whose_buffers_are_too_small_are_the_same_and_soon_fit) {
   put_pillars();
   Dice dice(30);
   set("shadows.filter", "hard");

@@ -7,9 +7,9 @@
 namespace gloam {
 namespace {
 
-using ClassifyShadows = test::ClassifyShadowsTest;
+using ClassifyPixels = test::ClassifyShadowsTest;
 
-TEST_F(ClassifyShadows, lists_hold_what_a_view_shows_at_each_pixel) {
+TEST_F(ClassifyPixels, lists_hold_what_a_view_shows_at_each_pixel) {
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
     random_scene(seed, 80, 56);
     ASSERT_NO_FATAL_FAILURE(expect_same_as_view("seed " + std::to_string(seed)));
