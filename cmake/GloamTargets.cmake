@@ -24,16 +24,9 @@ function(gloam_compile_together target)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# gloam_compile_layer_together(<target> [source…]): the same for a library of the product. Only sanitized ones are compiled together
-# unless GLOAM_LAYERS_TOGETHER asks for all, so that a usual release build proves that each source includes what it uses.
-function(gloam_compile_layer_together target)
-  if(GLOAM_TOGETHER AND (GLOAM_SANITIZE OR GLOAM_LAYERS_TOGETHER))
-    gloam_compile_together(${target} ${ARGN})
-  endif()
-endfunction()
-
 # gloam_add_layer(<name> [APART] SOURCES … [ALONE sources…] [PUBLIC targets…] [PRIVATE targets…])
-# Static library gloam_<name>, exported as gloam::<name>. Included by full path from the root. Where layers are compiled together,
+# Static library gloam_<name>, exported as gloam::<name>. Included by full path from the root. Only sanitized layers are compiled
+# together unless GLOAM_LAYERS_TOGETHER asks for all, so that the usual release build proves that each source includes what it uses.
 # ALONE: not these; APART: none.
 function(gloam_add_layer name)
   cmake_parse_arguments(ARG "APART" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
@@ -44,8 +37,8 @@ function(gloam_add_layer name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:include>)
   target_link_libraries(gloam_${name} PUBLIC gloam_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(NOT ARG_APART)
-    gloam_compile_layer_together(gloam_${name} ${ARG_ALONE})
+  if(GLOAM_TOGETHER AND (GLOAM_SANITIZE OR GLOAM_LAYERS_TOGETHER) AND NOT ARG_APART)
+    gloam_compile_together(gloam_${name} ${ARG_ALONE})
   endif()
   set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_${name})
 endfunction()
