@@ -59,7 +59,6 @@ TEST_P(CloseupSlots, are_made_up_for_by_standard_maps_where_there_are_none) {
     set("shadows.slot_limit", std::to_string(static_cast<int>(need * share)));
     const CloseupShot limited = second_shot();
     EXPECT_GT(counter("shadows.fallback_tiles"), 0.0) << what;
-    EXPECT_EQ(counter("shadows.fallback_tiles"), static_cast<double>(limited.lists.fallback_tiles.size())) << what;
     expect_fallback_listed_once(limited.lists, what);
     expect_slots_are_one_entrys(limited.lists, what);
     expect_finite_maps(what);
