@@ -52,23 +52,10 @@ vec4 place_in_face(LightOfPair l, vec3 position) {
 float penumbra_texels() { return closeup.penumbra_m_per_m * closeup.depth_m / closeup.texel_m; }
 
 ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
-  ShadowPoint p = no_shadow_point();
-  float facing = dot(r.face_normal, closeup.direction);
-  float along = abs(facing) < 1e-5 ? (facing < 0.0 ? -1e-5 : 1e-5) : facing;
-  vec4 position = vec4(r.position, 1.0);
-  vec3 at = vec3(dot(closeup.row_u, position), dot(closeup.row_v, position), dot(closeup.row_depth, position));
-  float depth_per_m = 1.0 / closeup.depth_m;
-  p.orthographic = true;
-  p.live = min(min(at.x, at.y), closeup.size - max(at.x, at.y)) >= 0.0 && at.z < 1.0 && at.z > -1e18;
-  p.origin = closeup.origin;
-  p.size = closeup.size;
-  p.at = p.live ? at.xy : p.at;
-  p.depth = p.live ? at.z : p.depth;
-  p.scale = penumbra_texels();
-  p.slope = vec2(dot(r.face_normal, closeup.row_u.xyz), dot(r.face_normal, closeup.row_v.xyz)) *
-            (closeup.texel_m * closeup.texel_m * depth_per_m / along);
-  set_threshold(p, facing, 0.5 * closeup.penumbra_m_per_m, depth_per_m, r.subsurface);
-  return p;
+  SunReceiver s = sun_receiver(closeup.direction, closeup.penumbra_m_per_m, r);
+  try_cascade(s, ShadowCascade(closeup.row_u, closeup.row_v, closeup.row_depth, closeup.origin, closeup.size, closeup.texel_m,
+                               closeup.depth_m, 0.0, vec2(0.0)), true);
+  return sun_shadow_point(s, r.subsurface);
 }
 
 bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return sun_gives(closeup.brightest, closeup.direction, normal); }
@@ -90,11 +77,12 @@ vec4 place_in_face(LightOfPair l, vec3 position) {
 float penumbra_texels() { return closeup.width_m * closeup.size / (closeup.near_m * 2.0 * closeup.tan_half); }
 
 ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
-  LocalShadow shadow = LocalShadow(closeup.light, l.light.position, vec4(GLOAM_SHADOW_SPOT, closeup.near_m, closeup.width_m, closeup.size),
-                                   vec4(closeup.right, closeup.tan_half), vec4(closeup.up, closeup.tan_inner), cross(closeup.up, closeup.right));
-  ShadowPoint p = local_shadow_point(shadow, r);
-  p.origin = closeup.origin;
-  return p;
+  CubeFaces face = no_faces();
+  face.x[0].x = closeup.origin.x;
+  face.y[0].x = closeup.origin.y;
+  LocalShadow shadow = LocalShadow(l.light.position, vec4(GLOAM_SHADOW_SPOT, closeup.near_m, closeup.width_m, closeup.size), vec4(closeup.right, closeup.tan_half),
+                                   vec4(closeup.up, closeup.tan_inner), cross(closeup.up, closeup.right), face);
+  return local_shadow_point(shadow, r);
 }
 
 bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return local_light_gives(l.light, position, normal); }

@@ -15,6 +15,10 @@ struct SearchRegion {
 float nearest_of(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 float farthest_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
+// Nearest and farthest depth of the four texels round a corner in the pyramid, which is in texels of its level 0.
+float gather_nearest(vec2 corner) { return nearest_of(textureGather(shadow_pyramid, corner * 4.0 * shadow_texel_size(), 1)); }
+float gather_farthest(vec2 corner) { return farthest_of(textureGather(shadow_pyramid, corner * 4.0 * shadow_texel_size(), 0)); }
+
 // Nearest and farthest depth of texels [low, high] of a face, from its pyramid; whatever is beyond it is left out.
 float nearest_in_face(vec2 origin, float size, vec2 low, vec2 high, out float farthest) {
   low = clamp(low, vec2(0.0), vec2(size)) * 0.25;
@@ -29,9 +33,8 @@ float nearest_in_face(vec2 origin, float size, vec2 low, vec2 high, out float fa
   farthest = 1.0;
   for (int i = 0; i < 4; ++i) {
     vec2 corner = clamp(first + 2.0 * vec2(i & 1, i >> 1), vec2(1.0), vec2(square.size - 1.0));
-    vec2 at = (square.corner + corner) * 4.0 * shadow_texel_size();
-    nearest = max(nearest, nearest_of(textureGather(shadow_pyramid, at, 1)));
-    farthest = min(farthest, farthest_of(textureGather(shadow_pyramid, at, 0)));
+    nearest = max(nearest, gather_nearest(square.corner + corner));
+    farthest = min(farthest, gather_farthest(square.corner + corner));
   }
   return nearest;
 }
@@ -46,7 +49,7 @@ int pyramid_level(float width, int last) {
 vec2 pyramid_corner(ShadowPoint p, int level) {
   MipSquare square = mip_square(p.origin * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
   vec2 corner = floor(p.at * 0.25 / square.texel - 0.5) + 1.0;
-  return (square.corner + clamp(corner, vec2(1.0), vec2(square.size - 1.0))) * 4.0 * shadow_texel_size();
+  return square.corner + clamp(corner, vec2(1.0), vec2(square.size - 1.0));
 }
 
 #ifdef GLOAM_SHADOWS_CROSSING
@@ -66,47 +69,61 @@ float texels_to_face(int own, int face, vec2 at, float size, float to_tangent) {
   return toward.z == 0.0 ? 1.0 / to_tangent - along : 1e9;
 }
 
+// One face of a cube, looked at whole. ahead: how far it looks the receiver's way, 1, 0 or -1; along: how far the receiver is off the middle
+// of its own face toward this one, texels.
+void look_at_face(ShadowPoint p, float held, float ahead, float along, float to_tangent, inout float nearest, inout bool others) {
+  bool other = ahead <= 0.0 && may_block_from_other_face(held, p.depth, ahead == 0.0 ? 1.0 / to_tangent - along : 1e9, p.scale, to_tangent);
+  others = others || other;
+  nearest = max(nearest, ahead > 0.0 ? held : other ? 2.0 * held : 0.0);
+}
+
+// Nearest depth of all that a cube holds: any face may see what another holds within its field of view twice over. others: some of it in
+// other faces than the receiver's own.
+float nearest_of_cube(ShadowPoint p, mat3 own, float to_tangent, out bool others) {
+  vec2 off = p.at - 0.5 * p.size;
+  vec3 along = own[0] * off.x - own[1] * off.y, ahead = own[2], forward = p.faces.nearest[0], backward = p.faces.nearest[1];
+  others = false;
+  float nearest = 0.0;
+  look_at_face(p, forward.x, ahead.x, along.x, to_tangent, nearest, others);
+  look_at_face(p, forward.y, ahead.y, along.y, to_tangent, nearest, others);
+  look_at_face(p, forward.z, ahead.z, along.z, to_tangent, nearest, others);
+  look_at_face(p, backward.x, -ahead.x, -along.x, to_tangent, nearest, others);
+  look_at_face(p, backward.y, -ahead.y, -along.y, to_tangent, nearest, others);
+  look_at_face(p, backward.z, -ahead.z, -along.z, to_tangent, nearest, others);
+  return nearest;
+}
+
 // A cube's region, from the pyramid's texels. across: the region leaves the face.
 SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
-  const int faces = 6, taps = 9;
-  int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP, level = last;
+  const int taps = 9;
+  int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP;
   mat3 own = cube_face_axes(p.face);
-  float to_tangent = p.tan_half * 2.0 / p.size, nearest = 0.0;
+  float to_tangent = p.tan_half * 2.0 / p.size;
   SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
-  across = false;
-  bool others = false;
-  int i = 0, end = faces;
-  // First all faces, whole: any of them may see what another holds within its field of view twice over. When the square that this gives leaves
-  // the face, nine texels of it, then of the smaller square that these give. One loop, so that devices which run an idle loop once run little.
-  if (p.face >= 0) do {
-    bool whole = i < faces;
-    int tap = whole ? 4 : (i - faces) % taps;
+  bool others;
+  region.width = penumbra_width(p, nearest_of_cube(p, own, to_tangent, others));
+  across = p.face >= 0 && others && leaves_cube_face(p, 0.5 * region.width);
+  int level = pyramid_level(0.5 * region.width, last), tap = 0;
+  float nearest = 0.0;
+  // Nine texels of the square that this gives, then, if it leaves the face, of the smaller square that these give.
+  for (int left = 2 * taps; across && left > 0; --left) {
     vec2 tangent = (p.at + 0.5 * region.width * vec2(tap % 3 - 1, tap / 3 - 1) - 0.5 * p.size) * to_tangent;
     vec3 v = own * vec3(tangent.x, -tangent.y, 1.0);
-    int face = whole ? i : cube_face_of(v);
+    int face = cube_face_of(v);
     vec3 local = v * cube_face_axes(face);
-    vec2 there = whole ? vec2(0.0) : vec2(local.x, -local.y) / local.z / to_tangent + 0.5 * p.size;
-    MipSquare square = mip_square(cube_face_origin(p.light, face) * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
+    vec2 there = vec2(local.x, -local.y) / local.z / to_tangent + 0.5 * p.size;
+    MipSquare square = mip_square(origin_of_face(p.faces, face) * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
     vec2 cell = clamp(floor(there * 0.25 / square.texel), vec2(0.0), vec2(square.size - 1.0));
-    float held = texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).y;
-    float factor = local.z;
-    if (whole) {
-      bool other = face != p.face && may_block_from_other_face(held, p.depth, texels_to_face(p.face, face, p.at, p.size, to_tangent), p.scale, to_tangent);
-      others = others || other;
-      factor = face == p.face ? 1.0 : other ? 2.0 : 0.0;
-    }
-    nearest = max(nearest, held * factor);
-    ++i;
-    if (i == faces || i == faces + taps || i == faces + 2 * taps) {
-      float width = penumbra_width(p, nearest);
-      region.width = whole ? width : min(region.width, width);
-      region.nearest = whole ? 0.0 : nearest;
-      across = leaves_cube_face(p, 0.5 * region.width) && (whole ? others : across);
-      end = whole ? (across ? faces + 2 * taps : faces) : end;
+    nearest = max(nearest, texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).y * local.z);
+    if (++tap == taps) {
+      region.nearest = nearest;
+      region.width = min(region.width, penumbra_width(p, nearest));
+      across = across && leaves_cube_face(p, 0.5 * region.width);
       level = pyramid_level(0.5 * region.width, last);
       nearest = 0.0;
+      tap = 0;
     }
-  } while (i < end);
+  }
   return region;
 }
 #endif
@@ -122,11 +139,11 @@ SearchRegion find_region(ShadowPoint p) {
   if (!across) do {
     vec2 corner = pyramid_corner(p, last);
     for (int step = 0; step < 2; ++step) {
-      region.width = penumbra_width(p, nearest_of(textureGather(shadow_pyramid, corner, 1)));
+      region.width = penumbra_width(p, gather_nearest(corner));
       corner = pyramid_corner(p, pyramid_level(region.width, last));
     }
-    region.nearest = nearest_of(textureGather(shadow_pyramid, corner, 1));
-    region.farthest = farthest_of(textureGather(shadow_pyramid, corner, 0));
+    region.nearest = gather_nearest(corner);
+    region.farthest = gather_farthest(corner);
     region.width = penumbra_width(p, region.nearest);
   } while (never(p));
   return region;
@@ -187,17 +204,17 @@ void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, vec4 threshold
   sums.distance.y = blocks.w ? sums.distance.y + left * distance.w : sums.distance.y;
 }
 
-// Four gathers beside each other. rows: least depths of the lower and the upper texel row, shares: of what they add.
-void add_blocker_row(inout vec2 sums, ShadowPoint p, Gathers8 g, float v, float row, vec2 rows, vec4 left, vec4 right, vec2 shares, vec2 ends) {
+// Two gathers beside each other. rows: least depths of the lower and the upper texel row, shares: of what they add.
+void add_blocker_row(inout vec2 sums, ShadowPoint p, vec2 u, float v, vec2 columns, float row, vec4 corner, vec2 rows, vec2 left, vec2 right,
+                     vec2 shares, vec2 ends) {
   BlockerSums s = BlockerSums(vec2(0.0), vec2(0.0));
-  add_blockers(s, p, vec2(g.u.x, v), g.column.x + row + g.corner, rows, vec2(left.x, right.x), ends.x, 1.0);
-  add_blockers(s, p, vec2(g.u.y, v), g.column.y + row + g.corner, rows, vec2(left.y, right.y), 1.0, 1.0);
-  add_blockers(s, p, vec2(g.u.z, v), g.column.z + row + g.corner, rows, vec2(left.z, right.z), 1.0, 1.0);
-  add_blockers(s, p, vec2(g.u.w, v), g.column.w + row + g.corner, rows, vec2(left.w, right.w), 1.0, ends.y);
+  add_blockers(s, p, vec2(u.x, v), columns.x + row + corner, rows, vec2(left.x, right.x), ends.x, 1.0);
+  add_blockers(s, p, vec2(u.y, v), columns.y + row + corner, rows, vec2(left.y, right.y), 1.0, ends.y);
   sums += vec2(dot(s.count, shares), dot(s.distance, shares));
 }
 
-// Blockers of 8×8 texels, see find_blockers. Bilinear edges are for the kernel that is as wide as it is; a cone has its own.
+// Blockers of 8×8 texels, see find_blockers: first the inner 4×4, then those beside them, above and below, in the corners. What a cone of
+// half_width reaches is often in the inner ones alone. Bilinear edges are for the kernel that is as wide as it is; a cone has its own.
 Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
@@ -207,15 +224,19 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
   vec4 upper = cone_depths(cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.y);
   vec4 lower = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
   vec2 first = whole_plane ? 1.0 - k.fraction : vec2(1.0), last = whole_plane ? k.fraction : vec2(1.0);
-  vec2 ends = vec2(first.x, last.x), sums = vec2(0.0);
-  int turn = 0;
+  vec2 beyond = min(k.fraction, 1.0 - k.fraction), sums = vec2(0.0);  // other texels' middles are at least 2 + beyond away
+  bool inner_only = !whole_plane && half_width <= kLeastHalfWidth + min(beyond.x, beyond.y);
+  int turn = 0, turns = inner_only ? 1 : 4;
   do {
-    bool near = turn == 0;
-    add_blocker_row(sums, p, g, near ? g.v.x : g.v.z, near ? g.row.x : g.row.z, near ? vec2(lower.x, upper.x) : vec2(lower.z, upper.z), left,
-                    right, vec2(1.0, near ? first.y : 1.0), ends);
-    add_blocker_row(sums, p, g, near ? g.v.y : g.v.w, near ? g.row.y : g.row.w, near ? vec2(lower.y, upper.y) : vec2(lower.w, upper.w), left,
-                    right, vec2(near ? 1.0 : last.y, 1.0), ends);
-  } while (++turn < 2);
+    bool outer_x = (turn & 1) != 0, outer_y = turn > 1;
+    sums = turn == 0 ? vec2(0.0) : sums;  // see never()
+    vec2 u = outer_x ? g.u.xw : g.u.yz, columns = outer_x ? g.column.xw : g.column.yz, v = outer_y ? g.v.xw : g.v.yz;
+    vec2 rows = outer_y ? g.row.xw : g.row.yz, ends = outer_x ? vec2(first.x, last.x) : vec2(1.0);
+    vec2 lefts = outer_x ? left.xw : left.yz, rights = outer_x ? right.xw : right.yz;
+    vec2 uppers = outer_y ? upper.xw : upper.yz, lowers = outer_y ? lower.xw : lower.yz;
+    add_blocker_row(sums, p, u, v.x, columns, rows.x, g.corner, vec2(lowers.x, uppers.x), lefts, rights, vec2(1.0, outer_y ? first.y : 1.0), ends);
+    add_blocker_row(sums, p, u, v.y, columns, rows.y, g.corner, vec2(lowers.y, uppers.y), lefts, rights, vec2(outer_y ? last.y : 1.0, 1.0), ends);
+  } while (++turn < turns);
   return blockers_of(p, sums.x, sums.y);
 }
 

@@ -37,18 +37,14 @@ shared uint slot;
 // What is the same for all pixels of a pair.
 #if GLOAM_SHADOWS_KINDS == 4
 struct LightOfPair {
-  uint light;
-  float brightest;
-  vec3 direction;
+  SunShadow shadow;
 };
 
-LightOfPair light_of_pair(uint light) {
-  return LightOfPair(light, fetch_sun(light).w, texelFetch(shadow_rows, ivec2(6, cascade_row(light, 0u)), 0).xyz);
-}
+LightOfPair light_of_pair(uint light) { return LightOfPair(fetch_sun_shadow(light)); }
 
-ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) { return directional_shadow_point(l.light, l.direction, r); }
+ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) { return directional_shadow_point(l.shadow, r); }
 
-bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return sun_gives(l.brightest, l.direction, normal); }
+bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return sun_gives(l.shadow.sun.w, l.shadow.direction, normal); }
 #else
 struct LightOfPair {
   LocalShadow shadow;

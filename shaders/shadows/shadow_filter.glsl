@@ -127,6 +127,7 @@ float filtered_visibility(ShadowPoint p, float width) {
   int turns = mips.blend > 0.0 || kFullPenumbra != 0u ? 2 : 1;
   int turn = 0;
   do {
+    share = turn == 0 ? 0.0 : share;  // see never()
     int mip = turn == 0 ? mips.fine : mips.coarse;
     float part = turn == 0 ? 1.0 - mips.blend : mips.blend;
 #ifdef GLOAM_SHADOWS_STANDARD

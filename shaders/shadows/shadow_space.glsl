@@ -5,6 +5,21 @@
 
 // A receiver as one face of a shadow map sees it. Included by shadows_api.glsl.
 
+// Faces of a cube, by the axis of the cube that they look along (index 0) or against (1).
+struct CubeFaces {
+  vec3 x[2], y[2];  // of their corners in the atlas, texels of mip 0
+#ifdef GLOAM_SHADOWS_CROSSING
+  vec3 nearest[2];  // depth of all they hold
+#endif
+};
+
+float of_face(vec3 values[2], int face) {
+  vec3 sided = (face & 1) == 0 ? values[0] : values[1];
+  return face < 2 ? sided.x : face < 4 ? sided.y : sided.z;
+}
+
+vec2 origin_of_face(CubeFaces faces, int face) { return vec2(of_face(faces.x, face), of_face(faces.y, face)); }
+
 // The plane through a receiver and its normal is an affine function of texel coordinates, in perspective faces too: 1 / z is.
 struct ShadowPoint {
   vec2 origin;      // of the face in the atlas, texels of mip 0
@@ -18,7 +33,7 @@ struct ShadowPoint {
   bool orthographic;
   bool live;        // false: lit, whatever the map says
   int face;         // of a cube; −1: no cube
-  uint light;       // of a cube
+  CubeFaces faces;  // of a cube
   float tan_half;   // of a cube
   float horizon;    // share of the emitter that is on the surface's visible side: what lies below its own plane hides nothing, and lights nothing
 };
@@ -52,7 +67,8 @@ const float kTexelRounding = 1.0 / 64.0;
 
 // False; no compiler knows. `if (condition) do … while (never(p));`: software devices run what a plain `if` guards for all threads and
 // what `for (bool go = condition; go; go = false)` guards once more than needed; this they run once. None of them jumps ahead: work that no
-// thread needs costs one turn.
+// thread needs costs one turn. Threads that have left a loop whose condition is at its end run the turns of the others too, over what some of
+// their variables were and others have become: only bodies that give the same when they are run again may be in such loops.
 bool never(ShadowPoint p) { return p.size < 0.0; }
 
 float slope_per_texel(ShadowPoint p) { return abs(p.slope.x) + abs(p.slope.y); }
@@ -79,8 +95,17 @@ void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, f
   p.threshold = max(p.depth + (toward ? bias + rounding : -bias), p.least);
 }
 
+CubeFaces no_faces() {
+  vec3 none[2] = vec3[2](vec3(0.0), vec3(0.0));
+#ifdef GLOAM_SHADOWS_CROSSING
+  return CubeFaces(none, none, none);
+#else
+  return CubeFaces(none, none);
+#endif
+}
+
 ShadowPoint no_shadow_point() {
-  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 0u, 1.0, 1.0);
+  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, no_faces(), 1.0, 1.0);
 }
 
 // Axes of a cube in the world, as columns.
@@ -110,34 +135,59 @@ vec2 cube_face_origin(uint light, int face) {
 
 // What is the same for all receivers of a local light.
 struct LocalShadow {
-  uint light;
   vec3 position;  // camera-relative
   vec4 first;     // kind, near, width, size
   vec4 right;     // right, tan_half
   vec4 up;        // up, tan_inner
   vec3 forward;
+  CubeFaces faces;
 };
+
+// Nearest depth of a whole face.
+float nearest_of_face(vec2 origin, float size) {
+  MipSquare square = mip_square(origin * 0.25, size * 0.25, floor_log2(size) - GLOAM_SHADOW_PYRAMID_MIP, shadow_block.atlas_size * 0.25);
+  return texelFetch(shadow_pyramid, ivec2(square.corner), 0).y;
+}
+
+// A spot has one face, whose corner is where a cube has that of its first.
+CubeFaces fetch_faces(uint light, float size, bool cube) {
+  CubeFaces faces = no_faces();
+  int axis = 0;
+  do {
+    vec4 corners = texelFetch(shadow_rows, ivec2(3 + axis, light), 0);
+    bvec3 own = equal(ivec3(axis), ivec3(0, 1, 2));
+    faces.x[0] = mix(faces.x[0], corners.xxx, own);
+    faces.y[0] = mix(faces.y[0], corners.yyy, own);
+    faces.x[1] = mix(faces.x[1], corners.zzz, own);
+    faces.y[1] = mix(faces.y[1], corners.www, own);
+#ifdef GLOAM_SHADOWS_CROSSING
+    faces.nearest[0] = mix(faces.nearest[0], vec3(nearest_of_face(corners.xy, size)), own);
+    faces.nearest[1] = mix(faces.nearest[1], vec3(nearest_of_face(corners.zw, size)), own);
+#endif
+  } while (cube && ++axis < 3);
+  return faces;
+}
+
+bool is_cube(float kind) { return kKinds == GLOAM_SHADOWS_CUBES || (kind == float(GLOAM_SHADOW_CUBE) && (kKinds & GLOAM_SHADOWS_CUBES) != 0u); }
 
 LocalShadow fetch_local_shadow(uint light, vec3 light_position) {
   vec4 right = texelFetch(shadow_rows, ivec2(1, light), 0), up = texelFetch(shadow_rows, ivec2(2, light), 0);
-  return LocalShadow(light, light_position, texelFetch(shadow_rows, ivec2(0, light), 0), right, up, spot_forward(light, right.xyz, up.xyz));
+  vec4 first = texelFetch(shadow_rows, ivec2(0, light), 0);
+  return LocalShadow(light_position, first, right, up, spot_forward(light, right.xyz, up.xyz), fetch_faces(light, first.w, is_cube(first.x)));
 }
 
 ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   ShadowPoint p = no_shadow_point();
   vec4 first = l.first, right = l.right, up = l.up;
-  uint light = l.light;
-  vec3 light_position = l.position;
-  vec3 v = r.position - light_position;
-  bool cube = first.x == float(GLOAM_SHADOW_CUBE);
-  cube = kKinds == GLOAM_SHADOWS_CUBES || (cube && (kKinds & GLOAM_SHADOWS_CUBES) != 0u);
+  vec3 v = r.position - l.position;
+  bool cube = is_cube(first.x);
   vec3 normal = r.face_normal;
   if (cube) {
     v = v * kCube;
     normal = normal * kCube;
   }
   p.face = cube ? cube_face_of(v) : -1;
-  p.light = light;
+  p.faces = l.faces;
   mat3 axes = mat3(right.xyz, up.xyz, l.forward);
   if (cube) axes = cube_face_axes(p.face);
   vec3 local = v * axes;
@@ -147,7 +197,7 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   local = p.live ? local : vec3(0.0, 0.0, 1.0);
   vec2 tangent = local.xy / z;
   float texel = 2.0 * right.w / first.w;  // tangent a texel
-  p.origin = cube_face_origin(light, max(p.face, 0));
+  p.origin = origin_of_face(p.faces, max(p.face, 0));
   p.size = first.w;
   p.tan_half = right.w;
   p.at = vec2(tangent.x, -tangent.y) / texel + 0.5 * first.w;
@@ -182,34 +232,79 @@ ShadowCascade fetch_cascade(int row) {
 // Of a directional light: CascadeRow's cascade_count, penumbra_m_per_m, traced_layer, brightest.
 vec4 fetch_sun(uint light) { return texelFetch(shadow_rows, ivec2(5, cascade_row(light, 0u)), 0); }
 
+// Receivers of a directional light.
+struct SunReceiver {
+  ShadowPoint point;
+  vec4 position;
+  vec3 face_normal;
+  float facing;       // cosine between the face normal and the light's direction
+  float penumbra;     // CascadeRow::penumbra_m_per_m
+  float depth_per_m;  // of the cascade that it lies in
+};
+
+SunReceiver sun_receiver(vec3 light_direction, float penumbra_m_per_m, ShadowReceiver r) {
+  SunReceiver s = SunReceiver(no_shadow_point(), vec4(r.position, 1.0), r.face_normal, dot(r.face_normal, light_direction), max(penumbra_m_per_m, 0.0), 0.0);
+  s.point.orthographic = true;
+  return s;
+}
+
+// Takes the cascade for the receiver's if it lies in that and has none.
+void try_cascade(inout SunReceiver s, ShadowCascade c, bool exists) {
+  vec3 at = vec3(dot(c.row_u, s.position), dot(c.row_v, s.position), dot(c.row_depth, s.position));
+  float inside = min(min(at.x, at.y), c.size - max(at.x, at.y)) - c.rim;
+  float along = abs(s.facing) < 1e-5 ? (s.facing < 0.0 ? -1e-5 : 1e-5) : s.facing;
+  bool taken = exists && !s.point.live && inside >= 0.0 && at.z < 1.0 && at.z > -1e18;
+  if (taken) {
+    s.point.live = true;
+    s.point.origin = c.origin;
+    s.point.size = c.size;
+    s.point.at = at.xy;
+    s.point.depth = at.z;
+    s.depth_per_m = 1.0 / c.depth_m;
+    s.point.scale = s.penumbra * c.depth_m / c.texel_m;
+    s.point.slope = vec2(dot(s.face_normal, c.row_u.xyz), dot(s.face_normal, c.row_v.xyz)) * (c.texel_m * c.texel_m * s.depth_per_m / along);
+  }
+}
+
+ShadowPoint sun_shadow_point(SunReceiver s, bool subsurface) {
+  set_threshold(s.point, s.facing, 0.5 * s.penumbra, s.depth_per_m, subsurface);
+  return s.point;
+}
+
 ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowReceiver r) {
-  ShadowPoint p = no_shadow_point();
-  p.orthographic = true;
   vec4 sun = fetch_sun(light);
-  uint count = min(uint(sun.x), uint(GLOAM_MAX_CASCADES));
-  float facing = dot(r.face_normal, light_direction);
-  float along = abs(facing) < 1e-5 ? (facing < 0.0 ? -1e-5 : 1e-5) : facing;
-  float depth_per_m = 0.0;
-  uint i = 0u;
+  uint count = min(uint(sun.x), uint(GLOAM_MAX_CASCADES)), i = 0u;
+  SunReceiver s = sun_receiver(light_direction, sun.y, r);
   // Until every thread has its cascade: loads of cascades are dear.
   do {
-    ShadowCascade c = fetch_cascade(cascade_row(light, i));
-    vec4 position = vec4(r.position, 1.0);
-    vec3 at = vec3(dot(c.row_u, position), dot(c.row_v, position), dot(c.row_depth, position));
-    float inside = min(min(at.x, at.y), c.size - max(at.x, at.y)) - c.rim;
-    p.live = count > 0u && inside >= 0.0 && at.z < 1.0 && at.z > -1e18;
-    if (p.live) {
-      p.origin = c.origin;
-      p.size = c.size;
-      p.at = at.xy;
-      p.depth = at.z;
-      depth_per_m = 1.0 / c.depth_m;
-      p.scale = max(sun.y, 0.0) * c.depth_m / c.texel_m;
-      p.slope = vec2(dot(r.face_normal, c.row_u.xyz), dot(r.face_normal, c.row_v.xyz)) * (c.texel_m * c.texel_m * depth_per_m / along);
-    }
-  } while (!p.live && ++i < count);
-  set_threshold(p, facing, 0.5 * max(sun.y, 0.0), depth_per_m, r.subsurface);
-  return p;
+    try_cascade(s, fetch_cascade(cascade_row(light, i)), i < count);
+  } while (!s.point.live && ++i < count);
+  return sun_shadow_point(s, r.subsurface);
+}
+
+// What is the same for all receivers of a directional light.
+struct SunShadow {
+  vec4 sun;        // fetch_sun
+  vec3 direction;  // where it shines
+  ShadowCascade cascades[GLOAM_MAX_CASCADES];
+};
+
+SunShadow fetch_sun_shadow(uint light) {
+  SunShadow s;
+  int row = cascade_row(light, 0u);
+  s.sun = fetch_sun(light);
+  s.direction = texelFetch(shadow_rows, ivec2(6, row), 0).xyz;
+  s.cascades = ShadowCascade[](fetch_cascade(row), fetch_cascade(row + 1), fetch_cascade(row + 2), fetch_cascade(row + 3));
+  return s;
+}
+
+ShadowPoint directional_shadow_point(SunShadow shadow, ShadowReceiver r) {
+  SunReceiver s = sun_receiver(shadow.direction, shadow.sun.y, r);
+  try_cascade(s, shadow.cascades[0], shadow.sun.x > 0.0);
+  try_cascade(s, shadow.cascades[1], shadow.sun.x > 1.0);
+  try_cascade(s, shadow.cascades[2], shadow.sun.x > 2.0);
+  try_cascade(s, shadow.cascades[3], shadow.sun.x > 3.0);
+  return sun_shadow_point(s, r.subsurface);
 }
 
 // Share of a texel that its nearest surface covers; all of it in mip 0.
@@ -227,7 +322,7 @@ float cube_depth(ShadowPoint p, inout vec2 at, int mip, out float rise, out floa
   mat3 axes = cube_face_axes(face);
   vec3 local = v * axes;
   vec2 there = vec2(local.x, -local.y) / local.z * to_texel + 0.5 * p.size;
-  MipSquare square = mip_square(cube_face_origin(p.light, face), p.size, mip, shadow_block.atlas_size);
+  MipSquare square = mip_square(origin_of_face(p.faces, face), p.size, mip, shadow_block.atlas_size);
   vec2 cell = clamp(floor(there / square.texel), vec2(0.0), vec2(square.size - 1.0));
   float depth = texelFetch(shadow_atlas, ivec2(square.corner + cell), 0).x;
   share = coverage(vec4(depth)).x;
