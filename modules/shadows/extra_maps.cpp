@@ -94,9 +94,10 @@ ExtraAtlas ShadowMapDrawer::create(FrameGraph& graph, const char* module, std::u
   made.size = size;
   made.atlas = graph.create_image(desc);
   desc.name = std::string(module) + "_pyramid";
-  desc.format = gpu::Format::rg32_float;
-  desc.height = size >> GLOAM_SHADOW_PYRAMID_MIP;
-  desc.width = desc.height + desc.height / 2;
+  desc.format = gpu::Format::r32_float;
+  const std::uint32_t side = size >> GLOAM_SHADOW_PYRAMID_MIP;
+  desc.width = side + side / 2;
+  desc.height = 2 * side;
   made.pyramid = graph.create_image(desc);
   return made;
 }

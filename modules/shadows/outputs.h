@@ -99,7 +99,7 @@ struct ShadowsOutputs {
   std::shared_ptr<const std::vector<shaders::ShadowRow>>
       row_values;    ///< what it holds; directional lights' are CascadeRow
   ImageRef atlas;    ///< r32f or r16_unorm: depth of all faces and their mips
-  ImageRef pyramid;  ///< rg32f: farthest and nearest depth
+  ImageRef pyramid;  ///< r32f: nearest and farthest depth
   ImageRef cookies;  ///< rgba8_srgb, an array: cookies of spot lights; one white layer when there is none
   ImageRef
       traced;  ///< r8_unorm, an array: visibility a light and pixel that a reference has traced; the cookies' image when there is none

@@ -77,7 +77,10 @@ Result<ViewShadows*> ShadowStates::view(ShadowWorld world, ViewId view, std::uin
   auto atlas = make(kept_image("shadow_atlas", d16 ? gpu::Format::r16_unorm : gpu::Format::r32_float, atlas_size));
   if (!atlas.ok()) return atlas.error();
   found.atlas.image = *atlas;
-  auto pyramid = make(kept_image("shadow_pyramid", gpu::Format::rg32_float, atlas_size >> GLOAM_SHADOW_PYRAMID_MIP));
+  gpu::ImageDesc both_bounds =
+      kept_image("shadow_pyramid", gpu::Format::r32_float, atlas_size >> GLOAM_SHADOW_PYRAMID_MIP);
+  both_bounds.height *= 2;
+  auto pyramid = make(both_bounds);
   if (!pyramid.ok()) return pyramid.error();
   found.pyramid.image = *pyramid;
   return &found;

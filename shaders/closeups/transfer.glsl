@@ -51,7 +51,7 @@ float nearest_depth(uvec2 at, uint mip) {
   if (mip < uint(GLOAM_SHADOW_PYRAMID_MIP)) return texelFetch(closeup_map, ivec2(transfer.origin + at), 0).x;
   uint level = mip - uint(GLOAM_SHADOW_PYRAMID_MIP), size = transfer.map_size / 4u;
   ivec2 corner = level == 0u ? ivec2(0) : ivec2(size, size - (2u * size >> level));
-  return texelFetch(closeup_pyramid, corner + ivec2((transfer.origin >> mip) + at), 0).y;
+  return texelFetch(closeup_pyramid, corner + ivec2((transfer.origin >> mip) + at), 0).x;
 }
 
 // 0 where a standard face would show nothing.

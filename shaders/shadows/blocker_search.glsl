@@ -16,8 +16,10 @@ float nearest_of(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 float farthest_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
 // Nearest and farthest depth of the four texels round a corner in the pyramid, which is in texels of its level 0.
-float gather_nearest(vec2 corner) { return nearest_of(textureGather(shadow_pyramid, corner * 4.0 * shadow_texel_size(), 1)); }
-float gather_farthest(vec2 corner) { return farthest_of(textureGather(shadow_pyramid, corner * 4.0 * shadow_texel_size(), 0)); }
+float gather_nearest(vec2 corner) { return nearest_of(textureGather(shadow_pyramid, corner * shadow_texel_size() * vec2(4.0, 2.0))); }
+float gather_farthest(vec2 corner) {
+  return farthest_of(textureGather(shadow_pyramid, corner * shadow_texel_size() * vec2(4.0, 2.0) + vec2(0.0, 0.5)));
+}
 
 // Nearest and farthest depth of texels [low, high] of a face, from its pyramid; whatever is beyond it is left out.
 float nearest_in_face(vec2 origin, float size, vec2 low, vec2 high, out float farthest) {
@@ -114,7 +116,7 @@ SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
     vec2 there = vec2(local.x, -local.y) / local.z / to_tangent + 0.5 * p.size;
     MipSquare square = mip_square(origin_of_face(p.faces, face) * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
     vec2 cell = clamp(floor(there * 0.25 / square.texel), vec2(0.0), vec2(square.size - 1.0));
-    nearest = max(nearest, texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).y * local.z);
+    nearest = max(nearest, texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).x * local.z);
     if (++tap == taps) {
       region.nearest = nearest;
       region.width = min(region.width, penumbra_width(p, nearest));

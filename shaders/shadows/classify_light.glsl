@@ -160,7 +160,7 @@ bool other_faces_matter(TileInFace f, uint light) {
   bool matter = false;
   for (int i = 0; i < 6; ++i) {
     MipSquare square = mip_square(cube_face_origin(light, i) * 0.25, f.size * 0.25, last, shadow_block.atlas_size * 0.25);
-    float held = texelFetch(shadow_pyramid, ivec2(square.corner), 0).y;
+    float held = texelFetch(shadow_pyramid, ivec2(square.corner), 0).x;
     float off = min(texels_to_face(f.face, i, f.low, f.size, to_tangent), texels_to_face(f.face, i, f.high, f.size, to_tangent));
     bool other = i != f.face && may_block_from_other_face(held * 1.00001, f.farthest, off - 0.1, f.scale, to_tangent);
     matter = matter || other;

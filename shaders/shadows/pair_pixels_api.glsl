@@ -36,6 +36,9 @@ const uint kSomeSeeAny = 2u;
 shared uint packed_words[16];           // of a slot
 shared float widths[GLOAM_SLOT_PIXELS];  // of penumbrae; each thread has its own pixels
 shared uint found;                      // what all pixels say of the tile
+// Of threads whose pixels fill words of their own: those words, one or two. Others share theirs.
+const bool kOwnWords = kPixels * kVisibilityBits >= 32u;
+uvec2 own_words = uvec2(0u);
 
 // A pixel of the tile and the light.
 struct PixelOfPair {
@@ -59,7 +62,18 @@ uint visibility_steps(PixelOfPair p, float visibility) {
 }
 
 void pack_steps(uint pixel, uint steps) {
-  atomicOr(packed_words[pixel * kVisibilityBits >> 5], steps << (pixel * kVisibilityBits & 31u));
+  uint bit = pixel * kVisibilityBits, placed = steps << (bit & 31u);
+  if (!kOwnWords) atomicOr(packed_words[bit >> 5], placed);
+  bool second = kPixels * kVisibilityBits > 32u && (bit & 32u) != 0u;
+  own_words |= uvec2(second ? 0u : placed, second ? placed : 0u);
+}
+
+// After the last pixel of a thread.
+void keep_own_words(uint lane) {
+  if (!kOwnWords) return;
+  uint words = kPixels * kVisibilityBits / 32u;
+  packed_words[lane * words] = own_words.x;
+  if (words > 1u) packed_words[lane * words + 1u] = own_words.y;
 }
 
 void start_pixels(uint lane) {

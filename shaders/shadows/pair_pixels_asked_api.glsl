@@ -45,6 +45,7 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
     some |= keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]));
     left &= left - 1u;
   } while (left != 0u);
+  keep_own_words(lane);
   if (some != 0u) atomicOr(found, some);
 }
 

@@ -16,7 +16,7 @@ layout(local_size_x = GLOAM_SHADOW_MIP_GROUP, local_size_y = GLOAM_SHADOW_MIP_GR
 layout(set = 0, binding = 0) uniform sampler2DArray scratch;
 #endif
 layout(set = 0, binding = 1, GLOAM_SHADOW_ATLAS_FORMAT) uniform image2D atlas;
-layout(set = 0, binding = 2, rg32f) uniform image2D pyramid;
+layout(set = 0, binding = 2, r32f) uniform image2D pyramid;
 layout(set = 0, binding = 3, scalar) readonly buffer Groups { ShadowMipGroup groups[]; };
 #ifndef GLOAM_SHADOW_MIPS_IN_PLACE
 layout(set = 0, binding = 4) uniform sampler2DArray backgrounds;  // depth of casters that the scratch map lacks, laid out as mip 0 of the atlas
@@ -32,7 +32,7 @@ struct Texels {
   float count;
   float covered;  // texels that the nearest surface covers
   float depths;   // sum of its depths, by what each texel's surface covers
-  vec2 bounds;    // of the pyramid
+  vec2 bounds;    // of the pyramid: farthest, nearest
 };
 
 const Texels kNone = Texels(0.0, 0.0, 0.0, 0.0, 0.0, vec2(1.0, 0.0));
@@ -81,9 +81,17 @@ void store_depth(uint mip, uvec2 at, float depth) {
   imageStore(atlas, mip_corner(mip, run.atlas_size) + ivec2((face.origin >> mip) + at), vec4(depth));
 }
 
+// Where the pyramid holds the nearest depth of a mip's texel; the farthest is below_nearest() from there.
+ivec2 nearest_place(uint mip, uvec2 at) {
+  return mip_corner(mip - uint(GLOAM_SHADOW_PYRAMID_MIP), run.atlas_size / 4u) + ivec2((face.origin >> mip) + at);
+}
+
+ivec2 below_nearest() { return ivec2(0, run.atlas_size / 4u); }
+
 void store_bounds(uint mip, uvec2 at, vec2 bounds) {
-  ivec2 corner = mip_corner(mip - uint(GLOAM_SHADOW_PYRAMID_MIP), run.atlas_size / 4u);
-  imageStore(pyramid, corner + ivec2((face.origin >> mip) + at), vec4(bounds, 0.0, 0.0));
+  ivec2 place = nearest_place(mip, at);
+  imageStore(pyramid, place, vec4(bounds.y));
+  imageStore(pyramid, place + below_nearest(), vec4(bounds.x));
 }
 
 // Of mips that small faces may lack.
@@ -155,8 +163,8 @@ void make_first_mips(uvec2 block, float gap) {
 
 float source_texel(uvec2 at, out vec2 bounds) {
   at = min(at, uvec2((face.size >> run.first) - 1u));
-  ivec2 corner = mip_corner(run.first - uint(GLOAM_SHADOW_PYRAMID_MIP), run.atlas_size / 4u);
-  bounds = imageLoad(pyramid, corner + ivec2((face.origin >> run.first) + at)).xy;
+  ivec2 place = nearest_place(run.first, at);
+  bounds = vec2(imageLoad(pyramid, place + below_nearest()).x, imageLoad(pyramid, place).x);
   return imageLoad(atlas, mip_corner(run.first, run.atlas_size) + ivec2((face.origin >> run.first) + at)).x;
 }
 

@@ -146,7 +146,7 @@ struct LocalShadow {
 // Nearest depth of a whole face.
 float nearest_of_face(vec2 origin, float size) {
   MipSquare square = mip_square(origin * 0.25, size * 0.25, floor_log2(size) - GLOAM_SHADOW_PYRAMID_MIP, shadow_block.atlas_size * 0.25);
-  return texelFetch(shadow_pyramid, ivec2(square.corner), 0).y;
+  return texelFetch(shadow_pyramid, ivec2(square.corner), 0).x;
 }
 
 // A spot has one face, whose corner is where a cube has that of its first.

@@ -10,8 +10,8 @@
 //
 // The atlas image is 1.5 W × W texels: mip 0 is the square [0, W)², mip m ≥ 1 the square of side W / 2^m with its corner at
 // (W, W − W / 2^(m−1)): a face of side s at `origin` has its mip m at corner(m) + origin / 2^m, s / 2^m wide.
-// The pyramid image is laid out the same way for W / 4: its level l is mip l + GLOAM_SHADOW_PYRAMID_MIP. x: farthest depth of the texels
-// below (0 when one of them is empty), y: nearest.
+// The pyramid image is two of the same layout for W / 4, one below the other: level l is mip l + GLOAM_SHADOW_PYRAMID_MIP. The upper one
+// holds the nearest depth of the texels below, the lower one the farthest (0 when one of them is empty).
 //
 // A cube's faces look along its own +X, −X, +Y, −Y, +Z, −Z (GLOAM_CUBE_X …); the y axis of ±X and ±Z is +Y, of +Y it is −Z, of −Y it is +Z;
 // the x axis is cross(forward, y axis). Texture coordinates of a face run from its upper left corner: x along the x axis, y against the y axis.

@@ -153,7 +153,7 @@ ShadowMaps::ShadowMaps(gpu::Device& device, std::uint32_t atlas_size, gpu::Forma
   const ImageUsage usage =
       ImageUsage::storage | ImageUsage::sampled | ImageUsage::transfer_source | ImageUsage::transfer_target;
   atlas_ = image(format, {size_ * 3 / 2, size_}, usage, gpu::ImageShape::plain);
-  pyramid_ = image(gpu::Format::rg32_float, {size_ * 3 / 8, size_ / 4}, usage, gpu::ImageShape::plain);
+  pyramid_ = image(gpu::Format::r32_float, {size_ * 3 / 8, size_ / 2}, usage, gpu::ImageShape::plain);
   const gpu::ShaderCode code =
       format == gpu::Format::r32_float ? shaders::shadows::shadow_mips_comp : shaders::shadows::shadow_mips_r16_comp;
   mips_ = value_of(device.create_pipeline(gpu::ComputePipelineDesc{"shadow_mips", "test", code, {}}));
@@ -308,8 +308,10 @@ std::vector<float> ShadowMaps::atlas() const {
 
 std::vector<vec2> ShadowMaps::pyramid() const {
   const std::vector<std::byte> bytes = read(pyramid_);
-  std::vector<vec2> texels(bytes.size() / sizeof(vec2));
-  std::memcpy(texels.data(), bytes.data(), bytes.size());
+  std::vector<float> depths(bytes.size() / sizeof(float));
+  std::memcpy(depths.data(), bytes.data(), bytes.size());
+  std::vector<vec2> texels(depths.size() / 2);
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = {depths[texels.size() + i], depths[i]};
   return texels;
 }
 

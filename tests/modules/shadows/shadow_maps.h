@@ -75,7 +75,7 @@ class ShadowMaps {
   /// Overwrites texels of the atlas image, mips included; the pyramid stays.
   void write_atlas(const std::vector<float>& texels);
   [[nodiscard]] std::vector<float> atlas() const;
-  [[nodiscard]] std::vector<vec2> pyramid() const;
+  [[nodiscard]] std::vector<vec2> pyramid() const;  ///< farthest and nearest
   [[nodiscard]] std::uint32_t atlas_size() const { return size_; }
   /// Ready for compute_read.
   [[nodiscard]] gpu::ImageHandle atlas_image() const { return atlas_; }
