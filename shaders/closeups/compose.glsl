@@ -88,11 +88,10 @@ ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
 bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return local_light_gives(l.light, position, normal); }
 #endif
 
-// Keeps the lesser of what the pixel saw and what the subject leaves; returns what it says of the tile.
-uint keep_visibility(uint pixel, PixelOfPair p, float visibility) {
+// The lesser of what the pixel saw and what the subject leaves.
+uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps) {
   uint old = old_words[pixel * kVisibilityBits >> 5] >> (pixel * kVisibilityBits & 31u) & kMostSteps;
-  uint steps = p.point.live ? min(visibility_steps(p, visibility), old) : old;
-  pack_steps(pixel, steps);
+  steps = p.point.live ? min(visibility_steps(p, visibility), old) : old;
   if (!p.matters) return 0u;
   return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u) | (steps < old ? kSomeChanged : 0u);
 }

@@ -61,11 +61,9 @@ ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) { return local_shadow_
 bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return local_light_gives(l.light, position, normal); }
 #endif
 
-// Keeps what a pixel sees; returns what it says of the tile.
-uint keep_visibility(uint pixel, PixelOfPair p, float visibility) {
-  uint steps = visibility_steps(p, visibility);
+uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps) {
+  steps = p.matters ? visibility_steps(p, visibility) : 0u;
   if (!p.matters) return 0u;
-  pack_steps(pixel, steps);
   return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u);
 }
 

@@ -14,7 +14,7 @@
 //   LightOfPair: what is the same for all pixels, with
 //   ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) and
 //   bool gives_light(LightOfPair l, vec3 position, vec3 normal),
-//   uint keep_visibility(uint pixel, PixelOfPair p, float visibility), which keeps what a pixel sees and returns what it says of the tile,
+//   uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps), which returns what it says of the tile, and steps to keep,
 // and include pair_pixels_asked_api.glsl. Bindings 0 and 3 to 6 are taken.
 
 layout(local_size_x = 64, local_size_x_id = 0) in;  // constant 0: 8, 16, 32 or 64
@@ -34,7 +34,9 @@ const uint kSomeSeeLess = 1u;
 const uint kSomeSeeAny = 2u;
 
 shared uint packed_words[16];           // of a slot
-shared float widths[GLOAM_SLOT_PIXELS];  // of penumbrae; each thread has its own pixels
+shared float widths[GLOAM_SLOT_PIXELS];  // of penumbrae
+shared uint filtered[GLOAM_SLOT_PIXELS]; // pixels that need the filter, filtered_count of them
+shared uint filtered_count;
 shared uint found;                      // what all pixels say of the tile
 // Of threads whose pixels fill words of their own: those words, one or two. Others share theirs.
 const bool kOwnWords = kPixels * kVisibilityBits >= 32u;
@@ -61,9 +63,12 @@ uint visibility_steps(PixelOfPair p, float visibility) {
   return uint(quantised_visibility(visibility * p.point.horizon) * float(kMostSteps) + 0.5);
 }
 
-void pack_steps(uint pixel, uint steps) {
+void pack_steps(uint pixel, uint steps) { atomicOr(packed_words[pixel * kVisibilityBits >> 5], steps << (pixel * kVisibilityBits & 31u)); }
+
+// Of one of the thread's own pixels.
+void pack_own_steps(uint pixel, uint steps) {
+  if (!kOwnWords) pack_steps(pixel, steps);
   uint bit = pixel * kVisibilityBits, placed = steps << (bit & 31u);
-  if (!kOwnWords) atomicOr(packed_words[bit >> 5], placed);
   bool second = kPixels * kVisibilityBits > 32u && (bit & 32u) != 0u;
   own_words |= uvec2(second ? 0u : placed, second ? placed : 0u);
 }
@@ -78,7 +83,7 @@ void keep_own_words(uint lane) {
 
 void start_pixels(uint lane) {
   for (uint i = lane; i < 16u; i += kThreads) packed_words[i] = 0u;
-  if (lane == 0u) found = 0u;
+  if (lane == 0u) found = filtered_count = 0u;
 }
 
 #endif

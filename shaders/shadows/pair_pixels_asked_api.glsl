@@ -24,10 +24,9 @@ PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
 
 uvec2 pixel_at(uvec2 tile, uint pixel) { return tile * uint(GLOAM_SHADOW_TILE) + uvec2(pixel & 7u, pixel >> 3); }
 
-// All pixels of a thread, first as far as it goes without the filter; then those that need it, which are one after the other in every
-// thread: devices that run threads side by side take as many turns as the thread with the most of them.
+// All pixels of a thread, first as far as it goes without the filter; then those of the tile that need it, dealt out among the threads.
 void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
-  uint some = 0u, left = 0u, i = 0u;
+  uint some = 0u, i = 0u, steps;
   do {
     uint pixel = lane * kPixels + i;
     PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
@@ -36,16 +35,25 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
     if (kFilter == 3u) known = known_before_filter(p.point, visibility, width) || !p.matters;
     else visibility = unquantised_visibility(p.point);
     widths[pixel] = width;
-    left |= known ? 0u : 1u << i;
-    if (known) some |= keep_visibility(pixel, p, visibility);
+    uint says = keep_visibility(pixel, p, visibility, steps);
+    if (known) {
+      some |= says;
+      pack_own_steps(pixel, steps);
+    } else {
+      filtered[atomicAdd(filtered_count, 1u)] = pixel;
+    }
   } while (++i < kPixels);
-  if (kFilter == 3u && left != 0u) do {
-    uint pixel = lane * kPixels + uint(findLSB(left));
-    PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
-    some |= keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]));
-    left &= left - 1u;
-  } while (left != 0u);
   keep_own_words(lane);
+  barrier();
+  uint count = kFilter == 3u ? filtered_count : 0u;
+  i = lane;
+  if (i < count) do {
+    uint pixel = filtered[i];
+    PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+    some |= keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]), steps);
+    pack_steps(pixel, steps);
+    i += kThreads;
+  } while (i < count);
   if (some != 0u) atomicOr(found, some);
 }
 
