@@ -16,7 +16,7 @@
 // shows that nothing can hide it from any of the tile's pixels, is lit; one that something hides from all of them is left out; the others
 // become pairs for generate_shadows.comp. One thread is a tile.
 //
-// lavapipe ends all loops of a thread after 65,535 turns together: a face of a light takes at most kMostTurns in blocks and 256 in texels.
+// lavapipe ends all loops of a thread after 65,535 turns together: a face of a light takes at most kMostTurns in blocks and 64 in texels.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -120,26 +120,24 @@ bool is_harmless(TileInFace f, Looks looks, vec4 block, vec2 middle, float half_
 // The same of one texel.
 bool is_harmless(TileInFace f, Looks looks, float depth, vec2 middle) { return is_harmless(f, looks, vec4(depth, f.plane.yz, depth), middle, 0.0); }
 
-// Blocks of level 0, few enough to be looked at texel by texel, a byte a coordinate: the newest in the lowest 16 bits of first.x.
+// Blocks of level 0, few enough to be looked at texel by texel, a byte a coordinate: the newest in the lowest 16 bits of blocks.x. The one
+// that is too many has room too.
 struct CloseBlocks {
-  uvec4 first;
-  uvec4 rest;
+  uvec4 blocks;
   int count;
 };
 
-const int kMostCloseBlocks = 16;
+const int kMostCloseBlocks = 4;
 
 void push(inout CloseBlocks c, uvec2 block) {
-  c.rest = c.rest << 16 | uvec4(c.first.w >> 16, c.rest.xyz >> 16);
-  c.first = c.first << 16 | uvec4(block.x & 255u | (block.y & 255u) << 8, c.first.xyz >> 16);
+  c.blocks = c.blocks << 16 | uvec4(block.x & 255u | (block.y & 255u) << 8, c.blocks.xyz >> 16);
   ++c.count;
 }
 
-ivec2 newest(CloseBlocks c) { return ivec2(c.first.x & 255u, c.first.x >> 8 & 255u); }
+ivec2 newest(CloseBlocks c) { return ivec2(c.blocks.x & 255u, c.blocks.x >> 8 & 255u); }
 
 void pop(inout CloseBlocks c) {
-  c.first = c.first >> 16 | uvec4(c.first.yzw, c.rest.x) << 16;
-  c.rest = c.rest >> 16 | uvec4(c.rest.yzw, 0u) << 16;
+  c.blocks = c.blocks >> 16 | uvec4(c.blocks.yzw, 0u) << 16;
   --c.count;
 }
 
@@ -162,7 +160,7 @@ bool quad_is_harmless(TileInFace f, Looks looks, ivec2 block, int quad) {
 // From large blocks to small ones, only where a block may hold a blocker. What is left of level 0 is looked at closely; false when that is
 // too much, or after so many turns.
 bool blocks_harmless(TileInFace f, ivec2 low, ivec2 high, Looks looks, int most_turns, out CloseBlocks close) {
-  close = CloseBlocks(uvec4(0u), uvec4(0u), 0);
+  close = CloseBlocks(uvec4(0u), 0);
   int top = 0;
   for (int i = 1; i < GLOAM_SHADOW_PLANE_LEVELS; ++i)
     top = max((high.x >> top) - (low.x >> top), (high.y >> top) - (low.y >> top)) >= kMostBlocks ? i : top;
