@@ -135,6 +135,14 @@ ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string mo
   return frame.graph().create_image(std::move(desc));
 }
 
+void begin_view_rendering(gpu::CommandList& commands, const RenderView& view, gpu::RenderingDesc rendering) {
+  rendering.width = view.width;
+  rendering.height = view.height;
+  commands.begin_rendering(rendering);
+  commands.set_viewport(0.0f, 0.0f, static_cast<float>(view.width), static_cast<float>(view.height));
+  commands.set_scissor(0, 0, view.width, view.height);
+}
+
 void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass) {
   gpu::RenderingDesc rendering;
   rendering.colors.push_back({.view = {.image = pass.target}, .load = pass.load});

@@ -141,6 +141,9 @@ class FrameBuilder {
 [[nodiscard]] ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string module, gpu::Format format,
                                          std::uint32_t divisor = 1);
 
+/// Begins drawing into images of the view's size; viewport and scissor are all of it.
+void begin_view_rendering(gpu::CommandList& commands, const RenderView& view, gpu::RenderingDesc rendering);
+
 /// Records one full-screen triangle into `target` with a pipeline of `fullscreen.vert`. Bindings are those of set 0.
 struct FullscreenPass {
   gpu::PipelineHandle pipeline;

@@ -92,15 +92,10 @@ void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& dra
     return gpu::Binding::Sampled{{.image = context.image(image)}, draw.sampler};
   };
   gpu::CommandList& commands = context.commands();
-  const std::uint32_t width = frame.view().width, height = frame.view().height;
   gpu::RenderingDesc rendering;
   rendering.colors.push_back({.view = {.image = context.image(draw.picture)}, .load = gpu::LoadOp::load});
   rendering.colors.push_back({.view = {.image = context.image(draw.named)}, .load = gpu::LoadOp::clear});
-  rendering.width = width;
-  rendering.height = height;
-  commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(width), static_cast<float>(height));
-  commands.set_scissor(0, 0, width, height);
+  begin_view_rendering(commands, frame.view(), std::move(rendering));
   commands.bind_pipeline(draw.pipeline);
   std::vector<gpu::Binding> bindings = {
       frame.view_binding(), {1, draw.closeups}, {2, sampled(draw.geometry.depth)}, {3, draw.lines}};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "modules/lighting/environment.h"
 #include "modules/lighting/passes.h"
@@ -161,12 +162,8 @@ void record(FrameBuilder& frame, PassContext& context, const Deferred& d) {
   gpu::RenderingDesc rendering;
   rendering.colors.push_back({.view = {.image = context.image(d.color)}, .load = gpu::LoadOp::discard});
   rendering.depth = {.view = {.image = context.image(d.geometry.depth)}, .load = gpu::LoadOp::load, .read_only = true};
-  rendering.width = frame.view().width;
-  rendering.height = frame.view().height;
   gpu::CommandList& commands = context.commands();
-  commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
-  commands.set_scissor(0, 0, rendering.width, rendering.height);
+  begin_view_rendering(commands, frame.view(), std::move(rendering));
   commands.bind_pipeline(d.surfaces);
   commands.bind(bindings_of(frame, context, d, d.source));
   commands.draw(3, 1, 0, 0);

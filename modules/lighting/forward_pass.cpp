@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <utility>
+
 #include "modules/lighting/environment.h"
 #include "modules/lighting/passes.h"
 #include "modules/shadows/outputs.h"
@@ -110,12 +112,8 @@ Status add_forward_pass(FrameBuilder& frame) {
     rendering.colors.push_back({.view = {.image = context.image(f.color)}, .load = gpu::LoadOp::load});
     rendering.depth = {
         .view = {.image = context.image(f.geometry.depth)}, .load = gpu::LoadOp::load, .read_only = true};
-    rendering.width = frame.view().width;
-    rendering.height = frame.view().height;
     gpu::CommandList& commands = context.commands();
-    commands.begin_rendering(rendering);
-    commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
-    commands.set_scissor(0, 0, rendering.width, rendering.height);
+    begin_view_rendering(commands, frame.view(), std::move(rendering));
     // Pipelines were made in declaration: nothing is left to fail.
     static_cast<void>(frame.draw_surfaces(context, frame.draws().blended, f.surfaces, bindings_of(frame, context, f)));
     commands.end_rendering();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "engine/scene/resources.h"
 #include "modules/lights/light_list.h"
@@ -111,15 +112,10 @@ std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassConte
 
 void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& draw) {
   gpu::CommandList& commands = context.commands();
-  const std::uint32_t width = frame.view().width, height = frame.view().height;
   gpu::RenderingDesc rendering;
   rendering.colors.push_back({.view = {.image = context.image(draw.picture)}, .load = gpu::LoadOp::load});
   rendering.colors.push_back({.view = {.image = context.image(draw.named)}, .load = gpu::LoadOp::clear});
-  rendering.width = width;
-  rendering.height = height;
-  commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(width), static_cast<float>(height));
-  commands.set_scissor(0, 0, width, height);
+  begin_view_rendering(commands, frame.view(), std::move(rendering));
   commands.bind_pipeline(draw.pipeline);
   commands.bind(bindings_of(frame, context, draw));
   if (shows_one_light(draw.view)) commands.push(draw.light);

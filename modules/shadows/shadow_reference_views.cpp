@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
@@ -32,8 +33,6 @@ struct ReferenceView {
   gpu::SamplerHandle sampler;
   ImageRef picture;
   ImageRef named;
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
 };
 
 gpu::GraphicsPipelineDesc view_pipeline(const ReferenceView& view, gpu::Format format) {
@@ -58,12 +57,8 @@ void record(const FrameBuilder& frame, PassContext& context, const ReferenceView
   gpu::RenderingDesc rendering;
   rendering.colors.push_back({.view = {.image = context.image(view.picture)}, .load = gpu::LoadOp::clear});
   rendering.colors.push_back({.view = {.image = context.image(view.named)}, .load = gpu::LoadOp::clear});
-  rendering.width = view.width;
-  rendering.height = view.height;
   gpu::CommandList& commands = context.commands();
-  commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(view.width), static_cast<float>(view.height));
-  commands.set_scissor(0, 0, view.width, view.height);
+  begin_view_rendering(commands, frame.view(), std::move(rendering));
   commands.bind_pipeline(view.pipeline);
   commands.bind(bindings);
   if (view.light) commands.push(*view.light);
@@ -82,8 +77,6 @@ Status add_pass(FrameBuilder& frame, ReferenceView view) {
   view.geometry = frame.get<GeometryOutputs>();
   view.lights = frame.get<LightsOutputs>();
   if (!view.lights.texels) view.lights.texels = view.geometry.base_color;  // nobody looks at it then
-  view.width = frame.view().width;
-  view.height = frame.view().height;
   const ImageRef image = create_view_image(frame, view.image, "shadows", gpu::Format::r32_float);
   PassBuilder pass = frame.graph().add_pass(view.name, "shadows");
   for (const ImageRef read : {view.geometry.depth, view.geometry.normals, view.geometry.base_color})

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
@@ -55,16 +56,12 @@ struct ViewTargets {
   std::uint32_t height = 0;
 };
 
-void begin(gpu::CommandList& commands, PassContext& context, const ViewTargets& targets) {
+void begin(gpu::CommandList& commands, PassContext& context, const RenderView& view, const ViewTargets& targets) {
   gpu::RenderingDesc rendering;
   rendering.colors.push_back({.view = {.image = context.image(targets.picture)}, .load = gpu::LoadOp::clear});
   if (targets.named)
     rendering.colors.push_back({.view = {.image = context.image(targets.named)}, .load = gpu::LoadOp::clear});
-  rendering.width = targets.width;
-  rendering.height = targets.height;
-  commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(targets.width), static_cast<float>(targets.height));
-  commands.set_scissor(0, 0, targets.width, targets.height);
+  begin_view_rendering(commands, view, std::move(rendering));
 }
 
 Status add_visibility_view(FrameBuilder& frame, const shaders::ShownLightConstants& light,
@@ -102,7 +99,7 @@ Status add_visibility_view(FrameBuilder& frame, const shaders::ShownLightConstan
     if (shadows.final_lists)
       append_final_list_bindings(bindings, kFirstFinalListBinding, context, *shadows.final_lists, sampler);
     gpu::CommandList& commands = context.commands();
-    begin(commands, context, targets);
+    begin(commands, context, frame.view(), targets);
     commands.bind_pipeline(pipeline);
     commands.bind(bindings);
     commands.push(light);
@@ -147,9 +144,9 @@ Status add_atlas_view(FrameBuilder& frame, const ShadowsOutputs& shadows, const 
   PassBuilder pass = frame.graph().add_pass("shadow_atlas_view", "shadows");
   pass.read(shadows.atlas, gpu::Access::fragment_read);
   target.color = targets.picture = pass.write(target.color, gpu::Access::color_target);
-  pass.execute([targets, shadows, squares = std::move(squares), pipeline = *pipeline](PassContext& context) {
+  pass.execute([&frame, targets, shadows, squares = std::move(squares), pipeline = *pipeline](PassContext& context) {
     gpu::CommandList& commands = context.commands();
-    begin(commands, context, targets);
+    begin(commands, context, frame.view(), targets);
     commands.bind_pipeline(pipeline);
     const gpu::Binding bindings[] = {
         {0, gpu::Binding::Sampled{{.image = context.image(shadows.atlas)}, shadows.nearest}}};

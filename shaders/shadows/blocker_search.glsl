@@ -83,7 +83,7 @@ void look_at_face(ShadowPoint p, float held, float ahead, float along, float to_
 // other faces than the receiver's own.
 float nearest_of_cube(ShadowPoint p, mat3 own, float to_tangent, out bool others) {
   vec2 off = p.at - 0.5 * p.size;
-  vec3 along = own[0] * off.x - own[1] * off.y, ahead = own[2], forward = p.faces.nearest[0], backward = p.faces.nearest[1];
+  vec3 along = own[0] * off.x - own[1] * off.y, ahead = own[2], forward = light_faces.along_nearest, backward = light_faces.against_nearest;
   others = false;
   float nearest = 0.0;
   look_at_face(p, forward.x, ahead.x, along.x, to_tangent, nearest, others);
@@ -114,7 +114,7 @@ SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
     int face = cube_face_of(v);
     vec3 local = v * cube_face_axes(face);
     vec2 there = vec2(local.x, -local.y) / local.z / to_tangent + 0.5 * p.size;
-    MipSquare square = mip_square(origin_of_face(p.faces, face) * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
+    MipSquare square = mip_square(origin_of_face(face) * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
     vec2 cell = clamp(floor(there * 0.25 / square.texel), vec2(0.0), vec2(square.size - 1.0));
     nearest = max(nearest, texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).x * local.z);
     if (++tap == taps) {
@@ -227,7 +227,7 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
   vec4 lower = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
   vec2 first = whole_plane ? 1.0 - k.fraction : vec2(1.0), last = whole_plane ? k.fraction : vec2(1.0);
   vec2 beyond = min(k.fraction, 1.0 - k.fraction), sums = vec2(0.0);  // other texels' middles are at least 2 + beyond away
-  bool inner_only = !whole_plane && half_width <= kLeastHalfWidth + min(beyond.x, beyond.y);
+  bool inner_only = !whole_plane && kFullPenumbra == 0u && half_width <= kLeastHalfWidth + min(beyond.x, beyond.y);
   int turn = 0, turns = inner_only ? 1 : 4;
   do {
     bool outer_x = (turn & 1) != 0, outer_y = turn > 1;

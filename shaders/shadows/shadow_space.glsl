@@ -5,20 +5,24 @@
 
 // A receiver as one face of a shadow map sees it. Included by shadows_api.glsl.
 
-// Faces of a cube, by the axis of the cube that they look along (index 0) or against (1).
-struct CubeFaces {
-  vec3 x[2], y[2];  // of their corners in the atlas, texels of mip 0
+// A local light's faces, by the axis of its cube that they look along, or against: corners in the atlas, texels of mip 0, and the nearest
+// depth of all they hold. A spot has one, where a cube has its first.
+struct LightFaces {
+  vec3 along_x, along_y;
+  vec3 against_x, against_y;
 #ifdef GLOAM_SHADOWS_CROSSING
-  vec3 nearest[2];  // depth of all they hold
+  vec3 along_nearest, against_nearest;
 #endif
 };
 
-float of_face(vec3 values[2], int face) {
-  vec3 sided = (face & 1) == 0 ? values[0] : values[1];
-  return face < 2 ? sided.x : face < 4 ? sided.y : sided.z;
-}
+// Of the light that was asked about last: as a part of every ShadowPoint it would make pipelines as slow to build again by half.
+LightFaces light_faces;
 
-vec2 origin_of_face(CubeFaces faces, int face) { return vec2(of_face(faces.x, face), of_face(faces.y, face)); }
+vec2 origin_of_face(int face) {
+  bool along = (face & 1) == 0;
+  vec3 x = along ? light_faces.along_x : light_faces.against_x, y = along ? light_faces.along_y : light_faces.against_y;
+  return face < 2 ? vec2(x.x, y.x) : face < 4 ? vec2(x.y, y.y) : vec2(x.z, y.z);
+}
 
 // The plane through a receiver and its normal is an affine function of texel coordinates, in perspective faces too: 1 / z is.
 struct ShadowPoint {
@@ -33,7 +37,6 @@ struct ShadowPoint {
   bool orthographic;
   bool live;        // false: lit, whatever the map says
   int face;         // of a cube; −1: no cube
-  CubeFaces faces;  // of a cube
   float tan_half;   // of a cube
   float horizon;    // share of the emitter that is on the surface's visible side: what lies below its own plane hides nothing, and lights nothing
 };
@@ -95,17 +98,8 @@ void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, f
   p.threshold = max(p.depth + (toward ? bias + rounding : -bias), p.least);
 }
 
-CubeFaces no_faces() {
-  vec3 none[2] = vec3[2](vec3(0.0), vec3(0.0));
-#ifdef GLOAM_SHADOWS_CROSSING
-  return CubeFaces(none, none, none);
-#else
-  return CubeFaces(none, none);
-#endif
-}
-
 ShadowPoint no_shadow_point() {
-  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, no_faces(), 1.0, 1.0);
+  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 1.0, 1.0);
 }
 
 // Axes of a cube in the world, as columns.
@@ -140,7 +134,7 @@ struct LocalShadow {
   vec4 right;     // right, tan_half
   vec4 up;        // up, tan_inner
   vec3 forward;
-  CubeFaces faces;
+  LightFaces faces;
 };
 
 // Nearest depth of a whole face.
@@ -149,20 +143,19 @@ float nearest_of_face(vec2 origin, float size) {
   return texelFetch(shadow_pyramid, ivec2(square.corner), 0).x;
 }
 
-// A spot has one face, whose corner is where a cube has that of its first.
-CubeFaces fetch_faces(uint light, float size, bool cube) {
-  CubeFaces faces = no_faces();
+LightFaces fetch_faces(uint light, float size, bool cube) {
+  LightFaces faces;
   int axis = 0;
   do {
     vec4 corners = texelFetch(shadow_rows, ivec2(3 + axis, light), 0);
     bvec3 own = equal(ivec3(axis), ivec3(0, 1, 2));
-    faces.x[0] = mix(faces.x[0], corners.xxx, own);
-    faces.y[0] = mix(faces.y[0], corners.yyy, own);
-    faces.x[1] = mix(faces.x[1], corners.zzz, own);
-    faces.y[1] = mix(faces.y[1], corners.www, own);
+    faces.along_x = mix(faces.along_x, corners.xxx, own);
+    faces.along_y = mix(faces.along_y, corners.yyy, own);
+    faces.against_x = mix(faces.against_x, corners.zzz, own);
+    faces.against_y = mix(faces.against_y, corners.www, own);
 #ifdef GLOAM_SHADOWS_CROSSING
-    faces.nearest[0] = mix(faces.nearest[0], vec3(nearest_of_face(corners.xy, size)), own);
-    faces.nearest[1] = mix(faces.nearest[1], vec3(nearest_of_face(corners.zw, size)), own);
+    faces.along_nearest = mix(faces.along_nearest, vec3(nearest_of_face(corners.xy, size)), own);
+    faces.against_nearest = mix(faces.against_nearest, vec3(nearest_of_face(corners.zw, size)), own);
 #endif
   } while (cube && ++axis < 3);
   return faces;
@@ -187,7 +180,7 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
     normal = normal * kCube;
   }
   p.face = cube ? cube_face_of(v) : -1;
-  p.faces = l.faces;
+  light_faces = l.faces;
   mat3 axes = mat3(right.xyz, up.xyz, l.forward);
   if (cube) axes = cube_face_axes(p.face);
   vec3 local = v * axes;
@@ -197,7 +190,7 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   local = p.live ? local : vec3(0.0, 0.0, 1.0);
   vec2 tangent = local.xy / z;
   float texel = 2.0 * right.w / first.w;  // tangent a texel
-  p.origin = origin_of_face(p.faces, max(p.face, 0));
+  p.origin = origin_of_face(max(p.face, 0));
   p.size = first.w;
   p.tan_half = right.w;
   p.at = vec2(tangent.x, -tangent.y) / texel + 0.5 * first.w;
@@ -322,7 +315,7 @@ float cube_depth(ShadowPoint p, inout vec2 at, int mip, out float rise, out floa
   mat3 axes = cube_face_axes(face);
   vec3 local = v * axes;
   vec2 there = vec2(local.x, -local.y) / local.z * to_texel + 0.5 * p.size;
-  MipSquare square = mip_square(origin_of_face(p.faces, face), p.size, mip, shadow_block.atlas_size);
+  MipSquare square = mip_square(origin_of_face(face), p.size, mip, shadow_block.atlas_size);
   vec2 cell = clamp(floor(there / square.texel), vec2(0.0), vec2(square.size - 1.0));
   float depth = texelFetch(shadow_atlas, ivec2(square.corner + cell), 0).x;
   share = coverage(vec4(depth)).x;

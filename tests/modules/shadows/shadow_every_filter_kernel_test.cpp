@@ -39,7 +39,8 @@ TEST_F(EveryShadowFilter, no_blocker_is_lit_and_all_blocked_is_dark_with_every_f
   std::vector<ShadowProbe> probes;
   for (int i = 0; i < 256; ++i) probes.push_back(rig.at(floor_at(rig, 15.0 + (i % 16) * 15.0, 15.0 + (i / 16) * 15.0)));
   for (ProbeSettings settings : every_filter()) {
-    for (const std::uint32_t full : {0u, 1u}) {
+    // Every setting is a pipeline to compile; only one filter can be told to leave nothing out.
+    for (std::uint32_t full = 0; full <= (settings.filter == 3 ? 1u : 0u); ++full) {
       settings.full_penumbra = full;
       for (const auto& result : rig.look(device(), open, probes, settings))
         ASSERT_EQ(result.visibility, 1.0f) << name_of(settings);
