@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/modules/shadows/disc_light.h"
 #include "tests/modules/shadows/shadow_rig.h"
 
 namespace gloam::test {

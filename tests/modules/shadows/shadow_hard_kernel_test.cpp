@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "tests/modules/shadows/disc_light.h"
 #include "tests/modules/shadows/shadow_rig.h"
 
 namespace gloam::test {
