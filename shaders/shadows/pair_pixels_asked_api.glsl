@@ -44,17 +44,18 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
     }
   } while (++i < kPixels);
   keep_own_words(lane);
+  if (some != 0u) atomicOr(found, some);
   barrier();
   uint count = kFilter == 3u ? filtered_count : 0u;
   i = lane;
   if (i < count) do {
     uint pixel = filtered[i];
     PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
-    some |= keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]), steps);
+    uint says = keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]), steps);
+    atomicOr(found, says);  // here, not below: see never()
     pack_steps(pixel, steps);
     i += kThreads;
   } while (i < count);
-  if (some != 0u) atomicOr(found, some);
 }
 
 #endif

@@ -96,7 +96,8 @@ float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
   int i = leaves_cube_face(p, kernel_reach(mips.fine, kKernel)) ? 0 : texels;
   int end = mips.blend > 0.0 ? 2 * texels : texels;
   float share = 0.0, all = 0.0, blocked = 0.0;
-  if (i < end && leaves_cube_face(p, kernel_reach(mips.coarse, kKernel))) do {
+  bool across = leaves_cube_face(p, kernel_reach(mips.coarse, kKernel));
+  while (across && i < end) {  // not do … while: see never()
     bool fine = i < texels;
     int mip = fine ? mips.fine : mips.coarse;
     Kernel k = make_kernel(p, mip, kKernel);
@@ -115,7 +116,7 @@ float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
       all = 0.0;
       blocked = 0.0;
     }
-  } while (i < end);
+  }
   return share;
 }
 #endif

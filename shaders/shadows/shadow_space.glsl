@@ -143,6 +143,7 @@ float nearest_of_face(vec2 origin, float size) {
   return texelFetch(shadow_pyramid, ivec2(square.corner), 0).x;
 }
 
+// What a spot has no faces for stays undefined; nobody looks at it.
 LightFaces fetch_faces(uint light, float size, bool cube) {
   LightFaces faces;
   int axis = 0;
