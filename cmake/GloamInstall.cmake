@@ -44,12 +44,14 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/gloamConfig.cmake ${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/GloamShaders.cmake DESTINATION ${gloam_package_dir} COMPONENT gloam)
 
-# Headers keep their paths from the root. Of modules only what others may see; Vulkan stays behind engine/gpu.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION include COMPONENT gloam
+# Headers keep their paths from the root, below include/gloam: targets add that folder, so that `#include "engine/…"` works and nothing
+# else in include/ is shadowed. Of modules only the public headers; Vulkan stays behind engine/gpu.
+set(gloam_include_dir include/gloam)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING PATTERN "*.h" PATTERN "engine/gpu/vulkan" EXCLUDE)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION include COMPONENT gloam
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|module_list)\\.h$")
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION include COMPONENT gloam
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING REGEX "_(shared\\.h|api\\.glsl)$|/shaders/common/[a-z_]+\\.(h|glsl)$" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)
-install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/shaders DESTINATION include COMPONENT gloam
+install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING PATTERN "shaders.h" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)

@@ -25,9 +25,12 @@ function(gloam_add_shaders folder)
   set(outputs "")
   foreach(source IN LISTS ARGN)
     string(REGEX REPLACE "\\.glsl$" "" stem ${source})
-    string(REPLACE "." "_" symbol ${stem})
+    get_filename_component(base ${stem} NAME)
+    string(REPLACE "." "_" symbol ${base})
     string(REGEX REPLACE ".*\\.(comp|vert|frag)$" "\\1" stage ${stem})
     set(output ${out_dir}/${stem}.spv.h)
+    get_filename_component(output_dir ${output} DIRECTORY)
+    file(MAKE_DIRECTORY ${output_dir})
     add_custom_command(OUTPUT ${output}
       COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.3 -S ${stage} -I${PROJECT_SOURCE_DIR} -I${root}
         --vn ${symbol}_words --depfile ${output}.d -o ${output} ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
@@ -59,7 +62,7 @@ ${definitions}}
   set_target_properties(gloam_shaders_${folder} PROPERTIES EXPORT_NAME shaders_${folder} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(gloam_shaders_${folder} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated> $<BUILD_INTERFACE:${root}>
-    $<INSTALL_INTERFACE:include>)
+    $<INSTALL_INTERFACE:include/gloam>)
   target_link_libraries(gloam_shaders_${folder} PUBLIC gloam::options)
   set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_shaders_${folder})
 endfunction()

@@ -35,7 +35,7 @@ function(gloam_add_layer name)
   set_target_properties(gloam_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(gloam_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
-    $<INSTALL_INTERFACE:include>)
+    $<INSTALL_INTERFACE:include/gloam>)
   target_link_libraries(gloam_${name} PUBLIC gloam_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   if(GLOAM_TOGETHER AND (GLOAM_SANITIZE OR GLOAM_LAYERS_TOGETHER) AND NOT ARG_APART)
     gloam_compile_together(gloam_${name} ${ARG_ALONE})

@@ -13,8 +13,9 @@
 
 namespace gloam {
 
-/// The program's two streams, kept apart from what libraries print: from its making to its end everything that others write to
-/// standard output and standard error is captured, and only this class reaches the real ones. One at a time in a process.
+/// The program's two streams, kept apart from what libraries print: from its making to its end everything that others
+/// write to standard output and standard error is captured, and only this class reaches the real ones. One at a time in
+/// a process.
 class Console {
  public:
   Console();
@@ -31,7 +32,8 @@ class Console {
 
   /// Whether standard error is a terminal, where a line may be overwritten.
   [[nodiscard]] bool shows_progress() const;
-  /// Shows a line that the next one, or any other output, replaces; an empty one takes it away. Nothing unless shows_progress.
+  /// Shows a line that the next one, or any other output, replaces; an empty one takes it away. Nothing unless
+  /// shows_progress.
   void show_progress(std::string_view line);
 
   /// Error of ErrorKind::failed when results could not be written (disk full, closed).

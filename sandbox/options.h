@@ -67,7 +67,8 @@ struct PrintAndLeave {
   std::string text;
 };
 
-/// `arguments` as of main, without the program's name. `version` is what --version prints. Errors are of ErrorKind::usage.
+/// `arguments` as of main, without the program's name. `version` is what --version prints. Errors are of
+/// ErrorKind::usage.
 [[nodiscard]] Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::string> arguments,
                                                                          const std::string& version);
 

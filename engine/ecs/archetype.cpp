@@ -14,8 +14,8 @@
 namespace gloam {
 namespace {
 
-/// The rests of columns begin on pages of their own. Were they to begin at the same place of each page, their first rows would fight
-/// for the same few cache sets; so column c of archetype a starts this many lines into its page.
+/// The rests of columns begin on pages of their own. Were they to begin at the same place of each page, their first
+/// rows would fight for the same few cache sets; so column c of archetype a starts this many lines into its page.
 constexpr std::uint32_t kColours = 32;
 std::size_t colour_offset(std::uint32_t archetype, std::size_t column) {
   return (archetype * 11 + column * 7) % kColours * kColumnAlignment;

@@ -17,16 +17,16 @@ namespace gloam {
 
 /// All entities that have exactly one set of components: a column of entities and a column a component, row beside row.
 ///
-/// Rows never move while others come. The first front_rows() of them lie in a piece of memory shared with other archetypes, so that
-/// many small archetypes fill pages and not each a page a column. What follows lies in address space that each column has for
-/// itself, reserved for `max_rows` and filled by pages. So a column is contiguous but for one joint. Rows that come at once are never
-/// torn: those that do not fit the front lie behind it.
+/// Rows never move while others come. The first front_rows() of them lie in a piece of memory shared with other
+/// archetypes, so that many small archetypes fill pages and not each a page a column. What follows lies in address
+/// space that each column has for itself, reserved for `max_rows` and filled by pages. So a column is contiguous but
+/// for one joint. Rows that come at once are never torn: those that do not fit the front lie behind it.
 class Archetype {
   using Bases = std::array<std::byte*, 2>;  ///< of the front and of the rest
 
  public:
-  /// A contiguous range of rows, the front or the rest: one pointer to a table that leads from an entity to its values without asking
-  /// the archetype. Null by default. Valid until cover_ids tells otherwise.
+  /// A contiguous range of rows, the front or the rest: one pointer to a table that leads from an entity to its values
+  /// without asking the archetype. Null by default. Valid until cover_ids tells otherwise.
   class Range {
    public:
     Range() = default;
@@ -45,8 +45,8 @@ class Archetype {
     std::byte** table_ = nullptr;
   };
 
-  /// `components`: sorted, without duplicates, indices into `infos`. `index` numbers the archetypes of a world. `fronts` outlives
-  /// the archetype.
+  /// `components`: sorted, without duplicates, indices into `infos`. `index` numbers the archetypes of a world.
+  /// `fronts` outlives the archetype.
   Archetype(std::uint32_t index, std::vector<ComponentId> components, std::span<const ComponentInfo> infos,
             std::uint32_t max_rows, PackedMemory& fronts);
   Archetype(const Archetype&) = delete;
@@ -68,8 +68,8 @@ class Archetype {
 
   /// The range that holds a row.
   [[nodiscard]] Range range(std::uint32_t row) const { return ranges_[part(row)]; }
-  /// What to add row · size to, for rows in the same range as `row`; null when the archetype lacks the component. A tag's is not
-  /// null, but has no bytes behind it. Stays the same once there was a row in the range.
+  /// What to add row · size to, for rows in the same range as `row`; null when the archetype lacks the component. A
+  /// tag's is not null, but has no bytes behind it. Stays the same once there was a row in the range.
   [[nodiscard]] std::byte* base(ComponentId id, std::uint32_t row) const { return range(row).base(id); }
   /// The same for rows in the front; is there from the beginning.
   [[nodiscard]] std::byte* front(ComponentId id) const { return ranges_[0].base(id); }
@@ -101,7 +101,8 @@ class Archetype {
     Archetype* to = nullptr;
     std::vector<Column> columns;  ///< all that have bytes
   };
-  /// Copies the entity and the values both archetypes have to a row of the other, and removes the row as remove_row does.
+  /// Copies the entity and the values both archetypes have to a row of the other, and removes the row as remove_row
+  /// does.
   Entity move_row(std::uint32_t row, const Edge& edge, std::uint32_t to_row, Tick now);
 
   /// The way to the archetype one component away: with `id` if this one lacks it, without if it has it. Null until set.

@@ -22,8 +22,8 @@ struct QueryTerms {
   std::vector<ComponentId> excluded;  ///< no match has one of these
 };
 
-/// The archetypes that answer a view, found once and extended when archetypes were added. Archetypes and the fronts of their columns
-/// never move, so a match keeps plain pointers.
+/// The archetypes that answer a view, found once and extended when archetypes were added. Archetypes and the fronts of
+/// their columns never move, so a match keeps plain pointers.
 class Query {
  public:
   explicit Query(QueryTerms terms) : terms_(std::move(terms)) {}
@@ -33,8 +33,8 @@ class Query {
 
   [[nodiscard]] std::size_t match_count() const { return matches_.size(); }
   [[nodiscard]] Archetype& match(std::size_t i) const { return *matches_[i]; }
-  /// A pointer a term of `columns` for rows in the same range as `row`, as Archetype::base gives them; null where the match lacks
-  /// the term. `storage` has room for one a term.
+  /// A pointer a term of `columns` for rows in the same range as `row`, as Archetype::base gives them; null where the
+  /// match lacks the term. `storage` has room for one a term.
   [[nodiscard]] std::byte* const* match_columns(std::size_t i, std::uint32_t row, std::byte** storage) const {
     if (row < matches_[i]->front_rows()) return fronts_.data() + i * terms_.columns.size();
     for (std::size_t term = 0; term < terms_.columns.size(); ++term)

@@ -44,8 +44,8 @@ class TypeTable {
   int shift_ = 0;  ///< 64 - log2(slots_.size())
 };
 
-/// The numbers of some types, at places that the compiler knows: finding one is a comparison. Of types that share a place only the
-/// first is found, so a TypeTable stands behind it.
+/// The numbers of some types, at places that the compiler knows: finding one is a comparison. Of types that share a
+/// place only the first is found, so a TypeTable stands behind it.
 class TypeCache {
  public:
   /// What `otherwise` gives unless T is held.

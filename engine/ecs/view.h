@@ -39,8 +39,8 @@ class View {
     for (std::size_t m = 0; m < query_->match_count(); ++m) rows(f, m, 0, query_->match(m).row_count(), kColumns);
   }
 
-  /// f([span<const Entity>,] span<A>, span<const B>, …), one call a contiguous range of rows: an archetype's are one or two (its
-  /// front and the rest; see archetype.h). An absent Maybe is an empty span.
+  /// f([span<const Entity>,] span<A>, span<const B>, …), one call a contiguous range of rows: an archetype's are one or
+  /// two (its front and the rest; see archetype.h). An absent Maybe is an empty span.
   template <class F>
   void each_chunk(F&& f) const {
     const Iteration iteration(*this);
@@ -188,8 +188,8 @@ class View {
     return id;
   }
 
-  /// Calls use(first, end, entities, cursor of each column …) for the contiguous ranges of the rows [first, last) of a match;
-  /// entities and cursors are indexed by row.
+  /// Calls use(first, end, entities, cursor of each column …) for the contiguous ranges of the rows [first, last) of a
+  /// match; entities and cursors are indexed by row.
   template <class Use, class... Cs>
   void for_ranges(std::size_t m, std::uint32_t first, std::uint32_t last, Use&& use, TypeList<Cs...>) const {
     const Archetype& archetype = query_->match(m);

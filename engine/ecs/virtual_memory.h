@@ -41,14 +41,14 @@ class ReservedMemory {
     std::size_t limit = 0;      ///< it may be committed up to here
     std::size_t committed = 0;  ///< it is committed from `begin` up to here
   };
-  /// Commits a stretch at least up to `end`, by whole pages; by large pages from about half of one on, and the system is asked to put
-  /// large pages behind what is there already: long columns then miss the TLB no more.
+  /// Commits a stretch at least up to `end`, by whole pages; by large pages from about half of one on, and the system
+  /// is asked to put large pages behind what is there already: long columns then miss the TLB no more.
   void extend(Stretch& stretch, std::size_t end);
 
   [[nodiscard]] static std::size_t page_size();
 
-  /// Reservations of at least so much begin at a multiple of it. A guess at what the system calls a large page: a wrong one costs
-  /// speed only.
+  /// Reservations of at least so much begin at a multiple of it. A guess at what the system calls a large page: a wrong
+  /// one costs speed only.
   static constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
  private:

@@ -245,8 +245,8 @@ class World {
   template <class... Args>
   friend class View;
 
-  /// Where an entity lives. In a free slot: no range, and `row` is the next free slot. From one cache line a lookup learns whether the
-  /// entity is alive and where to find its column.
+  /// Where an entity lives. In a free slot: no range, and `row` is the next free slot. From one cache line a lookup
+  /// learns whether the entity is alive and where to find its column.
   struct Record {
     Archetype::Range range;  ///< that holds the row
     std::uint32_t row = 0;

@@ -170,7 +170,9 @@ PassBuilder FrameGraph::add_pass(std::string_view name, std::string_view module)
   return {*this, state_->declaration.passes.size() - 1};
 }
 
-ImageRef FrameGraph::newest(ImageRef image) const { return {image.resource, state_->resource(image).version, image.frame}; }
+ImageRef FrameGraph::newest(ImageRef image) const {
+  return {image.resource, state_->resource(image).version, image.frame};
+}
 
 const gpu::ImageDesc& FrameGraph::desc(ImageRef image) const {
   const DeclaredResource& resource = state_->resource(image);

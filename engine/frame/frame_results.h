@@ -47,8 +47,9 @@ struct FrameResult {
   }
 };
 
-/// Small results of frames (counters, the farthest depth) that the CPU looks at when their frame has ended, without waiting for the GPU:
-/// one pass copies all of a frame's results to mapped memory, of which there is a piece a frame in flight. One thread.
+/// Small results of frames (counters, the farthest depth) that the CPU looks at when their frame has ended, without
+/// waiting for the GPU: one pass copies all of a frame's results to mapped memory, of which there is a piece a frame in
+/// flight. One thread.
 class FrameResults {
  public:
   /// Results and memory that nobody renews for so many frames are given back.
@@ -59,11 +60,11 @@ class FrameResults {
   FrameResults(const FrameResults&) = delete;
   FrameResults& operator=(const FrameResults&) = delete;
 
-  /// After Device::begin_frame: settles the results of frames that are Device::kFramesInFlight or more ago. Always of those and never of
-  /// later ones, however fast the GPU was: what systems make of a result does not depend on time.
+  /// After Device::begin_frame: settles the results of frames that are Device::kFramesInFlight or more ago. Always of
+  /// those and never of later ones, however fast the GPU was: what systems make of a result does not depend on time.
   void begin_frame();
-  /// Asks for `size` bytes (a multiple of 4) of a buffer as the frame leaves it. `buffer` is the version no later pass writes; one
-  /// request a key and frame.
+  /// Asks for `size` bytes (a multiple of 4) of a buffer as the frame leaves it. `buffer` is the version no later pass
+  /// writes; one request a key and frame.
   void keep(ResultKey key, BufferRef buffer, std::uint64_t offset, std::uint64_t size, std::any note = {});
   /// When all passes are declared: adds the pass that copies, if anything is to be kept.
   [[nodiscard]] Status add_pass(FrameGraph& graph);

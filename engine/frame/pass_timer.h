@@ -14,8 +14,8 @@
 namespace gloam::frame {
 
 /// Remembers which passes the frames in flight ran, and matches them with the device's timestamps: pass i of a frame
-/// begins at timestamp i, where the one before it has ended, and ends at i + 1. One timestamp between two passes instead of two: software
-/// devices wait for their threads at each.
+/// begins at timestamp i, where the one before it has ended, and ends at i + 1. One timestamp between two passes
+/// instead of two: software devices wait for their threads at each.
 class PassTimer {
  public:
   static constexpr std::uint32_t kPassesTimed = gpu::Device::kTimestampsPerFrame - 1;

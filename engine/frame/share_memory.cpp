@@ -39,8 +39,8 @@ void place(Plan& plan, std::vector<MemorySlot>& slots, std::uint32_t resource, s
   plan.unshared_bytes += bytes;
 }
 
-/// Whose accesses the next user of a slot's memory waits for: the last one's, and those of larger ones before it, parts of whose memory
-/// nobody has waited for since.
+/// Whose accesses the next user of a slot's memory waits for: the last one's, and those of larger ones before it, parts
+/// of whose memory nobody has waited for since.
 class Predecessors {
  public:
   void add(std::uint64_t bytes, gpu::AccessMask ending) {

@@ -14,7 +14,8 @@ namespace gloam {
 namespace {
 
 constexpr std::uint64_t kAlignment = 256;
-/// Of one submission of the Uploader, unless one job is larger. Two of them take turns: one is filled while the GPU copies the other.
+/// Of one submission of the Uploader, unless one job is larger. Two of them take turns: one is filled while the GPU
+/// copies the other.
 constexpr std::uint64_t kStagingBytes = std::uint64_t{12} << 20;
 
 constexpr std::uint64_t align_up(std::uint64_t bytes, std::uint64_t alignment) {

@@ -16,7 +16,8 @@ class CommandList {
 
   virtual void begin_label(std::string_view name) = 0;
   virtual void end_label() = 0;
-  /// Nanoseconds on the device clock when all earlier work has ended; index < Device::kTimestampsPerFrame, each once a frame.
+  /// Nanoseconds on the device clock when all earlier work has ended; index < Device::kTimestampsPerFrame, each once a
+  /// frame.
   virtual void write_timestamp(std::uint32_t index) = 0;
 
   virtual void barrier(std::span<const BufferBarrier> buffers, std::span<const ImageBarrier> images) = 0;

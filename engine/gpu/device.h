@@ -15,8 +15,8 @@
 
 namespace gloam::gpu {
 
-/// A GPU, or something that acts like one in tests. Objects are created and destroyed on any thread; frames are recorded on one.
-/// Destroyed objects live on until the frames in flight that may use them have ended.
+/// A GPU, or something that acts like one in tests. Objects are created and destroyed on any thread; frames are
+/// recorded on one. Destroyed objects live on until the frames in flight that may use them have ended.
 class Device {
  public:
   static constexpr std::uint32_t kFramesInFlight = 2;
@@ -52,7 +52,8 @@ class Device {
   [[nodiscard]] virtual Result<CommandList*> begin_frame() = 0;
   [[nodiscard]] virtual Status submit_frame() = 0;
   [[nodiscard]] virtual std::uint64_t frame_number() const = 0;  ///< of the frame being recorded, or the next one
-  [[nodiscard]] virtual std::uint64_t completed_frames() const = 0;  ///< frames with a smaller number have ended on the GPU
+  [[nodiscard]] virtual std::uint64_t completed_frames()
+      const = 0;  ///< frames with a smaller number have ended on the GPU
   /// Timestamps of a completed frame, in nanoseconds (0 where none was written); empty when already forgotten.
   [[nodiscard]] virtual std::vector<std::uint64_t> timestamps(std::uint64_t frame) = 0;
   [[nodiscard]] virtual Status wait_idle() = 0;

@@ -17,11 +17,12 @@ constexpr std::array kFormats = {
     FormatFacts{"undefined", 0},     FormatFacts{"r8_unorm", 1},      FormatFacts{"rgba8_unorm", 4},
     FormatFacts{"rgba8_srgb", 4},    FormatFacts{"bgra8_unorm", 4},   FormatFacts{"bgra8_srgb", 4},
     FormatFacts{"rgb10a2_unorm", 4}, FormatFacts{"rg11b10_float", 4}, FormatFacts{"r16_uint", 2},
-    FormatFacts{"r16_float", 2},     FormatFacts{"r16_unorm", 2},     FormatFacts{"rg16_unorm", 4},    FormatFacts{"rg16_snorm", 4},
-    FormatFacts{"rg16_float", 4},    FormatFacts{"rgba16_float", 8},  FormatFacts{"r32_uint", 4},
-    FormatFacts{"rg32_uint", 8},     FormatFacts{"rgba32_uint", 16},  FormatFacts{"r32_float", 4},
-    FormatFacts{"rg32_float", 8},    FormatFacts{"rgb32_float", 12},  FormatFacts{"rgba32_float", 16},
-    FormatFacts{"rgba8_uint", 4},    FormatFacts{"rgba16_uint", 8},   FormatFacts{"d32_float", 4},
+    FormatFacts{"r16_float", 2},     FormatFacts{"r16_unorm", 2},     FormatFacts{"rg16_unorm", 4},
+    FormatFacts{"rg16_snorm", 4},    FormatFacts{"rg16_float", 4},    FormatFacts{"rgba16_float", 8},
+    FormatFacts{"r32_uint", 4},      FormatFacts{"rg32_uint", 8},     FormatFacts{"rgba32_uint", 16},
+    FormatFacts{"r32_float", 4},     FormatFacts{"rg32_float", 8},    FormatFacts{"rgb32_float", 12},
+    FormatFacts{"rgba32_float", 16}, FormatFacts{"rgba8_uint", 4},    FormatFacts{"rgba16_uint", 8},
+    FormatFacts{"d32_float", 4},
 };
 
 constexpr std::array<std::string_view, 17> kAccessNames = {

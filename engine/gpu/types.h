@@ -60,19 +60,19 @@ enum class Format : std::uint8_t {
 [[nodiscard]] std::uint32_t bytes_per_texel(Format format);
 [[nodiscard]] bool is_depth(Format format);
 /// Whether the hardware encodes linear colour on writing.
-[[nodiscard]] constexpr bool encodes_srgb(Format format) { return format == Format::rgba8_srgb || format == Format::bgra8_srgb; }
+[[nodiscard]] constexpr bool encodes_srgb(Format format) {
+  return format == Format::rgba8_srgb || format == Format::bgra8_srgb;
+}
 [[nodiscard]] std::string_view name_of(Format format);
 
 template <class E>
 constexpr bool kIsFlags = false;
 template <class E>
-  requires(kIsFlags<E>)
-constexpr E operator|(E a, E b) {
+requires(kIsFlags<E>) constexpr E operator|(E a, E b) {
   return static_cast<E>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
 template <class E>
-  requires(kIsFlags<E>)
-constexpr bool has(E set, E flag) {
+requires(kIsFlags<E>) constexpr bool has(E set, E flag) {
   return (static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(flag)) != 0;
 }
 
@@ -226,12 +226,12 @@ enum class Access : std::uint8_t {
   transfer_read,
   transfer_write,
   host_read,
-  vertex_input,   ///< vertex and index buffers
+  vertex_input,  ///< vertex and index buffers
   indirect_read,
-  uniform_read,   ///< any shader stage
-  vertex_read,    ///< storage or sampled, vertex stage
-  fragment_read,  ///< storage buffer or sampled image, fragment stage
-  compute_read,   ///< storage buffer or sampled image, compute stage
+  uniform_read,          ///< any shader stage
+  vertex_read,           ///< storage or sampled, vertex stage
+  fragment_read,         ///< storage buffer or sampled image, fragment stage
+  compute_read,          ///< storage buffer or sampled image, compute stage
   compute_storage_read,  ///< storage image read in compute (general layout)
   compute_write,         ///< storage write, or read and write, compute
   fragment_write,        ///< storage write, fragment
@@ -249,8 +249,8 @@ using AccessMask = std::uint32_t;
   return access == Access::none ? 0u : 1u << static_cast<std::uint32_t>(access);
 }
 
-/// What comes later waits for `before` and for all of `also_before`; when those are none and empty, for all earlier work.
-/// `also_after` are further reads (for images: of the same layout as `after`) that see what was written.
+/// What comes later waits for `before` and for all of `also_before`; when those are none and empty, for all earlier
+/// work. `also_after` are further reads (for images: of the same layout as `after`) that see what was written.
 struct BufferBarrier {
   BufferHandle buffer;
   Access before = Access::none;
@@ -283,7 +283,8 @@ struct RenderingDesc {
   DepthTarget depth;  ///< view.image none: no depth
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint32_t x = 0;  ///< corner of what is drawn and cleared, texels from the top left; width and height count from there
+  std::uint32_t x =
+      0;  ///< corner of what is drawn and cleared, texels from the top left; width and height count from there
   std::uint32_t y = 0;
 };
 

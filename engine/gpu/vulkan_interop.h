@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The one public header with Vulkan's types, for hosts that have a VkDevice of their own. gloam makes every call through
-// the host's vkGetInstanceProcAddr and defines no Vulkan symbol, so the host may link libvulkan, volk or anything else.
+// The one public header with Vulkan's types, for hosts that have a VkDevice of their own. gloam makes every call
+// through the host's vkGetInstanceProcAddr and defines no Vulkan symbol, so the host may link libvulkan, volk or
+// anything else.
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -51,9 +52,9 @@ struct HostDevice {
   LogSink* log = nullptr;       ///< must outlive the device
 };
 
-/// A gpu::Device on the host's. Nothing of the host's is destroyed, renamed or waited for; validation messages go to the
-/// host's own messenger, so Device::validation_messages stays 0. ErrorKind::no_device names every feature and extension
-/// that the device lacks or that the host has not enabled.
+/// A gpu::Device on the host's. Nothing of the host's is destroyed, renamed or waited for; validation messages go to
+/// the host's own messenger, so Device::validation_messages stays 0. ErrorKind::no_device names every feature and
+/// extension that the device lacks or that the host has not enabled.
 [[nodiscard]] Result<std::unique_ptr<Device>> create_vulkan_device_on(const HostDevice& host);
 
 // The functions below take a device made by create_vulkan_device_on or create_vulkan_device.
@@ -61,8 +62,8 @@ struct HostDevice {
 /// The host's image under a handle of gloam's. `desc` says what the image is: size, layers, mips, a usage it was made
 /// with, and its format, or another one if it was made with VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT. One sample, optimal
 /// tiling, two dimensions. It must be usable on the device's queue family: exclusive and owned by it or by none, or
-/// concurrent. Device::destroy takes away the handle and its views, never the image; the image must live until the frames
-/// that use it have ended.
+/// concurrent. Device::destroy takes away the handle and its views, never the image; the image must live until the
+/// frames that use it have ended.
 [[nodiscard]] ImageHandle import_image(Device& device, VkImage image, const ImageDesc& desc);
 
 /// What an image is in, and what a barrier must wait for, when gloam has left it ready for an access.
@@ -71,8 +72,8 @@ struct HostImageLayout {
   VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
   VkAccessFlags2 access = VK_ACCESS_2_NONE;
 };
-/// access: one that images can have, or Access::none (undefined layout). Both sides use it: a host's barrier after gloam
-/// has this as its source (oldLayout, srcStageMask, srcAccessMask), one before gloam as its target.
+/// access: one that images can have, or Access::none (undefined layout). Both sides use it: a host's barrier after
+/// gloam has this as its source (oldLayout, srcStageMask, srcAccessMask), one before gloam as its target.
 [[nodiscard]] HostImageLayout host_image_layout(Access access);
 
 /// Work on the same queue needs none of what follows: gloam's barriers wait for everything submitted before, and the
@@ -82,8 +83,9 @@ struct HostSemaphore {
   std::uint64_t value = 0;  ///< of a timeline semaphore; ignored for a binary one
 };
 
-/// Semaphores of the frame being recorded: all of its work waits for `waits`, and `signals` follow all of its work. Between
-/// begin_frame and submit_frame, that is from ViewTarget::acquire; a frame that is given up midway waits and signals too.
+/// Semaphores of the frame being recorded: all of its work waits for `waits`, and `signals` follow all of its work.
+/// Between begin_frame and submit_frame, that is from ViewTarget::acquire; a frame that is given up midway waits and
+/// signals too.
 void add_frame_semaphores(Device& device, std::span<const HostSemaphore> waits,
                           std::span<const HostSemaphore> signals = {});
 

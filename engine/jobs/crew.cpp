@@ -141,8 +141,8 @@ void run_visit(CrewState* state) {
   state->release();
 }
 
-/// One call for help, run by a worker of oneTBB. ThreadSanitizer does not see oneTBB, which is not instrumented, hand the object over:
-/// reading the pointer out of it is left unwatched, everything behind it is not.
+/// One call for help, run by a worker of oneTBB. ThreadSanitizer does not see oneTBB, which is not instrumented, hand
+/// the object over: reading the pointer out of it is left unwatched, everything behind it is not.
 struct Visit {
   CrewState* state;
   [[gnu::no_sanitize("thread")]] void operator()() const { run_visit(state); }

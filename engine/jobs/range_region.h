@@ -20,7 +20,8 @@ class RangeWork {
   ~RangeWork() = default;
 };
 
-/// One parallel_for or batch. Threads claim runs of ranges, as long as pays for the claim: the clock decides, not the caller.
+/// One parallel_for or batch. Threads claim runs of ranges, as long as pays for the claim: the clock decides, not the
+/// caller.
 class RangeRegion final : public Region {
  public:
   /// `work` has `ranges` ranges and must outlive the region.

@@ -24,7 +24,8 @@ struct PerspectiveScale {
 /// screen.
 [[nodiscard]] NdcRect screen_bounds(const Sphere& view_sphere, const PerspectiveScale& projection);
 
-/// The same for a solid spherical sector (view space, axis a unit vector to 1e-3); never larger than the rectangle of its bounding sphere.
+/// The same for a solid spherical sector (view space, axis a unit vector to 1e-3); never larger than the rectangle of
+/// its bounding sphere.
 [[nodiscard]] NdcRect screen_bounds(const Cone& view_cone, const PerspectiveScale& projection);
 
 }  // namespace gloam

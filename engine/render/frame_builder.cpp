@@ -19,7 +19,8 @@ Status FrameBuilder::upload_view_constants(std::uint32_t visualizer_code) {
 
 Status FrameBuilder::prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass) {
   for (const Draw& draw : draws)
-    if (auto pipeline = surface_pipeline(services_.pipelines, pass, draw.variant); !pipeline.ok()) return pipeline.error();
+    if (auto pipeline = surface_pipeline(services_.pipelines, pass, draw.variant); !pipeline.ok())
+      return pipeline.error();
   return {};
 }
 
@@ -125,7 +126,8 @@ Result<gpu::SamplerHandle> FrameBuilder::linear_sampler() const {
   return services_.device.create_sampler(desc);
 }
 
-ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string module, gpu::Format format, std::uint32_t divisor) {
+ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string module, gpu::Format format,
+                           std::uint32_t divisor) {
   gpu::ImageDesc desc;
   desc.name = std::move(name);
   desc.module = std::move(module);
@@ -158,7 +160,8 @@ void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass) {
   commands.end_rendering();
 }
 
-gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module, gpu::ShaderCode fragment, gpu::Format format) {
+gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module, gpu::ShaderCode fragment,
+                                              gpu::Format format) {
   gpu::GraphicsPipelineDesc desc;
   desc.name = std::move(name);
   desc.module = std::move(module);

@@ -16,8 +16,8 @@
 #include "engine/frame/frame_results.h"
 #include "engine/frame/upload.h"
 #include "engine/jobs/executor.h"
-#include "engine/render/draw_lists.h"
-#include "engine/render/knobs.h"
+#include "engine/render/draws/draw_lists.h"
+#include "engine/render/knobs/knobs.h"
 #include "engine/render/outputs.h"
 #include "engine/render/pipelines.h"
 #include "engine/render/view.h"
@@ -37,12 +37,12 @@ struct FrameServices {
   bool wait_for_pipelines = true;  ///< false: where there is a choice, take what is ready (Pipelines::request)
 };
 
-/// One view of one frame while its passes are declared: handed to the modules in turn. References are valid until the frame is
-/// submitted, which is when pass functions run: they may capture the builder.
+/// One view of one frame while its passes are declared: handed to the modules in turn. References are valid until the
+/// frame is submitted, which is when pass functions run: they may capture the builder.
 class FrameBuilder {
  public:
-  FrameBuilder(const FrameServices& services, FrameGraph& graph, const World& world, const RenderView& view, const GpuScene& scene,
-               DrawLists draws)
+  FrameBuilder(const FrameServices& services, FrameGraph& graph, const World& world, const RenderView& view,
+               const GpuScene& scene, DrawLists draws)
       : services_(services), graph_(graph), world_(world), view_(view), scene_(scene), draws_(std::move(draws)) {}
   FrameBuilder(const FrameBuilder&) = delete;
   FrameBuilder& operator=(const FrameBuilder&) = delete;
@@ -53,7 +53,8 @@ class FrameBuilder {
   [[nodiscard]] const RenderView& view() const { return view_; }
   [[nodiscard]] const GpuScene& scene() const { return scene_; }
   [[nodiscard]] const DrawLists& draws() const { return draws_; }
-  /// What casts shadows, in the camera's view or not; empty when no module that the world demands has asked (Module::needs_casters).
+  /// What casts shadows, in the camera's view or not; empty when no module that the world demands has asked
+  /// (Module::needs_casters).
   [[nodiscard]] const CasterList& casters() const { return draws_.casters; }
   [[nodiscard]] const KnobRegistry& knobs() const { return services_.knobs; }
   [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
@@ -91,22 +92,25 @@ class FrameBuilder {
                                      std::span<const gpu::Binding> bindings);
   /// Pipelines of a list, made before recording so that errors surface in declaration.
   [[nodiscard]] Status prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
-  /// Whether the pipelines of a list are there; those that are not are made in the background. For passes that another can stand in for.
+  /// Whether the pipelines of a list are there; those that are not are made in the background. For passes that another
+  /// can stand in for.
   [[nodiscard]] bool request_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
   /// The same, but makes none.
   [[nodiscard]] bool has_surfaces(std::span<const Draw> draws, const SurfacePass& pass) const;
   /// Declares that a pass draws meshes or casters: reads deformed vertices.
   void read_vertices(PassBuilder& pass);
-  /// For a pipeline that draws casters: binds positions (vec3, moved where the caster is deformed) as stream 0 and, `with_surfaces`,
-  /// PackedSurface as stream 1; relative to the primitive's first vertex, as its indices (GpuScene::indices) are.
+  /// For a pipeline that draws casters: binds positions (vec3, moved where the caster is deformed) as stream 0 and,
+  /// `with_surfaces`, PackedSurface as stream 1; relative to the primitive's first vertex, as its indices
+  /// (GpuScene::indices) are.
   void bind_caster_vertices(PassContext& context, const Caster& caster, bool with_surfaces) const;
 
-  /// Keeps what a buffer holds at the end of the frame for the CPU to look at later (Module::take_result, Module::result_counters).
-  /// `buffer`: the version that no later pass writes.
+  /// Keeps what a buffer holds at the end of the frame for the CPU to look at later (Module::take_result,
+  /// Module::result_counters). `buffer`: the version that no later pass writes.
   void keep_result(std::string module, std::string name, BufferRef buffer, std::any note = {});
 
-  /// Lets Renderer::read_image find an image of this view, under the image's own name or `name`; as it is when all passes have written it.
-  /// One that is owned outside the graph was made as a transfer_source. A later image of the same name takes its place.
+  /// Lets Renderer::read_image find an image of this view, under the image's own name or `name`; as it is when all
+  /// passes have written it. One that is owned outside the graph was made as a transfer_source. A later image of the
+  /// same name takes its place.
   void expose(ImageRef image, std::string_view name = {});
   struct Exposed {
     std::string name;
@@ -155,7 +159,7 @@ struct FullscreenPass {
   std::span<const std::byte> constants;     ///< pushed when there are any
 };
 void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass);
-[[nodiscard]] gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module, gpu::ShaderCode fragment,
-                                                            gpu::Format format);
+[[nodiscard]] gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module,
+                                                            gpu::ShaderCode fragment, gpu::Format format);
 
 }  // namespace gloam

@@ -7,13 +7,16 @@
 namespace gloam {
 namespace {
 
-float channel(std::uint32_t packed, unsigned index) { return static_cast<float>(packed >> (8 * index) & 0xFFu) / 255.0f; }
+float channel(std::uint32_t packed, unsigned index) {
+  return static_cast<float>(packed >> (8 * index) & 0xFFu) / 255.0f;
+}
 
 }  // namespace
 
 GeometryTexel decode_geometry(std::uint32_t base_color, glm::uvec2 normals, std::uint32_t material) {
   GeometryTexel texel;
-  for (unsigned c = 0; c < 3; ++c) texel.base_color[static_cast<int>(c)] = channel(base_color, c) * channel(base_color, c);
+  for (unsigned c = 0; c < 3; ++c)
+    texel.base_color[static_cast<int>(c)] = channel(base_color, c) * channel(base_color, c);
   texel.subsurface = channel(base_color, 3) > 0.5f;
   texel.normal = unpack_normal_snorm16(normals.x);
   texel.face_normal = unpack_normal_snorm16(normals.y);

@@ -15,17 +15,19 @@ struct GeometryOutputs {
   ImageRef material;
   ImageRef emissive;
   ImageRef depth;         ///< d32, reversed Z, 0 = sky
-  ImageRef depth_bounds;  ///< rg32f, one texel an 8×8 tile: farthest and nearest depth without sky; (1, 0) where there is only sky
+  ImageRef depth_bounds;  ///< rg32f, one texel an 8×8 tile: farthest and nearest depth without sky; (1, 0) where there
+                          ///< is only sky
 };
 
-/// Linear light of the view, cd/m² before exposure, rgba16f. The renderer makes the image, shading fills it, later phases write in
-/// place: `color` moves on to the version that a write gives, and never to another image (Renderer::read_linear reads this one).
-/// A phase that needs the old light beside the new one copies it first.
+/// Linear light of the view, cd/m² before exposure, rgba16f. The renderer makes the image, shading fills it, later
+/// phases write in place: `color` moves on to the version that a write gives, and never to another image
+/// (Renderer::read_linear reads this one). A phase that needs the old light beside the new one copies it first.
 struct LitOutput {
   ImageRef color;
 };
 
-/// Where the finished picture goes: the caller's image or the renderer's, there from the first phase on. Written in place, as LitOutput.
+/// Where the finished picture goes: the caller's image or the renderer's, there from the first phase on. Written in
+/// place, as LitOutput.
 struct TargetOutput {
   ImageRef color;
   gpu::Format format = gpu::Format::rgba8_srgb;

@@ -25,8 +25,8 @@ namespace gloam {
 /// Descriptions of the pipelines a module will ask for.
 using PipelineList = std::vector<std::variant<gpu::ComputePipelineDesc, gpu::GraphicsPipelineDesc>>;
 
-/// Pipelines by name, made on first use. A name stands for one description: it holds whatever varies (constants, formats, states).
-/// Safe from many threads.
+/// Pipelines by name, made on first use. A name stands for one description: it holds whatever varies (constants,
+/// formats, states). Safe from many threads.
 class Pipelines {
  public:
   explicit Pipelines(gpu::Device& device) : device_(device) {}
@@ -40,13 +40,13 @@ class Pipelines {
   /// The pipeline of a name that was made before, or none.
   [[nodiscard]] gpu::PipelineHandle find(std::string_view name) const;
 
-  /// Whether all pipelines of a list are made. Those that are not are begun in the background, each once; one that fails there is told
-  /// to the log and counts as ready, so that `get` meets the error.
+  /// Whether all pipelines of a list are made. Those that are not are begun in the background, each once; one that
+  /// fails there is told to the log and counts as ready, so that `get` meets the error.
   [[nodiscard]] bool request(const PipelineList& list, LogSink& log);
   /// Pipelines that are made in the background, or wait for their turn there.
   [[nodiscard]] std::size_t pending() const;
-  /// Destroys all pipelines of a module, drops those that wait for their turn in the background and forgets failures. One that is
-  /// being compiled in the background stays.
+  /// Destroys all pipelines of a module, drops those that wait for their turn in the background and forgets failures.
+  /// One that is being compiled in the background stays.
   void release(std::string_view module);
 
  private:

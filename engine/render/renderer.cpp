@@ -3,7 +3,7 @@
 #include "engine/render/renderer.h"
 
 #include "engine/ecs/view.h"
-#include "engine/render/passes.h"
+#include "engine/render/passes/passes.h"
 #include "engine/render/renderer_state.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/resources.h"
@@ -84,8 +84,9 @@ Renderer::State::~State() {
 }
 
 FrameServices Renderer::State::services() {
-  return {*options.device, *options.executor, *options.log, knobs, pipelines, uniforms, storage, results,
-          options.readiness == Readiness::wait};
+  return {*options.device, *options.executor, *options.log,
+          knobs,           pipelines,         uniforms,
+          storage,         results,           options.readiness == Readiness::wait};
 }
 
 GpuScene& Renderer::State::scene_of(const World& world) {
@@ -116,7 +117,8 @@ Status Renderer::State::prepare_images(const ViewRequest& request) {
     desc.format = format;
     desc.width = view.width;
     desc.height = view.height;
-    desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::sampled | gpu::ImageUsage::storage | gpu::ImageUsage::transfer_source;
+    desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::sampled | gpu::ImageUsage::storage |
+                 gpu::ImageUsage::transfer_source;
     if (format == gpu::Format::rgba8_srgb)
       desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::transfer_source;
     auto made = device.create_image(desc);
@@ -139,7 +141,8 @@ void Renderer::State::update_demand(const World& world) {
   }
 }
 
-bool Renderer::State::any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const, const World& world) const {
+bool Renderer::State::any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const,
+                                const World& world) const {
   for (std::size_t i = 0; i < options.modules.size(); ++i) {
     const Module& module = *options.modules[i];
     if (module.built() && runtimes[i].demand.needed && (module.*question)(world, knobs)) return true;
@@ -172,7 +175,8 @@ void Renderer::State::warn_of_idle_visualizer(const FrameBuilder& builder) {
   const std::string_view stem = builder.visualizer().substr(0, builder.visualizer().find(':'));
   for (std::size_t i = 0; i < options.modules.size(); ++i) {
     const Module& module = *options.modules[i];
-    const Demand demand = runtimes[i].demand.needed ? module.demand(builder.world(), &builder.view()) : runtimes[i].demand;
+    const Demand demand =
+        runtimes[i].demand.needed ? module.demand(builder.world(), &builder.view()) : runtimes[i].demand;
     if (runtimes[i].in_last_view || demand.needed) continue;
     for (const VisualizerInfo& info : module.visualizers()) {
       if (info.name != stem) continue;
@@ -192,16 +196,17 @@ void Renderer::State::release_idle_modules() {
       results.forget_module(options.modules[i]->name());
     }
     // Time and again: one that was being compiled may have come since.
-    if (runtime.absent_frames != 0 && runtime.absent_frames % kFramesUntilRelease == 0) pipelines.release(options.modules[i]->name());
+    if (runtime.absent_frames != 0 && runtime.absent_frames % kFramesUntilRelease == 0)
+      pipelines.release(options.modules[i]->name());
   }
 }
 
 Status Renderer::State::add_view(World& world, const ViewRequest& request, const RenderView& view) {
   GpuScene& scene = scene_of(world);
   const ViewImages& own = images.at(view.id.value);
-  builders.push_back(std::make_unique<FrameBuilder>(services(), graph, world, view, scene,
-                                                    build_draw_lists(world, view, scene, *options.executor,
-                                                                     any_needs(&Module::needs_casters, world))));
+  builders.push_back(std::make_unique<FrameBuilder>(
+      services(), graph, world, view, scene,
+      build_draw_lists(world, view, scene, *options.executor, any_needs(&Module::needs_casters, world))));
   FrameBuilder& frame = *builders.back();
   frame.set_visualizer(request.settings.visualizer);
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
@@ -210,7 +215,8 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   GLOAM_TRY(add_geometry_pass(frame));
   GLOAM_TRY(add_depth_bounds_pass(frame));
   const GeometryOutputs& geometry = frame.get<GeometryOutputs>();
-  for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth}) frame.expose(image);
+  for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth})
+    frame.expose(image);
 
   const bool external = static_cast<bool>(request.target.image);
   const gpu::ImageHandle picture = external ? request.target.image : own.picture;
@@ -232,11 +238,12 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
 }
 
 void Renderer::State::hand_out_results(World& world, ViewId view) {
-  results.for_each_settled(world.resource<RenderSlot>().value, view.value, [&](const ResultKey& key, const FrameResult& result) {
-    for (std::size_t i = 0; i < options.modules.size(); ++i)
-      if (runtimes[i].demand.needed && options.modules[i]->name() == key.module)
-        options.modules[i]->take_result(world, view, key.name, result);
-  });
+  results.for_each_settled(world.resource<RenderSlot>().value, view.value,
+                           [&](const ResultKey& key, const FrameResult& result) {
+                             for (std::size_t i = 0; i < options.modules.size(); ++i)
+                               if (runtimes[i].demand.needed && options.modules[i]->name() == key.module)
+                                 options.modules[i]->take_result(world, view, key.name, result);
+                           });
 }
 
 Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands) {
@@ -290,10 +297,11 @@ KnobRegistry& Renderer::knobs() { return state_->knobs; }
 const ModuleList& Renderer::modules() const { return state_->options.modules; }
 
 std::vector<VisualizerInfo> Renderer::visualizers() const {
-  std::vector<VisualizerInfo> all = {{"none", "engine", "", "the lit picture"},
-                                     {"albedo", "engine", "", "base colour without light"},
-                                     {"normal", "engine", "", "shading normal, -1 to 1 of x, y, z as 0 to 1 of red, green, blue"},
-                                     {"depth", "engine", "", "distance: white near, grey far, black sky"}};
+  std::vector<VisualizerInfo> all = {
+      {"none", "engine", "", "the lit picture"},
+      {"albedo", "engine", "", "base colour without light"},
+      {"normal", "engine", "", "shading normal, -1 to 1 of x, y, z as 0 to 1 of red, green, blue"},
+      {"depth", "engine", "", "distance: white near, grey far, black sky"}};
   for (const auto& module : state_->options.modules)
     for (VisualizerInfo& info : module->visualizers()) all.push_back(std::move(info));
   return all;
@@ -309,7 +317,8 @@ Status Renderer::check_visualizer(const World& world, std::string_view name) con
     if (!info.knob.empty() && !is_one_of(state_->knobs, info.knob, info.value))
       return Error{ErrorKind::usage, "view " + info.name + " needs " + info.knob + "=" + info.value};
     if (info.argument.empty() != (stem.size() == name.size()))
-      return Error{ErrorKind::usage, "view " + info.name + (info.argument.empty() ? " takes no argument" : " needs :" + info.argument)};
+      return Error{ErrorKind::usage,
+                   "view " + info.name + (info.argument.empty() ? " takes no argument" : " needs :" + info.argument)};
     if (info.argument == "LIGHT") {
       auto light = world.resource<SceneNames>().find("light", name.substr(stem.size() + 1));
       if (!light.ok()) return Error{ErrorKind::usage, light.error().message};
@@ -345,8 +354,8 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   auto commands = s.options.device->begin_frame();
   if (!commands.ok()) return commands.error();
   const Status recorded = s.record_frame(world, requests, **commands);
-  // A frame that could not be declared ends all the same, with nothing in it: the next one can begin, and whoever waits for
-  // its semaphores goes on.
+  // A frame that could not be declared ends all the same, with nothing in it: the next one can begin, and whoever waits
+  // for its semaphores goes on.
   const Status submitted = s.options.device->submit_frame();
   s.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return recorded.ok() ? submitted : recorded;

@@ -88,7 +88,8 @@ void Renderer::free_idle_memory() { state_->graph.free_idle_memory(); }
 Result<Picture> Renderer::read_picture(ViewId view) {
   State& s = *state_;
   const auto found = s.images.find(view.value);
-  GLOAM_ASSERT(found != s.images.end() && found->second.picture, "read_picture needs a view that was rendered without a target");
+  GLOAM_ASSERT(found != s.images.end() && found->second.picture,
+               "read_picture needs a view that was rendered without a target");
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.picture);
   if (!bytes.ok()) return bytes.error();
@@ -107,7 +108,8 @@ Result<LinearPicture> Renderer::read_linear(ViewId view) {
   if (!bytes.ok()) return bytes.error();
   LinearPicture picture{found->second.width, found->second.height, {}};
   picture.rgba.resize(bytes->size() / sizeof(std::uint16_t));
-  for (std::size_t i = 0; i < picture.rgba.size(); ++i) picture.rgba[i] = half_to_float(texel<std::uint16_t>(*bytes, i));
+  for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+    picture.rgba[i] = half_to_float(texel<std::uint16_t>(*bytes, i));
   return picture;
 }
 

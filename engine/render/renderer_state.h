@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "engine/frame/upload.h"
-#include "engine/render/capture.h"
 #include "engine/render/frame_builder.h"
-#include "engine/render/gpu_scene.h"
+#include "engine/render/readback/capture.h"
 #include "engine/render/renderer.h"
+#include "engine/render/scene/gpu_scene.h"
 
 namespace gloam {
 
@@ -61,7 +61,8 @@ struct Renderer::State {
   [[nodiscard]] Status prepare_images(const ViewRequest& request);
   void update_demand(const World& world);
   /// Whether a demanded module says yes to a question (Module::needs_casters).
-  [[nodiscard]] bool any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const, const World& world) const;
+  [[nodiscard]] bool any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const,
+                               const World& world) const;
   /// Everything between Device::begin_frame and submit_frame.
   [[nodiscard]] Status record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands);
   /// Declares one view's passes.
@@ -77,7 +78,8 @@ struct Renderer::State {
   void hand_out_results(World& world, ViewId view);
   /// Says once that a view is asked for whose module has nothing to do, so that the picture is shown as it is.
   void warn_of_idle_visualizer(const FrameBuilder& builder);
-  /// After a frame: memory of modules that nobody has demanded for long goes back; pipelines too when the world has no call for them.
+  /// After a frame: memory of modules that nobody has demanded for long goes back; pipelines too when the world has no
+  /// call for them.
   void release_idle_modules();
   /// Of the frame's last view and the modules that took part in it.
   void collect_counters(const World& world);

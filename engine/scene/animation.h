@@ -13,16 +13,18 @@
 
 namespace gloam {
 
-/// Time within a clip that plays for ever: in [0, duration_s), for negative times too. 0 when the duration is not positive.
+/// Time within a clip that plays for ever: in [0, duration_s), for negative times too. 0 when the duration is not
+/// positive.
 [[nodiscard]] double looped_time(double time_s, double duration_s);
 
-/// Interpolates between unit quaternions on the shorter arc, u in [0, 1]; unit length. Accurate for equal, nearly equal and
-/// opposite inputs; of the two equal arcs between rotations half a turn apart it takes the one that starts towards `b`.
+/// Interpolates between unit quaternions on the shorter arc, u in [0, 1]; unit length. Accurate for equal, nearly equal
+/// and opposite inputs; of the two equal arcs between rotations half a turn apart it takes the one that starts towards
+/// `b`.
 [[nodiscard]] dquat slerp_shortest(const dquat& a, const dquat& b, double u);
 
-/// Value of a channel at a time, as glTF 2.0 (§ 3.11, appendix C) states it. Before the first key and after the last one the
-/// end values hold. out: exactly channel.width values; rotations are x, y, z, w and unit length (identity where a key is zero).
-/// channel.times and .values as AnimationChannel says (sizes are asserted).
+/// Value of a channel at a time, as glTF 2.0 (§ 3.11, appendix C) states it. Before the first key and after the last
+/// one the end values hold. out: exactly channel.width values; rotations are x, y, z, w and unit length (identity where
+/// a key is zero). channel.times and .values as AnimationChannel says (sizes are asserted).
 void sample_channel(const AnimationChannel& channel, double time_s, std::span<double> out);
 
 /// Entity of each glTF node index; kNoEntity for nodes that are not in the world. Made by the animation system.
@@ -41,7 +43,8 @@ struct AnimationBinding {
   std::uint32_t channel = 0;
 };
 
-/// Which channels play: all whose node is in the world; of channels with the same node and path the first in clip order.
+/// Which channels play: all whose node is in the world; of channels with the same node and path the first in clip
+/// order.
 struct AnimationBindings {
   std::vector<AnimationBinding> poses;    ///< translation, rotation, scale
   std::vector<AnimationBinding> weights;  ///< morph weights

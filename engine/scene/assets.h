@@ -100,8 +100,8 @@ struct Skin {
 enum class AnimationPath : std::uint8_t { translation, rotation, scale, weights };
 enum class Interpolation : std::uint8_t { step, linear, cubic };
 
-/// Key frames of one property of one node. `values` holds components, `width` a key (3, 4, or the number of morph targets),
-/// three times as many for cubic (in-tangent, value, out-tangent).
+/// Key frames of one property of one node. `values` holds components, `width` a key (3, 4, or the number of morph
+/// targets), three times as many for cubic (in-tangent, value, out-tangent).
 struct AnimationChannel {
   std::uint32_t node = kNone;  ///< glTF node index
   AnimationPath path = AnimationPath::translation;
@@ -117,8 +117,8 @@ struct AnimationClip {
   std::vector<AnimationChannel> channels;
 };
 
-/// Everything a scene shares between entities. A resource of the world; built by the importer or by code. `version` must grow when
-/// meshes, materials, images or textures change after the first frame.
+/// Everything a scene shares between entities. A resource of the world; built by the importer or by code. `version`
+/// must grow when meshes, materials, images or textures change after the first frame.
 struct SceneAssets {
   std::vector<Mesh> meshes;
   std::vector<Material> materials;

@@ -62,8 +62,8 @@ std::uint32_t big_endian_word(std::span<const std::uint8_t> file, std::size_t at
          file[at + 3];
 }
 
-/// The compressed rows of a PNG that needs nothing but inflating and unfiltering: 8-bit RGB or RGBA, not interlaced, without a
-/// transparent colour. Empty for any other, and for one whose chunks do not add up.
+/// The compressed rows of a PNG that needs nothing but inflating and unfiltering: 8-bit RGB or RGBA, not interlaced,
+/// without a transparent colour. Empty for any other, and for one whose chunks do not add up.
 std::vector<std::uint8_t> plain_png_data(std::span<const std::uint8_t> file) {
   constexpr std::size_t kFirstChunk = 8;
   constexpr std::size_t kChunkFrame = 12;  // length, type, checksum

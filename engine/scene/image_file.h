@@ -18,8 +18,8 @@ struct ImageSize {
   std::uint32_t height = 0;
 };
 
-/// What the header of a PNG or JPEG says, checked against what so many bytes can hold at the format's densest. The error is
-/// the fault alone.
+/// What the header of a PNG or JPEG says, checked against what so many bytes can hold at the format's densest. The
+/// error is the fault alone.
 [[nodiscard]] Result<ImageSize> image_size(std::span<const std::uint8_t> file);
 
 /// Decodes a PNG or JPEG to 8-bit RGBA (16-bit channels are rounded down). Memory beyond the picture itself stays in

@@ -16,7 +16,8 @@
 
 namespace gloam {
 
-/// What a scene key may stand on. `light_node`: a node with a light; `mesh_node`, `camera_node` alike; `node`: any node.
+/// What a scene key may stand on. `light_node`: a node with a light; `mesh_node`, `camera_node` alike; `node`: any
+/// node.
 enum class KeyElement { node, light_node, mesh_node, camera_node, material, scene };
 
 // GCC takes scoped enumerators that are spelled like a type for shadowing.
@@ -68,7 +69,8 @@ class KeyRegistry {
   void add_extension(SceneExtension extension);
   /// Runs once after every node, key and transform is in the world: resolves names, checks what needs the whole scene.
   void add_finish(std::string module, std::function<Status(World&)> finish);
-  /// Says whether an entity counts as the element (the importer asks for light_node; mesh and camera nodes it knows itself).
+  /// Says whether an entity counts as the element (the importer asks for light_node; mesh and camera nodes it knows
+  /// itself).
   void set_light_test(std::function<bool(const World&, Entity)> is_light);
 
   [[nodiscard]] const std::vector<SceneKey>& keys() const { return keys_; }
@@ -77,8 +79,8 @@ class KeyRegistry {
   [[nodiscard]] bool is_light(const World& world, Entity entity) const { return is_light_ && is_light_(world, entity); }
   [[nodiscard]] Status finish(World& world) const;
 
-  /// Checks type and range of a file's value for a key (booleans may be 0 or 1) and converts it. The error is the fault alone,
-  /// e.g. "must be a number in 0…1, is \"wide\"".
+  /// Checks type and range of a file's value for a key (booleans may be 0 or 1) and converts it. The error is the fault
+  /// alone, e.g. "must be a number in 0…1, is \"wide\"".
   [[nodiscard]] static Result<KeyValue> convert(const SceneKey& key, const SceneValue& value);
   /// The known key closest in spelling, for "did you mean"; empty when none is near.
   [[nodiscard]] std::string nearest(std::string_view name) const;

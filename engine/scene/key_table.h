@@ -129,7 +129,8 @@ template <class C>
   auto path = resolve_scene_path(target.directory, name);
   if (!path.ok()) return path.error();
   std::error_code error;
-  if (!std::filesystem::is_regular_file(*path, error)) return Error{ErrorKind::input, "names a file that is absent: " + *path};
+  if (!std::filesystem::is_regular_file(*path, error))
+    return Error{ErrorKind::input, "names a file that is absent: " + *path};
   return target.world.resource<SceneStrings>().intern(*path);
 }
 

@@ -22,8 +22,8 @@ enum class Filter : std::uint8_t { none, sub, up, average, paeth };
 
 #if defined(__SSE2__)
 
-/// Channels in the low bytes of 16-bit lanes: differences need the room, and staying there keeps the chain from pixel to pixel
-/// short.
+/// Channels in the low bytes of 16-bit lanes: differences need the room, and staying there keeps the chain from pixel
+/// to pixel short.
 using Pixel = __m128i;
 
 inline Pixel load(const std::uint8_t* bytes) {

@@ -21,8 +21,9 @@ struct SceneClock {
   double dt_s = 1.0 / 60.0;
 };
 
-/// Joint matrices of all skinned instances in use, for the GPU: `origin_relative` maps skin-space rest positions to the space of the
-/// entity in `origins` (its world position subtracted), so that floats stay small far from the world's origin.
+/// Joint matrices of all skinned instances in use, for the GPU: `origin_relative` maps skin-space rest positions to the
+/// space of the entity in `origins` (its world position subtracted), so that floats stay small far from the world's
+/// origin.
 struct JointMatrices {
   struct Range {
     Entity instance;          ///< entity with the MeshInstance

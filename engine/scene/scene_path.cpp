@@ -38,7 +38,8 @@ std::string percent_decoded(std::string_view uri) {
   return text;
 }
 
-/// Whether following the path, part by part, ever steps above where it began. Backslashes separate too: on some systems.
+/// Whether following the path, part by part, ever steps above where it began. Backslashes separate too: on some
+/// systems.
 bool leaves_folder(std::string_view path) {
   int depth = 0;
   std::size_t begin = 0;

@@ -11,8 +11,8 @@
 
 namespace gloam {
 
-/// The path of a file that a scene names. `uri` is relative to the scene's folder and may be percent-encoded. Refused: absolute
-/// paths, other schemes, and what would leave the folder, encoded or not. The error is the fault alone.
+/// The path of a file that a scene names. `uri` is relative to the scene's folder and may be percent-encoded. Refused:
+/// absolute paths, other schemes, and what would leave the folder, encoded or not. The error is the fault alone.
 [[nodiscard]] Result<std::string> resolve_scene_path(const std::string& directory, std::string_view uri);
 
 /// The whole of a regular file, or its first `wanted_bytes` (a shorter file is a fault). The error is the fault alone.

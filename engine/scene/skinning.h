@@ -14,9 +14,9 @@ struct SkinPlacement {
   bool mirrored = false;
 };
 
-/// Joint matrices of one instance: joint to world · inverse bind, in double, less the origin, stored as floats. The origin is the
-/// world position of the first joint; of the instance where the skin has no joints. The mesh node's own transform does not
-/// count otherwise (glTF 2.0 § 3.7.3.3). All spans have as many elements as the skin has joints.
+/// Joint matrices of one instance: joint to world · inverse bind, in double, less the origin, stored as floats. The
+/// origin is the world position of the first joint; of the instance where the skin has no joints. The mesh node's own
+/// transform does not count otherwise (glTF 2.0 § 3.7.3.3). All spans have as many elements as the skin has joints.
 SkinPlacement place_joints(std::span<const dmat4> joint_worlds, std::span<const mat4> inverse_bind,
                            const dmat4& instance_world, std::span<mat4> matrices);
 

@@ -11,7 +11,8 @@
 
 namespace gloam {
 
-/// What the transform system keeps from frame to frame, a row an entity with a WorldTransform; meaningful only within a call.
+/// What the transform system keeps from frame to frame, a row an entity with a WorldTransform; meaningful only within a
+/// call.
 struct TransformTree {
   std::vector<Entity> entities;
   std::vector<std::uint32_t> row_of_index;  ///< by Entity::index; valid where entities[row] is that entity

@@ -20,8 +20,9 @@ void animation_system(View<const SourceNode> sources, View<LocalTransform> poses
                       Resource<const SceneClock> clock, Resource<SceneNodes> nodes,
                       Resource<AnimationBindings> bindings, JobExecutor& jobs);
 
-/// WorldTransform of every node. A node with neither LocalTransform nor LocalMatrix stands at its parent's origin; without a parent
-/// as well, its WorldTransform is the host's and stays. A node whose parent is dead or has no WorldTransform is a root.
+/// WorldTransform of every node. A node with neither LocalTransform nor LocalMatrix stands at its parent's origin;
+/// without a parent as well, its WorldTransform is the host's and stays. A node whose parent is dead or has no
+/// WorldTransform is a root.
 using TransformView = View<WorldTransform, Maybe<const LocalTransform>, Maybe<const LocalMatrix>, Maybe<const Parent>>;
 void transform_system(TransformView nodes, Resource<TransformTree> tree, JobExecutor& jobs);
 

@@ -56,8 +56,9 @@ bool face_normal(std::span<const vec3> positions, const Corners& face, vec3& nor
   return true;
 }
 
-/// True when the corner between the edges `in` and `out` (both drawn already, with their inner sides free) would close one fan of
-/// faces around their common vertex while another fan hangs there too. The same walk OpenMesh does before it gives up.
+/// True when the corner between the edges `in` and `out` (both drawn already, with their inner sides free) would close
+/// one fan of faces around their common vertex while another fan hangs there too. The same walk OpenMesh does before it
+/// gives up.
 bool closes_one_of_several_fans(const Mesh& mesh, OpenMesh::HalfedgeHandle in, OpenMesh::HalfedgeHandle out) {
   if (mesh.next_halfedge_handle(in) == out) return false;
   OpenMesh::HalfedgeHandle before = mesh.opposite_halfedge_handle(out);

@@ -24,8 +24,8 @@ struct TransformLevels {
   std::vector<std::uint32_t> starts;  ///< first place in `order` of each level, and one past the last
 };
 
-/// parents: row of each row's parent or kNoParentRow. depths: as many; the stated depths (0: root). Where a stated depth does not
-/// fit the parents, all depths are computed again from the parents. A cycle asserts.
+/// parents: row of each row's parent or kNoParentRow. depths: as many; the stated depths (0: root). Where a stated
+/// depth does not fit the parents, all depths are computed again from the parents. A cycle asserts.
 void build_levels(std::span<const std::uint32_t> parents, std::span<std::uint32_t> depths, TransformLevels& levels);
 
 /// matrices: in, each row relative to its parent; out, each row to world. A level runs in parallel.

@@ -46,8 +46,8 @@ class CheckedWorld final : public AccessChecker {
   World& world_;
 };
 
-/// Hands jobs on to another executor, each inside a Scope: a system's jobs run on threads that do not know of it, or that
-/// wait inside another system.
+/// Hands jobs on to another executor, each inside a Scope: a system's jobs run on threads that do not know of it, or
+/// that wait inside another system.
 class CheckedExecutor final : public JobExecutor {
  public:
   CheckedExecutor(JobExecutor& inner, const CheckedWorld& checker, const System& system)

@@ -65,7 +65,8 @@ class ViewResource {
 /// registration.
 class Commands : public CommandBuffer {
  public:
-  /// For a parallel loop: `count` buffers, one a range, applied in order behind the system's other commands. Once a run.
+  /// For a parallel loop: `count` buffers, one a range, applied in order behind the system's other commands. Once a
+  /// run.
   [[nodiscard]] CommandLists& ranges(std::size_t count) {
     ranges_.prepare(count);
     return ranges_;

@@ -12,13 +12,14 @@
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
-#include "engine/render/knobs.h"
-#include "engine/render/measure.h"
-#include "engine/render/reference.h"
-#include "engine/render/scene_tracer.h"
+#include "engine/render/knobs/knobs.h"
+#include "engine/render/knobs/measure.h"
+#include "engine/render/reference/reference.h"
+#include "engine/render/reference/scene_tracer.h"
 #include "modules/accuracy/outputs.h"
 
-// Measures what accuracy costs. Not an effect: it draws nothing of its own, it has others draw and judges what they drew.
+// Measures what accuracy costs. Not an effect: it draws nothing of its own, it has others draw and judges what they
+// drew.
 
 namespace gloam {
 
@@ -95,16 +96,17 @@ inline constexpr std::uint32_t kQuickHeight = 180;
 /// The knobs of a comma-separated list; all when it is empty. Usage error that lists the valid ones.
 [[nodiscard]] Result<std::vector<std::string>> choose_knobs(const KnobRegistry& knobs, std::string_view list);
 
-/// Texts of the values that get a row, in order, each once: Knob::ledger_values or all choices, the default and the exact one among them.
+/// Texts of the values that get a row, in order, each once: Knob::ledger_values or all choices, the default and the
+/// exact one among them.
 [[nodiscard]] std::vector<std::string> ledger_values(const Knob& knob);
 
-/// Measures every value of every knob of the request: its picture against the knob's reference (what it counts, where the knob has a
-/// measure of its own), its time alternating with the default's.
-/// Rows that an earlier run finished are not measured again. Knobs are left as they were.
+/// Measures every value of every knob of the request: its picture against the knob's reference (what it counts, where
+/// the knob has a measure of its own), its time alternating with the default's. Rows that an earlier run finished are
+/// not measured again. Knobs are left as they were.
 [[nodiscard]] Result<Ledger> measure_costs(const CostRequest& request, CostSubject& subject, CostProgress& progress);
 
-/// The triangles of a world as its systems left them, for rays. They are copied: the world may move on. origin: the world position that
-/// rays are relative to, best where they begin; none: the middle of the scene.
+/// The triangles of a world as its systems left them, for rays. They are copied: the world may move on. origin: the
+/// world position that rays are relative to, best where they begin; none: the middle of the scene.
 [[nodiscard]] Result<std::unique_ptr<SceneTracer>> make_scene_tracer(const World& world, JobExecutor& executor,
                                                                      const std::optional<dvec3>& origin = {});
 

@@ -40,8 +40,8 @@ struct LedgerRow {
   std::string knob;
   std::string value;
   bool is_default = false;
-  std::string
-      reference_kind;  ///< "brute force", "traced", "double precision"; empty: nothing says what is right, errors are absent
+  std::string reference_kind;  ///< "brute force", "traced", "double precision"; empty: nothing says what is right,
+                               ///< errors are absent
   std::string reference_name;
   double reference_noise =
       0.0;  ///< mean FLIP between half and all samples of the reference (RMSE where it has no picture); 0: exact
@@ -67,7 +67,8 @@ struct LedgerRow {
   bool on_front =
       false;  ///< no other value of the knob is both as cheap (by ratio) and as right, and better in one of the two
 
-  /// What the front and people go by: what was counted, else mean FLIP, else RMSE; never less than the reference's noise.
+  /// What the front and people go by: what was counted, else mean FLIP, else RMSE; never less than the reference's
+  /// noise.
   [[nodiscard]] std::optional<double> error() const;
   bool operator==(const LedgerRow&) const = default;
 };

@@ -9,13 +9,13 @@
 
 #include "engine/render/frame_builder.h"
 #include "engine/scene/key_table.h"
-#include "modules/closeups/closeup_frame.h"
-#include "modules/closeups/closeup_knobs.h"
-#include "modules/closeups/closeup_passes.h"
-#include "modules/closeups/closeup_pick.h"
-#include "modules/closeups/closeup_systems.h"
-#include "modules/closeups/closeup_view_passes.h"
 #include "modules/closeups/components.h"
+#include "modules/closeups/compose/frame.h"
+#include "modules/closeups/debug/pick.h"
+#include "modules/closeups/debug/visualizers.h"
+#include "modules/closeups/knobs.h"
+#include "modules/closeups/passes.h"
+#include "modules/closeups/systems.h"
 #include "modules/lights/components.h"
 
 namespace gloam {

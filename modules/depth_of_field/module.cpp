@@ -12,9 +12,7 @@ class DepthOfFieldModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "depth_of_field"; }
   [[nodiscard]] bool built() const override { return false; }
-  void register_components(World& world) const override {
-    world.register_component<DepthOfField>("depth_of_field");
-  }
+  void register_components(World& world) const override { world.register_component<DepthOfField>("depth_of_field"); }
   void scene_keys(KeyRegistry& registry) const override {
     const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
       return key_line("depth_of_field", KeyElement::camera_node, std::move(key), std::move(fallback), std::move(unit),
@@ -22,9 +20,10 @@ class DepthOfFieldModule final : public Module {
     };
     registry.add(number_key(line("gloam.dof.focus", "", "m", "depth of field is on for this camera"), 1e-3, 1e6,
                             &DepthOfField::focus_m));
-    registry.add(number_key(line("gloam.dof.f_number", "2.8", "", "focal length over aperture"), 0.1, 1000, &DepthOfField::f_number));
-    registry.add(choice_key(line("gloam.dof.bokeh", "round", "", "shape of the aperture"), {"round", "hexagonal"}, Bokeh::round,
-                            &DepthOfField::bokeh));
+    registry.add(number_key(line("gloam.dof.f_number", "2.8", "", "focal length over aperture"), 0.1, 1000,
+                            &DepthOfField::f_number));
+    registry.add(choice_key(line("gloam.dof.bokeh", "round", "", "shape of the aperture"), {"round", "hexagonal"},
+                            Bokeh::round, &DepthOfField::bokeh));
   }
   [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
     std::size_t cameras = 0;

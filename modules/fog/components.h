@@ -8,8 +8,8 @@ namespace gloam {
 
 /// Homogeneous fog, one a scene.
 struct Fog {
-  float density = 0.0f;      ///< 1/m
-  vec3 color = vec3(0.0f);   ///< in-scattered radiance, cd/m²
+  float density = 0.0f;     ///< 1/m
+  vec3 color = vec3(0.0f);  ///< in-scattered radiance, cd/m²
 };
 
 }  // namespace gloam

@@ -13,8 +13,8 @@ namespace {
 constexpr double kReferenceRadius = 6.0;  // standard deviations: what is cut off is below 1e-8
 
 /// One direction of the blur. `step`: distance of neighbours in `source`, `count`: texels in that direction.
-std::vector<double> blur_lines(const std::vector<double>& source, std::size_t lines, std::size_t line_step, std::size_t count,
-                               std::size_t step, double sigma) {
+std::vector<double> blur_lines(const std::vector<double>& source, std::size_t lines, std::size_t line_step,
+                               std::size_t count, std::size_t step, double sigma) {
   const auto taps = static_cast<long>(std::ceil(kReferenceRadius * sigma));
   std::vector<double> weights(static_cast<std::size_t>(2 * taps + 1));
   double total = 0.0;
@@ -50,7 +50,8 @@ GlowKernel glow_kernel(std::uint32_t height, std::uint32_t divisor, float radius
 std::vector<double> fog_reference(std::span<const float> lit, std::span<const double> distance_m, std::uint32_t width,
                                   std::uint32_t height, const Fog& fog) {
   const std::size_t pixels = std::size_t{width} * height;
-  GLOAM_ASSERT(lit.size() == 4 * pixels && distance_m.size() == pixels, "the picture and its distances have the stated size");
+  GLOAM_ASSERT(lit.size() == 4 * pixels && distance_m.size() == pixels,
+               "the picture and its distances have the stated size");
   std::vector<double> light(3 * pixels);
   for (std::size_t i = 0; i < pixels; ++i)
     for (std::size_t c = 0; c < 3; ++c) light[3 * i + c] = static_cast<double>(lit[4 * i + c]);
@@ -62,7 +63,8 @@ std::vector<double> fog_reference(std::span<const float> lit, std::span<const do
     const double path = std::min(distance_m[i], static_cast<double>(kFogSkyDistance));
     const double transmitted = std::exp(-static_cast<double>(fog.density) * path);
     for (std::size_t c = 0; c < 3; ++c) {
-      const double scattered = static_cast<double>(fog.color[static_cast<int>(c)]) + static_cast<double>(kFogForwardShare) * glow[3 * i + c];
+      const double scattered =
+          static_cast<double>(fog.color[static_cast<int>(c)]) + static_cast<double>(kFogForwardShare) * glow[3 * i + c];
       fogged[4 * i + c] = transmitted * light[3 * i + c] + (1.0 - transmitted) * scattered;
     }
   }

@@ -24,13 +24,14 @@ struct GlowKernel {
   int taps = 1;        ///< on each side of the centre
 };
 
-/// The kernel for a picture of `height` pixels blurred at 1/divisor of its size and cut after `radius` standard deviations.
+/// The kernel for a picture of `height` pixels blurred at 1/divisor of its size and cut after `radius` standard
+/// deviations.
 [[nodiscard]] GlowKernel glow_kernel(std::uint32_t height, std::uint32_t divisor, float radius);
 
-/// The whole effect by brute force in double: the full picture blurred with a kernel cut after 6 standard deviations, then the fog of
-/// shaders/fog/apply.frag.glsl. `lit`: width · height · 4 floats before fog; `distance_m`: of each pixel, infinite for sky. Returns
-/// what `lit` becomes, same layout, alpha 1.
-[[nodiscard]] std::vector<double> fog_reference(std::span<const float> lit, std::span<const double> distance_m, std::uint32_t width,
-                                                std::uint32_t height, const Fog& fog);
+/// The whole effect by brute force in double: the full picture blurred with a kernel cut after 6 standard deviations,
+/// then the fog of shaders/fog/apply.frag.glsl. `lit`: width · height · 4 floats before fog; `distance_m`: of each
+/// pixel, infinite for sky. Returns what `lit` becomes, same layout, alpha 1.
+[[nodiscard]] std::vector<double> fog_reference(std::span<const float> lit, std::span<const double> distance_m,
+                                                std::uint32_t width, std::uint32_t height, const Fog& fog);
 
 }  // namespace gloam

@@ -44,7 +44,9 @@ std::vector<std::byte> bytes_of(const shaders::FogBlurConstants& constants) {
 
 std::uint32_t glow_divisor(const KnobRegistry& knobs) { return 1u << knobs.choice("fog.resolution"); }
 
-gpu::GraphicsPipelineDesc blur_pipeline() { return fullscreen_pipeline("fog_blur", "fog", shaders::fog::blur_frag, kGlowFormat); }
+gpu::GraphicsPipelineDesc blur_pipeline() {
+  return fullscreen_pipeline("fog_blur", "fog", shaders::fog::blur_frag, kGlowFormat);
+}
 
 gpu::GraphicsPipelineDesc reduce_pipeline(std::uint32_t divisor) {
   gpu::GraphicsPipelineDesc desc =
@@ -54,8 +56,9 @@ gpu::GraphicsPipelineDesc reduce_pipeline(std::uint32_t divisor) {
 }
 
 gpu::GraphicsPipelineDesc apply_pipeline(bool orthographic) {
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(orthographic ? "fog_apply/orthographic" : "fog_apply/perspective", "fog",
-                                                       shaders::fog::apply_frag, gpu::Format::rgba16_float);
+  gpu::GraphicsPipelineDesc desc =
+      fullscreen_pipeline(orthographic ? "fog_apply/orthographic" : "fog_apply/perspective", "fog",
+                          shaders::fog::apply_frag, gpu::Format::rgba16_float);
   desc.constants = {{0, orthographic ? 1u : 0u}};
   desc.blend = gpu::BlendMode::premultiplied;
   return desc;
@@ -77,7 +80,8 @@ gpu::GraphicsPipelineDesc apply_pipeline(bool orthographic) {
   const GlowKernel kernel = glow_kernel(frame.view().height, divisor, radius);
   const auto blur_pass = [&](const char* name, glm::ivec2 direction, ImageRef from) {
     const ImageRef target = create_view_image(frame, name, "fog", kGlowFormat, divisor);
-    return add_filter_pass(frame, {name, *blur, *sampler, bytes_of({direction, kernel.taps, 1.0f / kernel.sigma})}, from, target);
+    return add_filter_pass(frame, {name, *blur, *sampler, bytes_of({direction, kernel.taps, 1.0f / kernel.sigma})},
+                           from, target);
   };
   return blur_pass("fog_blur_y", {0, 1}, blur_pass("fog_blur_x", {1, 0}, source));
 }
@@ -92,7 +96,8 @@ void list_fog_pipelines(const KnobRegistry& knobs, PipelineList& list) {
 
 Status add_fog_passes(FrameBuilder& frame, const Fog& fog) {
   const FrameServices& services = frame.services();
-  auto glow = add_glow_passes(frame, glow_divisor(frame.knobs()), static_cast<float>(frame.knobs().number("fog.radius")));
+  auto glow =
+      add_glow_passes(frame, glow_divisor(frame.knobs()), static_cast<float>(frame.knobs().number("fog.radius")));
   if (!glow.ok()) return glow.error();
 
   const shaders::FogConstants constants{vec4(fog.color, 0.0f), fog.density, kFogForwardShare, kFogSkyDistance};
@@ -111,8 +116,8 @@ Status add_fog_passes(FrameBuilder& frame, const Fog& fog) {
   pass.read(depth, gpu::Access::fragment_read);
   pass.read(*glow, gpu::Access::fragment_read);
   lit.color = pass.write(lit.color, gpu::Access::color_target);
-  pass.execute([&frame, depth, glow = *glow, color = lit.color, range = *range, pipeline = *pipeline, nearest = *nearest,
-                linear = *linear](PassContext& context) {
+  pass.execute([&frame, depth, glow = *glow, color = lit.color, range = *range, pipeline = *pipeline,
+                nearest = *nearest, linear = *linear](PassContext& context) {
     FullscreenPass draw;
     draw.pipeline = pipeline;
     draw.bindings = {frame.view_binding(),

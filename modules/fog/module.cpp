@@ -27,9 +27,11 @@ class FogModule final : public Module {
 
   void scene_keys(KeyRegistry& registry) const override {
     const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
-      return key_line("fog", KeyElement::node, std::move(key), std::move(fallback), std::move(unit), std::move(meaning));
+      return key_line("fog", KeyElement::node, std::move(key), std::move(fallback), std::move(unit),
+                      std::move(meaning));
     };
-    registry.add(number_key(line("gloam.fog.density", "0", "1/m", "homogeneous fog, one a scene"), 0, 1e3, &Fog::density));
+    registry.add(
+        number_key(line("gloam.fog.density", "0", "1/m", "homogeneous fog, one a scene"), 0, 1e3, &Fog::density));
     registry.add(vec3_key(line("gloam.fog.color", "[0, 0, 0]", "cd/m²", "in-scattered radiance"), 0, 1e6, &Fog::color));
     registry.add_finish("fog", [](World& world) { return at_most_one(world.view<const Fog>().size(), "gloam.fog"); });
   }

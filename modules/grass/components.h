@@ -10,7 +10,7 @@ namespace gloam {
 
 /// Grass grows on the upward-facing triangles of the entity's mesh.
 struct GrassSurface {
-  float density = 0.0f;        ///< blades/m²
+  float density = 0.0f;  ///< blades/m²
   std::uint32_t seed = 1;
   vec2 height_m = vec2(0.3f, 0.06f);  ///< mean, deviation
   float width_m = 0.006f;
@@ -20,7 +20,8 @@ struct GrassSurface {
 
 enum class ColliderShape : std::uint8_t { none, sphere, capsule, box };
 
-/// Moves grass; follows the node's animation. A capsule's height includes its caps and starts at the node's origin, along +Y.
+/// Moves grass; follows the node's animation. A capsule's height includes its caps and starts at the node's origin,
+/// along +Y.
 struct Collider {
   ColliderShape shape = ColliderShape::none;
   float radius_m = 0.5f;

@@ -27,8 +27,8 @@ constexpr std::uint32_t kFirstShadowBinding = 13;
 constexpr std::uint32_t kFirstFinalListBinding = 9;
 constexpr std::uint32_t kFallbackTilesBinding = 19;
 
-/// A full-screen triangle at depth 0, which is the sky's: the test picks pixels of surfaces or of sky. Devices pass over pixels that fail
-/// it, software devices too, which run both sides of every condition.
+/// A full-screen triangle at depth 0, which is the sky's: the test picks pixels of surfaces or of sky. Devices pass
+/// over pixels that fail it, software devices too, which run both sides of every condition.
 gpu::GraphicsPipelineDesc tested_pipeline(std::string name, gpu::ShaderCode fragment, gpu::CompareOp compare) {
   gpu::GraphicsPipelineDesc desc =
       fullscreen_pipeline(std::move(name), "lighting", fragment, gpu::Format::rgba16_float);
@@ -180,7 +180,8 @@ LocalLights best_source(const ShadingInputs& inputs) {
   return inputs.outputs.lists_always_fit ? LocalLights::lists : LocalLights::lists_or_masks;
 }
 
-/// The best source whose pipeline is there; that of the best one is made in the background. All of them draw the same picture.
+/// The best source whose pipeline is there; that of the best one is made in the background. All of them draw the same
+/// picture.
 std::optional<LocalLights> ready_source(const FrameServices& services, const ShadingInputs& inputs,
                                         const ShadowsOutputs* shadows) {
   const LocalLights best = best_source(inputs);
@@ -199,8 +200,8 @@ bool final_lists_ready(const FrameServices& services, const ShadingInputs& input
   return services.pipelines.request(wanted, services.log);
 }
 
-/// Sets `shadows`, returns the source. Frames come without shadows while no pipeline with them is there, and with brute force, which is
-/// waited for, while none is there at all.
+/// Sets `shadows`, returns the source. Frames come without shadows while no pipeline with them is there, and with brute
+/// force, which is waited for, while none is there at all.
 LocalLights choose_variant(FrameBuilder& frame, Deferred& d) {
   const FrameServices& services = frame.services();
   d.shadows = frame.find<ShadowsOutputs>();

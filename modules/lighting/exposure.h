@@ -16,8 +16,8 @@ namespace gloam {
 /// Factor from cd/m² to 1 = white before the curve, for an exposure value at ISO 100.
 [[nodiscard]] float exposure_from_ev100(float ev100);
 
-/// Number of a world among those a lighting module has prepared; a resource of the world. An address would not do: a scene that is
-/// loaded again may get the old one's, but not its exposure.
+/// Number of a world among those a lighting module has prepared; a resource of the world. An address would not do: a
+/// scene that is loaded again may get the old one's, but not its exposure.
 struct LightingWorld {
   std::uint64_t number = 0;
 };
@@ -44,7 +44,8 @@ class ExposureSlots {
   gpu::Device* device_ = nullptr;
   gpu::BufferHandle buffer_;
   BufferRef imported_;
-  using Key = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // world, view, camera's index and generation
+  using Key = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t,
+                         std::uint32_t>;  // world, view, camera's index and generation
   std::map<Key, std::uint32_t> slots_;
   std::uint32_t next_ = 0;
 };

@@ -51,8 +51,8 @@ struct Forward {
   gpu::SamplerHandle sampler;
 };
 
-/// The best variant whose pipelines are there. All lights give the same picture while those of tiles are made; without shadows it is
-/// another one.
+/// The best variant whose pipelines are there. All lights give the same picture while those of tiles are made; without
+/// shadows it is another one.
 void choose_variant(FrameBuilder& frame, Forward& f) {
   const std::span<const Draw> draws = frame.draws().blended;
   const auto choose = [&](bool tiled, const ShadowsOutputs* shadows) {

@@ -42,8 +42,9 @@ double metered_exposure(const LinearPicture& lit) {
 Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
   const LinearPicture& lit = input.frame.linear;
   const auto& environment = input.world.resource<SceneEnvironment>();
-  const double exposure = environment.has_exposure ? 1.0 / (1.2 * std::exp2(static_cast<double>(environment.exposure_ev100)))
-                                                   : metered_exposure(lit);
+  const double exposure = environment.has_exposure
+                              ? 1.0 / (1.2 * std::exp2(static_cast<double>(environment.exposure_ev100)))
+                              : metered_exposure(lit);
   const std::uint32_t curve = input.knobs.choice("lighting.tone_map");
   FramePictures right;
   right.picture = {lit.width, lit.height, std::vector<std::uint8_t>(lit.rgba.size(), 255)};

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "engine/render/reference.h"
+#include "engine/render/reference/reference.h"
 
 namespace gloam {
 
@@ -14,7 +14,8 @@ namespace gloam {
 /// The exposure meter.comp gives for a frame's light, in double precision.
 [[nodiscard]] double metered_exposure(const LinearPicture& lit);
 
-/// What the drawn light should have become with the chosen curve: exposure, curve and sRGB encoding in double precision, rounded once.
+/// What the drawn light should have become with the chosen curve: exposure, curve and sRGB encoding in double
+/// precision, rounded once.
 [[nodiscard]] Result<FramePictures> draw_tone_reference(const ReferenceInput& input);
 
 }  // namespace gloam

@@ -6,15 +6,15 @@
 
 #include "engine/ecs/view.h"
 #include "engine/render/frame_builder.h"
-#include "modules/lights/find_lights_passes.h"
-#include "modules/lights/light_buffers.h"
-#include "modules/lights/light_keys.h"
-#include "modules/lights/light_list.h"
-#include "modules/lights/light_measures.h"
-#include "modules/lights/light_pick.h"
-#include "modules/lights/light_systems.h"
-#include "modules/lights/light_views.h"
+#include "modules/lights/debug/measures.h"
+#include "modules/lights/debug/pick.h"
+#include "modules/lights/debug/visualizers.h"
+#include "modules/lights/keys.h"
+#include "modules/lights/lists/buffers.h"
+#include "modules/lights/lists/find_passes.h"
 #include "modules/lights/outputs.h"
+#include "modules/lights/selection/light_list.h"
+#include "modules/lights/systems.h"
 
 namespace gloam {
 namespace {

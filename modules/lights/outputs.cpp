@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "engine/core/assert.h"
-#include "modules/lights/light_list.h"
+#include "modules/lights/selection/light_list.h"
 #include "shaders/lights/lights_shared.h"
 
 namespace gloam {

@@ -19,32 +19,33 @@ struct LightsOutputs {
   gpu::Binding::BufferRange lights;  ///< a LightBlock (shaders/lights/lights_shared.h), uniform
   std::uint32_t local_count = 0;
   std::uint32_t directional_count = 0;
-  ImageRef
-      texels;  ///< rgba32f, 3 × GLOAM_MAX_LOCAL_LIGHTS: local lights as light_texels.comp writes them; none without local lights
+  ImageRef texels;  ///< rgba32f, 3 × GLOAM_MAX_LOCAL_LIGHTS: local lights as light_texels.comp writes them; none
+                    ///< without local lights
 
   /// What follows exists with local lights and lights.culling = tiled.
   gpu::Binding::BufferRange grid;        ///< a LightGrid, uniform
   gpu::Binding::BufferRange z_bins;      ///< one word a bin: the standard set, then the ranged one; storage
   gpu::Binding::BufferRange mask_tiles;  ///< GLOAM_MASK_WORDS a tile of 32×32 pixels, as the CPU made them; storage
   BufferRef group_masks;                 ///< GLOAM_MASK_WORDS a tile group: lights of the approximate search
-  ImageRef
-      tile_lists;  ///< rg32ui, one texel a shadow tile: slot (first list entry, a multiple of 3) or GLOAM_NO_SLOT; lights in
-                   ///< the low 16 bits by the accurate search, in the high 16 by the approximate one
+  ImageRef tile_lists;  ///< rg32ui, one texel a shadow tile: slot (first list entry, a multiple of 3) or GLOAM_NO_SLOT;
+                        ///< lights in the low 16 bits by the accurate search, in the high 16 by the approximate one
   BufferRef early_lists;            ///< list entry e: 10 bits at bit 10 · (e % 3) of word e / 3
   BufferRef counters;               ///< a LightCounters
   std::uint32_t slot_capacity = 0;  ///< list entries early_lists holds
-  bool lists_always_fit = false;    ///< slot_capacity is enough for every tile to list every light: no tile is without a list
+  bool lists_always_fit =
+      false;  ///< slot_capacity is enough for every tile to list every light: no tile is without a list
   [[nodiscard]] bool has_lists() const { return static_cast<bool>(tile_lists); }
 };
 
-/// A later module puts this on the board, before PassPhase::visualize, when it shows view light_list of the view's lights itself: what became
-/// of the early lists.
+/// A later module puts this on the board, before PassPhase::visualize, when it shows view light_list of the view's
+/// lights itself: what became of the early lists.
 struct LightListViewTaken {};
 
-/// The lights of one view; a view resource that system light_sort makes. What other modules' systems may ask of it stands here.
+/// The lights of one view; a view resource that system light_sort makes. What other modules' systems may ask of it
+/// stands here.
 struct VisibleLights;
-/// Point and spot lights that may touch the view's frustum, in the order of LightBlock::local. None has NaN or infinity where no sense can
-/// be made of it; each had Light and WorldTransform when the world's systems ran.
+/// Point and spot lights that may touch the view's frustum, in the order of LightBlock::local. None has NaN or infinity
+/// where no sense can be made of it; each had Light and WorldTransform when the world's systems ran.
 [[nodiscard]] std::span<const Entity> local_lights(const VisibleLights& visible);
 /// The same for LightBlock::directional.
 [[nodiscard]] std::span<const Entity> directional_lights(const VisibleLights& visible);
@@ -72,11 +73,12 @@ struct TileList {
 };
 [[nodiscard]] TileList decode_tile_list(uvec2 texel);
 
-/// Indices of the lights in one mask of mask_tiles or group_masks. `words`: its GLOAM_MASK_WORDS words; words whose group bit is 0 are not
-/// looked at.
+/// Indices of the lights in one mask of mask_tiles or group_masks. `words`: its GLOAM_MASK_WORDS words; words whose
+/// group bit is 0 are not looked at.
 [[nodiscard]] std::vector<std::uint32_t> decode_light_mask(std::span<const std::uint32_t> words);
 
-/// Light indices of `count` list entries from `slot` on. `early_lists`: the buffer's words. Entries beyond the buffer are left out.
+/// Light indices of `count` list entries from `slot` on. `early_lists`: the buffer's words. Entries beyond the buffer
+/// are left out.
 [[nodiscard]] std::vector<std::uint32_t> decode_light_list(std::span<const std::uint32_t> early_lists,
                                                            std::uint32_t slot, std::uint32_t count);
 

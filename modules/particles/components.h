@@ -13,10 +13,10 @@ enum class EmitterKind : std::uint8_t { none, fog, dust, smoke, fire };
 /// Emits particles from a box around the node.
 struct ParticleEmitter {
   EmitterKind kind = EmitterKind::none;
-  float rate = 20.0f;       ///< 1/s
+  float rate = 20.0f;  ///< 1/s
   float lifetime_s = 2.0f;
   float size_m = 0.3f;
-  float speed = 0.5f;       ///< m/s
+  float speed = 0.5f;          ///< m/s
   float spread = 0.34906585f;  ///< half angle around +Y, radians
   vec3 box_m = vec3(1.0f);
 };

@@ -30,23 +30,29 @@ class ReflectionsModule final : public Module {
   }
   void scene_keys(KeyRegistry& registry) const override {
     const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
-      return key_line("reflections", KeyElement::node, std::move(key), std::move(fallback), std::move(unit), std::move(meaning));
+      return key_line("reflections", KeyElement::node, std::move(key), std::move(fallback), std::move(unit),
+                      std::move(meaning));
     };
-    registry.add(vec2_key(line("gloam.ibr_proxy.size", "", "m", "a reflection proxy in the local XY plane, facing +Z, centred"),
-                          1e-6, 1e6, &IbrProxy::size_m));
+    registry.add(
+        vec2_key(line("gloam.ibr_proxy.size", "", "m", "a reflection proxy in the local XY plane, facing +Z, centred"),
+                 1e-6, 1e6, &IbrProxy::size_m));
     registry.add(choice_key(line("gloam.ibr_proxy.kind", "scene", "", "captured from the scene, or emissive image"),
                             {"scene", "fire"}, IbrProxyKind::scene, &IbrProxy::kind));
     registry.add(file_key(line("gloam.ibr_proxy.texture", "", "", "image instead of a capture"), &IbrProxy::texture));
-    registry.add(text_key(line("gloam.ibr_proxy.lights", "", "", "comma-separated lights that dim it"), &IbrProxy::lights));
+    registry.add(
+        text_key(line("gloam.ibr_proxy.lights", "", "", "comma-separated lights that dim it"), &IbrProxy::lights));
     registry.add(vec3_key(line("gloam.ibr_room.size", "", "m", "box around the node"), 1e-6, 1e6, &IbrRoom::size_m));
-    registry.add(vec3_key(line("gloam.cube_probe.size", "", "m", "influence box around the node"), 1e-6, 1e6, &CubeProbe::size_m));
-    registry.add(integer_key(line("gloam.cube_probe.resolution", "128", "texels", "face size"), 1, 4096, &CubeProbe::resolution));
+    registry.add(vec3_key(line("gloam.cube_probe.size", "", "m", "influence box around the node"), 1e-6, 1e6,
+                          &CubeProbe::size_m));
+    registry.add(integer_key(line("gloam.cube_probe.resolution", "128", "texels", "face size"), 1, 4096,
+                             &CubeProbe::resolution));
     registry.add(boolean_key(line("gloam.cube_probe.global", "false", "", "the global probe"), &CubeProbe::global));
     registry.add_finish("reflections", &check_light_names);
   }
   [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
     std::size_t proxies = 0;
-    world.view<const IbrProxy>().each([&](const IbrProxy& p) { proxies += p.size_m.x > 0.0f && p.size_m.y > 0.0f ? 1 : 0; });
+    world.view<const IbrProxy>().each(
+        [&](const IbrProxy& p) { proxies += p.size_m.x > 0.0f && p.size_m.y > 0.0f ? 1 : 0; });
     std::size_t probes = 0;
     world.view<const CubeProbe>().each([&](const CubeProbe& p) { probes += p.global || p.size_m.x > 0.0f ? 1 : 0; });
     if (proxies + probes == 0) return {false, "no proxy and no probe"};

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "modules/shadows/shadow_knobs.h"
+#include "modules/shadows/knobs.h"
 #include "shaders/shadows/final_lists_shared.h"
 
 namespace gloam {

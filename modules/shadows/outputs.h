@@ -17,7 +17,7 @@
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
 #include "engine/render/frame_builder.h"
-#include "engine/render/reference.h"
+#include "engine/render/reference/reference.h"
 #include "modules/lights/components.h"
 #include "shaders/shadows/shadows_shared.h"
 
@@ -65,13 +65,14 @@ struct TexelRect {
 /// Texels that something in the world box may be drawn into, with room for what rounding does.
 [[nodiscard]] TexelRect covered_texels(const ShadowFace& face, const dvec3& low, const dvec3& high);
 
-/// False only if nothing in the box can block light in this face: what is nearer than a perspective face's near plane or out of the light's
-/// range cannot. An orthographic face has no near side: whatever lies towards the light from it may block. Boxes with min above max or
-/// with NaN may be anywhere.
+/// False only if nothing in the box can block light in this face: what is nearer than a perspective face's near plane
+/// or out of the light's range cannot. An orthographic face has no near side: whatever lies towards the light from it
+/// may block. Boxes with min above max or with NaN may be anywhere.
 [[nodiscard]] bool face_may_see(const ShadowFace& face, const dvec3& min, const dvec3& max);
 
-/// What lights each shadow tile of a view and how much of each light its pixels see (shaders/shadows/final_lists_shared.h), for shaders that
-/// include shaders/shadows/final_lists_api.glsl. Opaque surfaces only.
+/// What lights each shadow tile of a view and how much of each light its pixels see
+/// (shaders/shadows/final_lists_shared.h), for shaders that include shaders/shadows/final_lists_api.glsl. Opaque
+/// surfaces only.
 struct FinalLists {
   ImageRef tiles;                   ///< rgba32ui, one texel a shadow tile
   BufferRef entries;                ///< a word an entry
@@ -90,8 +91,8 @@ struct FinalLists {
   std::string variant;
 };
 
-/// What the shadows module leaves for a view, for shaders that include shaders/shadows/shadows_api.glsl. On the board only when shadows are
-/// to be looked at.
+/// What the shadows module leaves for a view, for shaders that include shaders/shadows/shadows_api.glsl. On the board
+/// only when shadows are to be looked at.
 struct ShadowsOutputs {
   gpu::Binding::BufferRange block;      ///< a ShadowBlock (shaders/shadows/shadows_shared.h), uniform
   shaders::ShadowBlock block_values{};  ///< what it holds
@@ -101,12 +102,13 @@ struct ShadowsOutputs {
   ImageRef atlas;    ///< r32f or r16_unorm: depth of all faces and their mips
   ImageRef pyramid;  ///< r32f: nearest and farthest depth
   ImageRef cookies;  ///< rgba8_srgb, an array: cookies of spot lights; one white layer when there is none
-  ImageRef
-      traced;  ///< r8_unorm, an array: visibility a light and pixel that a reference has traced; the cookies' image when there is none
+  ImageRef traced;   ///< r8_unorm, an array: visibility a light and pixel that a reference has traced; the cookies'
+                     ///< image when there is none
   gpu::SamplerHandle nearest;
   gpu::SamplerHandle linear;
 
-  /// No light asks for a map or traced visibility: shaders may take cookies_api.glsl in place of shadows_api.glsl, many times smaller.
+  /// No light asks for a map or traced visibility: shaders may take cookies_api.glsl in place of shadows_api.glsl, many
+  /// times smaller.
   bool cookies_only = false;
   /// The filter is what GLOAM_SHADOWS_STANDARD compiles, half as large.
   bool standard = false;
@@ -120,8 +122,8 @@ struct ShadowsOutputs {
   std::optional<FinalLists> final_lists;
 };
 
-/// For shaders that look at maps with contact-hardening shadows: the same penumbrae by single fetches from mip 0 (shadows.filter=pcss). What
-/// other filter they have stays.
+/// For shaders that look at maps with contact-hardening shadows: the same penumbrae by single fetches from mip 0
+/// (shadows.filter=pcss). What other filter they have stays.
 [[nodiscard]] ShadowsOutputs by_single_fetches(ShadowsOutputs shadows);
 
 void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access);
@@ -129,7 +131,8 @@ void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu:
 void append_shadow_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                             const ShadowsOutputs& shadows);
 
-/// The same for shaders that include cookies_api.glsl when shadows.cookies_only, else shadows_api.glsl. The former takes block, rows, cookies.
+/// The same for shaders that include cookies_api.glsl when shadows.cookies_only, else shadows_api.glsl. The former
+/// takes block, rows, cookies.
 void declare_arriving_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access);
 void append_arriving_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                               const ShadowsOutputs& shadows);
@@ -143,8 +146,8 @@ void declare_final_list_reads(PassBuilder& pass, const FinalLists& lists, gpu::A
 void append_final_list_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                                 const FinalLists& lists, gpu::SamplerHandle nearest);
 
-/// Casters that the maps of a light leave out, because a later module sees to what they keep of it. Put on the board in PassPhase::announce;
-/// looked at only in frames that have final lists.
+/// Casters that the maps of a light leave out, because a later module sees to what they keep of it. Put on the board in
+/// PassPhase::announce; looked at only in frames that have final lists.
 struct WithheldCasters {
   struct OfLight {
     Entity light;
@@ -171,8 +174,8 @@ struct FinalEntry {
 };
 [[nodiscard]] FinalEntry decode_final_entry(std::uint32_t word);
 
-/// 0 … 1, of a pixel (0 … 63, row by row) of the tile that the entry is in. `words`: of all slots, one buffer after the other. 0 where the slot
-/// lies beyond them.
+/// 0 … 1, of a pixel (0 … 63, row by row) of the tile that the entry is in. `words`: of all slots, one buffer after the
+/// other. 0 where the slot lies beyond them.
 [[nodiscard]] float decode_visibility(FinalEntry entry, std::uint32_t pixel, std::span<const std::uint32_t> words,
                                       std::uint32_t visibility_bits);
 
@@ -197,7 +200,8 @@ struct ExtraAtlas {
 
 struct ShadowMapTools;  ///< what maps are drawn with
 
-/// How later modules draw shadow maps of their own, alike to those of the atlas. On the board in frames that have final lists.
+/// How later modules draw shadow maps of their own, alike to those of the atlas. On the board in frames that have final
+/// lists.
 class ShadowMapDrawer {
  public:
   explicit ShadowMapDrawer(std::shared_ptr<const ShadowMapTools> tools) : tools_(std::move(tools)) {}
@@ -206,7 +210,8 @@ class ShadowMapDrawer {
   [[nodiscard]] ExtraAtlas create(FrameGraph& graph, const char* module, std::uint32_t size) const;
   /// Maps of this side that `draw` takes at a time.
   [[nodiscard]] static std::size_t most_maps(std::uint32_t size);
-  /// Draws maps, all of one size, and makes their mips and pyramids: passes shadow_map_`name` and shadow_map_`name`_mips.
+  /// Draws maps, all of one size, and makes their mips and pyramids: passes shadow_map_`name` and
+  /// shadow_map_`name`_mips.
   [[nodiscard]] Status draw(FrameBuilder& frame, const char* name, const char* module, std::span<const ExtraMap> maps,
                             ExtraAtlas& into) const;
   /// Constants for looking at maps of such an atlas with shaders/shadows/shadows_api.glsl.
@@ -216,9 +221,9 @@ class ShadowMapDrawer {
   std::shared_ptr<const ShadowMapTools> tools_;
 };
 
-// How later modules let those who look at standard maps in this frame see more in them. The maps themselves are kept from frame to frame and
-// stay as they are: what is to be seen goes into copies of faces, in squares of the atlas that are free, and rows that point to the copies
-// take the place of ShadowsOutputs::rows. Nothing of it outlives the frame.
+// How later modules let those who look at standard maps in this frame see more in them. The maps themselves are kept
+// from frame to frame and stay as they are: what is to be seen goes into copies of faces, in squares of the atlas that
+// are free, and rows that point to the copies take the place of ShadowsOutputs::rows. Nothing of it outlives the frame.
 
 /// A standard face, and where its copy has room in the same atlas.
 struct OverlayFace {
@@ -250,8 +255,8 @@ class OverlayPlan {
   std::vector<OverlayFace> faces_;
 };
 
-/// Copies of faces while they are added to: compute shaders write to mip 0 of their squares in ShadowsOutputs::atlas, reversed depth. Whoever
-/// does so leaves the version written on the board.
+/// Copies of faces while they are added to: compute shaders write to mip 0 of their squares in ShadowsOutputs::atlas,
+/// reversed depth. Whoever does so leaves the version written on the board.
 struct OverlayCopies {
   std::vector<OverlayFace> faces;
   bool d16 = false;  ///< the atlas is r16_unorm; else r32f
@@ -268,8 +273,8 @@ class OverlayMaps {
   [[nodiscard]] bool d16() const;
   /// Copies mip 0 of the faces, at least one, within the atlas (pass shadow_overlay_copy). It takes no memory.
   [[nodiscard]] Result<OverlayCopies> start(FrameBuilder& frame, std::span<const OverlayFace> faces) const;
-  /// Makes the copies' mips and pyramids (pass shadow_overlay_mips), and lets ShadowsOutputs on the board point to them (pass
-  /// shadow_overlay_rows).
+  /// Makes the copies' mips and pyramids (pass shadow_overlay_mips), and lets ShadowsOutputs on the board point to them
+  /// (pass shadow_overlay_rows).
   [[nodiscard]] Status finish(FrameBuilder& frame, const OverlayCopies& copies) const;
 
  private:

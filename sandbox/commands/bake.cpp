@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include "sandbox/commands/commands.h"
-#include "sandbox/scene_loading.h"
+#include "sandbox/session/scene_loading.h"
 
 namespace gloam {
 

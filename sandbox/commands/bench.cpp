@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "sandbox/bench/context.h"
-#include "sandbox/bench/registry.h"
-#include "sandbox/bench/report.h"
+#include "sandbox/bench/harness/context.h"
+#include "sandbox/bench/harness/registry.h"
+#include "sandbox/bench/harness/report.h"
 #include "sandbox/commands/commands.h"
-#include "sandbox/file_io.h"
-#include "sandbox/scene_loading.h"
+#include "sandbox/output/file_io.h"
+#include "sandbox/session/scene_loading.h"
 
 namespace gloam {
 

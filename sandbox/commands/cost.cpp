@@ -9,12 +9,12 @@
 #include "modules/accuracy/outputs.h"
 #include "modules/module_list/module_list.h"
 #include "sandbox/commands/commands.h"
-#include "sandbox/file_io.h"
-#include "sandbox/identity.h"
-#include "sandbox/progress_bar.h"
-#include "sandbox/scene_loading.h"
-#include "sandbox/session.h"
-#include "sandbox/session_costs.h"
+#include "sandbox/output/file_io.h"
+#include "sandbox/output/identity.h"
+#include "sandbox/output/progress_bar.h"
+#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/session.h"
+#include "sandbox/session/session_costs.h"
 
 namespace gloam {
 namespace {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/module_list/module_list.h"
 #include "sandbox/commands/commands.h"
-#include "sandbox/scene_loading.h"
-#include "sandbox/scene_summary.h"
+#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/scene_summary.h"
 
 namespace gloam {
 

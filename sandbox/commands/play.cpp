@@ -7,13 +7,13 @@
 #include "engine/core/env.h"
 #include "engine/gpu/vulkan_device.h"
 #include "sandbox/commands/commands.h"
-#include "sandbox/fly_camera.h"
-#include "sandbox/frame_tracing.h"
-#include "sandbox/play_panel.h"
-#include "sandbox/run_output.h"
-#include "sandbox/scene_loading.h"
-#include "sandbox/session.h"
-#include "sandbox/window.h"
+#include "sandbox/session/frame_tracing.h"
+#include "sandbox/session/run_output.h"
+#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/session.h"
+#include "sandbox/window/fly_camera.h"
+#include "sandbox/window/play_panel.h"
+#include "sandbox/window/window.h"
 
 namespace gloam {
 namespace {

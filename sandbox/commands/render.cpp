@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "sandbox/commands/commands.h"
-#include "sandbox/frame_tracing.h"
-#include "sandbox/run_output.h"
-#include "sandbox/scene_loading.h"
-#include "sandbox/session.h"
+#include "sandbox/session/frame_tracing.h"
+#include "sandbox/session/run_output.h"
+#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/session.h"
 
 namespace gloam {
 namespace {

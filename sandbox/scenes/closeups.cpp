@@ -32,9 +32,14 @@ Materials add_materials(SceneBuilder& builder) {
   m.wall = material("wall", vec3(0.58f, 0.52f, 0.46f), 0.9f);
   m.wood = material("wood", vec3(0.30f, 0.20f, 0.12f), 0.7f);
   m.skin = material("skin", vec3(0.66f, 0.46f, 0.36f), 0.6f);
-  constexpr std::array<vec3, kCloseupFigures> kCoats = {
-      {{0.45f, 0.10f, 0.10f}, {0.12f, 0.22f, 0.42f}, {0.16f, 0.34f, 0.16f}, {0.48f, 0.38f, 0.12f},
-       {0.32f, 0.14f, 0.36f}, {0.42f, 0.40f, 0.38f}, {0.10f, 0.32f, 0.34f}, {0.46f, 0.24f, 0.10f}}};
+  constexpr std::array<vec3, kCloseupFigures> kCoats = {{{0.45f, 0.10f, 0.10f},
+                                                         {0.12f, 0.22f, 0.42f},
+                                                         {0.16f, 0.34f, 0.16f},
+                                                         {0.48f, 0.38f, 0.12f},
+                                                         {0.32f, 0.14f, 0.36f},
+                                                         {0.42f, 0.40f, 0.38f},
+                                                         {0.10f, 0.32f, 0.34f},
+                                                         {0.46f, 0.24f, 0.10f}}};
   for (std::size_t i = 0; i < kCoats.size(); ++i) m.coats[i] = material("coat " + std::to_string(i), kCoats[i], 0.85f);
   return m;
 }

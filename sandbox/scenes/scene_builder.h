@@ -13,8 +13,8 @@
 
 namespace gloam {
 
-/// Fills a world by code, as the importer does from a file. The world has all components registered and prepare_scene_world's
-/// resources in place.
+/// Fills a world by code, as the importer does from a file. The world has all components registered and
+/// prepare_scene_world's resources in place.
 class SceneBuilder {
  public:
   SceneBuilder(World& world, SceneInfo& info) : world_(world), info_(info) {}

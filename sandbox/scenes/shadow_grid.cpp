@@ -33,7 +33,8 @@ constexpr double kBoardTurn = 0.9;  // radians a second
 constexpr std::array<vec3, 5> kPalette = {vec3(1.0f, 0.60f, 0.26f), vec3(1.0f, 0.38f, 0.16f), vec3(0.95f, 0.78f, 0.45f),
                                           vec3(0.30f, 0.52f, 1.0f), vec3(0.62f, 0.36f, 1.0f)};
 
-/// Place i of an even spread over a square of a side (Roberts' R2 sequence): its first places are spread as evenly as all.
+/// Place i of an even spread over a square of a side (Roberts' R2 sequence): its first places are spread as evenly as
+/// all.
 dvec3 spread_place(int i, double side, double start) {
   const auto along = [&](double step) { return (std::fmod(start + i * step, 1.0) - 0.5) * side; };
   return {along(0.75487766624669276), 0.0, along(0.56984029099805327)};
@@ -161,8 +162,9 @@ void build_shadow_grid_scene(World& world, SceneInfo& info) {
 }
 
 double shadow_grid_range_m(std::size_t count, double lights_a_point) {
-  // A lamp's sphere cuts the ground in a disc; discs of all lamps cover the square `lights_a_point` times. Of a spot's, what its cone
-  // leaves is about 0.6 where ranges are small against the height, less where they are large: not told apart here.
+  // A lamp's sphere cuts the ground in a disc; discs of all lamps cover the square `lights_a_point` times. Of a spot's,
+  // what its cone leaves is about 0.6 where ranges are small against the height, less where they are large: not told
+  // apart here.
   const double disc = lights_a_point * kSide * kSide / static_cast<double>(std::max<std::size_t>(count, 1));
   return std::sqrt(disc / 3.14159265358979 + kLampHeight * kLampHeight);
 }

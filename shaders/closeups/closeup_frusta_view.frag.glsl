@@ -16,7 +16,8 @@ const float kHidden = 0.25;  // of lines behind surfaces
 vec4 over(vec4 below, vec3 color, float opacity) { return below * (1.0 - opacity) + vec4(color, 1.0) * opacity; }
 
 bool in_frame(ShownCloseup closeup, uvec2 pixel) {
-  uvec2 low = closeup.first_tile * uint(GLOAM_SHADOW_TILE), high = min(closeup.end_tile * uint(GLOAM_SHADOW_TILE), view.size) - 1u;
+  uvec2 low = closeup.first_tile * uint(GLOAM_SHADOW_TILE),
+        high = min(closeup.end_tile * uint(GLOAM_SHADOW_TILE), view.size) - 1u;
   return any(equal(pixel, low)) || any(equal(pixel, high));
 }
 
@@ -32,7 +33,8 @@ float line_opacity(CloseupLine line, vec2 at, float depth) {
 float lines_opacity(ShownCloseup closeup, vec2 at, float depth) {
   if (any(lessThan(at, closeup.lines_low)) || any(greaterThan(at, closeup.lines_high))) return 0.0;
   float opacity = 0.0;
-  for (uint i = 0u; i < closeup.line_count; ++i) opacity = max(opacity, line_opacity(lines[closeup.first_line + i], at, depth));
+  for (uint i = 0u; i < closeup.line_count; ++i)
+    opacity = max(opacity, line_opacity(lines[closeup.first_line + i], at, depth));
   return opacity;
 }
 
@@ -41,8 +43,10 @@ void main() {
   vec4 color = vec4(0.0);
   float tint = kTint * 2.0 / float(closeup_count + 1u);
   for (uint i = 0u; i < closeup_count; ++i)
-    if (in_tiles(closeups[i], pixel)) color = over(color, closeups[i].color, in_frame(closeups[i], pixel) ? kFrame : tint);
+    if (in_tiles(closeups[i], pixel))
+      color = over(color, closeups[i].color, in_frame(closeups[i], pixel) ? kFrame : tint);
   float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
-  for (uint i = 0u; i < closeup_count; ++i) color = over(color, closeups[i].color, lines_opacity(closeups[i], vec2(pixel) + 0.5, depth));
+  for (uint i = 0u; i < closeup_count; ++i)
+    color = over(color, closeups[i].color, lines_opacity(closeups[i], vec2(pixel) + 0.5, depth));
   show(color.rgb / max(color.a, 1e-6), color.a);
 }

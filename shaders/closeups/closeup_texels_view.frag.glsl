@@ -5,8 +5,8 @@
 #include "shaders/closeups/closeup_views_api.glsl"
 #include "shaders/common/heat.glsl"
 
-// Texels of close-up maps that a pixel's side covers on its surface: the root of those that the pixel covers. Where pairs overlap, of
-// the finest map.
+// Texels of close-up maps that a pixel's side covers on its surface: the root of those that the pixel covers. Where
+// pairs overlap, of the finest map.
 
 layout(set = 0, binding = 3) uniform usampler2D normals;
 

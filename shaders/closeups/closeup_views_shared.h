@@ -27,7 +27,8 @@ struct ShownCloseup {
   uint line_count;
 };
 
-/// A straight line over the picture. Places are in pixels from the upper left corner, depths are reversed and run evenly along it.
+/// A straight line over the picture. Places are in pixels from the upper left corner, depths are reversed and run
+/// evenly along it.
 struct CloseupLine {
   vec2 from;
   vec2 to;

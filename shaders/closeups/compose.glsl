@@ -5,10 +5,11 @@
 
 // Before including this, define GLOAM_SHADOWS_KINDS: 1 for local lights, 4 for directional ones.
 //
-// Takes what a subject keeps of a light from the pixels of a tile (FF XVI paper, §3.4). One workgroup is a tile of the pair's range. A tile
-// that does not list the light, or that sees none of it already, stays as it is; pixels that the close-up map does not hold keep what they
-// see. What is new is the lesser of both: a lit tile takes a slot, one that nobody sees the light from any more becomes unlit. A tile that
-// finds no slot left loses its list and is shaded from maps.
+// Takes what a subject keeps of a light from the pixels of a tile (FF XVI paper, §3.4). One workgroup is a tile of the
+// pair's range. A tile that does not list the light, or that sees none of it already, stays as it is; pixels that the
+// close-up map does not hold keep what they see. What is new is the lesser of both: a lit tile takes a slot, one that
+// nobody sees the light from any more becomes unlit. A tile that finds no slot left loses its list and is shaded from
+// maps.
 
 #define GLOAM_SHADOWS_BINDING 12
 #define GLOAM_SHADOWS_PIXEL ivec2(0)  // what is traced is shaded without lists
@@ -31,9 +32,9 @@ const uint kNoEntry = 0xFFFFFFFFu;
 const uint kWords = 2u * kVisibilityBits;
 const uint kSlotsPerBuffer = GLOAM_BUFFER_WORDS / kWords;
 
-shared uint place;                  // of the entry
-shared uint slot;                   // it has, then gets
-shared uint old_words[16];          // what its pixels saw
+shared uint place;          // of the entry
+shared uint slot;           // it has, then gets
+shared uint old_words[16];  // what its pixels saw
 
 // What is the same for all pixels.
 #if GLOAM_SHADOWS_KINDS == 4
@@ -53,12 +54,16 @@ float penumbra_texels() { return closeup.penumbra_m_per_m * closeup.depth_m / cl
 
 ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
   SunReceiver s = sun_receiver(closeup.direction, closeup.penumbra_m_per_m, r);
-  try_cascade(s, ShadowCascade(closeup.row_u, closeup.row_v, closeup.row_depth, closeup.origin, closeup.size, closeup.texel_m,
-                               closeup.depth_m, 0.0, vec2(0.0)), true);
+  try_cascade(s,
+              ShadowCascade(closeup.row_u, closeup.row_v, closeup.row_depth, closeup.origin, closeup.size,
+                            closeup.texel_m, closeup.depth_m, 0.0, vec2(0.0)),
+              true);
   return sun_shadow_point(s, r.subsurface);
 }
 
-bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return sun_gives(closeup.brightest, closeup.direction, normal); }
+bool gives_light(LightOfPair l, vec3 position, vec3 normal) {
+  return sun_gives(closeup.brightest, closeup.direction, normal);
+}
 #else
 struct LightOfPair {
   LocalLight light;
@@ -70,7 +75,8 @@ LightOfPair light_of_pair() { return LightOfPair(fetch_light(light_texels, close
 vec4 place_in_face(LightOfPair l, vec3 position) {
   vec3 v = position - l.light.position;
   float z = dot(v, cross(closeup.up, closeup.right)), texels = 0.5 * closeup.size / closeup.tan_half;
-  return vec4(dot(v, closeup.right) * texels + 0.5 * closeup.size * z, -dot(v, closeup.up) * texels + 0.5 * closeup.size * z, closeup.near_m, z);
+  return vec4(dot(v, closeup.right) * texels + 0.5 * closeup.size * z,
+              -dot(v, closeup.up) * texels + 0.5 * closeup.size * z, closeup.near_m, z);
 }
 
 // Of a penumbra, for every unit of depth between blocker and receiver.
@@ -80,8 +86,10 @@ ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
   LightFaces face;
   face.along_x = closeup.origin.xxx;
   face.along_y = closeup.origin.yyy;
-  LocalShadow shadow = LocalShadow(l.light.position, vec4(GLOAM_SHADOW_SPOT, closeup.near_m, closeup.width_m, closeup.size), vec4(closeup.right, closeup.tan_half),
-                                   vec4(closeup.up, closeup.tan_inner), cross(closeup.up, closeup.right), face);
+  LocalShadow shadow =
+      LocalShadow(l.light.position, vec4(GLOAM_SHADOW_SPOT, closeup.near_m, closeup.width_m, closeup.size),
+                  vec4(closeup.right, closeup.tan_half), vec4(closeup.up, closeup.tan_inner),
+                  cross(closeup.up, closeup.right), face);
   return local_shadow_point(shadow, r);
 }
 
@@ -98,12 +106,13 @@ uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps
 
 #include "shaders/shadows/pair_pixels_asked_api.glsl"
 
-// Whether the subject certainly keeps no light from any pixel of the tile: all lie beside what the map shows, or nothing in the map is near
-// enough to the way between them and the emitter.
+// Whether the subject certainly keeps no light from any pixel of the tile: all lie beside what the map shows, or
+// nothing in the map is near enough to the way between them and the emitter.
 bool subject_is_aside(LightOfPair light, uvec2 tile) {
   vec2 bounds = texelFetch(depth_bounds, ivec2(tile), 0).xy;
   if (bounds.y <= 0.0) return true;
-  vec2 begin = vec2(tile * uint(GLOAM_SHADOW_TILE)) - 0.5, end = min(begin + float(GLOAM_SHADOW_TILE), vec2(view.size) - 0.5);
+  vec2 begin = vec2(tile * uint(GLOAM_SHADOW_TILE)) - 0.5,
+       end = min(begin + float(GLOAM_SHADOW_TILE), vec2(view.size) - 0.5);
   vec2 low = vec2(1e30), high = vec2(-1e30);
   bvec4 outside = bvec4(true);
   float farthest = 1e30, least_w = 1e30, most_w = 0.0;
@@ -149,7 +158,9 @@ void find_entry(uvec3 list, uint lane) {
 void load_slot(uint lane) {
   for (uint i = lane; i < kWords; i += kThreads) {
     uint at = (slot % kSlotsPerBuffer) * kWords + i;
-    old_words[i] = slot >= GLOAM_NO_ROOM ? 0xFFFFFFFFu : slot < kSlotsPerBuffer ? visibilities_0[at] : visibilities_1[at];
+    old_words[i] = slot >= GLOAM_NO_ROOM    ? 0xFFFFFFFFu
+                   : slot < kSlotsPerBuffer ? visibilities_0[at]
+                                            : visibilities_1[at];
   }
 }
 
@@ -196,8 +207,10 @@ void main() {
   barrier();
   if (slot >= GLOAM_NO_ROOM) return;
   for (uint i = lane; i < kWords; i += kThreads) {
-    if (slot < kSlotsPerBuffer) visibilities_0[slot * kWords + i] = packed_words[i];
-    else visibilities_1[(slot - kSlotsPerBuffer) * kWords + i] = packed_words[i];
+    if (slot < kSlotsPerBuffer)
+      visibilities_0[slot * kWords + i] = packed_words[i];
+    else
+      visibilities_1[(slot - kSlotsPerBuffer) * kWords + i] = packed_words[i];
   }
 }
 

@@ -6,10 +6,11 @@
 #include "shaders/closeups/closeups_shared.h"
 #include "shaders/shadows/shadow_maps_api.glsl"
 
-// Adds what a pair's map holds to a standard face (FF XVI paper, §3.5), the other way round: each texel of the standard face looks at the area
-// of the pair's map that it covers, so that none is missed and each is written once. It reads the mip that has two texels across the smaller
-// side of the area, over all of it, and keeps the nearest. A texel of the mip counts where its middle lies: none is lost, and outlines do not
-// grow. Before including this, define GLOAM_SHADOW_ATLAS_FORMAT, and GLOAM_SHADOW_ATLAS_STEPS when the atlas holds less than floats.
+// Adds what a pair's map holds to a standard face (FF XVI paper, §3.5), the other way round: each texel of the standard
+// face looks at the area of the pair's map that it covers, so that none is missed and each is written once. It reads
+// the mip that has two texels across the smaller side of the area, over all of it, and keeps the nearest. A texel of
+// the mip counts where its middle lies: none is lost, and outlines do not grow. Before including this, define
+// GLOAM_SHADOW_ATLAS_FORMAT, and GLOAM_SHADOW_ATLAS_STEPS when the atlas holds less than floats.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform Transfer { CloseupTransfer transfer; };

@@ -5,8 +5,8 @@
 
 // Linear colour of a share 0…1: black, blue, cyan, green, yellow, red; white above 1.
 vec3 heat(float share) {
-  const vec3 stops[6] = vec3[](vec3(0.0), vec3(0.02, 0.05, 0.6), vec3(0.0, 0.45, 0.6), vec3(0.05, 0.5, 0.05), vec3(0.8, 0.6, 0.0),
-                               vec3(0.8, 0.02, 0.02));
+  const vec3 stops[6] = vec3[](vec3(0.0), vec3(0.02, 0.05, 0.6), vec3(0.0, 0.45, 0.6), vec3(0.05, 0.5, 0.05),
+                               vec3(0.8, 0.6, 0.0), vec3(0.8, 0.02, 0.02));
   if (share > 1.0) return vec3(1.0);
   float at = clamp(share, 0.0, 1.0) * 5.0;
   int low = min(int(at), 4);

@@ -3,8 +3,8 @@
 #ifndef GLOAM_SHADERS_COMMON_PRELUDE_H
 #define GLOAM_SHADERS_COMMON_PRELUDE_H
 
-// Lets one header declare structs for C++ and for GLSL. Members are in scalar block layout: C++ lays plain floats, vectors and
-// column-major matrices out the same way.
+// Lets one header declare structs for C++ and for GLSL. Members are in scalar block layout: C++ lays plain floats,
+// vectors and column-major matrices out the same way.
 
 #ifdef __cplusplus
 #include "engine/math/types.h"
@@ -13,7 +13,7 @@
 namespace gloam::shaders {
 using uint = std::uint32_t;
 using glm::ivec2;
-}
+}  // namespace gloam::shaders
 #else
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -3,8 +3,9 @@
 #ifndef GLOAM_SHADERS_COMMON_WORKGROUP_GLSL
 #define GLOAM_SHADERS_COMMON_WORKGROUP_GLSL
 
-// Reductions over a workgroup of 64 threads through shared memory: the same for every subgroup width. All threads must call; each
-// call begins and ends so that the next one may follow at once, and what was written to shared memory before it is seen after it.
+// Reductions over a workgroup of 64 threads through shared memory: the same for every subgroup width. All threads must
+// call; each call begins and ends so that the next one may follow at once, and what was written to shared memory before
+// it is seen after it.
 
 #define GLOAM_WORKGROUP 64u
 

@@ -7,7 +7,8 @@
 
 // What homogeneous fog does to the light of a pixel at distance d, with transmittance T = exp(-density · d):
 //   T · light + (1 - T) · (radiance + forward · glow)
-// where glow is the picture blurred: light scattered by small angles. The first term is left to blending (premultiplied: alpha = 1 - T).
+// where glow is the picture blurred: light scattered by small angles. The first term is left to blending
+// (premultiplied: alpha = 1 - T).
 
 layout(constant_id = 0) const uint kOrthographic = 0u;
 
@@ -20,8 +21,9 @@ layout(location = 0) out vec4 out_light;
 
 void main() {
   float depth = texelFetch(depth_image, ivec2(gl_FragCoord.xy), 0).r;
-  float distance_m = kOrthographic != 0u ? view_depth(view, relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9)))
-                                         : perspective_distance(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  float distance_m = kOrthographic != 0u
+                         ? view_depth(view, relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9)))
+                         : perspective_distance(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
   if (depth <= 0.0) distance_m = fog.sky_distance_m;
   float scattered = 1.0 - exp(-fog.density * min(distance_m, fog.sky_distance_m));
   vec3 glow = textureLod(glow_image, gl_FragCoord.xy * view.inverse_size, 0.0).rgb;

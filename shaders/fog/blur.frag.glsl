@@ -19,11 +19,11 @@ void main() {
   // The condition stands at the end: software devices run the rest of a loop once more when it fails at the start.
   int i = 1;
   if (c.taps > 0) do {
-    float distance = float(i) * c.inverse_sigma;
-    float weight = exp(-0.5 * distance * distance);
-    sum += weight * (texelFetch(image, clamp(center - i * c.direction, ivec2(0), last), 0).rgb +
-                     texelFetch(image, clamp(center + i * c.direction, ivec2(0), last), 0).rgb);
-    total += 2.0 * weight;
-  } while (++i <= c.taps);
+      float distance = float(i) * c.inverse_sigma;
+      float weight = exp(-0.5 * distance * distance);
+      sum += weight * (texelFetch(image, clamp(center - i * c.direction, ivec2(0), last), 0).rgb +
+                       texelFetch(image, clamp(center + i * c.direction, ivec2(0), last), 0).rgb);
+      total += 2.0 * weight;
+    } while (++i <= c.taps);
   out_light = vec4(sum / total, 1.0);
 }

@@ -15,10 +15,10 @@ struct FogBlurConstants {
 };
 
 struct FogConstants {
-  vec4 radiance;        // rgb in-scattered radiance, cd/m²
-  float density;        // 1/m
-  float forward;        // share of the scattered light that stays close to its direction
-  float sky_distance_m; // path through the fog where there is no surface
+  vec4 radiance;         // rgb in-scattered radiance, cd/m²
+  float density;         // 1/m
+  float forward;         // share of the scattered light that stays close to its direction
+  float sky_distance_m;  // path through the fog where there is no surface
 };
 
 GLOAM_SHARED_END

@@ -9,8 +9,10 @@ layout(constant_id = 0) const uint kScale = 2;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Source { uint source[]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer Target { uint target[]; };
-layout(set = 0, binding = 2, scalar) uniform Offset { uint offset; } uniforms;
-layout(push_constant, scalar) uniform Push { uint count; } push;
+layout(set = 0, binding = 2, scalar) uniform Offset { uint offset; }
+uniforms;
+layout(push_constant, scalar) uniform Push { uint count; }
+push;
 
 void main() {
   uint i = gl_GlobalInvocationID.x;

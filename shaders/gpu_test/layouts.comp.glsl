@@ -13,13 +13,25 @@ struct Light {
   uint kind;
 };
 
-layout(set = 0, binding = 0, scalar) readonly buffer Lights { uint light_count; Light lights[]; };
-layout(set = 0, binding = 1, scalar) uniform View { mat4 clip_from_world; vec2 sizes[3]; float near_m; } view;
+layout(set = 0, binding = 0, scalar) readonly buffer Lights {
+  uint light_count;
+  Light lights[];
+};
+layout(set = 0, binding = 1, scalar) uniform View {
+  mat4 clip_from_world;
+  vec2 sizes[3];
+  float near_m;
+}
+view;
 layout(set = 0, binding = 2) uniform sampler2DShadow shadow;
 layout(set = 0, binding = 5) uniform samplerCubeArray probes[4];
 layout(set = 0, binding = 6, scalar) buffer Unused { uint unused[]; };
 layout(set = 2, binding = 1, rgba16f) writeonly uniform image2DArray target;
-layout(push_constant, scalar) uniform Push { vec3 eye; uint first; } push;
+layout(push_constant, scalar) uniform Push {
+  vec3 eye;
+  uint first;
+}
+push;
 
 void main() {
   Light light = lights[push.first];

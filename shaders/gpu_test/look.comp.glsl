@@ -11,7 +11,11 @@ layout(set = 0, binding = 1) uniform sampler2DArray layers;
 layout(set = 0, binding = 2) uniform samplerCube cube;
 layout(set = 0, binding = 3) uniform samplerCubeArray cubes;
 layout(set = 0, binding = 4, scalar) writeonly buffer Seen { vec4 seen[4]; };
-layout(push_constant, scalar) uniform Push { uvec2 texel; uint layer; } push;
+layout(push_constant, scalar) uniform Push {
+  uvec2 texel;
+  uint layer;
+}
+push;
 
 void main() {
   vec2 at = (vec2(push.texel) + 0.5) / vec2(textureSize(plane, 0));

@@ -7,6 +7,7 @@ layout(set = 0, binding = 0, scalar) uniform Brightness { float brightness; };
 layout(set = 1, binding = 3, scalar) readonly buffer Tints { vec4 tints[]; };
 layout(location = 0) in vec4 in_color;
 layout(location = 0) out vec4 out_color;
-layout(push_constant, scalar) uniform Push { uint tint; } push;
+layout(push_constant, scalar) uniform Push { uint tint; }
+push;
 
 void main() { out_color = in_color * tints[push.tint] * brightness; }

@@ -3,9 +3,9 @@
 #ifndef GLOAM_SHADERS_LIGHTING_ARRIVING_LIGHT_GLSL
 #define GLOAM_SHADERS_LIGHTING_ARRIVING_LIGHT_GLSL
 
-// What shadows and cookies leave of a light's illuminance: both with GLOAM_SHADOWS_BINDING (the first of six bindings, see
-// shadows_api.glsl), cookies with GLOAM_COOKIES_BINDING (of three, see cookies_api.glsl), everything without. Included behind `lights`, the
-// view's LightBlock.
+// What shadows and cookies leave of a light's illuminance: both with GLOAM_SHADOWS_BINDING (the first of six bindings,
+// see shadows_api.glsl), cookies with GLOAM_COOKIES_BINDING (of three, see cookies_api.glsl), everything without.
+// Included behind `lights`, the view's LightBlock.
 
 #ifdef GLOAM_SHADOWS_BINDING
 #include "shaders/shadows/shadows_api.glsl"
@@ -14,8 +14,8 @@
 #endif
 
 #if defined(GLOAM_SHADOWS_BINDING) || defined(GLOAM_COOKIES_BINDING)
-// Lights with cookies that are looked up once a surface, before its lights are added up: devices that run both sides of a condition would
-// look for a cookie at every light. More than GLOAM_COOKIE_LIGHTS: each light looks for its own.
+// Lights with cookies that are looked up once a surface, before its lights are added up: devices that run both sides of
+// a condition would look for a cookie at every light. More than GLOAM_COOKIE_LIGHTS: each light looks for its own.
 layout(constant_id = GLOAM_COOKIE_LIGHTS_ID) const uint kCookieLights = GLOAM_COOKIE_LIGHTS + 1u;
 
 vec3 receiver_position;
@@ -57,15 +57,16 @@ bool never() { return shadow_block.atlas_size < 0.0; }
 
 vec3 arriving_local(vec3 illuminance, uint light, vec3 light_position, vec3 normal, vec3 to_light) {
   if (gives_light(illuminance, normal, to_light)) do {
-    illuminance = through_cookie(illuminance, light, light_position) * local_visibility(light, light_position, receiver);
-  } while (never());
+      illuminance =
+          through_cookie(illuminance, light, light_position) * local_visibility(light, light_position, receiver);
+    } while (never());
   return illuminance;
 }
 
 vec3 arriving_directional(vec3 illuminance, uint light, vec3 light_direction, vec3 normal) {
   if (gives_light(illuminance, normal, -light_direction)) do {
-    illuminance *= directional_visibility(light, light_direction, receiver);
-  } while (never());
+      illuminance *= directional_visibility(light, light_direction, receiver);
+    } while (never());
   return illuminance;
 }
 #else

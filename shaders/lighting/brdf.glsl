@@ -5,18 +5,19 @@
 
 #include "shaders/common/math.glsl"
 
-// The glTF 2.0 metallic-roughness BRDF (appendix B): GGX distribution, height-correlated Smith visibility, Schlick Fresnel.
+// The glTF 2.0 metallic-roughness BRDF (appendix B): GGX distribution, height-correlated Smith visibility, Schlick
+// Fresnel.
 
 struct ShadingPoint {
-  vec3 position;   // camera-relative
+  vec3 position;  // camera-relative
   vec3 normal;
   vec3 to_eye;
-  vec3 diffuse;    // (1 - metallic) · base colour / π
+  vec3 diffuse;  // (1 - metallic) · base colour / π
   vec3 f0;
-  float alpha2;    // roughness⁴
-  float n_dot_v;   // kept off 0
+  float alpha2;   // roughness⁴
+  float n_dot_v;  // kept off 0
   float n_dot_v_raw;
-  float smith_v;   // the part of the visibility term that does not depend on the light
+  float smith_v;  // the part of the visibility term that does not depend on the light
 };
 
 ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_color, float metallic, float roughness) {

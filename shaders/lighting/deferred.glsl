@@ -8,10 +8,11 @@
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Lights the surfaces of the geometry buffer: what deferred.frag, deferred_tiled.frag and their twins with shadows or cookies share. They
-// define local_lights.
+// Lights the surfaces of the geometry buffer: what deferred.frag, deferred_tiled.frag and their twins with shadows or
+// cookies share. They define local_lights.
 
-layout(constant_id = 1) const uint kDirectionalLights = 0u;  // known when the pipeline is made, so that the loop is unrolled
+layout(constant_id = 1) const uint kDirectionalLights =
+    0u;  // known when the pipeline is made, so that the loop is unrolled
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -39,8 +40,8 @@ vec3 add_local(ShadingPoint p, uint index, float share) {
 // What directional lights give the surface under a pixel.
 vec3 directional_lights(ShadingPoint p, uvec2 pixel);
 
-// What local lights give the surface under a pixel. Lights in ascending order: whoever leaves out only lights that do not reach gets the
-// same sum to the bit.
+// What local lights give the surface under a pixel. Lights in ascending order: whoever leaves out only lights that do
+// not reach gets the same sum to the bit.
 vec3 local_lights(ShadingPoint p, uvec2 pixel);
 
 #ifndef GLOAM_FINAL_LISTS_BINDING

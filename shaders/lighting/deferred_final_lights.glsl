@@ -7,8 +7,8 @@
 #include "shaders/lighting/deferred.glsl"
 #include "shaders/shadows/final_lists_api.glsl"
 
-// Every pixel looks at the lights of its shadow tile's final list, which tells how much of each it sees. A tile without one gets no light
-// here: deferred_fallback draws it.
+// Every pixel looks at the lights of its shadow tile's final list, which tells how much of each it sees. A tile without
+// one gets no light here: deferred_fallback draws it.
 
 vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
   FinalList list = final_list(pixel);
@@ -31,9 +31,9 @@ vec3 local_lights(ShadingPoint p, uvec2 pixel) {
   // The condition stands at the end: software devices run the rest of a loop once more when it fails at the start.
   uint i = 0u;
   if (list.local_count > 0u) do {
-    uint entry = final_entries[list.local_first + i];
-    sum += add_local(p, entry_light(entry), entry_visibility(entry, slot_pixel(pixel)));
-  } while (++i < list.local_count);
+      uint entry = final_entries[list.local_first + i];
+      sum += add_local(p, entry_light(entry), entry_visibility(entry, slot_pixel(pixel)));
+    } while (++i < list.local_count);
   return sum;
 }
 

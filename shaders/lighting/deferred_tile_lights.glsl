@@ -6,7 +6,8 @@
 #include "shaders/lighting/deferred.glsl"
 #include "shaders/lights/light_lists_api.glsl"
 
-// Every pixel looks at the lights of its shadow tile's list; in a tile whose list found no room, at those of its tile group's mask.
+// Every pixel looks at the lights of its shadow tile's list; in a tile whose list found no room, at those of its tile
+// group's mask.
 
 layout(set = 0, binding = 9, scalar) uniform Grid { LightGrid grid; };
 layout(set = 0, binding = 10) uniform usampler2D tile_lists;
@@ -36,11 +37,11 @@ vec3 local_lights(ShadingPoint p, uvec2 pixel) {
   // The condition stands at the end: software devices run the rest of a loop once more when it fails at the start.
   uint i = 0u;
   if (count > 0u) do {
-    sum += add_local(p, bitfieldExtract(early_lists[at], int(shift), 10), 1.0);
-    shift += 10u;
-    at += shift / 30u;
-    shift = shift == 30u ? 0u : shift;
-  } while (++i < count);
+      sum += add_local(p, bitfieldExtract(early_lists[at], int(shift), 10), 1.0);
+      shift += 10u;
+      at += shift / 30u;
+      shift = shift == 30u ? 0u : shift;
+    } while (++i < count);
   if (!listed) sum += group_lights(p, pixel);
   return sum;
 }

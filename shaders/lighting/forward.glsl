@@ -8,8 +8,8 @@
 #include "shaders/render/surface_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Lights blended surfaces where they are drawn: what forward.frag, forward_tiled.frag and their twins with shadows or cookies share. They
-// define local_lights.
+// Lights blended surfaces where they are drawn: what forward.frag, forward_tiled.frag and their twins with shadows or
+// cookies share. They define local_lights.
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };

@@ -6,8 +6,8 @@
 #include "shaders/lighting/forward.glsl"
 #include "shaders/lights/z_bins_api.glsl"
 
-// Every fragment looks at the lights of its 32×32 tile that are in the zBin of its own depth. The lists of shadow tiles know opaque
-// depths only.
+// Every fragment looks at the lights of its 32×32 tile that are in the zBin of its own depth. The lists of shadow tiles
+// know opaque depths only.
 
 layout(set = 0, binding = 3, scalar) uniform Grid { LightGrid grid; };
 layout(set = 0, binding = 4) uniform sampler2D light_texels;

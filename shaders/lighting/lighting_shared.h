@@ -16,22 +16,22 @@ struct EnvironmentConstants {
 
 /// How linear light becomes a picture.
 struct ToneMapConstants {
-  uint curve;            // 0 filmic, 1 reinhard, 2 linear
-  uint exposure_slot;    // of the exposure buffer
-  uint metered;          // 1: take the slot's exposure, 0: the one below
-  float exposure;        // factor on cd/m²
-  uint encode_srgb;      // 1: the target does not encode by itself
+  uint curve;          // 0 filmic, 1 reinhard, 2 linear
+  uint exposure_slot;  // of the exposure buffer
+  uint metered;        // 1: take the slot's exposure, 0: the one below
+  float exposure;      // factor on cd/m²
+  uint encode_srgb;    // 1: the target does not encode by itself
 };
 
 /// A tabulated tone curve.
 struct ToneTableConstants {
   uint curve;
-  uint size;             // texels
+  uint size;  // texels
 };
 
 /// Metering of one view into a slot.
 struct MeterConstants {
-  uvec2 size;            // pixels of the picture
+  uvec2 size;  // pixels of the picture
   uint slot;
 };
 

@@ -4,8 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lighting/lighting_shared.h"
 
-// Automatic exposure of one view: the mean of log2 luminance over a grid of 32×32 pixels, summed in one fixed order so that the
-// result does not depend on the subgroup's width; then the key of Krawczyk et al. 2005, which keeps night darker than day.
+// Automatic exposure of one view: the mean of log2 luminance over a grid of 32×32 pixels, summed in one fixed order so
+// that the result does not depend on the subgroup's width; then the key of Krawczyk et al. 2005, which keeps night
+// darker than day.
 
 layout(local_size_x = 32) in;
 

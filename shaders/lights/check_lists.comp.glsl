@@ -8,8 +8,8 @@
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Counts what the light lists leave out: pairs of a pixel and a light that gives it light, though the pixel's tile does not list it. Asks
-// every light of the view what shading would get from it; one workgroup is a shadow tile.
+// Counts what the light lists leave out: pairs of a pixel and a light that gives it light, though the pixel's tile does
+// not list it. Asks every light of the view what shading would get from it; one workgroup is a shadow tile.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

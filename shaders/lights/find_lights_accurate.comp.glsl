@@ -4,13 +4,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights/find_lights_accurate.glsl"
 
-// Find lights, accurate (FF XVI paper, listing 3): the lights of each shadow tile that have a pixel of it in their volume, in
-// ascending order. One workgroup is a tile. The group's lights are narrowed against the tile's froxel, each thread with lights of its
-// own; then every pixel is asked about those that are left, and one OR over the workgroup answers for 32 of them.
+// Find lights, accurate (FF XVI paper, listing 3): the lights of each shadow tile that have a pixel of it in their
+// volume, in ascending order. One workgroup is a tile. The group's lights are narrowed against the tile's froxel, each
+// thread with lights of its own; then every pixel is asked about those that are left, and one OR over the workgroup
+// answers for 32 of them.
 //
-// Unlike the paper's, a thread has 8 / kRows pixels: what is not done for pixels is done by fewer threads. A software rasterizer runs
-// every stage for every thread, whether it has work there or not, and lavapipe ends all loops of a thread after 65,535 turns together:
-// no stage takes more than one turn a light and word.
+// Unlike the paper's, a thread has 8 / kRows pixels: what is not done for pixels is done by fewer threads. A software
+// rasterizer runs every stage for every thread, whether it has work there or not, and lavapipe ends all loops of a
+// thread after 65,535 turns together: no stage takes more than one turn a light and word.
 
 layout(local_size_x = 8, local_size_y = 2, local_size_y_id = 0) in;  // constant 0: rows of threads; 1, 2, 4 or 8
 
@@ -21,7 +22,7 @@ const uint kPixels = 8u / kRows;
 shared uint near_count;  // lights whose range touches the tile's froxel
 shared uint open_count;  // of those, lights that pixels are asked about
 shared uint found_count;
-shared uint open_groups;  // which of open_words are not 0
+shared uint open_groups;                          // which of open_words are not 0
 shared uint near_lights[GLOAM_MAX_LOCAL_LIGHTS];  // in any order
 shared uint open_words[GLOAM_LIGHT_GROUPS];
 shared uint open_lights[GLOAM_MAX_LOCAL_LIGHTS];  // ascending
@@ -59,7 +60,8 @@ void sort_open(uint lane) {
     uint word = light >> 5;
     uint below = (1u << (light & 31u)) - 1u;
     uint rank = bitCount(open_words[word] & below);
-    for (uint left = open_groups & ((1u << word) - 1u); left != 0u; left &= left - 1u) rank += bitCount(open_words[findLSB(left)]);
+    for (uint left = open_groups & ((1u << word) - 1u); left != 0u; left &= left - 1u)
+      rank += bitCount(open_words[findLSB(left)]);
     if ((open_words[word] >> (light & 31u) & 1u) != 0u) open_lights[rank] = light;
   }
 }
@@ -123,7 +125,8 @@ void main() {
   if (lane == 0u) near_count = open_count = open_groups = 0u;
   barrier();
   vec2 first = vec2(tile * uint(GLOAM_SHADOW_TILE));
-  Froxel f = make_froxel(view, first, min(first + float(GLOAM_SHADOW_TILE), vec2(view.size)), bounds.y, bounds.x, kAccurateEpsilon);
+  Froxel f = make_froxel(view, first, min(first + float(GLOAM_SHADOW_TILE), vec2(view.size)), bounds.y, bounds.x,
+                         kAccurateEpsilon);
   for (uint word = lane; word < GLOAM_LIGHT_GROUPS; word += kThreads) find_near(f, mask, word);
   barrier();
   test_cones(f, lane);

@@ -5,9 +5,9 @@
 #include "shaders/lights/find_lights_accurate.glsl"
 
 // Find lights, accurate, for devices that run a workgroup's threads one after the other: the same lists as
-// find_lights_accurate.comp.glsl from one thread a shadow tile instead of one a pixel. Nothing is shared and nobody waits: where every
-// barrier swaps the state of all threads, that costs less than asking the pixels at once gains. One workgroup is a tile group, so that
-// its threads walk the same mask.
+// find_lights_accurate.comp.glsl from one thread a shadow tile instead of one a pixel. Nothing is shared and nobody
+// waits: where every barrier swaps the state of all threads, that costs less than asking the pixels at once gains. One
+// workgroup is a tile group, so that its threads walk the same mask.
 //
 // lavapipe ends all loops of a thread after 65,535 turns together: a light takes at most 21.
 
@@ -20,7 +20,8 @@ bool reaches_tile(LocalLight light, uvec2 first, vec3 probes[4]) {
   for (uint i = 0u; i < 16u && !reaches; ++i) {
     uvec2 quad = first + 2u * uvec2(i & 3u, i >> 2);
     vec4 depths = textureGather(depth_image, vec2(quad + 1u) * view.inverse_size);
-    reaches = in_range(light, point_at(quad + uvec2(0, 1), depths.x)) || in_range(light, point_at(quad + uvec2(1, 1), depths.y)) ||
+    reaches = in_range(light, point_at(quad + uvec2(0, 1), depths.x)) ||
+              in_range(light, point_at(quad + uvec2(1, 1), depths.y)) ||
               in_range(light, point_at(quad + uvec2(1, 0), depths.z)) || in_range(light, point_at(quad, depths.w));
   }
   return reaches;
@@ -37,7 +38,8 @@ void main() {
   uvec2 first = tile * uint(GLOAM_SHADOW_TILE);
   vec3 probes[4];
   for (uint i = 0u; i < 4u; ++i) probes[i] = pixel_point(first + 1u + uvec2(i & 1u, i >> 1) * 5u);
-  Froxel f = make_froxel(view, vec2(first), min(vec2(first + 8u), vec2(view.size)), bounds.y, bounds.x, kAccurateEpsilon);
+  Froxel f =
+      make_froxel(view, vec2(first), min(vec2(first + 8u), vec2(view.size)), bounds.y, bounds.x, kAccurateEpsilon);
   uvec2 tile_list = imageLoad(tile_lists, ivec2(tile)).xy;
   uint room = tile_list.x == GLOAM_NO_SLOT ? 0u : ((tile_list.y >> 16) + 2u) / 3u * 3u;
   uint total = 0u, packed = 0u;

@@ -7,10 +7,10 @@
 #include "shaders/lights/froxel_api.glsl"
 #include "shaders/lights/z_bins_api.glsl"
 
-// Find lights, approximate (FF XVI paper, listings 1 and 2): which lights may touch the opaque surfaces of each shadow tile, and room for
-// its list. One workgroup is a tile group, one thread a shadow tile. Unlike the paper's, the masks of a group go through shared memory,
-// not through a wave: lanes may look at different words, and no width of a subgroup is assumed. The group's own froxel narrows the lights
-// before any tile looks at them.
+// Find lights, approximate (FF XVI paper, listings 1 and 2): which lights may touch the opaque surfaces of each shadow
+// tile, and room for its list. One workgroup is a tile group, one thread a shadow tile. Unlike the paper's, the masks
+// of a group go through shared memory, not through a wave: lanes may look at different words, and no width of a
+// subgroup is assumed. The group's own froxel narrows the lights before any tile looks at them.
 //
 // The counters must be 0 and farthest_depth 0x3F800000 before the first workgroup runs.
 
@@ -69,10 +69,12 @@ uint parents_word(uint word) {
 void narrow_group(uint lane) {
   uint word = lane >> 1;
   uint half_word = (lane & 1u) != 0u ? 0xFFFF0000u : 0x0000FFFFu;
-  uint left = word * 32u < grid.local_count ? parents_word(word) & half_word & z_bin_bits(uvec2(group_begin, group_end), word) : 0u;
+  uint left = word * 32u < grid.local_count
+                  ? parents_word(word) & half_word & z_bin_bits(uvec2(group_begin, group_end), word)
+                  : 0u;
   vec2 first = vec2(gl_WorkGroupID.xy * 64u);
-  Froxel f = make_froxel(view, first, min(first + 64.0, vec2(view.size)), uintBitsToFloat(group_near), uintBitsToFloat(group_far),
-                         2.0 * kApproxEpsilon);
+  Froxel f = make_froxel(view, first, min(first + 64.0, vec2(view.size)), uintBitsToFloat(group_near),
+                         uintBitsToFloat(group_far), 2.0 * kApproxEpsilon);
   uint found = 0u;
   for (; left != 0u; left &= left - 1u) {
     uint bit = uint(findLSB(left));

@@ -6,23 +6,25 @@
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Which lights reach a froxel (the part of a pixel rectangle between two depths) or a point. Conservative: a light is only left out when
-// shading certainly gets nothing from it, whatever the order in which a compiler rounds.
+// Which lights reach a froxel (the part of a pixel rectangle between two depths) or a point. Conservative: a light is
+// only left out when shading certainly gets nothing from it, whatever the order in which a compiler rounds.
 //
-// The tests of Wronski 2017, "Cull that cone!", and of the FF XVI paper, listing 2. Epsilons nest: every light in range of a pixel's
-// point touches the pixel's froxel of kAccurateEpsilon, and every light that touches that one touches the froxel of kApproxEpsilon.
-// Rounding moves a position by about 1e-6 of its distance and a cosine by about 6e-7: far less than two neighbours differ.
+// The tests of Wronski 2017, "Cull that cone!", and of the FF XVI paper, listing 2. Epsilons nest: every light in range
+// of a pixel's point touches the pixel's froxel of kAccurateEpsilon, and every light that touches that one touches the
+// froxel of kApproxEpsilon. Rounding moves a position by about 1e-6 of its distance and a cosine by about 6e-7: far
+// less than two neighbours differ.
 
 const float kApproxEpsilon = 1e-4;
 const float kAccurateEpsilon = 4e-5;
 const float kPointEpsilon = 1e-6;
 
-// In the view's space: x right, y down, z back; the camera is the origin. A box with one corner cut: two rectangles at two depths.
+// In the view's space: x right, y down, z back; the camera is the origin. A box with one corner cut: two rectangles at
+// two depths.
 struct Froxel {
-  mat3 view_axes;    // columns, camera-relative
-  vec4 nearest;      // rectangle: least x and y, greatest x and y
+  mat3 view_axes;  // columns, camera-relative
+  vec4 nearest;    // rectangle: least x and y, greatest x and y
   vec4 farthest;
-  float nearest_z;   // z of the two; not positive
+  float nearest_z;  // z of the two; not positive
   float farthest_z;
   vec3 center;       // of the box around it
   vec3 half_extent;  // slack included
@@ -57,7 +59,8 @@ Froxel make_froxel(ViewConstants view, vec2 first, vec2 last, float nearest, flo
   f.slack = epsilon * (reach.x + reach.y + reach.z) + 1e-6;
   f.center = (low + high) * 0.5;
   f.half_extent = (high - low) * 0.5 + f.slack;
-  f.radius = max(corner_distance(f, f.nearest, f.nearest_z), corner_distance(f, f.farthest, f.farthest_z)) + 2.0 * f.slack;
+  f.radius =
+      max(corner_distance(f, f.nearest, f.nearest_z), corner_distance(f, f.farthest, f.farthest_z)) + 2.0 * f.slack;
   return f;
 }
 
@@ -73,11 +76,12 @@ bool sphere_touches(vec3 position, float inverse_range_squared, Froxel f) {
 float extent_along(Froxel f, vec3 axis) {
   vec4 a = axis.xyxy * f.nearest;
   vec4 b = axis.xyxy * f.farthest;
-  return max(max(a.x, a.z) + max(a.y, a.w) + axis.z * f.nearest_z, max(b.x, b.z) + max(b.y, b.w) + axis.z * f.farthest_z);
+  return max(max(a.x, a.z) + max(a.y, a.w) + axis.z * f.nearest_z,
+             max(b.x, b.z) + max(b.y, b.w) + axis.z * f.farthest_z);
 }
 
-// Cone of a spot, without its end, against the froxel. `position`, `direction`: in the view's space. `cos_outer`: of the half angle; it
-// is widened here.
+// Cone of a spot, without its end, against the froxel. `position`, `direction`: in the view's space. `cos_outer`: of
+// the half angle; it is widened here.
 bool cone_touches(vec3 position, vec3 direction, float cos_outer, Froxel f) {
   float cosine = max(cos_outer - 0.125 * f.epsilon, -1.0);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
@@ -87,15 +91,20 @@ bool cone_touches(vec3 position, vec3 direction, float cos_outer, Froxel f) {
   float across = length(cross(v, direction));
   float rounding = 1e-6 * (abs(along) + across);
   bool touches = cosine * across - along * sine <= f.radius + rounding && along >= -f.radius - rounding;
-  // The froxel's corners in the spot's clip space: a square pyramid round the cone. No side may have all of them outside.
-  vec3 side = normalize(abs(direction.y) < 0.7 ? vec3(direction.z, 0.0, -direction.x) : vec3(0.0, -direction.z, direction.y));
+  // The froxel's corners in the spot's clip space: a square pyramid round the cone. No side may have all of them
+  // outside.
+  vec3 side =
+      normalize(abs(direction.y) < 0.7 ? vec3(direction.z, 0.0, -direction.x) : vec3(0.0, -direction.z, direction.y));
   vec3 up = cross(direction, side);
   vec3 inward = direction * sine;
   side *= cosine;
   up *= cosine;
-  vec4 inside = vec4(extent_along(f, inward + side), extent_along(f, inward - side), extent_along(f, inward + up), extent_along(f, inward - up)) -
-                (dot(inward, position) + vec4(1.0, -1.0, 0.0, 0.0) * dot(side, position) + vec4(0.0, 0.0, 1.0, -1.0) * dot(up, position));
-  float least = min(min(min(inside.x, inside.y), min(inside.z, inside.w)), extent_along(f, direction) - dot(direction, position));
+  vec4 inside = vec4(extent_along(f, inward + side), extent_along(f, inward - side), extent_along(f, inward + up),
+                     extent_along(f, inward - up)) -
+                (dot(inward, position) + vec4(1.0, -1.0, 0.0, 0.0) * dot(side, position) +
+                 vec4(0.0, 0.0, 1.0, -1.0) * dot(up, position));
+  float least =
+      min(min(min(inside.x, inside.y), min(inside.z, inside.w)), extent_along(f, direction) - dot(direction, position));
   float slack = 4.0 * f.slack + 4.0 * rounding;
   return touches && (cos_outer < 0.5 || least >= -slack);
 }
@@ -103,8 +112,8 @@ bool cone_touches(vec3 position, vec3 direction, float cos_outer, Froxel f) {
 // The cone of a spot against the froxel; true for a point light.
 bool cone_touches(LocalLight light, Froxel f) {
   // The cosine of the half angle, known to a few 1e-7.
-  return light.spot_scale == 0.0 ||
-         cone_touches(light.position * f.view_axes, light.direction * f.view_axes, -light.spot_offset / light.spot_scale, f);
+  return light.spot_scale == 0.0 || cone_touches(light.position * f.view_axes, light.direction * f.view_axes,
+                                                 -light.spot_offset / light.spot_scale, f);
 }
 
 bool touches(LocalLight light, Froxel f) {
@@ -114,8 +123,8 @@ bool touches(LocalLight light, Froxel f) {
 // Metres by which rounding may move a camera-relative point.
 float point_slack(vec3 point) { return kPointEpsilon * dot(abs(point), vec3(1.0)); }
 
-// Whether a light may give a camera-relative point any light: whenever local_illuminance is not 0, and hardly more often. False for a
-// point without end (1e30).
+// Whether a light may give a camera-relative point any light: whenever local_illuminance is not 0, and hardly more
+// often. False for a point without end (1e30).
 bool in_range(LocalLight light, vec3 point, float slack) {
   vec3 offset = light.position - point;
   vec3 least = max(abs(offset) - slack, vec3(0.0));

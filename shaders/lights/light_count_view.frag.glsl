@@ -7,7 +7,8 @@
 
 // How many lights each tile has after one of the searches: heat colours of 0 to 31, white from 32 on.
 
-layout(constant_id = 1) const uint kCount = 0u;  // 0 CPU's mask tiles, 1 approximate, 2 accurate, 3 approximate less accurate
+layout(constant_id = 1) const uint kCount =
+    0u;  // 0 CPU's mask tiles, 1 approximate, 2 accurate, 3 approximate less accurate
 
 layout(set = 0, binding = 0, scalar) uniform Grid { LightGrid grid; };
 layout(set = 0, binding = 1, scalar) readonly buffer MaskTiles { uint mask_tiles[]; };
@@ -17,7 +18,8 @@ int mask_count(uvec2 pixel) {
   uvec2 tile = pixel / GLOAM_LIGHT_TILE;
   uint at = (tile.y * grid.mask_tiles.x + tile.x) * GLOAM_MASK_WORDS;
   int count = 0;
-  for (uint groups = mask_tiles[at]; groups != 0u; groups &= groups - 1u) count += bitCount(mask_tiles[at + 1u + uint(findLSB(groups))]);
+  for (uint groups = mask_tiles[at]; groups != 0u; groups &= groups - 1u)
+    count += bitCount(mask_tiles[at + 1u + uint(findLSB(groups))]);
   return count;
 }
 

@@ -6,8 +6,8 @@
 #include "shaders/lights/one_light_view_api.glsl"
 #include "shaders/lights/z_bins_api.glsl"
 
-// How far one light got in each tile: the CPU's mask tile, the zBins of the tile's depths, the mask of the tile group, the tile's list.
-// Loud: the tile does not look at the light although it reaches one of the tile's pixels.
+// How far one light got in each tile: the CPU's mask tile, the zBins of the tile's depths, the mask of the tile group,
+// the tile's list. Loud: the tile does not look at the light although it reaches one of the tile's pixels.
 
 layout(set = 0, binding = 7) uniform sampler2D depth_bounds;
 layout(set = 0, binding = 9, scalar) readonly buffer MaskTiles { uint mask_tiles[]; };

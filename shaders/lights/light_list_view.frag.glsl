@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights/one_light_view_api.glsl"
 
-// The pixels that look at one light because their tile's early list holds it: blue, and bright where the light reaches the pixel. Loud
-// where it reaches a pixel whose list does not hold it.
+// The pixels that look at one light because their tile's early list holds it: blue, and bright where the light reaches
+// the pixel. Loud where it reaches a pixel whose list does not hold it.
 
 void main() {
   uvec2 pixel = uvec2(gl_FragCoord.xy);

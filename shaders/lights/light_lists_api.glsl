@@ -5,8 +5,8 @@
 
 #include "shaders/lights/lights_shared.h"
 
-// Readers of the shadow tiles' light lists. Before including this, define GLOAM_EARLY_LISTS_BINDING. `tile_list` is the tile's texel of
-// LightsOutputs::tile_lists. Lists are in ascending order of the light.
+// Readers of the shadow tiles' light lists. Before including this, define GLOAM_EARLY_LISTS_BINDING. `tile_list` is the
+// tile's texel of LightsOutputs::tile_lists. Lists are in ascending order of the light.
 //   for (uint i = 0u; i < list_count(tile_list); ++i) shade(list_light(tile_list.x, i));
 
 layout(set = 0, binding = GLOAM_EARLY_LISTS_BINDING, scalar) readonly buffer EarlyLists { uint early_lists[]; };

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights/lights_shared.h"
 
-// Local lights as texels: one row a light, three texels. Shading loops over different lights in neighbouring pixels: a texel is one
-// fetch of four floats, an element of a uniform block is one fetch a float.
+// Local lights as texels: one row a light, three texels. Shading loops over different lights in neighbouring pixels: a
+// texel is one fetch of four floats, an element of a uniform block is one fetch a float.
 
 layout(local_size_x = 64) in;
 

@@ -25,8 +25,6 @@ void show(vec3 color, float opacity) {
 }
 
 // Darker along the upper and left border of tiles of `side` pixels.
-vec3 with_grid(vec3 color, uvec2 pixel, uint side) {
-  return any(equal(pixel % side, uvec2(0))) ? color * 0.6 : color;
-}
+vec3 with_grid(vec3 color, uvec2 pixel, uint side) { return any(equal(pixel % side, uvec2(0))) ? color * 0.6 : color; }
 
 #endif

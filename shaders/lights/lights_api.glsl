@@ -13,8 +13,9 @@ LocalLight fetch_light(sampler2D texels, uint index) {
   return LocalLight(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w);
 }
 
-// Illuminance a local light gives at a camera-relative point on a plane that faces it, in lux; `to_light` gets the unit direction.
-// Inverse square, windowed so that it ends at the range: (1 - (d/range)^4)^2, as KHR_lights_punctual recommends.
+// Illuminance a local light gives at a camera-relative point on a plane that faces it, in lux; `to_light` gets the unit
+// direction. Inverse square, windowed so that it ends at the range: (1 - (d/range)^4)^2, as KHR_lights_punctual
+// recommends.
 vec3 local_illuminance(LocalLight light, vec3 point, out vec3 to_light) {
   vec3 offset = light.position - point;
   float d2 = max(dot(offset, offset), 1e-6);

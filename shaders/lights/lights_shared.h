@@ -7,11 +7,12 @@
 
 #define GLOAM_MAX_LOCAL_LIGHTS 1024
 #define GLOAM_MAX_DIRECTIONAL_LIGHTS 16
-#define GLOAM_LIGHT_GROUPS 32   // words of 32 lights in a tile's mask; one more layer tells which words are not empty
-#define GLOAM_MASK_WORDS 33     // of a light mask in a buffer: first which of the 32 words are not empty, then those words
-#define GLOAM_LIGHT_TILE 32     // pixels along one side of a tile of the CPU's light masks
-#define GLOAM_SHADOW_TILE 8     // pixels along one side of a shadow tile, which has a light list
-#define GLOAM_TILE_GROUP 8      // shadow tiles along one side of a tile group, which shares a mask of the approximate search
+#define GLOAM_LIGHT_GROUPS 32  // words of 32 lights in a tile's mask; one more layer tells which words are not empty
+#define GLOAM_MASK_WORDS 33  // of a light mask in a buffer: first which of the 32 words are not empty, then those words
+#define GLOAM_LIGHT_TILE 32  // pixels along one side of a tile of the CPU's light masks
+#define GLOAM_SHADOW_TILE 8  // pixels along one side of a shadow tile, which has a light list
+#define GLOAM_TILE_GROUP \
+  8  // shadow tiles along one side of a tile group, which shares a mask of the approximate search
 #define GLOAM_NO_SLOT 0xFFFFFFFFu  // a shadow tile whose list found no room: its lights are those of its group's mask
 #define GLOAM_EMPTY_Z_BIN 0x0000FFFFu  // begin 0xFFFF, end 0: no light
 
@@ -21,9 +22,9 @@ GLOAM_SHARED_BEGIN
 struct LocalLight {
   vec3 position;
   float inverse_range_squared;
-  vec3 color;            // candela, linear
-  float spot_scale;      // strength = clamp(cos * scale + offset)²; a point light has 0 and 1
-  vec3 direction;        // where it shines, unit
+  vec3 color;        // candela, linear
+  float spot_scale;  // strength = clamp(cos * scale + offset)²; a point light has 0 and 1
+  vec3 direction;    // where it shines, unit
   float spot_offset;
 };
 
@@ -44,12 +45,13 @@ struct LightBlock {
   LocalLight local[GLOAM_MAX_LOCAL_LIGHTS];
 };
 
-/// How the view's light lists lie in their buffers. zBins: words [0, z_bin_count) are the standard set, the next z_bin_count the
-/// ranged one; a word is begin | end << 16 of the sorted local lights. The bin of view depth d is (d - z_near) · z_scale, clamped.
+/// How the view's light lists lie in their buffers. zBins: words [0, z_bin_count) are the standard set, the next
+/// z_bin_count the ranged one; a word is begin | end << 16 of the sorted local lights. The bin of view depth d is (d -
+/// z_near) · z_scale, clamped.
 struct LightGrid {
-  uvec2 tiles;         // shadow tiles
-  uvec2 groups;        // tile groups
-  uvec2 mask_tiles;    // tiles of the CPU's masks, each GLOAM_MASK_WORDS words
+  uvec2 tiles;       // shadow tiles
+  uvec2 groups;      // tile groups
+  uvec2 mask_tiles;  // tiles of the CPU's masks, each GLOAM_MASK_WORDS words
   uint local_count;
   uint z_bin_count;
   float z_near;        // metres
@@ -70,7 +72,8 @@ struct LightCounters {
   uint group_lights;      // in the mask of the tile's group
   uint accurate_lights;   // with a pixel of the tile in their volume
   uint farthest_depth;    // bits of the least depth value of a surface (reversed Z); 0x3F800000 without one
-  uint culling_errors;    // with lights.check: (pixel, light) pairs in range whose light is not in the tile's list; must be 0
+  uint culling_errors;  // with lights.check: (pixel, light) pairs in range whose light is not in the tile's list; must
+                        // be 0
   uint reserved;
 };
 

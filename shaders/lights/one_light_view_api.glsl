@@ -31,7 +31,8 @@ bool group_mask_holds(uvec2 pixel) {
   return (group_masks[at] >> word & 1u) != 0u && (group_masks[at + 1u + word] >> (shown_light & 31u) & 1u) != 0u;
 }
 
-// Whether a pixel is shaded with the light: its tile's list holds it; where there is no list, the mask of the tile's group.
+// Whether a pixel is shaded with the light: its tile's list holds it; where there is no list, the mask of the tile's
+// group.
 bool list_holds(uvec2 pixel) {
   uvec2 tile_list = texelFetch(tile_lists, ivec2(pixel / GLOAM_SHADOW_TILE), 0).xy;
   if (!has_list(tile_list)) return group_mask_holds(pixel);

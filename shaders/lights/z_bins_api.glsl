@@ -5,7 +5,8 @@
 
 #include "shaders/lights/lights_shared.h"
 
-// Sorted lights by view depth, as modules/lights/z_bins.h builds them. Before including this, define GLOAM_Z_BINS_BINDING.
+// Sorted lights by view depth, as modules/lights/bins/z_bins.h builds them. Before including this, define
+// GLOAM_Z_BINS_BINDING.
 
 layout(set = 0, binding = GLOAM_Z_BINS_BINDING, scalar) readonly buffer ZBinWords { uint z_bin_words[]; };
 
@@ -13,8 +14,9 @@ uint z_bin_of(LightGrid grid, float depth_m) {
   return uint(clamp((depth_m - grid.z_near) * grid.z_scale, 0.0, float(grid.z_bin_count - 1u)));
 }
 
-// Sorted lights [x, y) that may touch view depths between two; none when x >= y. The standard set for one bin or two neighbouring ones,
-// the ranged set otherwise: there the first bin has the least begin of both, the last one the greatest end.
+// Sorted lights [x, y) that may touch view depths between two; none when x >= y. The standard set for one bin or two
+// neighbouring ones, the ranged set otherwise: there the first bin has the least begin of both, the last one the
+// greatest end.
 uvec2 z_bin_range(LightGrid grid, float nearest_m, float farthest_m) {
   uint first = z_bin_of(grid, nearest_m);
   uint last = z_bin_of(grid, farthest_m);

@@ -12,7 +12,9 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform DeformBlock { DeformConstants c; };
 layout(set = 0, binding = 0, scalar) readonly buffer RestPositions { float rest_positions[]; };
 layout(set = 0, binding = 1, scalar) readonly buffer RestFrames { uvec2 rest_frames[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer Influences { uvec4 influences[]; };  // joints 2×16 2×16, weights 2×unorm16 ×2
+layout(set = 0, binding = 2, scalar) readonly buffer Influences {
+  uvec4 influences[];
+};  // joints 2×16 2×16, weights 2×unorm16 ×2
 layout(set = 0, binding = 3, scalar) readonly buffer MorphOffsets { float morph_offsets[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Joints { vec4 joint_rows[]; };  // three rows a joint
 layout(set = 0, binding = 5, scalar) readonly buffer Weights { float morph_weights[]; };

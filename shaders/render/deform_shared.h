@@ -10,11 +10,11 @@ GLOAM_SHARED_BEGIN
 /// One primitive of one instance whose vertices the GPU moves. Offsets count elements of their buffers.
 struct DeformConstants {
   uint vertex_count;
-  uint first_joint;         // into the frame's joint matrices
-  uint skinned;             // 0 or 1
+  uint first_joint;  // into the frame's joint matrices
+  uint skinned;      // 0 or 1
   uint morph_targets;
-  uint first_weight;        // into the frame's morph weights
-  uint morph_has_normals;   // 0 or 1
+  uint first_weight;       // into the frame's morph weights
+  uint morph_has_normals;  // 0 or 1
 };
 
 GLOAM_SHARED_END

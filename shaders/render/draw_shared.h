@@ -18,16 +18,17 @@ struct DrawConstants {
 /// Constants of one material, in a uniform buffer of its own set.
 struct MaterialConstants {
   vec4 base_color;
-  vec4 emissive_cutoff;       // rgb cd/m², alpha cutoff
-  vec4 factors;               // metallic, roughness, normal scale, occlusion strength
-  vec4 extras;                // subsurface 0 or 1, reflectivity (< 0: from metallic and roughness), 0, 0
-  vec4 uv_transform[10];      // two rows (xyz) a texture: base, normal, metallic-roughness, occlusion, emissive; w of row 0: uv set
+  vec4 emissive_cutoff;   // rgb cd/m², alpha cutoff
+  vec4 factors;           // metallic, roughness, normal scale, occlusion strength
+  vec4 extras;            // subsurface 0 or 1, reflectivity (< 0: from metallic and roughness), 0, 0
+  vec4 uv_transform[10];  // two rows (xyz) a texture: base, normal, metallic-roughness, occlusion, emissive; w of row
+                          // 0: uv set
 };
 
 GLOAM_SHARED_END
 
 // DrawConstants::flags
-#define GLOAM_DRAW_MIRRORED 1u      // front faces are clockwise in the mesh's winding
+#define GLOAM_DRAW_MIRRORED 1u  // front faces are clockwise in the mesh's winding
 // Specialisation constant 0 of the surface shaders
 #define GLOAM_SURFACE_BASE_TEXTURE 1u
 #define GLOAM_SURFACE_NORMAL_TEXTURE 2u
@@ -37,6 +38,6 @@ GLOAM_SHARED_END
 #define GLOAM_SURFACE_MASK 32u
 #define GLOAM_SURFACE_DOUBLE_SIDED 64u
 #define GLOAM_SURFACE_VERTEX_COLOR 128u
-#define GLOAM_SURFACE_UV_TRANSFORM 256u   // some texture has a transform or uses the second coordinates
+#define GLOAM_SURFACE_UV_TRANSFORM 256u  // some texture has a transform or uses the second coordinates
 
 #endif

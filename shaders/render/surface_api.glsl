@@ -28,9 +28,9 @@ layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
 layout(constant_id = 0) const uint kSurface = 0u;
 
 struct Surface {
-  vec4 base_color;     // linear, with alpha
-  vec3 normal;         // shading normal, on the visible side; unit where fetch_surface says so
-  vec3 face_normal;    // of the triangle, likewise
+  vec4 base_color;   // linear, with alpha
+  vec3 normal;       // shading normal, on the visible side; unit where fetch_surface says so
+  vec3 face_normal;  // of the triangle, likewise
   float metallic;
   float roughness;
   float occlusion;
@@ -50,7 +50,8 @@ vec2 texture_uv(int slot) {
 
 float size_of(vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-// `to_viewer`: towards the camera, any length (view_api.glsl). Normals come out in any length above 0: enough to be packed.
+// `to_viewer`: towards the camera, any length (view_api.glsl). Normals come out in any length above 0: enough to be
+// packed.
 Surface fetch_surface_unscaled(vec3 to_viewer) {
   Surface s;
   s.base_color = material.base_color;

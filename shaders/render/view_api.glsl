@@ -12,21 +12,20 @@ vec3 relative_position(ViewConstants view, vec2 pixel, float depth) {
          view.ray_forward.xyz * (view.ray_dx.w + depth * view.ray_dy.w);
 }
 
-// Metres in front of the camera of what lies at `depth`. Rounds once or twice; view_depth of a position loses several digits where a wide
-// lens has its corners.
+// Metres in front of the camera of what lies at `depth`. Rounds once or twice; view_depth of a position loses several
+// digits where a wide lens has its corners.
 float surface_view_depth(ViewConstants view, float depth) {
   return view.ray_base.w > 0.0 ? view.ray_base.w / depth : view.ray_dx.w + depth * view.ray_dy.w;
 }
 
 // Metres between the camera and what lies at `depth` under a pixel; of perspective cameras.
 float perspective_distance(ViewConstants view, vec2 pixel, float depth) {
-  return length((view.ray_base.xyz + pixel.x * view.ray_dx.xyz + pixel.y * view.ray_dy.xyz) * (view.ray_base.w / depth));
+  return length((view.ray_base.xyz + pixel.x * view.ray_dx.xyz + pixel.y * view.ray_dy.xyz) *
+                (view.ray_base.w / depth));
 }
 
 // Direction from the camera through a pixel; not normalised.
-vec3 view_ray(ViewConstants view, vec2 pixel) {
-  return relative_position(view, pixel, 0.5);
-}
+vec3 view_ray(ViewConstants view, vec2 pixel) { return relative_position(view, pixel, 0.5); }
 
 // Towards the camera from a camera-relative position; not normalised.
 vec3 to_viewer(ViewConstants view, vec3 relative) { return view.orthographic != 0u ? view.view_row_z.xyz : -relative; }

@@ -10,17 +10,17 @@ GLOAM_SHARED_BEGIN
 /// One view of one frame. Positions are relative to the camera, axes are the world's.
 struct ViewConstants {
   mat4 clip_from_relative;
-  // Camera-relative position of pixel (x, y) at depth z: (base + x dx + y dy) · s + forward · t, where s = base.w / z (1 when base.w
-  // is 0: orthographic) and t = dx.w + z dy.w.
+  // Camera-relative position of pixel (x, y) at depth z: (base + x dx + y dy) · s + forward · t, where s = base.w / z
+  // (1 when base.w is 0: orthographic) and t = dx.w + z dy.w.
   vec4 ray_base;
   vec4 ray_dx;
   vec4 ray_dy;
   vec4 ray_forward;
-  vec4 view_row_z;      // dot(xyz, p) = z of p in view space (negative in front of the camera)
-  uvec2 size;           // pixels
+  vec4 view_row_z;  // dot(xyz, p) = z of p in view space (negative in front of the camera)
+  uvec2 size;       // pixels
   vec2 inverse_size;
   float near_m;
-  uint orthographic;    // 0 or 1
+  uint orthographic;  // 0 or 1
   uint frame;
   uint visualizer;
 };

@@ -5,7 +5,8 @@
 
 // Dear ImGui's triangles: positions in pixels from the picture's upper left.
 
-layout(push_constant, scalar) uniform Push { vec2 size; } push;  // of the picture, pixels
+layout(push_constant, scalar) uniform Push { vec2 size; }
+push;  // of the picture, pixels
 
 layout(location = 0) in vec2 position;
 layout(location = 1) in vec2 uv;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #version 460
 
-// 48 gathers a pixel where shadow_footprints.frag says, and nothing else: what a contact-hardening filter takes at the least.
+// 48 gathers a pixel where shadow_footprints.frag says, and nothing else: what a contact-hardening filter takes at the
+// least.
 
 layout(set = 0, binding = 0) uniform sampler2D search_and_fine_image;
 layout(set = 0, binding = 1) uniform sampler2D coarse_image;
@@ -23,7 +24,7 @@ void main() {
   vec4 sum = vec4(0.0);
   // A loop, because a condition is no way around work on software devices.
   if (coarse.x >= 0.0) do {
-    sum = gathers(search_and_fine.xy, texel) + gathers(search_and_fine.zw, texel) + gathers(coarse, texel);
-  } while (coarse.y < 0.0);
+      sum = gathers(search_and_fine.xy, texel) + gathers(search_and_fine.zw, texel) + gathers(coarse, texel);
+    } while (coarse.y < 0.0);
   out_sum = dot(sum, vec4(1.0));
 }

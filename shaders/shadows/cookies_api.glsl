@@ -5,13 +5,13 @@
 
 #include "shaders/shadows/shadows_shared.h"
 
-// Cookies for shaders that look at no shadows. Before including this, define GLOAM_COOKIES_BINDING: three bindings from there are
-// ShadowsOutputs' block, rows and cookies (append_arriving_bindings).
+// Cookies for shaders that look at no shadows. Before including this, define GLOAM_COOKIES_BINDING: three bindings from
+// there are ShadowsOutputs' block, rows and cookies (append_arriving_bindings).
 
 layout(set = 0, binding = GLOAM_COOKIES_BINDING, scalar) uniform ShadowBlockBinding { ShadowBlock shadow_block; };
 layout(set = 0, binding = GLOAM_COOKIES_BINDING + 1) uniform sampler2D shadow_rows;
 layout(set = 0, binding = GLOAM_COOKIES_BINDING + 2) uniform sampler2DArray shadow_cookies;
 
-#include "shaders/shadows/cookies.glsl"
+#include "shaders/shadows/filter/cookies.glsl"
 
 #endif

@@ -6,8 +6,9 @@
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/shadows/final_lists_shared.h"
 
-// Readers of final light lists (see final_lists_shared.h). Before including this, define GLOAM_FINAL_LISTS_BINDING: four bindings from there
-// are FinalLists' tiles, entries and visibilities (append_final_list_bindings). Specialisation constants are FinalLists::constants.
+// Readers of final light lists (see final_lists_shared.h). Before including this, define GLOAM_FINAL_LISTS_BINDING:
+// four bindings from there are FinalLists' tiles, entries and visibilities (append_final_list_bindings). Specialisation
+// constants are FinalLists::constants.
 //   FinalList list = final_list(pixel);
 //   for (uint i = 0u; i < list.local_count; ++i) {
 //     uint entry = final_entries[list.local_first + i];
@@ -19,8 +20,12 @@ layout(constant_id = GLOAM_FINAL_BUFFERS_ID) const uint kVisibilityBuffers = 1u;
 
 layout(set = 0, binding = GLOAM_FINAL_LISTS_BINDING) uniform usampler2D final_tiles;
 layout(set = 0, binding = GLOAM_FINAL_LISTS_BINDING + 1, scalar) readonly buffer FinalEntries { uint final_entries[]; };
-layout(set = 0, binding = GLOAM_FINAL_LISTS_BINDING + 2, scalar) readonly buffer Visibilities0 { uint visibilities_0[]; };
-layout(set = 0, binding = GLOAM_FINAL_LISTS_BINDING + 3, scalar) readonly buffer Visibilities1 { uint visibilities_1[]; };
+layout(set = 0, binding = GLOAM_FINAL_LISTS_BINDING + 2, scalar) readonly buffer Visibilities0 {
+  uint visibilities_0[];
+};
+layout(set = 0, binding = GLOAM_FINAL_LISTS_BINDING + 3, scalar) readonly buffer Visibilities1 {
+  uint visibilities_1[];
+};
 
 struct FinalList {
   uint directional_first;

@@ -9,12 +9,13 @@
 #include "shaders/shadows/final_lists_shared.h"
 #include "shaders/shadows/shadows_api.glsl"
 
-// How much of a light the pixels of a shadow tile see: one workgroup is a tile and a light, a thread has kPixels pixels of a row. Before
-// including this, include what shadows_api.glsl asks for; afterwards define
+// How much of a light the pixels of a shadow tile see: one workgroup is a tile and a light, a thread has kPixels pixels
+// of a row. Before including this, include what shadows_api.glsl asks for; afterwards define
 //   LightOfPair: what is the same for all pixels, with
 //   ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) and
 //   bool gives_light(LightOfPair l, vec3 position, vec3 normal),
-//   uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps), which returns what it says of the tile, and steps to keep,
+//   uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps), which returns what it says of
+//   the tile, and steps to keep,
 // and include pair_pixels_asked_api.glsl. Bindings 0 and 3 to 6 are taken.
 
 layout(local_size_x = 64, local_size_x_id = 0) in;  // constant 0: 8, 16, 32 or 64
@@ -33,11 +34,11 @@ const uint kMostSteps = (1u << kVisibilityBits) - 1u;
 const uint kSomeSeeLess = 1u;
 const uint kSomeSeeAny = 2u;
 
-shared uint packed_words[16];           // of a slot
-shared float widths[GLOAM_SLOT_PIXELS];  // of penumbrae
-shared uint filtered[GLOAM_SLOT_PIXELS]; // pixels that need the filter, filtered_count of them
+shared uint packed_words[16];             // of a slot
+shared float widths[GLOAM_SLOT_PIXELS];   // of penumbrae
+shared uint filtered[GLOAM_SLOT_PIXELS];  // pixels that need the filter, filtered_count of them
 shared uint filtered_count;
-shared uint found;                      // what all pixels say of the tile
+shared uint found;  // what all pixels say of the tile
 // Of threads whose pixels fill words of their own: those words, one or two. Others share theirs.
 const bool kOwnWords = kPixels * kVisibilityBits >= 32u;
 uvec2 own_words = uvec2(0u);
@@ -56,14 +57,18 @@ bool local_light_gives(LocalLight light, vec3 position, vec3 normal) {
 }
 
 // brightest: lux. direction: where it shines.
-bool sun_gives(float brightest, vec3 direction, vec3 normal) { return brightest > 0.0 && dot(normal, -direction) > 0.0; }
+bool sun_gives(float brightest, vec3 direction, vec3 normal) {
+  return brightest > 0.0 && dot(normal, -direction) > 0.0;
+}
 
 // Steps of visibility: 0 … kMostSteps.
 uint visibility_steps(PixelOfPair p, float visibility) {
   return uint(quantised_visibility(visibility * p.point.horizon) * float(kMostSteps) + 0.5);
 }
 
-void pack_steps(uint pixel, uint steps) { atomicOr(packed_words[pixel * kVisibilityBits >> 5], steps << (pixel * kVisibilityBits & 31u)); }
+void pack_steps(uint pixel, uint steps) {
+  atomicOr(packed_words[pixel * kVisibilityBits >> 5], steps << (pixel * kVisibilityBits & 31u));
+}
 
 // Of one of the thread's own pixels.
 void pack_own_steps(uint pixel, uint steps) {

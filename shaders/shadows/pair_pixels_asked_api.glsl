@@ -16,7 +16,8 @@ PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
   r.face_normal = unpack_normal(normals.y);
   r.subsurface = texelFetch(base_color_image, at, 0).a > 0.5;
   PixelOfPair p;
-  p.matters = depth > 0.0 && all(lessThan(pixel, view.size)) && gives_light(light, r.position, unpack_normal(normals.x));
+  p.matters =
+      depth > 0.0 && all(lessThan(pixel, view.size)) && gives_light(light, r.position, unpack_normal(normals.x));
   p.point = shadow_point(light, r);
   p.point.live = p.point.live && p.matters;
   return p;
@@ -24,7 +25,8 @@ PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
 
 uvec2 pixel_at(uvec2 tile, uint pixel) { return tile * uint(GLOAM_SHADOW_TILE) + uvec2(pixel & 7u, pixel >> 3); }
 
-// All pixels of a thread, first as far as it goes without the filter; then those of the tile that need it, dealt out among the threads.
+// All pixels of a thread, first as far as it goes without the filter; then those of the tile that need it, dealt out
+// among the threads.
 void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
   uint some = 0u, i = 0u, steps;
   do {
@@ -32,8 +34,10 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
     PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
     bool known = true;
     float visibility, width = 0.0;
-    if (kFilter == 3u) known = known_before_filter(p.point, visibility, width) || !p.matters;
-    else visibility = unquantised_visibility(p.point);
+    if (kFilter == 3u)
+      known = known_before_filter(p.point, visibility, width) || !p.matters;
+    else
+      visibility = unquantised_visibility(p.point);
     widths[pixel] = width;
     uint says = keep_visibility(pixel, p, visibility, steps);
     if (known) {
@@ -49,13 +53,13 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
   uint count = kFilter == 3u ? filtered_count : 0u;
   i = lane;
   if (i < count) do {
-    uint pixel = filtered[i];
-    PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
-    uint says = keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]), steps);
-    atomicOr(found, says);  // here, not below: see never()
-    pack_steps(pixel, steps);
-    i += kThreads;
-  } while (i < count);
+      uint pixel = filtered[i];
+      PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+      uint says = keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]), steps);
+      atomicOr(found, says);  // here, not below: see never()
+      pack_steps(pixel, steps);
+      i += kThreads;
+    } while (i < count);
 }
 
 #endif

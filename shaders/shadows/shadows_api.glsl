@@ -5,10 +5,11 @@
 
 #include "shaders/shadows/shadows_shared.h"
 
-// How much of a light a point sees. Before including this, define GLOAM_SHADOWS_BINDING: six bindings from there are ShadowsOutputs' block,
-// rows, atlas, pyramid, cookies and traced (append_shadow_bindings). Specialisation constants are ShadowsOutputs::constants.
-// GLOAM_SHADOWS_STANDARD: contact-hardening with 8 × 8 texels and nothing else, half of the code, for pipelines that must be there soon.
-// Shaders that are not fragment shaders define GLOAM_SHADOWS_PIXEL, the ivec2 that traced visibility is read at.
+// How much of a light a point sees. Before including this, define GLOAM_SHADOWS_BINDING: six bindings from there are
+// ShadowsOutputs' block, rows, atlas, pyramid, cookies and traced (append_shadow_bindings). Specialisation constants
+// are ShadowsOutputs::constants. GLOAM_SHADOWS_STANDARD: contact-hardening with 8 × 8 texels and nothing else, half of
+// the code, for pipelines that must be there soon. Shaders that are not fragment shaders define GLOAM_SHADOWS_PIXEL,
+// the ivec2 that traced visibility is read at.
 
 #ifndef GLOAM_SHADOWS_PIXEL
 #define GLOAM_SHADOWS_PIXEL ivec2(gl_FragCoord.xy)
@@ -35,8 +36,8 @@ layout(constant_id = GLOAM_SHADOWS_KERNEL_SHAPE_ID) const uint kKernelShape = 0u
 layout(constant_id = GLOAM_SHADOWS_LEVELS_ID) const uint kLevels = 255u;
 layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 0u;
 layout(constant_id = GLOAM_SHADOWS_COVERAGE_ID) const uint kCoverage = 0u;
-// Who knows the kind of light spares software devices the code of the others, which they would run for nothing; who knows it when the
-// shader is written defines GLOAM_SHADOWS_KINDS, and spares them reading it as well.
+// Who knows the kind of light spares software devices the code of the others, which they would run for nothing; who
+// knows it when the shader is written defines GLOAM_SHADOWS_KINDS, and spares them reading it as well.
 // GLOAM_SHADOWS_IN_FACE likewise: no kernel leaves its receiver's face of a cube.
 #ifdef GLOAM_SHADOWS_KINDS
 const uint kKinds = GLOAM_SHADOWS_KINDS;
@@ -57,11 +58,11 @@ struct ShadowReceiver {
 // Of the atlas image, which is one and a half times as wide as high.
 vec2 shadow_texel_size() { return vec2(1.0 / 1.5, 1.0) / shadow_block.atlas_size; }
 
-#include "shaders/shadows/cookies.glsl"
+#include "shaders/shadows/filter/cookies.glsl"
 #ifdef GLOAM_SHADOWS_STANDARD
-#include "shaders/shadows/shadow_filter.glsl"
+#include "shaders/shadows/filter/contact_hardening.glsl"
 #else
-#include "shaders/shadows/fixed_filters.glsl"
+#include "shaders/shadows/filter/fixed_filters.glsl"
 #endif
 
 // What a slot of visibility keeps.
@@ -82,7 +83,10 @@ float unquantised_visibility(ShadowPoint p) {
 #ifdef GLOAM_SHADOWS_STANDARD
   float visibility = chs_visibility(p);
 #else
-  float visibility = kFilter == 0u ? hard_visibility(p) : kFilter == 1u ? pcf_visibility(p) : kFilter == 2u ? pcss_visibility(p) : chs_visibility(p);
+  float visibility = kFilter == 0u   ? hard_visibility(p)
+                     : kFilter == 1u ? pcf_visibility(p)
+                     : kFilter == 2u ? pcss_visibility(p)
+                                     : chs_visibility(p);
 #endif
   return visibility;
 }
@@ -103,8 +107,8 @@ float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r)
   return shadow_visibility(directional_shadow_point(light, light_direction, r));
 }
 
-// Either; light_vector: the position of a local light, or where a directional one shines. Software devices run what both branches of a
-// condition hold, so whoever does not know the kind of light calls this.
+// Either; light_vector: the position of a local light, or where a directional one shines. Software devices run what
+// both branches of a condition hold, so whoever does not know the kind of light calls this.
 ShadowPoint light_shadow_point(bool directional, uint light, vec3 light_vector, ShadowReceiver r) {
   uint local = directional ? 0u : light, distant = directional ? light : 0u;
   if (kKinds == GLOAM_SHADOWS_SUNS) return directional_shadow_point(distant, light_vector, r);

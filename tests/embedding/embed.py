@@ -45,7 +45,7 @@ def main(cmake, source, build, *arguments):
     shutil.rmtree(prefix, ignore_errors=True)
     shutil.rmtree(work / "host", ignore_errors=True)
     run(cmake, "--install", build, "--prefix", prefix, "--component", "gloam")
-    faults = header_faults(prefix / "include") + guide_faults(Path(source))
+    faults = header_faults(prefix / "include" / "gloam") + guide_faults(Path(source))
     if faults:
         sys.exit("\n".join(faults))
     run(cmake, "-S", source, "-B", work / "host", f"-DCMAKE_PREFIX_PATH={prefix}", *arguments)

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sandbox/bench/camera_path.h"
+#include "sandbox/bench/harness/camera_path.h"
 
 namespace gloam::test {
 
-/// Through the garden of builtin:many_lights: over the whole, down among lanterns, through a standing stone, along the ground, up to
-/// nothing but sky, straight down, and through glass back to the start.
+/// Through the garden of builtin:many_lights: over the whole, down among lanterns, through a standing stone, along the
+/// ground, up to nothing but sky, straight down, and through glass back to the start.
 inline constexpr PathKey kManyLightsFlight[] = {
     {{-32.0, 9.8, -17.0}, {4.0, 0.4, 2.0}},   {{-20.0, 4.0, -11.0}, {-6.0, 1.0, -4.0}},
     {{-11.0, 2.0, -6.0}, {2.0, 1.4, 1.0}},    {{-4.0, 0.9, -1.0}, {6.0, 1.0, 6.0}},

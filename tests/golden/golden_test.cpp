@@ -9,12 +9,12 @@
 #include <iterator>
 
 #include "engine/scene/image_file.h"
-#include "sandbox/image_io.h"
-#include "sandbox/session.h"
+#include "sandbox/output/image_io.h"
+#include "sandbox/session/session.h"
 #include "tests/support/gpu_device.h"
 
-// Whole pictures. A golden changes only in a commit that says why: the failing test leaves the new picture in the build folder's
-// golden/, to be looked at and copied here.
+// Whole pictures. A golden changes only in a commit that says why: the failing test leaves the new picture in the build
+// folder's golden/, to be looked at and copied here.
 
 namespace gloam::test {
 namespace {

@@ -11,12 +11,13 @@
 #include <vector>
 
 #include "sandbox/scenes/many_lights.h"
-#include "sandbox/session.h"
+#include "sandbox/session/session.h"
 #include "tests/golden/flight_path.h"
 #include "tests/support/gpu_device.h"
 #include "tests/support/scale.h"
 
-// Light lists while the camera moves: what a frame learns from the one before it (the zBins' range, the lists' size) must never show.
+// Light lists while the camera moves: what a frame learns from the one before it (the zBins' range, the lists' size)
+// must never show.
 
 namespace gloam::test {
 namespace {

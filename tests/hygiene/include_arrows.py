@@ -26,6 +26,20 @@ HOST = "tests/embedding/host/"  # a project of its own, which sees our headers a
 MODULE_LIST = "module_list"  # names every module; no module stands on it
 MODULE_PUBLIC = ("components.h", "module.h", "outputs.h")
 
+# A folder with rooms: its rooms in the order of the data's way, and the headers of the folder itself that rooms may include. A room
+# includes itself and earlier rooms; other files of the folder itself stand above all rooms and include any.
+ROOMS = {
+    "modules/lights": (("bins", "masks", "selection", "lists", "debug"), ("components", "outputs", "cpu_clones")),
+    "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
+                        ("components", "outputs", "knobs")),
+    "modules/closeups": (("pairs", "umbra", "compose", "debug"), ("components", "knobs")),
+    "engine/render": (("knobs", "scene", "draws", "passes", "readback", "reference"),
+                      ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
+    "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups"), ()),
+    "sandbox": (("output", "scenes", "session", "window", "bench", "commands"), ("options", "console", "log")),
+    "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
+}
+
 # Third-party headers: where they may stand at all, and whether a header of ours may carry them.
 HEAVY = (
     (re.compile(r"^(vulkan/|volk\.h$|vk_mem_alloc\.h$)"), ("engine/gpu/", "tests/gpu/", "tests/embedding/"), "Vulkan's headers"),
@@ -66,7 +80,7 @@ def is_public_header(name):
     parts = name.split("/")
     if not name.endswith(".h") or parts[0] not in ("engine", "modules"):
         return False
-    return parts[0] == "engine" or parts[1] == MODULE_LIST or parts[-1] in MODULE_PUBLIC
+    return parts[0] == "engine" or parts[1] == MODULE_LIST or (len(parts) == 3 and parts[-1] in MODULE_PUBLIC)
 
 
 def cpp_arrow(parts, target):
@@ -87,8 +101,7 @@ def cpp_arrow(parts, target):
             return None
         if kind == "modules" and own != MODULE_LIST and to_own not in MODULE_REACH[own]:
             return f"modules/{own} does not stand on modules/{to_own}"
-        public = len(target) == 3 and is_public_header("/".join(target))
-        return None if public else f"of another module only {', '.join(MODULE_PUBLIC)}"
+        return None if is_public_header("/".join(target)) else f"of another module only {', '.join(MODULE_PUBLIC)}"
     if target[0] == "shaders":
         if to_own == "common" and target[-1].endswith(".h"):
             return None
@@ -106,9 +119,9 @@ def shader_arrow(parts, target):
     """Why a file below shaders/ may not include a project path, or None."""
     if parts[1] == "common" and parts[-1].endswith(".h") and target == ["engine", "math", "types.h"]:
         return None  # the prelude names the C++ side's vectors
-    if target[0] != "shaders" or len(target) != 3:
+    if target[0] != "shaders" or len(target) < 3:
         return "shaders include shaders only"
-    own, to_own, leaf = parts[1], target[1], target[2]
+    own, to_own, leaf = parts[1], target[1], target[-1]
     if to_own in ("common", own):
         return None
     if own == "common":
@@ -124,7 +137,7 @@ def shader_arrow(parts, target):
 
 
 def exists(root, include):
-    generated = re.fullmatch(r"shaders/\w+/(shaders\.h|[\w.]+\.spv\.h)", include)
+    generated = re.fullmatch(r"shaders/\w+/(shaders\.h|(\w+/)?[\w.]+\.spv\.h)", include)
     return bool(generated) or (root / include).is_file()
 
 
@@ -145,8 +158,32 @@ def owner_fault(parts):
         return f"{parts[0]}/{parts[1]} is not in the architecture"
     if parts[0] == "shaders":
         owners = ("common", "sandbox", *LAYERS, *MODULES)
-        if len(parts) != 3 or (parts[1] not in owners and not parts[1].endswith("_test")):
+        if len(parts) not in (3, 4) or (parts[1] not in owners and not parts[1].endswith("_test")):
             return "a shader stands in shaders/common, in the folder of a layer, a module or the sandbox, or in <suite>_test"
+    return None
+
+
+def room_of(folder, parts):
+    """The room of a path inside a folder with rooms, "" for a file of the folder itself, None for a path elsewhere."""
+    depth = folder.count("/") + 1
+    if "/".join(parts[:depth]) != folder:
+        return None
+    return parts[depth] if len(parts) > depth + 1 else ""
+
+
+def room_fault(parts, target):
+    """Why a file of one room may not include a file of the same folder, or None."""
+    for folder, (rooms, base) in ROOMS.items():
+        room, to_room = room_of(folder, parts), room_of(folder, target)
+        if not room or to_room is None:
+            continue
+        if to_room == "":
+            if base is not None and target[-1].partition(".")[0] not in base:
+                return f"{folder}/{room} does not stand on {folder}/{target[-1]}"
+        elif room not in rooms or to_room not in rooms:
+            return f"{folder} has no such room"
+        elif rooms.index(to_room) > rooms.index(room):
+            return f"{folder}/{room} does not stand on {folder}/{to_room}"
     return None
 
 
@@ -175,6 +212,8 @@ def check_file(root, name):
                 fault = "a public header includes public headers only"
         else:
             fault = third_party_fault(name, include)
+        if fault is None and ours:
+            fault = room_fault(parts, target)
         if fault is None and quoted and not ours:
             fault = "a project include is the full path from the root; others stand in <>"
         if fault is None and ours and not exists(root, include):

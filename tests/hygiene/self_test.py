@@ -82,22 +82,22 @@ class IncludeArrows(Tree):
         self.check_include("modules/grass/a.cpp", "modules/grass/wind.h")
         self.check_include("modules/depth_of_field/a.cpp", "modules/grass/outputs.h")
         self.check_include("modules/accuracy/a.cpp", "modules/particles/module.h")
-        self.check_include("modules/shadows/a.cpp", "modules/lights/z_bins.h", "of another module only")
+        self.check_include("modules/shadows/a.cpp", "modules/lights/bins/z_bins.h", "of another module only")
         self.check_include("modules/lights/a.cpp", "modules/shadows/module.h", "does not stand on modules/shadows")
         self.check_include("modules/grass/a.cpp", "modules/particles/module.h", "does not stand on modules/particles")
         self.check_include("modules/accuracy/a.cpp", "modules/visualizers/module.h", "does not stand on")
         self.check_include("modules/grass/a.cpp", "modules/module_list/module_list.h", "does not stand on")
         self.check_include("modules/module_list/a.cpp", "modules/accuracy/module.h")
-        self.check_include("modules/module_list/a.cpp", "modules/lights/z_bins.h", "of another module only")
-        self.check_include("modules/lights/module.h", "modules/lights/z_bins.h", "public headers only")
+        self.check_include("modules/module_list/a.cpp", "modules/lights/bins/z_bins.h", "of another module only")
+        self.check_include("modules/lights/module.h", "modules/lights/bins/z_bins.h", "public headers only")
         self.check_include("modules/unheard_of/a.cpp", "engine/core/b.h", "not in the architecture")
 
     def test_the_sandbox_sees_public_headers_and_tests_see_all(self):
         self.check_include("sandbox/a.cpp", "modules/lights/outputs.h")
         self.check_include("sandbox/a.cpp", "modules/module_list/module_list.h")
-        self.check_include("sandbox/a.cpp", "modules/lights/z_bins.h", "of another module only")
-        self.check_include("tests/lights/a_test.cpp", "modules/lights/z_bins.h")
-        self.check_include("sandbox/bench/a.cpp", "modules/lights/z_bins.h")
+        self.check_include("sandbox/a.cpp", "modules/lights/bins/z_bins.h", "of another module only")
+        self.check_include("tests/lights/a_test.cpp", "modules/lights/bins/z_bins.h")
+        self.check_include("sandbox/bench/a.cpp", "modules/lights/bins/z_bins.h")
 
     def test_cpp_sees_its_own_shared_shader_headers(self):
         self.check_include("modules/lights/a.cpp", "shaders/lights/z_bin_shared.h")
@@ -130,7 +130,7 @@ class IncludeArrows(Tree):
         self.assert_faults(faults, "carry no such", "carry no such", "carry no such")
 
     def test_the_sandboxs_libraries_stay_there(self):
-        self.assertEqual(self.faults_with("sandbox/window.cpp", "#include <GLFW/glfw3.h>\n#include <imgui.h>\n"), [])
+        self.assertEqual(self.faults_with("sandbox/window/window.cpp", "#include <GLFW/glfw3.h>\n#include <imgui.h>\n"), [])
         self.assert_faults(self.faults_with("engine/gpu/a.h", "#include <GLFW/glfw3.h>\n"), "sandbox's libraries stay")
 
     def test_paths_are_full_and_exist(self):

@@ -50,8 +50,8 @@ void check_contains_samples(const NdcRect& rect, const test::SupportPoint& suppo
   RC_ASSERT(outside == 0);
 }
 
-/// The body grown by a trillionth of its size and distance: what a rectangle in double may lose to rounding. Where a body
-/// just touches the near plane that is much more than a trillionth on the screen.
+/// The body grown by a trillionth of its size and distance: what a rectangle in double may lose to rounding. Where a
+/// body just touches the near plane that is much more than a trillionth on the screen.
 test::SupportPoint grown(test::SupportPoint support, dvec3 center, double size) {
   const double by = 1e-12 * (glm::length(center) + size);
   return [support = std::move(support), by](dvec3 direction) { return support(direction) + by * direction; };

@@ -31,8 +31,8 @@ struct CountedCalls {
   std::uint32_t releases = 0;
 };
 
-/// The smallest module with a bit of everything: two systems, a pipeline, a pass with one dispatch, a transient image, and a buffer that
-/// it keeps until release. `calls` outlives it.
+/// The smallest module with a bit of everything: two systems, a pipeline, a pass with one dispatch, a transient image,
+/// and a buffer that it keeps until release. `calls` outlives it.
 class CountingModule final : public Module {
  public:
   static constexpr std::uint64_t kKeptBytes = 4096;

@@ -23,8 +23,8 @@
 #include "modules/lights/module.h"
 #include "modules/shadows/module.h"
 #include "tests/render/counting_module.h"
+#include "tests/render/draws/small_scene.h"
 #include "tests/render/gated_device.h"
-#include "tests/render/small_scene.h"
 
 namespace gloam::test {
 
@@ -58,8 +58,8 @@ struct Seen {
   std::set<std::string> systems;  ///< that ran
 };
 
-/// A renderer of lights, lighting, fog and a counting module on a gated recording device, and a small scene without lights or fog.
-/// Faults that the recording device finds fail the test.
+/// A renderer of lights, lighting, fog and a counting module on a gated recording device, and a small scene without
+/// lights or fog. Faults that the recording device finds fail the test.
 class DemandTest : public ::testing::Test {
  protected:
   DemandTest() { make_renderer(Readiness::wait); }
@@ -123,7 +123,8 @@ class DemandTest : public ::testing::Test {
     }
   }
 
-  /// Renders until no pipeline is made in the background any more: an effect's passes may come before those of others it hastens.
+  /// Renders until no pipeline is made in the background any more: an effect's passes may come before those of others
+  /// it hastens.
   void frames_until_nothing_is_pending() {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (renderer_->report().pipelines_pending > 0) {

@@ -15,8 +15,8 @@
 #include "modules/fog/module.h"
 #include "modules/lighting/module.h"
 #include "modules/lights/module.h"
+#include "tests/render/draws/small_scene.h"
 #include "tests/render/gated_device.h"
-#include "tests/render/small_scene.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam {
@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::uint32_t kFramesKept = 120;  // a module without demand keeps its memory for so many
 
-/// One renderer of lights, lighting and fog with a world of its own. The exposure is set, so that pictures depend on nothing but the
-/// frame's scene.
+/// One renderer of lights, lighting and fog with a world of its own. The exposure is set, so that pictures depend on
+/// nothing but the frame's scene.
 struct Set {
   Set(gpu::Device& device, JobExecutor& executor, Readiness readiness) {
     RendererOptions options;

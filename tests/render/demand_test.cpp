@@ -281,7 +281,8 @@ TEST_F(DemandFrames, transient_images_are_counted_under_the_module_of_the_first_
   const std::uint64_t before = seen("engine").bytes + seen("lighting").bytes;
   const Entity lamp = call_for("lights");
   settle();
-  // Of 8 × 5 shadow tiles in one tile group: texels of lights, tiles, the group's mask, 24 list entries a tile (3 a word), counters.
+  // Of 8 × 5 shadow tiles in one tile group: texels of lights, tiles, the group's mask, 24 list entries a tile (3 a
+  // word), counters.
   EXPECT_EQ(seen("lights").bytes, 3u * 1024u * 16u + 8u * 5u * 8u + 33u * 4u + 8u * 5u * 8u * 4u + 12u * 4u);
   world_->destroy(lamp);
   static_cast<void>(call_for("counting"));

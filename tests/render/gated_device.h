@@ -19,8 +19,8 @@
 
 namespace gloam::test {
 
-/// Another device with a gate: pipelines that other threads than its maker's ask for wait until they are let through. Counts what
-/// is created, and makes named pipelines fail for as long as wanted. Safe from any thread.
+/// Another device with a gate: pipelines that other threads than its maker's ask for wait until they are let through.
+/// Counts what is created, and makes named pipelines fail for as long as wanted. Safe from any thread.
 class GatedDevice final : public gpu::Device {
  public:
   explicit GatedDevice(gpu::Device& inner) : inner_(inner) {}

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "engine/gpu/recording_device.h"
-#include "engine/render/draw_pipelines.h"
-#include "engine/render/material_packing.h"
+#include "engine/render/scene/draw_pipelines.h"
+#include "engine/render/scene/material_packing.h"
 #include "shaders/render/draw_shared.h"
 #include "tests/support/expect_assert.h"
 

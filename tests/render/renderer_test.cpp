@@ -15,7 +15,7 @@
 #include "engine/render/frame_builder.h"
 #include "engine/scene/gltf_import.h"
 #include "modules/module_list/module_list.h"
-#include "tests/render/small_scene.h"
+#include "tests/render/draws/small_scene.h"
 #include "tests/support/expect_assert.h"
 
 namespace gloam {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/gpu/spirv_reflection.h"
-#include "engine/render/material_packing.h"
-#include "engine/render/mesh_packing.h"
+#include "engine/render/scene/material_packing.h"
+#include "engine/render/scene/mesh_packing.h"
 #include "shaders/fog/fog_shared.h"
 #include "shaders/fog/shaders.h"
 #include "shaders/lighting/lighting_shared.h"
@@ -62,12 +62,11 @@ TEST(SharedStructs, view_constants) {
   for (const gpu::ShaderCode& shader :
        {shaders::render::surface_vert, shaders::render::geometry_frag, shaders::render::debug_view_frag,
         shaders::lights::find_lights_approx_comp, shaders::lighting::deferred_frag}) {
-    expect_same_layout(
-        shader, "ViewConstants", sizeof(T),
-        {GLOAM_MEMBER(T, clip_from_relative), GLOAM_MEMBER(T, ray_base), GLOAM_MEMBER(T, ray_dx),
-         GLOAM_MEMBER(T, ray_dy), GLOAM_MEMBER(T, ray_forward), GLOAM_MEMBER(T, view_row_z),
-         GLOAM_MEMBER(T, size), GLOAM_MEMBER(T, inverse_size), GLOAM_MEMBER(T, near_m), GLOAM_MEMBER(T, orthographic),
-         GLOAM_MEMBER(T, frame), GLOAM_MEMBER(T, visualizer)});
+    expect_same_layout(shader, "ViewConstants", sizeof(T),
+                       {GLOAM_MEMBER(T, clip_from_relative), GLOAM_MEMBER(T, ray_base), GLOAM_MEMBER(T, ray_dx),
+                        GLOAM_MEMBER(T, ray_dy), GLOAM_MEMBER(T, ray_forward), GLOAM_MEMBER(T, view_row_z),
+                        GLOAM_MEMBER(T, size), GLOAM_MEMBER(T, inverse_size), GLOAM_MEMBER(T, near_m),
+                        GLOAM_MEMBER(T, orthographic), GLOAM_MEMBER(T, frame), GLOAM_MEMBER(T, visualizer)});
   }
 }
 

@@ -14,7 +14,7 @@
 #include "engine/scene/resources.h"
 #include "modules/module_list/module_list.h"
 #include "modules/shadows/components.h"
-#include "tests/render/small_scene.h"
+#include "tests/render/draws/small_scene.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam {
@@ -23,7 +23,8 @@ namespace {
 constexpr int kFrames = 3;
 using Pixels = std::vector<std::uint8_t>;
 
-/// World 0 is lit as add_lights does and metered; world 1 stands elsewhere, has lamps of its own, another sky and a fixed exposure.
+/// World 0 is lit as add_lights does and metered; world 1 stands elsewhere, has lamps of its own, another sky and a
+/// fixed exposure.
 void fill(World& world, std::uint32_t which) {
   test::fill_small_scene(world);
   std::vector<Entity> lights;

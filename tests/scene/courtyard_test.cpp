@@ -18,7 +18,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-
 const std::string kCourtyard = GLOAM_SHARED_DIR "/scenes/courtyard/courtyard.gltf";
 
 struct KeyLine {

@@ -20,7 +20,10 @@ TEST(PlainText, is_cut_between_characters) {
 
 TEST(PlainText, replaces_what_is_not_utf8) {
   EXPECT_EQ(one_line("häuser \xe2\x82\xac"), "häuser €");
-  EXPECT_EQ(one_line("a\xff\xc3(\xe2\x82"), "a?" "?(?" "?");
+  EXPECT_EQ(one_line("a\xff\xc3(\xe2\x82"),
+            "a?"
+            "?(?"
+            "?");
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// Writes glTF files bit by bit. Arrays of the root are lists of JSON texts; numbers go into one buffer, which is embedded.
+/// Writes glTF files bit by bit. Arrays of the root are lists of JSON texts; numbers go into one buffer, which is
+/// embedded.
 class GltfText {
  public:
   /// Appends an item to an array of the root and returns its index.
@@ -43,7 +44,8 @@ class GltfText {
   /// Sets any other member of the root.
   void set(const std::string& member, const std::string& json) { members_[member] = json; }
 
-  /// Appends bytes (4-aligned) to the buffer as a buffer view and returns its index. `more`: further members, ", \"byteStride\": 8".
+  /// Appends bytes (4-aligned) to the buffer as a buffer view and returns its index. `more`: further members, ",
+  /// \"byteStride\": 8".
   int view(std::span<const std::byte> bytes, const std::string& more = {});
   template <class T>
   int view_of(const std::vector<T>& values) {
@@ -88,8 +90,8 @@ class GltfText {
                                                    std::span<const std::uint8_t> pixels, int filter = -1);
 
 /// Keys that record nothing but stand where the engine's modules' do: gloam.light.width (light node, number ≥ 0 m),
-/// gloam.closeup (node, boolean), gloam.grass.density (mesh node), gloam.dof.focus (camera node), and KHR_lights_punctual,
-/// whose nodes count as lights. Beside the engine's own.
+/// gloam.closeup (node, boolean), gloam.grass.density (mesh node), gloam.dof.focus (camera node), and
+/// KHR_lights_punctual, whose nodes count as lights. Beside the engine's own.
 [[nodiscard]] KeyRegistry light_registry();
 
 /// One import into a world of its own.

@@ -18,8 +18,8 @@
 
 namespace gloam::test {
 
-/// One compute pipeline with its resources of set 0: give inputs and outputs, run it, read the outputs. Outputs begin as words of
-/// kUntouched, so that what a kernel leaves alone shows. Any error is a failure of the test.
+/// One compute pipeline with its resources of set 0: give inputs and outputs, run it, read the outputs. Outputs begin
+/// as words of kUntouched, so that what a kernel leaves alone shows. Any error is a failure of the test.
 class Kernel {
  public:
   static constexpr std::uint32_t kUntouched = 0xA5A5A5A5u;

@@ -25,7 +25,8 @@ namespace gloam::test {
   return primitive;
 }
 
-/// A square in the XY plane around the origin that faces +Z; texture coordinates run 0…1 from the upper left, tangent +X.
+/// A square in the XY plane around the origin that faces +Z; texture coordinates run 0…1 from the upper left, tangent
+/// +X.
 [[nodiscard]] inline Primitive quad(float half, std::uint32_t material = kNone) {
   Primitive p;
   p.material = material;

@@ -11,8 +11,8 @@
 
 namespace gloam::gltf {
 
-/// All components of a checked accessor as floats, element by element: floats as they are, normalised integers in 0…1 or −1…1,
-/// other integers by value. out: count · components. A value that is not finite is a fault (place included).
+/// All components of a checked accessor as floats, element by element: floats as they are, normalised integers in 0…1
+/// or −1…1, other integers by value. out: count · components. A value that is not finite is a fault (place included).
 [[nodiscard]] Status read_floats(const Document& document, std::uint32_t accessor, std::span<float> out);
 
 /// All components of a checked accessor of unsigned integers.

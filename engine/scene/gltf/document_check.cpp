@@ -11,8 +11,8 @@
 namespace gloam::gltf {
 namespace {
 
-// What is imported may take this much, and so many times the bytes that were read: a vertex of 100 bytes can come from an
-// index of two, and any number of primitives and channels may share one accessor.
+// What is imported may take this much, and so many times the bytes that were read: a vertex of 100 bytes can come from
+// an index of two, and any number of primitives and channels may share one accessor.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{512} << 20;
 constexpr std::uint64_t kBytesPerByte = 64;
 
@@ -33,8 +33,8 @@ bool is_index_type(ComponentType type) {
   return type == ComponentType::u8 || type == ComponentType::u16 || type == ComponentType::u32;
 }
 
-/// Whether [offset, offset + count elements a stride apart) lies in `length` bytes. Element sizes and strides are below 2^10,
-/// counts below 2^32, so only the offset can overflow a sum.
+/// Whether [offset, offset + count elements a stride apart) lies in `length` bytes. Element sizes and strides are below
+/// 2^10, counts below 2^32, so only the offset can overflow a sum.
 bool fits(std::uint64_t offset, std::uint64_t count, std::uint64_t stride, std::uint64_t element,
           std::uint64_t length) {
   return offset <= length && (count - 1) * stride + element <= length - offset;

@@ -12,9 +12,9 @@ namespace gloam::gltf {
 /// Bytes of one element's component.
 [[nodiscard]] std::uint64_t component_size(ComponentType type);
 
-/// Buffer views inside their buffers, accessors inside their views, kinds and counts of what primitives and skins name. What it
-/// passes can be read without a further look at a bound. Indices into the document's arrays must be in range already.
-/// file_bytes: of the scene file itself; it and the buffers justify how much memory the meshes may take.
+/// Buffer views inside their buffers, accessors inside their views, kinds and counts of what primitives and skins name.
+/// What it passes can be read without a further look at a bound. Indices into the document's arrays must be in range
+/// already. file_bytes: of the scene file itself; it and the buffers justify how much memory the meshes may take.
 [[nodiscard]] Status check_document(const Document& document, std::uint64_t file_bytes);
 
 /// Finds every node's parent, refuses cycles and second parents, and checks the scenes' roots. Does not recurse.

@@ -24,8 +24,8 @@ struct EncodedImage {
 /// Decodes one. Safe to call for several at once. The error holds the place.
 [[nodiscard]] Result<Image> import_image(const Document& document, const EncodedImage& encoded, std::size_t index);
 
-/// Textures with their samplers. Materials' slots are set to textures that are read as colours or as data, whichever the slot
-/// needs: a texture used as both becomes two.
+/// Textures with their samplers. Materials' slots are set to textures that are read as colours or as data, whichever
+/// the slot needs: a texture used as both becomes two.
 [[nodiscard]] Result<std::vector<Texture>> import_textures(Document& document);
 
 }  // namespace gloam::gltf

@@ -12,8 +12,8 @@ namespace {
 constexpr std::uint32_t kMany = 1u << 20;
 constexpr std::uint32_t kFew = 1u << 16;
 
-/// glTF 2.0, appendix A (JSON schema). Grouped by type. `extras` and `extensions` stand on every type and are not listed
-/// unless they are looked into.
+/// glTF 2.0, appendix A (JSON schema). Grouped by type. `extras` and `extensions` stand on every type and are not
+/// listed unless they are looked into.
 constexpr Rule kRules[] = {
     {"", "asset", Form::object, true, 0, "asset"},
     {"", "extensionsUsed", Form::texts},

@@ -12,7 +12,8 @@
 
 namespace gloam::gltf {
 
-/// What stands in `extras` and `extensions` of a node, a material or a scene, exactly as written. Kind null when absent.
+/// What stands in `extras` and `extensions` of a node, a material or a scene, exactly as written. Kind null when
+/// absent.
 struct Attachments {
   SceneValue extras;
   SceneValue extensions;
@@ -43,8 +44,8 @@ struct JsonScan {
   std::vector<ByteSource> buffers;  ///< one each
   std::vector<ByteSource> images;
   std::vector<StrayKey> stray_keys;
-  /// First member that is missing, of a wrong type or given twice: place and fault. Told apart from the result so that a file
-  /// of another version, or that needs an extension, is refused for that.
+  /// First member that is missing, of a wrong type or given twice: place and fault. Told apart from the result so that
+  /// a file of another version, or that needs an extension, is refused for that.
   std::string first_fault;
 };
 

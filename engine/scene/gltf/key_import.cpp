@@ -59,7 +59,8 @@ class KeyImporter {
  public:
   KeyImporter(const KeyRegistry& registry, World& world) : registry_(registry), world_(world) {}
 
-  /// Checks every key of the element; sets them when `set` (a node that is not in the scene has no entity to set them on).
+  /// Checks every key of the element; sets them when `set` (a node that is not in the scene has no entity to set them
+  /// on).
   Status import(const Element& element, KeyTarget& target, bool set) const {
     if (element.extras.kind != SceneValue::Kind::object) return {};
     for (const auto& [name, value] : element.extras.members) {

@@ -21,8 +21,8 @@ namespace gloam::gltf {
 /// Refuses "gloam." keys on elements that take none.
 [[nodiscard]] Status check_stray_keys(const JsonScan& scan, const KeyRegistry& registry);
 
-/// Hands extensions to their readers and sets every scene key, nodes first, then materials and the scene. entities: by node;
-/// keys of nodes without one are checked and not set. The assets are in the world.
+/// Hands extensions to their readers and sets every scene key, nodes first, then materials and the scene. entities: by
+/// node; keys of nodes without one are checked and not set. The assets are in the world.
 [[nodiscard]] Status import_keys(const JsonScan& scan, const Document& document, std::uint32_t scene,
                                  std::span<const Entity> entities, const std::string& directory,
                                  const KeyRegistry& registry, World& world);

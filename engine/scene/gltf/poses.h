@@ -10,7 +10,8 @@
 
 namespace gloam::gltf {
 
-/// Normalises rotations; turns matrices that are translation · rotation · scale into poses. What keeps its matrix is sheared.
+/// Normalises rotations; turns matrices that are translation · rotation · scale into poses. What keeps its matrix is
+/// sheared.
 [[nodiscard]] Status resolve_poses(Document& document);
 
 /// The nodes of one scene of a checked document.

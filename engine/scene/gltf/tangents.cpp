@@ -8,8 +8,8 @@
 #include "engine/core/assert.h"
 #include "engine/scene/gltf/vertices.h"
 
-// Tangents as MikkTSpace weighs them (by corner angle, projected off the normal), without its welding: vertices are shared as
-// the file shares them. MikkTSpace itself is not packaged by the distribution.
+// Tangents as MikkTSpace weighs them (by corner angle, projected off the normal), without its welding: vertices are
+// shared as the file shares them. MikkTSpace itself is not packaged by the distribution.
 
 namespace gloam::gltf {
 namespace {

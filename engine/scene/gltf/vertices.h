@@ -18,12 +18,13 @@ void drop_unused_vertices(Primitive& primitive);
 /// Gives every corner a vertex of its own and the face's normal (+Y where a triangle has no area).
 void make_flat_normals(Primitive& primitive);
 
-/// Scales normals to unit length. Those that have none become the area-weighted normal of the faces around the vertex, else +Y;
-/// returns how many those were.
+/// Scales normals to unit length. Those that have none become the area-weighted normal of the faces around the vertex,
+/// else +Y; returns how many those were.
 std::uint32_t repair_normals(Primitive& primitive);
 
-/// Unit tangents from the derivatives of the normal texture's coordinates (transform included), weighted by the corners'
-/// angles; any direction across the normal where those say nothing. A vertex whose faces are partly mirrored is split.
+/// Unit tangents from the derivatives of the normal texture's coordinates (transform included), weighted by the
+/// corners' angles; any direction across the normal where those say nothing. A vertex whose faces are partly mirrored
+/// is split.
 void make_tangents(Primitive& primitive, const TextureSlot& normal_texture);
 
 /// Scales tangents to unit length across the normal and handedness to ±1.

@@ -13,7 +13,8 @@
 
 namespace gloam {
 
-/// Measures the values of one knob. The reference is drawn when the first value needs it. Puts the knob back when it ends.
+/// Measures the values of one knob. The reference is drawn when the first value needs it. Puts the knob back when it
+/// ends.
 class KnobMeasurement {
  public:
   KnobMeasurement(const CostRequest& request, CostSubject& subject, const Knob& knob);

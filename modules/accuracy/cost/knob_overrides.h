@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/render/knobs.h"
+#include "engine/render/knobs/knobs.h"
 
 namespace gloam {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/render/picture.h"
-#include "engine/render/reference.h"
+#include "engine/render/readback/picture.h"
+#include "engine/render/reference/reference.h"
 #include "modules/accuracy/metrics/flip.h"
 #include "modules/accuracy/metrics/pixels.h"
 #include "modules/accuracy/outputs.h"
@@ -27,7 +27,8 @@ class PictureJudge {
   /// At least one side of the reference is there.
   explicit PictureJudge(FramePictures reference);
 
-  /// Sets flip, psnr_db, rmse and rmse_p99 of the row, as far as the reference has the side. frame: both sides, of the reference's size.
+  /// Sets flip, psnr_db, rmse and rmse_p99 of the row, as far as the reference has the side. frame: both sides, of the
+  /// reference's size.
   [[nodiscard]] Status judge(const FramePictures& frame, LedgerRow& row) const;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace gloam {
 
-/// Finished rows in a folder, one file each, so that an interrupted run goes on where it was. A row is found again only under all that
-/// it was measured under: the caller's `identity`, one line.
+/// Finished rows in a folder, one file each, so that an interrupted run goes on where it was. A row is found again only
+/// under all that it was measured under: the caller's `identity`, one line.
 class MeasurementStore {
  public:
   explicit MeasurementStore(std::string folder) : folder_(std::move(folder)) {}

@@ -7,8 +7,8 @@
 namespace gloam {
 namespace {
 
-/// Whether `a` makes `b` pointless. Times of two rows were taken minutes apart, their ratios to the default side by side with it: a
-/// machine that drifts changes the first, not the second.
+/// Whether `a` makes `b` pointless. Times of two rows were taken minutes apart, their ratios to the default side by
+/// side with it: a machine that drifts changes the first, not the second.
 bool dominates(const LedgerRow& a, const LedgerRow& b) {
   const double error_a = *a.error();
   const double error_b = *b.error();

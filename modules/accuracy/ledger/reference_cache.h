@@ -6,11 +6,12 @@
 #include <string>
 
 #include "engine/core/result.h"
-#include "engine/render/reference.h"
+#include "engine/render/reference/reference.h"
 
 namespace gloam {
 
-/// A reference with its own error: its change from half to all of its samples, as LedgerRow::reference_noise; 0 where it is exact.
+/// A reference with its own error: its change from half to all of its samples, as LedgerRow::reference_noise; 0 where
+/// it is exact.
 struct JudgedReference {
   FramePictures pictures;
   double noise = 0.0;

@@ -10,7 +10,8 @@
 
 namespace gloam {
 
-/// Writes or replaces a file as a whole: who reads it sees all of it or the old one, also when the writer is killed. Makes its folder.
+/// Writes or replaces a file as a whole: who reads it sees all of it or the old one, also when the writer is killed.
+/// Makes its folder.
 [[nodiscard]] Status write_whole_file(const std::string& path, std::string_view bytes);
 
 /// A file that knows what it is of: `identity` and a checksum stand before the payload. identity: one line.

@@ -7,16 +7,17 @@
 
 #include "modules/accuracy/metrics/pixels.h"
 
-// LDR-FLIP: P. Andersson, J. Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild, "FLIP: A Difference Evaluator for
-// Alternating Images", HPG 2020, with the constants of version 1.6. Every filter is applied as one-dimensional passes, in double precision.
+// LDR-FLIP: P. Andersson, J. Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild, "FLIP: A Difference
+// Evaluator for Alternating Images", HPG 2020, with the constants of version 1.6. Every filter is applied as
+// one-dimensional passes, in double precision.
 
 namespace gloam {
 
 /// A display of 3840 pixels on 0.7 m, seen from 0.7 m: 0.7 · (3840 / 0.7) · π / 180.
 inline constexpr double kFlipPixelsPerDegree = 67.02064327658226;
 
-/// What FLIP sees in a picture: colours after the eye's contrast sensitivity, and how strong edges and points are. A reference that many
-/// pictures are held against is prepared once.
+/// What FLIP sees in a picture: colours after the eye's contrast sensitivity, and how strong edges and points are. A
+/// reference that many pictures are held against is prepared once.
 struct FlipFeatures {
   std::uint32_t width = 0;
   std::uint32_t height = 0;

@@ -23,8 +23,8 @@ struct Kernel {
 [[nodiscard]] Plane filter_rows(const Plane& plane, const Kernel& kernel);
 [[nodiscard]] Plane filter_columns(const Plane& plane, const Kernel& kernel);
 
-/// A contrast sensitivity as a sum of two-dimensional Gaussians, each the product of its kernel along rows and along columns. Kernels have
-/// the sum 1, and so have the shares.
+/// A contrast sensitivity as a sum of two-dimensional Gaussians, each the product of its kernel along rows and along
+/// columns. Kernels have the sum 1, and so have the shares.
 struct SensitivityFilter {
   struct Part {
     double share = 0.0;
@@ -37,8 +37,8 @@ enum class Opponent { luminance, red_green, blue_yellow };
 [[nodiscard]] SensitivityFilter sensitivity_filter(Opponent channel, double pixels_per_degree);
 [[nodiscard]] Plane apply(const SensitivityFilter& filter, const Plane& plane);
 
-/// The Gaussian that features are looked for at, with its first and second derivative: positive weights of a derivative have the sum 1,
-/// negative ones the sum −1.
+/// The Gaussian that features are looked for at, with its first and second derivative: positive weights of a derivative
+/// have the sum 1, negative ones the sum −1.
 struct FeatureKernels {
   Kernel gaussian;
   Kernel edge;

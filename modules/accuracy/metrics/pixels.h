@@ -8,7 +8,8 @@
 
 namespace gloam {
 
-/// Pixels of a picture, rows from the top: width · height · 4 numbers, of which the fourth of each pixel is not looked at.
+/// Pixels of a picture, rows from the top: width · height · 4 numbers, of which the fourth of each pixel is not looked
+/// at.
 template <class T>
 struct Pixels {
   std::uint32_t width = 0;   ///< > 0

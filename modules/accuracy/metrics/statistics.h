@@ -17,7 +17,8 @@ struct ErrorStatistics {
 
 [[nodiscard]] ErrorStatistics statistics_of(std::span<const float> errors);
 
-/// The value below which a fraction (0…1) of the values lies, linear between neighbours. values: not empty; its order changes.
+/// The value below which a fraction (0…1) of the values lies, linear between neighbours. values: not empty; its order
+/// changes.
 [[nodiscard]] double quantile(std::vector<double>& values, double fraction);
 
 }  // namespace gloam

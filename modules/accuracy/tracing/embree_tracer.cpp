@@ -66,8 +66,8 @@ class EmbreeTracer final : public SceneTracer {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // no ray slips between triangles that share an edge
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
     for (TriangleMesh& mesh : triangles.meshes) attach(std::move(mesh));
-    // Embree builds with as many of TBB's threads as its surroundings allow: here the caller alone. Its own setting for that would
-    // hold for everybody in the process who uses TBB.
+    // Embree builds with as many of TBB's threads as its surroundings allow: here the caller alone. Its own setting for
+    // that would hold for everybody in the process who uses TBB.
     tbb::task_arena alone(1);
     alone.execute([this] { rtcCommitScene(scene_); });
   }

@@ -5,12 +5,13 @@
 #include <memory>
 
 #include "engine/core/result.h"
-#include "engine/render/scene_tracer.h"
+#include "engine/render/reference/scene_tracer.h"
 #include "modules/accuracy/tracing/scene_triangles.h"
 
 namespace gloam {
 
-/// Traces with Embree 3 on the calling threads; no thread of its own. Triangles with positions that are not finite are left out.
+/// Traces with Embree 3 on the calling threads; no thread of its own. Triangles with positions that are not finite are
+/// left out.
 [[nodiscard]] Result<std::unique_ptr<SceneTracer>> make_embree_tracer(SceneTriangles triangles);
 
 }  // namespace gloam

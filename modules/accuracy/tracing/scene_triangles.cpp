@@ -69,7 +69,8 @@ dvec3 middle_of(std::span<const Instance> instances) {
   return low.x <= high.x ? (low + high) * 0.5 : dvec3(0.0);
 }
 
-/// Sum 1, none negative; weights that sum to nothing leave everything to the first joint, as in the vertex data of frames.
+/// Sum 1, none negative; weights that sum to nothing leave everything to the first joint, as in the vertex data of
+/// frames.
 vec4 normalised(const vec4& weights) {
   vec4 result(0.0f);
   float sum = 0.0f;

@@ -13,8 +13,8 @@
 
 namespace gloam {
 
-/// Where a surface has holes: its alpha, as a frame tests it. Frames filter with mips; here the image itself is looked at, between its
-/// texels as the sampler says.
+/// Where a surface has holes: its alpha, as a frame tests it. Frames filter with mips; here the image itself is looked
+/// at, between its texels as the sampler says.
 struct CutOut {
   float alpha = 1.0f;  ///< of the material
   float cutoff = 0.5f;
@@ -49,8 +49,9 @@ struct SceneTriangles {
   [[nodiscard]] std::uint64_t hash() const;
 };
 
-/// The triangles of all MeshInstances as a frame shows them after its systems: WorldTransform in double, morphed by MorphWeights, skinned
-/// by JointMatrices with up to four joints a vertex. Blended surfaces are left out. origin: world; none: the middle of all there is.
+/// The triangles of all MeshInstances as a frame shows them after its systems: WorldTransform in double, morphed by
+/// MorphWeights, skinned by JointMatrices with up to four joints a vertex. Blended surfaces are left out. origin:
+/// world; none: the middle of all there is.
 [[nodiscard]] SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& origin,
                                               JobExecutor& executor);
 

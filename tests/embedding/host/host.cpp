@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-// Builds a world by code, without a scene file, lets the schedule move it on an executor of the host's own, and checks what came out.
+// Builds a world by code, without a scene file, lets the schedule move it on an executor of the host's own, and checks
+// what came out.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

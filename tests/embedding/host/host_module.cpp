@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-// A module of the host's own, with a shader of its own, among gloam's: drawn on a device that only writes down what it is told.
+// A module of the host's own, with a shader of its own, among gloam's: drawn on a device that only writes down what it
+// is told.
 #include <cstdio>
 #include <string>
 #include <utility>

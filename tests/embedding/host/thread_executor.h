@@ -19,8 +19,8 @@
 
 namespace host {
 
-/// gloam's jobs on a host's own threads: one stack of tasks under one lock. Whoever waits for a batch works meanwhile, so
-/// batches may be started from inside jobs.
+/// gloam's jobs on a host's own threads: one stack of tasks under one lock. Whoever waits for a batch works meanwhile,
+/// so batches may be started from inside jobs.
 class ThreadExecutor final : public gloam::JobExecutor {
  public:
   explicit ThreadExecutor(std::uint32_t threads) {

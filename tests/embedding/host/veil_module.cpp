@@ -78,7 +78,8 @@ class VeilModule final : public Module {
     return found;
   }
 
-  // One function makes the description, so that list and use agree. A name holds every constant, format and state that varies.
+  // One function makes the description, so that list and use agree. A name holds every constant, format and state that
+  // varies.
   [[nodiscard]] static gpu::GraphicsPipelineDesc pipeline() {
     gpu::GraphicsPipelineDesc desc =
         fullscreen_pipeline("veil", "veil", shaders::veil::veil_frag, gpu::Format::rgba16_float);

@@ -20,7 +20,8 @@ using ::testing::HasSubstr;
 
 constexpr std::uint32_t kSide = 4;
 
-/// A renderer on paper: "samples" makes the picture brighter by 1/samples and takes that many milliseconds; "look" is a matter of taste.
+/// A renderer on paper: "samples" makes the picture brighter by 1/samples and takes that many milliseconds; "look" is a
+/// matter of taste.
 class FakeSubject final : public CostSubject {
  public:
   FakeSubject() {

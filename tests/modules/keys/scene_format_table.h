@@ -28,7 +28,8 @@ inline SceneValue list(std::initializer_list<double> values) {
   return array;
 }
 
-/// Where keys are set in this test: a light (the kind that `kind` says), a material, a scene's environment, a folder with a file.
+/// Where keys are set in this test: a light (the kind that `kind` says), a material, a scene's environment, a folder
+/// with a file.
 struct Place {
   World world;
   TemporaryFolder folder;

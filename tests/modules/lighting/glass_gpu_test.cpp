@@ -9,7 +9,8 @@
 namespace gloam {
 namespace {
 
-/// Panes of glass among many lights: they take the lights of their 32×32 tile at their own depth, whatever lies behind them.
+/// Panes of glass among many lights: they take the lights of their 32×32 tile at their own depth, whatever lies behind
+/// them.
 struct Glass : test::LitSceneTest {
   void SetUp() override {
     LitSceneTest::SetUp();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/render/capture.h"
+#include "engine/render/readback/capture.h"
 #include "modules/lighting/exposure.h"
 #include "tests/modules/lighting/lit_scene.h"
 

@@ -11,7 +11,7 @@
 
 #include "engine/scene/components.h"
 #include "engine/scene/gltf_import.h"
-#include "modules/lights/light_list.h"
+#include "modules/lights/selection/light_list.h"
 #include "tests/jobs/executors.h"
 
 namespace gloam {

@@ -10,7 +10,7 @@
 #include "engine/scene/gltf_import.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"
-#include "modules/shadows/shadow_knobs.h"
+#include "modules/shadows/knobs.h"
 
 namespace gloam {
 namespace {

@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/draws/draw_lists.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "engine/ecs/view.h"
+#include "engine/render/scene/caster_bounds.h"
+#include "engine/scene/resources.h"
+
+namespace gloam {
+namespace {
+
+struct Instance {
+  Entity entity;
+  std::uint32_t mesh = 0;
+  dmat4 matrix = dmat4(1.0);
+  const JointMatrices::Range* joints = nullptr;
+  std::uint32_t first_weight = 0;
+  std::uint32_t weight_count = 0;
+};
+
+std::vector<Instance> gather_instances(const World& world, const GpuScene& scene) {
+  std::vector<Instance> instances;
+  const auto& ranges = world.resource<JointMatrices>().ranges;
+  world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
+      [&](Entity entity, const MeshInstance& mesh, const WorldTransform& transform, const MorphInstance* morph) {
+        if (mesh.mesh >= scene.meshes().size()) return;
+        Instance instance{entity, mesh.mesh, transform.matrix};
+        if (mesh.skin != kNone) {
+          const auto range = std::lower_bound(
+              ranges.begin(), ranges.end(), entity.index,
+              [](const JointMatrices::Range& r, std::uint32_t index) { return r.instance.index < index; });
+          if (range != ranges.end() && range->instance == entity && range->count > 0) instance.joints = &*range;
+        }
+        if (morph != nullptr) {
+          instance.first_weight = morph->first;
+          instance.weight_count = morph->count;
+        }
+        instances.push_back(instance);
+      });
+  return instances;
+}
+
+mat4 affine(const shaders::DrawConstants& c) { return glm::transpose(mat4(c.row0, c.row1, c.row2, vec4(0, 0, 0, 1))); }
+
+float nearest_depth(const RenderView& view, const Aabb& relative) {
+  const vec3 forward = -vec3(glm::transpose(view.view_from_relative)[2]);
+  return glm::dot(forward, relative.center()) - glm::dot(glm::abs(forward), relative.half_extent());
+}
+
+/// Bounds of the posed surface relative to the skin's origin: a convex mix of points lies in the union of their boxes.
+Aabb posed_bounds(const GpuPrimitive& primitive, const JointMatrices& joints, const JointMatrices::Range& range) {
+  Aabb bounds;
+  for (const auto& [joint, box] : primitive.joint_bounds)
+    if (joint < range.count) bounds.grow(transformed(box, joints.matrices[range.first + joint]));
+  return bounds;
+}
+
+/// Everything one instance draws.
+class InstanceDrawer {
+ public:
+  InstanceDrawer(const World& world, const RenderView& view, const GpuScene& scene, bool with_casters)
+      : view_(view),
+        scene_(scene),
+        joints_(world.resource<JointMatrices>()),
+        weights_(world.resource<MorphWeights>().values),
+        with_casters_(with_casters) {}
+
+  void draw(const Instance& instance, DrawLists& lists) const {
+    for (const GpuPrimitive& primitive : scene_.meshes()[instance.mesh]) {
+      if (primitive.index_count == 0) continue;
+      const bool skinned = primitive.skinned && instance.joints != nullptr;
+      const bool morphed = primitive.morph_targets > 0 && instance.weight_count >= primitive.morph_targets;
+      if (skinned || morphed)
+        draw_deformed(instance, primitive, skinned, morphed, lists);
+      else
+        draw_rigid(instance, primitive, lists);
+    }
+  }
+
+ private:
+  [[nodiscard]] bool casts(const GpuPrimitive& primitive) const {
+    return with_casters_ && scene_.materials()[primitive.material].alpha_mode != AlphaMode::blend;
+  }
+
+  void cast(Entity entity, const GpuPrimitive& primitive, const dmat4& world_from_mesh, bool flipped,
+            const WorldBox& box, std::uint32_t deform, DrawLists& lists) const {
+    const GpuMaterial& material = scene_.materials()[primitive.material];
+    Caster caster;
+    caster.entity = entity;
+    caster.primitive = &primitive;
+    caster.variant = surface_variant(material, primitive, flipped);
+    caster.subsurface = material.subsurface;
+    caster.moving = deform != kNone;
+    caster.deform = deform;
+    caster.world_from_mesh = world_from_mesh;
+    const WorldBox bounds = box.known() ? box : WorldBox{};
+    caster.bounds_min = bounds.min;
+    caster.bounds_max = bounds.max;
+    lists.casters.casters.push_back(caster);
+  }
+
+  /// `world_from_mesh`: of its moved vertices.
+  [[nodiscard]] WorldBox deformed_box(const Instance& instance, const GpuPrimitive& primitive, bool skinned,
+                                      bool morphed, const dmat4& world_from_mesh) const {
+    Aabb reach;
+    if (morphed) {
+      if (std::size_t{instance.first_weight} + primitive.morph_targets > weights_.size()) return {};
+      reach = morph_reach(primitive, weights_.subspan(instance.first_weight, primitive.morph_targets));
+    }
+    if (skinned) return posed_box(primitive, joints_, *instance.joints, reach);
+    return world_box({primitive.bounds.min + reach.min, primitive.bounds.max + reach.max}, world_from_mesh);
+  }
+
+  [[nodiscard]] Draw start(const GpuPrimitive& primitive, const shaders::DrawConstants& constants, bool flipped) const {
+    const GpuMaterial& material = scene_.materials()[primitive.material];
+    Draw draw;
+    draw.primitive = &primitive;
+    draw.constants = constants;
+    draw.variant = surface_variant(material, primitive, flipped);
+    return draw;
+  }
+
+  void add(Draw draw, const Aabb& relative_bounds, DrawLists& lists) const {
+    draw.depth_m = nearest_depth(view_, relative_bounds);
+    const bool blended = scene_.materials()[draw.primitive->material].alpha_mode == AlphaMode::blend;
+    (blended ? lists.blended : lists.solid).push_back(draw);
+  }
+
+  void draw_rigid(const Instance& instance, const GpuPrimitive& primitive, DrawLists& lists) const {
+    const shaders::DrawConstants constants = draw_constants(instance.matrix, view_.position);
+    const bool flipped = (constants.flags & GLOAM_DRAW_MIRRORED) != 0;
+    if (casts(primitive))
+      cast(instance.entity, primitive, instance.matrix, flipped, world_box(primitive.bounds, instance.matrix), kNone,
+           lists);
+    const mat4 matrix = affine(constants);
+    const Aabb whole = transformed(primitive.bounds, matrix);
+    if (!may_intersect(view_.frustum, whole)) {
+      ++lists.culled_instances;
+      return;
+    }
+    Draw draw = start(primitive, constants, flipped);
+    for (const Cluster& cluster : primitive.clusters) {
+      const bool visible =
+          primitive.clusters.size() == 1 || may_intersect(view_.frustum, transformed(cluster.bounds, matrix));
+      if (!visible) continue;
+      if (draw.index_count > 0 && draw.first_index + draw.index_count == primitive.first_index + cluster.first_index) {
+        draw.index_count += cluster.index_count;
+        continue;
+      }
+      if (draw.index_count > 0) add(draw, whole, lists);
+      draw.first_index = primitive.first_index + cluster.first_index;
+      draw.index_count = cluster.index_count;
+    }
+    if (draw.index_count > 0) add(draw, whole, lists);
+  }
+
+  void draw_deformed(const Instance& instance, const GpuPrimitive& primitive, bool skinned, bool morphed,
+                     DrawLists& lists) const {
+    dmat4 matrix = instance.matrix;
+    bool flipped = false;
+    if (skinned) {
+      // Skinned vertices come out in the world's axes, relative to the range's origin.
+      matrix = dmat4(1.0);
+      matrix[3] = dvec4(instance.joints->origin, 1.0);
+      flipped = instance.joints->mirrored;
+    }
+    const shaders::DrawConstants constants = draw_constants(matrix, view_.position);
+    if (!skinned) flipped = (constants.flags & GLOAM_DRAW_MIRRORED) != 0;
+    Aabb bounds;
+    bool visible = true;
+    if (skinned && !morphed) {
+      bounds = transformed(posed_bounds(primitive, joints_, *instance.joints), affine(constants));
+      visible = may_intersect(view_.frustum, bounds);
+    } else {
+      bounds = transformed(primitive.bounds, affine(constants));  // only orders the draws: morphed bounds are not known
+    }
+    if (!visible) ++lists.culled_instances;
+    const bool casts_too = casts(primitive);
+    if (!visible && !casts_too) return;
+    const auto deform = static_cast<std::uint32_t>(lists.deforms.size());
+    lists.deforms.push_back(deform_job(instance, primitive, skinned, morphed));
+    if (casts_too)
+      cast(instance.entity, primitive, matrix, flipped, deformed_box(instance, primitive, skinned, morphed, matrix),
+           deform, lists);
+    if (!visible) return;
+    Draw draw = start(primitive, constants, flipped);
+    draw.first_index = primitive.first_index;
+    draw.index_count = primitive.index_count;
+    draw.deform = deform;
+    add(draw, bounds, lists);
+  }
+
+  [[nodiscard]] static DeformJob deform_job(const Instance& instance, const GpuPrimitive& primitive, bool skinned,
+                                            bool morphed) {
+    DeformJob job;
+    job.primitive = &primitive;
+    job.constants.vertex_count = primitive.vertex_count;
+    job.constants.skinned = skinned ? 1 : 0;
+    job.constants.first_joint = skinned ? instance.joints->first : 0;
+    job.constants.morph_targets = morphed ? primitive.morph_targets : 0;
+    job.constants.first_weight = instance.first_weight;
+    job.constants.morph_has_normals = primitive.morph_has_normals ? 1 : 0;
+    return job;
+  }
+
+  const RenderView& view_;
+  const GpuScene& scene_;
+  const JointMatrices& joints_;
+  std::span<const float> weights_;
+  bool with_casters_;
+};
+
+void append(DrawLists& all, DrawLists& part) {
+  const auto shift = static_cast<std::uint32_t>(all.deforms.size());
+  for (std::vector<Draw>* draws : {&part.solid, &part.blended})
+    for (Draw& draw : *draws)
+      if (draw.deform != kNone) draw.deform += shift;
+  for (Caster& caster : part.casters.casters)
+    if (caster.deform != kNone) caster.deform += shift;
+  all.solid.insert(all.solid.end(), part.solid.begin(), part.solid.end());
+  all.blended.insert(all.blended.end(), part.blended.begin(), part.blended.end());
+  all.deforms.insert(all.deforms.end(), part.deforms.begin(), part.deforms.end());
+  all.casters.casters.insert(all.casters.casters.end(), part.casters.casters.begin(), part.casters.casters.end());
+  all.culled_instances += part.culled_instances;
+}
+
+}  // namespace
+
+shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3& origin) {
+  dmat4 relative = world_from_mesh;
+  relative[3] -= dvec4(origin, 0.0);
+  const mat4 rows = glm::transpose(mat4(relative));
+  shaders::DrawConstants constants{};
+  constants.row0 = rows[0];
+  constants.row1 = rows[1];
+  constants.row2 = rows[2];
+  if (glm::determinant(glm::dmat3(relative)) < 0.0) constants.flags |= GLOAM_DRAW_MIRRORED;
+  return constants;
+}
+
+DrawLists build_draw_lists(const World& world, const RenderView& view, const GpuScene& scene, JobExecutor& executor,
+                           bool with_casters) {
+  const std::vector<Instance> instances = gather_instances(world, scene);
+  const InstanceDrawer drawer(world, view, scene, with_casters);
+  constexpr std::size_t kGrain = 64;
+  std::vector<DrawLists> parts((instances.size() + kGrain - 1) / kGrain);
+  executor.parallel_for(instances.size(), kGrain, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) drawer.draw(instances[i], parts[range.ordinal]);
+  });
+  DrawLists lists;
+  for (DrawLists& part : parts) append(lists, part);
+  for (DeformJob& job : lists.deforms) {
+    job.first_vertex = lists.deformed_vertices;
+    lists.deformed_vertices += (job.primitive->vertex_count + 63) / 64 * 64;
+  }
+  const auto index_of = [](const Caster& caster) { return caster.entity.index; };
+  if (!std::ranges::is_sorted(lists.casters.casters, {}, index_of))
+    std::ranges::stable_sort(lists.casters.casters, {}, index_of);
+  std::stable_sort(lists.solid.begin(), lists.solid.end(), [](const Draw& a, const Draw& b) {
+    return std::tie(a.variant, a.depth_m) < std::tie(b.variant, b.depth_m);
+  });
+  std::stable_sort(lists.blended.begin(), lists.blended.end(),
+                   [](const Draw& a, const Draw& b) { return a.depth_m > b.depth_m; });
+  return lists;
+}
+
+}  // namespace gloam

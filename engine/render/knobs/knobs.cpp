@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/knobs/knobs.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/core/assert.h"
+
+namespace gloam {
+namespace {
+
+std::string number_text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
+  return std::string(buffer, end);
+}
+
+std::string valid_values(const Knob& knob) {
+  if (knob.type != Knob::Type::choice) {
+    const std::string kind = knob.type == Knob::Type::integer ? "an integer" : "a number";
+    return kind + " in " + number_text(knob.min) + "…" + number_text(knob.max) +
+           (knob.unit.empty() ? "" : " " + knob.unit);
+  }
+  std::string list = "one of ";
+  for (std::size_t i = 0; i < knob.choices.size(); ++i) list += (i > 0 ? ", " : "") + knob.choices[i];
+  return list;
+}
+
+/// The number a text sets a knob to, if it is one of its values.
+std::optional<double> parse_value(const Knob& knob, std::string_view value) {
+  if (knob.type == Knob::Type::choice) {
+    const auto found = std::find(knob.choices.begin(), knob.choices.end(), value);
+    if (found == knob.choices.end()) return std::nullopt;
+    return static_cast<double>(found - knob.choices.begin());
+  }
+  double parsed = 0.0;
+  const auto result = std::from_chars(value.data(), value.data() + value.size(), parsed);
+  if (result.ec != std::errc() || result.ptr != value.data() + value.size()) return std::nullopt;
+  if (!(parsed >= knob.min && parsed <= knob.max)) return std::nullopt;
+  if (knob.type == Knob::Type::integer && parsed != std::floor(parsed)) return std::nullopt;
+  return parsed;
+}
+
+}  // namespace
+
+std::string value_text(const Knob& knob, double value) {
+  return knob.type == Knob::Type::choice ? knob.choices[static_cast<std::size_t>(value)] : number_text(value);
+}
+
+void KnobRegistry::add(Knob knob) {
+  GLOAM_ASSERT(find(knob.name) == nullptr, "a knob's name is declared twice");
+  if (knob.type == Knob::Type::choice) {
+    knob.min = 0.0;
+    knob.max = static_cast<double>(knob.choices.size()) - 1.0;
+  }
+  GLOAM_ASSERT(knob.default_number >= knob.min && knob.default_number <= knob.max,
+               "a knob's default lies outside its range");
+  GLOAM_ASSERT(knob.exact.empty() || parse_value(knob, knob.exact), "a knob's exact value is none of its values");
+  values_.push_back(knob.default_number);
+  knobs_.push_back(std::move(knob));
+}
+
+Status KnobRegistry::set(std::string_view name, std::string_view value) {
+  const Knob* knob = find(name);
+  if (knob == nullptr) {
+    std::string list;
+    for (const Knob& k : knobs_) list += (list.empty() ? "" : ", ") + k.name;
+    return Error{ErrorKind::usage,
+                 "unknown knob " + std::string(name) + "; there are " + (list.empty() ? "none" : list)};
+  }
+  const std::optional<double> parsed = parse_value(*knob, value);
+  if (!parsed)
+    return Error{ErrorKind::usage,
+                 "knob " + knob->name + " must be " + valid_values(*knob) + ", is \"" + std::string(value) + "\""};
+  values_[static_cast<std::size_t>(knob - knobs_.data())] = *parsed;
+  ++version_;
+  return {};
+}
+
+Status KnobRegistry::set_assignment(std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos)
+    return Error{ErrorKind::usage, "a knob is set as NAME=VALUE, not \"" + std::string(assignment) + "\""};
+  return set(assignment.substr(0, equals), assignment.substr(equals + 1));
+}
+
+Status KnobRegistry::set_from_json(std::string_view text, std::string_view source) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) return Error{ErrorKind::usage, std::string(source) + ": is not a JSON object of knobs"};
+  for (const auto& [name, value] : json.items()) {
+    const std::string word = value.is_string() ? value.get<std::string>() : value.dump();
+    if (Status status = set(name, word); !status.ok())
+      return Error{ErrorKind::usage, std::string(source) + ": " + status.error().message};
+  }
+  return {};
+}
+
+const Knob* KnobRegistry::find(std::string_view name) const {
+  const auto found = std::find_if(knobs_.begin(), knobs_.end(), [&](const Knob& k) { return k.name == name; });
+  return found == knobs_.end() ? nullptr : &*found;
+}
+
+std::size_t KnobRegistry::index_of(std::string_view name) const {
+  const Knob* knob = find(name);
+  GLOAM_ASSERT(knob != nullptr, "a knob must be declared before it is read");
+  return static_cast<std::size_t>(knob - knobs_.data());
+}
+
+std::uint32_t KnobRegistry::choice(std::string_view name) const {
+  const std::size_t i = index_of(name);
+  GLOAM_ASSERT(knobs_[i].type == Knob::Type::choice, "the knob has no choices");
+  return static_cast<std::uint32_t>(values_[i]);
+}
+
+double KnobRegistry::number(std::string_view name) const { return values_[index_of(name)]; }
+
+bool KnobRegistry::is(std::string_view name, std::string_view value) const { return text(name) == value; }
+
+std::string KnobRegistry::text(std::string_view name) const {
+  const std::size_t i = index_of(name);
+  return value_text(knobs_[i], values_[i]);
+}
+
+}  // namespace gloam

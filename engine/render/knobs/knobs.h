@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "engine/core/result.h"
+
+namespace gloam {
+
+/// A setting that trades accuracy for time, declared once by its module: it serves the command line, files, panels, the
+/// cost ledger and tests. A default is the value a user gets who sets nothing.
+struct Knob {
+  enum class Type { choice, integer, number };
+  std::string name;  ///< "lights.culling"
+  std::string module;
+  std::string meaning;
+  Type type = Type::choice;
+  std::vector<std::string> choices;  ///< for choice
+  double min = 0.0;
+  double max = 0.0;
+  double default_number = 0.0;  ///< for choice: index into choices
+  std::string unit;
+  std::vector<double>
+      ledger_values;  ///< numbers worth a row of the ledger; empty: all choices, or the default and the exact number
+  /// Text of the most exact value: the same frame drawn with it is what the other values are held against. Empty: no
+  /// value is more right than another, or the module judges the knob by a reference of its own (Module::references).
+  std::string exact;
+};
+
+/// The text that sets a knob to a number of its range (for choice: an index).
+[[nodiscard]] std::string value_text(const Knob& knob, double value);
+
+/// All knobs of all modules with their current values. Names are unique.
+class KnobRegistry {
+ public:
+  /// Asserts on a duplicate name, a default out of range or an exact value that cannot be set.
+  void add(Knob knob);
+
+  /// From text: "tiled", "3", "0.5". Usage error that lists what is valid.
+  [[nodiscard]] Status set(std::string_view name, std::string_view value);
+  /// "NAME=VALUE".
+  [[nodiscard]] Status set_assignment(std::string_view assignment);
+  /// A JSON object of name → string, number or boolean; usage error names `source` and the fault.
+  [[nodiscard]] Status set_from_json(std::string_view text, std::string_view source);
+
+  /// Index of the chosen choice. The knob must exist.
+  [[nodiscard]] std::uint32_t choice(std::string_view name) const;
+  [[nodiscard]] double number(std::string_view name) const;
+  [[nodiscard]] bool is(std::string_view name, std::string_view choice) const;
+  [[nodiscard]] std::string text(std::string_view name) const;
+
+  [[nodiscard]] const std::vector<Knob>& knobs() const { return knobs_; }
+  [[nodiscard]] const Knob* find(std::string_view name) const;
+  /// Grows with every change of a value.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
+
+ private:
+  [[nodiscard]] std::size_t index_of(std::string_view name) const;
+  std::vector<Knob> knobs_;
+  std::vector<double> values_;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace gloam

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/math/types.h"
+#include "engine/render/outputs.h"
+#include "engine/render/view.h"
+
+namespace gloam {
+
+/// The geometry buffer of a view's last frame on the CPU; texels row by row from the top.
+struct GeometryPicture {
+  RenderView view;
+  std::vector<float> depth;  ///< reversed Z, 0 = sky
+  std::vector<std::uint32_t> base_color;
+  std::vector<uvec2> normals;
+  std::vector<std::uint32_t> material;
+
+  [[nodiscard]] bool is_sky(std::size_t at) const { return depth[at] <= 0.0f; }
+  [[nodiscard]] GeometryTexel texel(std::size_t at) const {
+    return decode_geometry(base_color[at], normals[at], material[at]);
+  }
+  /// Camera-relative position of the surface under the centre of a pixel that is not sky; in double.
+  [[nodiscard]] dvec3 position(std::uint32_t x, std::uint32_t y) const;
+};
+
+}  // namespace gloam

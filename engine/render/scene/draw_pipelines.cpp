@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/scene/draw_pipelines.h"
+
+#include "engine/render/scene/mesh_packing.h"
+#include "shaders/render/shaders.h"
+
+namespace gloam {
+
+namespace {
+
+std::string name_of(const SurfacePass& pass, SurfaceVariant variant) {
+  static constexpr const char* kCullNames[] = {"/two-sided", "/front-culled", "/back-culled"};
+  return pass.name + "/" + std::to_string(variant.features) + kCullNames[static_cast<std::size_t>(variant.cull)];
+}
+
+}  // namespace
+
+gpu::GraphicsPipelineDesc surface_pipeline_desc(const SurfacePass& pass, SurfaceVariant variant) {
+  gpu::GraphicsPipelineDesc desc;
+  desc.name = name_of(pass, variant);
+  desc.module = pass.module;
+  desc.vertex = shaders::render::surface_vert;
+  desc.fragment = pass.fragment;
+  desc.constants = {{0, variant.features}};
+  desc.constants.insert(desc.constants.end(), pass.constants.begin(), pass.constants.end());
+  desc.attributes = {{0, 0, gpu::Format::rgb32_float, 0},
+                     {1, 1, gpu::Format::rg32_uint, 0},
+                     {2, 2, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)},
+                     {3, 2, gpu::Format::rgba8_unorm, offsetof(PackedSurface, color)}};
+  desc.stream_strides = {sizeof(vec3), sizeof(PackedFrame), sizeof(PackedSurface)};
+  desc.color_formats = pass.color_formats;
+  desc.depth_format = gpu::Format::d32_float;
+  desc.cull = variant.cull;
+  desc.blend = pass.blend;
+  desc.depth_compare = gpu::CompareOp::greater_equal;
+  desc.depth_write = pass.depth_write;
+  return desc;
+}
+
+Result<gpu::PipelineHandle> surface_pipeline(Pipelines& pipelines, const SurfacePass& pass, SurfaceVariant variant) {
+  if (const gpu::PipelineHandle found = pipelines.find(name_of(pass, variant))) return found;
+  return pipelines.get(surface_pipeline_desc(pass, variant));
+}
+
+}  // namespace gloam

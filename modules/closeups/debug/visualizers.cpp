@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/closeups/debug/visualizers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "modules/closeups/compose/frame.h"
+#include "modules/closeups/debug/lines.h"
+#include "shaders/closeups/closeup_views_shared.h"
+#include "shaders/closeups/shaders.h"
+
+namespace gloam {
+namespace {
+
+constexpr const char* kFrusta = "closeup_frusta";
+constexpr const char* kTexels = "closeup_texels";
+
+/// What a view pass records with.
+struct ViewDraw {
+  bool texels = false;
+  std::uint32_t count = 0;  ///< of pairs
+  gpu::PipelineHandle pipeline;
+  gpu::SamplerHandle sampler;
+  gpu::Binding::BufferRange closeups;
+  gpu::Binding::BufferRange lines;
+  GeometryOutputs geometry;
+  ImageRef picture;
+  ImageRef named;
+};
+
+/// Pairs and the lines of their frusta.
+struct Shown {
+  std::vector<shaders::ShownCloseup> closeups;
+  std::vector<shaders::CloseupLine> lines;
+};
+
+shaders::ShownCloseup shown_closeup(const CloseupView& pair, const RenderView& view) {
+  const ShadowFace& face = pair.face;
+  shaders::ShownCloseup shown{};
+  shown.origin = view.relative(face.origin);
+  shown.tan_half = face.tan_half;
+  shown.right = face.right;
+  shown.half_extent_m = face.half_extent_m;
+  shown.up = face.up;
+  shown.near_m = face.near_m;
+  shown.forward = face.forward;
+  shown.far_m = face.far_m;
+  shown.color = closeup_color(pair.pair);
+  shown.size = static_cast<float>(face.square.size);
+  shown.first_tile = pair.tiles.begin;
+  shown.end_tile = pair.tiles.end;
+  return shown;
+}
+
+Shown shown_closeups(std::span<const CloseupView> pairs, const RenderView& view) {
+  Shown shown;
+  for (const CloseupView& pair : pairs) {
+    shaders::ShownCloseup closeup = shown_closeup(pair, view);
+    const std::vector<shaders::CloseupLine> lines =
+        frustum_lines(pair.face, view, static_cast<double>(GLOAM_CLOSEUP_LINE_REACH));
+    closeup.first_line = static_cast<std::uint32_t>(shown.lines.size());
+    closeup.line_count = static_cast<std::uint32_t>(lines.size());
+    closeup.lines_low = vec2(1e9f);
+    closeup.lines_high = vec2(-1e9f);
+    for (const shaders::CloseupLine& line : lines) {
+      closeup.lines_low = glm::min(closeup.lines_low, glm::min(line.from, line.to) - GLOAM_CLOSEUP_LINE_REACH);
+      closeup.lines_high = glm::max(closeup.lines_high, glm::max(line.from, line.to) + GLOAM_CLOSEUP_LINE_REACH);
+    }
+    shown.lines.insert(shown.lines.end(), lines.begin(), lines.end());
+    shown.closeups.push_back(closeup);
+  }
+  // A buffer has at least one item.
+  if (shown.lines.empty()) shown.lines.emplace_back();
+  return shown;
+}
+
+gpu::GraphicsPipelineDesc view_pipeline(bool texels, gpu::Format format) {
+  using namespace shaders::closeups;
+  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(
+      std::string(texels ? "closeup_texels_view/" : "closeup_frusta_view/") + std::string(gpu::name_of(format)),
+      "closeups", texels ? closeup_texels_view_frag : closeup_frusta_view_frag, format);
+  desc.color_formats.push_back(texels ? gpu::Format::rgba16_float : gpu::Format::rgba8_unorm);
+  desc.blend = gpu::BlendMode::alpha;
+  desc.constants = {{0, gpu::encodes_srgb(format) ? 0u : 1u}};
+  return desc;
+}
+
+void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& draw) {
+  const auto sampled = [&](ImageRef image) {
+    return gpu::Binding::Sampled{{.image = context.image(image)}, draw.sampler};
+  };
+  gpu::CommandList& commands = context.commands();
+  gpu::RenderingDesc rendering;
+  rendering.colors.push_back({.view = {.image = context.image(draw.picture)}, .load = gpu::LoadOp::load});
+  rendering.colors.push_back({.view = {.image = context.image(draw.named)}, .load = gpu::LoadOp::clear});
+  begin_view_rendering(commands, frame.view(), std::move(rendering));
+  commands.bind_pipeline(draw.pipeline);
+  std::vector<gpu::Binding> bindings = {
+      frame.view_binding(), {1, draw.closeups}, {2, sampled(draw.geometry.depth)}, {3, draw.lines}};
+  if (draw.texels) bindings.back() = {3, sampled(draw.geometry.normals)};
+  commands.bind(bindings);
+  commands.push(draw.count);
+  commands.draw(3, 1, 0, 0);
+  commands.end_rendering();
+}
+
+Status add_view(FrameBuilder& frame, std::span<const CloseupView> pairs, bool texels) {
+  TargetOutput& target = frame.get<TargetOutput>();
+  const FrameServices& services = frame.services();
+  const Shown shown = shown_closeups(pairs.first(std::min(pairs.size(), kMostShownCloseups)), frame.view());
+  ViewDraw draw{.texels = texels, .count = static_cast<std::uint32_t>(shown.closeups.size())};
+  auto closeups = services.storage.write(std::as_bytes(std::span(shown.closeups)));
+  if (!closeups.ok()) return closeups.error();
+  auto lines = services.storage.write(std::as_bytes(std::span(shown.lines)));
+  if (!lines.ok()) return lines.error();
+  auto pipeline = services.pipelines.get(view_pipeline(texels, target.format));
+  if (!pipeline.ok()) return pipeline.error();
+  auto sampler = frame.nearest_sampler();
+  if (!sampler.ok()) return sampler.error();
+  draw.pipeline = *pipeline;
+  draw.sampler = *sampler;
+  draw.closeups = *closeups;
+  draw.lines = *lines;
+  draw.geometry = frame.get<GeometryOutputs>();
+  const std::string name = texels ? kTexels : kFrusta;
+  const ImageRef image =
+      create_view_image(frame, name, "closeups", texels ? gpu::Format::rgba16_float : gpu::Format::rgba8_unorm);
+  PassBuilder pass = frame.graph().add_pass(name + "_view", "closeups");
+  pass.read(draw.geometry.depth, gpu::Access::fragment_read);
+  if (texels) pass.read(draw.geometry.normals, gpu::Access::fragment_read);
+  draw.named = pass.write(image, gpu::Access::color_target);
+  target.color = draw.picture = pass.write(target.color, gpu::Access::color_target);
+  frame.expose(draw.named);
+  pass.execute([&frame, draw](PassContext& context) { record(frame, context, draw); });
+  return {};
+}
+
+bool has_final_lists(const FrameBuilder& frame) {
+  const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
+  return shadows != nullptr && shadows->final_lists.has_value();
+}
+
+}  // namespace
+
+std::span<const CloseupView> drawn_closeups(const FrameBuilder& frame) {
+  const auto* closeups = frame.find<CloseupFrame>();
+  if (closeups == nullptr || !has_final_lists(frame)) return {};
+  return closeups->pairs;
+}
+
+vec3 closeup_color(Entity pair) {
+  // Steps of the golden ratio keep hues of neighbours far apart.
+  const double hue = 6.0 * std::fmod(0.618033988749895 * pair.index, 1.0);
+  const auto channel = [&](double at) {
+    const double away = std::abs(std::remainder(hue - at, 6.0));
+    return static_cast<float>(0.06 + 0.94 * std::clamp(2.0 - away, 0.0, 1.0));
+  };
+  return {channel(0.0), channel(2.0), channel(4.0)};
+}
+
+std::vector<VisualizerInfo> closeup_visualizers() {
+  const std::string most = std::to_string(kMostShownCloseups);
+  std::vector<VisualizerInfo> views = {
+      {kFrusta, "closeups", "",
+       "each pair of a close-up subject and a light in its own colour: the edges of what its map sees, dim behind "
+       "surfaces, and the tiles its shadow may touch, tinted and framed; the first " +
+           most + " pairs, skipped ones are not shown"},
+      {kTexels, "closeups", "",
+       "texels of the close-up map along a pixel's side, of the finest map where pairs overlap: blue 1/8, cyan 1/2, 1 "
+       "between cyan and green, green 2, yellow 8, red 32, white more; darkened: in no pair's frustum and tiles; the "
+       "first " +
+           most + " pairs"}};
+  for (VisualizerInfo& view : views) {
+    view.knob = "shadows.mode";
+    view.value = "deferred";
+  }
+  return views;
+}
+
+Status CloseupViewPasses::add_pass(FrameBuilder& frame) {
+  const std::string shown(frame.visualizer());
+  if (shown != kFrusta && shown != kTexels) return {};
+  const std::span<const CloseupView> pairs = drawn_closeups(frame);
+  if (!pairs.empty()) return add_view(frame, pairs, shown == kTexels);
+  if (has_final_lists(frame)) return {};
+  const auto [sentence, fresh] =
+      told_.insert("view " + shown + " shows the picture as it is: the frame has no final lists");
+  if (fresh) frame.services().log.warning(*sentence);
+  return {};
+}
+
+}  // namespace gloam

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/closeups/pairs/frustum.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "modules/lights/outputs.h"
+
+namespace gloam {
+namespace {
+
+constexpr double kNearestMeter = 0.05;  // what is nearer to a light casts no shadow in standard maps either
+constexpr double kWidestTangent = 2.0;
+constexpr double kConeRim = 0.125;  // share of the half extent, for kernels; as ShadowSettings::kernel_rim
+constexpr double kRimTexels = 2.1;  // two, and what floats lose
+constexpr double kRounded = 1e-6;   // share by which floats may lie on the wrong side
+constexpr std::uint32_t kSmallestMap = 64;
+
+/// A box from the light's place along a map's axes.
+struct AlongAxes {
+  dvec3 low = dvec3(std::numeric_limits<double>::infinity());
+  dvec3 high = dvec3(-std::numeric_limits<double>::infinity());
+};
+
+dvec3 corner_of(const WorldBox& box, int index) {
+  return {index & 1 ? box.max.x : box.min.x, index & 2 ? box.max.y : box.min.y, index & 4 ? box.max.z : box.min.z};
+}
+
+dvec3 along(const CloseupAxes& axes, const dvec3& v) {
+  return {glm::dot(dvec3(axes.right), v), glm::dot(dvec3(axes.up), v), glm::dot(dvec3(axes.forward), v)};
+}
+
+AlongAxes along(const CloseupAxes& axes, const WorldBox& box, const dvec3& origin) {
+  AlongAxes all;
+  for (int c = 0; c < 8; ++c) {
+    const dvec3 at = along(axes, corner_of(box, c) - origin);
+    all.low = glm::min(all.low, at);
+    all.high = glm::max(all.high, at);
+  }
+  return all;
+}
+
+/// Greatest tangent to either side from the axis at which a ball lies, `beside` it and `ahead`, farther than its
+/// radius.
+double widest_tangent(double beside, double ahead, double radius) {
+  const double far = std::abs(beside);
+  return (far * ahead + radius * std::sqrt(far * far + ahead * ahead - radius * radius)) /
+         (ahead * ahead - radius * radius);
+}
+
+/// Tangent that the box, grown by the emitter, reaches to; infinite where it reaches the light's plane. The greatest
+/// tangent over the hull of eight balls is that of one of them.
+double subject_tangent(const CloseupAxes& axes, const WorldBox& box, const CloseupLight& light) {
+  double widest = 0.0;
+  for (int c = 0; c < 8; ++c) {
+    const dvec3 at = along(axes, corner_of(box, c) - light.position);
+    if (!(at.z > light.radius_m * (1.0 + kRounded) + 1e-9)) return std::numeric_limits<double>::infinity();
+    widest = std::max({widest, widest_tangent(at.x, at.z, light.radius_m), widest_tangent(at.y, at.z, light.radius_m)});
+  }
+  return widest;
+}
+
+/// What of a half extent is left when the rim goes off it on both sides.
+double inner_share(std::uint32_t size) { return 1.0 - 2.0 * kRimTexels / static_cast<double>(size); }
+
+ShadowFace looking_along(const CloseupAxes& axes, std::uint32_t size) {
+  ShadowFace face;
+  face.right = axes.right;
+  face.up = axes.up;
+  face.forward = axes.forward;
+  face.square.size = size;
+  return face;
+}
+
+std::optional<CloseupFrustum> local_frustum(const CloseupLight& light, const WorldBox& subject, std::uint32_t size) {
+  const dvec3 away = light.position - glm::clamp(light.position, subject.min, subject.max);
+  if (!(glm::dot(away, away) > light.radius_m * light.radius_m)) return std::nullopt;
+  const dvec3 middle = (subject.min + subject.max) * 0.5 - light.position;
+  if (!(glm::dot(middle, middle) > 0.0)) return std::nullopt;
+  CloseupAxes axes = closeup_axes(glm::normalize(middle));
+  const double subject_inner = subject_tangent(axes, subject, light) * (1.0 + kRounded);
+  const double cone = light.kind == LightKind::spot && light.half_angle < 1.5 ? std::tan(light.half_angle)
+                                                                              : std::numeric_limits<double>::infinity();
+  const bool by_cone = cone * (1.0 + kConeRim) < subject_inner;
+  if (by_cone) axes = {vec3(light.right), vec3(light.up), vec3(light.forward)};
+  const double inner = by_cone ? cone : subject_inner;
+  const double outer = (by_cone ? inner * (1.0 + kConeRim) : inner) / inner_share(size);
+  if (!(outer <= kWidestTangent)) return std::nullopt;
+
+  const AlongAxes extent = along(axes, subject, light.position);
+  CloseupFrustum frustum;
+  frustum.face = looking_along(axes, size);
+  frustum.face.kind = LightKind::spot;
+  frustum.face.origin = light.position;
+  frustum.face.tan_half = static_cast<float>(outer);
+  frustum.face.near_m = static_cast<float>(std::max(kNearestMeter, extent.low.z * (1.0 - kRounded)));
+  frustum.face.far_m = static_cast<float>(light.range_m);
+  frustum.tan_inner = static_cast<float>(inner);
+  if (!(extent.high.z > frustum.face.near_m) || !(frustum.face.near_m < frustum.face.far_m)) return std::nullopt;
+  return frustum;
+}
+
+std::optional<CloseupFrustum> directional_frustum(const CloseupLight& light, const WorldBox& subject,
+                                                  const WorldBox& receivers, std::uint32_t size) {
+  const CloseupAxes axes = closeup_axes(light.forward);
+  const dvec3 middle = (subject.min + subject.max) * 0.5;
+  const AlongAxes extent = along(axes, subject, middle);
+  double far = extent.high.z;
+  if (receivers.known()) far = std::max(far, along(axes, receivers, middle).high.z);
+  const double depth = far - extent.low.z;
+  const double half = std::max({extent.high.x, -extent.low.x, extent.high.y, -extent.low.y, 1e-3});
+  CloseupFrustum frustum;
+  frustum.face = looking_along(axes, size);
+  frustum.face.kind = LightKind::directional;
+  const double slack = kRounded * (half + depth);
+  frustum.face.origin = middle + dvec3(axes.forward) * (extent.low.z - slack);
+  frustum.face.tan_half = 0.0f;
+  frustum.face.near_m = 0.0f;
+  frustum.face.far_m = static_cast<float>(std::max(depth + 2.0 * slack, 1e-3));
+  frustum.face.half_extent_m = static_cast<float>((half + light.spread * depth + slack) / inner_share(size));
+  const bool finite = std::isfinite(frustum.face.far_m) && std::isfinite(frustum.face.half_extent_m);
+  return finite ? std::optional(frustum) : std::nullopt;
+}
+
+}  // namespace
+
+CloseupAxes closeup_axes(const dvec3& forward) {
+  // Turned from straight down, the way that is shortest.
+  const dvec3 down(0.0, -1.0, 0.0);
+  const double turned = 1.0 + glm::dot(down, forward);
+  dvec3 right(1.0, 0.0, 0.0);
+  if (turned > 1e-12) right -= (down + forward) * (forward.x / turned);
+  right = glm::normalize(right - forward * glm::dot(right, forward));
+  return {vec3(right), vec3(glm::cross(right, forward)), vec3(forward)};
+}
+
+std::optional<CloseupFrustum> closeup_frustum(const CloseupLight& light, const WorldBox& subject,
+                                              const WorldBox& receivers, std::uint32_t size) {
+  if (!subject.known() || size < kSmallestMap) return std::nullopt;
+  return light.kind == LightKind::directional ? directional_frustum(light, subject, receivers, size)
+                                              : local_frustum(light, subject, size);
+}
+
+std::uint32_t closeup_size(const CloseupSettings& settings, const TileRange& tiles) {
+  const std::uint32_t room = std::max(settings.batch > 1 ? settings.map_size / 2 : settings.map_size, kSmallestMap);
+  if (tiles.empty() || !(settings.texels_per_pixel > 0.0f)) return kSmallestMap;
+  const std::uint32_t side = std::max(tiles.end.x - tiles.begin.x, tiles.end.y - tiles.begin.y) * kShadowTile;
+  const double texels = static_cast<double>(side) * static_cast<double>(settings.texels_per_pixel);
+  if (texels >= static_cast<double>(room)) return room;
+  return std::clamp(std::bit_ceil(static_cast<std::uint32_t>(std::ceil(texels))), kSmallestMap, room);
+}
+
+}  // namespace gloam

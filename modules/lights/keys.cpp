@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lights/keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/key_table.h"
+#include "modules/lights/components.h"
+
+namespace gloam {
+namespace {
+
+constexpr double kHalfPi = 1.5707963267948966;
+
+/// Definitions of the file's root, looked up by its nodes; a resource while a file is read.
+struct LightDefinitions {
+  std::vector<Light> lights;
+};
+
+/// The fault alone: whoever reads the file knows the place.
+Error fault(std::string message) { return {ErrorKind::input, std::move(message)}; }
+
+/// `range`: what [min, max] is in words.
+Status read_number(const SceneValue& object, const char* name, double min, double max, const char* range,
+                   float& target) {
+  const SceneValue* value = object.find(name);
+  if (value == nullptr) return {};
+  if (value->kind != SceneValue::Kind::number || !(value->number >= min && value->number <= max))
+    return fault(std::string(name) + " must be a number " + range);
+  target = static_cast<float>(value->number);
+  return {};
+}
+
+Status read_color(const SceneValue& object, vec3& color) {
+  const SceneValue* value = object.find("color");
+  if (value == nullptr) return {};
+  if (value->kind != SceneValue::Kind::array || value->items.size() != 3) return fault("color must be three numbers");
+  for (std::size_t c = 0; c < 3; ++c) {
+    const SceneValue& item = value->items[c];
+    if (item.kind != SceneValue::Kind::number || !(item.number >= 0.0 && item.number <= 1e6))
+      return fault("color must be three numbers in 0…1000000");
+    color[static_cast<int>(c)] = static_cast<float>(item.number);
+  }
+  return {};
+}
+
+Status read_spot(const SceneValue& object, Light& light) {
+  const SceneValue* spot = object.find("spot");
+  light.inner_angle = 0.0f;
+  light.outer_angle = static_cast<float>(kHalfPi / 2.0);
+  if (spot == nullptr) return {};
+  if (spot->kind != SceneValue::Kind::object) return fault("spot must be an object");
+  constexpr const char* kAngles = "in 0…π/2 (half of a cone of at most 180°)";
+  // A half angle over π/2 is a cone over 180°, which is refused; files round π/2 either way.
+  GLOAM_TRY(read_number(*spot, "innerConeAngle", 0.0, kHalfPi + 1e-6, kAngles, light.inner_angle));
+  GLOAM_TRY(read_number(*spot, "outerConeAngle", 0.0, kHalfPi + 1e-6, kAngles, light.outer_angle));
+  if (light.outer_angle <= 0.0f) return fault("outerConeAngle must be above 0");
+  if (light.inner_angle > light.outer_angle) return fault("innerConeAngle must not exceed outerConeAngle");
+  light.outer_angle = std::min(light.outer_angle, static_cast<float>(kHalfPi));
+  return {};
+}
+
+Result<Light> read_light(const SceneValue& object) {
+  Light light;
+  const SceneValue* type = object.find("type");
+  if (type == nullptr || type->kind != SceneValue::Kind::text) return fault("a light needs a type");
+  if (type->text == "point")
+    light.kind = LightKind::point;
+  else if (type->text == "spot")
+    light.kind = LightKind::spot;
+  else if (type->text == "directional")
+    light.kind = LightKind::directional;
+  else
+    return fault("type \"" + type->text + "\" is none of point, spot, directional");
+  GLOAM_TRY(read_color(object, light.color));
+  GLOAM_TRY(read_number(object, "intensity", 0.0, 1e12, "in 0…1e12", light.intensity));
+  GLOAM_TRY(read_number(object, "range", 1e-6, 1e9, "above 0, at most 1e9", light.range_m));
+  if (light.kind == LightKind::spot) GLOAM_TRY(read_spot(object, light));
+  return light;
+}
+
+Status begin_file(World& world, const SceneValue* root) {
+  LightDefinitions definitions;
+  if (root != nullptr) {
+    const SceneValue* lights = root->find("lights");
+    if (lights == nullptr || lights->kind != SceneValue::Kind::array) return fault("lights must be an array");
+    for (std::size_t i = 0; i < lights->items.size(); ++i) {
+      auto light = read_light(lights->items[i]);
+      if (!light.ok()) return fault("light " + std::to_string(i) + ": " + light.error().message);
+      definitions.lights.push_back(*light);
+    }
+  }
+  world.set_resource(std::move(definitions));
+  return {};
+}
+
+Status read_node(KeyTarget& target, const SceneValue& node) {
+  const auto& lights = target.world.resource<LightDefinitions>().lights;
+  const SceneValue* index = node.find("light");
+  if (index == nullptr || index->kind != SceneValue::Kind::number || !(index->number >= 0.0) ||
+      index->number != std::floor(index->number))
+    return fault("must name its light by a whole number");
+  if (index->number >= static_cast<double>(lights.size()))
+    return fault("names a light that does not exist, the file has " + std::to_string(lights.size()));
+  target.world.add<Light>(target.entity, lights[static_cast<std::size_t>(index->number)]);
+  SceneNames& names = target.world.resource<SceneNames>();
+  if (const std::string name(names.name_of(target.entity)); !name.empty()) names.add("light", name, target.entity);
+  return {};
+}
+
+SceneKey angle_key() {
+  SceneKey key = key_line("lights", KeyElement::light_node, "gloam.light.angle", "0.53", "degrees",
+                          "directional only: apparent diameter (penumbra)");
+  key.type = KeyType::number;
+  key.min = 0.0;
+  key.max = 90.0;
+  key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
+    Light& light = target.world.get<Light>(target.entity);
+    if (light.kind != LightKind::directional) return fault("is for directional lights, others have gloam.light.width");
+    light.apparent_angle = static_cast<float>(std::get<double>(value) * (kHalfPi / 90.0));
+    return {};
+  };
+  return key;
+}
+
+SceneKey cookie_key() {
+  SceneKey key =
+      key_line("lights", KeyElement::light_node, "gloam.light.cookie", "", "", "image file, projected texture (spot)");
+  key.type = KeyType::text;
+  key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
+    Light& light = target.world.get<Light>(target.entity);
+    if (light.kind != LightKind::spot) return fault("projects an image, which only a spot does");
+    const auto file = intern_scene_file(target, std::get<std::string>(value));
+    if (!file.ok()) return file.error();
+    light.cookie = *file;
+    return {};
+  };
+  return key;
+}
+
+}  // namespace
+
+void add_light_keys(KeyRegistry& registry) {
+  registry.add_extension({"lights", "KHR_lights_punctual", &begin_file, &read_node});
+  registry.set_light_test([](const World& world, Entity entity) { return world.try_get<Light>(entity) != nullptr; });
+  registry.add(number_key(key_line("lights", KeyElement::light_node, "gloam.light.width", "0", "m",
+                                   "diameter of the emitter; 0 = hard shadows"),
+                          0, 1e4, &Light::width_m));
+  registry.add(angle_key());
+  registry.add(cookie_key());
+}
+
+}  // namespace gloam

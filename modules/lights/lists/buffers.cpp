@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lights/lists/buffers.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kNoSurface = 0x3F800000u;  // bits of depth 1.0, where no surface is farther
+
+constexpr std::uint64_t words_to_entries(std::uint64_t words) { return 3 * words; }
+constexpr std::uint32_t to_whole_words(std::uint64_t entries) {
+  return static_cast<std::uint32_t>(std::min((entries + 2) / 3 * 3, words_to_entries(kMostListBytes / 4)));
+}
+
+uvec2 shadow_tiles_of(const RenderView& view) {
+  return (uvec2(view.width, view.height) + uvec2(GLOAM_SHADOW_TILE - 1)) / uvec2(GLOAM_SHADOW_TILE);
+}
+
+gpu::BufferDesc lists_buffer(const char* name, std::uint64_t words) {
+  gpu::BufferDesc desc;
+  desc.name = name;
+  desc.module = "lights";
+  desc.size = 4 * words;
+  return desc;
+}
+
+}  // namespace
+
+LightFeedback light_feedback(const shaders::LightCounters& counters, const LightCountersNote& note,
+                             const LightFeedback* last) {
+  LightFeedback feedback{counters.slots, last == nullptr ? note.slot_capacity : last->slot_capacity, 0.0f};
+  const uvec2 tiles = shadow_tiles_of(note.view);
+  feedback.slot_capacity = list_capacity(tiles.x * tiles.y, 0, feedback);
+  if (counters.farthest_depth != kNoSurface) {
+    const float metres = note.view.view_depth(std::bit_cast<float>(counters.farthest_depth));
+    if (std::isfinite(metres) && metres > 0.0f) feedback.farthest_m = metres;
+  }
+  return feedback;
+}
+
+void count_lights(const shaders::LightCounters& counters, const LightCountersNote& note, CounterSink& sink) {
+  const double tiles = std::max(1.0, static_cast<double>(counters.tiles));
+  sink.count("lights.per_tile_mask_mean", counters.mask_lights / tiles);
+  sink.count("lights.per_tile_candidates_mean", counters.candidate_lights / tiles);
+  sink.count("lights.per_tile_approx_mean", counters.approx_lights / tiles);
+  sink.count("lights.per_tile_group_mean", counters.group_lights / tiles);
+  sink.count("lights.per_tile_accurate_mean", counters.accurate_lights / tiles);
+  sink.count("lights.list_entries", counters.slots);
+  sink.count("lights.list_capacity", note.slot_capacity);
+  sink.count("lights.overflow_tiles", counters.overflow_tiles);
+  sink.count("lights.capacity_violations", counters.violations);
+  if (note.checked) sink.count("lights.culling_errors", counters.culling_errors);
+}
+
+std::uint32_t list_capacity(std::uint32_t tiles, std::uint32_t fixed_slots, const LightFeedback& feedback) {
+  if (fixed_slots > 0) return to_whole_words(std::uint64_t{tiles} * fixed_slots);
+  const std::uint32_t asked = to_whole_words(std::uint64_t{feedback.entries_asked} * 5 / 4);
+  const std::uint32_t needed = std::max(to_whole_words(std::uint64_t{tiles} * kFirstEntriesPerTile), asked);
+  const std::uint32_t there = feedback.slot_capacity;
+  const bool keeps = there >= feedback.entries_asked &&
+                     there >= to_whole_words(std::uint64_t{tiles} * kFirstEntriesPerTile) && there / 4 <= needed;
+  return keeps ? there : needed;
+}
+
+Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks, LightsOutputs& outputs) {
+  const FrameServices& services = frame.services();
+  const RenderView& view = frame.view();
+  const uvec2 tiles = shadow_tiles_of(view);
+  const std::uint32_t tile_count = tiles.x * tiles.y;
+  const uvec2 groups = (tiles + uvec2(GLOAM_TILE_GROUP - 1)) / uvec2(GLOAM_TILE_GROUP);
+  const LightFeedback* feedback = frame.world().try_view_resource<LightFeedback>(view.id);
+
+  shaders::LightGrid grid{};
+  grid.tiles = tiles;
+  grid.groups = groups;
+  grid.mask_tiles = masks.tiles;
+  grid.local_count = outputs.local_count;
+  grid.z_bin_count = bins.params.count;
+  grid.z_near = bins.params.near_m;
+  grid.z_scale = bins.params.scale();
+  grid.fixed_slots = fixed_slots_of(static_cast<std::uint32_t>(frame.knobs().number("lights.fixed_slots")));
+  grid.slot_capacity = list_capacity(tile_count, grid.fixed_slots, feedback == nullptr ? LightFeedback{} : *feedback);
+  if (grid.fixed_slots == 0)
+    grid.slot_capacity =
+        std::max(grid.slot_capacity,
+                 to_whole_words(std::uint64_t{tile_count} * entries_that_fit_all(grid.local_count, tile_count)));
+  outputs.lists_always_fit = grid.slot_capacity >= std::uint64_t{tile_count} * ((grid.local_count + 2) / 3 * 3);
+  outputs.slot_capacity = grid.slot_capacity;
+
+  auto grid_range = services.uniforms.write_value(grid);
+  if (!grid_range.ok()) return grid_range.error();
+  outputs.grid = *grid_range;
+  auto bins_range = services.storage.write(std::as_bytes(std::span(bins.bins)));
+  if (!bins_range.ok()) return bins_range.error();
+  outputs.z_bins = *bins_range;
+  auto masks_range = services.storage.write(std::as_bytes(std::span(masks.words)));
+  if (!masks_range.ok()) return masks_range.error();
+  outputs.mask_tiles = *masks_range;
+
+  FrameGraph& graph = frame.graph();
+  outputs.group_masks =
+      graph.create_buffer(lists_buffer("light_group_masks", std::uint64_t{groups.x} * groups.y * GLOAM_MASK_WORDS));
+  outputs.early_lists = graph.create_buffer(lists_buffer("early_light_lists", grid.slot_capacity / 3));
+  outputs.counters = graph.create_buffer(lists_buffer("light_counters", sizeof(shaders::LightCounters) / 4));
+  gpu::ImageDesc lists;
+  lists.name = "tile_light_lists";
+  lists.module = "lights";
+  lists.format = gpu::Format::rg32_uint;
+  lists.width = tiles.x;
+  lists.height = tiles.y;
+  outputs.tile_lists = graph.create_image(lists);
+  return {};
+}
+
+void record_counters_start(gpu::CommandList& commands, gpu::BufferHandle counters) {
+  constexpr std::uint64_t kFarthest = offsetof(shaders::LightCounters, farthest_depth);
+  constexpr std::uint64_t kAfter = kFarthest + sizeof(std::uint32_t);
+  commands.fill_buffer(counters, 0, kFarthest, 0);
+  commands.fill_buffer(counters, kFarthest, sizeof(std::uint32_t), kNoSurface);
+  commands.fill_buffer(counters, kAfter, sizeof(shaders::LightCounters) - kAfter, 0);
+}
+
+}  // namespace gloam

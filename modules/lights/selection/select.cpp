@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+//
+// Choosing and ordering the lights of a view. One pass over all lights of the world in floats; then only the visible
+// ones are looked at.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "modules/lights/cpu_clones.h"
+#include "modules/lights/selection/light_list.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::size_t kCullGrain = 512;  // lights a job
+constexpr std::size_t kPackGrain = 512;
+/// Bound of what floats lose where a camera-relative position is rounded, turned and summed, a share of the lengths
+/// that take part. As much is added to bounds, so that no pixel the GPU lights is left out.
+constexpr float kRounding = 4e-7f;
+constexpr float kFarthestPosition = 1e37f;  // metres from the camera: beyond, products are no floats
+constexpr std::uint32_t kLocal = 1;
+constexpr std::uint32_t kDirectional = 2;
+
+/// A view as the culling loop reads it.
+struct CullView {
+  double eye[3];
+  float forward[3];
+  float planes[6][4];
+  float plane_rounding;
+  float near_m;
+};
+
+CullView cull_view(const RenderView& view) {
+  CullView cull{};
+  float reach = 0.0f;
+  for (std::size_t p = 0; p < 6; ++p) {
+    const Plane& plane = view.frustum.planes[p];
+    for (int axis = 0; axis < 3; ++axis) cull.planes[p][axis] = plane.normal[axis];
+    cull.planes[p][3] = plane.distance;
+    reach = std::max(reach, std::abs(plane.distance));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    cull.eye[axis] = view.position[axis];
+    cull.forward[axis] = -view.view_from_relative[axis][2];
+  }
+  cull.plane_rounding = kRounding * reach;
+  cull.near_m = view.near_m;
+  return cull;
+}
+
+/// Columns that the culling loop reads and writes.
+struct CullColumns {
+  const double *x, *y, *z;
+  const float* radius;
+  float *center_x, *center_y, *center_z, *nearest, *farthest;
+  std::uint32_t* kind;
+};
+
+/// A plain loop over columns: the compiler turns it into vector code.
+GLOAM_CPU_CLONES void cull_lights(CullColumns o, CullView v, std::size_t begin, std::size_t end) {
+#pragma GCC ivdep
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto cx = static_cast<float>(o.x[i] - v.eye[0]);
+    const auto cy = static_cast<float>(o.y[i] - v.eye[1]);
+    const auto cz = static_cast<float>(o.z[i] - v.eye[2]);
+    const float radius = o.radius[i];
+    const float spread = std::abs(cx) + std::abs(cy) + std::abs(cz);
+    const float reach = radius + kRounding * (spread + radius);
+    float inside = v.planes[0][0] * cx + v.planes[0][1] * cy + v.planes[0][2] * cz + v.planes[0][3];
+    for (int p = 1; p < 6; ++p) {
+      const float distance = v.planes[p][0] * cx + v.planes[p][1] * cy + v.planes[p][2] * cz + v.planes[p][3];
+      inside = distance < inside ? distance : inside;
+    }
+    const float depth = v.forward[0] * cx + v.forward[1] * cy + v.forward[2] * cz;
+    const float low = depth - reach > v.near_m ? depth - reach : v.near_m;
+    const std::uint32_t seen = inside >= -reach - v.plane_rounding ? kLocal : 0u;
+    const std::uint32_t sound = spread < kFarthestPosition ? seen : 0u;  // NaN and infinity are not
+    const std::uint32_t local = radius >= 0.0f ? sound : 0u;
+    o.center_x[i] = cx;
+    o.center_y[i] = cy;
+    o.center_z[i] = cz;
+    o.nearest[i] = low;
+    o.farthest[i] = depth + reach > low ? depth + reach : low;
+    o.kind[i] = radius == kDirectionalLight ? kDirectional : local;
+  }
+}
+
+struct CullJob {
+  CullColumns columns;
+  CullView view;
+  void run(JobRange range) const { cull_lights(columns, view, range.begin, range.end); }
+};
+
+void find_visible(const LightTable& table, const RenderView& view, JobExecutor& executor, LightSelection& selection) {
+  const std::size_t count = table.size();
+  for (auto* column : {&selection.x, &selection.y, &selection.z, &selection.nearest, &selection.farthest})
+    column->resize(count);
+  selection.kind.resize(count);
+  const CullJob job{
+      {table.x.data(), table.y.data(), table.z.data(), table.radius.data(), selection.x.data(), selection.y.data(),
+       selection.z.data(), selection.nearest.data(), selection.farthest.data(), selection.kind.data()},
+      cull_view(view)};
+  executor.parallel_for(count, kCullGrain, [&job](JobRange range) { job.run(range); });
+  selection.local.resize(count);
+  selection.directional.clear();
+  std::size_t locals = 0;
+  std::uint32_t kinds = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    selection.local[locals] = i;
+    locals += selection.kind[i] == kLocal ? 1 : 0;
+    kinds |= selection.kind[i];
+  }
+  selection.local.resize(locals);
+  if ((kinds & kDirectional) == 0) return;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
+}
+
+/// Keeps the `capacity` indices of greatest importance in ascending order, equal ones by index; returns how many were
+/// dropped.
+template <class Importance>
+std::uint32_t keep_most_important(std::vector<std::uint32_t>& lights, std::size_t capacity,
+                                  std::vector<std::uint64_t>& keys, Importance&& importance) {
+  if (lights.size() <= capacity) return 0;
+  keys.clear();
+  // Positive floats order as their bits do; the greatest comes first, then the first index.
+  for (const std::uint32_t i : lights)
+    keys.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(importance(i))} << 32 | i);
+  std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(capacity), keys.end());
+  const auto dropped = static_cast<std::uint32_t>(lights.size() - capacity);
+  lights.resize(capacity);
+  for (std::size_t i = 0; i < capacity; ++i) lights[i] = static_cast<std::uint32_t>(keys[i]);
+  std::sort(lights.begin(), lights.end());
+  return dropped;
+}
+
+/// Share of the sphere of directions a light's bound covers, times its brightness.
+float importance_of(const LightTable& table, const RenderView& view, std::uint32_t i) {
+  const vec3 center = view.relative(dvec3(table.x[i], table.y[i], table.z[i]));
+  const float radius = table.radius[i];
+  const float distance = std::max(glm::length(center), radius);
+  return radius * radius / (distance * distance) * table.records[i].brightness;
+}
+
+/// Bits that order as the floats do.
+std::uint32_t ordered_bits(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+}
+
+/// Keys by their high 32 bits, equal ones as they came. What a view's depths leave of 32 bits, their least one taken
+/// off, needs three counting passes, rarely four; and no pass finds most of its keys in one place, where each would
+/// wait for the one before. Result in `keys`.
+void sort_by_depth(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& other) {
+  constexpr std::size_t kPlain = 64;  // fewer are sorted faster without counting; their low bits ascend too
+  constexpr std::uint32_t kMostDigitBits = 9;
+  constexpr std::uint32_t kMostPasses = 4;
+  if (keys.size() < kPlain) {
+    std::sort(keys.begin(), keys.end());
+    return;
+  }
+  auto least = ~std::uint32_t{0};
+  std::uint32_t greatest = 0;
+  for (const std::uint64_t key : keys) {
+    least = std::min(least, static_cast<std::uint32_t>(key >> 32));
+    greatest = std::max(greatest, static_cast<std::uint32_t>(key >> 32));
+  }
+  const auto bits = static_cast<std::uint32_t>(std::bit_width(greatest - least));
+  if (bits == 0) return;
+  const std::uint32_t passes = (bits + kMostDigitBits - 1) / kMostDigitBits;
+  const std::uint32_t digit_bits = (bits + passes - 1) / passes;
+  const std::uint32_t mask = (1u << digit_bits) - 1;
+  std::array<std::array<std::uint32_t, std::size_t{1} << kMostDigitBits>, kMostPasses> counts;
+  for (std::uint32_t pass = 0; pass < passes; ++pass) std::fill_n(counts[pass].begin(), mask + 1, 0u);
+  for (const std::uint64_t key : keys) {
+    std::uint32_t depth = static_cast<std::uint32_t>(key >> 32) - least;
+    for (std::uint32_t pass = 0; pass < passes; ++pass, depth >>= digit_bits) ++counts[pass][depth & mask];
+  }
+  other.resize(keys.size());
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    std::uint32_t* const places = counts[pass].data();
+    std::uint32_t begin = 0;
+    for (std::uint32_t digit = 0; digit <= mask; ++digit) {
+      const std::uint32_t size = places[digit];
+      places[digit] = begin;
+      begin += size;
+    }
+    const std::uint32_t shift = pass * digit_bits;
+    std::uint64_t* const to = other.data();
+    for (const std::uint64_t key : keys)
+      to[places[(static_cast<std::uint32_t>(key >> 32) - least) >> shift & mask]++] = key;
+    keys.swap(other);
+  }
+}
+
+struct PackJob {
+  std::span<const PlacedLight> lights;
+  const LightTable& table;
+  const RenderView& view;
+  VisibleLights& visible;
+
+  /// Lights come in the order of depths, which no cache foresees.
+  void prefetch(std::size_t i) const {
+    if (i >= visible.selection.keys.size()) return;
+    const auto light = static_cast<std::uint32_t>(visible.selection.keys[i]);
+    __builtin_prefetch(&table.records[light]);
+    __builtin_prefetch(&lights[light].position);
+  }
+
+  void run(JobRange range) const {
+    constexpr std::size_t kAhead = 12;
+    const LightSelection& from = visible.selection;
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const auto light = static_cast<std::uint32_t>(from.keys[i]);
+      prefetch(i + kAhead);
+      const LightRecord& record = table.records[light];
+      const vec3 position = view.relative(lights[light].position);
+      const vec3 direction = lights[light].direction;
+      visible.block.local[i] = {position,     record.inverse_range_squared, record.color, record.ramp.x, direction,
+                                record.ramp.y};
+      visible.mask_lights[i] = {{vec3(from.x[light], from.y[light], from.z[light]), table.radius[light]},
+                                position,
+                                direction,
+                                record.cos_outer,
+                                record.range_m};
+      visible.depths[i] = {from.nearest[light], from.farthest[light]};
+      visible.local_entities[i] = record.entity;
+    }
+  }
+};
+
+void pack_directional(std::span<const PlacedLight> lights, const LightTable& table, VisibleLights& visible) {
+  const std::vector<std::uint32_t>& chosen = visible.selection.directional;
+  visible.block.directional_count = static_cast<std::uint32_t>(chosen.size());
+  visible.directional_entities.clear();
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const PlacedLight& placed = lights[chosen[i]];
+    visible.block.directional[i] = {table.records[chosen[i]].color, placed.light.apparent_angle, placed.direction,
+                                    0.0f};
+    visible.directional_entities.push_back(placed.entity);
+  }
+}
+
+}  // namespace
+
+void select_lights(std::span<const PlacedLight> lights, const LightTable& table, const RenderView& view,
+                   JobExecutor& executor, VisibleLights& visible) {
+  LightSelection& selection = visible.selection;
+  visible.total = static_cast<std::uint32_t>(lights.size());
+  find_visible(table, view, executor, selection);
+  visible.dropped = keep_most_important(selection.local, GLOAM_MAX_LOCAL_LIGHTS, selection.keys,
+                                        [&](std::uint32_t i) { return importance_of(table, view, i); });
+  visible.dropped += keep_most_important(selection.directional, GLOAM_MAX_DIRECTIONAL_LIGHTS, selection.keys,
+                                         [&](std::uint32_t i) { return table.records[i].brightness; });
+  selection.keys.resize(selection.local.size());
+  std::uint64_t* const keys = selection.keys.data();
+  const float* const nearest = selection.nearest.data();
+  for (std::size_t i = 0; i < selection.local.size(); ++i) {
+    const std::uint32_t light = selection.local[i];
+    keys[i] = std::uint64_t{ordered_bits(nearest[light])} << 32 | light;
+  }
+  sort_by_depth(selection.keys, selection.sorted);
+
+  const std::size_t count = selection.keys.size();
+  visible.block.local_count = static_cast<std::uint32_t>(count);
+  visible.local_entities.resize(count);
+  visible.depths.resize(count);
+  visible.mask_lights.resize(count);
+  const PackJob job{lights, table, view, visible};
+  executor.parallel_for(count, kPackGrain, [&job](JobRange range) { job.run(range); });
+  pack_directional(lights, table, visible);
+}
+
+void select_lights(std::span<const PlacedLight> lights, const RenderView& view, VisibleLights& visible) {
+  LightTable table;
+  table.resize(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    table.set_light(i, lights[i]);
+    table.set_place(i, lights[i]);
+  }
+  select_lights(lights, table, view, *make_serial_executor(), visible);
+}
+
+}  // namespace gloam

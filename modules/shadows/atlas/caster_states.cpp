@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/atlas/caster_states.h"
+
+#include <algorithm>
+#include <bit>
+#include <iterator>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "engine/core/hash.h"
+#include "engine/scene/resources.h"
+
+namespace gloam {
+namespace {
+
+void add(Hasher& hasher, std::span<const float> values) {
+  for (const float value : values) hasher.value(std::bit_cast<std::uint32_t>(value));
+}
+
+/// Where the caster is and what it is made of; the meshes' and materials' own content has a version, which is part of
+/// the salt.
+std::uint64_t hash_of(const Caster& caster, std::uint64_t pose) {
+  Hasher hasher;
+  hasher.value(caster.primitive->first_index).value(caster.primitive->first_vertex).value(caster.primitive->material);
+  hasher.value(caster.variant.features).value(pose);
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 3; ++row) hasher.value(std::bit_cast<std::uint64_t>(caster.world_from_mesh[column][row]));
+  return hasher.digest();
+}
+
+/// Of each range of joints, by its first.
+std::map<std::uint32_t, std::uint64_t> joint_hashes(const JointMatrices& joints) {
+  std::map<std::uint32_t, std::uint64_t> hashes;
+  for (const JointMatrices::Range& range : joints.ranges) {
+    if (std::size_t{range.first} + range.count > joints.matrices.size()) continue;
+    Hasher hasher;
+    for (const mat4& matrix : std::span(joints.matrices).subspan(range.first, range.count))
+      add(hasher, {&matrix[0][0], 16});
+    hashes[range.first] = hasher.digest();
+  }
+  return hashes;
+}
+
+std::uint64_t pose_of(const shaders::DeformConstants& deform, const std::map<std::uint32_t, std::uint64_t>& joints,
+                      std::span<const float> weights) {
+  Hasher hasher;
+  if (deform.skinned != 0) {
+    const auto found = joints.find(deform.first_joint);
+    if (found == joints.end()) return 0;
+    hasher.value(found->second);
+  }
+  if (deform.morph_targets > 0) {
+    if (std::size_t{deform.first_weight} + deform.morph_targets > weights.size()) return 0;
+    add(hasher, weights.subspan(deform.first_weight, deform.morph_targets));
+  }
+  return std::max<std::uint64_t>(hasher.digest(), 1);
+}
+
+bool by_entity(Entity a, Entity b) { return std::tie(a.index, a.generation) < std::tie(b.index, b.generation); }
+
+/// Of one entity, too: of two that look the same, maps may leave out one.
+bool same(const CasterState& a, const CasterState& b) {
+  return a.hash == b.hash && a.entity == b.entity && !a.unsteady && !b.unsteady;
+}
+
+bool by_hash(const CasterState* a, const CasterState* b) {
+  return a->hash != b->hash ? a->hash < b->hash : by_entity(a->entity, b->entity);
+}
+
+/// Calls pair(one of `a`, its equal in `b` or none); both ordered by_hash.
+template <class Pair>
+void for_each_pair(std::span<const CasterState* const> a, std::span<const CasterState* const> b, const Pair& pair) {
+  std::size_t at = 0;
+  for (const CasterState* state : a) {
+    while (at < b.size() && by_hash(b[at], state)) ++at;
+    const bool equal = at < b.size() && same(*state, *b[at]);
+    pair(state, equal ? b[at] : nullptr);
+    if (equal) ++at;
+  }
+}
+
+/// Boxes of the casters that are in `here` and not in `there`. `states`: ordered by entity.
+void append_boxes(std::span<const Entity> here, std::span<const Entity> there, std::span<const CasterState> states,
+                  std::vector<CasterBox>& boxes) {
+  std::vector<Entity> turned;
+  std::set_difference(here.begin(), here.end(), there.begin(), there.end(), std::back_inserter(turned), by_entity);
+  for (const Entity entity : turned) {
+    auto at = std::lower_bound(states.begin(), states.end(), entity,
+                               [](const CasterState& state, Entity e) { return by_entity(state.entity, e); });
+    for (; at != states.end() && at->entity == entity; ++at) boxes.push_back(at->box);
+  }
+}
+
+/// Lights of which maps leave something out.
+std::vector<Entity> lights_of(const WithheldCasters& a, const WithheldCasters& b) {
+  std::vector<Entity> lights;
+  for (const WithheldCasters* withheld : {&a, &b})
+    for (const WithheldCasters::OfLight& of_light : withheld->lights) lights.push_back(of_light.light);
+  std::sort(lights.begin(), lights.end(), by_entity);
+  lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
+  return lights;
+}
+
+}  // namespace
+
+bool is_withheld(std::span<const Entity> withheld, Entity caster) {
+  return !withheld.empty() && std::binary_search(withheld.begin(), withheld.end(), caster, by_entity);
+}
+
+std::vector<std::uint64_t> caster_poses(const World& world, const DrawLists& draws) {
+  const std::vector<Caster>& casters = draws.casters.casters;
+  std::vector<std::uint64_t> poses(casters.size(), 0);
+  if (draws.deforms.empty()) return poses;
+  const std::map<std::uint32_t, std::uint64_t> joints = joint_hashes(world.resource<JointMatrices>());
+  const std::vector<float>& weights = world.resource<MorphWeights>().values;
+  for (std::size_t i = 0; i < casters.size(); ++i)
+    if (casters[i].deform != kNone) poses[i] = pose_of(draws.deforms[casters[i].deform].constants, joints, weights);
+  return poses;
+}
+
+std::vector<CasterState> caster_states(std::span<const Caster> casters, std::span<const std::uint64_t> poses,
+                                       JobExecutor& executor) {
+  std::vector<CasterState> states(casters.size());
+  executor.parallel_for(casters.size(), 256, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const std::uint64_t pose = poses.empty() ? 0 : poses[i];
+      states[i].hash = hash_of(casters[i], pose);
+      states[i].unsteady = casters[i].moving && pose == 0;
+      states[i].box = {casters[i].bounds_min, casters[i].bounds_max};
+      states[i].entity = casters[i].entity;
+    }
+  });
+  return states;
+}
+
+void CasterHistory::advance(std::vector<CasterState> states) {
+  // Most stand where they stood, at the same place of the list.
+  std::vector<const CasterState*> gone, come;
+  ++frame_;
+  std::vector<std::uint64_t> since(states.size(), frame_);
+  for (std::size_t i = 0; i < std::max(states.size(), states_.size()); ++i) {
+    if (i < states.size() && i < states_.size() && same(states[i], states_[i])) {
+      since[i] = since_[i];
+      continue;
+    }
+    if (i < states_.size()) gone.push_back(&states_[i]);
+    if (i < states.size()) come.push_back(&states[i]);
+  }
+  std::sort(gone.begin(), gone.end(), by_hash);
+  std::sort(come.begin(), come.end(), by_hash);
+  changed_.clear();
+  changed_casters_.clear();
+  const auto add_changed = [&](const CasterState& state) {
+    changed_.push_back(state.box);
+    changed_casters_.push_back(state.entity);
+  };
+  for_each_pair(gone, come, [&](const CasterState* state, const CasterState* equal) {
+    if (equal == nullptr) add_changed(*state);
+  });
+  gone_ = changed_.size();
+  for_each_pair(come, gone, [&](const CasterState* state, const CasterState* equal) {
+    if (equal == nullptr) add_changed(*state);
+    if (equal != nullptr)
+      since[static_cast<std::size_t>(state - states.data())] = since_[static_cast<std::size_t>(equal - states_.data())];
+  });
+  std::swap(states_, states);
+  since_ = std::move(since);
+  withheld_before_ = std::exchange(withheld_, next_withheld_);
+  changed_of_.clear();
+  for (const Entity light : lights_of(withheld_before_, withheld_))
+    changed_of_.push_back({light, find_changed(light, states)});
+}
+
+std::vector<CasterBox> CasterHistory::find_changed(Entity light, std::span<const CasterState> before) const {
+  const std::span<const Entity> left_before = withheld_before_.of(light), left_now = withheld_.of(light);
+  std::vector<CasterBox> boxes;
+  for (std::size_t i = 0; i < changed_.size(); ++i)
+    if (!is_withheld(i < gone_ ? left_before : left_now, changed_casters_[i])) boxes.push_back(changed_[i]);
+  // Whatever has come to be left out was there before, whatever is not any more is there now.
+  append_boxes(left_now, left_before, before, boxes);
+  append_boxes(left_before, left_now, states_, boxes);
+  return boxes;
+}
+
+std::span<const CasterBox> CasterHistory::changed(Entity light) const {
+  const auto found = std::lower_bound(changed_of_.begin(), changed_of_.end(), light,
+                                      [](const Changed& a, Entity b) { return by_entity(a.light, b); });
+  return found != changed_of_.end() && found->light == light ? std::span<const CasterBox>(found->boxes) : changed_;
+}
+
+}  // namespace gloam

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/atlas/face_casters.h"
+
+#include <algorithm>
+
+#include "engine/math/bounds.h"
+#include "engine/scene/assets.h"
+
+namespace gloam {
+namespace {
+
+/// Bound of what GPU and CPU lose of a length where they turn and sum it in floats, as a share of the lengths that take
+/// part.
+constexpr float kRounding = 1e-5f;
+
+void widen(Aabb& box) {
+  const vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
+  const float slack = kRounding * (reach.x + reach.y + reach.z);
+  box.min -= vec3(slack);
+  box.max += vec3(slack);
+}
+
+float distance_squared(const Aabb& box) {
+  const vec3 nearest = glm::clamp(vec3(0.0f), box.min, box.max);
+  return glm::dot(nearest, nearest);
+}
+
+bool may_see(const FaceVolume& volume, Aabb relative) {
+  widen(relative);
+  if (volume.reach_m > 0.0f && distance_squared(relative) > volume.reach_m * volume.reach_m) return false;
+  return may_intersect(volume.frustum, relative);
+}
+
+void add_clusters(const FaceVolume& volume, const Caster& caster, bool simplified, std::vector<FaceDraw>& draws) {
+  const GpuPrimitive& primitive = *caster.primitive;
+  if (simplified && caster.deform == kNone && primitive.simplified_index_count > 0) {
+    draws.push_back({&caster, primitive.simplified_first_index, primitive.simplified_index_count});
+    return;
+  }
+  if (caster.deform != kNone || primitive.clusters.size() <= 1) {
+    draws.push_back({&caster, primitive.first_index, primitive.index_count});
+    return;
+  }
+  dmat4 relative = caster.world_from_mesh;
+  relative[3] -= dvec4(volume.origin, 0.0);
+  const mat4 matrix(relative);
+  FaceDraw draw{&caster, 0, 0};
+  for (const Cluster& cluster : primitive.clusters) {
+    if (!may_see(volume, transformed(cluster.bounds, matrix))) continue;
+    const std::uint32_t first = primitive.first_index + cluster.first_index;
+    if (draw.index_count > 0 && draw.first_index + draw.index_count == first) {
+      draw.index_count += cluster.index_count;
+      continue;
+    }
+    if (draw.index_count > 0) draws.push_back(draw);
+    draw.first_index = first;
+    draw.index_count = cluster.index_count;
+  }
+  if (draw.index_count > 0) draws.push_back(draw);
+}
+
+}  // namespace
+
+FaceVolume face_volume(const ShadowFace& face) {
+  FaceVolume volume;
+  volume.origin = face.origin;
+  volume.frustum.planes[5] = {vec3(0.0f), 1.0f};
+  const bool perspective = face.tan_half > 0.0f;
+  const vec3 sides[] = {face.right, -face.right, face.up, -face.up};
+  for (std::size_t i = 0; i < 4; ++i)
+    volume.frustum.planes[i] = perspective ? Plane{glm::normalize(sides[i] + face.forward * face.tan_half), 0.0f}
+                                           : Plane{sides[i], face.half_extent_m};
+  // What stands between a sun and its box casts shadows into it: it is drawn at the box's near side.
+  volume.frustum.planes[4] = perspective ? Plane{face.forward, -face.near_m} : Plane{vec3(0.0f), 1.0f};
+  if (face.far_m > 0.0f) volume.frustum.planes[5] = {-face.forward, face.far_m};
+  if (perspective) volume.reach_m = face.far_m;
+  return volume;
+}
+
+FaceVolume face_volume(const ShadowFace& face, const TexelRect& region) {
+  FaceVolume volume = face_volume(face);
+  const bool perspective = face.tan_half > 0.0f;
+  const float extent = perspective ? face.tan_half : face.half_extent_m;
+  const float texel = 2.0f * extent / static_cast<float>(face.square.size);
+  const auto from_edge = [&](std::uint32_t texels) { return static_cast<float>(texels) * texel - extent; };
+  // Where its sides lie, seen from the middle to the inside: left, right, lower and upper.
+  const float distances[] = {from_edge(region.begin.x) - texel, -from_edge(region.end.x) - texel,
+                             -from_edge(region.end.y) - texel, from_edge(region.begin.y) - texel};
+  const vec3 inward[] = {face.right, -face.right, face.up, -face.up};
+  for (std::size_t i = 0; i < 4; ++i)
+    volume.frustum.planes[i] = perspective ? Plane{glm::normalize(inward[i] - face.forward * distances[i]), 0.0f}
+                                           : Plane{inward[i], -distances[i]};
+  return volume;
+}
+
+CasterBox relative_box(const dvec3& origin, const CasterBox& box) {
+  Aabb relative{vec3(box.low - origin), vec3(box.high - origin)};
+  widen(relative);
+  return {dvec3(relative.min), dvec3(relative.max)};
+}
+
+bool may_see(const FaceVolume& volume, const CasterBox& box) {
+  if (!box.known()) return true;  // nobody knows where it is
+  return may_see(volume, Aabb{vec3(box.low - volume.origin), vec3(box.high - volume.origin)});
+}
+
+bool may_see(const FaceVolume& volume, const Caster& caster) {
+  return may_see(volume, CasterBox{caster.bounds_min, caster.bounds_max});
+}
+
+mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh) {
+  const dvec3 right(face.right), up(face.up), forward(face.forward);
+  const bool perspective = face.tan_half > 0.0f;
+  const double scale = 1.0 / static_cast<double>(perspective ? face.tan_half : face.half_extent_m);
+  dmat4 rows(0.0);
+  rows[0] = dvec4(right * scale, 0.0);
+  rows[1] = dvec4(up * scale, 0.0);
+  if (perspective) {
+    rows[2] = dvec4(0.0, 0.0, 0.0, static_cast<double>(face.near_m));
+    rows[3] = dvec4(forward, 0.0);
+  } else {
+    const double depth = static_cast<double>(face.far_m - face.near_m);
+    rows[2] = dvec4(forward * (-1.0 / depth), static_cast<double>(face.far_m) / depth);
+    rows[3] = dvec4(0.0, 0.0, 0.0, 1.0);
+  }
+  dmat4 relative = world_from_mesh;
+  relative[3] -= dvec4(face.origin, 0.0);
+  return mat4(glm::transpose(rows) * relative);
+}
+
+bool is_cut_out(const Caster& caster) { return (caster.variant.features & GLOAM_SURFACE_MASK) != 0; }
+
+std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters, bool simplified,
+                                 std::span<const Entity> withheld) {
+  std::vector<FaceDraw> draws;
+  for (const Caster& caster : casters)
+    if (caster.primitive->index_count > 0 && may_see(volume, caster) && !is_withheld(withheld, caster.entity))
+      add_clusters(volume, caster, simplified, draws);
+  std::stable_partition(draws.begin(), draws.end(), [](const FaceDraw& draw) { return !is_cut_out(*draw.caster); });
+  return draws;
+}
+
+}  // namespace gloam

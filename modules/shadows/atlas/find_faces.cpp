@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/atlas/find_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/assert.h"
+#include "modules/shadows/views/faces.h"
+#include "modules/shadows/views/resolution.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::size_t kGrain = 64;  // lights a job
+/// A cube's face shows a quarter of what lies round the light, and half of what a camera sees of its sphere across.
+constexpr float kCubeShare = 0.5f;
+constexpr std::size_t kMostDirectional = std::size(decltype(shaders::ShadowBlock::directional){});
+constexpr float kWidestSun = 3.0f;  // radians of apparent angle: the tangent of half of it is a float
+
+bool earlier(const WantedSize& a, const WantedSize& b) { return a.light.index < b.light.index; }
+
+/// Texels that a light's faces wanted in the last frame; 0 when it was not there. `wanted` is ordered by entity index.
+std::uint32_t size_before(std::span<const WantedSize> wanted, Entity light) {
+  const auto found = std::lower_bound(wanted.begin(), wanted.end(), WantedSize{light, 0}, earlier);
+  return found != wanted.end() && found->light == light ? found->size : 0;
+}
+
+/// A local light on its way to faces.
+struct LocalPlan {
+  LocalShadow shadow;
+  float pixels = 0.0f;       ///< across what a face shows, at least 1; 0: its ShadowCaster says the size
+  std::uint32_t before = 0;  ///< texels that a face wanted in the last frame
+  std::uint32_t size = 0;    ///< texels that a face wants
+  float importance = 0.0f;
+  std::size_t first_request = 0;
+  std::size_t first_face = 0;
+  bool placed = false;
+};
+
+LocalPlan plan_local(const ShadowLight& light, const RenderView& view, const ShadowSettings& settings,
+                     std::span<const WantedSize> wanted) {
+  LocalPlan plan;
+  plan.shadow = local_shadow(light.light, light.world_from_node, settings.kernel_rim);
+  if (!settings.enabled || !light.caster.enabled) plan.shadow.kind = GLOAM_SHADOW_NONE;
+  if (plan.shadow.kind == GLOAM_SHADOW_NONE) return plan;
+  const bool known = light.bounds.radius_m > 0.0f;
+  const dvec3 center = known ? light.bounds.center : plan.shadow.position;
+  const float radius = known ? light.bounds.radius_m : plan.shadow.range_m;
+  plan.importance = coverage(view, center, radius) * brightness_of(light.light);
+  if (light.caster.resolution > 0) {
+    plan.size = asked_size(light.caster.resolution);
+    return plan;
+  }
+  // Texels lie across the light's path: a narrow cone needs no more for being long.
+  const bool cube = plan.shadow.kind == GLOAM_SHADOW_CUBE;
+  const float share = cube ? kCubeShare : std::min(1.0f, plan.shadow.range_m * plan.shadow.tan_inner / radius);
+  plan.pixels = std::max(1.0f, pixels_across(view, center, radius) * share);
+  plan.before = size_before(wanted, light.entity);
+  return plan;
+}
+
+std::uint32_t size_at(const LocalPlan& plan, float density) {
+  return plan.pixels > 0.0f ? wanted_size(plan.pixels * density, plan.before) : plan.size;
+}
+
+/// A directional light on its way to cascades.
+struct DirectionalPlan {
+  FaceAxes axes;
+  std::size_t first_request = 0;
+  std::size_t count = 0;   ///< of requests
+  std::uint32_t size = 0;  ///< texels of each
+};
+
+/// Of each cascade of a light without a size of its own. Those of one light leave three quarters of the atlas to
+/// others, and those of all lights leave half of it.
+std::uint32_t cascade_size(std::size_t lights, const RenderView& view, const ShadowSettings& settings) {
+  const float pixels = static_cast<float>(std::max(view.width, view.height));
+  std::uint32_t most = settings.atlas_size / 4;
+  const auto side = static_cast<std::size_t>(settings.atlas_size);
+  while (most > 0 && lights * GLOAM_MAX_CASCADES * most * most > side * side / 2) most /= 2;
+  return std::max<std::uint32_t>(GLOAM_SHADOW_SMALLEST_FACE,
+                                 std::min(wanted_size(pixels * settings.texels_per_pixel, 0), most));
+}
+
+struct Plans {
+  std::vector<LocalPlan> local;
+  std::vector<DirectionalPlan> directional;
+  std::vector<CascadeSphere> spheres;  ///< the same for all directional lights
+  std::vector<FaceRequest> requests;
+};
+
+void plan_directional(std::span<const ShadowLight> lights, const RenderView& view, const ShadowSettings& settings,
+                      const CasterBounds& casters, Plans& plans) {
+  plans.directional.resize(std::min(lights.size(), kMostDirectional));
+  if (lights.empty() || !settings.enabled) return;
+  plans.spheres = cascade_spheres(view, casters, std::min<std::uint32_t>(settings.cascades, GLOAM_MAX_CASCADES));
+  const std::uint32_t size = cascade_size(plans.directional.size(), view, settings);
+  for (std::size_t i = 0; i < plans.directional.size(); ++i) {
+    const std::uint32_t asked = lights[i].caster.resolution;
+    plans.directional[i].count = lights[i].caster.enabled ? plans.spheres.size() : 0;
+    plans.directional[i].size = asked > 0 ? asked_size(asked) : size;
+  }
+}
+
+double texels_of(std::size_t faces, std::uint32_t size) {
+  return static_cast<double>(faces) * static_cast<double>(size) * static_cast<double>(size);
+}
+
+/// For local lights' maps, in what cascades leave of the atlas.
+float local_density(const ShadowSettings& settings, const Plans& plans, float previous) {
+  double room = texels_of(1, settings.atlas_size);
+  for (const DirectionalPlan& plan : plans.directional) room -= texels_of(plan.count, plan.size);
+  return fitting_density(settings.texels_per_pixel, previous, room, [&](float density) {
+    double texels = 0.0;
+    for (const LocalPlan& plan : plans.local) texels += texels_of(plan.shadow.face_count(), size_at(plan, density));
+    return texels;
+  });
+}
+
+void request_directional(std::span<const ShadowLight> lights, ShadowViews& shadows, Plans& plans) {
+  for (std::size_t i = 0; i < plans.directional.size(); ++i) {
+    DirectionalPlan& plan = plans.directional[i];
+    plan.first_request = plans.requests.size();
+    if (plan.size == 0 || !lights[i].caster.enabled) continue;
+    plan.axes = node_axes(lights[i].world_from_node);
+    ++shadows.casting_lights;
+    // Outer cascades show less of the picture.
+    for (const CascadeSphere& sphere : plans.spheres)
+      plans.requests.push_back({{lights[i].entity, sphere.slice},
+                                plan.size,
+                                brightness_of(lights[i].light) / static_cast<float>(sphere.slice + 1)});
+  }
+}
+
+/// Requests of local lights, and what they wanted for the next frame.
+void request_local(std::span<const ShadowLight> lights, ShadowViews& shadows, Plans& plans) {
+  shadows.wanted.clear();
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    LocalPlan& plan = plans.local[i];
+    plan.size = size_at(plan, shadows.texels_per_pixel);
+    plan.first_request = plans.requests.size();
+    for (std::uint32_t f = 0; f < plan.shadow.face_count(); ++f)
+      plans.requests.push_back({{lights[i].entity, f}, plan.size, plan.importance});
+    if (plan.size == 0) continue;
+    ++shadows.casting_lights;
+    if (lights[i].caster.resolution == 0) shadows.wanted.push_back({lights[i].entity, plan.size});
+  }
+  std::sort(shadows.wanted.begin(), shadows.wanted.end(), earlier);
+}
+
+/// Faces and rows of local lights, each job its own.
+void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, JobExecutor& jobs, Plans& plans,
+                ShadowViews& shadows) {
+  std::size_t faces = 0;
+  for (LocalPlan& plan : plans.local) {
+    plan.first_face = faces;
+    plan.placed = plan.shadow.face_count() > 0 && places.squares[plan.first_request].size > 0;
+    if (plan.placed) faces += plan.shadow.face_count();
+  }
+  shadows.faces.resize(faces);
+  shadows.rows.resize(lights.size());
+  jobs.parallel_for(lights.size(), kGrain, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const LocalPlan& plan = plans.local[i];
+      const std::size_t count = plan.placed ? plan.shadow.face_count() : 0;
+      const std::span<const AtlasSquare> squares = std::span(places.squares).subspan(plan.first_request, count);
+      shadows.rows[i] = shadow_row(plan.shadow, squares);
+      for (std::uint32_t f = 0; f < count; ++f) {
+        ShadowFace face = local_face(lights[i].entity, plan.shadow, f);
+        face.square = squares[f];
+        face.importance = plan.importance;
+        shadows.faces[plan.first_face + f] = face;
+      }
+    }
+  });
+}
+
+void fill_directional(std::span<const ShadowLight> lights, const FacePlaces& places, const RenderView& view,
+                      const ShadowSettings& settings, const CasterBounds& casters, const Plans& plans,
+                      ShadowViews& shadows) {
+  for (std::size_t i = 0; i < kMostDirectional; ++i) {
+    shaders::DirectionalShadow& directional = shadows.block.directional[i];
+    directional = {};
+    directional.traced_layer = -1.0f;
+    if (i >= plans.directional.size()) continue;
+    const float angle = lights[i].light.apparent_angle;
+    directional.penumbra_m_per_m = angle > 0.0f ? 2.0f * std::tan(0.5f * std::min(angle, kWidestSun)) : 0.0f;
+    const DirectionalPlan& plan = plans.directional[i];
+    for (std::size_t c = 0; c < plan.count; ++c) {
+      const std::size_t request = plan.first_request + c;
+      if (places.squares[request].size == 0) continue;
+      ShadowFace face = cascade_face(lights[i].entity, plan.axes, plans.spheres[c], casters, places.squares[request],
+                                     settings.kernel_rim);
+      face.importance = plans.requests[request].importance;
+      directional.cascades[directional.cascade_count++] = cascade_constants(face, view.position, settings.kernel_rim);
+      shadows.faces.push_back(face);
+    }
+  }
+}
+
+}  // namespace
+
+void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLight> directional, const RenderView& view,
+                  const ShadowSettings& settings, const CasterBounds& casters, JobExecutor& jobs,
+                  ShadowViews& shadows) {
+  Plans plans;
+  plans.local.resize(local.size());
+  shadows.casting_lights = 0;
+  jobs.parallel_for(local.size(), kGrain, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      plans.local[i] = plan_local(local[i], view, settings, shadows.wanted);
+  });
+  plan_directional(directional, view, settings, casters, plans);
+  shadows.texels_per_pixel = local_density(settings, plans, shadows.texels_per_pixel);
+  request_local(local, shadows, plans);
+  request_directional(directional, shadows, plans);
+  const FacePlaces places = shadows.atlas.place(settings.atlas_size, plans.requests);
+  shadows.faces_shrunk = places.shrunk;
+  shadows.faces_left_out = places.left_out;
+  fill_local(local, places, jobs, plans, shadows);
+  fill_directional(directional, places, view, settings, casters, plans, shadows);
+}
+
+}  // namespace gloam

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/debug/measures.h"
+
+#include <string>
+#include <utility>
+
+namespace gloam {
+namespace {
+
+/// None without final lists, or without a light.
+std::optional<double> filtered_share(const FrameCounters& frame, const FrameCounters&) {
+  const auto all = frame.find("shadows.tile_lights"), filtered = frame.find("shadows.tile_lights_filtered");
+  if (all == frame.end() || filtered == frame.end() || all->second <= 0.0) return std::nullopt;
+  return filtered->second / all->second;
+}
+
+std::string never_wrong(const FrameCounters&) { return {}; }
+
+}  // namespace
+
+std::vector<MeasureInfo> shadow_measures() {
+  MeasureInfo info;
+  info.knob = "shadows.classify";
+  info.kind = "brute force";
+  info.name = "every pixel asked: shadows.classify=off";
+  info.unit = "share of tile-light pairs asked pixel by pixel";
+  info.judged_with = {"shadows.mode=deferred"};
+  info.picture = {"shadows.mode=deferred", "shadows.classify=off"};
+  info.error = &filtered_share;
+  info.fault = &never_wrong;
+  std::vector<MeasureInfo> measures;
+  measures.push_back(std::move(info));
+  return measures;
+}
+
+}  // namespace gloam

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/filter/cookies.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "engine/ecs/view.h"
+#include "engine/scene/image_file.h"
+#include "engine/scene/resources.h"
+
+namespace gloam {
+namespace {
+
+const std::array<float, 256>& linear_of_srgb() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double c = static_cast<double>(i) / 255.0;
+      values[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    }
+    return values;
+  }();
+  return table;
+}
+
+std::uint8_t srgb_of(float linear) {
+  const float c = std::clamp(linear, 0.0f, 1.0f);
+  const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(encoded * 255.0f + 0.5f);
+}
+
+/// Which pixels of a line make up one pixel of a line of another length, and by how much; weights sum to 1.
+struct Weight {
+  std::uint32_t from = 0;
+  float share = 0.0f;
+};
+std::vector<Weight> weights_of(std::uint32_t target, std::uint32_t source_size) {
+  const double scale = static_cast<double>(source_size) / kCookieSide;
+  const double reach = std::max(scale, 1.0);  // half the width of a tent
+  const double center = (target + 0.5) * scale - 0.5;
+  const auto last = static_cast<double>(source_size - 1);
+  std::vector<Weight> weights;
+  double sum = 0.0;
+  for (double at = std::ceil(center - reach); at <= center + reach; at += 1.0) {
+    const double share = 1.0 - std::abs(at - center) / reach;
+    if (share <= 0.0) continue;
+    weights.push_back({static_cast<std::uint32_t>(std::clamp(at, 0.0, last)), static_cast<float>(share)});
+    sum += share;
+  }
+  for (Weight& weight : weights) weight.share /= static_cast<float>(sum);
+  return weights;
+}
+
+Result<Image> read_image(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Error{ErrorKind::input, "cannot be read"};
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  return decode_image(std::span(first, bytes.size()));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> resampled_cookie(const Image& image) {
+  const auto& linear = linear_of_srgb();
+  // Lines first: one line of the target's width for each line of the source.
+  std::vector<vec3> lines(std::size_t{kCookieSide} * image.height);
+  for (std::uint32_t x = 0; x < kCookieSide; ++x) {
+    const std::vector<Weight> weights = weights_of(x, image.width);
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+      vec3 sum(0.0f);
+      for (const Weight& weight : weights) {
+        const std::uint8_t* texel = &image.rgba[4 * (std::size_t{y} * image.width + weight.from)];
+        sum += weight.share * vec3(linear[texel[0]], linear[texel[1]], linear[texel[2]]);
+      }
+      lines[std::size_t{y} * kCookieSide + x] = sum;
+    }
+  }
+  std::vector<std::uint8_t> texels(std::size_t{kCookieSide} * kCookieSide * 4, 255);
+  for (std::uint32_t y = 0; y < kCookieSide; ++y) {
+    const std::vector<Weight> weights = weights_of(y, image.height);
+    for (std::uint32_t x = 0; x < kCookieSide; ++x) {
+      vec3 sum(0.0f);
+      for (const Weight& weight : weights) sum += weight.share * lines[std::size_t{weight.from} * kCookieSide + x];
+      for (int c = 0; c < 3; ++c)
+        texels[4 * (std::size_t{y} * kCookieSide + x) + static_cast<std::size_t>(c)] = srgb_of(sum[c]);
+    }
+  }
+  return texels;
+}
+
+std::size_t count_cookie_lights(const World& world) {
+  std::size_t count = 0;
+  world.view<const Light>().each([&](const Light& light) { count += has_cookie(light) ? 1 : 0; });
+  return count;
+}
+
+Status load_cookies(World& world) {
+  if (world.try_resource<Cookies>() == nullptr) world.set_resource(Cookies{});
+  std::vector<std::uint32_t> missing;
+  const Cookies& there = world.resource<Cookies>();
+  std::as_const(world).view<const Light>().each([&](const Light& light) {
+    if (has_cookie(light) && !there.layers.contains(light.cookie)) missing.push_back(light.cookie);
+  });
+  Status status;
+  for (const std::uint32_t cookie : missing) {
+    Cookies& cookies = world.resource<Cookies>();
+    if (cookies.layers.contains(cookie)) continue;
+    const std::string& path = world.resource<SceneStrings>().text(cookie);
+    const auto image = read_image(path);
+    cookies.layers.emplace(cookie, static_cast<std::uint32_t>(cookies.texels.size()));
+    ++cookies.version;
+    if (image.ok()) {
+      cookies.texels.push_back(resampled_cookie(*image));
+      continue;
+    }
+    cookies.texels.emplace_back(std::size_t{kCookieSide} * kCookieSide * 4, std::uint8_t{255});
+    cookies.faults.push_back("gloam.light.cookie: " + path + ": " + image.error().message);
+    if (status.ok()) status = Error{ErrorKind::input, cookies.faults.back()};
+  }
+  return status;
+}
+
+}  // namespace gloam

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "modules/lights/outputs.h"
+#include "modules/shadows/filter/uploads.h"
+#include "modules/shadows/maps/mips.h"
+#include "modules/shadows/maps/state.h"
+#include "modules/shadows/maps/tools.h"
+#include "modules/shadows/outputs.h"
+#include "modules/shadows/views/faces.h"
+#include "shaders/shadows/shaders.h"
+
+namespace gloam {
+namespace {
+
+gpu::ComputePipelineDesc copy_pipeline(bool d16) {
+  if (d16) return {"shadow_overlay_copy/d16", "shadows", shaders::shadows::overlay_copy_r16_comp, {}};
+  return {"shadow_overlay_copy/d32", "shadows", shaders::shadows::overlay_copy_comp, {}};
+}
+
+bool is_same(const ShadowFace& a, const ShadowFace& b) { return a.light == b.light && a.index == b.index; }
+
+struct CopyWork {
+  GroupRange all;
+  gpu::Binding::BufferRange groups;
+  gpu::PipelineHandle pipeline;
+};
+
+Result<CopyWork> plan_copies(FrameBuilder& frame, std::span<const OverlayFace> faces, bool d16) {
+  std::vector<shaders::ShadowCopyGroup> groups;
+  for (const OverlayFace& overlaid : faces) {
+    shaders::ShadowCopyGroup group{};
+    group.origin = overlaid.face.square.origin;
+    group.copy = overlaid.copy.origin;
+    add_groups(uvec2(0), uvec2(overlaid.copy.size / GLOAM_SHADOW_MIP_BLOCK), GLOAM_SHADOW_MIP_GROUP,
+               [&](uvec2 begin, uvec2 end) {
+                 group.begin = begin;
+                 group.end = end;
+                 groups.push_back(group);
+               });
+  }
+  CopyWork work;
+  work.all.count = static_cast<std::uint32_t>(groups.size());
+  auto written = frame.services().storage.write(std::as_bytes(std::span(groups)));
+  if (!written.ok()) return written.error();
+  work.groups = *written;
+  auto pipeline = frame.services().pipelines.get(copy_pipeline(d16));
+  if (!pipeline.ok()) return pipeline.error();
+  work.pipeline = *pipeline;
+  return work;
+}
+
+void record_copies(PassContext& context, const CopyWork& work, ImageRef atlas) {
+  gpu::CommandList& commands = context.commands();
+  const gpu::Binding bindings[] = {{0, gpu::Binding::Storage{{.image = context.image(atlas)}}}, {1, work.groups}};
+  commands.bind_pipeline(work.pipeline);
+  commands.bind(bindings);
+  dispatch_groups(commands, shaders::ShadowCopyConstants{}, work.all);
+}
+
+/// What lay in the copies' squares, of faces that are not in view now, is gone when they come back.
+void forget_what_lay_there(ShadowCache& cache, std::span<const OverlayFace> faces) {
+  std::uint32_t number = 0;
+  for (const OverlayFace& overlaid : faces) {
+    ShadowFace nobody = overlaid.at_copy();
+    nobody.light = kNoEntity;
+    nobody.index = number++;
+    cache.set_drawn(nobody, {});
+  }
+}
+
+void record_mips(PassContext& context, const ShadowMipWork& work, ImageRef atlas, ImageRef pyramid) {
+  gpu::CommandList& commands = context.commands();
+  const ShadowMipImages of{{}, context.image(atlas), context.image(pyramid), {}};
+  record_batch_mips(commands, work, 0, of);
+  if (work.coarse.empty()) return;
+  const gpu::ImageBarrier written[] = {{of.atlas, gpu::Access::compute_write, gpu::Access::compute_write},
+                                       {of.pyramid, gpu::Access::compute_write, gpu::Access::compute_write}};
+  commands.barrier({}, written);
+  record_coarse_mips(commands, work, of);
+}
+
+/// Points a local light's row to the copy.
+void redirect_local(shaders::ShadowRow& row, const OverlayFace& overlaid) {
+  GLOAM_ASSERT(row.origins[overlaid.face.index] == vec2(overlaid.face.square.origin), "rows name the view's faces");
+  row.origins[overlaid.face.index] = vec2(overlaid.copy.origin);
+}
+
+/// The same for a directional light's rows, one a cascade.
+void redirect_cascade(std::span<shaders::ShadowRow> rows, const OverlayFace& overlaid) {
+  for (shaders::ShadowRow& row : rows) {
+    auto cascade = std::bit_cast<shaders::CascadeRow>(row);
+    if (cascade.cascade.origin != vec2(overlaid.face.square.origin) || !(cascade.cascade.size > 0.0f)) continue;
+    cascade.cascade.origin = vec2(overlaid.copy.origin);
+    row = std::bit_cast<shaders::ShadowRow>(cascade);
+    return;
+  }
+}
+
+std::vector<shaders::ShadowRow> redirected_rows(const FrameBuilder& frame, const ShadowsOutputs& outputs,
+                                                std::span<const OverlayFace> faces) {
+  const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
+  std::vector<shaders::ShadowRow> rows = *outputs.row_values;
+  for (const OverlayFace& overlaid : faces) {
+    const bool directional = overlaid.face.kind == LightKind::directional;
+    const std::span<const Entity> lights = directional ? directional_lights(visible) : local_lights(visible);
+    const auto index = static_cast<std::size_t>(std::ranges::find(lights, overlaid.face.light) - lights.begin());
+    GLOAM_ASSERT(index < lights.size(), "faces belong to lights of the view");
+    if (directional)
+      redirect_cascade(
+          std::span(rows).subspan(outputs.block_values.cascade_row + index * GLOAM_MAX_CASCADES, GLOAM_MAX_CASCADES),
+          overlaid);
+    else
+      redirect_local(rows[index], overlaid);
+  }
+  return rows;
+}
+
+}  // namespace
+
+OverlayPlan::OverlayPlan(const World& world, ViewId view)
+    : views_(&world.view_resource<ShadowViews>(view)),
+      free_(std::make_shared<const FreeSquares>(views_->atlas.free_squares())) {}
+
+bool OverlayPlan::add(Entity light, const dvec3& low, const dvec3& high) {
+  if (views_ == nullptr) return false;
+  FreeSquares free = *free_;
+  std::vector<OverlayFace> added;
+  for (const ShadowFace& face : views_->faces) {
+    if (face.light != light || face.square.size == 0 || !face_may_see(face, low, high)) continue;
+    if (std::ranges::any_of(faces_, [&](const OverlayFace& there) { return is_same(there.face, face); })) continue;
+    const AtlasSquare copy = free.take(face.square.size);
+    if (copy.size == 0) return false;
+    added.push_back({face, copy});
+  }
+  free_ = std::make_shared<const FreeSquares>(std::move(free));
+  faces_.insert(faces_.end(), added.begin(), added.end());
+  return true;
+}
+
+bool OverlayMaps::d16() const { return tools_->knobs.d16; }
+
+Result<OverlayCopies> OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFace> faces) const {
+  const ShadowKnobs& knobs = tools_->knobs;
+  OverlayCopies copies{{faces.begin(), faces.end()}, knobs.d16};
+  if (knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) copies.depth_bits = ~GLOAM_SHADOW_FREE_BITS;
+  auto work = plan_copies(frame, faces, knobs.d16);
+  if (!work.ok()) return work.error();
+  auto found = tools_->states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  if (!found.ok()) return found.error();
+  ViewShadows& kept = **found;
+  ImageRef& atlas = frame.get<ShadowsOutputs>().atlas;
+  PassBuilder pass = frame.graph().add_pass("shadow_overlay_copy", "shadows");
+  atlas = pass.write(atlas, gpu::Access::compute_write);
+  pass.execute([work = std::move(*work), faces = copies.faces, &kept, atlas](PassContext& context) {
+    forget_what_lay_there(kept.cache, faces);
+    record_copies(context, work, atlas);
+  });
+  return copies;
+}
+
+Status OverlayMaps::finish(FrameBuilder& frame, const OverlayCopies& copies) const {
+  std::vector<ShadowFace> made;
+  for (const OverlayFace& overlaid : copies.faces) made.push_back(overlaid.at_copy());
+  auto work = plan_shadow_mips_in_place(frame, made, tools_->knobs);
+  if (!work.ok()) return work.error();
+  auto& outputs = frame.get<ShadowsOutputs>();
+  PassBuilder pass = frame.graph().add_pass("shadow_overlay_mips", "shadows");
+  outputs.atlas = pass.write(outputs.atlas, gpu::Access::compute_write);
+  outputs.pyramid = pass.write(outputs.pyramid, gpu::Access::compute_write);
+  pass.execute([work = std::move(*work), atlas = outputs.atlas, pyramid = outputs.pyramid](PassContext& context) {
+    record_mips(context, work, atlas, pyramid);
+  });
+  std::vector<shaders::ShadowRow> values = redirected_rows(frame, outputs, copies.faces);
+  auto rows = upload_shadow_rows(frame, tools_->states, "shadow_overlay_rows", values);
+  if (!rows.ok()) return rows.error();
+  outputs.rows = *rows;
+  outputs.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(values));
+  return {};
+}
+
+void list_overlay_map_pipelines(bool d16, PipelineList& list) {
+  list.push_back(copy_pipeline(d16));
+  list.push_back(shadow_mips_in_place_pipeline(d16));
+}
+
+}  // namespace gloam

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/filter/uploads.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "modules/lights/outputs.h"
+#include "modules/shadows/filter/cookies.h"
+#include "modules/shadows/views/cascade_rows.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kFewestRows = 16;
+
+static_assert(sizeof(shaders::ShadowRow) == GLOAM_SHADOW_ROW_TEXELS * sizeof(vec4));
+
+/// Copies from staging memory into one image.
+struct Copy {
+  ImageRef target;
+  UploadSlice source;
+  std::uint32_t layers = 1;
+};
+
+Result<UploadSlice> stage(UploadRing& staging, std::span<const std::byte> bytes) {
+  auto slice = staging.allocate(bytes.size());
+  if (slice.ok()) std::memcpy(slice->bytes.data(), bytes.data(), bytes.size());
+  return slice;
+}
+
+float cookie_layer(const World& world, Entity entity, const Cookies& cookies) {
+  const Light* light = world.try_get<Light>(entity);
+  if (light == nullptr || !has_cookie(*light)) return -1.0f;
+  const auto layer = cookies.layers.find(light->cookie);
+  return layer == cookies.layers.end() ? -1.0f : static_cast<float>(layer->second);
+}
+
+float traced_layer(const TracedVisibility* traced, Entity light) {
+  const auto layer = traced == nullptr ? std::nullopt : traced->layer_of(light);
+  return layer ? static_cast<float>(*layer) : -1.0f;
+}
+
+std::vector<shaders::ShadowRow> rows_of(const FrameBuilder& frame, const ShadowViews& views,
+                                        const TracedVisibility* traced) {
+  const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
+  const Cookies& cookies = frame.world().resource<Cookies>();
+  std::vector<shaders::ShadowRow> rows = views.rows;
+  const std::span<const Entity> lights = local_lights(visible);
+  rows.resize(lights.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].cookie_layer = cookie_layer(frame.world(), lights[i], cookies);
+    rows[i].traced_layer = traced_layer(traced, lights[i]);
+  }
+  return rows;
+}
+
+/// Names lights with cookies as long as there is room, which there is while the scene has no more of them.
+void name_cookies(std::span<const shaders::ShadowRow> rows, shaders::ShadowBlock& block) {
+  std::fill(std::begin(block.cookie_lights), std::end(block.cookie_lights), ~0u);
+  std::size_t named = 0;
+  for (std::size_t i = 0; i < rows.size() && named < std::size(block.cookie_lights); ++i)
+    if (rows[i].cookie_layer >= 0.0f) block.cookie_lights[named++] = static_cast<std::uint32_t>(i);
+}
+
+shaders::ShadowBlock block_of(const FrameBuilder& frame, const ShadowViews& views, const ShadowKnobs& knobs,
+                              const TracedVisibility* traced, std::span<const shaders::ShadowRow> rows) {
+  shaders::ShadowBlock block = views.block;
+  name_cookies(rows, block);
+  block.atlas_size = static_cast<float>(knobs.atlas_size);
+  block.bias_m = knobs.bias_m;
+  block.depth_quantum = knobs.d16 ? 1.0f / 65535.0f : 0.0f;
+  const int bits = knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 17 : 23;
+  block.relative_quantum = 1.0f / static_cast<float>(1 << bits);
+  const std::span<const Entity> lights =
+      directional_lights(frame.world().view_resource<VisibleLights>(frame.view().id));
+  for (std::size_t i = 0; i < std::size(block.directional); ++i)
+    block.directional[i].traced_layer = i < lights.size() ? traced_layer(traced, lights[i]) : -1.0f;
+  return block;
+}
+
+Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, std::span<const shaders::ShadowRow> rows,
+                          std::vector<Copy>& copies) {
+  gpu::ImageDesc desc;
+  desc.name = "shadow_rows";
+  desc.module = "shadows";
+  desc.format = gpu::Format::rgba32_float;
+  desc.width = GLOAM_SHADOW_ROW_TEXELS;
+  desc.height = static_cast<std::uint32_t>(rows.size());
+  auto slice = stage(states.staging(), std::as_bytes(rows));
+  if (!slice.ok()) return slice.error();
+  copies.push_back({frame.graph().create_image(desc), *slice});
+  return copies.back().target;
+}
+
+/// The world's cookies; staged when they are not on the GPU yet. One import a frame, for all views.
+Result<WorldCookies*> add_cookies(FrameBuilder& frame, ShadowStates& states, std::vector<Copy>& copies) {
+  const Cookies& cookies = frame.world().resource<Cookies>();
+  const auto layers = static_cast<std::uint32_t>(cookies.texels.size());
+  auto found =
+      states.cookies(frame.world().resource<ShadowWorld>(), std::max(layers, 1u), layers == 0 ? 1 : kCookieSide);
+  if (!found.ok()) return found;
+  WorldCookies& kept = **found;
+  if (kept.imported && kept.imported.frame == frame.graph().frame()) return found;
+  const bool there = kept.images.filled && kept.version == cookies.version;
+  const gpu::Access before = kept.images.filled ? gpu::Access::fragment_read : gpu::Access::none;
+  kept.imported = frame.graph().import_image("shadow_cookies", kept.images.image, before, gpu::Access::fragment_read);
+  if (there) return found;
+  std::vector<std::uint8_t> texels;
+  for (const auto& layer : cookies.texels) texels.insert(texels.end(), layer.begin(), layer.end());
+  if (texels.empty()) texels.assign(4, 255);
+  auto slice = stage(states.staging(), std::as_bytes(std::span(texels)));
+  if (!slice.ok()) return slice.error();
+  copies.push_back({kept.imported, *slice, std::max(layers, 1u)});
+  return found;
+}
+
+Result<ImageRef> add_traced(FrameBuilder& frame, ShadowStates& states, const TracedVisibility& traced,
+                            std::vector<Copy>& copies) {
+  gpu::ImageDesc desc;
+  desc.name = "shadow_traced";
+  desc.module = "shadows";
+  desc.format = gpu::Format::r8_unorm;
+  desc.width = traced.width;
+  desc.height = traced.height;
+  desc.layers = static_cast<std::uint32_t>(traced.lights.size());
+  desc.shape = gpu::ImageShape::array;
+  auto slice = stage(states.traced_staging(), std::as_bytes(std::span(traced.visibility)));
+  if (!slice.ok()) return slice.error();
+  copies.push_back({frame.graph().create_image(desc), *slice, desc.layers});
+  return copies.back().target;
+}
+
+}  // namespace
+
+const TracedVisibility* traced_visibility_of(const World& world, const RenderView& view) {
+  const TracedVisibility* traced = world.try_resource<TracedVisibility>();
+  return traced != nullptr && traced->width == view.width && traced->height == view.height ? traced : nullptr;
+}
+
+Result<ImageRef> upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::string_view pass_name,
+                                    std::span<const shaders::ShadowRow> rows) {
+  std::vector<Copy> copies;
+  auto made = add_rows(frame, states, rows, copies);
+  if (!made.ok()) return made;
+  Copy copy = copies.front();
+  PassBuilder pass = frame.graph().add_pass(pass_name, "shadows");
+  copy.target = pass.write(copy.target, gpu::Access::transfer_write);
+  pass.execute([copy](PassContext& context) {
+    context.commands().copy_buffer_to_image(copy.source.buffer, copy.source.offset, context.image(copy.target), 0, 0,
+                                            copy.layers);
+  });
+  return copy.target;
+}
+
+Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
+                          ShadowsOutputs& outputs) {
+  const TracedVisibility* traced = traced_visibility_of(frame.world(), frame.view());
+  std::vector<shaders::ShadowRow> rows_now = rows_of(frame, views, traced);
+  shaders::ShadowBlock block_now = block_of(frame, views, knobs, traced, rows_now);
+  // Few heights, so that the frame's plan stays as it is while lights come and go.
+  rows_now.resize(std::bit_ceil(std::max<std::size_t>(rows_now.size(), kFewestRows)));
+  append_cascade_rows(directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id)), block_now,
+                      rows_now);
+  auto block = frame.services().uniforms.write_value(block_now);
+  if (!block.ok()) return block.error();
+  outputs.block = *block;
+  outputs.block_values = block_now;
+  auto nearest = frame.nearest_sampler();
+  if (!nearest.ok()) return nearest.error();
+  outputs.nearest = *nearest;
+  auto linear = frame.linear_sampler();
+  if (!linear.ok()) return linear.error();
+  outputs.linear = *linear;
+
+  std::vector<Copy> copies;
+  outputs.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(rows_now));
+  auto rows = add_rows(frame, states, *outputs.row_values, copies);
+  if (!rows.ok()) return rows.error();
+  auto cookies = add_cookies(frame, states, copies);
+  if (!cookies.ok()) return cookies.error();
+  const bool has_traced = traced != nullptr && !traced->lights.empty();
+  if (has_traced)
+    if (auto image = add_traced(frame, states, *traced, copies); !image.ok()) return image.error();
+
+  PassBuilder pass = frame.graph().add_pass("shadow_rows", "shadows");
+  WorldCookies& kept = **cookies;
+  for (Copy& copy : copies) {
+    const bool is_cookies = copy.target.resource == kept.imported.resource;
+    copy.target = pass.write(copy.target, gpu::Access::transfer_write);
+    if (is_cookies) kept.imported = copy.target;
+  }
+  outputs.rows = copies.front().target;
+  outputs.cookies = kept.imported;
+  outputs.traced = has_traced ? copies.back().target : outputs.cookies;
+  pass.execute([copies, &kept, version = frame.world().resource<Cookies>().version](PassContext& context) {
+    for (const Copy& copy : copies)
+      context.commands().copy_buffer_to_image(copy.source.buffer, copy.source.offset, context.image(copy.target), 0, 0,
+                                              copy.layers);
+    kept.images.filled = true;
+    kept.version = version;
+  });
+  return {};
+}
+
+}  // namespace gloam

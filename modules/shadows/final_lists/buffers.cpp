@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/final_lists/buffers.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "modules/lights/outputs.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} * GLOAM_BUFFER_WORDS;   // of one buffer
+constexpr std::uint32_t kMostSlots = GLOAM_NO_ROOM;                           // numbers 0 … GLOAM_NO_ROOM - 1
+constexpr std::uint32_t kMostPairs = kMostBytes / sizeof(std::uint32_t) / 2;  // and as many directional ones
+
+std::uint32_t slot_bytes(std::uint32_t bits) { return GLOAM_SLOT_PIXELS * bits / 8; }
+std::uint32_t slots_per_buffer(std::uint32_t bits) { return static_cast<std::uint32_t>(kMostBytes / slot_bytes(bits)); }
+
+std::uint32_t at_most(std::uint64_t count, std::uint32_t most) {
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, most));
+}
+
+BufferRef create(FrameGraph& graph, const char* name, std::uint64_t bytes) {
+  gpu::BufferDesc desc;
+  desc.name = name;
+  desc.module = "shadows";
+  desc.size = std::max<std::uint64_t>(bytes, 4);
+  return graph.create_buffer(desc);
+}
+
+/// Local lights in few steps: buffers do not change with every light that comes into view.
+std::uint32_t rounded_lights(std::uint32_t count) { return (count + 23) / 24 * 24; }
+
+struct Capacities {
+  std::uint32_t pairs = 0;
+  std::uint32_t slots = 0;
+  bool fit_all = false;
+};
+
+Capacities capacities(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uint32_t bits, std::uint32_t tiles) {
+  const LightsOutputs& lights = *frame.find<LightsOutputs>();
+  const std::uint64_t all = std::uint64_t{tiles} * (rounded_lights(lights.local_count) + lights.directional_count);
+  Capacities c;
+  c.fit_all = all * slot_bytes(bits) <= kBytesThatFitAll && all <= knobs.slot_limit && all <= knobs.pair_limit;
+  const FinalListFeedback* feedback = frame.world().try_view_resource<FinalListFeedback>(frame.view().id);
+  const FinalListFeedback asked = feedback == nullptr ? FinalListFeedback{} : *feedback;
+  const std::uint32_t least = at_most(std::uint64_t{tiles} * kFirstSlotsPerTile, kMostSlots);
+  const std::uint32_t least_pairs =
+      at_most(std::uint64_t{tiles} * (feedback == nullptr ? kFirstPairsPerTile : kLeastPairsPerTile), kMostPairs);
+  c.pairs = c.fit_all ? static_cast<std::uint32_t>(all)
+                      : kept_capacity(asked.pair_capacity, asked.pairs_asked, least_pairs, kMostPairs);
+  c.slots = c.fit_all ? static_cast<std::uint32_t>(all)
+                      : kept_capacity(asked.slot_capacity, asked.slots_asked, least, kMostSlots);
+  c.pairs = std::min(c.pairs, knobs.pair_limit);
+  c.slots = std::min(c.slots, knobs.slot_limit);
+  return c;
+}
+
+void create_visibilities(FrameGraph& graph, FinalLists& lists) {
+  const std::uint32_t bits = lists.visibility_bits, first = std::min(lists.slot_capacity, slots_per_buffer(bits));
+  const bool split = lists.slot_capacity > first;
+  lists.visibilities[0] = create(graph, "shadow_visibilities", std::uint64_t{first} * slot_bytes(bits));
+  lists.visibilities[1] = lists.visibilities[0];
+  if (split)
+    lists.visibilities[1] =
+        create(graph, "more_shadow_visibilities", std::uint64_t{lists.slot_capacity - first} * slot_bytes(bits));
+  lists.constants = {{GLOAM_FINAL_BITS_ID, bits}, {GLOAM_FINAL_BUFFERS_ID, split ? 2u : 1u}};
+  lists.variant = "final-" + std::to_string(bits) + (split ? "-2" : "-1");
+}
+
+}  // namespace
+
+std::uint32_t kept_capacity(std::uint32_t there, std::uint32_t asked, std::uint32_t least, std::uint32_t most) {
+  const std::uint32_t needed = std::max(least, at_most(std::uint64_t{asked} * 5 / 4, most));
+  const bool keeps = there >= asked && there >= least && there / 4 <= needed;
+  return std::min(keeps ? there : needed, most);
+}
+
+FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counters, const FinalListNote& note,
+                                      const FinalListFeedback* last) {
+  FinalListFeedback feedback;
+  feedback.pairs_asked = counters.pairs;
+  // Tiles whose pairs found no room asked for no slots: as many more as the others needed.
+  const bool pairs_full = counters.pairs > note.pair_capacity;
+  const std::uint64_t share =
+      pairs_full ? std::uint64_t{counters.slots} * counters.pairs / std::max(note.pair_capacity, 1u) : counters.slots;
+  feedback.slots_asked = at_most(std::max<std::uint64_t>(share, counters.slots), kMostSlots);
+  const std::uint32_t least = at_most(std::uint64_t{note.tiles} * kFirstSlotsPerTile, kMostSlots);
+  const std::uint32_t least_pairs = at_most(std::uint64_t{note.tiles} * kLeastPairsPerTile, kMostPairs);
+  // What a view begins with was a guess.
+  feedback.pair_capacity =
+      kept_capacity(last == nullptr ? 0 : last->pair_capacity, feedback.pairs_asked, least_pairs, kMostPairs);
+  feedback.slot_capacity = kept_capacity(last == nullptr ? note.slot_capacity : last->slot_capacity,
+                                         feedback.slots_asked, least, kMostSlots);
+  return feedback;
+}
+
+void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote& note, CounterSink& sink) {
+  const double candidates = std::max(1.0, static_cast<double>(c.candidates));
+  sink.count("shadows.tile_lights", c.candidates);
+  sink.count("shadows.tile_lights_unshadowed", c.unshadowed);
+  sink.count("shadows.tile_lights_lit", c.lit_at_once);
+  sink.count("shadows.tile_lights_unlit", c.unlit_at_once);
+  sink.count("shadows.tile_lights_filtered", c.pairs);
+  sink.count("shadows.tile_lights_filtered_lit", c.lit_by_filter);
+  sink.count("shadows.tile_lights_filtered_unlit", c.unlit_by_filter);
+  sink.count("shadows.classified_share", 1.0 - c.pairs / candidates);
+  sink.count("shadows.slots", c.slots);
+  sink.count("shadows.slot_capacity", note.slot_capacity);
+  sink.count("shadows.pair_capacity", note.pair_capacity);
+  sink.count("shadows.fallback_tiles", c.fallback_tiles);
+  sink.count("shadows.list_bytes", static_cast<double>(note.list_bytes));
+  sink.count("shadows.visibility_bytes", static_cast<double>(note.visibility_bytes));
+  sink.count("shadows.fixed_list_bytes", note.tiles * 32.0 * (4.0 / 3.0 + 4.0));
+  sink.count("shadows.fixed_visibility_bytes", note.tiles * 32.0 * slot_bytes(note.visibility_bits));
+}
+
+std::uint32_t visibility_bits_of(const ShadowKnobs& knobs) { return knobs.levels == 15 ? 4 : 8; }
+
+Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs) {
+  FrameGraph& graph = frame.graph();
+  const LightsOutputs& lights = *frame.find<LightsOutputs>();
+  const uvec2 tiles = (uvec2(frame.view().width, frame.view().height) + uvec2(kShadowTile - 1)) / uvec2(kShadowTile);
+  const std::uint32_t tile_count = tiles.x * tiles.y;
+  FinalListBuffers made;
+  FinalLists& lists = made.lists;
+  lists.visibility_bits = visibility_bits_of(knobs);
+  const Capacities c = capacities(frame, knobs, lists.visibility_bits, tile_count);
+  lists.pair_capacity = c.pairs;
+  lists.slot_capacity = c.slots;
+
+  shaders::FinalGrid grid{};
+  grid.tiles = tiles;
+  grid.directional_count = lights.directional_count;
+  grid.has_early_lists = lights.has_lists() ? 1 : 0;
+  const std::uint64_t entries =
+      std::uint64_t{tile_count} * lights.directional_count + (lights.has_lists() ? lights.slot_capacity : 0);
+  grid.entry_capacity = at_most(entries, kMostBytes / sizeof(std::uint32_t));
+  grid.pair_capacity = c.pairs;
+  grid.slot_capacity = c.slots;
+  grid.classify = knobs.classify && knobs.early_outs ? 1 : 0;
+  lists.always_complete =
+      c.fit_all && grid.entry_capacity == entries && (!lights.has_lists() || lights.lists_always_fit);
+  auto range = frame.services().uniforms.write_value(grid);
+  if (!range.ok()) return range.error();
+  made.grid = lists.grid = *range;
+
+  gpu::ImageDesc image;
+  image.name = "final_light_lists";
+  image.module = "shadows";
+  image.format = gpu::Format::rgba32_uint;
+  image.width = tiles.x;
+  image.height = tiles.y;
+  lists.tiles = graph.create_image(image);
+  constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+  lists.entries = create(graph, "final_light_entries", kWord * grid.entry_capacity);
+  const std::uint64_t pairs =
+      std::uint64_t{c.pairs} + std::min<std::uint64_t>(c.pairs, std::uint64_t{tile_count} * lights.directional_count);
+  made.pairs = create(graph, "shadow_pairs", kWord * pairs);
+  lists.fallback_tiles = create(graph, "shadow_fallback_tiles", kWord * tile_count);
+  lists.commands = create(graph, "shadow_list_commands", sizeof(shaders::ShadowListCommands));
+  lists.counters = create(graph, "shadow_list_counters", sizeof(shaders::ShadowListCounters));
+  lists.fallback_draw = offsetof(shaders::ShadowListCommands, fallback_draw);
+  create_visibilities(graph, lists);
+  made.note = {tile_count,
+               c.slots,
+               c.pairs,
+               kWord * (std::uint64_t{grid.entry_capacity} + pairs) +
+                   (lights.has_lists() ? std::uint64_t{lights.slot_capacity} / 3 * kWord : 0),
+               std::uint64_t{c.slots} * slot_bytes(lists.visibility_bits),
+               lists.visibility_bits};
+  return made;
+}
+
+}  // namespace gloam

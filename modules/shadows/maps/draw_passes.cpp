@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/maps/draw_passes.h"
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+#include <utility>
+
+#include "modules/shadows/atlas/drawn_faces.h"
+#include "modules/shadows/maps/mips.h"
+#include "modules/shadows/maps/recording.h"
+
+namespace gloam {
+namespace {
+
+/// All that is drawn in this frame; outlives the declaration, as pass functions run later.
+struct MapWork {
+  FacePlan backgrounds;
+  FacePlan faces;
+  MapRecording map;
+  ShadowMipWork mips;
+};
+
+/// Draws what casters that rest make of parts of faces, batch by batch, into the image of backgrounds. The graph does
+/// not know it, as it does not know the scratch map; between frames it is ready to be read.
+void record_backgrounds(FrameBuilder& frame, PassContext& context, const MapWork& work, ViewShadows& kept) {
+  if (work.backgrounds.faces.empty()) return;
+  gpu::CommandList& commands = context.commands();
+  const gpu::ImageHandle image = kept.backgrounds.image;
+  gpu::Access before = kept.backgrounds.filled ? gpu::Access::compute_read : gpu::Access::none;
+  for (std::size_t batch = 0; batch < work.backgrounds.plan.batches.size(); ++batch) {
+    record_draws(frame, context, work.map, work.backgrounds, batch);
+    const std::uint32_t size = work.backgrounds.plan.batches[batch].size;
+    work.map.scratch->begin_reading(commands, size);
+    const gpu::ImageBarrier write{image, before, gpu::Access::compute_write};
+    commands.barrier({}, {&write, 1});
+    before = gpu::Access::compute_write;
+    record_backgrounds(commands, work.mips, batch, {work.map.scratch->image(size), {}, {}, image});
+  }
+  const gpu::ImageBarrier read{image, gpu::Access::compute_write, gpu::Access::compute_read};
+  commands.barrier({}, {&read, 1});
+  kept.backgrounds.filled = true;
+}
+
+ShadowMipImages mip_images(PassContext& context, const MapWork& work, std::size_t batch, const ViewShadows& kept,
+                           const ShadowMaps& maps) {
+  return {work.map.scratch->image(work.faces.plan.batches[batch].size), context.image(maps.atlas),
+          context.image(maps.pyramid), kept.backgrounds.filled ? kept.backgrounds.image : gpu::ImageHandle{}};
+}
+
+/// Draws a batch and moves it into the atlas; nothing where the plan has no such batch. Before the first: the frame's
+/// backgrounds.
+void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, std::size_t index, ViewShadows& kept,
+               ShadowMaps& maps) {
+  const bool there = index < work->faces.plan.batches.size();
+  PassBuilder draw = frame.graph().add_pass("shadow_map_draw", "shadows");
+  frame.read_vertices(draw);
+  draw.keep();  // what it writes, the graph does not know
+  if (there)
+    draw.execute([&frame, work, index, &kept](PassContext& context) {
+      if (index == 0) record_backgrounds(frame, context, *work, kept);
+      record_draws(frame, context, work->map, work->faces, index);
+    });
+  PassBuilder mips = frame.graph().add_pass("shadow_map_mips", "shadows");
+  maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
+  maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);
+  if (!there) return;
+  mips.execute([work, index, &kept, maps](PassContext& context) {
+    work->map.scratch->begin_reading(context.commands(), work->faces.plan.batches[index].size);
+    record_batch_mips(context.commands(), work->mips, index, mip_images(context, *work, index, kept, maps));
+  });
+}
+
+/// The last of the passes: then the atlas holds what was drawn.
+void add_coarse_mips(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, ViewShadows& kept,
+                     ShadowMaps& maps) {
+  PassBuilder mips = frame.graph().add_pass("shadow_map_mips", "shadows");
+  maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
+  maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);
+  mips.execute([work, maps, &kept, drawn_in = kept.history.frame()](PassContext& context) {
+    const std::size_t last_batch = work->faces.plan.batches.size() - 1;
+    record_coarse_mips(context.commands(), work->mips, mip_images(context, *work, last_batch, kept, maps));
+    // Only now: a frame that ended before has drawn nothing.
+    kept.atlas.filled = kept.pyramid.filled = true;
+    for (const DrawnFace& face : work->faces.faces) {
+      kept.cache.set_drawn(face.face, face.content, drawn_in);
+      kept.cache.set_backgrounds(face.face, face.backgrounds);
+    }
+  });
+}
+
+}  // namespace
+
+void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list) {
+  list.push_back(map_pipeline(false));
+  list.push_back(map_pipeline(true));
+  list.push_back(shadow_mips_pipeline(knobs.d16));
+  list.push_back(shadow_backgrounds_pipeline());
+}
+
+Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
+                                         const ShadowViews& views, const ShadowKnobs& knobs) {
+  auto work = std::make_shared<MapWork>();
+  work->map.bias_units = knobs.bias_units;
+  DrawnMaps drawn = faces_to_draw(frame, kept, views, knobs);
+  if (kept.counts.cached == 0 && drawn.faces.empty()) return ShadowMaps{};
+  work->backgrounds = plan_faces(std::move(drawn.backgrounds));
+  work->faces = plan_faces(std::move(drawn.faces));
+  FrameGraph& graph = frame.graph();
+  const auto import = [&](const char* name, const KeptImage& image) {
+    return graph.import_image(name, image.image, image.filled ? gpu::Access::fragment_read : gpu::Access::none,
+                              gpu::Access::fragment_read);
+  };
+  ShadowMaps maps{import("shadow_atlas", kept.atlas), import("shadow_pyramid", kept.pyramid), {}};
+  frame.expose(maps.pyramid);
+  if (work->faces.faces.empty()) return maps;
+  const FacePlan* const plans[] = {&work->backgrounds, &work->faces};
+  GLOAM_TRY(make_map_pipelines(frame, plans, work->map));
+  for (const DrawnFace& face : work->faces.faces)
+    for (const DrawnRegion& region : face.regions) maps.drawn.push_back({face.face.square, region.texels});
+  if (!work->backgrounds.faces.empty()) GLOAM_TRY(states.reserve_backgrounds(kept));
+  auto mips = plan_shadow_mips(frame, work->backgrounds, work->faces, knobs);
+  if (!mips.ok()) return mips.error();
+  work->mips = *mips;
+  auto scratch = states.scratch(std::max(work->backgrounds.plan.texels(), work->faces.plan.texels()));
+  if (!scratch.ok()) return scratch.error();
+  work->map.scratch = *scratch;
+  // Few different numbers of passes, so that the frame's plans are met again.
+  const std::size_t batches = std::bit_ceil(work->faces.plan.batches.size());
+  for (std::size_t batch = 0; batch < batches; ++batch) add_batch(frame, work, batch, kept, maps);
+  add_coarse_mips(frame, work, kept, maps);
+  frame.expose(maps.pyramid);
+  return maps;
+}
+
+}  // namespace gloam

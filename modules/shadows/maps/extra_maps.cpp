@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "modules/shadows/maps/recording.h"
+#include "modules/shadows/maps/tools.h"
+#include "modules/shadows/outputs.h"
+#include "modules/shadows/views/cascades.h"
+
+namespace gloam {
+namespace {
+
+/// Outlives the declaration, as pass functions run later.
+struct ExtraWork {
+  std::vector<Caster> casters;  ///< that draws point to
+  FacePlan backgrounds;         ///< none
+  FacePlan faces;
+  MapRecording map;
+  ShadowMipWork mips;
+};
+
+DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, bool simplified) {
+  DrawnFace drawn{map.face, {}, {}, {}};
+  DrawnRegion& region = drawn.regions.emplace_back(DrawnRegion{whole_face(map.face), {}, {}});
+  region.draws = face_draws(face_volume(map.face), casters, simplified);
+  for (const FaceDraw& draw : region.draws)
+    region.matrices.push_back(clip_from_mesh(map.face, draw.caster->world_from_mesh));
+  return drawn;
+}
+
+/// Casters of these entities.
+std::vector<Caster> casters_of(const FrameBuilder& frame, std::span<const Entity> entities) {
+  std::vector<Caster> found;
+  for (const Caster& caster : frame.casters().casters) {
+    const auto at = std::lower_bound(entities.begin(), entities.end(), caster.entity,
+                                     [](Entity a, Entity b) { return a.index < b.index; });
+    if (at != entities.end() && *at == caster.entity) found.push_back(caster);
+  }
+  return found;
+}
+
+ShadowMipImages images_of(PassContext& context, const ExtraWork& work, const ExtraAtlas& atlas) {
+  return {work.map.scratch->image(work.faces.plan.batches.front().size),
+          context.image(atlas.atlas),
+          context.image(atlas.pyramid),
+          {}};
+}
+
+void add_passes(FrameBuilder& frame, const std::string& name, const char* module,
+                const std::shared_ptr<const ExtraWork>& work, ExtraAtlas& into) {
+  PassBuilder draw = frame.graph().add_pass(name, module);
+  frame.read_vertices(draw);
+  draw.keep();  // what it writes, the graph does not know
+  draw.execute([&frame, work](PassContext& context) { record_draws(frame, context, work->map, work->faces, 0); });
+  PassBuilder mips = frame.graph().add_pass(name + "_mips", module);
+  into.atlas = mips.write(into.atlas, gpu::Access::compute_write);
+  into.pyramid = mips.write(into.pyramid, gpu::Access::compute_write);
+  mips.execute([work, into](PassContext& context) {
+    gpu::CommandList& commands = context.commands();
+    work->map.scratch->begin_reading(commands, work->faces.plan.batches.front().size);
+    const ShadowMipImages images = images_of(context, *work, into);
+    record_batch_mips(commands, work->mips, 0, images);
+    if (work->mips.coarse.empty()) return;
+    const gpu::ImageBarrier written[] = {{images.atlas, gpu::Access::compute_write, gpu::Access::compute_write},
+                                         {images.pyramid, gpu::Access::compute_write, gpu::Access::compute_write}};
+    commands.barrier({}, written);
+    record_coarse_mips(commands, work->mips, images);
+  });
+}
+
+}  // namespace
+
+shaders::ShadowCascade orthographic_constants(const ShadowFace& face, const dvec3& view_position) {
+  return cascade_constants(face, view_position, 0.0f);
+}
+
+std::uint32_t threads_a_tile(const gpu::DeviceInfo& device) {
+  // A device that is a CPU swaps the state of all threads of a workgroup at every barrier: few threads, of many pixels
+  // each.
+  return device.type == gpu::DeviceType::cpu ? 8 : 64;
+}
+
+ExtraAtlas ShadowMapDrawer::create(FrameGraph& graph, const char* module, std::uint32_t size) const {
+  gpu::ImageDesc desc;
+  desc.module = module;
+  desc.name = std::string(module) + "_atlas";
+  desc.format = tools_->knobs.d16 ? gpu::Format::r16_unorm : gpu::Format::r32_float;
+  desc.width = size + size / 2;
+  desc.height = size;
+  ExtraAtlas made;
+  made.size = size;
+  made.atlas = graph.create_image(desc);
+  desc.name = std::string(module) + "_pyramid";
+  desc.format = gpu::Format::r32_float;
+  const std::uint32_t side = size >> GLOAM_SHADOW_PYRAMID_MIP;
+  desc.width = side + side / 2;
+  desc.height = 2 * side;
+  made.pyramid = graph.create_image(desc);
+  return made;
+}
+
+std::size_t ShadowMapDrawer::most_maps(std::uint32_t size) {
+  return std::min(std::max(kScratchTexels / size / size, 1u), kMostScratchLayers);
+}
+
+Status ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, const char* module, std::span<const ExtraMap> maps,
+                             ExtraAtlas& into) const {
+  auto work = std::make_shared<ExtraWork>();
+  std::vector<std::size_t> counts;
+  for (const ExtraMap& map : maps) {
+    const std::vector<Caster> casters = casters_of(frame, map.casters);
+    counts.push_back(casters.size());
+    work->casters.insert(work->casters.end(), casters.begin(), casters.end());
+  }
+  std::vector<DrawnFace> faces;
+  std::span<const Caster> left = work->casters;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    faces.push_back(drawn_face(maps[i], left.first(counts[i]), tools_->knobs.simplified));
+    left = left.subspan(counts[i]);
+  }
+  work->faces = plan_faces(std::move(faces));
+  GLOAM_ASSERT(work->faces.plan.batches.size() == 1, "maps of one size, few enough for one image, are drawn at a time");
+  const FacePlan* const plans[] = {&work->faces};
+  GLOAM_TRY(make_map_pipelines(frame, plans, work->map));
+  work->map.bias_units = tools_->knobs.bias_units;
+  ShadowKnobs knobs = tools_->knobs;
+  knobs.atlas_size = into.size;
+  auto mips = plan_shadow_mips(frame, work->backgrounds, work->faces, knobs, kSteepestSubject);
+  if (!mips.ok()) return mips.error();
+  work->mips = *mips;
+  auto scratch = tools_->states.scratch(work->faces.plan.texels());
+  if (!scratch.ok()) return scratch.error();
+  work->map.scratch = *scratch;
+  add_passes(frame, std::string("shadow_map_") + name, module, work, into);
+  return {};
+}
+
+Result<gpu::Binding::BufferRange> ShadowMapDrawer::block(FrameBuilder& frame, std::uint32_t size) const {
+  shaders::ShadowBlock block = tools_->block;
+  block.atlas_size = static_cast<float>(size);
+  return frame.services().uniforms.write_value(block);
+}
+
+}  // namespace gloam

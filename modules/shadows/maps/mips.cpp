@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/maps/mips.h"
+
+#include <utility>
+
+#include "shaders/shadows/shaders.h"
+
+namespace gloam {
+namespace {
+
+/// ShadowMipGroup::gap: what recedes more steeply is taken for two surfaces.
+float surface_gap(const ShadowFace& face, float steepest) {
+  const auto texels = static_cast<float>(face.square.size);
+  if (face.tan_half > 0.0f) return steepest * 2.0f * face.tan_half / texels;
+  return steepest * 2.0f * face.half_extent_m / texels / face.far_m;
+}
+
+TexelRect bounds_of(const DrawnFace& face) {
+  TexelRect bounds = face.regions.front().texels;
+  for (const DrawnRegion& region : face.regions)
+    bounds = {glm::min(bounds.begin, region.texels.begin), glm::max(bounds.end, region.texels.end)};
+  return bounds;
+}
+
+class GroupList {
+ public:
+  explicit GroupList(float steepest = kSteepestSurface) : steepest_(steepest) {}
+  /// What one dispatch makes of these texels of a face: the run of mips after `first`.
+  void add(const ShadowFace& face, std::uint32_t layer, const TexelRect& texels, std::uint32_t first,
+           bool on_background = false) {
+    const std::uint32_t block = std::uint32_t{GLOAM_SHADOW_MIP_BLOCK} << first;
+    shaders::ShadowMipGroup group{};
+    group.origin = face.square.origin;
+    group.size = face.square.size;
+    group.layer = layer;
+    group.orthographic = face.tan_half > 0.0f ? 0u : 1u;
+    group.on_background = on_background ? 1u : 0u;
+    group.gap = surface_gap(face, steepest_);
+    add_groups(texels.begin / block, (texels.end + block - 1u) / block, GLOAM_SHADOW_MIP_GROUP,
+               [&](uvec2 begin, uvec2 end) {
+                 group.begin = begin;
+                 group.end = end;
+                 groups_.push_back(group);
+               });
+  }
+  /// All regions of a plan's batches; a range for each.
+  [[nodiscard]] std::vector<GroupRange> add_batches(const FacePlan& faces) {
+    std::vector<GroupRange> ranges;
+    for (const ScratchPlan::Batch& batch : faces.plan.batches) {
+      for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
+        const DrawnFace& face = faces.faces[batch.items[layer]];
+        for (const DrawnRegion& region : face.regions) add(face.face, layer, region.texels, 0, region.on_background);
+      }
+      ranges.push_back(take_range());
+    }
+    return ranges;
+  }
+  /// All that was added since the last call.
+  [[nodiscard]] GroupRange take_range() {
+    const GroupRange range{taken_, static_cast<std::uint32_t>(groups_.size()) - taken_};
+    taken_ += range.count;
+    return range;
+  }
+  [[nodiscard]] const std::vector<shaders::ShadowMipGroup>& groups() const { return groups_; }
+
+ private:
+  float steepest_;
+  std::vector<shaders::ShadowMipGroup> groups_;
+  std::uint32_t taken_ = 0;
+};
+
+void record(gpu::CommandList& commands, const ShadowMipWork& work, const GroupRange& groups, std::uint32_t first) {
+  shaders::ShadowMipConstants constants = work.constants;
+  constants.first = first;
+  dispatch_groups(commands, constants, groups);
+}
+
+void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images) {
+  commands.bind_pipeline(work.pipeline);
+  if (!images.scratch) {
+    const gpu::Binding in_place[] = {{1, gpu::Binding::Storage{{.image = images.atlas}}},
+                                     {2, gpu::Binding::Storage{{.image = images.pyramid}}},
+                                     {3, work.groups}};
+    commands.bind(in_place);
+    return;
+  }
+  const gpu::ImageView scratch{.image = images.scratch, .as_array = true};
+  const gpu::ImageView backgrounds{.image = images.backgrounds ? images.backgrounds : images.scratch, .as_array = true};
+  const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{scratch, work.sampler}},
+                                   {1, gpu::Binding::Storage{{.image = images.atlas}}},
+                                   {2, gpu::Binding::Storage{{.image = images.pyramid}}},
+                                   {3, work.groups},
+                                   {4, gpu::Binding::Sampled{backgrounds, work.sampler}}};
+  commands.bind(bindings);
+}
+
+void add_coarse_runs(const FacePlan& faces, GroupList& list, ShadowMipWork& work) {
+  for (std::uint32_t first = GLOAM_SHADOW_MIP_RUN; faces.plan.batches.front().size >> first > 1;
+       first += GLOAM_SHADOW_MIP_RUN) {
+    // Coarser mips have few texels: what lies between a face's regions is made along with them, and nothing twice.
+    for (const DrawnFace& face : faces.faces)
+      if (face.face.square.size >> first > 1) list.add(face.face, 0, bounds_of(face), first);
+    work.coarse.push_back(list.take_range());
+  }
+}
+
+/// What both ways to make mips need on the device.
+Status prepare(FrameBuilder& frame, const GroupList& list, const gpu::ComputePipelineDesc& desc,
+               const ShadowKnobs& knobs, ShadowMipWork& work) {
+  work.constants.mip_operator = knobs.mip_operator;
+  work.constants.atlas_size = knobs.atlas_size;
+  auto groups = frame.services().storage.write(std::as_bytes(std::span(list.groups())));
+  if (!groups.ok()) return groups.error();
+  work.groups = *groups;
+  auto pipeline = frame.services().pipelines.get(desc);
+  if (!pipeline.ok()) return pipeline.error();
+  work.pipeline = *pipeline;
+  return {};
+}
+
+}  // namespace
+
+gpu::ComputePipelineDesc shadow_mips_pipeline(bool d16) {
+  if (d16) return {"shadow_map_mips/d16", "shadows", shaders::shadows::mips_r16_comp, {}};
+  return {"shadow_map_mips/d32", "shadows", shaders::shadows::mips_comp, {}};
+}
+
+gpu::ComputePipelineDesc shadow_mips_in_place_pipeline(bool d16) {
+  if (d16) return {"shadow_map_mips/in_place/d16", "shadows", shaders::shadows::mips_in_place_r16_comp, {}};
+  return {"shadow_map_mips/in_place/d32", "shadows", shaders::shadows::mips_in_place_comp, {}};
+}
+
+gpu::ComputePipelineDesc shadow_backgrounds_pipeline() {
+  return {"shadow_backgrounds", "shadows", shaders::shadows::backgrounds_comp, {}};
+}
+
+FacePlan plan_faces(std::vector<DrawnFace> faces) {
+  std::vector<std::uint32_t> sizes;
+  for (const DrawnFace& face : faces) sizes.push_back(face.face.square.size);
+  return {std::move(faces), plan_scratch(sizes)};
+}
+
+Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,
+                                       const ShadowKnobs& knobs, float steepest) {
+  ShadowMipWork work;
+  GroupList list(steepest);
+  work.backgrounds = list.add_batches(backgrounds);
+  work.batches = list.add_batches(faces);
+  add_coarse_runs(faces, list, work);
+  GLOAM_TRY(prepare(frame, list, shadow_mips_pipeline(knobs.d16), knobs, work));
+  if (!work.backgrounds.empty()) {
+    auto made = frame.services().pipelines.get(shadow_backgrounds_pipeline());
+    if (!made.ok()) return made.error();
+    work.backgrounds_pipeline = *made;
+  }
+  auto sampler = frame.nearest_sampler();
+  if (!sampler.ok()) return sampler.error();
+  work.sampler = *sampler;
+  return work;
+}
+
+Result<ShadowMipWork> plan_shadow_mips_in_place(FrameBuilder& frame, std::span<const ShadowFace> faces,
+                                                const ShadowKnobs& knobs) {
+  ShadowMipWork work;
+  GroupList list;
+  std::vector<DrawnFace> whole;
+  for (const ShadowFace& face : faces) {
+    list.add(face, 0, whole_face(face), 0);
+    whole.push_back({face, {}, {DrawnRegion{whole_face(face), {}, {}}}, {}});
+  }
+  work.batches.push_back(list.take_range());
+  add_coarse_runs(plan_faces(std::move(whole)), list, work);
+  GLOAM_TRY(prepare(frame, list, shadow_mips_in_place_pipeline(knobs.d16), knobs, work));
+  return work;
+}
+
+void record_backgrounds(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,
+                        const ShadowMipImages& images) {
+  const gpu::ImageView scratch{.image = images.scratch, .as_array = true};
+  const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{scratch, work.sampler}},
+                                   {1, gpu::Binding::Storage{{.image = images.backgrounds, .as_array = true}}},
+                                   {2, work.groups}};
+  commands.bind_pipeline(work.backgrounds_pipeline);
+  commands.bind(bindings);
+  record(commands, work, work.backgrounds[batch], 0);
+}
+
+void record_batch_mips(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,
+                       const ShadowMipImages& images) {
+  bind(commands, work, images);
+  record(commands, work, work.batches[batch], 0);
+}
+
+void record_coarse_mips(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images) {
+  bind(commands, work, images);
+  for (std::uint32_t run = 0; run < work.coarse.size(); ++run) {
+    if (run > 0) {
+      // Each run of mips reads the last of the one before.
+      const gpu::ImageBarrier written[] = {{images.atlas, gpu::Access::compute_write, gpu::Access::compute_write},
+                                           {images.pyramid, gpu::Access::compute_write, gpu::Access::compute_write}};
+      commands.barrier({}, written);
+    }
+    record(commands, work, work.coarse[run], (run + 1) * GLOAM_SHADOW_MIP_RUN);
+  }
+}
+
+}  // namespace gloam

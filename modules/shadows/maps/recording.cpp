@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/maps/recording.h"
+
+#include "engine/render/scene/mesh_packing.h"
+#include "shaders/shadows/maps/map_shared.h"
+#include "shaders/shadows/shaders.h"
+
+namespace gloam {
+namespace {
+
+constexpr float kSlopeBias = 1.0f;
+
+}  // namespace
+
+gpu::GraphicsPipelineDesc map_pipeline(bool cut_out) {
+  gpu::GraphicsPipelineDesc desc;
+  desc.name = cut_out ? "shadow_map/cut_out" : "shadow_map/opaque";
+  desc.module = "shadows";
+  desc.vertex = cut_out ? shaders::shadows::map_mask_vert : shaders::shadows::map_vert;
+  desc.attributes = {{0, 0, gpu::Format::rgb32_float, 0}};
+  desc.stream_strides = {sizeof(vec3)};
+  if (cut_out) {
+    desc.fragment = shaders::shadows::map_mask_frag;
+    desc.attributes.push_back({1, 1, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)});
+    desc.attributes.push_back({2, 1, gpu::Format::rgba8_unorm, offsetof(PackedSurface, color)});
+    desc.stream_strides.push_back(sizeof(PackedSurface));
+  }
+  desc.depth_format = gpu::Format::d32_float;
+  desc.cull = gpu::CullMode::none;  // sheets without thickness cast shadows from either side
+  desc.depth_compare = gpu::CompareOp::greater_equal;
+  desc.depth_bias = true;
+  return desc;
+}
+
+namespace {
+
+/// Records the draws of regions; the viewport is set.
+class FaceRecorder {
+ public:
+  FaceRecorder(FrameBuilder& frame, PassContext& context, const MapRecording& map)
+      : frame_(frame), context_(context), commands_(context.commands()), map_(map) {}
+
+  void record(const DrawnFace& face, const DrawnRegion& region) {
+    for (std::size_t i = 0; i < region.draws.size(); ++i) {
+      const FaceDraw& draw = region.draws[i];
+      const Caster& caster = *draw.caster;
+      const bool cut_out = is_cut_out(caster);
+      bind(cut_out ? map_.cut_out : map_.opaque);
+      frame_.bind_caster_vertices(context_, caster, cut_out);
+      if (cut_out) commands_.bind_set(1, frame_.scene().materials()[caster.primitive->material].set);
+      commands_.push(shaders::ShadowDrawConstants{region.matrices[i], face.face.tan_half > 0.0f ? 0u : 1u});
+      commands_.draw_indexed(draw.index_count, 1, draw.first_index, 0, 0);
+    }
+  }
+
+ private:
+  void bind(gpu::PipelineHandle pipeline) {
+    if (bound_ == pipeline) return;
+    commands_.bind_pipeline(pipeline);
+    commands_.set_depth_bias(-map_.bias_units, -kSlopeBias);  // depth is reversed: less is farther
+    bound_ = pipeline;
+  }
+
+  FrameBuilder& frame_;
+  PassContext& context_;
+  gpu::CommandList& commands_;
+  const MapRecording& map_;
+  gpu::PipelineHandle bound_;
+};
+
+/// Begins drawing into a part of a layer; what lies there is cleared. Viewport: the whole face, so that depths do not
+/// depend on the part.
+void begin_region(gpu::CommandList& commands, const gpu::ImageView& layer, std::uint32_t size,
+                  const TexelRect& texels) {
+  gpu::RenderingDesc rendering;
+  rendering.depth.view = layer;
+  const uvec2 extent = texels.end - texels.begin;
+  rendering.x = texels.begin.x;
+  rendering.y = texels.begin.y;
+  rendering.width = extent.x;
+  rendering.height = extent.y;
+  commands.begin_rendering(rendering);
+  const auto side = static_cast<float>(size);
+  commands.set_viewport(0.0f, 0.0f, side, side);
+  commands.set_scissor(static_cast<std::int32_t>(texels.begin.x), static_cast<std::int32_t>(texels.begin.y), extent.x,
+                       extent.y);
+}
+
+}  // namespace
+
+void record_draws(FrameBuilder& frame, PassContext& context, const MapRecording& map, const FacePlan& plan,
+                  std::size_t index) {
+  const ScratchPlan::Batch& batch = plan.plan.batches[index];
+  gpu::CommandList& commands = context.commands();
+  FaceRecorder recorder(frame, context, map);
+  map.scratch->begin_drawing(commands, batch.size);
+  commands.bind_indices(frame.scene().indices(), 0);
+  for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
+    const DrawnFace& face = plan.faces[batch.items[layer]];
+    const gpu::ImageView view{.image = map.scratch->image(batch.size), .first_layer = layer, .layer_count = 1};
+    for (const DrawnRegion& region : face.regions) {
+      begin_region(commands, view, batch.size, region.texels);
+      recorder.record(face, region);
+      commands.end_rendering();
+    }
+  }
+}
+
+Status make_map_pipelines(FrameBuilder& frame, std::span<const FacePlan* const> plans, MapRecording& map) {
+  Pipelines& pipelines = frame.services().pipelines;
+  bool any_cut_out = false;
+  for (const FacePlan* plan : plans)
+    for (const DrawnFace& face : plan->faces)
+      for (const DrawnRegion& region : face.regions)  // cut-out casters come last
+        any_cut_out = any_cut_out || (!region.draws.empty() && is_cut_out(*region.draws.back().caster));
+  auto opaque = pipelines.get(map_pipeline(false));
+  if (!opaque.ok()) return opaque.error();
+  map.opaque = *opaque;
+  if (any_cut_out) {
+    auto cut_out = pipelines.get(map_pipeline(true));
+    if (!cut_out.ok()) return cut_out.error();
+    map.cut_out = *cut_out;
+  }
+  return {};
+}
+
+}  // namespace gloam

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/passes.h"
+
+#include <algorithm>
+
+#include "modules/shadows/filter/cookies.h"
+#include "modules/shadows/filter/uploads.h"
+#include "modules/shadows/final_lists/generate.h"
+#include "modules/shadows/knobs.h"
+#include "modules/shadows/maps/draw_passes.h"
+#include "modules/shadows/maps/planes.h"
+#include "modules/shadows/outputs.h"
+
+namespace gloam {
+namespace {
+
+/// Of GLOAM_COOKIE_LIGHTS_ID: few values, as each makes pipelines.
+std::uint32_t looked_up_cookies(std::size_t lights) {
+  constexpr std::uint32_t kMost = GLOAM_COOKIE_LIGHTS;
+  return lights <= 1 ? static_cast<std::uint32_t>(lights) : lights <= kMost ? kMost : kMost + 1;
+}
+
+constexpr std::uint32_t kStandardKernel = 8;  // of GLOAM_SHADOWS_STANDARD
+
+bool has_placed_face(const ShadowViews& views) {
+  return std::any_of(views.faces.begin(), views.faces.end(),
+                     [](const ShadowFace& face) { return face.square.size > 0; });
+}
+
+/// What shading is compiled with. `filter`: GLOAM_SHADOWS_FILTER_ID.
+void set_constants(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutputs& outputs) {
+  outputs.cookies_only = filter == kNoShadows;
+  outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
+  // Knobs are of no use to cookies.
+  outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
+  const std::size_t cookie_lights = count_cookie_lights(frame.world());
+  outputs.cookie_lights = static_cast<std::uint32_t>(cookie_lights);
+  outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(cookie_lights)});
+  outputs.variant = shadow_variant(outputs.constants);
+}
+
+/// Brings the maps of the view's faces, of which at least one has a place, up to date. Only where final lists will be
+/// made of them, they leave casters out: else nobody would see to those.
+Result<ShadowMaps> add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
+  const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+  auto found = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  if (!found.ok()) return found.error();
+  ViewShadows& kept = **found;
+  const WithheldCasters* withheld = for_lists ? frame.find<WithheldCasters>() : nullptr;
+  kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
+  auto maps = add_shadow_map_passes(frame, states, kept, views, knobs);
+  if (!maps.ok()) return maps.error();
+  // Planes are made of what the atlas holds now; frames that do not look at them do not keep them.
+  if (!maps->drawn.empty() && !(for_lists && knobs.classify)) kept.planes.filled = false;
+  frame.expose(maps->atlas, "shadow_atlas");
+  return maps;
+}
+
+/// Planes first, if tiles are to be classified by them.
+Status add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
+                       ShadowsOutputs& outputs) {
+  auto kept = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  if (!kept.ok()) return kept.error();
+  ImageRef planes;
+  if (knobs.classify) {
+    const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+    auto made = add_shadow_planes_pass(frame, states, **kept, maps, views);
+    if (!made.ok()) return made.error();
+    planes = *made;
+  }
+  return add_generate_passes(frame, knobs, planes, outputs);
+}
+
+}  // namespace
+
+Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
+  const ShadowKnobs knobs = shadow_knobs(frame.knobs());
+  const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+  states.begin(frame.services().device);
+  ShadowsOutputs outputs;
+  GLOAM_TRY(add_shadow_uploads(frame, states, views, knobs, outputs));
+
+  const TracedVisibility* found = traced_visibility_of(frame.world(), frame.view());
+  const bool traced = knobs.enabled && found != nullptr && found->shades;
+  const bool has_maps = knobs.enabled && !traced && has_placed_face(views);
+  set_constants(frame, knobs, traced ? kTracedShadows : has_maps ? knobs.filter : kNoShadows, outputs);
+  const bool has_lists = has_maps && can_generate(frame, knobs) && generate_pipelines_ready(frame, knobs, outputs);
+  ShadowMaps maps;
+  if (has_maps) {
+    auto made = add_maps(frame, states, knobs, has_lists);
+    if (!made.ok()) return made.error();
+    maps = *made;
+  } else {
+    states.rest(frame.world().resource<ShadowWorld>(), frame.view().id);
+  }
+  // Without a map no light asks for one, but every binding must be given.
+  outputs.atlas = has_maps ? maps.atlas : outputs.rows;
+  outputs.pyramid = has_maps ? maps.pyramid : outputs.rows;
+  if (has_lists) GLOAM_TRY(add_final_lists(frame, states, maps, knobs, outputs));
+  frame.put(std::move(outputs));
+  return {};
+}
+
+}  // namespace gloam

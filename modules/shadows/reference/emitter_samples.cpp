@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/reference/emitter_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/assert.h"
+
+namespace gloam {
+namespace {
+
+std::uint32_t reversed_bits(std::uint32_t x) {
+  std::uint32_t reversed = 0;
+  for (int bit = 0; bit < 32; ++bit) reversed |= (x >> bit & 1u) << (31 - bit);
+  return reversed;
+}
+
+/// Second dimension of Sobol's sequence.
+std::uint32_t sobol(std::uint32_t index) {
+  std::uint32_t result = 0;
+  for (std::uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1)
+    if ((index & 1u) != 0) result ^= v;
+  return result;
+}
+
+/// A permutation of the 32-bit numbers without visible order.
+std::uint32_t mixed(std::uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+double unit(std::uint32_t x) { return (static_cast<double>(x) + 0.5) / 4294967296.0; }
+
+/// From the unit square to the disc, keeping areas in proportion and neighbours together.
+vec2 on_disc(double x, double y) {
+  constexpr double kQuarter = 0.78539816339744830962;
+  const double a = 2.0 * x - 1.0, b = 2.0 * y - 1.0;
+  const bool wide = std::abs(a) > std::abs(b);
+  const double radius = wide ? a : b;
+  if (radius == 0.0) return vec2(0.0f);
+  const double angle = wide ? kQuarter * b / a : 2.0 * kQuarter - kQuarter * a / b;
+  return {static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle))};
+}
+
+}  // namespace
+
+EmitterSamples::EmitterSamples(std::uint32_t count) : count_(count) {
+  GLOAM_ASSERT(count > 0, "a light is seen by at least one ray");
+  points_.reserve(std::size_t{kPatterns} * count);
+  for (std::uint32_t pattern = 0; pattern < kPatterns; ++pattern) {
+    const std::uint32_t scramble_x = mixed(2 * pattern + 1), scramble_y = mixed(2 * pattern + 2);
+    for (std::uint32_t i = 0; i < count; ++i)
+      points_.push_back(on_disc(unit(reversed_bits(i) ^ scramble_x), unit(sobol(i) ^ scramble_y)));
+  }
+}
+
+EmitterSamples::Pattern EmitterSamples::pattern(std::uint32_t pixel, std::uint32_t light) const {
+  const std::uint32_t hash = mixed(mixed(pixel) + light);
+  const double angle = 6.28318530717958647692 * unit(mixed(hash));
+  return {.points = std::span(points_).subspan(std::size_t{hash % kPatterns} * count_, count_),
+          .turn = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))}};
+}
+
+}  // namespace gloam

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/math/types.h"
+
+namespace gloam {
+
+/// Points on the unit disc, evenly spread: the (0, 2)-sequence of van der Corput and Sobol', scrambled, mapped by area
+/// (Shirley and Chiu 1997). Any power of two of them from the front is stratified, so half of the samples are a coarser
+/// picture of the same thing. Patterns are told apart by a hash of pixel and light, which turns them too, so that
+/// neighbours do not err alike. Deterministic.
+class EmitterSamples {
+ public:
+  explicit EmitterSamples(std::uint32_t count);  ///< count: ≥ 1
+
+  [[nodiscard]] std::uint32_t count() const { return count_; }
+  /// `count` points, still to be turned by `turn`.
+  struct Pattern {
+    std::span<const vec2> points;
+    vec2 turn = vec2(1.0f, 0.0f);  ///< cosine and sine
+
+    [[nodiscard]] vec2 point(std::size_t i) const {
+      const vec2 p = points[i];
+      return {turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y};
+    }
+  };
+  [[nodiscard]] Pattern pattern(std::uint32_t pixel, std::uint32_t light) const;
+
+ private:
+  static constexpr std::uint32_t kPatterns = 64;
+  std::uint32_t count_;
+  std::vector<vec2> points_;  ///< pattern after pattern
+};
+
+}  // namespace gloam

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "modules/shadows/filter/traced_visibility.h"
+
+namespace gloam {
+
+/// How drawn visibilities differ from traced ones. Counts are of pairs of a light and a pixel that it reaches; more
+/// layers add up.
+///
+/// Silhouette: where traced visibility crosses one half between two pixels. A pixel that touches one, by any of its
+/// eight neighbours, may show either side: it is no more than a pixel away.
+struct ShadowError {
+  std::uint64_t pairs = 0;
+  std::uint64_t penumbra_pairs = 0;  ///< traced visibility 0.05…0.95
+  double difference = 0.0;           ///< sum of absolute differences
+  double penumbra_difference = 0.0;
+  std::uint64_t wrong = 0;  ///< off by more than 0.5, away from silhouettes
+  std::uint64_t acne = 0;   ///< traced wholly lit, drawn below 0.5, away from silhouettes
+  std::uint64_t leaks = 0;  ///< traced wholly unlit, drawn above 0.5, away from silhouettes
+  /// Pixels that rays were traced for and shading found out of the light's reach, where floats round otherwise than
+  /// doubles: in no pair.
+  std::uint64_t unreached = 0;
+
+  [[nodiscard]] double mean() const { return share(difference, pairs); }
+  [[nodiscard]] double penumbra_mean() const { return share(penumbra_difference, penumbra_pairs); }
+  [[nodiscard]] double wrong_share() const { return share(static_cast<double>(wrong), pairs); }
+  [[nodiscard]] double acne_share() const { return share(static_cast<double>(acne), pairs); }
+  [[nodiscard]] double leak_share() const { return share(static_cast<double>(leaks), pairs); }
+  ShadowError& operator+=(const ShadowError& other);
+
+ private:
+  [[nodiscard]] static double share(double sum, std::uint64_t count) {
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+  }
+};
+
+/// drawn: visibility of the layer's light at each pixel, 0…1; negative where shading finds that the light does not
+/// reach it. Only pixels that it reaches by both count.
+[[nodiscard]] ShadowError compare_visibility(const TracedVisibility& traced, std::uint32_t layer,
+                                             std::span<const float> drawn);
+
+}  // namespace gloam

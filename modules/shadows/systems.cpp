@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/systems.h"
+
+#include <vector>
+
+#include "modules/shadows/atlas/find_faces.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::size_t kMeshGrain = 1024;  // instances a job
+constexpr std::size_t kLightGrain = 64;   // lights a job
+
+void grow(CasterBounds& bounds, const Aabb& box, const dmat4& world_from_box) {
+  const dvec3 center = dvec3(world_from_box * dvec4(dvec3(box.center()), 1.0));
+  const dvec3 half(box.half_extent());
+  const dvec3 reach = glm::abs(dvec3(world_from_box[0])) * half.x + glm::abs(dvec3(world_from_box[1])) * half.y +
+                      glm::abs(dvec3(world_from_box[2])) * half.z;
+  const dvec3 sum = center + reach;
+  if (!(glm::dot(sum, sum) < 1e300)) return;  // what has no place casts no shadow
+  bounds.grow(center - reach, center + reach);
+}
+
+/// Null for a mesh that is absent or has no bounds.
+const Aabb* box_of(const SceneAssets& assets, const MeshInstance& instance) {
+  if (instance.mesh >= assets.meshes.size()) return nullptr;
+  const Aabb& box = assets.meshes[instance.mesh].bounds;
+  return box.empty() ? nullptr : &box;
+}
+
+CasterBounds bounds_of(std::span<const MeshInstance> instances, std::span<const WorldTransform> transforms,
+                       const SceneAssets& assets) {
+  CasterBounds bounds;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].skin != kNone) continue;
+    if (const Aabb* box = box_of(assets, instances[i])) grow(bounds, *box, transforms[i].matrix);
+  }
+  return bounds;
+}
+
+/// A skinned vertex lies between where its joints would take it.
+void grow_skinned(CasterBounds& bounds, const JointMatrices& joints, const JointMatrices::Range& range,
+                  const Aabb& box) {
+  for (std::uint32_t j = range.first; j < range.first + range.count && j < joints.matrices.size(); ++j) {
+    dmat4 world(joints.matrices[j]);
+    world[3] += dvec4(range.origin, 0.0);
+    grow(bounds, box, world);
+  }
+}
+
+/// Lights by entity; those that have gone since are left as casting none.
+std::vector<ShadowLight> gather(std::span<const Entity> entities, const ShadowLights& lights, JobExecutor& jobs) {
+  std::vector<ShadowLight> gathered(entities.size());
+  jobs.parallel_for(entities.size(), kLightGrain, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const Entity entity = entities[i];
+      ShadowLight& to = gathered[i];
+      to.entity = entity;
+      const auto* light = lights.try_get<Light>(entity);
+      const auto* transform = lights.try_get<WorldTransform>(entity);
+      to.caster.enabled = light != nullptr && transform != nullptr;
+      if (!to.caster.enabled) continue;
+      to.light = *light;
+      to.world_from_node = transform->matrix;
+      if (const auto* bounds = lights.try_get<LightBounds>(entity)) to.bounds = *bounds;
+      if (const auto* caster = lights.try_get<ShadowCaster>(entity)) to.caster = *caster;
+    }
+  });
+  return gathered;
+}
+
+}  // namespace
+
+void shadow_bounds_system(ViewResource<const VisibleLights> visible,
+                          View<const MeshInstance, const WorldTransform> meshes, Resource<const SceneAssets> assets,
+                          Resource<const JointMatrices> joints, ViewResource<CasterBounds> casters, JobExecutor& jobs) {
+  if (directional_lights(*visible).empty()) return;
+  std::vector<CasterBounds> found(meshes.chunk_count(kMeshGrain));
+  meshes.parallel_chunks(
+      jobs, kMeshGrain,
+      [&](std::size_t ordinal, std::span<const MeshInstance> instances, std::span<const WorldTransform> transforms) {
+        found[ordinal] = bounds_of(instances, transforms, *assets);
+      });
+  CasterBounds all;
+  for (const CasterBounds& bounds : found) all.grow(bounds.min, bounds.max);
+  for (const JointMatrices::Range& range : joints->ranges) {
+    const auto* instance = meshes.try_get<MeshInstance>(range.instance);
+    const Aabb* box = instance == nullptr ? nullptr : box_of(*assets, *instance);
+    if (box != nullptr) grow_skinned(all, *joints, range, *box);
+  }
+  *casters = all;
+}
+
+void shadow_views_system(ViewResource<const VisibleLights> visible, ViewResource<const RenderView> view,
+                         ViewResource<const ShadowSettings> settings, ViewResource<const CasterBounds> casters,
+                         ShadowLights lights, ViewResource<ShadowViews> shadows, JobExecutor& jobs) {
+  const std::vector<ShadowLight> local = gather(local_lights(*visible), lights, jobs);
+  const std::vector<ShadowLight> directional = gather(directional_lights(*visible), lights, jobs);
+  find_shadows(local, directional, *view, *settings, *casters, jobs, *shadows);
+}
+
+void add_shadow_systems(Schedule& schedule) {
+  schedule.add_system("shadow_bounds", "shadows", Stage::view, &shadow_bounds_system);
+  schedule.add_system("shadow_views", "shadows", Stage::view, &shadow_views_system);
+}
+
+void prepare_shadow_view(World& world, ViewId view) {
+  if (world.try_view_resource<CasterBounds>(view) == nullptr) world.set_view_resource(view, CasterBounds{});
+  if (world.try_view_resource<ShadowSettings>(view) == nullptr) world.set_view_resource(view, ShadowSettings{});
+  if (world.try_view_resource<ShadowViews>(view) == nullptr) world.set_view_resource(view, ShadowViews{});
+}
+
+}  // namespace gloam

@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+//
+// Cascades that do not swim: spheres round slices of the frustum (Valient, "Stable cascaded shadow maps", ShaderX6),
+// whose size no turn of the camera changes, in boxes that move by whole texels. Ours end with a box round all casters
+// as soon as that is the smaller one: small scenes and cameras far away get one box that never moves.
+#include "modules/shadows/views/cascades.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/core/assert.h"
+
+namespace gloam {
+namespace {
+
+constexpr double kLogarithmicShare = 0.9;  // of splits; the rest is uniform
+constexpr double kLeastStart = 1e-3;       // of the far end: where logarithmic splits begin at the earliest
+constexpr double kReachUnknown = 1000.0;   // metres of depth to each side of a sphere when nothing is known of casters
+constexpr double kMostReach = 20000.0;     // metres of depth to each side of a sphere
+constexpr double kLeastSize = 1e-2;        // metres: radius of the casters' sphere, depth of a box
+constexpr double kStepsOfRange = 16.0;     // depths begin and end at steps of about this part of the range
+
+/// The least power of two that is not smaller.
+double power_above(double value) { return std::exp2(std::ceil(std::log2(value))); }
+
+dvec3 center_of(const CasterBounds& casters) { return (casters.min + casters.max) * 0.5; }
+
+/// Rounded up in steps, so that casters which move a little do not change it.
+double radius_of(const CasterBounds& casters) {
+  const double radius = std::max(0.5 * glm::length(casters.max - casters.min), kLeastSize);
+  const double step = power_above(radius) / kStepsOfRange;
+  return std::ceil(radius / step) * step;
+}
+
+/// The camera's rotation as shading has it.
+dvec3 world_direction(const RenderView& view, const dvec3& in_view) {
+  const mat4& m = view.view_from_relative;
+  dvec3 world;
+  for (int axis = 0; axis < 3; ++axis) world[axis] = glm::dot(dvec3(vec3(m[axis])), in_view);
+  return world;
+}
+
+bool is_orthographic(const RenderView& view) { return view.clip_from_view[2][3] == 0.0f; }
+
+/// The point of a view depth whose normalised device coordinates these are, in view space.
+dvec3 view_point(const RenderView& view, double ndc_x, double ndc_y, double depth_m) {
+  const mat4& m = view.clip_from_view;
+  const double w = is_orthographic(view) ? 1.0 : depth_m;
+  const double x = (ndc_x * w + static_cast<double>(m[2][0]) * depth_m - static_cast<double>(m[3][0])) / m[0][0];
+  const double y = (ndc_y * w + static_cast<double>(m[2][1]) * depth_m - static_cast<double>(m[3][1])) / m[1][1];
+  return {x, y, -depth_m};
+}
+
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// Along an axis of a box's map: what the casters cover.
+Range extent_along(const CasterBounds& casters, const dvec3& axis) {
+  const double center = glm::dot(axis, center_of(casters));
+  const double half = glm::dot(glm::abs(axis), (casters.max - casters.min) * 0.5);
+  return {center - half, center + half};
+}
+
+Range depth_range(const CasterBounds& casters, const dvec3& forward, const CascadeSphere& sphere) {
+  const double center = glm::dot(forward, sphere.center);
+  const double reach = sphere.radius_m + (casters.known() ? kMostReach : kReachUnknown);
+  Range range{center - reach, center + reach};
+  if (casters.known()) {
+    const Range covered = extent_along(casters, forward);
+    const Range both{std::max(range.low, covered.low), std::min(range.high, covered.high)};
+    if (both.low <= both.high) range = both;
+  }
+  const double step = power_above(std::max(range.high - range.low, kLeastSize)) / kStepsOfRange;
+  const double low = std::floor(range.low / step) * step;
+  return {low, std::max(std::ceil(range.high / step) * step, low + step)};
+}
+
+/// The position whose products with the three axes these are. Axes rounded to floats stand at right angles only nearly:
+/// far from the world's origin summing them up would miss by centimetres.
+dvec3 solve(const dvec3& right, const dvec3& up, const dvec3& forward, const dvec3& products) {
+  const dvec3 sum = glm::cross(up, forward) * products.x + glm::cross(forward, right) * products.y +
+                    glm::cross(right, up) * products.z;
+  return sum / glm::dot(right, glm::cross(up, forward));
+}
+
+vec4 row_of(const dvec3& axis, double offset) { return vec4(vec3(axis), static_cast<float>(offset)); }
+
+}  // namespace
+
+bool CasterBounds::known() const {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(min[axis]) || !std::isfinite(max[axis]) || !(min[axis] <= max[axis])) return false;
+  return true;
+}
+
+double shadow_distance(const RenderView& view, const CasterBounds& casters) {
+  if (!casters.known()) return kDefaultShadowDistance;
+  const double radius = radius_of(casters);
+  const double to_center = glm::length(view.position - center_of(casters));
+  const double distance = 2.0 * radius * std::max(1.0, power_above((to_center + radius) / (2.0 * radius)));
+  const double to_casters = std::max(to_center - radius, 0.0);
+  return std::min(distance, kMostShadowDistance * power_above(1.0 + to_casters / kMostShadowDistance));
+}
+
+std::vector<double> cascade_splits(double near_m, double far_m, std::uint32_t count, bool orthographic) {
+  std::vector<double> splits(count);
+  const double start = std::max(near_m, far_m * kLeastStart);
+  const double share = orthographic || !(start > 0.0) ? 0.0 : kLogarithmicShare;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double t = static_cast<double>(i + 1) / count;
+    const double uniform = near_m + (far_m - near_m) * t;
+    splits[i] = share == 0.0 ? uniform : share * start * std::pow(far_m / start, t) + (1.0 - share) * uniform;
+  }
+  if (count > 0) splits.back() = far_m;
+  return splits;
+}
+
+CascadeSphere slice_sphere(const RenderView& view, double near_m, double far_m) {
+  std::array<dvec3, 8> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners[i] = view_point(view, (i & 1) == 0 ? -1.0 : 1.0, (i & 2) == 0 ? -1.0 : 1.0, i < 4 ? near_m : far_m);
+  const dvec3 first = view_point(view, 0.0, 0.0, near_m);
+  const dvec3 last = view_point(view, 0.0, 0.0, far_m);
+  const auto radius_at = [&](double t) {
+    double squared = 0.0;
+    for (const dvec3& corner : corners) {
+      const dvec3 to = corner - glm::mix(first, last, t);
+      squared = std::max(squared, glm::dot(to, to));
+    }
+    return std::sqrt(squared);
+  };
+  // The greatest of convex functions is convex: its least value is found by thirds.
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double a = low + (high - low) / 3.0;
+    const double b = high - (high - low) / 3.0;
+    if (radius_at(a) <= radius_at(b)) {
+      high = b;
+    } else {
+      low = a;
+    }
+  }
+  const double t = 0.5 * (low + high);
+  return {0, view.position + world_direction(view, glm::mix(first, last, t)), radius_at(t)};
+}
+
+std::vector<CascadeSphere> cascade_spheres(const RenderView& view, const CasterBounds& casters, std::uint32_t count) {
+  const bool orthographic = is_orthographic(view);
+  const double near_m = view.near_m;
+  double far_m = shadow_distance(view, casters);
+  if (orthographic) far_m = std::min(far_m, static_cast<double>(view.view_depth(0.0f)));
+  std::vector<CascadeSphere> spheres;
+  if (!(far_m > near_m)) far_m = near_m + kLeastSize;
+  const std::vector<double> splits = cascade_splits(near_m, far_m, count, orthographic);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    CascadeSphere sphere = slice_sphere(view, i == 0 ? near_m : splits[i - 1], splits[i]);
+    sphere.slice = i;
+    if (!casters.known()) {
+      spheres.push_back(sphere);
+      continue;
+    }
+    const double radius = radius_of(casters);
+    if (sphere.radius_m >= radius) {
+      spheres.push_back({i, center_of(casters), radius});
+      break;
+    }
+    if (glm::length(sphere.center - center_of(casters)) <= sphere.radius_m + radius) spheres.push_back(sphere);
+  }
+  return spheres;
+}
+
+ShadowFace cascade_face(Entity light, const FaceAxes& axes, const CascadeSphere& sphere, const CasterBounds& casters,
+                        const AtlasSquare& square, float kernel_rim) {
+  GLOAM_ASSERT(square.size > 2, "a cascade has a place in the atlas");
+  const dvec3 right(axes.right);
+  const dvec3 up(axes.up);
+  const dvec3 forward(axes.forward);
+  // The sphere, a texel for snapping, and the rim.
+  const double rim = 1.0 + static_cast<double>(kernel_rim);
+  ShadowFace face;
+  face.half_extent_m = static_cast<float>(sphere.radius_m * rim / (1.0 - 2.0 * rim / square.size));
+  const double texel = 2.0 * static_cast<double>(face.half_extent_m) / square.size;
+  const auto snapped = [&](double position) { return std::round(position / texel) * texel; };
+  const Range depths = depth_range(casters, forward, sphere);
+
+  face.light = light;
+  face.kind = LightKind::directional;
+  face.index = sphere.slice;
+  face.origin = solve(right, up, forward,
+                      dvec3(snapped(glm::dot(right, sphere.center)), snapped(glm::dot(up, sphere.center)), depths.low));
+  face.right = axes.right;
+  face.up = axes.up;
+  face.forward = axes.forward;
+  face.tan_half = 0.0f;
+  face.near_m = 0.0f;
+  face.far_m = static_cast<float>(depths.high - depths.low);
+  face.square = square;
+  return face;
+}
+
+shaders::ShadowCascade cascade_constants(const ShadowFace& face, const dvec3& view_position, float kernel_rim) {
+  const dvec3 from_origin = view_position - face.origin;
+  const double size = face.square.size;
+  const double texels_per_m = 0.5 * size / face.half_extent_m;
+  const dvec3 u = dvec3(face.right) * texels_per_m;
+  const dvec3 v = dvec3(face.up) * -texels_per_m;
+  const dvec3 depth = dvec3(face.forward) * (-1.0 / face.far_m);
+  shaders::ShadowCascade cascade{};
+  cascade.row_u = row_of(u, glm::dot(u, from_origin) + 0.5 * size);
+  cascade.row_v = row_of(v, glm::dot(v, from_origin) + 0.5 * size);
+  cascade.row_depth = row_of(depth, glm::dot(depth, from_origin) + 1.0);
+  cascade.origin = vec2(face.square.origin);
+  cascade.size = static_cast<float>(size);
+  cascade.texel_m = static_cast<float>(1.0 / texels_per_m);
+  cascade.depth_m = face.far_m;
+  cascade.rim = static_cast<float>(0.5 * size * kernel_rim / (1.0 + kernel_rim));
+  return cascade;
+}
+
+}  // namespace gloam

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/assets.h"
+#include "sandbox/bench/closeups/case.h"
+#include "sandbox/bench/harness/benches.h"
+#include "sandbox/bench/harness/context.h"
+#include "sandbox/bench/harness/measure.h"
+#include "sandbox/bench/harness/once.h"
+#include "sandbox/bench/shadows/case.h"
+#include "sandbox/bench/shadows/phases.h"
+#include "sandbox/bench/shadows/variant.h"
+#include "sandbox/scenes/closeups.h"
+#include "sandbox/scenes/scene_builder.h"
+#include "sandbox/scenes/shapes.h"
+
+// What close-ups cost: memory by number of pairs (FF §3), time by step (FF figure 14), and what shares a map.
+
+namespace gloam {
+namespace {
+
+constexpr int kRounds = 11;
+constexpr int kWarmUp = 2;
+constexpr double kNsPerMs = 1e6;
+/// Of the built-in scene: copies of maps need as much room again, and pairs without copies have no maps of their own.
+constexpr const char* kDensity = "1";
+constexpr const char* kAtlas = "8192";
+
+enum Step : std::size_t { kDraw, kResolve, kCompose, kTransfer };
+constexpr std::size_t kSteps = 4;
+constexpr std::array<const char*, kSteps> kStepNames = {"draw", "resolve", "compose", "transfer"};
+
+/// What forward-lit things need counts as transfer, copies of faces with it.
+std::optional<Step> step_of(const PassTime& pass) {
+  if (pass.name == "shadow_map_closeup") return kDraw;
+  if (pass.name == "shadow_map_closeup_mips") return kResolve;
+  if (pass.name == "closeup_compose") return kCompose;
+  if (pass.module == "closeups" || pass.name.starts_with("shadow_overlay")) return kTransfer;
+  return std::nullopt;
+}
+
+using StepTimes = std::array<double, kSteps>;
+StepTimes step_ns(const FrameReport& report) {
+  StepTimes ns{};
+  for (const PassTime& pass : report.passes)
+    if (const auto step = step_of(pass)) ns[*step] += pass.ms * kNsPerMs;
+  return ns;
+}
+
+/// Ways to draw eight pairs.
+enum Way : std::size_t { kBatch1, kBatch2, kBatch4, kStandardDrawn };
+struct WayKnobs {
+  const char* batch;
+  const char* standard;
+};
+constexpr std::array<WayKnobs, 4> kWays = {{{"1", "transfer"}, {"2", "transfer"}, {"4", "transfer"}, {"1", "draw"}}};
+
+struct WayCost {
+  std::vector<double> total_ns;
+  std::array<std::vector<double>, kSteps> step_ns;
+  double pairs = 0.0;  ///< in the last frame
+};
+using WayCosts = std::array<WayCost, kWays.size()>;
+
+/// A window pane in front of the camera's scene: a forward-lit thing, for which standard maps must hold the subjects.
+void add_pane(Session& session) {
+  SceneBuilder builder(session.world, session.info);
+  const std::uint32_t glass = builder.add_material({.name = "pane",
+                                                    .base_color = vec4(0.8f, 0.9f, 0.9f, 0.2f),
+                                                    .metallic = 0.0f,
+                                                    .roughness = 0.3f,
+                                                    .alpha_mode = AlphaMode::blend});
+  builder.add_instance("pane", builder.add_mesh("pane", box_shape({0.8f, 0.8f, 0.01f}), glass), {1.6, 0.0, 2.2});
+}
+
+Status leave_room_for_copies(ShadowCase& shadows) {
+  GLOAM_TRY(shadows.set("shadows.atlas", kAtlas));
+  return shadows.set("shadows.texels_per_pixel", kDensity);
+}
+
+Result<FrameSample> draw_way(ShadowCase& shadows, const WayKnobs& way) {
+  GLOAM_TRY(shadows.set("closeups.batch", way.batch));
+  GLOAM_TRY(shadows.set("closeups.standard", way.standard));
+  return draw_settled(shadows, kWithCloseups);
+}
+
+/// All ways turn about, from one camera at rest.
+Result<WayCosts> measure_ways(Session& session, const Options& options) {
+  ShadowCase shadows(session, options.width, options.height);
+  if (options.scene_is_default) GLOAM_TRY(leave_room_for_copies(shadows));
+  WayCosts costs;
+  for (int round = -kWarmUp; round < kRounds; ++round) {
+    for (std::size_t way = 0; way < kWays.size(); ++way) {
+      const auto sample = draw_way(shadows, kWays[way]);
+      if (!sample) return sample.error();
+      if (round < 0) continue;
+      const StepTimes ns = step_ns(sample->report);
+      for (std::size_t step = 0; step < kSteps; ++step) costs[way].step_ns[step].push_back(ns[step]);
+      costs[way].total_ns.push_back(std::accumulate(ns.begin(), ns.end(), 0.0));
+      costs[way].pairs = counter_of(sample->report, "closeups.pairs");
+    }
+  }
+  return costs;
+}
+
+Result<WayCosts> measure_ways(BenchContext& context) {
+  auto opened = open_closeups(context, kCloseupFigures);
+  if (!opened) return opened.error();
+  if (opened->own != nullptr) add_pane(*opened->session);
+  return measure_ways(*opened->session, context.options());
+}
+
+using SharedWays = std::shared_ptr<Once<WayCosts>>;
+
+template <class Value>
+void add_way_row(BenchRegistry& registry, const SharedWays& shared, const std::string& id, const char* unit,
+                 Value value) {
+  BenchRow row;
+  row.id = "closeups." + id;
+  row.unit = unit;
+  row.run = [shared, value](BenchContext& context) -> Result<BenchValue> {
+    const auto costs = shared->get([&] { return measure_ways(context); });
+    if (!costs) return costs.error();
+    BenchValue result = value(**costs);
+    result.hash.reset();
+    result.scene = context.scene_or(kCloseupScene);
+    return result;
+  };
+  registry.add(std::move(row));
+}
+
+void add_time_rows(BenchRegistry& registry) {
+  const auto shared = std::make_shared<Once<WayCosts>>();
+  for (std::size_t i = 0; i < kSteps; ++i)
+    add_way_row(registry, shared, std::string("figure14.") + kStepNames[i], "share of a pair",
+                [i](const WayCosts& c) { return ratio_of(c[kBatch1].step_ns[i], c[kBatch1].total_ns, 0); });
+  add_way_row(registry, shared, "pair_ms", "ms a pair", [](const WayCosts& c) {
+    return per_item(c[kBatch1].total_ns, kNsPerMs * std::max(1.0, c[kBatch1].pairs), 0);
+  });
+  add_way_row(registry, shared, "drawn_pairs", "pairs", [](const WayCosts& c) {
+    BenchValue value;
+    value.value = c[kBatch1].pairs;
+    return value;
+  });
+  const auto add_way = [&](const std::string& id, Way way) {
+    add_way_row(registry, shared, id, "ms",
+                [way](const WayCosts& c) { return per_item(c[way].total_ns, kNsPerMs, 0); });
+  };
+  const auto add_ratio = [&](const std::string& id, Way way) {
+    add_way_row(registry, shared, id, "ratio",
+                [way](const WayCosts& c) { return ratio_of(c[way].total_ns, c[kBatch1].total_ns, 0); });
+  };
+  add_way("batch.1", kBatch1);
+  add_way("batch.2", kBatch2);
+  add_way("batch.4", kBatch4);
+  add_ratio("batch.2_over_1", kBatch2);
+  add_ratio("batch.4_over_1", kBatch4);
+  add_way("standard.transfer", kBatch1);
+  add_way("standard.draw", kStandardDrawn);
+  add_ratio("standard.draw_over_transfer", kStandardDrawn);
+}
+
+struct Memory {
+  double bytes = 0.0;             ///< of module closeups
+  double visibility_bytes = 0.0;  ///< of slots, which lights' shadows take, whoever casts them
+  double pairs = 0.0;             ///< that were drawn
+};
+constexpr std::array<const char*, 3> kMemoryPairs = {"1", "8", "64"};
+using Memories = std::array<Memory, kMemoryPairs.size()>;
+
+/// Of frames of the built-in scene without forward-lit things, when lists have room and what earlier frames left is
+/// given back.
+Result<Memory> measure_memory(BenchContext& context, const char* pairs) {
+  auto session = context.open_builtin(kCloseupScene);
+  if (!session) return session.error();
+  ShadowCase shadows(**session, context.options().width, context.options().height);
+  GLOAM_TRY(leave_room_for_copies(shadows));
+  const ShadowVariant variant{"deferred", "on", pairs};
+  if (auto frame = draw_settled(shadows, variant); !frame) return frame.error();
+  (*session)->renderer->free_idle_memory();
+  const auto frame = draw_settled(shadows, variant);
+  if (!frame) return frame.error();
+  Memory memory;
+  for (const ModuleState& module : frame->report.modules)
+    if (module.name == "closeups") memory.bytes = static_cast<double>(module.gpu_bytes);
+  memory.visibility_bytes = counter_of(frame->report, "shadows.visibility_bytes");
+  memory.pairs = counter_of(frame->report, "closeups.pairs");
+  return memory;
+}
+
+Result<Memories> measure_memories(BenchContext& context) {
+  Memories memories;
+  for (std::size_t i = 0; i < memories.size(); ++i) {
+    const auto memory = measure_memory(context, kMemoryPairs[i]);
+    if (!memory) return memory.error();
+    memories[i] = *memory;
+  }
+  return memories;
+}
+
+void add_memory_rows(BenchRegistry& registry) {
+  constexpr double kMiB = 1048576.0;
+  constexpr double kEqual = 1.001;
+  const auto shared = std::make_shared<Once<Memories>>();
+  const auto add = [&](const std::string& id, const char* unit, std::optional<double> bar,
+                       std::function<double(const Memories&)> value) {
+    BenchRow row;
+    row.id = "closeups." + id;
+    row.unit = unit;
+    row.bar = bar;
+    row.run = [shared, value = std::move(value)](BenchContext& context) -> Result<BenchValue> {
+      const auto memories = shared->get([&] { return measure_memories(context); });
+      if (!memories) return memories.error();
+      BenchValue result;
+      result.value = value(**memories);
+      result.scene = kCloseupScene;
+      return result;
+    };
+    registry.add(std::move(row));
+  };
+  add("memory_64_over_1", "ratio", kEqual, [](const Memories& m) { return m[2].bytes / std::max(m[0].bytes, 1.0); });
+  add("memory_8_over_1", "ratio", kEqual, [](const Memories& m) { return m[1].bytes / std::max(m[0].bytes, 1.0); });
+  for (std::size_t i = 0; i < kMemoryPairs.size(); ++i) {
+    const std::string pairs = kMemoryPairs[i];
+    add("memory_mib." + pairs, "MiB", std::nullopt, [i](const Memories& m) { return m[i].bytes / kMiB; });
+    add("memory_visibility_mib." + pairs, "MiB", std::nullopt,
+        [i](const Memories& m) { return m[i].visibility_bytes / kMiB; });
+    add("memory_pairs." + pairs, "pairs", std::nullopt, [i](const Memories& m) { return m[i].pairs; });
+  }
+}
+
+}  // namespace
+
+void add_closeup_cost_benches(BenchRegistry& registry) {
+  add_memory_rows(registry);
+  add_time_rows(registry);
+}
+
+}  // namespace gloam

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/math/types.h"
+#include "engine/scene/gltf_import.h"
+
+namespace gloam {
+
+/// A place on a camera's path: where it is, and a point it looks at. Metres.
+struct PathKey {
+  dvec3 eye;
+  dvec3 target;
+};
+
+/// A path through all cameras of a scene, in their order. WorldTransforms must be there.
+[[nodiscard]] std::vector<PathKey> path_through_cameras(const World& world, const SceneInfo& info);
+
+/// world_from_camera at frame `frame` of `frames` on the closed, smooth curve (Catmull-Rom) through the keys; at least
+/// one key.
+[[nodiscard]] dmat4 path_pose(std::span<const PathKey> keys, std::size_t frame, std::size_t frames);
+
+}  // namespace gloam

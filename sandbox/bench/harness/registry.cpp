@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/bench/harness/registry.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/core/assert.h"
+#include "sandbox/bench/harness/benches.h"
+
+namespace gloam {
+namespace {
+
+bool is_chosen(std::string_view id, std::string_view name) {
+  return id.starts_with(name) && (id.size() == name.size() || id[name.size()] == '.');
+}
+
+}  // namespace
+
+void BenchRegistry::add(BenchRow row) {
+  GLOAM_ASSERT(std::ranges::none_of(rows_, [&](const BenchRow& other) { return other.id == row.id; }),
+               "ids of benches are unique");
+  rows_.push_back(std::move(row));
+}
+
+Result<std::vector<const BenchRow*>> BenchRegistry::choose(std::span<const std::string> names) const {
+  for (const std::string& name : names) {
+    if (std::ranges::none_of(rows_, [&](const BenchRow& row) { return is_chosen(row.id, name); }))
+      return Error{ErrorKind::usage, "there is no bench '" + name + "'; gloam bench --list names them"};
+  }
+  std::vector<const BenchRow*> chosen;
+  for (const BenchRow& row : rows_) {
+    if (std::ranges::any_of(names, [&](const std::string& name) { return is_chosen(row.id, name); }))
+      chosen.push_back(&row);
+  }
+  return chosen;
+}
+
+bool holds(const BenchRow& row, double value) {
+  if (!row.bar) return true;
+  return row.better == Better::lower ? value <= *row.bar : value >= *row.bar;
+}
+
+BenchRegistry make_bench_registry() {
+  BenchRegistry registry;
+  add_ecs_benches(registry);
+  add_job_benches(registry);
+  add_frame_benches(registry);
+  add_light_cpu_benches(registry);
+  add_light_gpu_benches(registry);
+  add_light_false_positive_benches(registry);
+  add_shadow_benches(registry);
+  add_shadow_deferred_benches(registry);
+  add_shadow_memory_benches(registry);
+  add_shadow_curve_benches(registry);
+  add_shadow_frame_benches(registry);
+  add_closeup_benches(registry);
+  add_closeup_cost_benches(registry);
+  add_closeup_flicker_benches(registry);
+  return registry;
+}
+
+}  // namespace gloam

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "sandbox/bench/harness/registry.h"
+#include "sandbox/session/stats.h"
+
+namespace gloam {
+
+struct MeasuredRow {
+  const BenchRow* row = nullptr;
+  BenchValue value;
+};
+
+/// One line for people: id, value, unit, bar.
+[[nodiscard]] std::string bench_line(const MeasuredRow& measured);
+/// The `bench --json` text (schema version 1).
+[[nodiscard]] std::string bench_json(const RunDescription& run, std::span<const MeasuredRow> rows);
+
+}  // namespace gloam

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sandbox/bench/harness/benches.h"
+#include "sandbox/bench/harness/context.h"
+#include "sandbox/bench/harness/measure.h"
+#include "sandbox/bench/harness/once.h"
+#include "sandbox/bench/shadows/case.h"
+
+// FF table 2: bias by the side that a surface shows, against the rasteriser's constant bias. Each is swept in its own
+// units, with the hard filter, and judged by traced shadows; each is timed at its best.
+
+namespace gloam {
+namespace {
+
+constexpr const char* kScene = "builtin:shadows";  // unless the user names one
+constexpr std::uint32_t kErrorWidth = 640;
+constexpr std::uint32_t kErrorHeight = 360;
+constexpr int kPairs = 15;
+constexpr int kWarmUp = 2;
+constexpr double kNsPerMs = 1e6;
+
+constexpr std::array<const char*, 8> kMillimetres = {"0", "0.5", "1", "2", "3", "5", "10", "20"};
+constexpr std::array<const char*, 10> kUnits = {"0",     "100",   "300",    "1000",   "3000",
+                                                "10000", "30000", "100000", "300000", "1000000"};
+
+struct Method {
+  const char* name;
+  const char* knob;
+  std::span<const char* const> values;
+};
+constexpr std::array<Method, 2> kMethods = {
+    {{"oriented", "shadows.bias_mm", kMillimetres}, {"hardware", "shadows.bias_units", kUnits}}};
+
+struct Sweep {
+  std::vector<ShadowError> errors;  ///< by value
+  std::vector<double> shading_ns;   ///< at the best value
+  std::vector<double> plain_ns;     ///< the same without the receiver's plane: hardware bias then needs no normals
+  std::uint64_t hash = 0;
+  [[nodiscard]] std::size_t best() const {
+    const auto less = [](const ShadowError& a, const ShadowError& b) { return a.wrong_share() < b.wrong_share(); };
+    return static_cast<std::size_t>(std::min_element(errors.begin(), errors.end(), less) - errors.begin());
+  }
+  /// The least share of leaks that some value reaches with no more acne than this.
+  [[nodiscard]] double least_leak(double acne) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const ShadowError& error : errors)
+      if (error.acne_share() <= acne) least = std::min(least, error.leak_share());
+    return least;
+  }
+};
+using Sweeps = std::array<Sweep, kMethods.size()>;
+
+Status choose(ShadowCase& shadows, std::size_t method, std::size_t value) {
+  GLOAM_TRY(shadows.set("shadows.bias", kMethods[method].name));
+  return shadows.set(kMethods[method].knob, kMethods[method].values[value]);
+}
+
+/// With the filter that the user chose, turn about.
+Status time_best(Session& session, const Options& options, Sweeps& sweeps) {
+  ShadowCase timed(session, options.width, options.height);
+  for (int i = -kWarmUp; i < kPairs; ++i) {
+    for (std::size_t method = 0; method < kMethods.size(); ++method) {
+      GLOAM_TRY(choose(timed, method, sweeps[method].best()));
+      if (auto redrawn = timed.draw(); !redrawn) return redrawn.error();  // the maps anew
+      const auto sample = timed.draw();
+      if (!sample) return sample.error();
+      const auto hash = timed.picture_hash();
+      if (!hash) return hash.error();
+      sweeps[method].hash = *hash;
+      GLOAM_TRY(timed.set("shadows.receiver_plane", "off"));
+      const auto without_plane = timed.draw();
+      timed.set_back("shadows.receiver_plane");
+      if (!without_plane) return without_plane.error();
+      if (i < 0) continue;
+      sweeps[method].shading_ns.push_back(pass_ms(*sample, "deferred") * kNsPerMs);
+      sweeps[method].plain_ns.push_back(pass_ms(*without_plane, "deferred") * kNsPerMs);
+    }
+  }
+  return {};
+}
+
+Result<Sweeps> measure_sweeps(Session& session, const Options& options) {
+  Sweeps sweeps;
+  {
+    ShadowCase judged(session, kErrorWidth, kErrorHeight);
+    GLOAM_TRY(judged.set("shadows.filter", "hard"));
+    for (std::size_t method = 0; method < kMethods.size(); ++method) {
+      for (std::size_t value = 0; value < kMethods[method].values.size(); ++value) {
+        GLOAM_TRY(choose(judged, method, value));
+        const auto error = judged.error();
+        if (!error) return error.error();
+        sweeps[method].errors.push_back(*error);
+      }
+    }
+  }
+  GLOAM_TRY(time_best(session, options, sweeps));
+  return sweeps;
+}
+
+using SharedSweeps = std::shared_ptr<Once<Sweeps>>;
+
+template <class Value>
+BenchRow sweep_row(std::string id, std::string unit, SharedSweeps shared, Value value) {
+  BenchRow row;
+  row.id = "shadows.table2." + std::move(id);
+  row.unit = std::move(unit);
+  row.run = [shared = std::move(shared), value](BenchContext& context) -> Result<BenchValue> {
+    const auto sweeps = shared->get([&]() -> Result<Sweeps> {
+      auto session = context.session_or(kScene);
+      if (!session) return session.error();
+      return measure_sweeps(**session, context.options());
+    });
+    if (!sweeps) return sweeps.error();
+    BenchValue result = value(**sweeps);
+    result.scene = context.scene_or(kScene);
+    return result;
+  };
+  return row;
+}
+
+BenchValue plain(double value) {
+  BenchValue result;
+  result.value = value;
+  return result;
+}
+
+double best_share(const Sweep& sweep) { return sweep.errors[sweep.best()].wrong_share(); }
+
+/// Leaks of oriented over those of hardware where both have as little acne: no more than the worse of the two has at
+/// its best.
+double leak_ratio(const Sweeps& sweeps) {
+  const double acne =
+      std::max(sweeps[0].errors[sweeps[0].best()].acne_share(), sweeps[1].errors[sweeps[1].best()].acne_share());
+  const double ours = sweeps[0].least_leak(acne);
+  const double theirs = sweeps[1].least_leak(acne);
+  return theirs > 0.0 ? ours / theirs : 1.0;
+}
+
+void add_value_rows(BenchRegistry& registry, const SharedSweeps& shared) {
+  struct Column {
+    const char* name;
+    double (ShadowError::*share)() const;
+  };
+  constexpr std::array<Column, 3> kColumns = {
+      {{"wrong", &ShadowError::wrong_share}, {"acne", &ShadowError::acne_share}, {"leak", &ShadowError::leak_share}}};
+  for (std::size_t method = 0; method < kMethods.size(); ++method) {
+    for (std::size_t value = 0; value < kMethods[method].values.size(); ++value) {
+      for (const Column& column : kColumns) {
+        const std::string id =
+            std::string(kMethods[method].name) + "." + kMethods[method].values[value] + "." + column.name;
+        registry.add(
+            sweep_row(id, "share of pairs", shared, [method, value, share = column.share](const Sweeps& sweeps) {
+              return plain((sweeps[method].errors[value].*share)());
+            }));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void add_shadow_bias_benches(BenchRegistry& registry) {
+  const auto shared = std::make_shared<Once<Sweeps>>();
+  BenchRow time = sweep_row("oriented_over_hardware_ms", "ratio", shared, [](const Sweeps& sweeps) {
+    return ratio_of(sweeps[0].shading_ns, sweeps[1].shading_ns, sweeps[0].hash);
+  });
+  time.bar = 1.03;
+  registry.add(std::move(time));
+  registry.add(sweep_row("oriented_over_hardware_without_plane_ms", "ratio", shared, [](const Sweeps& sweeps) {
+    return ratio_of(sweeps[0].plain_ns, sweeps[1].plain_ns, sweeps[0].hash);
+  }));
+  BenchRow wrong = sweep_row("oriented_over_hardware_wrong_pixels", "ratio", shared, [](const Sweeps& sweeps) {
+    return plain(best_share(sweeps[0]) / std::max(best_share(sweeps[1]), 1e-12));
+  });
+  wrong.bar = 0.8;
+  registry.add(std::move(wrong));
+  BenchRow leak = sweep_row("oriented_over_hardware_leaks_at_equal_acne", "ratio", shared,
+                            [](const Sweeps& sweeps) { return plain(leak_ratio(sweeps)); });
+  leak.bar = 0.99;  // fewer, not as many
+  registry.add(std::move(leak));
+  add_value_rows(registry, shared);
+}
+
+}  // namespace gloam

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/hash.h"
+#include "sandbox/bench/harness/benches.h"
+#include "sandbox/bench/harness/context.h"
+#include "sandbox/bench/harness/measure.h"
+#include "sandbox/bench/harness/once.h"
+#include "sandbox/bench/shadows/case.h"
+#include "sandbox/bench/shadows/phases.h"
+#include "sandbox/bench/shadows/variant.h"
+
+namespace gloam {
+namespace {
+
+constexpr const char* kScene = "builtin:shadow_grid";  // unless the user names one
+constexpr int kRounds = 11;
+constexpr int kWarmUp = 2;
+constexpr double kNsPerMs = 1e6;
+
+enum Way : std::size_t { kMono, kPlain, kTiles, kPairs };
+constexpr std::array<ShadowVariant, 4> kWays = {kMonolithic, kUnclassified, kClassified, kWithCloseups};
+
+struct WayCost {
+  std::vector<double> total_ns;
+  std::array<std::vector<double>, kShadowPhases> phase_ns;
+  Picture picture;
+  std::uint64_t hash = 0;
+  FrameReport report;  ///< of the last frame
+};
+using WayCosts = std::array<WayCost, kWays.size()>;
+
+Status add_frame(ShadowCase& shadows, const ShadowVariant& way, bool counts, WayCost& cost) {
+  auto sample = draw_settled(shadows, way);
+  if (!sample) return sample.error();
+  if (!counts) return {};
+  const PhaseTimes times = phase_times(sample->report);
+  cost.total_ns.push_back(times.total() * kNsPerMs);
+  for (std::size_t i = 0; i < kShadowPhases; ++i) cost.phase_ns[i].push_back(times.ms[i] * kNsPerMs);
+  cost.report = std::move(sample->report);
+  return {};
+}
+
+/// All ways turn about, from one camera at rest: maps are made once, before anything counts.
+Result<WayCosts> measure_ways(Session& session, const Options& options) {
+  WayCosts costs;
+  ShadowCase shadows(session, options.width, options.height);
+  for (int round = -kWarmUp; round < kRounds; ++round)
+    for (std::size_t way = 0; way < kWays.size(); ++way)
+      GLOAM_TRY(add_frame(shadows, kWays[way], round >= 0, costs[way]));
+  for (std::size_t way = 0; way < kWays.size(); ++way) {
+    GLOAM_TRY(draw_settled(shadows, kWays[way]));
+    auto picture = shadows.picture();
+    if (!picture) return picture.error();
+    costs[way].hash = hash_bytes(std::as_bytes(std::span(picture->rgba)));
+    costs[way].picture = std::move(*picture);
+  }
+  return costs;
+}
+
+/// In steps of 1/255, over all channels.
+double largest_difference(const Picture& a, const Picture& b) {
+  int largest = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i) largest = std::max(largest, std::abs(a.rgba[i] - b.rgba[i]));
+  return largest;
+}
+
+/// Share of pixels without any difference.
+double equal_share(const Picture& a, const Picture& b) {
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); i += 4)
+    equal += std::equal(&a.rgba[i], &a.rgba[i] + 4, &b.rgba[i]) ? 1 : 0;
+  return static_cast<double>(equal) / std::max(1.0, static_cast<double>(a.rgba.size() / 4));
+}
+
+using Shared = std::shared_ptr<Once<WayCosts>>;
+
+template <class Value>
+BenchRow way_row(std::string id, std::string unit, Shared shared, Value value) {
+  BenchRow row;
+  row.id = "shadows." + std::move(id);
+  row.unit = std::move(unit);
+  row.run = [shared = std::move(shared), value](BenchContext& context) -> Result<BenchValue> {
+    const auto costs = shared->get([&]() -> Result<WayCosts> {
+      auto session = context.session_or(kScene);
+      if (!session) return session.error();
+      return measure_ways(**session, context.options());
+    });
+    if (!costs) return costs.error();
+    BenchValue result = value(**costs);
+    result.scene = context.scene_or(kScene);
+    return result;
+  };
+  return row;
+}
+
+BenchValue plain(double value) {
+  BenchValue result;
+  result.value = value;
+  return result;
+}
+
+void add_ratio(BenchRegistry& registry, const Shared& shared, const char* id, Way way, std::optional<double> bar) {
+  BenchRow row = way_row(std::string("table1.") + id, "ratio", shared, [way](const WayCosts& c) {
+    return ratio_of(c[way].total_ns, c[kMono].total_ns, c[way].hash);
+  });
+  row.bar = bar;
+  registry.add(std::move(row));
+}
+
+/// What the paper gives, on a console: beside ours, to be compared as ratios only.
+void add_paper_row(BenchRegistry& registry, const char* id, const char* unit, double value) {
+  BenchRow row;
+  row.id = std::string("shadows.table1.paper.") + id;
+  row.unit = unit;
+  row.run = [value](BenchContext&) -> Result<BenchValue> { return plain(value); };
+  registry.add(std::move(row));
+}
+
+void add_table(BenchRegistry& registry, const Shared& shared) {
+  constexpr std::pair<const char*, Way> kColumns[] = {
+      {"monolithic", kMono}, {"deferred_unclassified", kPlain}, {"deferred", kTiles}, {"deferred_8_closeups", kPairs}};
+  for (const auto& [name, way] : kColumns)
+    registry.add(way_row(std::string("table1.") + name, "ms", shared,
+                         [way = way](const WayCosts& c) { return per_item(c[way].total_ns, kNsPerMs, c[way].hash); }));
+  add_ratio(registry, shared, "deferred_unclassified_over_monolithic", kPlain, std::nullopt);
+  add_ratio(registry, shared, "deferred_over_monolithic", kTiles, 0.5);
+  add_ratio(registry, shared, "deferred_8_closeups_over_monolithic", kPairs, 0.9);
+  add_paper_row(registry, "monolithic", "ms on a console", 5.73);
+  add_paper_row(registry, "deferred", "ms on a console", 3.94);
+  add_paper_row(registry, "deferred_8_closeups", "ms on a console", 6.29);
+  add_paper_row(registry, "deferred_over_monolithic", "ratio on a console", 3.94 / 5.73);
+  constexpr std::pair<const char*, Way> kHeld[] = {{"deferred_unclassified", kPlain}, {"deferred", kTiles}};
+  for (const auto& [name, way] : kHeld) {
+    BenchRow difference =
+        way_row(std::string("table1.") + name + "_difference", "1/255", shared,
+                [way = way](const WayCosts& c) { return plain(largest_difference(c[kMono].picture, c[way].picture)); });
+    difference.bar = 1.0;
+    registry.add(std::move(difference));
+    registry.add(
+        way_row(std::string("table1.") + name + "_equal_pixels", "share of pixels", shared,
+                [way = way](const WayCosts& c) { return plain(equal_share(c[kMono].picture, c[way].picture)); }));
+  }
+  registry.add(way_row("table1.closeup_pairs", "pairs", shared,
+                       [](const WayCosts& c) { return plain(counter_of(c[kPairs].report, "closeups.pairs")); }));
+  registry.add(way_row("table1.lights_a_tile", "lights", shared, [](const WayCosts& c) {
+    return plain(counter_of(c[kTiles].report, "lights.per_tile_accurate_mean"));
+  }));
+}
+
+void add_shares(BenchRegistry& registry, const Shared& shared) {
+  for (std::size_t i = 0; i < kShadowPhases; ++i)
+    registry.add(way_row(
+        std::string("figure13.") + kShadowPhaseNames[i], "share of deferred", shared,
+        [i](const WayCosts& c) { return ratio_of(c[kTiles].phase_ns[i], c[kTiles].total_ns, c[kTiles].hash); }));
+  constexpr std::array<std::pair<const char*, const char*>, 6> kCounters = {
+      {{"unshadowed", "shadows.tile_lights_unshadowed"},
+       {"lit_at_once", "shadows.tile_lights_lit"},
+       {"unlit_at_once", "shadows.tile_lights_unlit"},
+       {"filtered_lit", "shadows.tile_lights_filtered_lit"},
+       {"filtered_unlit", "shadows.tile_lights_filtered_unlit"},
+       {"slot", "shadows.slots"}}};
+  for (const auto& [name, counter] : kCounters)
+    registry.add(way_row(std::string("tile_lights.") + name, "share of tiles' lights", shared,
+                         [counter = counter](const WayCosts& c) {
+                           const double all = counter_of(c[kTiles].report, "shadows.tile_lights");
+                           return plain(counter_of(c[kTiles].report, counter) / std::max(all, 1.0));
+                         }));
+}
+
+}  // namespace
+
+void add_shadow_deferred_benches(BenchRegistry& registry) {
+  const auto shared = std::make_shared<Once<WayCosts>>();
+  add_table(registry, shared);
+  add_shares(registry, shared);
+}
+
+}  // namespace gloam

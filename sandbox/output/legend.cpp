@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/output/legend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#include <stb/stb_easy_font.h>
+#pragma GCC diagnostic pop
+
+namespace gloam {
+namespace {
+
+constexpr int kMargin = 4;
+constexpr int kLineHeight = 12;  // of the font, pixels at scale 1
+
+/// A vertex as stb_easy_font writes it; four are a rectangle.
+struct FontVertex {
+  float x, y, z;
+  std::uint8_t color[4];
+};
+
+int text_width(std::string text) { return stb_easy_font_width(text.data()); }
+
+/// Lines no wider than `width`, broken at spaces where there are some.
+std::vector<std::string> wrapped(std::string_view text, int width) {
+  std::vector<std::string> lines(1);
+  while (!text.empty()) {
+    const std::size_t space = std::min(text.find(' '), text.size());
+    const std::string word(text.substr(0, space));
+    text.remove_prefix(std::min(space + 1, text.size()));
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (lines.back().empty() || text_width(longer) <= width)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+  }
+  return lines;
+}
+
+class Canvas {
+ public:
+  Canvas(Picture& picture, int scale) : picture_(picture), scale_(scale) {}
+
+  void darken_below(int top) {
+    for (std::size_t i = static_cast<std::size_t>(std::max(top, 0)) * picture_.width * 4; i < picture_.rgba.size(); ++i)
+      if (i % 4 != 3) picture_.rgba[i] = static_cast<std::uint8_t>(picture_.rgba[i] / 4);
+  }
+
+  void draw_line(std::string text, int left, int top) {
+    std::vector<FontVertex> vertices(text.size() * 4 * 20 + 4);
+    const int rectangles = stb_easy_font_print(0.0f, 0.0f, text.data(), nullptr, vertices.data(),
+                                               static_cast<int>(vertices.size() * sizeof(FontVertex)));
+    for (int r = 0; r < rectangles; ++r) {
+      const FontVertex& a = vertices[static_cast<std::size_t>(4 * r)];
+      const FontVertex& c = vertices[static_cast<std::size_t>(4 * r + 2)];
+      fill(left + scaled(a.x), top + scaled(a.y), left + scaled(c.x), top + scaled(c.y));
+    }
+  }
+
+ private:
+  [[nodiscard]] int scaled(float at) const { return static_cast<int>(std::lround(at)) * scale_; }
+
+  void fill(int left, int top, int right, int bottom) {
+    const int width = static_cast<int>(picture_.width), height = static_cast<int>(picture_.height);
+    for (int y = std::max(top, 0); y < std::min(bottom, height); ++y)
+      for (int x = std::max(left, 0); x < std::min(right, width); ++x)
+        std::memset(&picture_.rgba[4 * (static_cast<std::size_t>(y) * picture_.width + static_cast<std::size_t>(x))],
+                    255, 4);
+  }
+
+  Picture& picture_;
+  int scale_;
+};
+
+}  // namespace
+
+void draw_legend(Picture& picture, std::string_view text) {
+  if (text.empty() || picture.width < 64 || picture.height < 32) return;
+  const int scale = picture.height >= 720 ? 2 : 1;
+  const int room = static_cast<int>(picture.width) / scale - 2 * kMargin;
+  const std::vector<std::string> lines = wrapped(text, room);
+  const int top = static_cast<int>(picture.height) - scale * (static_cast<int>(lines.size()) * kLineHeight + kMargin);
+  Canvas canvas(picture, scale);
+  canvas.darken_below(top - scale * kMargin);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    canvas.draw_line(lines[i], scale * kMargin, top + scale * static_cast<int>(i) * kLineHeight);
+}
+
+}  // namespace gloam

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/session/scene_loading.h"
+
+#include <filesystem>
+#include <string_view>
+
+#include "engine/scene/assets.h"
+#include "engine/scene/resources.h"
+#include "sandbox/output/file_io.h"
+#include "sandbox/scenes/builtin.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::string_view kBuiltinPrefix = "builtin:";
+
+bool is_builtin(std::string_view scene) { return scene.starts_with(kBuiltinPrefix); }
+
+Status check_animation(const World& world, const std::string& name) {
+  if (name.empty()) return {};
+  std::string names;
+  for (const AnimationClip& clip : world.resource<SceneAssets>().clips) {
+    if (clip.name == name) return {};
+    names += (names.empty() ? "" : ", ") + clip.name;
+  }
+  const std::string rest = names.empty() ? "the scene has none" : "there are: " + names;
+  return Error{ErrorKind::usage, "there is no animation '" + name + "'; " + rest};
+}
+
+}  // namespace
+
+Status check_scene_exists(const std::string& scene) {
+  if (is_builtin(scene)) {
+    const auto found = find_builtin_scene(std::string_view(scene).substr(kBuiltinPrefix.size()));
+    return found.ok() ? Status() : Status(found.error());
+  }
+  std::error_code fault;
+  if (std::filesystem::is_regular_file(scene, fault)) return {};
+  if (std::filesystem::exists(scene, fault)) return Error{ErrorKind::input, scene + ": is not a file"};
+  return Error{ErrorKind::input, scene + ": there is no such file"};
+}
+
+std::string scene_stem(const std::string& scene) {
+  if (is_builtin(scene)) return scene.substr(kBuiltinPrefix.size());
+  return std::filesystem::path(scene).stem().string();
+}
+
+void prepare_world(World& world, const ModuleList& modules) {
+  prepare_scene_world(world);
+  for (const auto& module : modules) module->register_components(world);
+}
+
+Result<SceneInfo> load_scene(const SceneRequest& request, const ModuleList& modules, World& world,
+                             JobExecutor& executor, LogSink& log) {
+  SceneInfo info;
+  if (is_builtin(request.scene)) {
+    const auto scene = find_builtin_scene(std::string_view(request.scene).substr(kBuiltinPrefix.size()));
+    if (!scene) return scene.error();
+    info.path = request.scene;
+    scene.value()->build(world, info);
+  } else {
+    const KeyRegistry registry = make_key_registry(modules);
+    auto imported = import_gltf(request.scene, {.animation = request.animation}, registry, world, executor, log);
+    if (!imported) return imported;
+    info = std::move(imported).value();
+  }
+  GLOAM_TRY(check_animation(world, request.animation));
+  return info;
+}
+
+Result<Entity> find_camera(const World& world, const SceneInfo& info, const std::string& name) {
+  if (!name.empty()) return world.resource<SceneNames>().find("camera", name);
+  return info.cameras.empty() ? kNoEntity : info.cameras.front();
+}
+
+}  // namespace gloam

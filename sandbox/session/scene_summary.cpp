@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/session/scene_summary.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/ecs/view.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/components.h"
+#include "engine/scene/resources.h"
+#include "sandbox/output/json_writer.h"
+
+namespace gloam {
+namespace {
+
+std::uint64_t triangles_of(const Mesh& mesh) {
+  std::uint64_t count = 0;
+  for (const Primitive& primitive : mesh.primitives) count += primitive.indices.size() / 3;
+  return count;
+}
+
+/// The counts with their names, in the order in which they are told.
+std::vector<std::pair<const char*, std::uint64_t>> counts_of(const SceneSummary& summary) {
+  return {{"nodes", summary.nodes},
+          {"meshes", summary.meshes},
+          {"triangles", summary.triangles},
+          {"instances", summary.instances},
+          {"drawn_triangles", summary.drawn_triangles},
+          {"materials", summary.materials},
+          {"textures", summary.textures},
+          {"images", summary.images},
+          {"lights", summary.lights},
+          {"skins", summary.skins}};
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size() + 1), ' ');
+  return text;
+}
+
+std::string verdict(const SceneSummary::ModuleDemand& module) {
+  if (!module.needed) return "not called for";
+  return module.built ? "called for" : "called for, not built yet";
+}
+
+void write_names(JsonWriter& json, std::string_view key, const std::vector<std::string>& names) {
+  json.key(key).begin_array();
+  for (const std::string& name : names) json.text(name);
+  json.end_array();
+}
+
+}  // namespace
+
+SceneSummary summarize_scene(const std::string& scene, const World& world, const SceneInfo& info,
+                             const KeyRegistry& registry, const ModuleList& modules) {
+  const auto& assets = world.resource<SceneAssets>();
+  SceneSummary out;
+  out.scene = scene;
+  out.name = info.name;
+  world.view<const WorldTransform>().each([&](Entity entity, const WorldTransform&) {
+    ++out.nodes;
+    if (registry.is_light(world, entity)) ++out.lights;
+  });
+  for (const Mesh& mesh : assets.meshes) out.triangles += triangles_of(mesh);
+  world.view<const MeshInstance>().each([&](const MeshInstance& instance) {
+    ++out.instances;
+    if (instance.mesh < assets.meshes.size()) out.drawn_triangles += triangles_of(assets.meshes[instance.mesh]);
+  });
+  out.meshes = assets.meshes.size();
+  out.materials = assets.materials.size();
+  out.textures = assets.textures.size();
+  out.images = assets.images.size();
+  out.skins = assets.skins.size();
+  const auto& names = world.resource<SceneNames>();
+  for (const Entity camera : info.cameras) out.cameras.emplace_back(names.name_of(camera));
+  for (const AnimationClip& clip : assets.clips) out.animations.push_back(clip.name);
+  for (const auto& module : modules) {
+    Demand demand = module->demand(world, nullptr);
+    out.modules.push_back({.name = std::string(module->name()),
+                           .built = module->built(),
+                           .needed = demand.needed,
+                           .reason = std::move(demand.reason)});
+  }
+  return out;
+}
+
+std::string summary_text(const SceneSummary& summary) {
+  constexpr std::size_t kColumn = 18;
+  std::string text = padded("scene", kColumn) + summary.scene + "\n";
+  for (const auto& [name, count] : counts_of(summary)) text += padded(name, kColumn) + std::to_string(count) + "\n";
+  text += padded("cameras", kColumn) + joined(summary.cameras) + "\n";
+  text += padded("animations", kColumn) + joined(summary.animations) + "\n";
+  text += "modules\n";
+  for (const SceneSummary::ModuleDemand& module : summary.modules) {
+    const std::string reason = module.reason.empty() ? "" : ": " + module.reason;
+    text += "  " + padded(module.name, kColumn - 2) + verdict(module) + reason + "\n";
+  }
+  return text;
+}
+
+std::string summary_json(const SceneSummary& summary) {
+  JsonWriter json;
+  json.begin_object().key("version").integer(1).key("scene").text(summary.scene).key("name").text(summary.name);
+  for (const auto& [name, count] : counts_of(summary)) json.key(name).integer(static_cast<std::int64_t>(count));
+  write_names(json, "cameras", summary.cameras);
+  write_names(json, "animations", summary.animations);
+  json.key("modules").begin_array();
+  for (const SceneSummary::ModuleDemand& module : summary.modules) {
+    json.begin_object().key("name").text(module.name).key("built").boolean(module.built);
+    json.key("demanded").boolean(module.needed).key("reason").text(module.reason).end_object();
+  }
+  json.end_array().end_object();
+  return json.finish();
+}
+
+}  // namespace gloam

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/render/module.h"
+#include "engine/scene/gltf_import.h"
+#include "engine/scene/key_registry.h"
+
+namespace gloam {
+
+/// What `inspect` tells of a scene.
+struct SceneSummary {
+  std::string scene;
+  std::string name;
+  std::uint64_t nodes = 0;
+  std::uint64_t meshes = 0;
+  std::uint64_t triangles = 0;  ///< as stored, every mesh once
+  std::uint64_t instances = 0;
+  std::uint64_t drawn_triangles = 0;  ///< over all instances
+  std::uint64_t materials = 0;
+  std::uint64_t textures = 0;
+  std::uint64_t images = 0;
+  std::uint64_t lights = 0;
+  std::uint64_t skins = 0;
+  std::vector<std::string> cameras;
+  std::vector<std::string> animations;
+
+  struct ModuleDemand {
+    std::string name;
+    bool built = true;
+    bool needed = false;
+    std::string reason;
+  };
+  std::vector<ModuleDemand> modules;
+};
+
+[[nodiscard]] SceneSummary summarize_scene(const std::string& scene, const World& world, const SceneInfo& info,
+                                           const KeyRegistry& registry, const ModuleList& modules);
+
+/// As lines for people.
+[[nodiscard]] std::string summary_text(const SceneSummary& summary);
+/// {"version": 1, "scene", counts…, "cameras": […], "animations": […], "modules": [{"name", "built", "demanded",
+/// "reason"}]}
+[[nodiscard]] std::string summary_json(const SceneSummary& summary);
+
+}  // namespace gloam

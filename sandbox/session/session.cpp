@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/session/session.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "engine/gpu/vulkan_device.h"
+#include "engine/scene/resources.h"
+#include "engine/scene/systems.h"
+#include "modules/module_list/module_list.h"
+#include "sandbox/output/file_io.h"
+#include "sandbox/session/scene_loading.h"
+
+namespace gloam {
+namespace {
+
+Status set_knobs(KnobRegistry& knobs, const Options& options) {
+  if (!options.config.empty()) {
+    const auto text = read_text_file(options.config, ErrorKind::usage);
+    if (!text) return text.error();
+    GLOAM_TRY(knobs.set_from_json(*text, options.config));
+  }
+  for (const std::string& assignment : options.assignments) GLOAM_TRY(knobs.set_assignment(assignment));
+  return {};
+}
+
+Status open_renderer(Session& session, const Options& options, LogSink& log,
+                     const std::vector<std::string>& window_extensions, ModuleList more_modules) {
+  auto device = gpu::create_vulkan_device({.device = options.device,
+                                           .validate = options.validate,
+                                           .cache_directory = options.cache_dir,
+                                           .log = &log,
+                                           .window_extensions = window_extensions});
+  if (!device) return device.error();
+  session.device = std::move(device).value();
+  ModuleList modules = make_all_modules();
+  std::move(more_modules.begin(), more_modules.end(), std::back_inserter(modules));
+  auto renderer = Renderer::create({.device = session.device.get(),
+                                    .executor = session.executor.get(),
+                                    .log = &log,
+                                    .zones = &session.zones,
+                                    .modules = std::move(modules)});
+  if (!renderer) return renderer.error();
+  session.renderer = std::move(renderer).value();
+  return set_knobs(session.renderer->knobs(), options);
+}
+
+/// Poses everything once ahead of the first frame: a fitted camera looks at what is drawn, a flying one starts at a
+/// posed one.
+void pose_scene(Session& session) {
+  Schedule schedule;
+  add_scene_systems(schedule);
+  schedule.run(Stage::world, session.world, *session.executor);
+}
+
+}  // namespace
+
+ViewSettings Session::view_settings(std::uint32_t width, std::uint32_t height, const std::string& visualizer) const {
+  ViewSettings settings = settings_for_camera(world, camera, width, height);
+  settings.visualizer = visualizer;
+  return settings;
+}
+
+void Session::set_clock(double time_s, double dt_s) { world.resource<SceneClock>() = {.time_s = time_s, .dt_s = dt_s}; }
+
+Result<FrameSample> Session::render_frame(const ViewRequest& request) {
+  FrameSample sample;
+  sample.begin_ns = zones.now_ns();
+  GLOAM_TRY(renderer->render(world, {&request, 1}));
+  GLOAM_TRY(renderer->wait());
+  sample.end_ns = zones.now_ns();
+  sample.report = renderer->report();
+  sample.zones = zones.take();
+  return sample;
+}
+
+Status Session::check_validation() const {
+  const std::uint64_t count = device->validation_messages();
+  if (count == 0) return {};
+  return Error{ErrorKind::failed,
+               "Vulkan validation has " + std::to_string(count) + (count == 1 ? " message" : " messages")};
+}
+
+Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& log,
+                                              const std::vector<std::string>& window_extensions,
+                                              ModuleList more_modules) {
+  GLOAM_TRY(check_scene_exists(options.scene));
+  auto session = std::make_unique<Session>();
+  session->executor = make_pool_executor(options.threads);
+  GLOAM_TRY(open_renderer(*session, options, log, window_extensions, std::move(more_modules)));
+  session->renderer->prepare_world(session->world);
+  auto info = load_scene({.scene = options.scene, .animation = options.animation}, session->renderer->modules(),
+                         session->world, *session->executor, log);
+  if (!info) return info.error();
+  session->info = std::move(info).value();
+  const auto camera = find_camera(session->world, session->info, options.camera);
+  if (!camera) return camera.error();
+  session->camera = *camera;
+  session->set_clock(options.time_s, options.dt_s);
+  pose_scene(*session);
+  GLOAM_TRY(session->renderer->check_visualizer(session->world, options.view));
+  return session;
+}
+
+}  // namespace gloam

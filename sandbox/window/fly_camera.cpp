@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/window/fly_camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gloam {
+namespace {
+
+constexpr double kSpeed = 3.0;      // metres a second: a brisk walk
+constexpr double kMaxTilt = 1.553;  // 89°: at 90° the heading would be lost
+
+struct Axes {
+  dvec3 right;
+  dvec3 up;
+  dvec3 back;
+};
+
+Axes axes_of(double heading, double tilt) {
+  const dvec3 back(std::sin(heading) * std::cos(tilt), -std::sin(tilt), std::cos(heading) * std::cos(tilt));
+  const dvec3 right(std::cos(heading), 0.0, -std::sin(heading));
+  return {.right = right, .up = glm::cross(back, right), .back = back};
+}
+
+}  // namespace
+
+FlyCamera::FlyCamera(const dmat4& world_from_camera) : position_(world_from_camera[3]) {
+  const dvec3 back = glm::normalize(dvec3(world_from_camera[2]));
+  tilt_ = std::clamp(std::asin(std::clamp(-back.y, -1.0, 1.0)), -kMaxTilt, kMaxTilt);
+  heading_ = std::atan2(back.x, back.z);
+  // Looking straight up or down, the picture's upper edge tells the heading.
+  if (std::abs(back.y) > 0.999999) {
+    const dvec3 up = dvec3(world_from_camera[1]) * (back.y > 0.0 ? -1.0 : 1.0);
+    heading_ = std::atan2(up.x, up.z);
+  }
+}
+
+void FlyCamera::advance(const FlyInput& input, double dt_s) {
+  heading_ = std::remainder(heading_ + input.turn, 2.0 * std::acos(-1.0));
+  tilt_ = std::clamp(tilt_ + input.tilt, -kMaxTilt, kMaxTilt);
+  const Axes axes = axes_of(heading_, tilt_);
+  dvec3 movement = axes.right * input.right - axes.back * input.forward + dvec3(0.0, input.up, 0.0);
+  const double length = glm::length(movement);
+  if (length > 1.0) movement /= length;
+  position_ += movement * (kSpeed * input.speed * dt_s);
+}
+
+void ViewFlight::advance(const World& world, const FlyInput& input, double dt_s, ViewSettings& settings) {
+  if (!camera_) {
+    const bool moved =
+        input.forward != 0.0 || input.right != 0.0 || input.up != 0.0 || input.turn != 0.0 || input.tilt != 0.0;
+    if (!moved) return;
+    follow_camera(world, settings);
+    settings.follow_camera = false;
+    camera_ = FlyCamera(settings.world_from_camera);
+  }
+  camera_->advance(input, dt_s);
+  settings.world_from_camera = camera_->world_from_camera();
+}
+
+dmat4 FlyCamera::world_from_camera() const {
+  const Axes axes = axes_of(heading_, tilt_);
+  return dmat4(dvec4(axes.right, 0.0), dvec4(axes.up, 0.0), dvec4(axes.back, 0.0), dvec4(position_, 1.0));
+}
+
+}  // namespace gloam

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace gloam {
+
+/// Keys that move about in a text or change it.
+enum class EditKey : std::uint8_t {
+  tab,
+  left,
+  right,
+  up,
+  down,
+  page_up,
+  page_down,
+  home,
+  end,
+  insert,
+  erase,
+  backspace,
+  space,
+  enter,
+  escape,
+  keypad_enter,
+  a,
+  c,
+  v,
+  x,
+  y,
+  z,
+};
+inline constexpr std::size_t kEditKeyCount = 22;
+
+/// Mouse and keyboard of one frame as a panel takes them. Buttons and keys are on when they are held or were struck
+/// since the last frame, so that a slow frame misses no click.
+struct PanelInput {
+  double mouse_x = -1.0;  ///< pixels from the picture's upper left
+  double mouse_y = -1.0;
+  std::array<bool, 3> buttons = {};  ///< left, right, middle
+  double wheel = 0.0;                ///< steps away from the user
+  std::bitset<kEditKeyCount> keys;   ///< by EditKey
+  bool control = false;
+  bool shift = false;
+  bool alt = false;
+  std::u32string text;  ///< typed since the last frame
+};
+
+}  // namespace gloam

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/window/panel_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/assert.h"
+#include "sandbox/session/summary.h"
+
+namespace gloam {
+namespace {
+
+constexpr double kManyTimes = 100.0;
+
+void remember(std::vector<double>& history, double value) {
+  if (history.size() == FrameTimes::kFrames) history.erase(history.begin());
+  history.push_back(value);
+}
+
+std::string with_unit(const Knob& knob, const std::string& value) {
+  return knob.unit.empty() ? value : value + " " + knob.unit;
+}
+
+std::string valid_values(const Knob& knob) {
+  if (knob.type != Knob::Type::choice)
+    return with_unit(knob, value_text(knob, knob.min) + " to " + value_text(knob, knob.max));
+  std::string list;
+  for (const std::string& choice : knob.choices) list += (list.empty() ? "" : ", ") + choice;
+  return list;
+}
+
+}  // namespace
+
+KnobWidget widget_of(const Knob& knob) {
+  switch (knob.type) {
+    case Knob::Type::choice:
+      return KnobWidget::combo;
+    case Knob::Type::integer:
+      return KnobWidget::integer_slider;
+    case Knob::Type::number:
+      return KnobWidget::number_slider;
+  }
+  return KnobWidget::combo;
+}
+
+bool spans_magnitudes(const Knob& knob) { return knob.min > 0.0 && knob.max >= kManyTimes * knob.min; }
+
+std::string slider_format(const Knob& knob) {
+  std::string format = knob.type == Knob::Type::integer ? "%lld" : "%.4g";
+  if (!knob.unit.empty()) format += ' ';
+  for (const char c : knob.unit) format += c == '%' ? "%%" : std::string(1, c);
+  return format;
+}
+
+std::string knob_tooltip(const Knob& knob) {
+  std::string text = knob.name + ": " + knob.meaning + "\n" + valid_values(knob) +
+                     "\ndefault: " + with_unit(knob, value_text(knob, knob.default_number));
+  if (!knob.exact.empty()) text += "\nmost exact: " + with_unit(knob, knob.exact);
+  return text;
+}
+
+double knob_value(const KnobRegistry& registry, const Knob& knob) { return registry.number(knob.name); }
+
+void set_knob_value(KnobRegistry& registry, const Knob& knob, double value) {
+  double valid = std::clamp(value, knob.min, knob.max);
+  if (knob.type != Knob::Type::number) valid = std::round(valid);
+  const Status set = registry.set(knob.name, value_text(knob, valid));
+  GLOAM_ASSERT(set.ok(), "a knob takes the values of its range");
+}
+
+void reset_knob(KnobRegistry& registry, const Knob& knob) { set_knob_value(registry, knob, knob.default_number); }
+
+bool is_default(const KnobRegistry& registry, const Knob& knob) {
+  return knob_value(registry, knob) == knob.default_number;
+}
+
+void FrameTimes::add(double frame_ms, const FrameReport& report) {
+  remember(frame_ms_, frame_ms);
+  remember(cpu_ms_, report.cpu_ms);
+  if (report.gpu_ms > 0.0) remember(gpu_ms_, report.gpu_ms);
+  passes_ = report.passes;
+  std::map<std::string, std::size_t> seen;
+  decltype(pass_ms_) kept;
+  for (PassTime& pass : passes_) {
+    const std::pair key(pass.name, seen[pass.name]++);
+    History& history = kept[key];
+    if (const auto found = pass_ms_.find(key); found != pass_ms_.end()) history = std::move(found->second);
+    remember(history, pass.ms);
+    pass.ms = summarize(history).median;
+  }
+  pass_ms_ = std::move(kept);
+}
+
+double FrameTimes::frame_ms() const { return summarize(frame_ms_).median; }
+double FrameTimes::cpu_ms() const { return summarize(cpu_ms_).median; }
+double FrameTimes::gpu_ms() const { return summarize(gpu_ms_).median; }
+
+}  // namespace gloam

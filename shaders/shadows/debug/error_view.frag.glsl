@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define GLOAM_SHADOWS_BINDING 6
+#include "shaders/common/heat.glsl"
+#include "shaders/lights/lights_api.glsl"
+#include "shaders/render/gbuffer_api.glsl"
+#include "shaders/render/view_api.glsl"
+#include "shaders/shadows/shadows_api.glsl"
+
+// How far drawn visibilities are from traced ones: mean of the absolute differences over the traced lights that reach
+// the surface.
+
+layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture does not encode sRGB by itself
+
+const float kWhite = 0.5;  // a difference that is shown white
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
+layout(set = 0, binding = 2) uniform sampler2D depth_image;
+layout(set = 0, binding = 3) uniform usampler2D normal_image;
+layout(set = 0, binding = 4) uniform sampler2D base_color_image;
+layout(set = 0, binding = 5) uniform sampler2D light_texels;
+
+layout(location = 0) out vec4 out_color;
+layout(location = 1) out vec4 out_difference;
+
+// Sum and count.
+vec2 local_differences(ShadowReceiver r) {
+  vec2 sum = vec2(0.0);
+  for (uint i = 0u; i < lights.local_count; ++i) {
+    LocalLight light = fetch_light(light_texels, i);
+    light.color = vec3(1.0);  // where it reaches counts, not its strength
+    vec3 to_light;
+    float layer = texelFetch(shadow_rows, ivec2(6, i), 0).z;
+    bool counts = layer >= 0.0 && local_illuminance(light, r.position, to_light).x > 0.0;
+    for (; counts; counts = false)
+      sum += vec2(abs(local_visibility(i, light.position, r) - traced_visibility(layer)), 1.0);
+  }
+  return sum;
+}
+
+vec2 directional_differences(ShadowReceiver r) {
+  vec2 sum = vec2(0.0);
+  for (uint i = 0u; i < lights.directional_count; ++i) {
+    float layer = shadow_block.directional[i].traced_layer;
+    for (bool counts = layer >= 0.0; counts; counts = false)
+      sum += vec2(abs(directional_visibility(i, lights.directional[i].direction, r) - traced_visibility(layer)), 1.0);
+  }
+  return sum;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = texelFetch(depth_image, pixel, 0).r;
+  ShadowReceiver r;
+  r.position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  r.face_normal = unpack_normal(texelFetch(normal_image, pixel, 0).y);
+  r.subsurface = texelFetch(base_color_image, pixel, 0).a > 0.5;
+  vec2 sum = vec2(0.0);
+  for (bool surface = depth > 0.0; surface; surface = false) sum = local_differences(r) + directional_differences(r);
+  float difference = sum.y > 0.0 ? sum.x / sum.y : -1.0;
+  vec3 color = heat(max(difference, 0.0) / kWhite);
+  out_color = vec4(kEncodeSrgb != 0u ? linear_to_srgb(color) : color, 1.0);
+  out_difference = vec4(difference, 0.0, 0.0, 1.0);
+}

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define GLOAM_SHOWN_DIRECTIONAL
+#include "shaders/lights/one_light_view_api.glsl"
+#include "shaders/shadows/debug/final_list_views.glsl"
+
+// What became of one light in each tile whose early list holds it: lit as a whole, a slot (as bright as the pixel's
+// visibility), or left out. Loud where it reaches a pixel whose early list does not hold it.
+
+// Whether the pixel's tile looks at the light before shadows are known; directional lights are looked at wherever there
+// is a surface.
+bool is_early(uvec2 pixel) {
+  if (!has_surface(pixel)) return false;
+  return shown_directional != 0u || (kEarlyLists != 0u && list_holds(pixel));
+}
+
+vec3 state_color(FinalList list, uvec2 pixel) {
+  if (!list.complete) return kFallbackColor;
+  uint entry = entry_of(list, shown_directional != 0u, shown_light), slot = entry_slot(entry);
+  if (slot == GLOAM_ALL_LIT) return vec3(0.75, 0.9, 0.2);
+  if (slot == GLOAM_ALL_UNLIT) return kLeftOut;
+  return mix(vec3(0.0, 0.05, 0.0), vec3(0.05, 0.8, 0.05), entry_visibility(entry, slot_pixel(pixel)));
+}
+
+void main() {
+  uvec2 pixel = uvec2(gl_FragCoord.xy);
+  if (is_early(pixel)) {
+    show(with_grid(state_color(final_list(pixel), pixel), pixel, GLOAM_SHADOW_TILE), kDarkened);
+    return;
+  }
+  bool lit = shown_directional == 0u && lights_pixel(fetch_light(light_texels, shown_light), pixel);
+  show(lit ? kLoud : vec3(0.0), lit ? kLoudOpacity : kDarkened);
+}

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_SHADOW_VISIBILITY_VIEW_GLSL
+#define GLOAM_SHADERS_SHADOWS_SHADOW_VISIBILITY_VIEW_GLSL
+
+// How much of one light each pixel's surface sees: black nothing, white all of it, blue where the light does not reach.
+// By shadow maps, or with GLOAM_FINAL_LISTS_BINDING by what the tile's final list holds.
+
+#define GLOAM_SHADOWS_BINDING 6
+#include "shaders/lights/lights_api.glsl"
+#include "shaders/render/gbuffer_api.glsl"
+#include "shaders/render/view_api.glsl"
+#include "shaders/shadows/maps/map_shared.h"
+#include "shaders/shadows/shadows_api.glsl"
+#ifdef GLOAM_FINAL_LISTS_BINDING
+#include "shaders/shadows/final_lists/entry.glsl"
+
+layout(constant_id = 1) const uint kFallback = 0u;  // 1: there may be tiles without a final list
+#endif
+
+layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture does not encode sRGB by itself
+
+layout(push_constant, scalar) uniform Push { ShownLightConstants shown; };
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
+layout(set = 0, binding = 2) uniform sampler2D depth_image;
+layout(set = 0, binding = 3) uniform usampler2D normal_image;
+layout(set = 0, binding = 4) uniform sampler2D base_color_image;
+layout(set = 0, binding = 5) uniform sampler2D light_texels;
+
+layout(location = 0) out vec4 out_color;
+layout(location = 1) out vec4 out_visibility;
+
+float shown_visibility(uvec2 pixel, bool directional, vec3 light_vector, ShadowReceiver r) {
+#ifdef GLOAM_FINAL_LISTS_BINDING
+  FinalList list = final_list(pixel);
+  float listed = entry_visibility(entry_of(list, directional, shown.light), slot_pixel(pixel));
+  if (kFallback == 0u || list.complete) return listed;
+#endif
+  return light_visibility(directional, shown.light, light_vector, r);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = texelFetch(depth_image, pixel, 0).r;
+  ShadowReceiver r;
+  r.position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  r.face_normal = unpack_normal(texelFetch(normal_image, pixel, 0).y);
+  r.subsurface = texelFetch(base_color_image, pixel, 0).a > 0.5;
+  bool directional = shown.directional != 0u;
+  LocalLight local = fetch_light(light_texels, directional ? 0u : shown.light);
+  local.color = vec3(1.0);  // where it reaches counts, not its strength
+  vec3 to_light;
+  bool reaches = directional || local_illuminance(local, r.position, to_light).x > 0.0;
+  vec3 light_vector = directional ? lights.directional[directional ? shown.light : 0u].direction : local.position;
+  float visibility = depth > 0.0 && reaches ? shown_visibility(uvec2(pixel), directional, light_vector, r) : -1.0;
+  vec3 color = visibility < 0.0 ? vec3(0.0, 0.0, 0.04) : vec3(visibility);
+  out_color = vec4(kEncodeSrgb != 0u ? linear_to_srgb(color) : color, 1.0);
+  out_visibility = vec4(visibility, 0.0, 0.0, 1.0);
+}
+
+#endif

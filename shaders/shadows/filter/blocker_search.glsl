@@ -1,0 +1,340 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_BLOCKER_SEARCH_GLSL
+#define GLOAM_SHADERS_SHADOWS_BLOCKER_SEARCH_GLSL
+
+#include "shaders/shadows/filter/taps.glsl"
+
+// Where blockers can be that hide part of the light from a receiver: a square round it as wide as the penumbra of the
+// nearest thing in it.
+struct SearchRegion {
+  float width;     // texels of mip 0
+  float nearest;   // depth; not less than the nearest in the region
+  float farthest;  // not more than the farthest in the region; 0: unknown
+};
+
+float nearest_of(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
+float farthest_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
+
+// Nearest and farthest depth of the four texels round a corner in the pyramid, which is in texels of its level 0.
+float gather_nearest(vec2 corner) {
+  return nearest_of(textureGather(shadow_pyramid, corner * shadow_texel_size() * vec2(4.0, 2.0)));
+}
+float gather_farthest(vec2 corner) {
+  return farthest_of(textureGather(shadow_pyramid, corner * shadow_texel_size() * vec2(4.0, 2.0) + vec2(0.0, 0.5)));
+}
+
+// Nearest and farthest depth of texels [low, high] of a face, from its pyramid; whatever is beyond it is left out.
+float nearest_in_face(vec2 origin, float size, vec2 low, vec2 high, out float farthest) {
+  low = clamp(low, vec2(0.0), vec2(size)) * 0.25;
+  high = clamp(high, vec2(0.0), vec2(size)) * 0.25;
+  int last = floor_log2(size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
+  float side = max(high.x - low.x, high.y - low.y);
+  int level = clamp(ceil_log2(max(side / 3.0, 1.0)), 0, last);
+  MipSquare square = mip_square(origin * 0.25, size * 0.25, level, shadow_block.atlas_size * 0.25);
+  // Four texels a side hold what is three of them wide; in the coarsest level two are all there is.
+  vec2 first = floor(low / square.texel) + 1.0;
+  float nearest = 0.0;
+  farthest = 1.0;
+  for (int i = 0; i < 4; ++i) {
+    vec2 corner = clamp(first + 2.0 * vec2(i & 1, i >> 1), vec2(1.0), vec2(square.size - 1.0));
+    nearest = max(nearest, gather_nearest(square.corner + corner));
+    farthest = min(farthest, gather_farthest(square.corner + corner));
+  }
+  return nearest;
+}
+
+float penumbra_width(ShadowPoint p, float blocker) { return clamp(p.scale * (blocker - p.depth), 0.0, p.size); }
+
+// The pyramid's level whose texel is at least this wide; there, two by two texels hold a square of that width round any
+// point.
+int pyramid_level(float width, int last) {
+  return clamp(ceil_log2(max(width, 1.0)) - GLOAM_SHADOW_PYRAMID_MIP, 0, last);
+}
+
+vec2 pyramid_corner(ShadowPoint p, int level) {
+  MipSquare square = mip_square(p.origin * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
+  vec2 corner = floor(p.at * 0.25 / square.texel - 0.5) + 1.0;
+  return square.corner + clamp(corner, vec2(1.0), vec2(square.size - 1.0));
+}
+
+#ifdef GLOAM_SHADOWS_CROSSING
+// Whether another face of a cube, whose nearest depth is this, may hold anything between the emitter and a receiver of
+// `depth` that is `off` texels from that face's border. What lies at the tangent t ≥ 1 has t times its depth in the
+// receiver's own face, and the cone (SearchCone) begins at depth + 2 (t − tangent of the receiver) / (scale ·
+// to_tangent) there: if not at the border, then nowhere.
+bool may_block_from_other_face(float nearest, float depth, float off, float scale, float to_tangent) {
+  float a_texel = 2.0 / max(scale, 1e-6);
+  return nearest * to_tangent > a_texel || nearest > depth + a_texel * max(off - 4.0, 0.0);
+}
+
+// Texels from a place in a face of a cube to the border with another face; far where they have none.
+float texels_to_face(int own, int face, vec2 at, float size, float to_tangent) {
+  mat3 axes = cube_face_axes(own);
+  vec3 toward = cube_face_axes(face)[2] * axes;
+  float along = dot(vec2(toward.x, -toward.y), at - 0.5 * size);
+  return toward.z == 0.0 ? 1.0 / to_tangent - along : 1e9;
+}
+
+// One face of a cube, looked at whole. ahead: how far it looks the receiver's way, 1, 0 or -1; along: how far the
+// receiver is off the middle of its own face toward this one, texels.
+void look_at_face(ShadowPoint p, float held, float ahead, float along, float to_tangent, inout float nearest,
+                  inout bool others) {
+  bool other = ahead <= 0.0 && may_block_from_other_face(held, p.depth, ahead == 0.0 ? 1.0 / to_tangent - along : 1e9,
+                                                         p.scale, to_tangent);
+  others = others || other;
+  nearest = max(nearest, ahead > 0.0 ? held : other ? 2.0 * held : 0.0);
+}
+
+// Nearest depth of all that a cube holds: any face may see what another holds within its field of view twice over.
+// others: some of it in other faces than the receiver's own.
+float nearest_of_cube(ShadowPoint p, mat3 own, float to_tangent, out bool others) {
+  vec2 off = p.at - 0.5 * p.size;
+  vec3 along = own[0] * off.x - own[1] * off.y, ahead = own[2], forward = light_faces.along_nearest,
+       backward = light_faces.against_nearest;
+  others = false;
+  float nearest = 0.0;
+  look_at_face(p, forward.x, ahead.x, along.x, to_tangent, nearest, others);
+  look_at_face(p, forward.y, ahead.y, along.y, to_tangent, nearest, others);
+  look_at_face(p, forward.z, ahead.z, along.z, to_tangent, nearest, others);
+  look_at_face(p, backward.x, -ahead.x, -along.x, to_tangent, nearest, others);
+  look_at_face(p, backward.y, -ahead.y, -along.y, to_tangent, nearest, others);
+  look_at_face(p, backward.z, -ahead.z, -along.z, to_tangent, nearest, others);
+  return nearest;
+}
+
+// A cube's region, from the pyramid's texels. across: the region leaves the face.
+SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
+  const int taps = 9;
+  int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP;
+  mat3 own = cube_face_axes(p.face);
+  float to_tangent = p.tan_half * 2.0 / p.size;
+  SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
+  bool others;
+  region.width = penumbra_width(p, nearest_of_cube(p, own, to_tangent, others));
+  across = p.face >= 0 && others && leaves_cube_face(p, 0.5 * region.width);
+  int level = pyramid_level(0.5 * region.width, last), tap = 0;
+  float nearest = 0.0;
+  // Nine texels of the square that this gives, then, if it leaves the face, of the smaller square that these give.
+  for (int left = 2 * taps; across && left > 0; --left) {
+    vec2 tangent = (p.at + 0.5 * region.width * vec2(tap % 3 - 1, tap / 3 - 1) - 0.5 * p.size) * to_tangent;
+    vec3 v = own * vec3(tangent.x, -tangent.y, 1.0);
+    int face = cube_face_of(v);
+    vec3 local = v * cube_face_axes(face);
+    vec2 there = vec2(local.x, -local.y) / local.z / to_tangent + 0.5 * p.size;
+    MipSquare square = mip_square(origin_of_face(face) * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
+    vec2 cell = clamp(floor(there * 0.25 / square.texel), vec2(0.0), vec2(square.size - 1.0));
+    nearest = max(nearest, texelFetch(shadow_pyramid, ivec2(square.corner + cell), 0).x * local.z);
+    if (++tap == taps) {
+      region.nearest = nearest;
+      region.width = min(region.width, penumbra_width(p, nearest));
+      across = across && leaves_cube_face(p, 0.5 * region.width);
+      level = pyramid_level(0.5 * region.width, last);
+      nearest = 0.0;
+      tap = 0;
+    }
+  }
+  return region;
+}
+#endif
+
+// From coarse to fine: the nearest thing in a square that is too large gives a smaller one that is still large enough.
+SearchRegion find_region(ShadowPoint p) {
+  int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
+  bool across = false;
+  SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
+#ifdef GLOAM_SHADOWS_CROSSING
+  if ((kKinds & GLOAM_SHADOWS_CUBES) != 0u) region = find_region_of_cube(p, across);
+#endif
+  if (!across) do {
+      vec2 corner = pyramid_corner(p, last);
+      for (int step = 0; step < 2; ++step) {
+        region.width = penumbra_width(p, gather_nearest(corner));
+        corner = pyramid_corner(p, pyramid_level(region.width, last));
+      }
+      region.nearest = gather_nearest(corner);
+      region.farthest = gather_farthest(corner);
+      region.width = penumbra_width(p, region.nearest);
+    } while (never(p));
+  return region;
+}
+
+struct Blockers {
+  float count;  // texels in the cone; whole_plane: weighted, (N − 1)² when every texel blocks
+  float depth;  // of their mean distance; that of the receiver when there are none
+};
+
+Blockers blockers_of(ShadowPoint p, float count, float sum) {
+  float mean = sum / max(count, 1e-6);
+  return Blockers(count, count <= 1e-6 ? p.depth : p.orthographic ? mean : 1.0 / mean);
+}
+
+// Sums of the rows of a gather.
+struct BlockerSums {
+  vec2 count;  // lower, upper
+  vec2 distance;
+};
+
+// Half the width of a search in texels: what is narrower would miss an edge for want of texels.
+const float kLeastHalfWidth = 1.5;
+
+// What can hide part of the emitter from the receiver lies in the cone between them: the farther from the receiver's
+// texel, the nearer to the light. In texels of a mip; reach: how much farther out texels still count.
+struct SearchCone {
+  float apex;  // depth
+  float depth_per_texel;
+  float reach;
+  float least;  // of any depth
+};
+
+// half_width: of the search region, texels of the mip. whole_plane: no cone, and the receiver's plane counts as far as
+// the kernel goes, for a kernel that is as wide as it is whatever the light; else blockers are nearer to the light than
+// the receiver.
+SearchCone make_cone(ShadowPoint p, Kernel k, float half_width, bool whole_plane) {
+  if (whole_plane) return SearchCone(0.0, 0.0, 0.0, p.least);
+  return SearchCone(p.depth, 2.0 * k.square.texel / max(p.scale, 1e-6), 0.5 + max(kLeastHalfWidth - half_width, 0.0),
+                    max(k.least, p.threshold));
+}
+
+// Least depths at distances in texels.
+vec4 cone_depths(SearchCone cone, vec4 off) {
+  return max(cone.apex + (abs(off) - cone.reach) * cone.depth_per_texel, vec4(cone.least));
+}
+
+// threshold: of each texel. rows, columns: least depths of the cone, lower and upper, left and right. left, right:
+// shares of the columns.
+void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, vec4 threshold, vec2 rows, vec2 columns, float left,
+                  float right) {
+  vec4 depth = textureGather(shadow_atlas, at);
+  vec4 distance = p.orthographic ? depth : 1.0 / depth;
+  bvec4 blocks = is_nearer(depth, threshold, rows.xxyy, columns.xyyx);
+  sums.count.x = blocks.x ? sums.count.x + left : sums.count.x;
+  sums.count.x = blocks.y ? sums.count.x + right : sums.count.x;
+  sums.count.y = blocks.z ? sums.count.y + right : sums.count.y;
+  sums.count.y = blocks.w ? sums.count.y + left : sums.count.y;
+  sums.distance.x = blocks.x ? sums.distance.x + left * distance.x : sums.distance.x;
+  sums.distance.x = blocks.y ? sums.distance.x + right * distance.y : sums.distance.x;
+  sums.distance.y = blocks.z ? sums.distance.y + right * distance.z : sums.distance.y;
+  sums.distance.y = blocks.w ? sums.distance.y + left * distance.w : sums.distance.y;
+}
+
+// Two gathers beside each other. rows: least depths of the lower and the upper texel row, shares: of what they add.
+void add_blocker_row(inout vec2 sums, ShadowPoint p, vec2 u, float v, vec2 columns, float row, vec4 corner, vec2 rows,
+                     vec2 left, vec2 right, vec2 shares, vec2 ends) {
+  BlockerSums s = BlockerSums(vec2(0.0), vec2(0.0));
+  add_blockers(s, p, vec2(u.x, v), columns.x + row + corner, rows, vec2(left.x, right.x), ends.x, 1.0);
+  add_blockers(s, p, vec2(u.y, v), columns.y + row + corner, rows, vec2(left.y, right.y), 1.0, ends.y);
+  sums += vec2(dot(s.count, shares), dot(s.distance, shares));
+}
+
+// Blockers of 8×8 texels, see find_blockers: first the inner 4×4, then those beside them, above and below, in the
+// corners. What a cone of half_width reaches is often in the inner ones alone. Bilinear edges are for the kernel that
+// is as wide as it is; a cone has its own.
+Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_width) {
+  Kernel k = make_kernel(p, mip, 8);
+  Gathers8 g = make_gathers(k);
+  SearchCone cone = make_cone(p, k, half_width, whole_plane);
+  vec4 left = cone_depths(cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.x);
+  vec4 right = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.x);
+  vec4 upper = cone_depths(cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.y);
+  vec4 lower = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
+  vec2 first = whole_plane ? 1.0 - k.fraction : vec2(1.0), last = whole_plane ? k.fraction : vec2(1.0);
+  vec2 beyond = min(k.fraction, 1.0 - k.fraction),
+       sums = vec2(0.0);  // other texels' middles are at least 2 + beyond away
+  bool inner_only = !whole_plane && kFullPenumbra == 0u && half_width <= kLeastHalfWidth + min(beyond.x, beyond.y);
+  int turn = 0, turns = inner_only ? 1 : 4;
+  do {
+    bool outer_x = (turn & 1) != 0, outer_y = turn > 1;
+    sums = turn == 0 ? vec2(0.0) : sums;  // see never()
+    vec2 u = outer_x ? g.u.xw : g.u.yz, columns = outer_x ? g.column.xw : g.column.yz, v = outer_y ? g.v.xw : g.v.yz;
+    vec2 rows = outer_y ? g.row.xw : g.row.yz, ends = outer_x ? vec2(first.x, last.x) : vec2(1.0);
+    vec2 lefts = outer_x ? left.xw : left.yz, rights = outer_x ? right.xw : right.yz;
+    vec2 uppers = outer_y ? upper.xw : upper.yz, lowers = outer_y ? lower.xw : lower.yz;
+    add_blocker_row(sums, p, u, v.x, columns, rows.x, g.corner, vec2(lowers.x, uppers.x), lefts, rights,
+                    vec2(1.0, outer_y ? first.y : 1.0), ends);
+    add_blocker_row(sums, p, u, v.y, columns, rows.y, g.corner, vec2(lowers.y, uppers.y), lefts, rights,
+                    vec2(outer_y ? last.y : 1.0, 1.0), ends);
+  } while (++turn < turns);
+  return blockers_of(p, sums.x, sums.y);
+}
+
+#ifndef GLOAM_SHADOWS_STANDARD
+// Blockers of N × N texels, (N / 2)² gathers.
+Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
+  Kernel k = make_kernel(p, mip, texels);
+  SearchCone cone = make_cone(p, k, half_width, whole_plane);
+  vec2 first = whole_plane ? 1.0 - k.fraction : vec2(1.0), last = whole_plane ? k.fraction : vec2(1.0);
+  vec4 count = vec4(0.0), sum = vec4(0.0);
+  for (int y = 0; y < texels; y += 2) {
+    vec2 share_y = vec2(y == 0 ? first.y : 1.0, y + 2 == texels ? last.y : 1.0);
+    float corner_y = k.base.y + float(y) + 1.0;
+    for (int x = 0; x < texels; x += 2) {
+      vec2 share_x = vec2(x == 0 ? first.x : 1.0, x + 2 == texels ? last.x : 1.0);
+      vec2 corner = vec2(k.base.x + float(x) + 1.0, corner_y);
+      vec2 off = corner - k.at;
+      vec4 least = max(cone_depths(cone, off.x + vec4(-0.5, 0.5, 0.5, -0.5)),
+                       cone_depths(cone, off.y + vec4(0.5, 0.5, -0.5, -0.5)));
+      corner = vec2(clamp_corner(k, corner.x), clamp_corner(k, corner.y));
+      vec4 depth = gather_depth(k, corner);
+      vec4 threshold = max(gather_threshold(k, corner, cone.least), least);
+      vec4 weight = share_x.xyyx * share_y.yyxx * vec4(greaterThan(depth, threshold));
+      count += weight;
+      sum += weight * (p.orthographic ? depth : 1.0 / max(depth, threshold));
+    }
+  }
+  return blockers_of(p, dot(count, vec4(1.0)), dot(sum, vec4(1.0)));
+}
+#endif
+
+#ifdef GLOAM_SHADOWS_CROSSING
+// The same where other faces of a cube have part in it: texel by texel.
+Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
+  Kernel k = make_kernel(p, mip, texels);
+  SearchCone cone = make_cone(p, k, half_width, whole_plane);
+  float count = 0.0, sum = 0.0;
+  for (int i = 0; i < texels * texels; ++i) {
+    vec2 cell = vec2(i % texels, i / texels);
+    vec2 share = whole_plane ? edge_shares(k.fraction, cell, float(texels)) : vec2(1.0);
+    vec2 at = (k.base + cell + 0.5) * k.square.texel;
+    vec4 least = cone_depths(cone, vec4(k.base + cell + 0.5 - k.at, 0.0, 0.0));
+    float rise, covered_share;
+    float depth = cube_depth(p, at, mip, rise, covered_share);
+    float threshold = max(tap_threshold(p, k, at, cone.least, rise), max(least.x, least.y));
+    float weight = depth > threshold ? share.x * share.y : 0.0;
+    count += weight;
+    sum += weight / max(depth, threshold);
+  }
+  return Blockers(count, count <= 1e-6 ? p.depth : count / sum);
+}
+#endif
+
+Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
+  Blockers found = Blockers(0.0, p.depth);
+  bool across = leaves_cube_face(p, kernel_reach(mip, texels));
+  if (!across) do {
+#ifdef GLOAM_SHADOWS_STANDARD
+      found = find_blockers_8(p, mip, whole_plane, half_width);
+#else
+      found = texels == 8 ? find_blockers_8(p, mip, whole_plane, half_width)
+                          : find_blockers(p, mip, texels, whole_plane, half_width);
+#endif
+    } while (never(p));
+#ifdef GLOAM_SHADOWS_CROSSING
+  if (across) do {
+      found = find_blockers_across(p, mip, texels, whole_plane, half_width);
+    } while (never(p));
+#endif
+  return found;
+}
+
+// The mip whose kernel holds a search region.
+int region_mip(ShadowPoint p, SearchRegion region) {
+  return clamp(ceil_log2(max(region.width / float(kKernel - 1), 1.0)), 0, coarsest_mip(p, kKernel));
+}
+
+Blockers region_blockers(ShadowPoint p, SearchRegion region) {
+  int mip = region_mip(p, region);
+  return box_blockers(p, mip, kKernel, false, 0.5 * region.width * power_of_two(-mip));
+}
+
+#endif

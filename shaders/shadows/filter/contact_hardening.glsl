@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_SHADOW_FILTER_GLSL
+#define GLOAM_SHADERS_SHADOWS_SHADOW_FILTER_GLSL
+
+#include "shaders/shadows/filter/blocker_search.glsl"
+#include "shaders/shadows/filter/kernels.glsl"
+
+// Contact-hardening filter (Thief §1.3.3): two mips, in each of which the penumbra is 4 to 8 and 2 to 4 texels wide.
+
+// What a kernel adds up to when its middle is texel column 3 (x), and when it is column 4 (y); between, by the
+// fraction.
+void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, float least, vec4 at_3, vec4 at_4) {
+  vec4 depth = textureGather(shadow_atlas, at);
+  bvec4 blocked = is_nearer(depth, threshold + corner, least);
+  vec4 share = coverage(depth);
+  sums = blocked.x ? sums + share.x * vec2(at_3.x, at_4.x) : sums;
+  sums = blocked.y ? sums + share.y * vec2(at_3.y, at_4.y) : sums;
+  sums = blocked.z ? sums + share.z * vec2(at_3.z, at_4.z) : sums;
+  sums = blocked.w ? sums + share.w * vec2(at_3.w, at_4.w) : sums;
+}
+
+// Four gathers beside each other. `upper` and `lower` texel row: weights of the cells 0, 1, 2, 3 columns from the
+// middle.
+void add_gathers(inout vec2 sums, Gathers8 g, float v, float row, float least, vec4 upper, vec4 lower) {
+  add_gather(sums, vec2(g.u.x, v), g.column.x + row, g.corner, least, vec4(lower.wz, upper.zw),
+             vec4(0.0, lower.w, upper.w, 0.0));
+  add_gather(sums, vec2(g.u.y, v), g.column.y + row, g.corner, least, vec4(lower.yx, upper.xy),
+             vec4(lower.zy, upper.yz));
+  add_gather(sums, vec2(g.u.z, v), g.column.z + row, g.corner, least, vec4(lower.yz, upper.zy),
+             vec4(lower.xy, upper.yx));
+  add_gather(sums, vec2(g.u.w, v), g.column.w + row, g.corner, least, vec4(lower.w, 0.0, 0.0, upper.w),
+             vec4(lower.zw, upper.wz));
+}
+
+// Blocked share under the 8×8 kernel. Rows come in pairs that mirror each other about the middle, from the outside in.
+float blocked_share_8(ShadowPoint p, int mip, float width) {
+  Kernel k = make_kernel(p, mip, 8);
+  Gathers8 g = make_gathers(k);
+  FilterRows rows = filter_rows(clamp(width / (8.0 * k.square.texel), 0.0, 1.0), kKernelShape != 0u);
+  vec2 sums = vec2(0.0);
+  float near = 1.0 - k.fraction.y, far = k.fraction.y;
+  add_gathers(sums, g, g.v.x, g.row.x, k.least, rows.row3 * near, mix(rows.row3, rows.row2, near));
+  add_gathers(sums, g, g.v.w, g.row.w, k.least, mix(rows.row3, rows.row2, far), rows.row3 * far);
+  add_gathers(sums, g, g.v.y, g.row.y, k.least, mix(rows.row2, rows.row1, near), mix(rows.row1, rows.row0, near));
+  add_gathers(sums, g, g.v.z, g.row.z, k.least, mix(rows.row1, rows.row0, far), mix(rows.row2, rows.row1, far));
+  return mix(sums.x, sums.y, k.fraction.x);
+}
+
+// Share of a texel that a disc or square covers, by the distance of their middles. All in texels.
+vec4 covered(float radius, vec4 x, vec4 y) {
+  if (kKernelShape != 0u) return clamp(radius + 0.5 - abs(x), 0.0, 1.0) * clamp(radius + 0.5 - abs(y), 0.0, 1.0);
+  return clamp(radius + 0.5 - sqrt(x * x + y * y), 0.0, 1.0);
+}
+
+// Radius of a kernel in texels of its mip. From half a texel, below which it would miss all texels, to what N texels
+// hold.
+float covering_radius(Kernel k, float width, int texels) {
+  return clamp(0.5 * width / k.square.texel, 0.5, 0.5 * float(texels - 1));
+}
+
+#ifndef GLOAM_SHADOWS_STANDARD
+// Blocked share under N × N texels, each weighted by what the disc (or square) covers of it.
+float blocked_share_any(ShadowPoint p, int mip, float width, int texels) {
+  Kernel k = make_kernel(p, mip, texels);
+  float radius = covering_radius(k, width, texels);
+  vec4 all = vec4(0.0), blocked = vec4(0.0);
+  for (int y = 1; y < texels; y += 2) {
+    for (int x = 1; x < texels; x += 2) {
+      vec2 corner = k.base + vec2(x, y);
+      vec2 off = corner - k.at;
+      vec4 weight = covered(radius, off.x + vec4(-0.5, 0.5, 0.5, -0.5), off.y + vec4(0.5, 0.5, -0.5, -0.5));
+      corner = clamp(corner, vec2(1.0), vec2(k.square.size - 1.0));
+      all += weight;
+      vec4 depth = gather_depth(k, corner);
+      blocked += weight * coverage(depth) * vec4(greaterThan(depth, gather_threshold(k, corner, k.least)));
+    }
+  }
+  return dot(blocked, vec4(1.0)) / dot(all, vec4(1.0));
+}
+#endif
+
+// The two mips that a penumbra of some width is filtered in.
+struct FilterMips {
+  int fine;
+  int coarse;
+  float blend;  // share of the coarse one
+};
+
+FilterMips filter_mips(ShadowPoint p, float width) {
+  int last = coarsest_mip(p, kKernel);
+  float level =
+      max(2.0 * width / float(kKernel), 1.0);  // the penumbra is half as wide as the kernel in mip log2(level)
+  int fine = min(floor_log2(level), last);
+  float blend = fine < last ? clamp(log2(level * power_of_two(-fine)), 0.0, 1.0) : 0.0;
+  return FilterMips(fine, min(fine + 1, last), blend);
+}
+
+#ifdef GLOAM_SHADOWS_CROSSING
+// What kernels that other faces of a cube have part in add to the blocked share: texel by texel, first in the fine mip,
+// if that leaves the face, then in the coarse one, which does if the fine one does.
+float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
+  const int texels = kKernel * kKernel;
+  int i = leaves_cube_face(p, kernel_reach(mips.fine, kKernel)) ? 0 : texels;
+  int end = mips.blend > 0.0 ? 2 * texels : texels;
+  float share = 0.0, all = 0.0, blocked = 0.0;
+  bool across = leaves_cube_face(p, kernel_reach(mips.coarse, kKernel));
+  while (across && i < end) {  // not do … while: see never()
+    bool fine = i < texels;
+    int mip = fine ? mips.fine : mips.coarse;
+    Kernel k = make_kernel(p, mip, kKernel);
+    int texel = fine ? i : i - texels;
+    vec2 cell = k.base + vec2(texel % kKernel, texel / kKernel) + 0.5;
+    float weight = covered(covering_radius(k, width, kKernel), vec4(cell.x - k.at.x), vec4(cell.y - k.at.y)).x;
+    vec2 at = cell * k.square.texel;
+    float rise;
+    float covered_share;
+    float depth = cube_depth(p, at, mip, rise, covered_share);
+    all += weight;
+    blocked += depth > tap_threshold(p, k, at, k.least, rise) ? weight * covered_share : 0.0;
+    ++i;
+    if (i % texels == 0) {
+      share += (fine ? 1.0 - mips.blend : mips.blend) * blocked / all;
+      all = 0.0;
+      blocked = 0.0;
+    }
+  }
+  return share;
+}
+#endif
+
+// Visibility under a penumbra of this width, texels of mip 0.
+float filtered_visibility(ShadowPoint p, float width) {
+  FilterMips mips = filter_mips(p, width);
+  float share = 0.0;
+  int turns = mips.blend > 0.0 || kFullPenumbra != 0u ? 2 : 1;
+  int turn = 0;
+  do {
+    share = turn == 0 ? 0.0 : share;  // see never()
+    int mip = turn == 0 ? mips.fine : mips.coarse;
+    float part = turn == 0 ? 1.0 - mips.blend : mips.blend;
+#ifdef GLOAM_SHADOWS_STANDARD
+    float blocked = blocked_share_8(p, mip, width);
+#else
+    float blocked = kKernel == 8 ? blocked_share_8(p, mip, width) : blocked_share_any(p, mip, width, kKernel);
+#endif
+    share += leaves_cube_face(p, kernel_reach(mip, kKernel)) ? 0.0 : part * blocked;
+  } while (++turn < turns);
+#ifdef GLOAM_SHADOWS_CROSSING
+  share += blocked_share_across(p, mips, width);
+#endif
+  return 1.0 - share;
+}
+
+// Whether all of a receiver's visibility is known before the filter: then it is `visibility`, else the filter's for a
+// penumbra of `width` texels of mip 0.
+bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
+  SearchRegion region = SearchRegion(0.0, 0.0, 0.0);
+  if (p.live) do {
+      region = find_region(p);
+    } while (never(p));
+  float reach = slope_per_texel(p) * (0.5 * region.width + 2.0);
+  bool unlit = region.farthest > p.threshold + reach && kFullPenumbra == 0u;
+  bool unsure = region.nearest > p.threshold || kFullPenumbra != 0u;
+  visibility = unlit && p.live ? 0.0 : 1.0;
+  width = 0.0;
+  bool known = true;
+  if (p.live && unsure && !unlit) do {
+      Blockers blockers = region_blockers(p, region);
+      width = penumbra_width(p, blockers.depth);
+      known = blockers.count <= 1e-3 && kFullPenumbra == 0u;
+    } while (never(p));
+  return known;
+}
+
+float chs_visibility(ShadowPoint p) {
+  float visibility, width;
+  bool known = known_before_filter(p, visibility, width);
+  if (!known) do {
+      visibility = filtered_visibility(p, width);
+    } while (never(p));
+  return visibility;
+}
+
+#endif

@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_CLASSIFY_TILE_GLSL
+#define GLOAM_SHADERS_SHADOWS_CLASSIFY_TILE_GLSL
+
+#include "shaders/shadows/maps/planes_shared.h"
+#include "shaders/shadows/shadows_api.glsl"
+#include "shaders/shadows/final_lists/tile_bounds.glsl"
+
+// What shadow maps tell of a whole tile and one light, before any pixel is asked. Conservative: it says lit or unlit
+// only where the filter of every pixel of the tile says so, whatever the filter is; every bound here holds the pixel's
+// own value with room for rounding.
+//
+// Lit: in the part of the map that the kernels of the tile's pixels may look at, every block of texels lies below the
+// pixels' planes, or so far to the side that it is outside of the cone between pixel and emitter. Comparing with planes
+// is what makes it work: a surface that slants toward the light is nearer to it beside every tile than in it. Unlit:
+// the farthest texel there is nearer than all pixels.
+//
+// Before including this, define GLOAM_SHADOW_PLANES_BINDING.
+
+layout(set = 0, binding = GLOAM_SHADOW_PLANES_BINDING) uniform sampler2D shadow_planes;
+
+const uint kUnknown = 0u;
+const uint kLit = 1u;
+const uint kUnlit = 2u;
+const uint kCastsNone = 3u;
+
+const int kMostBlocks = 6;        // along a side of what is looked at, in the largest of them
+const float kPlaneMargin = 0.75;  // share of the bias that planes may differ by
+
+// A tile in one face's texels and depths.
+struct TileInFace {
+  vec2 origin;  // of the face in the atlas, texels of mip 0
+  float size;
+  vec2 low, high;  // texels of mip 0 that hold the pixels
+  float farthest;  // least and greatest depth of the pixels
+  float nearest;
+  vec3 plane;   // depth at texel (0, 0), and a texel to the right and down; below the planes of all pixels, but for
+                // their tilt
+  float tilt;   // what a pixel's plane may lie below that a texel of distance
+  float slope;  // bound of any pixel's slope_per_texel
+  float scale;  // greatest of the pixels' ShadowPoint::scale
+  float least_bias;  // depth
+  float most_bias;
+  bool cube;         // what leaves the face goes on in others
+  int face;          // of a cube
+  float tan_half;    // of a local light's face
+  mat2 sides;        // columns: across the tile's two sides, texels of mip 0, so long that |x| + |y| = 1
+  vec4 side_ranges;  // least and greatest dot products of pixels with the first, and with the second
+  bool surrounded;   // all pixels look at this face
+  bool clear;        // no pixel is as near to a local light as near planes may be
+  bool faces_light;  // all pixels see all of the emitter above their own surface
+  bool turned_away;  // none sees any of it
+};
+
+// The tile's corners in texels of mip 0: `corners[i]` and `corners[i + 4]` lie on the same ray.
+void set_texels(vec2 corners[8], float slack, inout TileInFace f) {
+  f.low = f.high = corners[0];
+  for (int i = 1; i < 8; ++i) {
+    f.low = min(f.low, corners[i]);
+    f.high = max(f.high, corners[i]);
+  }
+  f.low -= slack;
+  f.high += slack;
+  // Pixels of a tile that is seen at a low angle lie along a diagonal of that box.
+  vec2 right = corners[1] + corners[3] - corners[0] - corners[2],
+       down = corners[2] + corners[3] - corners[0] - corners[1];
+  vec2 first = vec2(-right.y, right.x) / max(abs(right.x) + abs(right.y), 1e-9);
+  vec2 second = vec2(-down.y, down.x) / max(abs(down.x) + abs(down.y), 1e-9);
+  f.sides = mat2(first, second);
+  vec2 least = corners[0] * f.sides, most = least;
+  for (int i = 1; i < 8; ++i) {
+    vec2 along = corners[i] * f.sides;
+    least = min(least, along);
+    most = max(most, along);
+  }
+  f.side_ranges = vec4(least.x, most.x, least.y, most.y) + slack * vec4(-1.0, 1.0, -1.0, 1.0);
+}
+
+float nearest_in(TileInFace f, vec2 low, vec2 high, out float farthest) {
+  return nearest_in_face(f.origin, f.size, low, high, farthest);
+}
+
+float widest(TileInFace f, float nearest) { return clamp(f.scale * (nearest - f.farthest), 0.0, f.size); }
+
+// How far from a pixel find_region looks when it knows of a penumbra this wide.
+float footprint(float width) { return 4.0 * max(width, 2.0); }
+
+// How far from a pixel the kernels of the filter reach whose region is at most this wide, in texels of mip 0; `coarse`:
+// texels of mip 0 in those of the coarsest mip that they may use.
+float kernels_reach(float width, out float coarse) {
+  coarse = 1.0;
+  if (kFilter == 0u) return 2.0;
+  if (kFilter == 1u) return 0.5 * float(kKernel) + 2.0;
+  if (kFilter == 2u) return 0.5 * max(width, float(kKernel)) + 2.0;
+  coarse = power_of_two(ceil_log2(max(width / float(kKernel - 1), 1.0)));
+  return (0.5 * float(kKernel) + 1.0) * coarse + 1.0;
+}
+
+// What a tile's pixels may look at in a face.
+struct Looks {
+  vec2 low, high;  // texels of mip 0
+  float reach;     // of kernels beyond the tile
+  float slack;     // a texel counts for the cone where it lies this much farther out
+};
+
+// Whether nothing in a block of texels can be a blocker for any of the pixels. middle: of the block; half_side: from
+// there to its outermost texels' middles.
+bool is_harmless(TileInFace f, Looks looks, vec4 block, vec2 middle, float half_side) {
+  vec2 beyond = max(max(f.low - middle, middle - f.high) - half_side, vec2(0.0));
+  vec2 farthest_off = max(abs(middle - f.low), abs(middle - f.high)) + half_side;
+  vec2 along = middle * f.sides;
+  vec2 aside = max(f.side_ranges.xz - along, along - f.side_ranges.yw) - half_side;
+  float off = max(max(beyond.x, beyond.y), max(aside.x, aside.y));
+  vec2 steeper = abs(block.yz - f.plane.yz);
+  float excess = block.x - (f.plane.x + dot(f.plane.yz, middle)) + (steeper.x + steeper.y) * half_side;
+  bool below = excess + f.tilt * max(farthest_off.x, farthest_off.y) <= kPlaneMargin * f.least_bias;
+  // Only one filter has a cone. Below it: seen from the farthest pixel, or from pixels that lie on the plane or above
+  // it, where the cone rises faster than the plane falls.
+  float cone_slope = 2.0 / max(f.scale, 1e-6), rise = cone_slope - abs(f.plane.y) - abs(f.plane.z);
+  bool outside = block.w <= f.farthest + cone_slope * max(off - looks.slack, 0.0) ||
+                 (rise > 0.0 && excess <= rise * off - cone_slope * looks.slack);
+  return block.w <= 0.0 || below || off > looks.reach || (kFilter == 3u && outside);
+}
+
+// The same of one texel.
+bool is_harmless(TileInFace f, Looks looks, float depth, vec2 middle) {
+  return is_harmless(f, looks, vec4(depth, f.plane.yz, depth), middle, 0.0);
+}
+
+// Blocks of level 0, few enough to be looked at texel by texel, a byte a coordinate: the newest in the lowest 16 bits
+// of blocks.x. The one that is too many has room too.
+struct CloseBlocks {
+  uvec4 blocks;
+  int count;
+};
+
+const int kMostCloseBlocks = 4;
+
+void push(inout CloseBlocks c, uvec2 block) {
+  c.blocks = c.blocks << 16 | uvec4(block.x & 255u | (block.y & 255u) << 8, c.blocks.xyz >> 16);
+  ++c.count;
+}
+
+ivec2 newest(CloseBlocks c) { return ivec2(c.blocks.x & 255u, c.blocks.x >> 8 & 255u); }
+
+void pop(inout CloseBlocks c) {
+  c.blocks = c.blocks >> 16 | uvec4(c.blocks.yzw, 0u) << 16;
+  --c.count;
+}
+
+bool block_is_harmless(TileInFace f, Looks looks, ivec2 block, int level) {
+  float side = float(GLOAM_SHADOW_PLANE_BLOCK << level);
+  const float per_block = 1.0 / float(GLOAM_SHADOW_PLANE_BLOCK);
+  MipSquare square = mip_square(f.origin * per_block, f.size * per_block, level, shadow_block.atlas_size * per_block);
+  vec4 plane = texelFetch(shadow_planes, ivec2(square.corner) + block, 0);
+  return is_harmless(f, looks, plane, (vec2(block) + 0.5) * side, 0.5 * side - 0.5);
+}
+
+// quad: four texels of a block of level 0, row by row.
+bool quad_is_harmless(TileInFace f, Looks looks, ivec2 block, int quad) {
+  vec2 corner = vec2(block) * float(GLOAM_SHADOW_PLANE_BLOCK) + 2.0 * vec2(quad % 4, quad / 4) + 1.0;
+  vec4 depths = textureGather(shadow_atlas, (f.origin + corner) * shadow_texel_size());
+  return is_harmless(f, looks, depths.x, corner + vec2(-0.5, 0.5)) &&
+         is_harmless(f, looks, depths.y, corner + vec2(0.5, 0.5)) &&
+         is_harmless(f, looks, depths.z, corner + vec2(0.5, -0.5)) &&
+         is_harmless(f, looks, depths.w, corner + vec2(-0.5, -0.5));
+}
+
+// From large blocks to small ones, only where a block may hold a blocker. What is left of level 0 is looked at closely;
+// false when that is too much, or after so many turns.
+bool blocks_harmless(TileInFace f, ivec2 low, ivec2 high, Looks looks, int most_turns, out CloseBlocks close) {
+  close = CloseBlocks(uvec4(0u), 0);
+  int top = 0;
+  for (int i = 1; i < GLOAM_SHADOW_PLANE_LEVELS; ++i)
+    top = max((high.x >> top) - (low.x >> top), (high.y >> top) - (low.y >> top)) >= kMostBlocks ? i : top;
+  ivec2 first = low >> top, count = (high >> top) - first + 1;
+  if (max(count.x, count.y) > kMostBlocks || float(GLOAM_SHADOW_PLANE_BLOCK << top) > f.size) return false;
+  ivec2 block = first;
+  int level = top, done = 0, turn = 0;
+  bool up = false;
+  do {
+    bool fine = up || block_is_harmless(f, looks, block, level);
+    bool closer = !fine && level == 0;
+    if (closer) push(close, uvec2(block - low));
+    if (!fine && !closer) {
+      --level;
+      block *= 2;
+      continue;
+    }
+    // The next of the four blocks that are one of the next level; after the last, that one is done.
+    ivec2 child = block & 1;
+    bool at_top = level == top;
+    done += int(at_top);
+    up = !at_top && child == ivec2(1);
+    block = at_top ? first + ivec2(done % count.x, done / count.x)
+            : up   ? block >> 1
+                   : block + ivec2(child.x == 0 ? 1 : -1, child.x);
+    level += int(up);
+  } while (++turn < most_turns && done < count.x * count.y && close.count <= kMostCloseBlocks);
+  return done == count.x * count.y && close.count <= kMostCloseBlocks;
+}
+
+bool all_harmless(TileInFace f, Looks looks, int most_turns) {
+  ivec2 low = ivec2(clamp(looks.low, vec2(0.0), vec2(f.size - 1.0))) / GLOAM_SHADOW_PLANE_BLOCK;
+  ivec2 high = ivec2(clamp(looks.high, vec2(0.0), vec2(f.size - 1.0))) / GLOAM_SHADOW_PLANE_BLOCK;
+  CloseBlocks close;
+  bool harmless = blocks_harmless(f, low, high, looks, most_turns, close);
+  int quad = 0;
+  const int quads = GLOAM_SHADOW_PLANE_BLOCK * GLOAM_SHADOW_PLANE_BLOCK / 4;
+  if (harmless && close.count > 0) do {
+      harmless = quad_is_harmless(f, looks, low + newest(close), quad);
+      quad = (quad + 1) % quads;
+      if (quad == 0) pop(close);
+    } while (harmless && close.count > 0);
+  return harmless && close.count == 0;  // a device that ends long loops has not looked at all
+}
+
+bool leaves_face(TileInFace f, float reach) {
+  return f.cube && (min(f.low.x, f.low.y) < reach || max(f.high.x, f.high.y) > f.size - reach);
+}
+
+// in_face: kernels of all pixels stay in the face.
+uint classify_in_face(TileInFace f, int most_turns, out bool in_face) {
+  float farthest, coarse;
+  float width = widest(f, nearest_in(f, vec2(0.0), vec2(f.size), farthest));
+  for (int step = 0; step < 2; ++step) {
+    // Filters that do not search for a region look at all that their kernel holds.
+    float look = max(footprint(width), kernels_reach(width, coarse));
+    width = widest(f, nearest_in(f, f.low - look, f.high + look, farthest));
+  }
+  float reach = kernels_reach(width, coarse);
+  // The filter's coarser mip is up to half as coarse as its penumbra is wide, its kernel eight of its texels.
+  in_face = !leaves_face(f, max(reach, 2.0 * width + 2.0));
+  bool unlit = f.turned_away || farthest > f.nearest + f.most_bias + f.slope * max(0.5 * width + 2.0, reach);
+  if (unlit) return f.surrounded ? kUnlit : kUnknown;
+  if (!f.faces_light || leaves_face(f, reach) || most_turns == 0) return kUnknown;
+  // A texel of a mip may hold what lies half of it farther out; see SearchCone for its own reach.
+  Looks looks = Looks(f.low - reach, f.high + reach, reach, max(2.0 + 0.5 * coarse, coarse));
+  return all_harmless(f, looks, most_turns) ? kLit : kUnknown;
+}
+
+#include "shaders/shadows/final_lists/classify_light.glsl"
+
+#endif

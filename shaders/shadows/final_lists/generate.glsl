@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_SHADOWS_GENERATE_SHADOWS_GLSL
+#define GLOAM_SHADERS_SHADOWS_GENERATE_SHADOWS_GLSL
+
+// Before including this, define GLOAM_SHADOWS_KINDS: 3 for local lights, 4 for directional ones; and
+// GLOAM_SHADOWS_IN_FACE for GLOAM_PAIRS_IN_FACE.
+//
+// Generate shadows (FF XVI paper, §2.2): how much of one light each pixel of a tile sees, into a slot, unless all of
+// them see all of it or none sees any. One workgroup is a pair of a tile and a light. Pixels without a surface, or that
+// the light gives nothing, have no say.
+//
+// Unlike the paper's, a workgroup is one light of a tile, not all of them: pairs cost alike, tiles do not; lavapipe
+// ends all loops of a thread after 65,535 turns together. A thread has 64 / kThreads pixels of a row; devices that run
+// threads in turn swap the state of few.
+
+#define GLOAM_SHADOWS_BINDING 12
+#define GLOAM_SHADOWS_PIXEL ivec2(0)  // what is traced is shaded without lists
+#include "shaders/shadows/pair_pixels_api.glsl"
+#include "shaders/shadows/final_lists/pair_places.glsl"
+
+layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid grid; };
+layout(set = 0, binding = 7, scalar) readonly buffer Pairs { uint pairs[]; };
+layout(set = 0, binding = 8, scalar) buffer Entries { uint entries[]; };
+layout(set = 0, binding = 9, scalar) writeonly buffer Visibilities0 { uint visibilities_0[]; };
+layout(set = 0, binding = 10, scalar) writeonly buffer Visibilities1 { uint visibilities_1[]; };
+layout(set = 0, binding = 11, scalar) buffer Counters { ShadowListCounters counters; };
+layout(set = 0, binding = 18, scalar) readonly buffer Commands { ShadowListCommands commands; };
+
+#if GLOAM_SHADOWS_KINDS == 4
+const uint kPairKind = uint(GLOAM_PAIRS_DIRECTIONAL);
+#elif defined(GLOAM_SHADOWS_IN_FACE)
+const uint kPairKind = uint(GLOAM_PAIRS_IN_FACE);
+#else
+const uint kPairKind = uint(GLOAM_PAIRS_CROSSING);
+#endif
+shared uint slot;
+
+// What is the same for all pixels of a pair.
+#if GLOAM_SHADOWS_KINDS == 4
+struct LightOfPair {
+  SunShadow shadow;
+};
+
+LightOfPair light_of_pair(uint light) { return LightOfPair(fetch_sun_shadow(light)); }
+
+ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) { return directional_shadow_point(l.shadow, r); }
+
+bool gives_light(LightOfPair l, vec3 position, vec3 normal) {
+  return sun_gives(l.shadow.sun.w, l.shadow.direction, normal);
+}
+#else
+struct LightOfPair {
+  LocalShadow shadow;
+  LocalLight light;
+};
+
+LightOfPair light_of_pair(uint light) {
+  LocalLight local = fetch_light(light_texels, light);
+  return LightOfPair(fetch_local_shadow(light, local.position), local);
+}
+
+ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) { return local_shadow_point(l.shadow, r); }
+
+bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return local_light_gives(l.light, position, normal); }
+#endif
+
+uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps) {
+  steps = p.matters ? visibility_steps(p, visibility) : 0u;
+  if (!p.matters) return 0u;
+  return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u);
+}
+
+#include "shaders/shadows/pair_pixels_asked_api.glsl"
+
+// What the entry becomes; counts it.
+uint take_slot(uint some) {
+  if (some == (kSomeSeeLess | kSomeSeeAny)) {
+    uint taken = atomicAdd(counters.slots, 1u);
+    return taken < grid.slot_capacity ? taken : GLOAM_NO_ROOM;
+  }
+  // Pixels that the light gives nothing are no reason to look at it.
+  bool lit = some == kSomeSeeAny;
+  if (lit)
+    atomicAdd(counters.lit_by_filter, 1u);
+  else
+    atomicAdd(counters.unlit_by_filter, 1u);
+  return lit ? GLOAM_ALL_LIT : GLOAM_ALL_UNLIT;
+}
+
+void main() {
+  uint pair = gl_WorkGroupID.y * uint(GLOAM_PAIRS_ROW) + gl_WorkGroupID.x;
+  uint asked = commands.pairs[kPairKind].w;
+  if (pair >= asked) return;  // the same for the whole workgroup
+  uint lane = gl_LocalInvocationIndex;
+  start_pixels(lane);
+  barrier();
+  uint at = pairs[pair_place(grid, kPairKind, pair)];
+  uint entry = entries[at], light = entry & 1023u, tile_index = entry >> 10;
+  ask_pixels(light_of_pair(light), uvec2(tile_index % grid.tiles.x, tile_index / grid.tiles.x), lane);
+  barrier();
+  if (lane == 0u) {
+    slot = take_slot(found);
+    entries[at] = light | slot << 10;
+  }
+  barrier();
+  if (slot >= GLOAM_NO_ROOM) return;
+  const uint words = 2u * kVisibilityBits, per_buffer = GLOAM_BUFFER_WORDS / words;
+  for (uint i = lane; i < words; i += kThreads) {
+    if (slot < per_buffer)
+      visibilities_0[slot * words + i] = packed_words[i];
+    else
+      visibilities_1[(slot - per_buffer) * words + i] = packed_words[i];
+  }
+}
+
+#endif

@@ -1,7 +1,0 @@
-// SPDX-FileCopyrightText: The gloam authors
-// SPDX-License-Identifier: MIT
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#define GLOAM_SHADOW_ATLAS_FORMAT r32f
-#define GLOAM_SHADOW_MIPS_IN_PLACE
-#include "shaders/shadows/shadow_mips.glsl"

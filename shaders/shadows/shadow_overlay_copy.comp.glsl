@@ -1,6 +1,0 @@
-// SPDX-FileCopyrightText: The gloam authors
-// SPDX-License-Identifier: MIT
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#define GLOAM_SHADOW_ATLAS_FORMAT r32f
-#include "shaders/shadows/shadow_overlay_copy.glsl"

@@ -1,0 +1,494 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/math/packing.h"
+#include "engine/render/view.h"
+#include "engine/render/view_constants.h"
+#include "modules/shadows/views/cascade_rows.h"
+#include "shaders/closeups/closeups_shared.h"
+#include "shaders/closeups/shaders.h"
+#include "shaders/lights/lights_shared.h"
+#include "shaders/shadows/final_lists_shared.h"
+#include "tests/modules/shadows/rig.h"
+#include "tests/modules/shadows/support/final_lists_kernels.h"
+#include "tests/modules/shadows/support/maps.h"
+
+// compose_local.comp and compose_suns.comp over a wall of made-up lists, against the same in doubles.
+
+namespace gloam {
+namespace {
+
+using test::FacePose;
+using test::kGuard;
+
+constexpr std::uint32_t kFace = 256;
+constexpr std::uint32_t kLight = 37;    ///< the pair's
+constexpr std::uint32_t kRoom = 64;     ///< entries of a run
+constexpr std::uint32_t kPerSlot = 16;  ///< words, at most
+constexpr double kWall = 4.0;           ///< metres before the camera
+constexpr double kInner = 0.43;         ///< tangent
+
+struct Settings {
+  bool directional = false;
+  bool standard = false;
+  std::uint32_t bits = 8;
+  std::uint32_t threads = 64;
+  std::uint32_t first_slot = 0;  ///< of those that lists have already
+  std::optional<std::uint32_t> slots_left;
+};
+
+/// A wall with holes, in tiles that the close-up's dispatch covers but for a rim.
+struct Wall {
+  static constexpr std::uint32_t kWidth = 85, kHeight = 46;
+  RenderView view;
+  std::vector<float> depth;
+  std::vector<uvec2> normals;
+  std::vector<std::uint32_t> base_color;
+  std::vector<vec2> bounds;  ///< by tile
+  std::vector<dvec3> points;
+
+  static constexpr uvec2 size() { return {kWidth, kHeight}; }
+  static constexpr uvec2 tiles() { return {(kWidth + 7) / 8, (kHeight + 7) / 8}; }
+  static constexpr uvec2 first() { return {1, 0}; }
+  static constexpr uvec2 end() { return {tiles().x - 1, tiles().y}; }
+  static bool covers(std::uint32_t tile) {
+    const uvec2 at(tile % tiles().x, tile / tiles().x);
+    return at.x >= first().x && at.x < end().x && at.y >= first().y && at.y < end().y;
+  }
+};
+
+Wall make_wall(std::uint32_t seed) {
+  ViewSettings settings;
+  settings.width = Wall::kWidth;
+  settings.height = Wall::kHeight;
+  settings.camera.near_m = 0.1f;
+  settings.camera.fov_y = 0.7f;
+  Wall wall;
+  wall.view = make_view(settings, 0);
+  wall.bounds.assign(std::size_t{Wall::tiles().x} * Wall::tiles().y, vec2(0.0f));
+  std::mt19937 random(seed);
+  const double slope = std::tan(0.35), aspect = static_cast<double>(Wall::kWidth) / Wall::kHeight;
+  const auto depth = static_cast<float>(0.1 / kWall);
+  const std::uint32_t normal = pack_normal_snorm16(vec3(0.0f, 0.0f, 1.0f));
+  for (std::uint32_t y = 0; y < Wall::kHeight; ++y)
+    for (std::uint32_t x = 0; x < Wall::kWidth; ++x) {
+      const bool sky = random() % 17 == 0;
+      wall.points.push_back(dvec3((2.0 * (x + 0.5) / Wall::kWidth - 1.0) * slope * aspect,
+                                  (1.0 - 2.0 * (y + 0.5) / Wall::kHeight) * slope, -1.0) *
+                            kWall);
+      wall.depth.push_back(sky ? 0.0f : depth);
+      wall.normals.emplace_back(normal, normal);
+      wall.base_color.push_back(0x00808080u);
+      if (!sky) wall.bounds[y / 8 * Wall::tiles().x + x / 8] = vec2(depth);
+    }
+  return wall;
+}
+
+/// The pair: a light before the wall that looks at its middle, and what stands between.
+struct Pair {
+  FacePose pose;
+  std::vector<float> depths;  ///< of its map
+  shaders::CloseupConstants constants{};
+};
+
+Pair make_pair(const Settings& s) {
+  Pair pair;
+  pair.pose.origin = s.directional ? dvec3(0.5, 0.3, -1.0) : dvec3(0.5, 0.3, -0.5);
+  pair.pose.tan_half = s.directional ? 0.0 : 0.45;
+  pair.pose.half_extent_m = 1.6;
+  pair.pose.depth_m = 4.0;
+  const dvec3 normal(0.0, 0.0, 1.0);
+  pair.depths = test::draw_face(
+      pair.pose, kFace,
+      test::nearest_of(
+          {test::plane(dvec3(0.0, 0.0, -2.0), normal,
+                       [](const dvec3& p) { return std::abs(p.x - 0.6) < 0.43 && std::abs(p.y - 0.2) < 0.37; }),
+           test::plane(dvec3(0.0, 0.0, -2.5), normal,
+                       [](const dvec3& p) { return std::abs(p.x + 0.1) < 0.06 && std::abs(p.y - 0.5) < 0.6; })}));
+  shaders::CloseupConstants& c = pair.constants;
+  c.near_m = static_cast<float>(pair.pose.near_m);
+  c.tan_half = static_cast<float>(pair.pose.tan_half);
+  c.tan_inner = static_cast<float>(kInner);
+  c.right = vec3(1.0f, 0.0f, 0.0f);
+  c.up = vec3(0.0f, 1.0f, 0.0f);
+  c.size = static_cast<float>(kFace);
+  c.origin = vec2(kFace, 0.0f);
+  c.first_tile = Wall::first();
+  c.light = kLight;
+  const double per_m = kFace / (2.0 * pair.pose.half_extent_m);
+  c.row_u = vec4(dvec4(per_m, 0.0, 0.0, 0.5 * kFace - per_m * pair.pose.origin.x));
+  c.row_v = vec4(dvec4(0.0, -per_m, 0.0, 0.5 * kFace + per_m * pair.pose.origin.y));
+  c.row_depth = vec4(dvec4(0.0, 0.0, 1.0 / pair.pose.depth_m, 1.0 - pair.pose.origin.z / pair.pose.depth_m));
+  c.direction = vec3(0.0f, 0.0f, -1.0f);
+  c.brightest = 1.0f;
+  c.texel_m = static_cast<float>(1.0 / per_m);
+  c.depth_m = static_cast<float>(pair.pose.depth_m);
+  return pair;
+}
+
+/// What the close-up does to a point: `aside`, its map does not hold it; `either`, rounding and the filter decide.
+enum class Says : std::uint8_t { aside, lit, unlit, either };
+
+Says says_of(const Pair& pair, const Settings& s, const dvec3& point) {
+  const dvec3 v = point - pair.pose.origin;
+  const double z = -v.z, half = s.directional ? pair.pose.half_extent_m : z * pair.pose.tan_half;
+  const double inner = s.directional ? 1.0 : kInner / pair.pose.tan_half;
+  const double off = std::max(std::abs(v.x), std::abs(v.y)) / half - inner;
+  if (off > 1e-3) return Says::aside;
+  if (off > -1e-3) return Says::either;
+  const double u = (0.5 + 0.5 * v.x / half) * kFace, w = (0.5 - 0.5 * v.y / half) * kFace;
+  const double receiver = s.directional ? 1.0 - z / pair.pose.depth_m : pair.pose.near_m / z;
+  // The hard filter looks at one texel, the other at penumbrae of lights without width: kernels of eight texels and
+  // their gathers.
+  const double reach = s.standard ? 9.0 : 0.02;
+  bool lit = false, unlit = false;
+  for (int y = static_cast<int>(std::floor(w - reach)); y <= static_cast<int>(std::floor(w + reach)); ++y)
+    for (int x = static_cast<int>(std::floor(u - reach)); x <= static_cast<int>(std::floor(u + reach)); ++x) {
+      if (x < 0 || y < 0 || x >= static_cast<int>(kFace) || y >= static_cast<int>(kFace)) continue;
+      const bool blocked = static_cast<double>(pair.depths[static_cast<std::size_t>(y) * kFace + x]) > receiver * 1.001;
+      unlit |= blocked;
+      lit |= !blocked;
+    }
+  return lit && unlit ? Says::either : unlit ? Says::unlit : Says::lit;
+}
+
+/// Lists as they are before and after.
+struct Lists {
+  std::vector<uvec4> tiles;
+  std::vector<std::uint32_t> entries;
+  std::array<std::vector<std::uint32_t>, 2> words;
+  std::vector<shaders::ShadowListCounters> counters{1};
+  std::vector<shaders::ShadowListCommands> commands{1};
+  std::vector<std::uint32_t> fallback;
+  std::uint32_t end_slot = 0;
+
+  std::uint32_t& word(const Settings& s, std::uint32_t slot, std::uint32_t i) {
+    const std::uint32_t a_slot = 2 * s.bits, per_buffer = GLOAM_BUFFER_WORDS / a_slot;
+    return slot < per_buffer ? words[0].at(std::size_t{slot} * a_slot + i)
+                             : words[1].at(std::size_t{slot - per_buffer} * a_slot + i);
+  }
+  std::uint32_t steps(const Settings& s, std::uint32_t slot, std::uint32_t pixel) {
+    return word(s, slot, pixel * s.bits / 32) >> pixel * s.bits % 32 & ((1u << s.bits) - 1);
+  }
+};
+
+/// Runs of 0, 1, 31, 33 and 64 entries, with and without the light, at the first, the last and any place.
+std::vector<std::uint32_t> random_run(std::mt19937& random, bool with_light) {
+  constexpr std::uint32_t kCounts[] = {0, 1, 31, 33, 64};
+  const std::uint32_t count = kCounts[random() % 5];
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t light = 0; light < 100; ++light)
+    if (light != kLight) others.push_back(light);
+  const auto kind = random() % 4;
+  if (with_light && kind == 0) std::erase_if(others, [](std::uint32_t light) { return light < kLight; });
+  if (with_light && kind == 1 && count <= kLight)
+    std::erase_if(others, [](std::uint32_t light) { return light > kLight; });
+  std::shuffle(others.begin(), others.end(), random);
+  others.resize(std::min<std::size_t>(others.size(), with_light && count > 0 ? count - 1 : count));
+  if (with_light && count > 0) others.push_back(kLight);
+  std::sort(others.begin(), others.end());
+  return others;
+}
+
+std::uint32_t random_slot(std::mt19937& random, Lists& lists) {
+  const auto kind = random() % 5;
+  return kind < 2 ? GLOAM_ALL_LIT : kind == 2 ? GLOAM_ALL_UNLIT : lists.end_slot++;
+}
+
+Lists make_lists(const Settings& s, std::mt19937& random, bool split) {
+  Lists lists;
+  lists.end_slot = s.first_slot;
+  const uvec2 tiles = Wall::tiles();
+  const std::uint32_t count = tiles.x * tiles.y;
+  lists.entries.assign(std::size_t{2} * count * kRoom, kGuard);
+  for (std::uint32_t tile = 0; tile < count; ++tile) {
+    uvec4 texel(tile * kRoom, (count + tile) * kRoom, 0, 0);
+    for (const bool directional : {false, true}) {
+      // Nine of ten of the pair's kind list its light; so do half of the other kind, which has nothing to do with it.
+      const std::vector<std::uint32_t> run =
+          random_run(random, directional == s.directional ? random() % 10 != 0 : random() % 2 == 0);
+      const std::uint32_t first = directional ? texel.x : texel.y;
+      for (std::size_t i = 0; i < run.size(); ++i) lists.entries[first + i] = run[i] | random_slot(random, lists) << 10;
+      texel.z |= static_cast<std::uint32_t>(run.size()) << (directional ? 16 : 0);
+    }
+    if (random() % 25 == 0) texel = uvec4(GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0, 0);
+    lists.tiles.push_back(texel);
+  }
+  const std::size_t most = std::size_t{lists.end_slot + count + 8} * 2 * s.bits;
+  lists.words[0].assign(split ? GLOAM_BUFFER_WORDS : most, kGuard);
+  lists.words[1].assign(split ? most - GLOAM_BUFFER_WORDS : kPerSlot, kGuard);
+  for (std::uint32_t slot = s.first_slot; slot < lists.end_slot; ++slot) {
+    const auto kind = random() % 4;
+    for (std::uint32_t i = 0; i < 2 * s.bits; ++i)
+      lists.word(s, slot, i) = kind == 0 ? 0u : kind == 1 ? ~0u : static_cast<std::uint32_t>(random());
+  }
+  lists.counters[0].slots = lists.end_slot;
+  lists.fallback.assign(count, kGuard);
+  return lists;
+}
+
+class ComposeCloseup : public test::ShadowKernelTest {
+ protected:
+  static gpu::ShaderCode code_of(const Settings& s) {
+    using namespace shaders::closeups;
+    if (s.directional) return s.standard ? compose_suns_standard_comp : compose_suns_comp;
+    return s.standard ? compose_local_standard_comp : compose_local_comp;
+  }
+  void compose(const Wall& wall, const Pair& pair, const Settings& s, Lists& lists) {
+    test::ShadowMaps maps(device(), 2 * kFace);
+    maps.add_face(pair.depths, uvec2(kFace, 0), kFace, s.directional);
+    shaders::FinalGrid grid{};
+    grid.tiles = Wall::tiles();
+    grid.slot_capacity = s.slots_left ? lists.end_slot + *s.slots_left : 1u << 22;
+    shaders::ShadowBlock block = test::shadow_block(maps);
+    std::vector<shaders::ShadowRow> rows(1);
+    append_cascade_rows({}, block, rows);
+    std::vector<vec4> lights(std::size_t{3} * 64, vec4(0.0f));
+    lights[3 * kLight] = vec4(vec3(pair.pose.origin), 1.0f / 400.0f);
+    lights[3 * kLight + 1] = vec4(5.0f, 5.0f, 5.0f, 0.0f);
+    lights[3 * kLight + 2] = vec4(0.0f, 0.0f, -1.0f, 1.0f);
+    const std::vector<std::uint32_t> white(1, ~0u);
+    test::ListDispatch d(device());
+    d.input(0, std::vector{view_constants(wall.view)});
+    d.input(1, std::vector{pair.constants});
+    d.input(2, std::vector{grid});
+    d.sampled(3, gpu::Format::r32_float, Wall::size(), wall.depth);
+    d.sampled(4, gpu::Format::rg32_uint, Wall::size(), wall.normals);
+    d.sampled(5, gpu::Format::rgba8_unorm, Wall::size(), wall.base_color);
+    d.sampled(6, gpu::Format::rgba32_float, {3, 64}, lights);
+    d.storage_image(7, gpu::Format::rgba32_uint, Wall::tiles(), lists.tiles);
+    d.in_out(8, lists.entries);
+    d.in_out(9, lists.words[0]);
+    d.in_out(10, lists.words[1]);
+    d.in_out(11, lists.counters);
+    d.input(12, std::vector{block});
+    d.sampled(13, gpu::Format::rgba32_float, {GLOAM_SHADOW_ROW_TEXELS, static_cast<std::uint32_t>(rows.size())}, rows);
+    d.sampled(14, maps.atlas_image());
+    d.sampled(15, maps.pyramid_image());
+    d.sampled(16, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
+    d.sampled(17, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
+    d.in_out(18, lists.commands);
+    d.in_out(19, lists.fallback);
+    d.sampled(20, gpu::Format::rg32_float, Wall::tiles(), wall.bounds);
+    test::ProbeSettings filter{.filter = s.standard ? 3u : 0u, .levels = (1u << s.bits) - 1, .standard = s.standard};
+    auto constants = filter.constants();
+    constants.push_back({0, s.threads});
+    constants.push_back({GLOAM_FINAL_BITS_ID, s.bits});
+    const auto pipeline = test::value_of(
+        device().create_pipeline(gpu::ComputePipelineDesc{"closeup_compose", "test", code_of(s), constants}));
+    d.run(pipeline, Wall::end() - Wall::first());
+    device().destroy(pipeline);
+  }
+
+  struct Tally {
+    std::size_t untouched = 0, new_slots = 0, kept_slots = 0, lit_to_unlit = 0, slot_to_unlit = 0, given_up = 0;
+    std::size_t either = 0, pixels = 0;
+    std::set<std::uint32_t> taken;
+  };
+  /// What may become of a tile's entry.
+  struct Outcome {
+    bool must_change = false, may_change = false, must_stay = false, may_stay = false;  ///< stay: some pixel sees some
+  };
+
+  /// Runs the kernel and holds everything it may write against what it should have written.
+  Tally expect_composed(const Settings& s, std::uint32_t seed, bool split = false) {
+    std::mt19937 random(seed);
+    const Wall wall = make_wall(seed);
+    const Pair pair = make_pair(s);
+    Lists before = make_lists(s, random, split), after = before;
+    compose(wall, pair, s, after);
+    Tally tally;
+    std::vector<std::uint32_t> entries = before.entries;  // with what changed as it should
+    for (std::uint32_t tile = 0; tile < before.tiles.size() && !HasFailure(); ++tile) {
+      SCOPED_TRACE("tile " + std::to_string(tile));
+      check_tile(wall, pair, s, tile, before, after, tally, entries);
+    }
+    if (HasFailure()) return tally;
+    check_words(s, before, after, tally);
+    EXPECT_EQ(after.entries, entries) << "entries of other lights";
+    EXPECT_EQ(after.counters[0].slots, before.end_slot + tally.new_slots + tally.given_up);
+    EXPECT_EQ(after.counters[0].fallback_tiles, tally.given_up);
+    EXPECT_EQ(after.commands[0].fallback_draw.y, tally.given_up);
+    EXPECT_EQ(tally.taken.size(), tally.new_slots);
+    if (!tally.taken.empty()) {
+      EXPECT_EQ(*tally.taken.begin(), before.end_slot);
+      EXPECT_EQ(*tally.taken.rbegin(), before.end_slot + tally.new_slots - 1);
+    }
+    return tally;
+  }
+  void check_tile(const Wall& wall, const Pair& pair, const Settings& s, std::uint32_t tile, Lists& before,
+                  Lists& after, Tally& tally, std::vector<std::uint32_t>& entries) {
+    const uvec4 texel = before.tiles[tile];
+    std::optional<std::size_t> place;
+    if (texel.y != GLOAM_NO_FINAL_LIST && Wall::covers(tile)) {
+      const std::uint32_t first = s.directional ? texel.x : texel.y;
+      const std::uint32_t count = s.directional ? texel.z >> 16 : texel.z & 0xFFFFu;
+      for (std::uint32_t i = 0; i < count; ++i)
+        if ((before.entries[first + i] & 1023u) == kLight) place = first + i;
+    }
+    const std::uint32_t old_slot = place ? before.entries[*place] >> 10 : GLOAM_ALL_UNLIT;
+    if (old_slot == GLOAM_ALL_UNLIT) {
+      ++tally.untouched;
+      EXPECT_EQ(after.tiles[tile], texel);
+      return;
+    }
+    const Outcome outcome = outcome_of(wall, pair, s, tile, old_slot, before);
+    if (after.tiles[tile] != texel) {
+      EXPECT_TRUE(s.slots_left.has_value() && old_slot == GLOAM_ALL_LIT && outcome.may_change && outcome.may_stay);
+      EXPECT_EQ(after.tiles[tile], uvec4(GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0, 0));
+      const std::uint32_t word = tile / Wall::tiles().x << 16 | tile % Wall::tiles().x;
+      EXPECT_EQ(std::ranges::count(after.fallback, word), 1);
+      ++tally.given_up;
+      return;
+    }
+    const std::uint32_t slot = after.entries[*place] >> 10;
+    EXPECT_EQ(after.entries[*place] & 1023u, kLight);
+    entries[*place] = after.entries[*place];
+    if (slot == GLOAM_ALL_UNLIT) {
+      EXPECT_TRUE(outcome.may_change && !outcome.must_stay);
+      ++(old_slot == GLOAM_ALL_LIT ? tally.lit_to_unlit : tally.slot_to_unlit);
+      return;
+    }
+    if (slot == GLOAM_ALL_LIT) {
+      EXPECT_EQ(old_slot, GLOAM_ALL_LIT);
+      EXPECT_FALSE(outcome.must_change);
+      return;
+    }
+    if (old_slot == GLOAM_ALL_LIT) {
+      EXPECT_TRUE(outcome.may_change && outcome.may_stay);
+      ++tally.new_slots;
+      EXPECT_TRUE(tally.taken.insert(slot).second);
+      ASSERT_GE(slot, before.end_slot);
+    } else {
+      ASSERT_EQ(slot, old_slot);
+      // All unlit already stays a slot: nothing changes. Otherwise what changed sees some still.
+      EXPECT_TRUE(!outcome.must_change || outcome.may_stay);
+      ++tally.kept_slots;
+    }
+    check_pixels(wall, pair, s, tile, old_slot, slot, before, after, tally);
+  }
+  static std::uint32_t old_steps(const Settings& s, std::uint32_t slot, std::uint32_t pixel, Lists& before) {
+    return slot == GLOAM_ALL_LIT ? (1u << s.bits) - 1 : before.steps(s, slot, pixel);
+  }
+  static std::optional<std::size_t> surface(const Wall& wall, std::uint32_t tile, std::uint32_t pixel) {
+    const uvec2 at = uvec2(tile % Wall::tiles().x, tile / Wall::tiles().x) * 8u + uvec2(pixel & 7u, pixel >> 3);
+    if (at.x >= Wall::kWidth || at.y >= Wall::kHeight) return std::nullopt;
+    const std::size_t i = std::size_t{at.y} * Wall::kWidth + at.x;
+    return wall.depth[i] > 0.0f ? std::optional(i) : std::nullopt;
+  }
+  static Outcome outcome_of(const Wall& wall, const Pair& pair, const Settings& s, std::uint32_t tile,
+                            std::uint32_t slot, Lists& before) {
+    Outcome outcome;
+    for (std::uint32_t pixel = 0; pixel < 64; ++pixel) {
+      const auto at = surface(wall, tile, pixel);
+      if (!at || old_steps(s, slot, pixel, before) == 0) continue;
+      const Says says = says_of(pair, s, wall.points[*at]);
+      outcome.must_change |= says == Says::unlit;
+      outcome.may_change |= says == Says::unlit || says == Says::either;
+      outcome.must_stay |= says == Says::lit || says == Says::aside;
+      outcome.may_stay |= says != Says::unlit;
+    }
+    return outcome;
+  }
+  static void check_pixels(const Wall& wall, const Pair& pair, const Settings& s, std::uint32_t tile,
+                           std::uint32_t old_slot, std::uint32_t slot, Lists& before, Lists& after, Tally& tally) {
+    for (std::uint32_t pixel = 0; pixel < 64; ++pixel) {
+      const auto at = surface(wall, tile, pixel);
+      if (!at) continue;
+      const std::uint32_t old = old_steps(s, old_slot, pixel, before), now = after.steps(s, slot, pixel);
+      const Says says = says_of(pair, s, wall.points[*at]);
+      ++tally.pixels;
+      tally.either += says == Says::either ? 1 : 0;
+      if (says == Says::either) {
+        EXPECT_LE(now, old) << "pixel " << pixel;
+      } else {
+        EXPECT_EQ(now, says == Says::unlit ? 0u : old) << "pixel " << pixel;
+      }
+    }
+  }
+  /// Slots of other entries, and words beyond all slots.
+  static void check_words(const Settings& s, Lists& before, Lists& after, const Tally& tally) {
+    std::set<std::uint32_t> own = tally.taken;
+    const auto count = static_cast<std::uint32_t>(before.tiles.size());
+    for (std::uint32_t tile = 0; tile < count; ++tile) {
+      if (before.tiles[tile].y == GLOAM_NO_FINAL_LIST || !Wall::covers(tile)) continue;
+      const std::uint32_t first = s.directional ? before.tiles[tile].x : before.tiles[tile].y;
+      const std::uint32_t entries = s.directional ? before.tiles[tile].z >> 16 : before.tiles[tile].z & 0xFFFFu;
+      for (std::uint32_t i = 0; i < entries; ++i)
+        if ((before.entries[first + i] & 1023u) == kLight) own.insert(before.entries[first + i] >> 10);
+    }
+    std::size_t written = 0;
+    for (std::uint32_t slot = s.first_slot; slot < before.end_slot + count; ++slot)
+      for (std::uint32_t i = 0; i < 2 * s.bits && !own.contains(slot); ++i)
+        written += after.word(s, slot, i) == before.word(s, slot, i) ? 0 : 1;
+    EXPECT_EQ(written, 0u) << "words of slots that are not the pair's";
+  }
+};
+
+TEST_F(ComposeCloseup, takes_the_lesser_of_what_pixels_saw_and_what_the_subject_leaves) {
+  Tally sum;
+  std::uint32_t seed = 1;
+  for (const bool directional : {false, true})
+    for (const std::uint32_t bits : {8u, 4u})
+      for (const std::uint32_t threads : {8u, 16u, 32u, 64u}) {
+        SCOPED_TRACE(std::string(directional ? "sun " : "lamp ") + std::to_string(bits) + " bits, " +
+                     std::to_string(threads) + " threads");
+        const Tally tally = expect_composed({.directional = directional, .bits = bits, .threads = threads}, seed++);
+        if (HasFailure()) return;
+        sum.untouched += tally.untouched, sum.new_slots += tally.new_slots, sum.kept_slots += tally.kept_slots;
+        sum.lit_to_unlit += tally.lit_to_unlit, sum.slot_to_unlit += tally.slot_to_unlit;
+        sum.either += tally.either, sum.pixels += tally.pixels;
+        EXPECT_EQ(tally.given_up, 0u);
+      }
+  EXPECT_GT(sum.untouched, 200u);
+  EXPECT_GT(sum.new_slots, 40u);
+  EXPECT_GT(sum.kept_slots, 40u);
+  EXPECT_GT(sum.lit_to_unlit, 3u);
+  EXPECT_GT(sum.slot_to_unlit, 3u);
+  EXPECT_LT(sum.either * 20, sum.pixels) << "nearly all pixels are certain";
+}
+
+TEST_F(ComposeCloseup, with_the_standard_filter_is_certain_away_from_silhouettes) {
+  std::uint32_t seed = 101;
+  for (const bool directional : {false, true})
+    for (const std::uint32_t bits : {8u, 4u}) {
+      const Tally tally =
+          expect_composed({.directional = directional, .standard = true, .bits = bits, .threads = 32}, seed++);
+      EXPECT_GT(tally.new_slots + tally.kept_slots, 2u);
+      if (HasFailure()) return;
+    }
+}
+
+TEST_F(ComposeCloseup, without_a_slot_gives_the_tile_up_and_says_so) {
+  std::size_t given_up = 0, new_slots = 0;
+  for (const std::uint32_t left : {0u, 1u, 3u}) {
+    const Tally tally = expect_composed({.threads = 16, .slots_left = left}, 7);
+    if (HasFailure()) return;
+    EXPECT_LE(tally.new_slots, left);
+    EXPECT_TRUE(tally.new_slots == left || tally.given_up == 0);
+    given_up += tally.given_up, new_slots += tally.new_slots;
+  }
+  EXPECT_GT(given_up, 3u);
+  EXPECT_GT(new_slots, 1u);
+}
+
+TEST_F(ComposeCloseup, reads_and_writes_slots_of_both_buffers) {
+  constexpr std::uint32_t kPerBuffer = GLOAM_BUFFER_WORDS / 16;
+  Settings s{.threads = 64, .first_slot = kPerBuffer - 300};
+  const Tally tally = expect_composed(s, 9, true);
+  EXPECT_GT(tally.kept_slots, 4u);
+  EXPECT_GT(tally.new_slots, 2u);
+}
+
+}  // namespace
+}  // namespace gloam

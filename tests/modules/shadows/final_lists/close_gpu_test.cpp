@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "tests/modules/shadows/support/final_lists_classify.h"
+
+// The same where things lie close to what they may shade, to edges of maps and of light.
+
+namespace gloam {
+namespace {
+
+using Way = test::ClassifyWay;
+struct ClassifyClose : test::ClassifyShadowsWays {};
+
+TEST_P(ClassifyClose, never_contradict_the_filter) { run(); }
+
+INSTANTIATE_TEST_SUITE_P(Of, ClassifyClose, ::testing::Values(Way{"standard", {}, 96, {80, 64}, true}),
+                         test::name_of_way);
+
+}  // namespace
+}  // namespace gloam

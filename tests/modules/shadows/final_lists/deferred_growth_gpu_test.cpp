@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "tests/modules/shadows/support/deferred_scene.h"
+
+// Buffers of deferred shadows that grow with what frames ask for.
+
+namespace gloam {
+namespace {
+
+using test::Dice;
+using DeferredShadowsGrowth = test::DeferredShadowsTest;
+
+// More (tile, light) than fit at once, so that room is made for what frames ask for.
+TEST_F(DeferredShadowsGrowth, whose_buffers_are_too_small_are_the_same_and_soon_fit) {
+  put_pillars();
+  Dice dice(30);
+  set("shadows.filter", "hard");
+  set("shadows.classify", "off");
+  for (int i = 0; i < 8; ++i) {
+    Light made = point(0.0f);
+    made.intensity = 1.0f;
+    put_light(made, dvec3(-1.4 + 0.4 * i, 1.9, 0.9), dvec3(0.0, -1.0, 0.0), 64);
+  }
+  for (int i = 0; i < 130; ++i) {
+    Light made = point(0.0f);
+    made.range_m = 0.4f;
+    made.intensity = 0.2f;
+    put_light(made, dice.in_box(dvec3(-1.5, 0.1, -1.5), dvec3(1.5, 0.6, 0.8)), dvec3(0.0, -1.0, 0.0), 16, false);
+  }
+  settings = test::look_at(dvec3(0.0, 1.4, 2.2), dvec3(0.0, 0.4, -0.5), 320, 200);
+  const Drawn monolithic = frame("monolithic");
+  std::vector<double> fallbacks;
+  for (int i = 0; i < 7 && !HasFailure(); ++i) {
+    expect_same(frame("deferred"), monolithic, "frame " + std::to_string(i));
+    fallbacks.push_back(counter("shadows.fallback_tiles"));
+  }
+  EXPECT_GT(fallbacks.front(), 0.0) << "the first frames cannot know the need";
+  EXPECT_EQ(fallbacks[5], 0.0);
+  EXPECT_EQ(fallbacks[6], 0.0);
+  EXPECT_GE(counter("shadows.slot_capacity"), counter("shadows.slots"));
+  EXPECT_LE(counter("shadows.slot_capacity"), 1.5 * counter("shadows.slots") + 2000.0);
+  EXPECT_EQ(counter("shadows.visibility_bytes"), 64.0 * counter("shadows.slot_capacity"));
+  // Another need.
+  settings = test::look_at(dvec3(0.0, 2.6, 0.4), dvec3(0.0, 0.0, -0.2), 320, 200);
+  const Drawn from_above = frame("monolithic");
+  for (int i = 0; i < 6 && !HasFailure(); ++i) expect_same(frame("deferred"), from_above, "from above");
+  EXPECT_EQ(counter("shadows.fallback_tiles"), 0.0);
+  EXPECT_GE(counter("shadows.slot_capacity"), counter("shadows.slots"));
+  // Frames that are not waited for.
+  set("shadows.mode", "deferred");
+  const ViewRequest request{settings, {}};
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(renderer->render(world, std::span(&request, 1)).ok());
+  ASSERT_TRUE(renderer->wait().ok());
+  expect_same({linear(), picture()}, from_above, "without waits");
+}
+
+}  // namespace
+}  // namespace gloam

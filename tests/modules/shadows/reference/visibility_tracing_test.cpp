@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/modules/shadows/support/visibility_scene.h"
+
+namespace gloam {
+namespace {
+
+using test::VisibilityScene;
+
+/// Share of a disc of radius 1 on the far side of a chord at distance k from its centre; k < 0: the chord is beyond the
+/// centre.
+double segment_share(double k) {
+  if (k >= 1.0) return 0.0;
+  if (k <= -1.0) return 1.0;
+  return (std::acos(k) - k * std::sqrt(1.0 - k * k)) / 3.14159265358979323846;
+}
+
+/// How much of a disc around `middle` (radius, seen from p, across `toward`) is not behind the half plane x > 0 at
+/// height h.
+double half_plane_visibility(const dvec3& p, const dvec3& middle, double radius, double h) {
+  const dvec3 toward = glm::normalize(middle - p);
+  // Plane through the point and the half plane's edge; its normal looks to where x < 0.
+  dvec3 normal = glm::normalize(glm::cross(dvec3(0.0, h, p.z) - p, dvec3(0.0, 0.0, 1.0)));
+  if (normal.x > 0.0) normal = -normal;
+  const double across = std::sqrt(1.0 - std::pow(glm::dot(normal, toward), 2));
+  return segment_share(-glm::dot(normal, middle - p) / (across * radius));
+}
+
+struct Deviation {
+  double mean = 0.0;
+  double worst = 0.0;
+  int partly = 0;
+};
+
+template <class Exact>
+Deviation deviation(const VisibilityScene& scene, const TracedVisibility& traced, const Exact& exact) {
+  Deviation found;
+  for (std::uint32_t y = 0; y < traced.height; ++y)
+    for (std::uint32_t x = 0; x < traced.width; ++x) {
+      const double right = exact(scene.point(x, y));
+      const double off = std::abs(traced.visibility[y * traced.width + x] / 255.0 - right);
+      found.mean += off / static_cast<double>(traced.pixels());
+      found.worst = std::max(found.worst, off);
+      found.partly += right > 0.01 && right < 0.99 ? 1 : 0;
+    }
+  return found;
+}
+
+constexpr double kSheetHeight = 0.5;
+void add_half_plane(VisibilityScene& scene) { scene.sheet(kSheetHeight, {0.0, 0.0, -60.0}, {60.0, 0.0, 60.0}); }
+
+TEST(VisibilityTracing, a_half_plane_under_a_disc_leaves_the_exact_share_of_it) {
+  for (const dvec3 place : {dvec3(0.0), dvec3(100e3, -2e3, 40e3)}) {
+    VisibilityScene scene(place);
+    const dvec3 lamp(0.3, 2.0, 0.2);
+    scene.light({.kind = LightKind::point, .intensity = 100.0f, .width_m = 1.2f}, lamp);
+    add_half_plane(scene);
+    const TracedVisibility traced = scene.trace(256);
+    ASSERT_EQ(traced.lights.size(), 1u);
+    const Deviation found =
+        deviation(scene, traced, [&](const dvec3& p) { return half_plane_visibility(p, lamp, 0.6, kSheetHeight); });
+    EXPECT_GT(found.partly, 100);
+    EXPECT_LE(found.mean, traced.noise + 1e-3);
+    EXPECT_LT(traced.noise, 0.01);
+    EXPECT_LT(found.worst, 0.03);
+  }
+}
+
+TEST(VisibilityTracing, a_half_plane_under_a_wide_sun_leaves_the_exact_share_of_it) {
+  VisibilityScene scene;
+  constexpr float kAngle = 0.5f;
+  const dvec3 shines = glm::normalize(dvec3(0.3, -1.0, 0.1));
+  scene.light({.kind = LightKind::directional, .intensity = 10.0f, .apparent_angle = kAngle}, {0, 0, 0}, shines);
+  add_half_plane(scene);
+  const TracedVisibility traced = scene.trace(256);
+  const Deviation found = deviation(scene, traced, [&](const dvec3& p) {
+    return half_plane_visibility(p, p - shines, std::tan(0.5 * static_cast<double>(kAngle)), kSheetHeight);
+  });
+  EXPECT_GT(found.partly, 100);
+  EXPECT_LE(found.mean, traced.noise + 1e-3);
+  EXPECT_LT(found.worst, 0.03);
+}
+
+TEST(VisibilityTracing, more_samples_come_nearer) {
+  VisibilityScene scene;
+  const dvec3 lamp(0.3, 2.0, 0.2);
+  scene.light({.kind = LightKind::point, .intensity = 100.0f, .width_m = 1.2f}, lamp);
+  add_half_plane(scene);
+  const auto mean_of = [&](std::uint32_t samples) {
+    return deviation(scene, scene.trace(samples),
+                     [&](const dvec3& p) { return half_plane_visibility(p, lamp, 0.6, kSheetHeight); })
+        .mean;
+  };
+  const double few = mean_of(16), many = mean_of(256);
+  EXPECT_LT(many, few * 0.4);
+  EXPECT_LT(scene.trace(256).noise, scene.trace(16).noise);
+}
+
+/// A ball of unit radius as triangles, a little inside the true one.
+Primitive ball() {
+  constexpr std::uint32_t kAround = 96, kUp = 48;
+  Primitive p;
+  for (std::uint32_t j = 0; j <= kUp; ++j)
+    for (std::uint32_t i = 0; i <= kAround; ++i) {
+      const float polar = kPi * static_cast<float>(j) / kUp, turn = 2.0f * kPi * static_cast<float>(i) / kAround;
+      p.positions.push_back({std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)});
+    }
+  for (std::uint32_t j = 0; j < kUp; ++j)
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const std::uint32_t a = j * (kAround + 1) + i, b = a + kAround + 1;
+      p.indices.insert(p.indices.end(), {a, a + 1, b, b, a + 1, b + 1});
+    }
+  return test::finished(std::move(p));
+}
+
+TEST(VisibilityTracing, a_ball_hides_the_lamp_in_its_umbra_and_nothing_beyond_its_penumbra) {
+  VisibilityScene scene;
+  scene.look_from({0.0, 2.4, 3.0});
+  const dvec3 lamp(0.0, 3.0, 0.0), middle(0.0, 1.0, 0.0);
+  constexpr double kBall = 0.5, kLamp = 0.2;
+  scene.light({.kind = LightKind::point, .intensity = 100.0f, .width_m = static_cast<float>(2.0 * kLamp)}, lamp);
+  dmat4 matrix(kBall);
+  matrix[3] = dvec4(middle, 1.0);
+  scene.maker.draw(scene.maker.mesh(ball()), matrix);
+  const TracedVisibility traced = scene.trace(256);
+  int hidden = 0, free = 0, partly = 0;
+  for (std::uint32_t y = 0; y < traced.height; ++y)
+    for (std::uint32_t x = 0; x < traced.width; ++x) {
+      // Angles between ball and lamp as the point sees them; the lamp's disc is atan(radius / distance) in half angle.
+      const dvec3 p = scene.point(x, y);
+      const double apart = std::acos(glm::dot(glm::normalize(lamp - p), glm::normalize(middle - p)));
+      const double ball_angle = std::asin(kBall / glm::length(middle - p));
+      const double lamp_angle = std::atan(kLamp / glm::length(lamp - p));
+      const std::uint8_t seen = traced.visibility[y * traced.width + x];
+      if (apart + lamp_angle < ball_angle - 0.01) {
+        EXPECT_EQ(seen, 0);
+        ++hidden;
+      } else if (apart - lamp_angle > ball_angle + 0.01) {
+        EXPECT_EQ(seen, 255);
+        ++free;
+      } else {
+        ++partly;
+      }
+    }
+  EXPECT_GT(hidden, 10);
+  EXPECT_GT(free, 200);
+  EXPECT_GT(partly, 10);
+}
+
+TEST(VisibilityTracing, results_do_not_depend_on_the_executor) {
+  VisibilityScene scene;
+  scene.light({.kind = LightKind::point, .intensity = 100.0f, .width_m = 0.7f}, {0.3, 2.0, 0.2});
+  scene.light({.kind = LightKind::directional, .intensity = 1.0f}, {0, 0, 0});
+  add_half_plane(scene);
+  const TracedVisibility expected = scene.trace(64);
+  EXPECT_EQ(scene.trace(64).visibility, expected.visibility);
+  for (auto& executor : {make_pool_executor(2), make_shuffled_executor(11)}) {
+    VisibilityInput input = scene.input(64);
+    const VisibilityInput other = {.world = input.world,
+                                   .geometry = input.geometry,
+                                   .tracer = input.tracer,
+                                   .executor = *executor,
+                                   .samples = input.samples};
+    const TracedVisibility traced = trace_visibility(other);
+    EXPECT_EQ(traced.visibility, expected.visibility);
+    EXPECT_EQ(traced.judged, expected.judged);
+    EXPECT_EQ(traced.noise, expected.noise);
+    EXPECT_EQ(traced.version, expected.version);
+    EXPECT_EQ(visibility_identity(other), visibility_identity(input));
+  }
+}
+
+TEST(VisibilityTracing, a_light_without_width_is_seen_or_not) {
+  VisibilityScene scene;
+  scene.light({.kind = LightKind::point, .intensity = 100.0f}, {0.3, 2.0, 0.2});
+  add_half_plane(scene);
+  const TracedVisibility traced = scene.trace(256);
+  EXPECT_EQ(traced.noise, 0.0);
+  int lit = 0;
+  for (std::uint32_t y = 0; y < traced.height; ++y)
+    for (std::uint32_t x = 0; x < traced.width; ++x) {
+      const dvec3 p = scene.point(x, y);
+      const double crossing = p.x + (0.3 - p.x) * kSheetHeight / 2.0;
+      if (std::abs(crossing) < 1e-3) continue;
+      const int seen = traced.visibility[y * traced.width + x];
+      EXPECT_EQ(seen, crossing > 0.0 ? 0 : 255);
+      lit += seen > 0 ? 1 : 0;
+    }
+  EXPECT_GT(lit, 100);
+}
+
+TEST(VisibilityTracing, pairs_beyond_range_or_cone_and_sky_are_not_judged) {
+  VisibilityScene scene;
+  scene.look_from({0.0, 1.0, 3.0});  // the sky is in the picture
+  const Entity near = scene.light({.kind = LightKind::point, .intensity = 1.0f, .range_m = 1.5f}, {0.5, 1.0, 0.0});
+  const Entity spot = scene.light({.kind = LightKind::spot, .intensity = 50.0f, .range_m = 9.0f, .outer_angle = 0.4f},
+                                  {-0.5, 1.5, 0.0});
+  const TracedVisibility traced = scene.trace(4);
+  ASSERT_EQ(traced.lights, (std::vector<Entity>{near, spot}));
+  int counts[2] = {0, 0};
+  int sky = 0;
+  for (std::uint32_t y = 0; y < traced.height; ++y)
+    for (std::uint32_t x = 0; x < traced.width; ++x) {
+      const std::size_t pixel = y * traced.width + x;
+      const bool near_judged = traced.is_judged(pixel), spot_judged = traced.is_judged(traced.pixels() + pixel);
+      if (scene.geometry.is_sky(pixel)) {
+        EXPECT_FALSE(near_judged || spot_judged);
+        ++sky;
+        continue;
+      }
+      const dvec3 p = scene.point(x, y), away = p - dvec3(-0.5, 1.5, 0.0);
+      EXPECT_EQ(near_judged, glm::length(p - dvec3(0.5, 1.0, 0.0)) < 1.5);
+      EXPECT_EQ(spot_judged, glm::dot(glm::normalize(away), glm::normalize(dvec3(0.0, -1.0, 0.001))) > std::cos(0.4f) &&
+                                 glm::length(away) < 9.0);
+      counts[0] += near_judged ? 1 : 0;
+      counts[1] += spot_judged ? 1 : 0;
+    }
+  EXPECT_GT(sky, 0);
+  EXPECT_GT(counts[0], 10);
+  EXPECT_GT(counts[1], 10);
+}
+
+TEST(VisibilityTracing, lights_that_cast_nothing_here_have_no_layer) {
+  VisibilityScene scene;
+  const Light lamp = {.kind = LightKind::point, .intensity = 100.0f};
+  const Entity casting = scene.light(lamp, {0, 2, 0});
+  scene.light({.kind = LightKind::point, .intensity = 100.0f, .range_m = 1.0f}, {0, 50, 0});
+  scene.world.add<ShadowCaster>(scene.light(lamp, {0, 2, 0}), {.enabled = false});
+  scene.light({.kind = LightKind::point, .intensity = std::numeric_limits<float>::quiet_NaN()}, {0, 2, 0});
+  scene.light({.kind = LightKind::point, .intensity = -5.0f}, {0, 2, 0});
+  scene.light({.kind = LightKind::point, .color = vec3(0.0f), .intensity = 5.0f}, {0, 2, 0});
+  scene.light(lamp, {std::numeric_limits<double>::infinity(), 2, 0});
+  EXPECT_EQ(scene.trace(1).lights, std::vector<Entity>{casting});
+}
+
+TEST(VisibilityTracing, a_world_without_lights_gives_nothing) {
+  VisibilityScene scene;
+  const TracedVisibility traced = scene.trace(16);
+  EXPECT_TRUE(traced.lights.empty());
+  EXPECT_TRUE(traced.visibility.empty());
+  EXPECT_EQ(traced.width, 48u);
+  EXPECT_EQ(traced.noise, 0.0);
+}
+
+TEST(VisibilityTracing, the_bulb_round_an_emitter_does_not_hide_it) {
+  VisibilityScene scene;
+  scene.light({.kind = LightKind::point, .intensity = 100.0f, .width_m = 0.1f}, {0, 2, 0});
+  dmat4 matrix(kEmitterClearance_m * 0.9);
+  matrix[3] = dvec4(0.0, 2.0, 0.0, 1.0);
+  scene.maker.draw(scene.maker.mesh(ball()), matrix);
+  const TracedVisibility traced = scene.trace(16);
+  EXPECT_TRUE(std::ranges::all_of(traced.visibility, [](std::uint8_t seen) { return seen == 255; }));
+}
+
+TEST(VisibilityTracing, a_surface_does_not_shadow_itself_and_hides_what_is_behind_it) {
+  for (const double distance : {0.5, 3.0, 300.0}) {
+    VisibilityScene scene;
+    scene.look_from({0.0, distance, 0.001 * distance});
+    scene.sheet(0.0, {-2.0 * distance, 0.0, -2.0 * distance}, {2.0 * distance, 0.0, 2.0 * distance});
+    const auto range = static_cast<float>(20.0 * distance);
+    scene.light({.kind = LightKind::point, .intensity = 100.0f, .range_m = range}, {0.0, distance * 0.02, 0.0});
+    scene.light({.kind = LightKind::point, .intensity = 100.0f, .range_m = range}, {0.0, -distance, 0.0});
+    const TracedVisibility traced = scene.trace(1);
+    ASSERT_EQ(traced.lights.size(), 2u);
+    EXPECT_TRUE(std::ranges::all_of(traced.layer(0), [](std::uint8_t seen) { return seen == 255; })) << distance;
+    EXPECT_TRUE(std::ranges::all_of(traced.layer(1), [](std::uint8_t seen) { return seen == 0; })) << distance;
+  }
+}
+
+TEST(VisibilityTracing, light_reaches_subsurface_materials_from_either_side) {
+  VisibilityScene scene;
+  scene.look_from({0.0, 3.0, 0.001}, true);
+  scene.sheet(0.0, {-20.0, 0.0, -20.0}, {20.0, 0.0, 20.0});
+  scene.light({.kind = LightKind::point, .intensity = 100.0f, .width_m = 0.2f}, {0.0, -2.0, 0.0});
+  const TracedVisibility traced = scene.trace(16);
+  EXPECT_TRUE(std::ranges::all_of(traced.visibility, [](std::uint8_t seen) { return seen == 255; }));
+}
+
+TEST(VisibilityTracing, a_sheet_three_millimetres_above_the_floor_casts_its_shadow) {
+  VisibilityScene scene;
+  scene.sheet(0.0, {-20.0, 0.0, -20.0}, {20.0, 0.0, 20.0});
+  scene.sheet(0.003, {0.0, 0.0, -20.0}, {20.0, 0.0, 20.0});
+  scene.light({.kind = LightKind::point, .intensity = 100.0f}, {0.0, 2.0, 0.0});
+  const TracedVisibility traced = scene.trace(1);
+  for (std::uint32_t y = 0; y < traced.height; ++y)
+    for (std::uint32_t x = 0; x < traced.width; ++x)
+      if (const double at = scene.point(x, y).x; std::abs(at) > 1e-3) {
+        EXPECT_EQ(traced.visibility[y * traced.width + x], at > 0.0 ? 0 : 255);
+      }
+}
+
+TEST(VisibilityTracing, progress_counts_every_row_once) {
+  VisibilityScene scene;
+  scene.light({.kind = LightKind::point, .intensity = 100.0f}, {0.0, 2.0, 0.0});
+  scene.build();
+  const auto pool = make_pool_executor(2);
+  std::vector<std::size_t> told;
+  static_cast<void>(trace_visibility({.world = scene.world,
+                                      .geometry = scene.geometry,
+                                      .tracer = *scene.tracer,
+                                      .executor = *pool,
+                                      .samples = 1,
+                                      .progress = [&](std::size_t done, std::size_t total) {
+                                        EXPECT_EQ(total, 32u);
+                                        told.push_back(done);
+                                      }}));
+  ASSERT_EQ(told.size(), 32u);
+  for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i], i + 1);
+}
+
+}  // namespace
+}  // namespace gloam

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/bench/harness/registry.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sandbox/bench/harness/report.h"
+#include "tests/support/expect_assert.h"
+
+namespace gloam {
+namespace {
+
+BenchRow row(const std::string& id) { return {.id = id, .unit = "ms", .bar = {}, .better = Better::lower, .run = {}}; }
+
+BenchRegistry some_rows() {
+  BenchRegistry registry;
+  for (const char* id : {"jobs.empty", "jobs.empty.one_thread", "jobs.fork_join", "jobsite.dig"}) registry.add(row(id));
+  return registry;
+}
+
+std::vector<std::string> chosen(const std::vector<std::string>& names) {
+  const BenchRegistry registry = some_rows();
+  const auto rows = registry.choose(names);
+  std::vector<std::string> ids;
+  EXPECT_TRUE(rows.ok());
+  if (rows.ok()) {
+    for (const BenchRow* each : *rows) ids.push_back(each->id);
+  }
+  return ids;
+}
+
+TEST(BenchRegistry, a_name_chooses_what_starts_with_it_and_a_dot) {
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(chosen({"jobs"}), (Ids{"jobs.empty", "jobs.empty.one_thread", "jobs.fork_join"}));
+  EXPECT_EQ(chosen({"jobs.empty"}), (Ids{"jobs.empty", "jobs.empty.one_thread"}));
+  EXPECT_EQ(chosen({"jobs", "jobs.empty"}).size(), 3u);
+}
+
+TEST(BenchRegistry, an_unknown_name_is_wrong_usage) {
+  const BenchRegistry registry = some_rows();
+  for (const char* name : {"job", "jobs.", "jobs.emp", ""}) {
+    const auto rows = registry.choose(std::vector<std::string>{"jobs", name});
+    ASSERT_FALSE(rows.ok()) << name;
+    EXPECT_EQ(rows.error().kind, ErrorKind::usage);
+  }
+}
+
+TEST(BenchRegistry, ids_are_unique) {
+  BenchRegistry registry = some_rows();
+  EXPECT_ASSERT(registry.add(row("jobs.empty")), "unique");
+}
+
+TEST(BenchRegistry, a_bar_holds_on_its_better_side) {
+  BenchRow lower = row("a");
+  EXPECT_TRUE(holds(lower, 1e9));
+  lower.bar = 0.5;
+  EXPECT_TRUE(holds(lower, 0.5));
+  EXPECT_FALSE(holds(lower, 0.6));
+  lower.better = Better::higher;
+  EXPECT_TRUE(holds(lower, 0.6));
+  EXPECT_FALSE(holds(lower, 0.4));
+}
+
+TEST(BenchRegistry, the_programs_own_benches_have_the_documented_ids) {
+  std::set<std::string> ids;
+  const BenchRegistry registry = make_bench_registry();
+  for (const BenchRow& each : registry.rows()) ids.insert(each.id);
+  for (const char* id : {"iterate2.1e4", "iterate2.1e6", "iterate3_fragmented.10", "iterate3_fragmented.1024", "create",
+                         "create_bulk", "destroy", "destroy_random", "add", "add_shuffled", "remove", "random_get"}) {
+    EXPECT_TRUE(ids.contains("ecs." + std::string(id))) << id;
+    EXPECT_TRUE(ids.contains("ecs." + std::string(id) + "_over_bare")) << id;
+  }
+  for (const char* id : {"empty", "empty.one_thread", "parallel_for_efficiency", "graph_node", "fork_join"})
+    EXPECT_TRUE(ids.contains("jobs." + std::string(id))) << id;
+  for (const char* id : {"scene", "gather48", "scene_over_gather48"})
+    EXPECT_TRUE(ids.contains("frame." + std::string(id))) << id;
+}
+
+TEST(BenchRegistry, has_the_rows_of_lights_on_the_gpu) {
+  std::map<std::string, BenchRow> rows;
+  const BenchRegistry registry = make_bench_registry();
+  for (const BenchRow& each : registry.rows()) rows[each.id] = each;
+  EXPECT_EQ(rows["lights.brute_over_tiled"].bar, 6.0);
+  EXPECT_EQ(rows["lights.brute_over_tiled"].better, Better::higher);
+  EXPECT_EQ(rows["lights.frame_1024_over_gather48"].bar, 3.2);
+  EXPECT_EQ(rows["lights.culling_errors"].bar, 0.0);
+  for (const char* id :
+       {"gpu.approx_ms.64", "gpu.accurate_ms.256", "gpu.deferred_ms.1024", "false_positives.rect.mask",
+        "false_positives.row_interval.candidates", "false_positives.cone.approx", "false_positives.z_bins.4096"})
+    EXPECT_TRUE(rows.contains("lights." + std::string(id))) << id;
+}
+
+TEST(BenchRegistry, has_the_rows_of_deferred_shadows) {
+  std::map<std::string, BenchRow> rows;
+  const BenchRegistry registry = make_bench_registry();
+  for (const BenchRow& each : registry.rows()) rows[each.id] = each;
+  EXPECT_EQ(rows["shadows.table1.deferred_over_monolithic"].bar, 0.5);
+  EXPECT_EQ(rows["shadows.table1.deferred_difference"].bar, 1.0);
+  EXPECT_EQ(rows["shadows.frame.over_gather48"].bar, 3.7);
+  for (const char* id : {"lists_over_fixed.1080p", "lists_over_fixed.4k", "visibility_over_fixed.1080p",
+                         "visibility_over_fixed.4k", "32_lights.lists_over_fixed.4k"}) {
+    EXPECT_EQ(rows["shadows.memory." + std::string(id)].bar, 0.25) << id;
+    EXPECT_EQ(rows["shadows.memory." + std::string(id)].unit, "ratio") << id;
+  }
+  for (const char* id : {"table1.monolithic", "table1.deferred", "table1.deferred_unclassified", "figure13.classify",
+                         "curve.lights.8.generate", "curve.size.1920x1080.monolithic", "frame.maps_share"})
+    EXPECT_TRUE(rows.contains("shadows." + std::string(id))) << id;
+}
+
+TEST(BenchReport, a_row_of_another_scene_names_it) {
+  const BenchRow each = row("a.b");
+  const std::vector<MeasuredRow> rows = {
+      {&each, {.value = 1.0, .p10 = {}, .p90 = {}, .hash = {}, .scene = "builtin:other"}},
+      {&each, {.value = 1.0, .p10 = {}, .p90 = {}, .hash = {}, .scene = "builtin:plain"}}};
+  const auto json =
+      nlohmann::json::parse(bench_json({.scene = "builtin:plain", .device = {}, .width = 64, .height = 32}, rows));
+  EXPECT_EQ(json["rows"][0]["scene"], "builtin:other");
+  EXPECT_FALSE(json["rows"][1].contains("scene"));
+}
+
+TEST(BenchReport, json_has_the_documented_fields) {
+  BenchRow barred = row("a.b");
+  barred.bar = 2.0;
+  const BenchRow informing = row("a.c");
+  const std::vector<MeasuredRow> rows = {{&barred, {.value = 2.5, .p10 = 2.0, .p90 = 3.0, .hash = "00ff"}},
+                                         {&informing, {.value = 1.0, .p10 = {}, .p90 = {}, .hash = {}}}};
+  const auto json =
+      nlohmann::json::parse(bench_json({.scene = "builtin:plain", .device = {}, .width = 64, .height = 32}, rows));
+  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["size"], nlohmann::json({64, 32}));
+  EXPECT_EQ(json["scene"], "builtin:plain");
+  EXPECT_EQ(json["device"]["type"], "none");
+  EXPECT_EQ(json["rows"][0], nlohmann::json({{"id", "a.b"},
+                                             {"value", 2.5},
+                                             {"unit", "ms"},
+                                             {"p10", 2.0},
+                                             {"p90", 3.0},
+                                             {"bar", 2.0},
+                                             {"better", "lower"},
+                                             {"holds", false},
+                                             {"hash", "00ff"}}));
+  EXPECT_FALSE(json["rows"][1].contains("bar"));
+  EXPECT_EQ(json["rows"][1]["holds"], true);
+  EXPECT_TRUE(json["rows"][1]["hash"].is_null());
+  EXPECT_NE(bench_line(rows[0]).find("MISSED"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gloam

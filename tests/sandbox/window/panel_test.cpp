@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/window/panel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <imgui/imgui.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/sandbox/window/small_knobs.h"
+
+namespace gloam {
+namespace {
+
+/// A panel that a test looks at and clicks on; nothing is drawn.
+class PanelTest : public ::testing::Test {
+ protected:
+  void frame(const PanelInput& input = {}) {
+    const PanelContent content = {.knobs = knobs_,
+                                  .times = times_,
+                                  .modules = modules_,
+                                  .visualizers = visualizers_,
+                                  .visualizer = visualizer_,
+                                  .show = [this](const std::string& name) -> Status {
+                                    if (name == "light_list:moon") return Error{ErrorKind::usage, "no light moon"};
+                                    visualizer_ = name;
+                                    return {};
+                                  }};
+    panel_.update(input, {.width = 800, .height = 600, .dt_s = 0.02}, content);
+  }
+
+  [[nodiscard]] const PanelWidget* find(const std::string& name) const {
+    for (const PanelWidget& widget : panel_.widgets())
+      if (widget.name == name) return &widget;
+    return nullptr;
+  }
+
+  /// At a share of the widget's width, 0.5 its middle: moves there, presses, lets go, and draws once more.
+  void click(const std::string& name, double share = 0.5) {
+    for (int i = 0; i < 2; ++i) frame();  // ImGui lays tables out from what their cells needed before
+    const PanelWidget* widget = find(name);
+    ASSERT_NE(widget, nullptr) << name << " is not shown";
+    PanelInput input = pointing_at(*widget, share);
+    frame(input);
+    input.buttons[0] = true;
+    frame(input);
+    frame(input);
+    input.buttons[0] = false;
+    frame(input);
+    last_ = input;
+    frame(input);
+  }
+
+  [[nodiscard]] static PanelInput pointing_at(const PanelWidget& widget, double share = 0.5) {
+    PanelInput input;
+    input.mouse_x = widget.left + share * (widget.right - widget.left);
+    input.mouse_y = 0.5 * (widget.top + widget.bottom);
+    return input;
+  }
+
+  void type(const std::u32string& text) {
+    PanelInput input = last_;
+    input.text = text;
+    frame(input);
+    input.text.clear();
+    input.keys.set(static_cast<std::size_t>(EditKey::enter));
+    frame(input);
+    for (int i = 0; i < 2; ++i) frame(last_);
+  }
+
+  KnobRegistry knobs_ = test::small_knobs();
+  FrameTimes times_;
+  std::vector<ModuleState> modules_ = {{.name = "lamp", .demanded = true, .reason = "2 lamps"}};
+  std::vector<VisualizerInfo> visualizers_ = {{"none", "engine", "", "the lit picture"},
+                                              {"heat", "lamp", "", "lamps a tile"},
+                                              {"light_list", "lamp", "LIGHT", "pixels of a list"},
+                                              {"later", "lamp", "", "nothing", false}};
+  std::string visualizer_ = "none";
+  Panel panel_;
+  PanelInput last_;
+};
+
+TEST_F(PanelTest, shows_a_widget_and_a_reset_for_every_knob) {
+  for (int i = 0; i < 2; ++i) frame();
+  for (const Knob& knob : knobs_.knobs()) {
+    for (const std::string& name : {knob.name, knob.name + " reset"}) {
+      const PanelWidget* widget = find(name);
+      ASSERT_NE(widget, nullptr) << name;
+      EXPECT_GT(widget->right - widget->left, 20.0f) << name;
+      EXPECT_GE(widget->left, 0.0f) << name;
+      EXPECT_LE(widget->right, 800.0f) << name;
+    }
+  }
+}
+
+TEST_F(PanelTest, leaves_triangles_and_a_font) {
+  frame();
+  EXPECT_GT(panel_.draw_data().TotalIdxCount, 0);
+  const FontTexels font = panel_.font();
+  EXPECT_EQ(font.bytes.size(), std::size_t{font.width} * font.height);
+  EXPECT_GT(font.bytes.size(), 0u);
+}
+
+TEST_F(PanelTest, nothing_changes_without_the_user) {
+  const std::uint64_t version = knobs_.version();
+  for (int i = 0; i < 5; ++i) frame();
+  EXPECT_EQ(knobs_.version(), version);
+  EXPECT_FALSE(panel_.wants_mouse());
+  EXPECT_FALSE(panel_.wants_keyboard());
+}
+
+TEST_F(PanelTest, a_combo_chooses) {
+  click("lamp.filter");
+  click("lamp.filter tent");
+  EXPECT_EQ(knobs_.text("lamp.filter"), "tent");
+  EXPECT_EQ(find("lamp.filter tent"), nullptr) << "the list is closed again";
+}
+
+TEST_F(PanelTest, sliders_reach_both_ends_of_their_range) {
+  for (const char* name : {"lamp.samples", "lamp.share"}) {
+    const Knob& knob = *knobs_.find(name);
+    click(name, 0.99);
+    EXPECT_EQ(knobs_.number(name), knob.max);
+    click(name, 0.01);
+    EXPECT_EQ(knobs_.number(name), knob.min);
+  }
+}
+
+TEST_F(PanelTest, reset_gives_the_default_back) {
+  ASSERT_TRUE(knobs_.set("lamp.samples", "200").ok());
+  click("lamp.samples reset");
+  EXPECT_EQ(knobs_.number("lamp.samples"), 16.0);
+}
+
+TEST_F(PanelTest, a_visualizer_is_chosen_and_one_that_is_not_built_is_not) {
+  click("view");
+  click("view later");
+  EXPECT_EQ(visualizer_, "none");
+  click("view heat");
+  EXPECT_EQ(visualizer_, "heat");
+}
+
+TEST_F(PanelTest, a_visualizer_with_an_argument_waits_for_a_good_one) {
+  click("view");
+  click("view light_list");
+  EXPECT_EQ(visualizer_, "none");
+  click("view argument");
+  EXPECT_TRUE(panel_.wants_keyboard());
+  type(U"moon");
+  EXPECT_EQ(visualizer_, "none");
+  click("view argument");
+  PanelInput all = last_;
+  all.control = true;
+  all.keys.set(static_cast<std::size_t>(EditKey::a));
+  frame(all);
+  frame(last_);
+  type(U"lamp 2");
+  EXPECT_EQ(visualizer_, "light_list:lamp 2");
+  EXPECT_FALSE(panel_.wants_keyboard());
+}
+
+TEST_F(PanelTest, takes_the_mouse_where_it_lies_and_nowhere_else) {
+  frame();
+  PanelInput over = pointing_at(*find("view"));
+  frame(over);
+  EXPECT_TRUE(panel_.wants_mouse());
+  PanelInput beside;
+  beside.mouse_x = 790.0;
+  beside.mouse_y = 300.0;
+  frame(beside);
+  EXPECT_FALSE(panel_.wants_mouse());
+  // A drag that began beside it stays the camera's.
+  beside.buttons[0] = true;
+  frame(beside);
+  over.buttons[0] = true;
+  frame(over);
+  EXPECT_FALSE(panel_.wants_mouse());
+}
+
+TEST_F(PanelTest, a_picture_smaller_than_the_panel_is_no_fault) {
+  const PanelContent content = {.knobs = knobs_,
+                                .times = times_,
+                                .modules = modules_,
+                                .visualizers = visualizers_,
+                                .visualizer = visualizer_,
+                                .show = [](const std::string&) { return Status(); }};
+  for (const std::uint32_t size : {1u, 20u, 100u})
+    panel_.update({}, {.width = size, .height = size, .dt_s = 0.0}, content);
+  EXPECT_GE(panel_.draw_data().TotalIdxCount, 0);
+}
+
+}  // namespace
+}  // namespace gloam
