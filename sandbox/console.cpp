@@ -7,14 +7,14 @@
 namespace gloam {
 namespace {
 
-// A sanitizer's report goes to standard error by number: capturing would hide it.
+// A sanitizer writes its report to file descriptor 2: capturing would hide it.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kCapture = false;
 #else
 constexpr bool kCapture = true;
 #endif
 
-/// A stream of its own for what `number` stands for now; null when it is closed.
+/// A separate stream to the current target of file descriptor `number`; null if the descriptor is closed.
 std::FILE* duplicate(int number) {
   const int copy = dup(number);
   return copy < 0 ? nullptr : fdopen(copy, "w");
@@ -88,7 +88,7 @@ std::string Console::captured() const {
   std::fflush(stdout);
   char block[4096];
   off_t offset = 0;
-  // pread leaves the shared position alone: libraries go on writing at the end.
+  // pread does not move the shared file position: libraries keep writing at the end.
   for (ssize_t got = 0; (got = pread(fileno(capture_), block, sizeof(block), offset)) > 0; offset += got)
     text.append(block, static_cast<std::size_t>(got));
   return text;

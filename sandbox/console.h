@@ -13,9 +13,9 @@
 
 namespace gloam {
 
-/// The program's two streams, kept apart from what libraries print: from its making to its end everything that others
-/// write to standard output and standard error is captured, and only this class reaches the real ones. One at a time in
-/// a process.
+/// Standard output and standard error of the program, separate from the output of libraries. While a Console exists,
+/// everything that other code writes to the two streams is captured in a temporary file, and only this class writes to
+/// the real streams. Sanitizer builds capture nothing. At most one Console may exist in a process.
 class Console {
  public:
   Console();
@@ -23,23 +23,23 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  /// Results: text to standard output as it is. A failure to write is kept for `flush`.
+  /// Writes a result to standard output, unchanged. `flush` reports a failure to write.
   void print(std::string_view text);
-  /// The one line "gloam: error: …" on standard error.
+  /// Writes the line "gloam: error: MESSAGE" to standard error.
   void print_error(std::string_view message);
-  /// A line on standard error with "gloam: warning: " in front.
+  /// Writes the line "gloam: warning: MESSAGE" to standard error.
   void print_warning(std::string_view message);
 
-  /// Whether standard error is a terminal, where a line may be overwritten.
+  /// Whether standard error is a terminal, so that a progress line can be overwritten.
   [[nodiscard]] bool shows_progress() const;
-  /// Shows a line that the next one, or any other output, replaces; an empty one takes it away. Nothing unless
-  /// shows_progress.
+  /// Shows a progress line, which the next one or any other output replaces. An empty line removes it. Does nothing if
+  /// shows_progress() is false.
   void show_progress(std::string_view line);
 
-  /// Error of ErrorKind::failed when results could not be written (disk full, closed).
+  /// Flushes standard output. Returns ErrorKind::failed if results could not be written (disk full, stream closed).
   [[nodiscard]] Status flush();
 
-  /// What libraries printed so far.
+  /// The output of libraries captured so far; empty if nothing is captured.
   [[nodiscard]] std::string captured() const;
 
  private:
@@ -47,10 +47,10 @@ class Console {
   std::FILE* errors_ = nullptr;
   std::FILE* capture_ = nullptr;
   bool failed_ = false;
-  std::atomic<bool> progress_ = false;  ///< a line is shown; warnings may come from jobs
+  std::atomic<bool> progress_ = false;  ///< a progress line is shown; atomic because jobs may print warnings
 };
 
-/// `text` as one line: line breaks and other control characters become single spaces, none at the ends.
+/// `text` as one line: each run of spaces and control characters becomes one space, and both ends are trimmed.
 [[nodiscard]] std::string one_line(std::string_view text);
 
 }  // namespace gloam

@@ -13,11 +13,12 @@ namespace gloam {
 
 struct LogOptions {
   bool quiet = false;  ///< warnings do not reach the console
-  std::string file;    ///< every line of every level with its time goes here; empty: nowhere
+  std::string file;    ///< log file: gets every line of every level with its time; empty: no file
 };
 
-/// The program's log. Warnings, and faults that the engine reports before it returns an error, go to the console as
-/// warnings, so that a failure stays one line. The console must outlive it. Fails when the file cannot be written.
+/// Makes the program's log. Messages of level warning and error go to the console as warnings: the engine may log an
+/// error before it returns one, and only the returned error is printed as the error line. The console must outlive the
+/// log. Returns ErrorKind::failed if the file cannot be written.
 [[nodiscard]] Result<std::unique_ptr<LogSink>> make_program_log(Console& console, const LogOptions& options);
 
 }  // namespace gloam

@@ -22,7 +22,7 @@ using gloam::Error;
 using gloam::ErrorKind;
 using gloam::Status;
 
-// Where a failed assertion speaks: standard error is captured while the program runs.
+// Prints failed assertions: standard error itself is captured while the program runs.
 gloam::Console* assert_console = nullptr;
 
 [[noreturn]] void tell_assertion(const char* /*condition*/, std::string_view sentence, const char* file, int line) {

@@ -13,21 +13,23 @@
 
 namespace gloam {
 
-/// Linear allocator for what lives until the next reset: frame scratch, a loader's tables. Grows in blocks, so spans
-/// stay where they are; nothing is freed singly and no destructor runs. One thread at a time.
+/// Linear allocator for data that lives until the next reset: frame scratch, a loader's tables. It grows in blocks, so
+/// spans keep their address. Single allocations are never freed and no destructor runs. Use it from one thread at a
+/// time.
 class Arena {
  public:
   static constexpr std::size_t kDefaultBlockBytes = std::size_t{64} * 1024;
 
-  /// block_bytes: size of the first block, > 0; it is taken at the first allocation.
+  /// block_bytes: size of the first block, > 0. The block is taken from the heap at the first allocation.
   explicit Arena(std::size_t block_bytes = kDefaultBlockBytes);
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  /// Uninitialised bytes; alignment is a power of two. Never null, distinct for every size > 0.
+  /// Returns `size` uninitialised bytes. alignment: a power of two. Never null; allocations of size > 0 have distinct
+  /// addresses.
   [[nodiscard]] std::byte* allocate_bytes(std::size_t size, std::size_t alignment);
 
-  /// Value-initialised items (zero for plain types).
+  /// Returns `count` value-initialised items (zero for plain types).
   template <class T>
   requires std::is_trivially_destructible_v<T>
   [[nodiscard]] std::span<T> make_span(std::size_t count) {
@@ -37,7 +39,7 @@ class Arena {
     return {items, count};
   }
 
-  /// A copy of `items`.
+  /// Returns a copy of `items`.
   template <class T>
   requires std::is_trivially_destructible_v<T>
   [[nodiscard]] std::span<T> copy(std::span<const T> items) {
@@ -47,8 +49,8 @@ class Arena {
     return {copies, items.size()};
   }
 
-  /// Ends the life of everything allocated. Memory is kept; several blocks become one that holds as much, so that a
-  /// repeating load stops growing after its first round.
+  /// Invalidates all allocations. Memory is kept: several blocks are replaced by one of their total size, so that a
+  /// repeated workload needs no further block after its first round.
   void reset();
 
   /// Bytes handed out since the last reset, alignment gaps included.
@@ -71,7 +73,7 @@ class Arena {
   void add_block(std::size_t size);
 
   std::size_t next_block_bytes_;
-  std::vector<Block> blocks_;  // the last one is filled; the others are full
+  std::vector<Block> blocks_;  // allocations come from the last block; the others are full
 };
 
 }  // namespace gloam

@@ -14,8 +14,7 @@ void print_and_abort(const char* condition, std::string_view sentence, const cha
   std::abort();
 }
 
-std::atomic<AssertHandler> g_handler =
-    &print_and_abort;  // the one process-wide hook: asserts have no object to carry it
+std::atomic<AssertHandler> g_handler = &print_and_abort;  // process-wide: an assertion has no object to store it in
 
 }  // namespace
 

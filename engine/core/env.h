@@ -9,15 +9,16 @@
 
 namespace gloam {
 
-/// An environment variable; nothing when it is absent or empty. Programs and tests read these at start and pass the
-/// values on: engine systems take parameters instead. Not safe beside a thread that changes the environment.
+/// Value of an environment variable; nullopt if it is absent or empty. Programs and tests read variables at start and
+/// pass the values on; engine systems take parameters instead. Not safe while another thread changes the environment.
 [[nodiscard]] inline std::optional<std::string> environment_text(const char* name) {
   const char* text = std::getenv(name);
   if (text == nullptr || *text == '\0') return std::nullopt;
   return std::string(text);
 }
 
-/// The same as a number; nothing unless the whole text is one, written with a decimal point in every locale.
+/// Value of an environment variable as a number; nullopt unless the whole text is a number. The decimal separator is a
+/// point in every locale.
 [[nodiscard]] inline std::optional<double> environment_number(const char* name) {
   const std::optional<std::string> text = environment_text(name);
   if (!text) return std::nullopt;

@@ -11,7 +11,8 @@ namespace gloam {
 
 enum class LogLevel { debug, info, warning, error };
 
-/// Where messages go; a host passes its own. Called from any thread, one whole line (without its line break) a call.
+/// Receives log messages; a host passes its own sink. write() may be called from any thread, with one whole line
+/// (without its line break) per call.
 class LogSink {
  public:
   virtual ~LogSink() = default;
@@ -23,10 +24,10 @@ class LogSink {
   void error(std::string_view line) { write(LogLevel::error, line); }
 };
 
-/// Drops everything.
+/// A sink that drops every message.
 LogSink& null_log();
 
-/// Hands every line to a function; the function must be safe to call from any thread.
+/// Passes every line to a function, which must be safe to call from any thread.
 class FunctionLog final : public LogSink {
  public:
   using Function = std::function<void(LogLevel, std::string_view)>;

@@ -11,21 +11,22 @@
 
 namespace gloam {
 
-/// What kind of fault the environment or the input has; the program maps it to its exit code.
+/// Kind of an error in the environment or the input; the program maps it to its exit code.
 enum class ErrorKind {
-  failed,     ///< it started and failed: device lost, out of memory, disk full (exit code 1)
+  failed,     ///< failed while running: device lost, out of memory, disk full (exit code 1)
   usage,      ///< unknown option, knob, value, camera, visualizer (exit code 2)
   input,      ///< the scene or an asset is bad or absent (exit code 3)
   no_device,  ///< no usable Vulkan device (exit code 4)
 };
 
-/// One fault, told in one sentence that names where and what; never ends with a line break.
+/// One error. The message is one sentence that says where and what failed; it never ends with a line break.
 struct Error {
   ErrorKind kind = ErrorKind::failed;
   std::string message;
 };
 
-/// A value or the reason why there is none. Reading the wrong side asserts.
+/// A value, or the error that explains why there is none. Reading the value of a failed result, or the error of a
+/// successful one, asserts.
 template <class T = std::monostate>
 class [[nodiscard]] Result {
  public:
@@ -65,7 +66,7 @@ using Status = Result<>;
 
 }  // namespace gloam
 
-/// Leaves the enclosing function with the error of `expression`, if it has one.
+/// Returns the error of `expression` from the enclosing function, if it has one.
 #define GLOAM_TRY(expression)                                                                          \
   do {                                                                                                 \
     if (auto gloam_try_result = (expression); !gloam_try_result.ok()) return gloam_try_result.error(); \

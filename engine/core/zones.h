@@ -11,22 +11,22 @@
 
 namespace gloam {
 
-/// One timed stretch of work on one thread. Times are nanoseconds since the recorder was made.
+/// One timed span of work on one thread. Times are nanoseconds since the recorder was constructed.
 struct Zone {
   std::string name;
   std::string module;
   std::uint64_t begin_ns = 0;
   std::uint64_t end_ns = 0;
-  std::uint32_t thread = 0;  ///< small numbers in order of first appearance
+  std::uint32_t thread = 0;  ///< small number, assigned in order of first appearance
 };
 
-/// Collects zones from any thread. Injected where wanted; a null pointer records nothing.
+/// Collects zones from any thread. Code that may be measured takes a pointer to it; a null pointer records nothing.
 class ZoneRecorder {
  public:
   ZoneRecorder();
   [[nodiscard]] std::uint64_t now_ns() const;
   void record(std::string_view name, std::string_view module, std::uint64_t begin_ns, std::uint64_t end_ns);
-  /// Takes what was recorded since the last call, ordered by begin time.
+  /// Returns and removes the zones recorded since the last call, sorted by begin time.
   [[nodiscard]] std::vector<Zone> take();
 
  private:
@@ -36,7 +36,8 @@ class ZoneRecorder {
   std::vector<std::uint64_t> threads_;
 };
 
-/// Records the stretch from its making to its end.
+/// Records a zone from its construction to its destruction. `recorder` (may be null), `name` and `module` must outlive
+/// it.
 class ScopedZone {
  public:
   ScopedZone(ZoneRecorder* recorder, std::string_view name, std::string_view module)

@@ -8,19 +8,20 @@
 
 namespace gloam {
 
-/// Sees every access to a world it is set on. Called from whichever thread makes the access, possibly from many at
-/// once; knowing which system that thread runs is the checker's business. It reports by asserting.
+/// Observes every access to the world that it is set on, and asserts if the access is not allowed. Called on the thread
+/// that makes the access, possibly from many threads at once. The checker itself must know which system a thread runs.
 class AccessChecker {
  public:
   virtual ~AccessChecker() = default;
 
-  /// Values of a component are about to be read or written: by get, or once a call of a view's each, …
+  /// Called before values of a component are read or written: by get() and the like, or once per call of a view's
+  /// function.
   virtual void component(ComponentId id, bool write) = 0;
 
-  /// A resource or a view's resource of this type is about to be handed out.
+  /// Called before a resource, or a resource of a view, of this type is returned.
   virtual void resource(std::string_view type_name, bool write) = 0;
 
-  /// Entities or components are about to come or go.
+  /// Called before entities or components are added or removed.
   virtual void structure() = 0;
 };
 

@@ -18,23 +18,23 @@
 
 namespace gloam {
 
-/// What applying commands did.
+/// Number of commands that apply() ran and skipped.
 struct CommandReport {
   std::size_t applied = 0;
-  std::size_t skipped = 0;  ///< their entity was destroyed by then
+  std::size_t skipped = 0;  ///< commands whose entity was dead by then
 };
 
-/// Structural changes for later, for one thread at a time. Applied in the order in which they were recorded.
+/// Records structural changes for later, from one thread at a time. They are applied in the order of recording.
 class CommandBuffer {
  public:
-  /// Returns a stand-in: usable in this buffer's destroy, add and remove until the buffer is applied, and nowhere else
-  /// (it is not alive, and inside a component it would not become the real entity).
+  /// Returns a stand-in for the entity: usable in this buffer's destroy, add and remove until the buffer is applied,
+  /// and nowhere else. It is not alive, and a copy of it in a component does not become the real entity.
   template <class... Ts>
   Entity create(const Ts&... values) {
     record(
         kNoEntity,
         [](World& world, Entity, const std::byte* payload, std::vector<Entity>& created) {
-          // Braces: values are read in order.
+          // Braces guarantee that the values are read in order.
           const std::tuple<Ts...> copies{take<Ts>(payload)...};
           created.push_back(std::apply([&](const Ts&... each) { return world.create(each...); }, copies));
           static_cast<void>(payload);
@@ -70,7 +70,7 @@ class CommandBuffer {
   using Function = void (*)(World&, Entity target, const std::byte* payload, std::vector<Entity>& created);
   struct Command {
     Function function;
-    Entity target;  ///< kNoEntity: none; generation 0: a stand-in
+    Entity target;  ///< kNoEntity: no target; otherwise generation 0: a stand-in
     std::size_t payload;
   };
 
@@ -96,19 +96,20 @@ class CommandBuffer {
 
   std::vector<Command> commands_;
   std::vector<std::byte> payload_;
-  std::vector<Entity> stand_ins_;  ///< while applying: the entities created so far
+  std::vector<Entity> stand_ins_;  ///< during apply(): the real entity of each stand-in created so far
   std::uint32_t created_ = 0;
 };
 
-/// One buffer a range of a parallel loop, applied in the order of the ranges, so that the outcome does not depend on
-/// threads.
+/// One buffer per range of a parallel loop. Buffers are applied in the order of the ranges, so that the outcome does
+/// not depend on threads.
 class CommandLists {
  public:
-  /// Before the loop: at least `count` empty buffers. Those of an earlier loop must have been applied or cleared.
+  /// Provides at least `count` empty buffers. Call it before the loop; the buffers of an earlier loop must have been
+  /// applied or cleared.
   void prepare(std::size_t count);
   [[nodiscard]] std::size_t size() const { return lists_.size(); }
 
-  /// The buffer of one range; each is for one thread at a time.
+  /// The buffer of the range with this ordinal. Each buffer is for one thread at a time.
   [[nodiscard]] CommandBuffer& operator[](std::size_t ordinal) {
     GLOAM_ASSERT(ordinal < lists_.size(), "command lists are prepared for every range of the loop");
     return lists_[ordinal].buffer;
@@ -118,7 +119,7 @@ class CommandLists {
   void clear();
 
  private:
-  /// A cache line each: neighbours record at the same time.
+  /// One cache line each, because threads record into neighbouring buffers at the same time.
   struct alignas(64) List {
     CommandBuffer buffer;
   };

@@ -9,30 +9,31 @@
 
 namespace gloam {
 
-/// Number of a component type within one world, in order of registration.
+/// Id of a component type within one world; ids follow the order of registration.
 using ComponentId = std::uint16_t;
 inline constexpr ComponentId kNoComponent = 0xffff;
 
-/// Stamp of a change; a world counts them up from 1 and never back.
+/// Time stamp of a change. A world counts ticks up from 1 and never back.
 using Tick = std::uint64_t;
 
-/// Changes are stamped a block of so many rows.
+/// Rows per block. Changes are stamped per block.
 inline constexpr std::uint32_t kTickBlockRows = 4096;
 
-/// So many first rows of an archetype, or as many as fit kFrontBytes, lie packed beside those of other archetypes.
+/// The first kFrontRows rows of an archetype, or as many as fit into kFrontBytes, lie in memory shared with the first
+/// rows of other archetypes.
 inline constexpr std::uint32_t kFrontRows = 128;
 inline constexpr std::size_t kFrontBytes = 16384;
 
-/// Every column begins at a multiple of this, so no component may ask for more.
+/// Every column begins at a multiple of this many bytes, so a component's alignment must not be greater.
 inline constexpr std::size_t kColumnAlignment = 64;
 
 struct ComponentInfo {
   std::string name;
   const void* key = nullptr;
-  std::uint32_t size = 0;  ///< bytes a row; 0 for a tag (an empty struct)
+  std::uint32_t size = 0;  ///< bytes per row; 0 for a tag (an empty struct)
 };
 
-/// What World and View demand of a component type: plain data.
+/// Asserts at compile time that T may be a component: plain data.
 template <class T>
 constexpr void require_component() {
   static_assert(std::is_trivially_copyable_v<T>, "components are plain structs: trivially copyable");

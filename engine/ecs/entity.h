@@ -8,8 +8,8 @@
 
 namespace gloam {
 
-/// Names one entity of one world. The index is reused after the entity is destroyed, the pair is not (a slot repeats
-/// after 2^32 destructions). Generation 0 never names a living entity.
+/// Handle of one entity of one world. After the entity is destroyed, its index is reused with another generation (an
+/// index repeats a generation after about 2^32 destructions). Generation 0 never belongs to a living entity.
 struct Entity {
   std::uint32_t index = ~0u;
   std::uint32_t generation = 0;
@@ -18,7 +18,7 @@ struct Entity {
 
 inline constexpr Entity kNoEntity{};
 
-/// Names one view (a camera's picture, a mirror's, …) that has resources of its own.
+/// Id of one view (a camera's, a mirror's, …). Resources can be stored per view.
 struct ViewId {
   std::uint32_t value = 0;
   friend bool operator==(const ViewId&, const ViewId&) = default;

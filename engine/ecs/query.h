@@ -14,15 +14,14 @@
 
 namespace gloam {
 
-/// What a view asks for.
+/// The terms of a view, as component ids.
 struct QueryTerms {
-  std::vector<ComponentId>
-      columns;  ///< columns handed to the view's functions, in order; some may be absent from a match
+  std::vector<ComponentId> columns;   ///< passed to the view's functions, in order; a match may lack some
   std::vector<ComponentId> required;  ///< every match has these
-  std::vector<ComponentId> excluded;  ///< no match has one of these
+  std::vector<ComponentId> excluded;  ///< no match has any of these
 };
 
-/// The archetypes that answer a view, found once and extended when archetypes were added. Archetypes and the fronts of
+/// The archetypes that match a view, found once and extended when archetypes are added. Archetypes and the fronts of
 /// their columns never move, so a match keeps plain pointers.
 class Query {
  public:
@@ -33,8 +32,9 @@ class Query {
 
   [[nodiscard]] std::size_t match_count() const { return matches_.size(); }
   [[nodiscard]] Archetype& match(std::size_t i) const { return *matches_[i]; }
-  /// A pointer a term of `columns` for rows in the same range as `row`, as Archetype::base gives them; null where the
-  /// match lacks the term. `storage` has room for one a term.
+  /// Returns one pointer per term of `columns`, for rows in the same range as `row`, as Archetype::base gives them;
+  /// null where the match lacks the term. `storage` must have room for one pointer per term; the result may point into
+  /// it.
   [[nodiscard]] std::byte* const* match_columns(std::size_t i, std::uint32_t row, std::byte** storage) const {
     if (row < matches_[i]->front_rows()) return fronts_.data() + i * terms_.columns.size();
     for (std::size_t term = 0; term < terms_.columns.size(); ++term)
@@ -43,14 +43,14 @@ class Query {
   }
   [[nodiscard]] std::size_t row_count() const;
 
-  /// Archetypes looked at so far.
+  /// Number of archetypes examined so far.
   [[nodiscard]] std::size_t seen() const { return seen_.load(std::memory_order_acquire); }
   void extend(std::span<const std::unique_ptr<Archetype>> archetypes);
 
  private:
   QueryTerms terms_;
   std::vector<Archetype*> matches_;
-  std::vector<std::byte*> fronts_;  ///< terms_.columns.size() a match
+  std::vector<std::byte*> fronts_;  ///< terms_.columns.size() pointers per match
   std::atomic<std::size_t> seen_ = 0;
 };
 
@@ -61,16 +61,17 @@ struct ViewChunk {
   std::uint32_t count = 0;
 };
 
-/// The rows of a query cut for parallel work. Depends on the world and the grain only.
+/// The rows of a query, split for parallel work. Depends only on the world and the grain.
 struct ChunkPlan {
   std::vector<ViewChunk> chunks;
-  /// Jobs: job i runs chunks [job_ends[i - 1], job_ends[i]), about a grain of rows, so that many small archetypes are
-  /// few jobs.
+  /// Job i runs chunks [job_ends[i - 1], job_ends[i]), about a grain of rows, so that many small archetypes make few
+  /// jobs.
   std::vector<std::uint32_t> job_ends;
 };
 
-/// grain_rows ≥ 1: rows a chunk at most.
+/// grain_rows ≥ 1: greatest number of rows per chunk.
 [[nodiscard]] ChunkPlan plan_chunks(const Query& query, std::size_t grain_rows);
+/// Number of chunks in plan_chunks(query, grain_rows).
 [[nodiscard]] std::size_t count_chunks(const Query& query, std::size_t grain_rows);
 
 }  // namespace gloam

@@ -13,7 +13,8 @@
 
 namespace gloam {
 
-/// One value a type. A value keeps its address until it is removed. Destroyed in reverse order of the first set.
+/// Holds one value per type. A value keeps its address until it is removed. Values are destroyed in reverse order of
+/// the first set of their type.
 class ResourceStore {
  public:
   ResourceStore() = default;
@@ -23,6 +24,7 @@ class ResourceStore {
     while (!slots_.empty()) slots_.pop_back();
   }
 
+  /// Stores the value. An R that is already there is replaced at the same address.
   template <class R>
   R& set(R value) {
     static_assert(std::is_object_v<R> && !std::is_const_v<R>, "a resource is set by value");
@@ -48,6 +50,7 @@ class ResourceStore {
     return slot == TypeTable::kAbsent ? nullptr : static_cast<R*>(slots_[slot].get());
   }
 
+  /// Destroys the R. Does nothing when absent.
   template <class R>
   void remove() {
     const std::uint32_t slot = table_.find(type_key<R>());

@@ -12,7 +12,7 @@ struct TypeList {};
 
 namespace detail {
 
-/// One byte a type, only for its address. Not const: linkers may fold equal constants into one.
+/// One byte per type, used only for its address. Not const, because linkers may fold equal constants into one.
 template <class T>
 struct TypeTag {
   static inline char byte = 0;
@@ -43,7 +43,7 @@ constexpr std::string_view cut_type_name() {
 template <class T>
 inline constexpr std::string_view kTypeName = cut_type_name<T>();
 
-/// FNV-1a of the name, for places in tables: two types may share one.
+/// FNV-1a of the name, used as a table position. Two types may have the same hash.
 template <class T>
 inline constexpr std::uint32_t kTypeNameHash = [] {
   std::uint32_t hash = 2166136261u;
@@ -53,8 +53,7 @@ inline constexpr std::uint32_t kTypeNameHash = [] {
 
 }  // namespace detail
 
-/// Tells types apart within one program run. Carries no order and no meaning for two worlds: each maps keys to ids of
-/// its own.
+/// Key that identifies a type within one program run. Keys have no order, and each world maps them to its own ids.
 template <class T>
 [[nodiscard]] const void* type_key() {
   return &detail::TypeTag<T>::byte;

@@ -11,8 +11,8 @@
 
 namespace gloam {
 
-/// Maps type keys to small numbers: open addressing, at most half full. Lookups are safe from many threads while nobody
-/// inserts.
+/// Maps type keys to small numbers: open addressing, at most half full. Lookups are safe from many threads while no
+/// thread inserts.
 class TypeTable {
  public:
   static constexpr std::uint32_t kAbsent = ~0u;
@@ -24,7 +24,7 @@ class TypeTable {
     return first.key == key ? first.value : find_further(key);
   }
 
-  /// `key` must not be there yet.
+  /// `key` must not be in the table yet.
   void insert(const void* key, std::uint32_t value);
 
  private:
@@ -44,11 +44,11 @@ class TypeTable {
   int shift_ = 0;  ///< 64 - log2(slots_.size())
 };
 
-/// The numbers of some types, at places that the compiler knows: finding one is a comparison. Of types that share a
-/// place only the first is found, so a TypeTable stands behind it.
+/// Cache in front of a TypeTable. The place of each type is known at compile time, so a lookup is one comparison. If
+/// types share a place, only the first one inserted is found; the others need the TypeTable.
 class TypeCache {
  public:
-  /// What `otherwise` gives unless T is held.
+  /// The number of T if the cache holds it, otherwise the result of `otherwise`.
   template <class T, class Otherwise>
   [[nodiscard]] std::uint32_t find_or(const Otherwise& otherwise) const {
     const Slot& slot = slots_[detail::kTypeNameHash<T> % kPlaces];
@@ -58,7 +58,7 @@ class TypeCache {
   }
   /// `name_hash`: detail::kTypeNameHash of the type.
   void insert(const void* key, std::uint32_t name_hash, std::uint32_t value);
-  /// A cache that is off holds what was inserted, but finds nothing.
+  /// A cache that is off keeps its entries, but finds none.
   void set_on(bool on);
 
  private:

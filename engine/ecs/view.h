@@ -17,13 +17,14 @@
 
 namespace gloam {
 
-/// The entities that have certain components: `View<const Velocity, Position, Without<Frozen>>`. Const means read. A
-/// view is two pointers: copy it freely, take it from any thread; it stays valid as long as its world and sees later
-/// entities.
+/// All entities that match the terms of the view, e.g. `View<const Velocity, Position, Without<Frozen>>`. A const
+/// component is only read. A view is two pointers: copy it freely and construct it on any thread. It stays valid as
+/// long as its world and includes entities created later.
 ///
-/// Within a call of each, each_chunk, parallel_…, changed_since: structural changes assert; spans are valid until the
-/// next structural change; every row is visited once; archetypes come in order of their making, rows in order.
-/// What the view reads (const), nothing may write meanwhile, its own function included: the loops are compiled on that.
+/// each, each_chunk and parallel_… visit every row once, changed_since at most once. The serial functions visit
+/// archetypes in order of creation and rows in order. A structural change during a call asserts. Spans are valid until
+/// the next structural change. While a view iterates, nothing may write its const components, not even its own
+/// function: the compiler relies on it (see ViewTerm).
 template <class... Args>
 class View {
  public:
@@ -32,56 +33,57 @@ class View {
   explicit View(World& world) : View(world, 0) {}
   explicit View(const World& world) requires(kReadsOnly) : View(world, 0) {}
 
-  /// f([Entity,] A&, const B&, …), one argument a column; a pointer for Maybe.
+  /// Calls f([Entity,] A&, const B&, …) for every row, with one argument per column; a pointer for Maybe.
   template <class F>
   void each(F&& f) const {
     const Iteration iteration(*this);
     for (std::size_t m = 0; m < query_->match_count(); ++m) rows(f, m, 0, query_->match(m).row_count(), kColumns);
   }
 
-  /// f([span<const Entity>,] span<A>, span<const B>, …), one call a contiguous range of rows: an archetype's are one or
-  /// two (its front and the rest; see archetype.h). An absent Maybe is an empty span.
+  /// Calls f([span<const Entity>,] span<A>, span<const B>, …) for every contiguous range of rows. An archetype has one
+  /// or two (its front and the rest; see archetype.h). An absent Maybe is an empty span.
   template <class F>
   void each_chunk(F&& f) const {
     const Iteration iteration(*this);
     for (std::size_t m = 0; m < query_->match_count(); ++m) chunks(f, m, 0, query_->match(m).row_count(), kColumns);
   }
 
-  /// As each, from many threads at once, about grain_rows (≥ 1) a job. Each row once.
+  /// As each, from many threads at once, with about grain_rows (≥ 1) rows per job. Every row is visited once.
   template <class F>
   void parallel_each(JobExecutor& executor, std::size_t grain_rows, F&& f) const {
     parallel(executor, grain_rows,
              [&](std::size_t, const ViewChunk& c) { rows(f, c.match, c.first, c.first + c.count, kColumns); });
   }
 
-  /// f(ordinal, [span<const Entity>,] spans…) for contiguous ranges of at most grain_rows (≥ 1) rows, from many threads
-  /// at once. Ordinals count the ranges from 0 to chunk_count(grain_rows) - 1 in the order in which each() would visit
-  /// them.
+  /// Calls f(ordinal, [span<const Entity>,] spans…) for contiguous ranges of at most grain_rows (≥ 1) rows, from many
+  /// threads at once. Ordinals number the ranges from 0 to chunk_count(grain_rows) - 1 in the order in which each()
+  /// would visit them.
   template <class F>
   void parallel_chunks(JobExecutor& executor, std::size_t grain_rows, F&& f) const {
     parallel(executor, grain_rows,
              [&](std::size_t ordinal, const ViewChunk& c) { numbered_chunk(f, ordinal, c, kColumns); });
   }
 
-  /// Calls that parallel_chunks will make: room for one result a range.
+  /// Number of calls that parallel_chunks makes with this grain, e.g. to allocate one result per range.
   [[nodiscard]] std::size_t chunk_count(std::size_t grain_rows) const {
     world_->refresh(*query_);
     return count_chunks(*query_, grain_rows);
   }
 
-  /// Rows of all matches.
+  /// Number of rows in all matches.
   [[nodiscard]] std::size_t size() const {
     world_->refresh(*query_);
     return query_->row_count();
   }
   [[nodiscard]] bool empty() const { return size() == 0; }
 
-  /// Whether `e` is alive and answers the view.
+  /// Whether `e` is alive and matches the view.
   [[nodiscard]] bool contains(Entity e) const {
     return world_->alive(e) && query_->accepts(world_->records_[e.index].range.archetype());
   }
 
-  /// The T of `e`, const as the view has it; null unless `e` is alive, answers the view and has a T.
+  /// Pointer to the T of `e`, const if the view's term is const. Null unless `e` is alive, matches the view and has a
+  /// T.
   template <class T>
   [[nodiscard]] auto try_get(Entity e) const {
     using Component = std::remove_const_t<T>;
@@ -93,7 +95,7 @@ class View {
     return Pointer(world_->template cell_at<Component>(world_->records_[e.index], id));
   }
 
-  /// Stamps all blocks of a column the view writes.
+  /// Marks all blocks of column T, which the view must write, as changed.
   template <class T>
   void mark_changed() const {
     const ComponentId id = writable_column<T>();
@@ -103,8 +105,8 @@ class View {
       if (archetype.has(id)) archetype.mark_changed(id, 0, archetype.row_count(), world_->tick());
     }
   }
-  /// Stamps the blocks of a range as a chunk function was handed it, or of a part of it. Safe from many threads at
-  /// once.
+  /// Marks the blocks of a range of rows as changed. `range`: the entities that a chunk function received, or a
+  /// contiguous part of them. Safe from many threads at once.
   template <class T>
   void mark_changed(std::span<const Entity> range) const {
     const ComponentId id = writable_column<T>();
@@ -114,7 +116,7 @@ class View {
                  "changes are marked on a range of a view's own entities");
     record.range.archetype().mark_changed(id, record.row, static_cast<std::uint32_t>(range.size()), world_->tick());
   }
-  /// Stamps the block that holds `e`, which must be alive and have a T.
+  /// Marks the block that holds `e`, which must be alive and have a T, as changed.
   template <class T>
   void mark_changed(Entity e) const {
     const ComponentId id = writable_column<T>();
@@ -123,8 +125,9 @@ class View {
     record.range.archetype().mark_changed(id, record.row, 1, world_->tick());
   }
 
-  /// Calls f as each_chunk does, but only on runs of blocks (4,096 rows) in which rows came or moved, or T was marked,
-  /// behind tick `since`. Returns the tick to pass next time; 0 reports everything. Rows that went are not reported.
+  /// Calls f as each_chunk does, but only on runs of blocks (4,096 rows) in which, after tick `since`, rows were added
+  /// or moved or T was marked as changed. Returns the tick to pass next time; 0 reports everything. Removed rows are
+  /// not reported.
   template <class T, class F>
   Tick changed_since(Tick since, F&& f) const {
     const Iteration iteration(*this);
@@ -151,7 +154,7 @@ class View {
   static constexpr bool kWrites =
       !std::is_const_v<std::remove_pointer_t<decltype(detail::FindColumn<T, Columns>::value_pointer())>>;
 
-  /// While one lives, structural changes assert.
+  /// During its lifetime a structural change asserts.
   class Iteration {
    public:
     explicit Iteration(const View& view) : world_(*view.world_) {
@@ -188,8 +191,8 @@ class View {
     return id;
   }
 
-  /// Calls use(first, end, entities, cursor of each column …) for the contiguous ranges of the rows [first, last) of a
-  /// match; entities and cursors are indexed by row.
+  /// Calls use(first, end, entities, cursor of each column …) for each contiguous range within rows [first, last) of
+  /// match m. Entities and cursors are indexed by row.
   template <class Use, class... Cs>
   void for_ranges(std::size_t m, std::uint32_t first, std::uint32_t last, Use&& use, TypeList<Cs...>) const {
     const Archetype& archetype = query_->match(m);

@@ -19,8 +19,8 @@
 
 namespace gloam {
 
-/// Filters of a view. Maybe<const T> or Maybe<T> hands out a pointer (a span, for chunks) that is null (empty) where T
-/// is absent.
+/// Terms of a view besides plain components. With<T> and Without<T> only filter. Maybe<const T> and Maybe<T> pass a
+/// pointer (null where T is absent) to row functions and a span (empty where T is absent) to chunk functions.
 template <class T>
 struct With {};
 template <class T>
@@ -30,12 +30,12 @@ struct Maybe {};
 
 namespace detail {
 
-/// What one argument of a view means. `Cursor` indexes the column: cursor[i] is what a function over rows is handed.
+/// Traits of one template argument of a view. `Cursor` indexes the column: cursor[i] is the argument of a row function.
 template <class Arg>
 struct ViewTerm {
   using Component = std::remove_const_t<Arg>;
   using Value = Arg;
-  /// Nobody writes what a view reads while it iterates, so writes need not be feared to change it.
+  /// restrict: nothing writes a const column while a view iterates, so writes to other columns cannot change it.
   using Cursor = std::conditional_t<std::is_const_v<Arg>, Arg * GLOAM_RESTRICT, Arg*>;
   static constexpr bool kColumn = true;
   static constexpr bool kWrites = !std::is_const_v<Arg>;
@@ -90,7 +90,7 @@ std::span<Arg> chunk_span(MaybeCursor<Arg> cursor, std::size_t first, std::size_
   return cursor.column == nullptr ? std::span<Arg>() : std::span<Arg>(cursor.column + first, count);
 }
 
-/// The loop all iteration comes down to: plain pointers and one counter. Args: the view's column arguments.
+/// The inner loop of all row functions: plain pointers and one counter. Args: the view's column arguments.
 template <class... Args, class F>
 void call_rows(F& f, const Entity* entities, std::size_t first, std::size_t last,
                typename ViewTerm<Args>::Cursor... cursors) {
@@ -121,7 +121,7 @@ void call_numbered_chunk(F& f, std::size_t ordinal, std::span<const Entity> enti
   }
 }
 
-/// The arguments of a view that are columns, in order.
+/// Concatenates type lists. ColumnArguments uses it to select the arguments of a view that are columns, in order.
 template <class... Lists>
 struct Concatenate {
   using type = TypeList<>;

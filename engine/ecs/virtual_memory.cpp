@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <new>
 
-// POSIX. The same three calls on Windows are VirtualAlloc with MEM_RESERVE, VirtualAlloc with MEM_COMMIT, and
-// VirtualFree.
+// POSIX: mmap, mprotect and munmap. Their equivalents on Windows are VirtualAlloc with MEM_RESERVE, VirtualAlloc with
+// MEM_COMMIT, and VirtualFree.
 
 namespace gloam {
 
@@ -31,7 +31,7 @@ ReservedMemory::ReservedMemory(std::size_t bytes) : bytes_(round_up(bytes, page_
     if (before < slack) munmap(data_ + bytes_, slack - before);
   }
 #ifdef MADV_HUGEPAGE
-  // Advice only, and without effect on stretches of which less than a large page is committed.
+  // Advice only; it has no effect where less than a large page is committed.
   madvise(data_, bytes_, MADV_HUGEPAGE);
 #endif
 }
@@ -57,7 +57,7 @@ void ReservedMemory::extend(Stretch& stretch, std::size_t end) {
   commit(old_end, new_end);
   stretch.committed = new_end;
 #ifdef MADV_COLLAPSE
-  // What follows the first large page is backed by large ones on its first touch; the first was touched page by page.
+  // Bytes after the first large page get large pages on their first touch. The first one was touched page by page.
   if (old_end < large && large <= new_end) madvise(data_ + stretch.begin, kLargePage, MADV_COLLAPSE);
 #endif
 }

@@ -12,12 +12,12 @@
 
 namespace gloam {
 
-/// A stretch of address space that holds no memory until pages of it are committed, and never moves. Move-only.
+/// A range of reserved address space. It has no memory until pages of it are committed, and it never moves. Move-only.
 /// The only file that calls the operating system's memory functions is virtual_memory.cpp.
 class ReservedMemory {
  public:
   ReservedMemory() = default;
-  /// Reserves at least `bytes`, from a page border. Throws std::bad_alloc when the address space is used up.
+  /// Reserves at least `bytes`, starting on a page boundary. Throws std::bad_alloc when the address space is used up.
   explicit ReservedMemory(std::size_t bytes);
   ~ReservedMemory();
   ReservedMemory(ReservedMemory&& other) noexcept
@@ -31,24 +31,25 @@ class ReservedMemory {
   [[nodiscard]] std::byte* data() const { return data_; }
   [[nodiscard]] std::size_t size() const { return bytes_; }
 
-  /// Makes [begin, end) readable, writable and zero. Both are multiples of page_size() within the reservation, not yet
-  /// committed. Throws std::bad_alloc when memory is used up.
+  /// Makes the bytes [begin, end) of the reservation readable, writable and zero. Both bounds are multiples of
+  /// page_size(), and the range is not yet committed. Throws std::bad_alloc when memory is used up.
   void commit(std::size_t begin, std::size_t end);
 
-  /// A part of the reservation that fills from its begin. Borders are multiples of page_size().
+  /// A part of the reservation that is committed from its begin onwards. Offsets in bytes, multiples of page_size().
   struct Stretch {
     std::size_t begin = 0;
-    std::size_t limit = 0;      ///< it may be committed up to here
-    std::size_t committed = 0;  ///< it is committed from `begin` up to here
+    std::size_t limit = 0;      ///< end of the part
+    std::size_t committed = 0;  ///< end of the committed bytes, which start at `begin`
   };
-  /// Commits a stretch at least up to `end`, by whole pages; by large pages from about half of one on, and the system
-  /// is asked to put large pages behind what is there already: long columns then miss the TLB no more.
+  /// Commits a stretch at least up to `end`, in whole pages. From about half a large page on it commits large pages,
+  /// and asks the system to back the bytes already committed with large pages too: long columns then cause fewer TLB
+  /// misses.
   void extend(Stretch& stretch, std::size_t end);
 
   [[nodiscard]] static std::size_t page_size();
 
-  /// Reservations of at least so much begin at a multiple of it. A guess at what the system calls a large page: a wrong
-  /// one costs speed only.
+  /// Assumed size of the system's large pages; a wrong value costs speed only. Reservations of at least this size begin
+  /// at a multiple of it.
   static constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
  private:
@@ -60,10 +61,10 @@ class ReservedMemory {
   return (value + multiple - 1) / multiple * multiple;
 }
 
-/// Hands out small pieces of memory that lie side by side and stay where they are until all are given back at once.
+/// Allocates small pieces of memory side by side. They never move and are all freed together, by the destructor.
 class PackedMemory {
  public:
-  /// Zero bytes, aligned to 64.
+  /// Returns `bytes` zeroed bytes, aligned to 64.
   [[nodiscard]] std::byte* take(std::size_t bytes);
 
  private:
@@ -72,7 +73,7 @@ class PackedMemory {
     ReservedMemory::Stretch stretch;
   };
   std::vector<Block> blocks_;
-  std::size_t used_ = 0;  ///< bytes of the last block
+  std::size_t used_ = 0;  ///< bytes used of the last block
 };
 
 /// An array that grows up to a fixed limit without moving its items. Items are trivially copyable.
@@ -88,7 +89,7 @@ class VirtualArray {
   [[nodiscard]] T& operator[](std::size_t i) { return items()[i]; }
   [[nodiscard]] const T& operator[](std::size_t i) const { return items()[i]; }
 
-  /// Room for `count` items altogether; at most the limit.
+  /// Makes room for `count` items in total; count ≤ max_items.
   void reserve(std::size_t count) {
     if (count > capacity_) grow(count);
   }
@@ -111,7 +112,7 @@ class VirtualArray {
   ReservedMemory::Stretch stretch_;
   std::size_t max_items_ = 0;
   std::size_t size_ = 0;
-  std::size_t capacity_ = 0;  ///< items that fit what is committed
+  std::size_t capacity_ = 0;  ///< items that fit into the committed bytes
 };
 
 }  // namespace gloam

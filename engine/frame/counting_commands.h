@@ -6,13 +6,13 @@
 
 namespace gloam::frame {
 
-/// Passes every command on and counts dispatches and draws.
+/// Forwards every command to another CommandList and counts dispatches and draws.
 class CountingCommands final : public gpu::CommandList {
  public:
   explicit CountingCommands(gpu::CommandList& next) : next_(next) {}
 
   [[nodiscard]] std::uint32_t dispatches() const { return dispatches_; }
-  /// Draws of an indirect call count each.
+  /// Each draw of an indirect call is counted.
   [[nodiscard]] std::uint32_t draws() const { return draws_; }
   void reset() { dispatches_ = draws_ = 0; }
 

@@ -13,7 +13,7 @@ using gpu::Access;
 using gpu::AccessMask;
 using gpu::mask_of;
 
-/// What a write access does besides writing.
+/// The read accesses that a write access includes.
 AccessMask reads_included_in(Access write, bool is_image) {
   switch (write) {
     case Access::compute_write:
@@ -52,7 +52,7 @@ AccessMask combine_accesses(AccessMask have, Access more, bool is_image) {
   if (gpu::is_write(more)) return (have & ~reads_included_in(more, is_image)) == 0 ? added : 0;
   if (is_single_write(have)) return (added & ~reads_included_in(first, is_image)) == 0 ? have : 0;
   if (!is_image || gpu::layout_of(first) == gpu::layout_of(more)) return have | added;
-  // A tested depth image may be sampled by the fragments of the same pass.
+  // A pass may test a depth image and also sample it in its fragments.
   constexpr AccessMask kTestAndSample = mask_of(Access::depth_test) | mask_of(Access::fragment_read);
   return ((have | added) & ~kTestAndSample) == 0 ? mask_of(Access::depth_test) : 0;
 }

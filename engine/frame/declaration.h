@@ -15,30 +15,30 @@ namespace gloam {
 
 class PassContext;
 
-/// A frame's declarations as data: what FrameGraph collects and compile_plan turns into a plan. Slots and their strings
-/// are reused from frame to frame.
+/// The declarations of one frame as data. FrameGraph collects them and compile_plan turns them into a plan. Slots and
+/// their strings are reused from frame to frame.
 namespace frame {
 
 struct DeclaredResource {
   bool is_image = false;
   bool imported = false;
-  gpu::ImageDesc image_desc;    ///< of a transient image; an import has only its name here
-  gpu::BufferDesc buffer_desc;  ///< of a transient buffer; an import has only its name here
+  gpu::ImageDesc image_desc;    ///< of a transient image; an import sets only the name
+  gpu::BufferDesc buffer_desc;  ///< of a transient buffer; an import sets only the name
   gpu::ImageHandle image;       ///< of an import
   gpu::BufferHandle buffer;     ///< of an import
   gpu::Access before = gpu::Access::none;
   gpu::Access after = gpu::Access::none;
-  std::uint32_t version = 0;  ///< the newest; 0 has been written by no pass
+  std::uint32_t version = 0;  ///< the newest version; 0: no pass has written it
 
   [[nodiscard]] const std::string& name() const { return is_image ? image_desc.name : buffer_desc.name; }
 };
 
-/// Everything one pass does to one resource.
+/// All accesses of one pass to one resource.
 struct DeclaredUse {
   std::uint32_t resource = 0;
-  gpu::AccessMask accesses = 0;  ///< reads of one layout, or one write
-  std::uint32_t first_version = 0;
-  std::uint32_t last_version = 0;
+  gpu::AccessMask accesses = 0;     ///< reads of one layout, or one write
+  std::uint32_t first_version = 0;  ///< version before the pass
+  std::uint32_t last_version = 0;   ///< version after the pass
   bool reads = false;
   bool writes = false;
 };
@@ -52,11 +52,11 @@ struct DeclaredPass {
   std::function<void(PassContext&)> function;
 };
 
-/// A vector that forgets its items without destroying them, so that their memory serves the next frame.
+/// A vector that is emptied without destroying its items, so that the next frame reuses their memory.
 template <class T>
 class SlotVector {
  public:
-  /// The next slot, with whatever it held before.
+  /// Appends a slot and returns it. The slot still has its old contents.
   [[nodiscard]] T& add() {
     if (size_ == items_.size()) items_.emplace_back();
     return items_[size_++];
@@ -84,11 +84,11 @@ struct Declaration {
   }
 };
 
-/// Both accesses of one pass on one resource as one: reads of one layout together, or a write that includes the read.
-/// 0 when they cannot happen in one pass.
+/// Combines the accesses of one pass to one resource: reads of one layout, or a write that includes the reads. Returns
+/// 0 if one pass cannot make them all.
 [[nodiscard]] gpu::AccessMask combine_accesses(gpu::AccessMask have, gpu::Access more, bool is_image);
 
-/// Of names, descriptions and accesses; handles of imports do not count.
+/// A hash of names, descriptions and accesses. Handles of imports are not included.
 [[nodiscard]] std::uint64_t structural_hash(const Declaration& declaration);
 
 }  // namespace frame

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+//
+// FrameGraph::describe: the passes of a frame as text.
 #include <algorithm>
 
 #include "engine/frame/frame_graph.h"
@@ -41,7 +43,7 @@ std::string text_of_barriers(const Declaration& declaration, const Plan& plan, s
     const bool discards = b.before == gpu::Access::none;
     text += text.empty() ? "; barriers " : ", ";
     text += declaration.resources[b.resource].name() + " ";
-    // Contents thrown away are marked; what is waited for then is whatever had the memory before.
+    // "none" means that the contents are discarded. The barrier then waits for the earlier accesses to the memory.
     text += discards ? (b.also_before == 0 ? "none" : "none after " + text_of(b.also_before))
                      : text_of(gpu::mask_of(b.before) | b.also_before);
     text += ">" + text_of(gpu::mask_of(b.after) | b.also_after);

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+//
+// FrameGraph: compiles a frame, records its passes, and reports their times and memory.
 #include "engine/core/assert.h"
 #include "engine/frame/counting_commands.h"
 #include "engine/frame/frame_graph.h"

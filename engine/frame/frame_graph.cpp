@@ -35,7 +35,7 @@ std::uint32_t FrameGraph::State::add_use(std::uint32_t pass_index, FrameRef<Kind
   for (std::uint32_t i = pass.first_use; i < declaration.uses.size() && use == nullptr; ++i) {
     if (declaration.uses[i].resource == ref.resource) use = &declaration.uses[i];
   }
-  // A pass may read the version it replaces, in either order of declaration.
+  // A pass may read the version that it replaces; it may declare the read before or after the write.
   const bool replaced_here = use != nullptr && !write && ref.version >= use->first_version;
   GLOAM_ASSERT(ref.version == target.version || replaced_here,
                in_pass(pass, target) + "this handle is stale; a pass has written a newer version since");
@@ -81,7 +81,7 @@ FrameGraph::~FrameGraph() = default;
 
 void FrameGraph::begin() {
   State& s = *state_;
-  // Captures of the last frame must not outlive it.
+  // The pass functions of the last frame are destroyed, so that their captures do not outlive that frame.
   for (DeclaredPass& pass : s.declaration.passes.all()) pass.function = nullptr;
   s.declaration.passes.forget();
   s.declaration.resources.forget();
@@ -94,7 +94,7 @@ void FrameGraph::begin() {
 
 namespace {
 
-/// A slot is reused, so every field that matters for its kind is set.
+/// Slots are reused, so every field that is used for this kind of resource is set.
 DeclaredResource& add_resource(frame::Declaration& declaration, bool is_image, bool imported) {
   DeclaredResource& resource = declaration.resources.add();
   resource.is_image = is_image;

@@ -14,8 +14,8 @@
 
 namespace gloam {
 
-/// A version of a resource in this frame's graph. Writing gives a new version; using an old one in a later pass, or a
-/// handle of another frame, asserts.
+/// A handle to one version of a resource in this frame's graph. Each write returns a new version. Using an old version
+/// in a later pass, or a handle of another frame, asserts.
 template <class Kind>
 struct FrameRef {
   std::uint32_t resource = ~0u;
@@ -28,7 +28,7 @@ using BufferRef = FrameRef<struct FrameBufferTag>;
 
 class FrameGraph;
 
-/// What a pass sees while it records.
+/// What a pass can use while it records: the command list, and the objects of the resources that it has declared.
 class PassContext {
  public:
   PassContext(FrameGraph& graph, gpu::CommandList& commands) : graph_(graph), commands_(commands) {}
@@ -43,9 +43,9 @@ class PassContext {
 
 using PassFunction = std::function<void(PassContext&)>;
 
-/// Declares one pass: what it reads and writes, then what it records. Reads and writes come before the next pass is
-/// added. A pass may name one resource several times where one layout and one barrier serve: several reads, or a write
-/// that includes the read.
+/// Declares one pass: the resources that it reads and writes, and the function that records it. Reads and writes must
+/// be declared before the next pass is added. A pass may declare one resource several times if one layout and one
+/// barrier suffice: several reads, or a write that includes the reads. Other combinations assert.
 class PassBuilder {
  public:
   PassBuilder(FrameGraph& graph, std::uint32_t pass) : graph_(graph), pass_(pass) {}
@@ -53,7 +53,7 @@ class PassBuilder {
   void read(BufferRef buffer, gpu::Access access);
   [[nodiscard]] ImageRef write(ImageRef image, gpu::Access access);
   [[nodiscard]] BufferRef write(BufferRef buffer, gpu::Access access);
-  /// Never culled: its effect is outside the graph.
+  /// Prevents culling, for a pass with effects that the graph does not track.
   void keep();
   void execute(PassFunction function);
 
@@ -62,7 +62,7 @@ class PassBuilder {
   std::uint32_t pass_;
 };
 
-/// Cost of one pass in one completed frame.
+/// The GPU time and the commands of one pass in one completed frame.
 struct PassTime {
   std::string name;
   std::string module;
@@ -71,8 +71,8 @@ struct PassTime {
   std::uint32_t draws = 0;
 };
 
-/// A frame's passes as data. Declared anew every frame; the compiled plan (culled passes, barriers, shared memory) is
-/// cached by a structural hash. Order of declaration is order of execution.
+/// The passes of one frame as data. They are declared again every frame. The compiled plan (culled passes, barriers,
+/// shared memory) is cached by a structural hash. Passes execute in order of declaration.
 class FrameGraph {
  public:
   explicit FrameGraph(gpu::Device& device);
@@ -80,17 +80,18 @@ class FrameGraph {
   FrameGraph(const FrameGraph&) = delete;
   FrameGraph& operator=(const FrameGraph&) = delete;
 
-  /// Forgets the last frame's declarations.
+  /// Begins a frame and clears the declarations of the last one. Earlier handles become invalid.
   void begin();
-  /// Counts begin(): FrameRef::frame of the handles that are good now.
+  /// The number of begin() calls; equals FrameRef::frame of all valid handles.
   [[nodiscard]] std::uint32_t frame() const;
 
-  /// Transient: lives in this frame only and may share memory with others. Usage flags are derived from the accesses.
+  /// Creates a transient resource: it lives in this frame only and may share memory with other transients. Its usage
+  /// flags are derived from the accesses.
   [[nodiscard]] ImageRef create_image(gpu::ImageDesc desc);
   [[nodiscard]] BufferRef create_buffer(gpu::BufferDesc desc);
-  /// Owned elsewhere. `before`: its last access outside the graph (none: contents may be thrown away). `after`: the
-  /// access it is left ready for when the frame ends (none: whatever came last). Passes that write an import are never
-  /// culled.
+  /// Imports an object that is owned outside the graph, at most once per frame. `before`: its last access outside the
+  /// graph (none: the contents may be discarded). `after`: the access that it is left ready for at the end of the frame
+  /// (none: its last access in the graph). Passes that write an import are never culled.
   [[nodiscard]] ImageRef import_image(std::string_view name, gpu::ImageHandle image, gpu::Access before,
                                       gpu::Access after);
   [[nodiscard]] BufferRef import_buffer(std::string_view name, gpu::BufferHandle buffer, gpu::Access before,
@@ -98,29 +99,32 @@ class FrameGraph {
 
   [[nodiscard]] PassBuilder add_pass(std::string_view name, std::string_view module);
 
-  /// Culls, places barriers and makes transient memory; a plan of the same structure is reused.
+  /// Culls passes, places barriers and creates transient memory; a cached plan of the same structure is reused. Fails
+  /// if the device cannot create the memory.
   [[nodiscard]] Status compile();
-  /// Records every live pass with its label, barriers and timestamps.
+  /// Records every live pass with its label, barriers and timestamps. Call it once per frame, after a successful
+  /// compile.
   void execute(gpu::CommandList& commands);
 
-  /// The version of the image that the passes declared so far leave.
+  /// The newest version of the image after all passes declared so far.
   [[nodiscard]] ImageRef newest(ImageRef image) const;
   [[nodiscard]] const gpu::ImageDesc& desc(ImageRef image) const;
   [[nodiscard]] const gpu::BufferDesc& desc(BufferRef buffer) const;
 
-  /// The newest completed frame's passes in order of execution; empty until one has completed.
+  /// The passes of the newest completed frame in order of execution; empty until a frame has completed.
   [[nodiscard]] std::vector<PassTime> pass_times();
-  /// First begin to last end of that frame on the GPU, in milliseconds; 0 until one has completed.
+  /// GPU time of the newest completed frame in milliseconds, from the begin of its first pass to the end of its last
+  /// pass; 0 until a frame has completed.
   [[nodiscard]] double gpu_ms() const;
   [[nodiscard]] std::uint64_t plans_compiled() const;
   [[nodiscard]] std::uint64_t plan_hash() const;
-  /// One line a pass: name, reads, writes, barriers, culled or not.
+  /// One line per pass: name, module, reads, writes, and after compile its barriers or "culled".
   [[nodiscard]] std::string describe() const;
-  /// Bytes of transient memory in the current plan, and what it would be without sharing.
+  /// Bytes of transient memory in the current plan: as allocated, and as it would be without memory sharing.
   [[nodiscard]] std::uint64_t transient_bytes() const;
   [[nodiscard]] std::uint64_t unshared_bytes() const;
-  /// Gives back the transient memory of all cached plans but the current one's. Happens by itself to plans that rest
-  /// for 60 frames.
+  /// Frees the transient memory of all cached plans except the current one. A plan that is not used for 60 frames frees
+  /// its memory automatically.
   void free_idle_memory();
 
  private:

@@ -12,12 +12,13 @@
 
 namespace gloam {
 
+/// The members of FrameGraph, for the source files that implement it: frame_graph.cpp, execute.cpp and describe.cpp.
 struct FrameGraph::State {
   enum class Stage { declaring, compiled, executed };
 
   explicit State(gpu::Device& d) : device(d), cache(d) {}
 
-  /// The resource of a handle of this frame; asserts for any other.
+  /// The resource of a handle of this frame; asserts for other handles.
   template <class Kind>
   [[nodiscard]] frame::DeclaredResource& resource(FrameRef<Kind> ref) {
     GLOAM_ASSERT(ref, "this handle names no resource");
@@ -25,10 +26,10 @@ struct FrameGraph::State {
                  "this handle is of another frame; handles are made anew every frame");
     return declaration.resources[ref.resource];
   }
-  /// Adds what a pass does to a resource; gives the resource's version after it.
+  /// Adds an access of a pass to a resource. Returns the resource's version after the access.
   template <class Kind>
   std::uint32_t add_use(std::uint32_t pass, FrameRef<Kind> ref, gpu::Access access, bool write);
-  /// The use of a resource by the pass that is recording; asserts when it has declared none.
+  /// The use of a resource by the pass that is being recorded; asserts if the pass has not declared one.
   template <class Kind>
   const frame::DeclaredUse& declared_use(FrameRef<Kind> ref);
 
@@ -46,7 +47,7 @@ struct FrameGraph::State {
   Stage stage = Stage::declaring;
   std::uint32_t frame_number = 1;
   std::uint64_t hash = 0;
-  frame::CachedPlan* plan = nullptr;  ///< of this frame, once compiled
+  frame::CachedPlan* plan = nullptr;  ///< plan of this frame; null before compile
   std::uint32_t recording_pass = frame::kNone;
   std::vector<gpu::BufferBarrier> buffer_barriers;
   std::vector<gpu::ImageBarrier> image_barriers;

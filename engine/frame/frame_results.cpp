@@ -9,7 +9,7 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint64_t kSmallestBuffer = 1024;  // bytes; sizes are powers of two, so that they settle
+constexpr std::uint64_t kSmallestBuffer = 1024;  // bytes; sizes are powers of two, so that buffers are rarely recreated
 
 }  // namespace
 
@@ -86,7 +86,7 @@ FrameResult FrameResults::read(const Slot& slot, const Request& request) const {
 void FrameResults::settle(Slot& slot) {
   if (slot.recorded)
     for (const Request& request : slot.requests) settled_[request.key] = read(slot, request);
-  slot.recorded = false;  // once
+  slot.recorded = false;  // each result is settled once
 }
 
 const FrameResult* FrameResults::settled(const ResultKey& key) const {

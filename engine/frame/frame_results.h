@@ -22,7 +22,7 @@
 
 namespace gloam {
 
-/// Names a result: what a module found out about one view of one world.
+/// Identifies a result of one module for one view of one world.
 struct ResultKey {
   std::string module;
   std::string name;
@@ -31,13 +31,13 @@ struct ResultKey {
   auto operator<=>(const ResultKey&) const = default;
 };
 
-/// What one frame left: bytes from the GPU, and what the CPU noted beside them when it declared the frame.
+/// One result of one frame: bytes from the GPU, and the note that the CPU passed to FrameResults::keep.
 struct FrameResult {
-  std::uint64_t frame = 0;  ///< of the device
+  std::uint64_t frame = 0;  ///< number of the device's frame
   std::vector<std::byte> bytes;
   std::any note;
 
-  /// The bytes as a plain struct of exactly their size.
+  /// The bytes as a trivially copyable T; asserts if their number is not sizeof(T).
   template <class T>
   [[nodiscard]] T value() const {
     GLOAM_ASSERT(bytes.size() == sizeof(T), "a frame's result is read as what was kept");
@@ -47,12 +47,12 @@ struct FrameResult {
   }
 };
 
-/// Small results of frames (counters, the farthest depth) that the CPU looks at when their frame has ended, without
-/// waiting for the GPU: one pass copies all of a frame's results to mapped memory, of which there is a piece a frame in
-/// flight. One thread.
+/// Small GPU results (counters, the farthest depth) that the CPU reads when their frame has finished, without waiting
+/// for the GPU. One pass copies all results of a frame to mapped memory; each frame in flight has its own buffer. For
+/// use on one thread.
 class FrameResults {
  public:
-  /// Results and memory that nobody renews for so many frames are given back.
+  /// Results and memory that have not been renewed for this many frames are released.
   static constexpr std::uint64_t kFramesKept = 60;
 
   explicit FrameResults(gpu::Device& device) : device_(device) {}
@@ -60,22 +60,23 @@ class FrameResults {
   FrameResults(const FrameResults&) = delete;
   FrameResults& operator=(const FrameResults&) = delete;
 
-  /// After Device::begin_frame: settles the results of frames that are Device::kFramesInFlight or more ago. Always of
-  /// those and never of later ones, however fast the GPU was: what systems make of a result does not depend on time.
+  /// Call it after Device::begin_frame. Settles results: settled() then returns the results of frames that are at least
+  /// Device::kFramesInFlight frames old. Newer results are not settled even if the GPU has finished them, because
+  /// decisions based on settled results must not depend on timing.
   void begin_frame();
-  /// Asks for `size` bytes (a multiple of 4) of a buffer as the frame leaves it. `buffer` is the version no later pass
-  /// writes; one request a key and frame.
+  /// Requests `size` bytes (> 0, a multiple of 4) of a buffer as they are at the end of the frame. `buffer`: the
+  /// version that no later pass writes. At most one request per key and frame.
   void keep(ResultKey key, BufferRef buffer, std::uint64_t offset, std::uint64_t size, std::any note = {});
-  /// When all passes are declared: adds the pass that copies, if anything is to be kept.
+  /// Call it after all passes are declared. Adds the pass that copies the requested results, if there are any.
   [[nodiscard]] Status add_pass(FrameGraph& graph);
 
-  /// The newest settled result; null when there is none.
+  /// The newest settled result, or null. Valid until the next begin_frame, forget_world or forget_module.
   [[nodiscard]] const FrameResult* settled(const ResultKey& key) const;
-  /// The result of the newest frame that has ended, settled or not.
+  /// The result of the newest finished frame, settled or not; nullopt if there is none.
   [[nodiscard]] std::optional<FrameResult> newest(const ResultKey& key) const;
   void for_each_settled(std::uint64_t world, std::uint32_t view,
                         const std::function<void(const ResultKey&, const FrameResult&)>& function) const;
-  /// Keys of the frame that was declared last.
+  /// The keys that the frame declared last has requested.
   [[nodiscard]] std::vector<ResultKey> kept_keys() const;
 
   void forget_world(std::uint64_t world);
@@ -93,7 +94,7 @@ class FrameResults {
   struct Slot {
     gpu::BufferHandle buffer;
     std::uint64_t frame = 0;
-    std::uint64_t last_used = 0;  ///< the last frame that kept anything here
+    std::uint64_t last_used = 0;  ///< the last frame that requested a result in this slot
     std::uint64_t bytes = 0;
     bool recorded = false;
     std::vector<Request> requests;

@@ -15,8 +15,9 @@
 
 namespace gloam {
 
-/// What the last use wrote, and what this frame shall write in full. When not `valid`, `previous` holds nothing of use:
-/// the pass must not rely on it, but may bind it. `age`: frames since `previous` was written, ≥ 1 when valid.
+/// `previous`: the resource that the last use wrote. `current`: the resource that this frame must write completely. If
+/// not `valid`, the contents of `previous` are undefined: a pass may bind it but must not use its contents. `age`:
+/// frames since `previous` was written; ≥ 1 if valid, otherwise 0.
 struct HistoryImage {
   ImageRef previous;
   ImageRef current;
@@ -30,9 +31,9 @@ struct HistoryBuffer {
   std::uint64_t age = 0;
 };
 
-/// Resources whose contents pass from frame to frame: pairs that swap roles at every use. A pair belongs to a module
-/// and is found by module and name. It starts invalid when it is new, when its description changes, after a reset, and
-/// after it was released because nobody asked for it in kFramesKept frames.
+/// Resources whose contents are kept from frame to frame: pairs that swap their roles at every use. A pair is
+/// identified by module and name. It is invalid at its first use, after its description has changed, after a reset, and
+/// after it was released because it was not used for kFramesKept frames.
 class History {
  public:
   static constexpr std::uint64_t kFramesKept = 120;
@@ -42,25 +43,27 @@ class History {
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
-  /// Once a frame, before the first image() or buffer(): releases the pairs that nobody used for kFramesKept frames.
+  /// Call it once per frame, before the first image() or buffer(). Releases the pairs that were not used for
+  /// kFramesKept frames.
   void begin_frame();
 
-  /// Imports a pair into this frame's graph, once a frame. desc.usage names all flags that the passes need. Both are
-  /// left ready for `rest` when the frame ends, so `rest` is best what reads `previous` first.
+  /// Imports a pair into this frame's graph, at most once per frame. desc.usage: all usage flags that the passes need.
+  /// At the end of the frame both resources are left ready for `rest`, so `rest` should be the access that reads
+  /// `previous` first.
   [[nodiscard]] Result<HistoryImage> image(FrameGraph& graph, const gpu::ImageDesc& desc, gpu::Access rest);
   [[nodiscard]] Result<HistoryBuffer> buffer(FrameGraph& graph, const gpu::BufferDesc& desc, gpu::Access rest);
 
-  /// The next use of this pair is invalid (a camera cut, a simulation set back).
+  /// Makes the next use of this pair invalid, for example after a camera cut or when a simulation is reset.
   void reset(std::string_view module, std::string_view name);
   void reset_all();
-  /// Pairs alive.
+  /// The number of live pairs.
   [[nodiscard]] std::size_t size() const { return images_.size() + buffers_.size(); }
 
  private:
   template <class Handle, class Desc>
   struct Pair {
     std::array<Handle, 2> handles;
-    std::array<gpu::Access, 2> left = {gpu::Access::none, gpu::Access::none};  ///< by its last frame
+    std::array<gpu::Access, 2> left = {gpu::Access::none, gpu::Access::none};  ///< access each was left ready for
     Desc desc;
     std::uint32_t current = 0;
     bool valid = false;
@@ -72,7 +75,7 @@ class History {
 
   template <class Handle, class Desc>
   [[nodiscard]] Result<Pair<Handle, Desc>*> prepare(Pairs<Handle, Desc>& pairs, const Desc& desc);
-  /// `import(name, handle, before, after)` adds one side to the graph.
+  /// `import(name, handle, before, after)` imports one resource of the pair into the graph.
   template <class Used, class Handle, class Desc, class Import>
   [[nodiscard]] Used use(Pair<Handle, Desc>& pair, gpu::Access rest, Import&& import);
   template <class Handle, class Desc>

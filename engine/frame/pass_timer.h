@@ -13,16 +13,16 @@
 
 namespace gloam::frame {
 
-/// Remembers which passes the frames in flight ran, and matches them with the device's timestamps: pass i of a frame
-/// begins at timestamp i, where the one before it has ended, and ends at i + 1. One timestamp between two passes
-/// instead of two: software devices wait for their threads at each.
+/// Records which passes the frames in flight ran, and matches them with the device's timestamps. Pass i of a frame
+/// begins at timestamp i, where pass i - 1 has ended, and ends at timestamp i + 1. Adjacent passes share one timestamp,
+/// because software devices wait for their threads at each one.
 class PassTimer {
  public:
   static constexpr std::uint32_t kPassesTimed = gpu::Device::kTimestampsPerFrame - 1;
 
   void begin_frame(std::uint64_t frame);
   void add(const DeclaredPass& pass, std::uint32_t dispatches, std::uint32_t draws);
-  /// Takes the times of the newest completed frame, where the device still has them.
+  /// Reads the times of the newest completed frame, if the device still has them.
   void refresh(gpu::Device& device);
   [[nodiscard]] const std::vector<PassTime>& times() const { return times_; }
   [[nodiscard]] double gpu_ms() const { return gpu_ms_; }
@@ -36,7 +36,7 @@ class PassTimer {
   };
   struct FrameRecord {
     std::uint64_t frame = 0;
-    bool waits = false;  ///< its times have not been taken
+    bool waits = false;  ///< its times have not been read yet
     SlotVector<PassRecord> passes;
   };
   void take(const FrameRecord& record, const std::vector<std::uint64_t>& timestamps);

@@ -12,11 +12,11 @@ using gpu::Access;
 using gpu::AccessMask;
 using gpu::mask_of;
 
-/// The accesses of one resource since its last barrier, while passes are walked in order.
+/// The accesses of one resource since its last barrier, while the passes are visited in order.
 struct Epoch {
   AccessMask accesses = 0;
   bool writes = false;
-  std::uint32_t barrier = kNone;  ///< that began it
+  std::uint32_t barrier = kNone;  ///< index of the epoch's barrier; kNone: an import's state before the frame
 };
 
 std::vector<bool> find_live_passes(const Declaration& declaration) {
@@ -46,7 +46,8 @@ PlannedBarrier make_barrier(std::uint32_t resource, AccessMask before, AccessMas
           .also_after = after & ~mask_of(first_after)};
 }
 
-/// May a read join the epoch, apart from being made visible to it?
+/// Whether the accesses may join the epoch: all are reads, for images of one layout. The epoch's barrier may not cover
+/// them yet.
 bool same_epoch(const Epoch& epoch, AccessMask accesses, bool writes, bool is_image) {
   if (epoch.writes || writes || epoch.accesses == 0) return false;
   return !is_image || gpu::layout_of(gpu::first_of(epoch.accesses)) == gpu::layout_of(gpu::first_of(accesses));
@@ -78,14 +79,14 @@ class BarrierPlacer {
     }
   }
 
-  /// Leaves imports as their owners want them.
+  /// Adds the barriers after the last pass, which leave each import ready for its `after` access.
   void finish() {
     plan_.first_final_barrier = static_cast<std::uint32_t>(plan_.barriers.size());
     for (std::uint32_t r = 0; r < declaration_.resources.size(); ++r) {
       const DeclaredResource& resource = declaration_.resources[r];
       plan_.lives[r].ending = epochs_[r].accesses;
       if (!resource.imported || resource.after == Access::none) continue;
-      // The owner hears of one access only, so everything else must have ended.
+      // The owner knows of this access only, so all other accesses must have ended.
       if (epochs_[r].accesses != mask_of(resource.after)) begin_epoch(r, mask_of(resource.after), false);
     }
   }

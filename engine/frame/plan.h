@@ -12,7 +12,7 @@ namespace gloam::frame {
 
 constexpr std::uint32_t kNone = ~0u;
 
-/// One resource's barrier; the fields are those of gpu::ImageBarrier and gpu::BufferBarrier.
+/// A barrier on one resource. The fields have the same meaning as in gpu::ImageBarrier and gpu::BufferBarrier.
 struct PlannedBarrier {
   std::uint32_t resource = 0;
   gpu::Access before = gpu::Access::none;
@@ -21,51 +21,53 @@ struct PlannedBarrier {
   gpu::AccessMask also_after = 0;
 };
 
-/// A pass that is executed, and its stretch of Plan::barriers.
+/// A pass that is executed, and its range in Plan::barriers.
 struct PlannedPass {
-  std::uint32_t pass = 0;  ///< in the declaration
+  std::uint32_t pass = 0;  ///< index into Declaration::passes
   std::uint32_t first_barrier = 0;
   std::uint32_t barrier_count = 0;
 };
 
-/// What the plan knows of each declared resource. Times are indices into Plan::passes; kNone when no live pass uses it.
+/// The lifetime and the needs of one declared resource. `first` and `last` are indices into Plan::passes; kNone if no
+/// live pass uses the resource.
 struct ResourceLife {
   std::uint32_t first = kNone;
   std::uint32_t last = kNone;
-  std::uint32_t first_barrier = kNone;  ///< before the first use; kNone when none is needed
-  gpu::AccessMask ending = 0;           ///< what whoever comes next must wait for
-  std::uint32_t slot = kNone;           ///< of a transient: in Plan::image_slots or Plan::buffer_slots
+  std::uint32_t first_barrier = kNone;  ///< index into Plan::barriers, before the first use; kNone: none needed
+  gpu::AccessMask ending = 0;           ///< accesses that the next user of the memory must wait for
+  std::uint32_t slot = kNone;           ///< of a transient: index into Plan::image_slots or Plan::buffer_slots
   std::uint32_t image_usage = 0;        ///< gpu::ImageUsage flags of all live accesses
   std::uint32_t buffer_usage = 0;       ///< gpu::BufferUsage flags of all live accesses
 };
 
-/// Transient resources that take turns in one piece of memory, in order of their lives.
+/// Transient resources that use one piece of memory one after another, in order of their lifetimes.
 struct MemorySlot {
   std::vector<std::uint32_t> resources;
   std::uint64_t bytes = 0;
 };
 
-/// What one structure of a frame comes to. Holds no handles, so frames with other imports can use it.
+/// The compiled plan of one frame structure. It holds no handles, so frames with other imports can use it.
 struct Plan {
-  std::vector<PlannedPass> passes;  ///< live ones in order of declaration
+  std::vector<PlannedPass> passes;  ///< live passes in order of declaration
   std::vector<PlannedBarrier> barriers;
-  std::uint32_t first_final_barrier = 0;  ///< from here on: after the last pass
-  std::vector<ResourceLife> lives;        ///< one a declared resource
-  std::vector<MemorySlot> image_slots;    ///< images of one slot share memory
-  std::vector<MemorySlot> buffer_slots;   ///< buffers of one slot are one buffer, all of the same size
-  std::uint64_t transient_bytes = 0;
-  std::uint64_t unshared_bytes = 0;
+  std::uint32_t first_final_barrier = 0;  ///< barriers from this index on come after the last pass
+  std::vector<ResourceLife> lives;        ///< one per declared resource
+  std::vector<MemorySlot> image_slots;    ///< the images of one slot share memory
+  std::vector<MemorySlot> buffer_slots;   ///< all buffers of one slot have one size and are one buffer object
+  std::uint64_t transient_bytes = 0;      ///< total of all slots
+  std::uint64_t unshared_bytes = 0;       ///< total without sharing: one slot per transient
 };
 
-/// Culls, places barriers and shares memory, from nothing but the declaration.
-/// A pass lives when it is kept, writes an import, or writes what a living pass after it touches.
-/// A resource's uses form epochs: one write, or neighbouring reads that need no layout change between them. One barrier
-/// stands before an epoch, names all its accesses, and waits for all accesses of the epoch before.
+/// Culls passes, places barriers and shares memory. The plan depends on the declaration only.
+/// A pass is live if it is kept, writes an import, or writes a resource that a later live pass uses.
+/// The uses of a resource form epochs: an epoch is one write, or consecutive reads that need no layout change between
+/// them. One barrier precedes each epoch. It names all accesses of the epoch and waits for all accesses of the previous
+/// epoch.
 [[nodiscard]] Plan compile_plan(const Declaration& declaration);
 
-/// Gives transients of disjoint lives common slots: images by memory, buffers of equal size by object. A transient's
-/// first barrier then waits for the one before it in the slot, and for larger ones before that; the first in the slot
-/// waits for the last ones, which used the memory in the frame before.
+/// Assigns transients with disjoint lifetimes to common slots: images share memory, buffers of equal size share one
+/// object. A transient's first barrier waits for the previous user of the slot, and for larger users before that one.
+/// The first user of a slot waits for the last users in the previous frame.
 void share_memory(const Declaration& declaration, Plan& plan);
 
 }  // namespace gloam::frame

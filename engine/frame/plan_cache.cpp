@@ -28,7 +28,7 @@ Result<CachedPlan*> PlanCache::get(const Declaration& declaration, std::uint64_t
 
 CachedPlan& PlanCache::find_or_compile(const Declaration& declaration, std::uint64_t hash) {
   const auto found = std::ranges::find_if(plans_, [&](const auto& plan) {
-    // The number of resources guards the handles' indices, should two structures ever share a hash.
+    // Comparing the number of resources keeps indices in range if two structures ever have the same hash.
     return plan->hash == hash && plan->plan.lives.size() == declaration.resources.size();
   });
   if (found != plans_.end()) return **found;

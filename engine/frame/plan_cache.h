@@ -12,7 +12,8 @@
 
 namespace gloam::frame {
 
-/// A plan and the memory of its transients. Handles are by declared resource; none where the plan makes nothing.
+/// A plan and the memory of its transients. Handles are indexed by declared resource; there is none for imports and
+/// unused resources.
 struct CachedPlan {
   std::uint64_t hash = 0;
   std::uint64_t last_used = 0;
@@ -22,8 +23,8 @@ struct CachedPlan {
   std::vector<gpu::BufferHandle> buffers;
 };
 
-/// The plans of the last few structures, so that toggling between them compiles nothing. A plan that rests for a while
-/// gives its memory back and keeps the rest.
+/// The plans of the kPlansKept most recently used structures, so that toggling between them compiles nothing. A plan
+/// that is not used for kUsesBeforeMemoryIsFreed calls of get() frees its memory but stays compiled.
 class PlanCache {
  public:
   static constexpr std::size_t kPlansKept = 8;
@@ -34,7 +35,8 @@ class PlanCache {
   PlanCache(const PlanCache&) = delete;
   PlanCache& operator=(const PlanCache&) = delete;
 
-  /// The plan of this structure with its memory; valid until the next call.
+  /// Returns the plan of this structure with its memory; both are created if they do not exist. Valid until the next
+  /// call. Fails if the device cannot create the memory; the next call tries again.
   [[nodiscard]] Result<CachedPlan*> get(const Declaration& declaration, std::uint64_t hash);
   /// Frees the memory of all plans but `kept`.
   void free_memory_except(const CachedPlan* kept);

@@ -12,7 +12,7 @@
 namespace gloam {
 
 namespace {
-constexpr std::uint64_t kSmallestBuffer = 256;  ///< bytes; sizes are powers of two, so that buffers find new uses
+constexpr std::uint64_t kSmallestBuffer = 256;  ///< bytes; sizes are powers of two, so that buffers can be reused
 }
 
 Readback::Readback(gpu::Device& device, std::string module) : device_(device), module_(std::move(module)) {}

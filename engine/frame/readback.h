@@ -15,31 +15,32 @@
 
 namespace gloam {
 
-/// Names one request of a Readback.
+/// Identifies one request of a Readback.
 struct ReadbackTicket {
   std::uint64_t id = 0;
   [[nodiscard]] explicit operator bool() const { return id != 0; }
 };
 
-/// Brings what a frame computed to the CPU: a pass of the graph copies it to mapped memory, and the bytes are handed
-/// out once that frame has ended on the GPU. Must outlive the execution of the graphs it added passes to.
+/// Copies results of a frame to the CPU: a pass of the graph copies them to mapped memory, and take() returns the bytes
+/// once that frame has finished on the GPU. Must outlive the execution of the graphs that it added passes to.
 class Readback {
  public:
-  /// Memory is accounted under `module`.
+  /// Memory is accounted to `module`.
   explicit Readback(gpu::Device& device, std::string module = "engine");
   ~Readback();
   Readback(const Readback&) = delete;
   Readback& operator=(const Readback&) = delete;
 
-  /// Texels of one mip of one layer, tightly packed, as they are after all passes declared so far.
+  /// Requests the texels of one mip of one layer, tightly packed, as they are after all passes declared so far.
   [[nodiscard]] Result<ReadbackTicket> read_image(FrameGraph& graph, ImageRef image, std::uint32_t mip = 0,
                                                   std::uint32_t layer = 0);
-  /// `size` 0: to the end of the buffer. Bytes.
+  /// Requests a range of a buffer as it is after all passes declared so far. offset, size: bytes. `size` 0: to the end
+  /// of the buffer.
   [[nodiscard]] Result<ReadbackTicket> read_buffer(FrameGraph& graph, BufferRef buffer, std::uint64_t offset = 0,
                                                    std::uint64_t size = 0);
-  /// The bytes, once; none while the frame has not ended, or when the bytes were taken or dropped.
+  /// Returns the bytes, once; nullopt if the frame has not finished, or if the bytes were already taken or dropped.
   [[nodiscard]] std::optional<std::vector<std::byte>> take(ReadbackTicket ticket);
-  /// Gives up a request; its bytes are not handed out.
+  /// Cancels a request; its bytes are never returned.
   void drop(ReadbackTicket ticket);
   /// Requests that were neither taken nor dropped.
   [[nodiscard]] std::size_t open_requests() const;
@@ -49,7 +50,7 @@ class Readback {
     std::uint64_t id = 0;
     gpu::BufferHandle buffer;
     std::uint64_t size = 0;
-    std::uint64_t frame = 0;  ///< that copies, or until it does the one that was asked to
+    std::uint64_t frame = 0;  ///< the frame that copies; until it is recorded, the frame of the request
     bool recorded = false;
     bool dropped = false;
   };
@@ -60,7 +61,7 @@ class Readback {
   gpu::Device& device_;
   std::string module_;
   std::uint64_t last_id_ = 0;
-  std::vector<std::unique_ptr<Request>> requests_;  ///< passes point to them
+  std::vector<std::unique_ptr<Request>> requests_;  ///< passes hold pointers to them
   std::vector<gpu::BufferHandle> free_buffers_;
 };
 

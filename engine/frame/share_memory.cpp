@@ -11,7 +11,8 @@ namespace gloam::frame {
 
 namespace {
 
-/// The slot whose size differs least among those that are free at `time` and fit; kNone when there is none.
+/// Of the slots that are free at `time`, the one closest in size to `bytes`; kNone if none is free. exact: only slots
+/// of equal size.
 std::uint32_t find_slot(const Plan& plan, const std::vector<MemorySlot>& slots, std::uint32_t time, std::uint64_t bytes,
                         bool exact) {
   std::uint32_t best = kNone;
@@ -39,8 +40,8 @@ void place(Plan& plan, std::vector<MemorySlot>& slots, std::uint32_t resource, s
   plan.unshared_bytes += bytes;
 }
 
-/// Whose accesses the next user of a slot's memory waits for: the last one's, and those of larger ones before it, parts
-/// of whose memory nobody has waited for since.
+/// Collects the accesses that the next user of a slot's memory must wait for: the accesses of the last user, and of
+/// larger earlier users, whose memory the last user covers only in part.
 class Predecessors {
  public:
   void add(std::uint64_t bytes, gpu::AccessMask ending) {
@@ -54,14 +55,15 @@ class Predecessors {
   }
 
  private:
-  std::vector<std::pair<std::uint64_t, gpu::AccessMask>> stack_;  ///< sizes fall
+  std::vector<std::pair<std::uint64_t, gpu::AccessMask>> stack_;  ///< {bytes, ending}, sizes decreasing
 };
 
 std::uint64_t bytes_of(const DeclaredResource& resource) {
   return resource.is_image ? gpu::image_bytes(resource.image_desc) : resource.buffer_desc.size;
 }
 
-/// The first access of each resource waits for the resources that had the memory before it, in the frame before too.
+/// Makes the first barrier of each resource wait for the earlier users of its memory, including the users in the
+/// previous frame.
 void chain(const Declaration& declaration, Plan& plan, const std::vector<MemorySlot>& slots) {
   for (const MemorySlot& slot : slots) {
     plan.transient_bytes += slot.bytes;

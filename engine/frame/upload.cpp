@@ -14,8 +14,8 @@ namespace gloam {
 namespace {
 
 constexpr std::uint64_t kAlignment = 256;
-/// Of one submission of the Uploader, unless one job is larger. Two of them take turns: one is filled while the GPU
-/// copies the other.
+/// Staging bytes of one submission of the Uploader; more if a single job is larger. Two staging buffers alternate: one
+/// is filled while the GPU copies from the other.
 constexpr std::uint64_t kStagingBytes = std::uint64_t{12} << 20;
 
 constexpr std::uint64_t align_up(std::uint64_t bytes, std::uint64_t alignment) {
@@ -46,12 +46,12 @@ void UploadRing::begin_frame() {
   slot.block = 0;
   slot.used = 0;
   if (slot.blocks.size() < 2) return;
-  // What one frame needed several blocks for, the next one gets in one piece.
+  // The last frame of this slot needed several blocks. Replace them by one block of the same total size.
   std::uint64_t total = 0;
   for (std::uint64_t size : slot.sizes) total += size;
   Result<gpu::BufferHandle> merged = device_.create_buffer(
       {.name = "upload ring", .module = module_, .size = total, .usage = usage_, .memory = gpu::MemoryKind::upload});
-  if (!merged.ok()) return;  // the blocks still serve
+  if (!merged.ok()) return;  // keep using the blocks
   for (gpu::BufferHandle block : slot.blocks) device_.destroy(block);
   slot.blocks.assign(1, *merged);
   slot.sizes.assign(1, total);
@@ -115,7 +115,7 @@ Status Uploader::flush() { return flush(*make_serial_executor()); }
 Status Uploader::flush(JobExecutor& executor) {
   const std::vector<Job> jobs = std::exchange(jobs_, {});
   const std::vector<Batch> batches = batches_of(jobs);
-  std::array<std::uint64_t, gpu::Device::kFramesInFlight> sizes{};  // of the staging buffers that take turns
+  std::array<std::uint64_t, gpu::Device::kFramesInFlight> sizes{};  // of the alternating staging buffers, in bytes
   for (std::size_t i = 0; i < batches.size(); ++i) {
     std::uint64_t& size = sizes[i % sizes.size()];
     size = std::max(size, batches[i].bytes);
@@ -156,7 +156,7 @@ Status Uploader::submit(std::span<const Batch> batches, std::span<const gpu::Buf
                         JobExecutor& executor) {
   if (batches.empty()) return {};
   for (std::size_t i = 0; i < batches.size(); ++i) {
-    // Waits for the frame that used this staging buffer before: as many are in flight as there are buffers.
+    // Waits for the frame that last used this staging buffer: there are as many buffers as frames in flight.
     Result<gpu::CommandList*> commands = device_.begin_frame();
     if (!commands.ok()) return commands.error();
     const gpu::BufferHandle buffer = staging[i % staging.size()];

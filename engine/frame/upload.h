@@ -15,25 +15,29 @@
 
 namespace gloam {
 
-/// A stretch of a mapped upload buffer, valid until the frame it was taken in has ended on the GPU.
+/// A range of a mapped upload buffer, valid until the frame it was allocated in has finished on the GPU.
 struct UploadSlice {
   gpu::BufferHandle buffer;
   std::uint64_t offset = 0;
   std::span<std::byte> bytes;
 };
 
-/// Per-frame scratch memory the CPU writes and the GPU reads: one growing ring a frame in flight. Alignment 256 bytes.
+/// Per-frame scratch memory that the CPU writes and the GPU reads: one growing set of buffers per frame in flight.
+/// Slices are aligned to 256 bytes.
 class UploadRing {
  public:
+  /// Memory is accounted to `module`. `usage`: usage flags of the buffers. `first_bytes`: size of the first buffer of
+  /// each frame in flight.
   UploadRing(gpu::Device& device, std::string module, gpu::BufferUsage usage, std::uint64_t first_bytes = 1 << 20);
   ~UploadRing();
   UploadRing(const UploadRing&) = delete;
   UploadRing& operator=(const UploadRing&) = delete;
 
-  /// After Device::begin_frame: forgets what this frame's slot held.
+  /// Call it after Device::begin_frame. Frees the slices that were allocated Device::kFramesInFlight frames ago.
   void begin_frame();
+  /// bytes: > 0. Fails if the device cannot create a further buffer.
   [[nodiscard]] Result<UploadSlice> allocate(std::uint64_t bytes);
-  /// Allocates and copies; gives the binding for it.
+  /// Allocates a slice, copies the data to it and returns its binding.
   [[nodiscard]] Result<gpu::Binding::BufferRange> write(std::span<const std::byte> data);
   template <class T>
   [[nodiscard]] Result<gpu::Binding::BufferRange> write_value(const T& value) {
@@ -54,23 +58,26 @@ class UploadRing {
   std::vector<Slot> slots_;
 };
 
-/// Fills device buffers and images once (meshes, textures): stages, submits frames of its own and waits. Not for
-/// per-frame use.
+/// Uploads data to device buffers and images once (meshes, textures): fills staging buffers, submits its own frames and
+/// waits for them. Not for per-frame use.
 class Uploader {
  public:
-  /// Writes every byte of the staging memory it is given, which may be slow to read. Runs in a job.
+  /// Must write every byte of the staging memory it is given, which may be slow to read. Runs in a job.
   using Fill = std::function<void(std::span<std::byte>)>;
 
   explicit Uploader(gpu::Device& device) : device_(device) {}
+  /// Requests an upload of `bytes` (1 to the size of the buffer) to the start of the buffer. `after`: the access that
+  /// the target is left ready for, here and below.
   void buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after);
-  /// All mips of all layers, tightly packed, layer by layer and inside a layer mip by mip.
+  /// texels: all mips of all layers, tightly packed, layer by layer and within a layer mip by mip.
   void image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after);
-  /// The same, made in staging memory when its turn comes.
+  /// The same, but `fill` writes the texels to staging memory during flush.
   void image(gpu::ImageHandle target, Fill fill, gpu::Access after);
-  /// Does all that was asked for since the last call; not between begin_frame and submit_frame. One upload a target and
-  /// call. After a fault nothing of it is tried again.
+  /// Executes all uploads that were requested since the last call, and waits for them. Must not be called between
+  /// begin_frame and submit_frame. At most one upload per target and call. If an error is returned, the requests are
+  /// dropped and not tried again.
   [[nodiscard]] Status flush();
-  /// The same, filling in jobs.
+  /// The same, but staging memory is filled by jobs of `executor`.
   [[nodiscard]] Status flush(JobExecutor& executor);
 
  private:

@@ -6,10 +6,10 @@
 
 #include "engine/gpu/types.h"
 
-/// What each Access implies: the layout an image must be in, and the usage flag its object must have been made with.
+/// The image layout and the usage flags that each Access requires.
 namespace gloam::gpu {
 
-/// Image layouts told apart by accesses. Two accesses of one layout need no layout change between them.
+/// The image layout that an access requires. Accesses with equal AccessLayout need no layout transition between them.
 enum class AccessLayout : std::uint8_t {
   undefined,
   transfer_source,
@@ -20,7 +20,7 @@ enum class AccessLayout : std::uint8_t {
   depth_target,
   depth_test,
   present,
-  buffer_only,  ///< no image can be accessed so
+  buffer_only,  ///< accesses that only buffers support
 };
 
 [[nodiscard]] constexpr AccessLayout layout_of(Access access) {
@@ -56,7 +56,8 @@ enum class AccessLayout : std::uint8_t {
   return AccessLayout::buffer_only;
 }
 
-/// ImageUsage::none for accesses that need no flag or that no image can have.
+/// The usage flags that an image needs for this access. ImageUsage::none if the access needs no flag or no image
+/// supports it.
 [[nodiscard]] constexpr ImageUsage image_usage_of(Access access) {
   switch (layout_of(access)) {
     case AccessLayout::transfer_source:
@@ -81,7 +82,8 @@ enum class AccessLayout : std::uint8_t {
   return ImageUsage::none;
 }
 
-/// BufferUsage::none for accesses that need no flag or that no buffer can have.
+/// The usage flags that a buffer needs for this access. BufferUsage::none if the access needs no flag or no buffer
+/// supports it.
 [[nodiscard]] constexpr BufferUsage buffer_usage_of(Access access) {
   switch (access) {
     case Access::transfer_read:
@@ -118,12 +120,12 @@ constexpr void for_each_access(AccessMask mask, Function&& function) {
   for (; mask != 0; mask &= mask - 1) function(static_cast<Access>(std::countr_zero(mask)));
 }
 
-/// The first access of a mask; Access::none when it is empty.
+/// The access of the mask that comes first in the enumeration; Access::none if the mask is empty.
 [[nodiscard]] constexpr Access first_of(AccessMask mask) {
   return mask == 0 ? Access::none : static_cast<Access>(std::countr_zero(mask));
 }
 
-/// All accesses an image may have without leaving this layout.
+/// All accesses that an image supports while it stays in this layout.
 [[nodiscard]] constexpr AccessMask accesses_in(AccessLayout layout) {
   AccessMask mask = 0;
   for (std::uint32_t a = 1; a <= static_cast<std::uint32_t>(Access::present); ++a) {

@@ -14,8 +14,8 @@
 
 namespace gloam::gpu {
 
-/// Objects by handle. Every method may be called from any thread. A reference stays good until its object is removed;
-/// who may change the object behind it is the caller's business.
+/// A table of objects addressed by handles. All methods may be called from any thread. A reference stays valid until
+/// its object is removed; the table does not synchronise access to the object itself.
 template <class T, class H>
 class HandleTable {
  public:
@@ -51,14 +51,14 @@ class HandleTable {
     return *slots_[handle.index].object;
   }
 
-  /// Takes the object out; its handle is stale from now on.
+  /// Removes and returns the object; its handle becomes stale.
   [[nodiscard]] T remove(H handle) {
     const std::lock_guard lock(mutex_);
     GLOAM_ASSERT(holds(handle), "an object is destroyed once, by a handle that is alive");
     return take(handle.index);
   }
 
-  /// Takes every object out, in order of index.
+  /// Removes and returns all objects, ordered by index.
   [[nodiscard]] std::vector<T> remove_all() {
     const std::lock_guard lock(mutex_);
     std::vector<T> objects;

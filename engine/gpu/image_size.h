@@ -7,15 +7,16 @@
 
 #include "engine/gpu/types.h"
 
-/// Bytes of images when tightly packed, as copies to and from buffers have them. Memory on a device may be more.
+/// Sizes in bytes of tightly packed images, as copies to and from buffers use them. The image itself may take more
+/// memory on a device.
 namespace gloam::gpu {
 
-/// One layer of one mip.
+/// Bytes of one layer of one mip.
 [[nodiscard]] inline std::uint64_t mip_bytes(const ImageDesc& desc, std::uint32_t mip) {
   return std::uint64_t{std::max(desc.width >> mip, 1u)} * std::max(desc.height >> mip, 1u) *
          bytes_per_texel(desc.format);
 }
-/// One layer with all its mips.
+/// Bytes of one layer with all its mips.
 [[nodiscard]] inline std::uint64_t layer_bytes(const ImageDesc& desc) {
   std::uint64_t bytes = 0;
   for (std::uint32_t mip = 0; mip < desc.mips; ++mip) bytes += mip_bytes(desc, mip);

@@ -8,14 +8,15 @@
 
 namespace gloam::gpu {
 
-/// Hands out ranges of one span of bytes: best fit, free neighbours are merged. Not thread-safe.
+/// Allocates ranges from one span of bytes: best fit, and adjacent free ranges are merged. Not thread-safe.
 class RangeAllocator {
  public:
   explicit RangeAllocator(std::uint64_t size);
 
-  /// Offset of `size` bytes (> 0), a multiple of `alignment` (a power of two); none when no free range is large enough.
+  /// Returns the offset of a range of `size` bytes (> 0), a multiple of `alignment` (a power of two); nullopt if no
+  /// free range is large enough.
   [[nodiscard]] std::optional<std::uint64_t> allocate(std::uint64_t size, std::uint64_t alignment);
-  /// `offset` as `allocate` gave it, once.
+  /// Frees a range. `offset`: returned by `allocate` and not freed since.
   void free(std::uint64_t offset);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
@@ -26,7 +27,7 @@ class RangeAllocator {
  private:
   std::uint64_t size_ = 0;
   std::uint64_t used_bytes_ = 0;
-  std::map<std::uint64_t, std::uint64_t> free_;  // offset → size; no two touch
+  std::map<std::uint64_t, std::uint64_t> free_;  // offset → size; adjacent ranges are merged
   std::map<std::uint64_t, std::uint64_t> used_;  // offset → size
 };
 

@@ -199,7 +199,7 @@ class Recorder final : public RecordingDevice {
   CommandRecorder commands_;
   std::uint64_t frame_ = 0;
   std::map<std::uint64_t, std::vector<std::uint64_t>> timestamps_;
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards samplers_ and next_failure_
   std::vector<SamplerDesc> samplers_;
   std::optional<Error> next_failure_;
 };

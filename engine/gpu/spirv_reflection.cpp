@@ -79,7 +79,7 @@ ReflectedBinding reflect_binding(const Module& module, const Id& variable) {
   return binding;
 }
 
-/// None when some member has no offset: such a structure lives in registers, not in memory.
+/// Returns nullopt if a member has no offset: the structure then has no memory layout.
 std::optional<ReflectedStruct> reflect_struct(const Module& module, std::uint32_t id) {
   const Id& structure = module.ids[id];
   ReflectedStruct result;

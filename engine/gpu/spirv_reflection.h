@@ -12,7 +12,8 @@
 #include "engine/core/result.h"
 #include "engine/gpu/types.h"
 
-/// What a compiled shader says about itself. SPIR-V specification 1.6, §2 (layout of a module) and §3 (instructions).
+/// Reflection of compiled shaders: stage, bindings and memory layouts. SPIR-V specification 1.6, §2 (layout of a
+/// module) and §3 (instructions).
 namespace gloam::gpu {
 
 enum class ShaderStage : std::uint8_t { vertex, fragment, compute };
@@ -26,9 +27,9 @@ struct ReflectedBinding {
   ResourceKind kind = ResourceKind::other;
   std::uint32_t count = 1;  ///< array elements; 0: unsized array
   ImageDimension dimension = ImageDimension::none;
-  bool arrayed = false;  ///< image with layers
+  bool arrayed = false;  ///< the image is declared as an array
   bool used = false;     ///< some function of the shader reads or writes it
-  std::string name;      ///< of the variable, or of the block when the variable has none
+  std::string name;      ///< of the variable, or of the block if the variable has none
 };
 
 struct ReflectedMember {
@@ -47,17 +48,18 @@ struct ReflectedStruct {
 
 struct SpirvReflection {
   ShaderStage stage = ShaderStage::compute;
-  std::array<std::uint32_t, 3> local_size = {0, 0, 0};  ///< compute only, with the default specialisation
+  std::array<std::uint32_t, 3> local_size = {0, 0, 0};  ///< compute shaders only, with default specialisation constants
   std::uint32_t push_constant_bytes = 0;
   std::vector<ReflectedBinding> bindings;  ///< ordered by set, then binding
   std::vector<ReflectedStruct> structs;
 
-  /// The first structure of that name, or null. Names are there unless the shader was compiled without them.
+  /// The first structure with this name, or null. Names exist only if the shader was compiled with debug names.
   [[nodiscard]] const ReflectedStruct* find_struct(std::string_view struct_name) const;
   [[nodiscard]] const ReflectedBinding* find_binding(std::uint32_t set, std::uint32_t binding) const;
 };
 
-/// Fails with ErrorKind::input, naming the shader, when the words are no module with an entry point of a known stage.
+/// Fails with ErrorKind::input if the words are not a SPIR-V module with an entry point "main" of a known stage. The
+/// error names the shader.
 [[nodiscard]] Result<SpirvReflection> reflect_spirv(const ShaderCode& code);
 
 }  // namespace gloam::gpu

@@ -12,7 +12,7 @@ struct FormatFacts {
   std::uint32_t bytes = 0;
 };
 
-// In the order of the enumeration.
+// In the order of Format.
 constexpr std::array kFormats = {
     FormatFacts{"undefined", 0},     FormatFacts{"r8_unorm", 1},      FormatFacts{"rgba8_unorm", 4},
     FormatFacts{"rgba8_srgb", 4},    FormatFacts{"bgra8_unorm", 4},   FormatFacts{"bgra8_srgb", 4},

@@ -12,10 +12,10 @@
 #include <variant>
 #include <vector>
 
-/// Plain descriptions of GPU objects, free of any graphics API's headers.
+/// Handles and descriptions of GPU objects, independent of any graphics API's headers.
 namespace gloam::gpu {
 
-/// A name for a GPU object. Zero is "none"; generations make a stale handle detectable.
+/// Identifies a GPU object. Generation 0 means "no object". Generations make stale handles detectable.
 template <class Tag>
 struct Handle {
   std::uint32_t index = 0;
@@ -59,7 +59,7 @@ enum class Format : std::uint8_t {
 
 [[nodiscard]] std::uint32_t bytes_per_texel(Format format);
 [[nodiscard]] bool is_depth(Format format);
-/// Whether the hardware encodes linear colour on writing.
+/// Whether the hardware encodes linear colour as sRGB when it writes this format.
 [[nodiscard]] constexpr bool encodes_srgb(Format format) {
   return format == Format::rgba8_srgb || format == Format::bgra8_srgb;
 }
@@ -103,11 +103,11 @@ inline constexpr bool kIsFlags<ImageUsage> = true;
 
 enum class MemoryKind : std::uint8_t {
   device,    ///< fastest for the GPU; not mapped
-  upload,    ///< mapped, written by the CPU front to back, read by the GPU
+  upload,    ///< mapped, written sequentially by the CPU, read by the GPU
   readback,  ///< mapped, written by the GPU, read by the CPU
 };
 
-/// `module` is the name memory is accounted under ("engine" or a module's name).
+/// `module`: the module that the memory is accounted to ("engine" or a module's name).
 struct BufferDesc {
   std::string name;
   std::string module;
@@ -118,6 +118,7 @@ struct BufferDesc {
 
 enum class ImageShape : std::uint8_t { plain, array, cube };
 
+/// width and height in texels. A cube image is square and has six layers per cube. `module`: as in BufferDesc.
 struct ImageDesc {
   std::string name;
   std::string module;
@@ -146,18 +147,18 @@ struct SamplerDesc {
   bool operator==(const SamplerDesc&) const = default;
 };
 
-/// Part of an image, as a pass or a binding sees it. Counts of 0 mean "all the rest".
+/// The mips and layers of an image that a pass or a binding uses. A count of 0 means all remaining ones.
 struct ImageView {
   ImageHandle image;
   std::uint32_t first_mip = 0;
   std::uint32_t mip_count = 0;
   std::uint32_t first_layer = 0;
   std::uint32_t layer_count = 0;
-  bool as_array = false;  ///< view one layer or many as an array; implied when layer_count is above 1
+  bool as_array = false;  ///< array view even with one layer; devices ignore it and follow the shader
   bool operator==(const ImageView&) const = default;
 };
 
-/// One resource bound to a shader. `size` 0 means "to the end of the buffer".
+/// One resource bound to a shader. BufferRange::size 0: to the end of the buffer.
 struct Binding {
   struct BufferRange {
     BufferHandle buffer;
@@ -175,7 +176,8 @@ struct Binding {
   std::variant<BufferRange, Sampled, Storage> resource;
 };
 
-/// SPIR-V with entry point "main". The words must outlive the device's use of them (embedded shaders do).
+/// SPIR-V with entry point "main". The words must stay valid while the device uses them; embedded shaders are valid for
+/// the whole run.
 struct ShaderCode {
   std::string_view name;
   std::span<const std::uint32_t> words;
@@ -200,27 +202,28 @@ struct VertexAttribute {
   std::uint32_t location = 0;
   std::uint32_t stream = 0;
   Format format = Format::undefined;
-  std::uint32_t offset = 0;
+  std::uint32_t offset = 0;  ///< bytes from the start of a vertex in the stream
 };
 
 struct GraphicsPipelineDesc {
   std::string name;
   std::string module;
   ShaderCode vertex;
-  ShaderCode fragment;  ///< no words: depth only
+  ShaderCode fragment;  ///< no words: no fragment stage, depth only
   std::vector<SpecConstant> constants;
   std::vector<VertexAttribute> attributes;
-  std::vector<std::uint32_t> stream_strides;  ///< bytes, one a vertex stream
+  std::vector<std::uint32_t> stream_strides;  ///< bytes, one per vertex stream
   std::vector<Format> color_formats;
   Format depth_format = Format::undefined;
-  CullMode cull = CullMode::back;  ///< front faces are counter-clockwise in the picture
+  CullMode cull = CullMode::back;  ///< front faces are counter-clockwise in the rendered image
   BlendMode blend = BlendMode::opaque;
   CompareOp depth_compare = CompareOp::greater_equal;
   bool depth_write = true;
   bool depth_bias = false;  ///< values come from CommandList::set_depth_bias
 };
 
-/// What an access does, for barriers. Each names its stage, access and image layout.
+/// A way to access a resource, for barriers. It determines the pipeline stages, the memory accesses and the image
+/// layout.
 enum class Access : std::uint8_t {
   none,
   transfer_read,
@@ -228,16 +231,16 @@ enum class Access : std::uint8_t {
   host_read,
   vertex_input,  ///< vertex and index buffers
   indirect_read,
-  uniform_read,          ///< any shader stage
-  vertex_read,           ///< storage or sampled, vertex stage
+  uniform_read,          ///< uniform buffer or sampled image, any shader stage
+  vertex_read,           ///< storage buffer or sampled image, vertex stage
   fragment_read,         ///< storage buffer or sampled image, fragment stage
   compute_read,          ///< storage buffer or sampled image, compute stage
   compute_storage_read,  ///< storage image read in compute (general layout)
-  compute_write,         ///< storage write, or read and write, compute
-  fragment_write,        ///< storage write, fragment
-  color_target,          ///< written, possibly loaded and blended
-  depth_target,          ///< tested and written
-  depth_test,            ///< tested only; may be sampled by fragments of the same pass
+  compute_write,         ///< storage buffer or image written, or read and written, compute stage
+  fragment_write,        ///< storage buffer or image written, fragment stage
+  color_target,          ///< colour attachment: written, possibly loaded and blended
+  depth_target,          ///< depth attachment: tested and written
+  depth_test,            ///< depth attachment: tested only; fragments of the same pass may sample it
   present,
 };
 [[nodiscard]] bool is_write(Access access);
@@ -249,8 +252,9 @@ using AccessMask = std::uint32_t;
   return access == Access::none ? 0u : 1u << static_cast<std::uint32_t>(access);
 }
 
-/// What comes later waits for `before` and for all of `also_before`; when those are none and empty, for all earlier
-/// work. `also_after` are further reads (for images: of the same layout as `after`) that see what was written.
+/// The accesses `after` and `also_after` wait for the accesses `before` and `also_before`. If `before` is none and
+/// `also_before` is empty, they wait for all earlier work. `also_after` holds further reads of the written data; for
+/// images, reads of the same layout as `after`.
 struct BufferBarrier {
   BufferHandle buffer;
   Access before = Access::none;
@@ -260,9 +264,9 @@ struct BufferBarrier {
 };
 struct ImageBarrier {
   ImageHandle image;
-  Access before = Access::none;  ///< none: contents may be thrown away
+  Access before = Access::none;  ///< none: the contents may be discarded
   Access after = Access::none;
-  AccessMask also_before = 0;  ///< with `before` none: accesses of this image, or of one that shares its memory
+  AccessMask also_before = 0;  ///< if `before` is none: accesses to this image, or to one that shares its memory
   AccessMask also_after = 0;
 };
 
@@ -280,11 +284,11 @@ struct DepthTarget {
 };
 struct RenderingDesc {
   std::vector<ColorTarget> colors;
-  DepthTarget depth;  ///< view.image none: no depth
+  DepthTarget depth;  ///< no depth attachment if view.image is none
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint32_t x =
-      0;  ///< corner of what is drawn and cleared, texels from the top left; width and height count from there
+  /// Top left corner, in texels, of the area that is rendered and cleared. width and height are the size of this area.
+  std::uint32_t x = 0;
   std::uint32_t y = 0;
 };
 
@@ -295,8 +299,8 @@ struct DeviceInfo {
   std::string name;
   std::string driver;
   DeviceType type = DeviceType::other;
-  std::uint32_t subgroup_size = 0;
-  std::uint64_t max_storage_range = 0;  ///< bytes of one storage binding
+  std::uint32_t subgroup_size = 0;      ///< threads
+  std::uint64_t max_storage_range = 0;  ///< largest size of one storage buffer binding, in bytes
 };
 
 struct ModuleMemory {

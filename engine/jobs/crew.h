@@ -11,9 +11,9 @@
 
 namespace gloam {
 
-/// Work shorter than this is done before a sleeping thread would have come to help.
+/// Time until a sleeping helper has woken up. Shorter work is finished before the helper arrives.
 inline constexpr float kWakeUpNs = 10'000.0f;
-/// The same for a helper that is still spinning.
+/// The same for a helper that is spinning.
 inline constexpr float kJoinNs = 1'500.0f;
 
 using Clock = std::chrono::steady_clock;
@@ -22,28 +22,28 @@ using Clock = std::chrono::steady_clock;
   return static_cast<float>(std::chrono::duration_cast<std::chrono::nanoseconds>(end - begin).count());
 }
 
-/// A stretch of parallel work that lives on the stack of its leader (the thread that called the executor) and that
-/// helpers may join while it is open.
+/// One piece of parallel work. It lives on the stack of its leader (the thread that called the executor), and helpers
+/// may join it while it is open.
 ///
-/// Regions nest: `depth` is how many regions the leader's stack held, plus one. A thread that waits for its own region
-/// helps only deeper ones, so that stacks stay as deep as the nesting, waits always lead to deeper regions, and the
-/// deepest never waits: no deadlock.
+/// Regions nest: `depth` is the number of regions that were on the leader's stack, plus one. While a thread waits for
+/// the helpers of its own region, it helps only deeper regions. So a stack holds at most one region per level of
+/// nesting, every wait is for a deeper region, and the deepest region never waits: there is no deadlock.
 class Region {
  public:
   Region();
   Region(const Region&) = delete;
   Region& operator=(const Region&) = delete;
 
-  /// Is there a job that nobody has claimed? Called under the crew's lock: must be cheap and take no lock.
+  /// Whether some job is unclaimed. Called under the crew's lock: must be cheap and take no lock.
   [[nodiscard]] virtual bool has_work() const = 0;
-  /// Claims and runs jobs until none is left to claim. Must not throw.
+  /// Claims and runs jobs until no unclaimed job is left. Must not throw.
   virtual void help() = 0;
 
   [[nodiscard]] std::uint32_t depth() const { return depth_; }
   [[nodiscard]] std::uint32_t helpers() const { return helpers_.load(std::memory_order_relaxed); }
 
  protected:
-  ~Region() = default;  // regions are never deleted through this class
+  ~Region() = default;  // never deleted through a pointer to this class
 
  private:
   friend class Crew;
@@ -54,34 +54,35 @@ class Region {
   Region* next_ = nullptr;
 };
 
-/// What the crew shares with its helpers; lives until the last of them has left.
+/// State that the crew shares with its helpers. It is deleted when the crew and the last helper have released it.
 struct CrewState {
   explicit CrewState(std::uint32_t threads);
 
-  /// A helper's whole visit: helps, spins briefly for more, leaves.
+  /// One visit of a helper: it helps, spins briefly for more work and leaves.
   void visit();
-  /// Helps the latest open region deeper than `depth` that has work; false if there is none.
+  /// Helps the latest open region deeper than `depth` that has work; returns false if there is none. `was_idle`: the
+  /// calling thread is counted in `idle`.
   bool help_deeper_than(std::uint32_t depth, bool was_idle);
-  /// Spins until the epoch has left `seen` or a short time has gone; true for the former.
+  /// Spins until the epoch differs from `seen` (returns true) or a short time has passed (returns false).
   [[nodiscard]] bool spin(std::uint32_t seen) const;
-  /// Something changed that a spinning or sleeping thread may wait for.
+  /// Tells spinning and sleeping threads that something they may wait for has changed.
   void announce();
   void release();
 
-  const bool crowded;  ///< more threads than cores: spinning would take the core from whoever has the work
+  const bool crowded;  ///< more threads than cores: spinning would take the core from a thread that has work
   std::mutex mutex;
-  std::atomic<Region*> first = nullptr;  ///< open regions, latest first; written under the mutex, looked at without
+  std::atomic<Region*> first = nullptr;  ///< open regions, latest first; the mutex guards writes and the links
   std::atomic<std::uint32_t> epoch = 0;  ///< counts announcements
   std::atomic<std::uint32_t> sleepers = 0;
-  std::atomic<std::uint32_t> idle = 0;     ///< helpers that spin, or have been called and will look for work
-  std::atomic<std::uint32_t> holders = 1;  ///< the crew and the visits under way
+  std::atomic<std::uint32_t> idle = 0;     ///< helpers that spin, or that were called and have not looked for work yet
+  std::atomic<std::uint32_t> holders = 1;  ///< owners of this state: the crew and each visit, enqueued or running
   std::atomic<bool> closing = false;
 };
 
-/// Calls in oneTBB's workers as helpers and keeps the list of open regions.
+/// Calls oneTBB's workers as helpers and keeps the list of open regions.
 class Crew {
  public:
-  /// threads ≥ 1, the caller's included.
+  /// threads ≥ 1, including the caller's.
   explicit Crew(std::uint32_t threads);
   ~Crew();
   Crew(const Crew&) = delete;
@@ -90,16 +91,19 @@ class Crew {
   [[nodiscard]] static std::uint32_t core_count();
   [[nodiscard]] std::uint32_t threads() const { return threads_; }
 
-  /// How long work must take for helpers to pay: less while some still spin.
+  /// Least duration of work, in nanoseconds, for which helpers pay off: kJoinNs while a helper spins, otherwise
+  /// kWakeUpNs.
   [[nodiscard]] float worthwhile_ns() const {
     return state_->idle.load(std::memory_order_relaxed) > 0 && !state_->crowded ? kJoinNs : kWakeUpNs;
   }
 
-  /// Lets helpers see the region, and calls for up to `wanted` of them. May be called again for an open region.
+  /// Opens the region to helpers and calls up to `wanted` of them. May be called again for an open region.
   void offer(Region& region, std::uint32_t wanted);
-  /// Waits until every helper has left. Afterwards the region may end. Does nothing if it was never offered.
+  /// Closes the region and waits until every helper has left it; then the region may be destroyed. Does nothing if the
+  /// region was never offered.
   void close(Region& region);
-  /// Waits, and helps deeper regions meanwhile, until `done`; whoever makes it true must leave the region or offer.
+  /// Waits until done() is true, and helps deeper regions meanwhile. A thread that makes done() true must leave the
+  /// region or call offer() afterwards: only that wakes the waiting thread.
   void wait(const Region& region, const std::function<bool()>& done);
 
  private:
@@ -111,7 +115,7 @@ class Crew {
   std::unique_ptr<Workers> workers_;
 };
 
-/// Marks the calling thread as being inside `region`, so that regions opened meanwhile are deeper.
+/// Marks the calling thread as being inside `region`, so that regions constructed meanwhile are deeper.
 class InsideRegion {
  public:
   explicit InsideRegion(const Region& region);

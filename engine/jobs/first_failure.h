@@ -10,10 +10,11 @@
 
 namespace gloam {
 
-/// Keeps the exception of the job with the lowest index, whichever order the jobs fail in. Safe from any thread.
+/// Keeps the exception of the failed job with the lowest index, regardless of the order in which jobs fail. Safe from
+/// any thread.
 class FirstFailure {
  public:
-  /// Lowest index that failed so far; SIZE_MAX while none did. Jobs behind it need not start.
+  /// Lowest index that failed so far; SIZE_MAX if none did. Jobs with a higher index need not start.
   [[nodiscard]] std::size_t index() const { return index_.load(std::memory_order_relaxed); }
 
   void record(std::size_t index, std::exception_ptr exception) {
@@ -23,7 +24,7 @@ class FirstFailure {
     exception_ = std::move(exception);
   }
 
-  /// Call when no job runs any more.
+  /// Rethrows the kept exception, if there is one. Call it only when no job is running.
   void rethrow_if_any() const {
     if (exception_) std::rethrow_exception(exception_);
   }

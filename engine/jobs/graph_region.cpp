@@ -20,7 +20,7 @@ GraphRegion::GraphRegion(std::span<JobNode> nodes, Crew& crew, float node_ns)
 float GraphRegion::lead() {
   const InsideRegion inside(*this);
   Lane lane;
-  for (std::size_t i = nodes_.size(); i-- > 0;) {  // backward: the stack then runs the first node first
+  for (std::size_t i = nodes_.size(); i-- > 0;) {  // backward, so that the first node is on top of the stack
     if (pending_[i] == 0) lane.ready.push_back(static_cast<std::uint32_t>(i));
   }
   drain(lane);
@@ -102,7 +102,7 @@ void GraphRegion::share(Lane& lane) {
   const float ready_ns = node_ns_.load(std::memory_order_relaxed) * static_cast<float>(lane.ready.size());
   const float worthwhile_ns = crew_.worthwhile_ns();
   if (ready_ns < worthwhile_ns) return;
-  const std::size_t given = (lane.ready.size() + 1) / 2;  // the bottom of the stack: what this thread would run last
+  const std::size_t given = (lane.ready.size() + 1) / 2;  // bottom of the stack: nodes that this thread would run last
   {
     const std::lock_guard lock(shared_mutex_);
     const auto begin = lane.ready.begin();

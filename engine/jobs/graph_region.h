@@ -14,34 +14,36 @@
 
 namespace gloam {
 
-/// One run_graph. Each thread keeps the nodes it made ready on a stack of its own and goes on with the first ready
-/// successor; half the stack goes to the shared queue when that is empty and the work is worth a helper.
-/// A node that fails leaves out what waits for it, whatever the order; all else runs.
+/// One run_graph call. Each thread keeps the nodes that it made ready on its own stack and continues with the first
+/// ready successor. If the shared queue is empty and the ready nodes are worth a helper, half the stack moves there. If
+/// a node fails, all nodes that depend on it are skipped, in every order of execution; all others run.
 class GraphRegion final : public Region {
  public:
-  /// Asserts that the graph is sound (see pending_counts). nodes must outlive the region.
+  /// Asserts that the graph is valid (see pending_counts). nodes must outlive the region. node_ns: the expected cost of
+  /// a node, in nanoseconds.
   GraphRegion(std::span<JobNode> nodes, Crew& crew, float node_ns);
   ~GraphRegion() { crew_.close(*this); }
 
-  /// Runs every node. Returns nanoseconds a node on this thread. Rethrows the exception of the lowest node that failed.
+  /// Runs every node. Returns the measured nanoseconds per node, averaged over the threads. Rethrows the exception of
+  /// the failed node with the lowest index.
   float lead();
 
   [[nodiscard]] bool has_work() const override { return shared_count_.load(std::memory_order_acquire) > 0; }
   void help() override;
 
  private:
-  /// What one thread holds.
+  /// State of one thread that runs nodes.
   struct Lane {
     std::vector<std::uint32_t> ready;
-    std::uint32_t done = 0;           ///< nodes not yet taken off remaining_
-    std::uint32_t since_sample = 0;   ///< nodes since the clock was read
-    std::uint32_t sample_period = 1;  ///< grows, so that short nodes do not pay for the clock
+    std::uint32_t done = 0;           ///< nodes run, but not yet subtracted from remaining_
+    std::uint32_t since_sample = 0;   ///< nodes run since the clock was read
+    std::uint32_t sample_period = 1;  ///< nodes per clock reading; grows, so that short nodes rarely read the clock
     Clock::time_point sampled_at = Clock::now();
   };
   void drain(Lane& lane);
   void run_chain(Lane& lane, std::uint32_t node);
   [[nodiscard]] bool run_node(std::uint32_t node);
-  /// The successor to go on with, or kNone; others that became ready go to the lane.
+  /// Returns the successor to run next, or kNone; other successors that became ready go to the lane.
   [[nodiscard]] std::uint32_t finish_node(Lane& lane, std::uint32_t node, bool succeeded);
   void sample(Lane& lane);
   void share(Lane& lane);
@@ -50,7 +52,7 @@ class GraphRegion final : public Region {
   static constexpr std::uint32_t kNone = ~0u;
   std::span<JobNode> nodes_;
   Crew& crew_;
-  std::vector<std::uint32_t> pending_;  ///< through atomic_ref while the graph runs
+  std::vector<std::uint32_t> pending_;  ///< accessed through atomic_ref while the graph runs
   FirstFailure failure_;
   std::atomic<float> node_ns_;
   std::mutex shared_mutex_;

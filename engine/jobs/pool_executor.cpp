@@ -60,7 +60,7 @@ class PoolExecutor final : public JobExecutor {
   }
 
  private:
-  /// `items`: in a range. Costs are remembered an item, because a site's grain may change.
+  /// items: per range. Costs are remembered per item, because a site's grain may change.
   void lead_ranges(std::size_t ranges, const RangeWork& work, std::size_t items, const std::type_info& type) {
     if (ranges <= 1 || crew_.threads() == 1) {
       std::size_t i = 0;

@@ -7,10 +7,10 @@
 namespace gloam {
 namespace {
 
-/// A claim should take about this long: claiming and reading the clock are then below one percent.
+/// Target duration of a claim: claiming and reading the clock then cost less than one percent.
 constexpr float kClaimNs = 10'000.0f;
 
-/// Of a shorter claim, the clock measures mostly itself: it may only lower what a range is believed to cost.
+/// The measurement of a shorter claim is mostly the cost of the clock: it may only lower the expected cost of a range.
 constexpr float kTrustedNs = 1'000.0f;
 
 std::size_t ranges_a_claim(float range_ns, std::size_t last) {
@@ -28,7 +28,7 @@ RangeRegion::Claim RangeRegion::claim(std::size_t wanted) {
   std::size_t begin = next_.load(std::memory_order_relaxed);
   while (begin < std::min(ranges_, failure_.index())) {
     const std::size_t left = ranges_ - begin;
-    // An even end is not worth claims much shorter than wanted.
+    // Claims shrink near the end, but not far below `wanted`: finishing together is not worth very short claims.
     const std::size_t fair = std::max(left / (2 * std::size_t{crew_.threads()}), wanted / 8);
     const std::size_t end = begin + std::clamp<std::size_t>(std::min(wanted, fair), 1, left);
     if (next_.compare_exchange_weak(begin, end, std::memory_order_relaxed)) return {begin, end};
@@ -37,8 +37,8 @@ RangeRegion::Claim RangeRegion::claim(std::size_t wanted) {
 }
 
 void RangeRegion::run(Claim claim) {
-  // Claims are made from the front and end at their own first failure only, so every range below the lowest failure
-  // runs: the exception that the caller sees does not depend on timing.
+  // Ranges are claimed from the front, and a claim ends only at its own first failure. So every range below the lowest
+  // failure runs, and the exception that the caller sees does not depend on timing.
   std::size_t i = claim.begin;
   try {
     work_.run(i, claim.end);
@@ -62,7 +62,7 @@ void RangeRegion::offer_rest(std::size_t claimed_end, float range_ns) {
   const std::size_t rest = ranges_ - std::min(claimed_end, ranges_);
   if (rest == 0) return;
   const float rest_ns = range_ns * static_cast<float>(rest);
-  const float saved_ns = rest == 1 ? rest_ns : rest_ns * 0.5f;  // at least: this thread goes on too
+  const float saved_ns = rest == 1 ? rest_ns : rest_ns * 0.5f;  // lower bound: this thread runs part of the rest too
   const float worthwhile_ns = crew_.worthwhile_ns();
   if (saved_ns < worthwhile_ns) return;
   const float limit = static_cast<float>(std::min<std::size_t>(rest, crew_.threads() - 1));
@@ -72,7 +72,7 @@ void RangeRegion::offer_rest(std::size_t claimed_end, float range_ns) {
 
 float RangeRegion::lead(float range_ns) {
   const InsideRegion inside(*this);
-  std::size_t wanted = 1;  // whatever the last call cost: this one may be longer
+  std::size_t wanted = 1;  // one range at first: a range may cost more than in the last call
   std::size_t ran = 0;
   const auto start = Clock::now();
   auto before = start;

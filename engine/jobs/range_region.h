@@ -10,26 +10,27 @@
 
 namespace gloam {
 
-/// What the ranges of a region are.
+/// The work of a RangeRegion, split into ranges.
 class RangeWork {
  public:
-  /// Runs ranges i, i + 1, … up to `end`. If one throws, `i` is that one's.
+  /// Runs ranges i, i + 1, … up to, but not including, `end`, and advances `i`. If a range throws, `i` is its ordinal.
   virtual void run(std::size_t& i, std::size_t end) const = 0;
 
  protected:
   ~RangeWork() = default;
 };
 
-/// One parallel_for or batch. Threads claim runs of ranges, as long as pays for the claim: the clock decides, not the
-/// caller.
+/// One parallel_for or batch. Threads claim several consecutive ranges at a time, enough for the claim to pay off. The
+/// number follows from measured time, not from the caller's grain.
 class RangeRegion final : public Region {
  public:
   /// `work` has `ranges` ranges and must outlive the region.
   RangeRegion(std::size_t ranges, const RangeWork& work, Crew& crew) : ranges_(ranges), work_(work), crew_(crew) {}
   ~RangeRegion() { crew_.close(*this); }
 
-  /// Runs every range; `range_ns` is what one is believed to cost. Returns what one did cost on this thread, which is
-  /// 0 if helpers had claimed them all. Rethrows the exception of the lowest range that failed.
+  /// Runs every range. range_ns: the expected cost of a range, in nanoseconds. Returns the measured cost of a range on
+  /// this thread, or 0 if helpers claimed all ranges. Rethrows the exception of the failed range with the lowest
+  /// ordinal.
   float lead(float range_ns);
 
   [[nodiscard]] bool has_work() const override;
@@ -40,7 +41,7 @@ class RangeRegion final : public Region {
     std::size_t begin = 0;  ///< ordinals of ranges
     std::size_t end = 0;
   };
-  /// Empty when nothing is left. `wanted` ≥ 1; gives fewer near the end, so that threads finish together.
+  /// Claims up to `wanted` ≥ 1 ranges, fewer near the end, so that threads finish together. Empty if no range is left.
   [[nodiscard]] Claim claim(std::size_t wanted);
   void run(Claim claim);
   void offer_rest(std::size_t claimed_end, float range_ns);

@@ -5,7 +5,7 @@
 namespace gloam {
 
 SiteCosts::Site SiteCosts::site(const std::type_info& type, std::size_t salt) {
-  // The address, not hash_code(): that one hashes the name, character by character.
+  // Uses the address, because hash_code() hashes the type's name character by character.
   auto mixed = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(&type)) + salt * 0x9e3779b97f4a7c15ull;
   mixed = (mixed ^ (mixed >> 31)) * 0xbf58476d1ce4e5b9ull;
   return static_cast<Site>(mixed ^ (mixed >> 29));

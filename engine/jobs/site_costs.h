@@ -11,23 +11,24 @@
 
 namespace gloam {
 
-/// What a job costs before anything was measured: so much that helpers are worth their wake-up.
+/// Assumed cost of a job that was never measured: infinite, so that calling helpers always seems worthwhile.
 inline constexpr float kUnknownCost = std::numeric_limits<float>::infinity();
 
-/// Remembers what the jobs of a call site cost last time, so that the next call knows before it starts whether helpers
-/// pay. A site is told by the type of its lambda. Only speed depends on these numbers: two sites that share an entry,
-/// or a site whose work changes, are measured anew while they run.
+/// Remembers the cost of the jobs of each call site, so that the next call knows at its start whether helpers pay off.
+/// A site is identified by the type of its lambda. Costs affect speed only: jobs are measured again while they run, so
+/// it does no harm if two sites share an entry or the work of a site changes.
 class SiteCosts {
  public:
   using Site = std::size_t;
 
-  /// `salt` keeps calls with one lambda type but different shapes of work apart.
+  /// `salt` distinguishes calls that have the same lambda type but different shapes of work.
   [[nodiscard]] static Site site(const std::type_info& type, std::size_t salt);
 
-  /// Nanoseconds a unit of work; kUnknownCost if this site was not seen.
+  /// Nanoseconds per unit of work; kUnknownCost if the site is not known.
   [[nodiscard]] float recall(Site site) const;
 
-  /// Moves halfway to the new measurement: one preemption is forgotten after a few calls.
+  /// Moves the remembered cost halfway to `ns` (nanoseconds per unit of work), so that the effect of one preemption
+  /// fades within a few calls.
   void learn(Site site, float ns);
 
  private:

@@ -22,7 +22,7 @@ bool has_nan(const Aabb& box, const mat4& affine) {
   return found;
 }
 
-/// Sphere with its centre rounded to float and its radius grown so that it still holds the exact sphere.
+/// Sphere with its centre rounded to float and its radius grown so that it still contains the exact sphere.
 Sphere enclosing(dvec3 center, double radius) {
   const vec3 rounded(center);
   const double moved = glm::length(center - dvec3(rounded));
@@ -43,7 +43,7 @@ Aabb transformed(const Aabb& box, const mat4& affine) {
     double high = affine[3][row];
     for (int column = 0; column < 3; ++column) {
       const double factor = affine[column][row];
-      if (factor == 0.0) continue;  // 0 · infinity
+      if (factor == 0.0) continue;  // avoids 0 · infinity = NaN
       const double a = factor * box.min[column];
       const double b = factor * box.max[column];
       low += std::min(a, b);
@@ -61,7 +61,8 @@ Sphere bounding_sphere(const Cone& cone) {
   const double angle = std::min<double>(cone.half_angle, kPiDouble / 2);
   const double range = cone.range_m;
   const dvec3 axis = glm::normalize(dvec3(cone.axis));
-  // Narrow: the sphere through the apex and the rim. Wide: the rim is a great circle. Both hold the cap.
+  // Narrow cones: the sphere through the apex and the rim. Wide cones: the sphere with the rim as a great circle. Both
+  // contain the cap.
   const double narrow = range / (2.0 * std::cos(angle));
   const bool wide = angle > kPiDouble / 4;
   const double along = wide ? range * std::cos(angle) : narrow;

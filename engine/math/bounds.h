@@ -8,7 +8,7 @@
 
 namespace gloam {
 
-/// Axis-aligned box; the default one is empty (min > max) and grows from nothing.
+/// Axis-aligned box. The default box is empty (min > max); grow() can start from it.
 struct Aabb {
   vec3 min = vec3(std::numeric_limits<float>::infinity());
   vec3 max = vec3(-std::numeric_limits<float>::infinity());
@@ -32,7 +32,8 @@ struct Sphere {
   float radius = 0.0f;
 };
 
-/// A solid spherical sector: apex, unit axis, half angle in radians (0…π/2], range in metres along any ray.
+/// Solid spherical sector: apex, unit axis, half angle in radians in [0, π/2], range in metres from the apex to every
+/// point of the cap.
 struct Cone {
   vec3 apex = vec3(0.0f);
   vec3 axis = vec3(0.0f, 0.0f, -1.0f);
@@ -40,12 +41,14 @@ struct Cone {
   float range_m = 0.0f;
 };
 
-/// Box of a transformed box (exact for the eight corners). The matrix is affine.
+/// Axis-aligned box of a transformed box: tight around its eight transformed corners, rounded outward. The matrix must
+/// be affine. An empty box stays empty; NaN in the box or the matrix gives a box of NaN.
 [[nodiscard]] Aabb transformed(const Aabb& box, const mat4& affine);
 
 /// Smallest sphere around a solid spherical sector.
 [[nodiscard]] Sphere bounding_sphere(const Cone& cone);
 
+/// Sphere through the corners of a box; the radius is rounded up. Asserts that the box is not empty.
 [[nodiscard]] Sphere bounding_sphere(const Aabb& box);
 
 }  // namespace gloam

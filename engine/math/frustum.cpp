@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Planes from a clip matrix: Gribb and Hartmann, "Fast Extraction of Viewing Frustum Planes from the
-// World-View-Projection Matrix" (2001), for zero-to-one reversed depth: near is z ≤ w, far is z ≥ 0.
+// World-View-Projection Matrix" (2001). Changed for zero-to-one reversed depth: the near plane is z ≤ w, the far plane
+// z ≥ 0.
 #include "engine/math/frustum.h"
 
 #include <cmath>
@@ -12,14 +13,15 @@
 namespace gloam {
 namespace {
 
-/// Bound of what rounding the planes to float can move a point's distance by, relative to the terms summed.
+/// Bound on the error of a point's plane distance when the plane is rounded to float, relative to the sum of the terms'
+/// magnitudes.
 constexpr double kRounding = 1.0 / (1 << 22);
 
 dvec4 row_of(const mat4& m, int row) { return {m[0][row], m[1][row], m[2][row], m[3][row]}; }
 
 Plane plane_from(dvec4 equation) {
   const double length = glm::length(dvec3(equation));
-  // A far plane at infinity comes out as no direction at all, or as the dust that rounding leaves of one.
+  // An infinite far plane has a zero normal, or a tiny one left by rounding.
   if (length <= 1e-12 * std::abs(equation.w)) return {vec3(0.0f), 1.0f};
   return {vec3(dvec3(equation) / length), static_cast<float>(equation.w / length)};
 }
@@ -72,7 +74,7 @@ bool may_intersect(const Frustum& frustum, const Sphere& sphere) {
   const double radius = sphere.radius;
   for (const Plane& plane : frustum.planes) {
     const double distance = glm::dot(dvec3(plane.normal), center) + plane.distance;
-    // Written so that NaN compares as inside.
+    // Written so that NaN counts as inside.
     if (distance < -radius - distance_rounding(plane, glm::abs(center) + radius)) return false;
   }
   return true;
@@ -86,7 +88,7 @@ bool may_intersect(const Frustum& frustum, const Aabb& box) {
   const dvec3 reach = glm::max(glm::abs(low), glm::abs(high));
   for (const Plane& plane : frustum.planes) {
     const dvec3 normal(plane.normal);
-    // The corner farthest along the normal.
+    // The box corner farthest along the normal.
     const dvec3 corner(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y,
                        normal.z > 0.0 ? high.z : low.z);
     const double distance = glm::dot(normal, corner) + plane.distance;

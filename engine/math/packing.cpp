@@ -12,7 +12,7 @@
 namespace gloam {
 namespace {
 
-/// Sign with sign(0) = 1, so that the seam of the octahedron has one side.
+/// Sign with sign(0) = 1, so that all points on a seam of the octahedron fold to the same side.
 float sign_of(float v) { return v < 0.0f ? -1.0f : 1.0f; }
 
 vec2 fold(float x, float y) { return {(1.0f - std::abs(y)) * sign_of(x), (1.0f - std::abs(x)) * sign_of(y)}; }
@@ -59,12 +59,12 @@ std::uint16_t float_to_half(float value) {
   const std::uint32_t magnitude = bits & 0x7fffffffu;
   std::uint32_t half = 0;
   if (magnitude > 0x7f800000u) {
-    half = 0x7e00u | ((magnitude >> 13) & 0x3ffu);  // quiet, with the payload's upper bits
-  } else if (magnitude >= 0x477ff000u) {            // 65520: halfway from the greatest half to the next step
+    half = 0x7e00u | ((magnitude >> 13) & 0x3ffu);  // quiet NaN with the payload's upper bits
+  } else if (magnitude >= 0x477ff000u) {            // ≥ 65520, halfway from the greatest half to 65536: infinity
     half = 0x7c00u;
-  } else if (magnitude >= 0x38800000u) {  // 2⁻¹⁴: normal. Rounding may carry into the exponent, which is right.
+  } else if (magnitude >= 0x38800000u) {  // ≥ 2⁻¹⁴: normal. Rounding may correctly carry into the exponent.
     half = (magnitude - 0x38000000u + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;
-  } else if (magnitude >= 0x33000000u) {  // 2⁻²⁵: denormal, or rounds to the least one
+  } else if (magnitude >= 0x33000000u) {  // ≥ 2⁻²⁵: denormal, or rounds to the least denormal
     const std::uint32_t shift = 126u - (magnitude >> 23);
     const std::uint32_t mantissa = (magnitude & 0x7fffffu) | 0x800000u;
     half = (mantissa + (1u << (shift - 1u)) - 1u + ((mantissa >> shift) & 1u)) >> shift;

@@ -6,11 +6,12 @@
 
 namespace gloam {
 
-/// Octahedral code of a unit vector in [−1, 1]²; the zero vector codes as +Z.
+/// Octahedral code, in [−1, 1]², of a unit vector. The zero vector is encoded as +Z.
 [[nodiscard]] vec2 octahedral_encode(vec3 unit);
 [[nodiscard]] vec3 octahedral_decode(vec2 code);
 
-/// 2 × 16-bit signed normalised octahedral normal; angle error < 0.01°.
+/// Octahedral normal as two signed normalised 16-bit numbers: x in the low half, y in the high half. Angle error <
+/// 0.01°.
 [[nodiscard]] std::uint32_t pack_normal_snorm16(vec3 unit);
 [[nodiscard]] vec3 unpack_normal_snorm16(std::uint32_t packed);
 

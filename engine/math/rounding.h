@@ -7,13 +7,13 @@
 
 namespace gloam {
 
-/// Greatest float that is not above the value (so −infinity below every float). NaN stays NaN.
+/// Greatest float ≤ value; −infinity if the value is below every finite float. NaN stays NaN.
 [[nodiscard]] inline float float_at_most(double value) {
   const float nearest = static_cast<float>(value);
   return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
 }
 
-/// Smallest float that is not below the value. NaN stays NaN.
+/// Smallest float ≥ value; +infinity if the value is above every finite float. NaN stays NaN.
 [[nodiscard]] inline float float_at_least(double value) { return -float_at_most(-value); }
 
 }  // namespace gloam

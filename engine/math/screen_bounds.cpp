@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Spheres: Mara and McGuire, "2D Polyhedral Bounds of a Clipped, Perspective-Projected 3D Sphere" (JCGT 2(2), 2013),
-// its axis-aligned case. Changed: an axis at a time as a slope x / d, in forms that never subtract nearly equal
-// numbers, so that a radius of 1e6 m beside a near plane at 1e-6 m keeps its digits.
+// its axis-aligned case. Changed: each screen axis is bounded separately as a slope x / d, in forms that never subtract
+// nearly equal numbers, so that a radius of 1e6 m beside a near plane at 1e-6 m keeps its digits.
 //
-// Cones: ours. For a convex body with support function h (greatest x + μ·d over the body), every μ gives the bound
+// Cones: our own method. Let the support function h(μ) be the greatest x + μ·d over a convex body. Then every μ gives
+// the bound
 //   x / d ≤ max(0, h(μ)) / near − μ    for all points of the body with d ≥ near,
-// and the least of these bounds over μ is tight (convex duality). The best μ is the inclination of a tangent plane
-// through the camera, or of a tangent plane where the body crosses the near plane; both have closed forms for the apex,
-// the cap, the rim and the flank. All are tried, the least wins: a badly rounded candidate costs tightness, never a
-// point.
+// and the least of these bounds over all μ is tight (convex duality). The best μ is the inclination of one of two
+// planes: a plane through the camera that is tangent to the body, or a tangent plane at the cut of the body with the
+// near plane. Both have closed forms for the apex, the cap, the rim and the flank. All candidates are tried and the
+// least bound is taken, so a badly rounded candidate only costs tightness: no point is ever lost.
 #include "engine/math/screen_bounds.h"
 
 #include <algorithm>
@@ -24,15 +25,17 @@ namespace gloam {
 namespace {
 
 constexpr double kHalfPi = 3.14159265358979323846 / 2;
-/// Added on every side, in normalised device coordinates: four ulps of a float just below 1, more than projecting a
-/// point in floats can lose.
+/// Margin on every side, in normalised device coordinates: four ulps of a float just below 1, more than the rounding
+/// error of projecting a point in floats.
 constexpr double kWidening = 0x1p-22;
-/// Relative bound of the rounding in a support function.
+/// Relative bound on the rounding error of a support function.
 constexpr double kSupportRounding = 8 * std::numeric_limits<double>::epsilon();
-/// How far a tangent's inclination is moved to the side where it stays a bound through the camera itself.
+/// Relative step that lowers the inclination of a tangent through the camera, so that its support function stays ≤ 0 in
+/// spite of rounding: a positive remainder would be divided by the near distance and loosen the bound.
 constexpr double kTangentStep = 1e-13;
-/// Where a body only touches the near plane, the best inclination is endless and its bound all rounding. Taken as this
-/// share (of a squared radius) deeper instead.
+/// Where a body only touches the near plane, the best inclination is infinite and its bound is lost in rounding. The
+/// squared radius of the body's cut with the near plane is therefore taken as at least this share of the squared radius
+/// of the cap or the rim.
 constexpr double kTouch = 1e-14;
 
 const NdcRect kWholeScreen{};
@@ -46,7 +49,7 @@ bool is_usable(const PerspectiveScale& projection) {
   return std::isfinite(projection.scale.x) && std::isfinite(projection.scale.y) && std::isfinite(projection.near_m);
 }
 
-/// Slopes between which a body lies on one axis, seen from the camera.
+/// Least and greatest slope x / d of a body on one screen axis, seen from the camera.
 struct Slopes {
   double min = 0.0;
   double max = 0.0;
@@ -58,19 +61,20 @@ NdcRect rect_from(Slopes x, Slopes y, vec2 scale) {
   const double bottom = y.min * scale.y - kWidening;
   const double top = y.max * scale.y + kWidening;
   if (left > 1.0 || right < -1.0 || bottom > 1.0 || top < -1.0) return kNothing;
-  // Clamped before the conversion: a slope may be beyond the range of floats.
+  // Clamped before the conversion: a slope may exceed the range of floats.
   return {vec2(std::clamp(left, -1.0, 1.0), std::clamp(bottom, -1.0, 1.0)),
           vec2(std::clamp(right, -1.0, 1.0), std::clamp(top, -1.0, 1.0)), false};
 }
 
-/// Both rectangles hold what can be seen, so their overlap does.
+/// Intersection of two rectangles. If both contain everything visible, so does the intersection.
 NdcRect overlap(const NdcRect& a, const NdcRect& b) {
   if (a.empty || b.empty) return kNothing;
   const NdcRect both{glm::max(a.min, b.min), glm::min(a.max, b.max), false};
   return both.min.x > both.max.x || both.min.y > both.max.y ? kNothing : both;
 }
 
-/// x² + d² − r², to the last digits: squares of floats are exact in double, and the sum carries its rounding along.
+/// x² + d² − r², accurate to the last digits: squares of floats are exact in double, and the rounding error of the sum
+/// is added back.
 double tangent_length_squared(double x, double d, double r) {
   const double xx = x * x;
   const double dd = d * d;
@@ -80,15 +84,15 @@ double tangent_length_squared(double x, double d, double r) {
   return (sum - r * r) + lost;
 }
 
-/// Greatest slope x / d over the part with d ≥ near of the disc that a sphere casts along the other axis.
-/// The arguments are floats' values; some part has d ≥ near.
+/// Greatest slope x / d over the part with d ≥ near of a disc, the sphere projected along the other screen axis. The
+/// arguments hold values of floats; some part of the disc has d ≥ near.
 double greatest_slope(double x, double d, double r, double near) {
   const bool touches_in_front = x > 0.0 ? d > r : d > -r;
   const double tt = tangent_length_squared(x, d, r);
   if (touches_in_front && tt > 0.0) {
     const double t = std::sqrt(tt);
     const double slope = x * d >= 0.0 ? (x * d + t * r) / ((d - r) * (d + r)) : ((x - r) * (x + r)) / (x * d - t * r);
-    // The tangent's depth is t / √(1 + slope²).
+    // The depth of the tangent point is t / √(1 + slope²).
     if (d - r >= near || tt >= near * near * (1.0 + slope * slope)) return slope;
   }
   const double half_chord_squared = ((r - d) + near) * ((r + d) - near);
@@ -99,7 +103,8 @@ Slopes sphere_slopes(double x, double d, double r, double near) {
   return {-greatest_slope(-x, d, r, near), greatest_slope(x, d, r, near)};
 }
 
-/// A solid spherical sector whose axes are x and d for the screen axis looked at, and y for the other.
+/// Solid spherical sector in the coordinates of one screen axis: x along that axis, y along the other, d the view
+/// depth.
 struct Sector {
   dvec3 apex;  ///< x, y, d
   dvec3 axis;  ///< x, y, d; unit
@@ -108,7 +113,7 @@ struct Sector {
   double range = 0.0;
 };
 
-/// The bound that the inclination μ gives; see the head of this file.
+/// Bound on the slope x / d for the inclination μ; see the head of this file.
 double slope_bound(const Sector& s, double mu, double near) {
   const double cross_x = mu * s.axis.y;
   const double cross_y = mu * s.axis.x - s.axis.z;
@@ -117,7 +122,7 @@ double slope_bound(const Sector& s, double mu, double near) {
   const double length = std::sqrt(1.0 + mu * mu);
   const bool cap = across * s.cosine <= along * s.sine;
   const double outward = cap ? length : along * s.cosine + across * s.sine;
-  // What is clearly turned away adds nothing, not even rounding.
+  // If the direction clearly points away from the sector, the range adds nothing to the apex, not even rounding.
   const double margin = kSupportRounding * length;
   const double beyond_apex = outward > -margin ? s.range * (std::max(outward, 0.0) + margin) : 0.0;
   const double apex_rounding = kSupportRounding * (std::abs(s.apex.x) + std::abs(mu * s.apex.z));
@@ -125,7 +130,7 @@ double slope_bound(const Sector& s, double mu, double near) {
   return std::max(support, 0.0) / near - mu;
 }
 
-/// Least bound found so far; takes candidates, skips those that are no numbers.
+/// Least bound of all candidates tried so far. Candidates that are not finite are skipped.
 struct LeastBound {
   const Sector& sector;
   double near;
@@ -137,7 +142,7 @@ struct LeastBound {
     if (bound < slope) slope = bound;
   }
   void try_tangent(double mu) { try_crossing(mu - kTangentStep * (1.0 + std::abs(mu))); }
-  /// Both roots of a·μ² + 2·b·μ + c with the discriminant b² − a·c given, which may be a rounded zero.
+  /// Tries both roots of a·μ² + 2·b·μ + c = 0. The discriminant b² − a·c is given; rounding may make a zero negative.
   template <class Try>
   void roots(double a, double b, double c, double discriminant, Try&& attempt) {
     const double q = -(b + std::copysign(std::sqrt(std::max(discriminant, 0.0)), b));
@@ -156,14 +161,14 @@ double greatest_slope(const Sector& s, double near) {
 
   tangent(-apex.x / apex.z);
   tangent(-greatest_slope(apex.x, apex.z, s.range, near));
-  // The cap's highest point on the near plane.
+  // The point with the greatest x where the cap crosses the near plane.
   const double lean = (near - apex.z) / s.range;
   crossing(lean / std::sqrt(std::max((1.0 - lean) * (1.0 + lean), kTouch)));
-  // The flank's two generators whose tangent planes stand on the screen axis.
+  // The two generators of the flank whose tangent planes are parallel to the other screen axis.
   const double ss = s.sine * s.sine;
   const double flat = square(axis.x) + square(axis.z);
   least.roots(square(axis.z) - ss, axis.x * axis.z, square(axis.x) - ss, ss * (flat - ss), crossing);
-  // The rim: a circle around `rim`. Its planes through the camera, then where it crosses the near plane.
+  // The rim: a circle around `rim`. First its tangent planes through the camera, then its crossing of the near plane.
   const dvec3 rim = apex + s.range * s.cosine * axis;
   const double rr = square(s.range * s.sine);
   const double q2 = square(axis.x) + square(axis.y);

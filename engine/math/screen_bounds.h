@@ -6,7 +6,7 @@
 
 namespace gloam {
 
-/// Rectangle in normalised device coordinates (−1…1, Y up), min ≤ max; `empty` when nothing can be seen.
+/// Rectangle in normalised device coordinates (−1…1, Y up), min ≤ max. `empty`: nothing is visible.
 struct NdcRect {
   vec2 min = vec2(-1.0f);
   vec2 max = vec2(1.0f);
@@ -19,13 +19,13 @@ struct PerspectiveScale {
   float near_m = 0.1f;
 };
 
-/// Tight rectangle of what a sphere (view space) covers on screen, clipped at the near plane and to the screen.
-/// Contains every projected point of the sphere in front of the near plane; widened by a few ulps. NaN gives the whole
+/// Tight screen rectangle of a sphere in view space, clipped at the near plane and to the screen. Contains every
+/// projected point of the sphere in front of the near plane; widened by a few ulps. NaN or infinity gives the whole
 /// screen.
 [[nodiscard]] NdcRect screen_bounds(const Sphere& view_sphere, const PerspectiveScale& projection);
 
-/// The same for a solid spherical sector (view space, axis a unit vector to 1e-3); never larger than the rectangle of
-/// its bounding sphere.
+/// The same for a solid spherical sector in view space, whose axis has unit length to within 1e-3. Never larger than
+/// the rectangle of its bounding sphere.
 [[nodiscard]] NdcRect screen_bounds(const Cone& view_cone, const PerspectiveScale& projection);
 
 }  // namespace gloam

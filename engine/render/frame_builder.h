@@ -24,7 +24,7 @@
 
 namespace gloam {
 
-/// What lives as long as the renderer and passes need.
+/// Services of the renderer for passes. They live as long as the renderer.
 struct FrameServices {
   gpu::Device& device;
   JobExecutor& executor;
@@ -34,11 +34,12 @@ struct FrameServices {
   UploadRing& uniforms;
   UploadRing& storage;
   FrameResults& results;
-  bool wait_for_pipelines = true;  ///< false: where there is a choice, take what is ready (Pipelines::request)
+  bool wait_for_pipelines = true;  ///< false: prefer ready pipelines where there is a choice (Pipelines::request)
 };
 
-/// One view of one frame while its passes are declared: handed to the modules in turn. References are valid until the
-/// frame is submitted, which is when pass functions run: they may capture the builder.
+/// One view of one frame while its passes are declared; the renderer gives it to each module in turn. The builder and
+/// everything it refers to live until the frame is submitted. Pass functions run before that, so they may capture the
+/// builder.
 class FrameBuilder {
  public:
   FrameBuilder(const FrameServices& services, FrameGraph& graph, const World& world, const RenderView& view,
@@ -53,19 +54,20 @@ class FrameBuilder {
   [[nodiscard]] const RenderView& view() const { return view_; }
   [[nodiscard]] const GpuScene& scene() const { return scene_; }
   [[nodiscard]] const DrawLists& draws() const { return draws_; }
-  /// What casts shadows, in the camera's view or not; empty when no module that the world demands has asked
+  /// All shadow casters, in the camera's view or not; empty if no module that the world demands needs them
   /// (Module::needs_casters).
   [[nodiscard]] const CasterList& casters() const { return draws_.casters; }
   [[nodiscard]] const KnobRegistry& knobs() const { return services_.knobs; }
   [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
   void set_visualizer(std::string_view name) { visualizer_ = name; }
 
-  /// Puts what later passes look for: GeometryOutputs, LitOutput, and each module's outputs. One of a type.
+  /// Puts an output on the board for later passes: GeometryOutputs, LitOutput, and each module's outputs. The board
+  /// holds one output per type; a second one replaces the first.
   template <class T>
   T& put(T value) {
     return std::any_cast<T&>(board_.insert_or_assign(std::type_index(typeid(T)), std::move(value)).first->second);
   }
-  /// Null when nobody put one.
+  /// The output of this type, or null if there is none.
   template <class T>
   [[nodiscard]] T* find() {
     const auto found = board_.find(std::type_index(typeid(T)));
@@ -87,34 +89,33 @@ class FrameBuilder {
   [[nodiscard]] gpu::Binding view_binding() const { return {0, view_range_}; }
   [[nodiscard]] Status upload_view_constants(std::uint32_t visualizer_code);
 
-  /// Draws a list with one surface pass inside a pass that is rendering. `bindings` are those of set 0.
+  /// Draws a list with one surface pass, inside a pass that is rendering. `bindings`: those of set 0.
   [[nodiscard]] Status draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
                                      std::span<const gpu::Binding> bindings);
-  /// Pipelines of a list, made before recording so that errors surface in declaration.
+  /// Compiles the pipelines of a list before recording, so that errors surface in declaration.
   [[nodiscard]] Status prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
-  /// Whether the pipelines of a list are there; those that are not are made in the background. For passes that another
-  /// can stand in for.
+  /// Whether the pipelines of a list are ready. Missing ones are compiled in the background. For passes that have a
+  /// fallback.
   [[nodiscard]] bool request_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
-  /// The same, but makes none.
+  /// Whether the pipelines of a list are ready; compiles none.
   [[nodiscard]] bool has_surfaces(std::span<const Draw> draws, const SurfacePass& pass) const;
-  /// Declares that a pass draws meshes or casters: reads deformed vertices.
+  /// Declares that a pass draws meshes or casters and so reads deformed vertices.
   void read_vertices(PassBuilder& pass);
-  /// For a pipeline that draws casters: binds positions (vec3, moved where the caster is deformed) as stream 0 and,
-  /// `with_surfaces`, PackedSurface as stream 1; relative to the primitive's first vertex, as its indices
-  /// (GpuScene::indices) are.
+  /// Binds the vertices of a caster: positions (vec3, deformed if the caster is) as stream 0 and, if `with_surfaces`,
+  /// PackedSurface as stream 1. Both begin at the primitive's first vertex, like its indices (GpuScene::indices).
   void bind_caster_vertices(PassContext& context, const Caster& caster, bool with_surfaces) const;
 
-  /// Keeps what a buffer holds at the end of the frame for the CPU to look at later (Module::take_result,
-  /// Module::result_counters). `buffer`: the version that no later pass writes.
+  /// Keeps the content of a buffer at the end of the frame for the CPU (Module::take_result, Module::result_counters).
+  /// `buffer`: the version that no later pass writes.
   void keep_result(std::string module, std::string name, BufferRef buffer, std::any note = {});
 
-  /// Lets Renderer::read_image find an image of this view, under the image's own name or `name`; as it is when all
-  /// passes have written it. One that is owned outside the graph was made as a transfer_source. A later image of the
-  /// same name takes its place.
+  /// Makes an image of this view available to Renderer::read_image, under the image's own name or `name`, with its
+  /// content after all passes. An image that is owned outside the graph must have been created as a transfer_source. A
+  /// later image of the same name replaces it.
   void expose(ImageRef image, std::string_view name = {});
   struct Exposed {
     std::string name;
-    ImageRef image;  ///< a version of it
+    ImageRef image;  ///< any version of the image; the newest is read
   };
   [[nodiscard]] std::span<const Exposed> exposed() const { return exposed_; }
 
@@ -141,22 +142,23 @@ class FrameBuilder {
   std::vector<Exposed> exposed_;
 };
 
-/// A colour image of the view's size (divided by `divisor`, rounded up), transient.
+/// Creates a transient image of the view's size, divided by `divisor` and rounded up.
 [[nodiscard]] ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string module, gpu::Format format,
                                          std::uint32_t divisor = 1);
 
-/// Begins drawing into images of the view's size; viewport and scissor are all of it.
+/// Begins rendering into images of the view's size. Sets viewport and scissor to the whole view.
 void begin_view_rendering(gpu::CommandList& commands, const RenderView& view, gpu::RenderingDesc rendering);
 
-/// Records one full-screen triangle into `target` with a pipeline of `fullscreen.vert`. Bindings are those of set 0.
+/// Parameters of record_fullscreen: one full-screen triangle into `target`, with a pipeline of `fullscreen.vert`.
+/// `bindings`: those of set 0.
 struct FullscreenPass {
   gpu::PipelineHandle pipeline;
   std::vector<gpu::Binding> bindings;
   gpu::ImageHandle target;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  gpu::LoadOp load = gpu::LoadOp::discard;  ///< load: what is in the target is kept or blended over
-  std::span<const std::byte> constants;     ///< pushed when there are any
+  gpu::LoadOp load = gpu::LoadOp::discard;  ///< load: keeps the target's content or blends over it
+  std::span<const std::byte> constants;     ///< push constants; may be empty
 };
 void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass);
 [[nodiscard]] gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module,

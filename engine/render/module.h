@@ -24,21 +24,21 @@ namespace gloam {
 class Captures;
 class FrameBuilder;
 
-/// Whether a world and view call for an effect, and why (or why not), in a few words for people.
+/// A module's answer to the question whether a world or a view needs it, with the reason in a few words for users.
 struct Demand {
   bool needed = false;
   std::string reason;
 };
 
-/// Where in the frame a module adds passes; inside a phase, modules come in the order of their list.
+/// Phases of a frame in which modules add passes. Within a phase, modules come in list order.
 enum class PassPhase {
-  announce,     ///< no passes: what modules leave on the board for modules that come before them
+  announce,     ///< no passes: modules put data on the board that modules earlier in the list need
   lists,        ///< after geometry and depth bounds: light lists, shadows
-  shading,      ///< opaque surfaces and sky into linear light
-  translucent,  ///< forward-lit things over them
-  post,         ///< on linear light: depth of field, bloom. Automatic exposure meters what this phase leaves
-  output,       ///< linear light → picture: meters (where no exposure is set), then maps tones
-  visualize,    ///< over the picture, when FrameBuilder::visualizer() names one of the module's
+  shading,      ///< lights opaque surfaces and sky, into linear light
+  translucent,  ///< forward-lit surfaces over them
+  post,         ///< on linear light: depth of field, bloom. Automatic exposure meters the result
+  output,       ///< linear light → picture: metering (if no exposure is set), then tone mapping
+  visualize,    ///< over the picture, if FrameBuilder::visualizer() is one of the module's
 };
 inline constexpr PassPhase kAllPhases[] = {PassPhase::announce,    PassPhase::lists, PassPhase::shading,
                                            PassPhase::translucent, PassPhase::post,  PassPhase::output,
@@ -49,17 +49,17 @@ struct VisualizerInfo {
   std::string name;  ///< "light_list"; takes an argument after ':' when `argument` is not empty
   std::string module;
   std::string argument;    ///< "LIGHT"
-  std::string legend;      ///< what colours mean, one line
+  std::string legend;      ///< meaning of the colours, one line
   bool built = true;       ///< false: known, not built yet
-  std::string knob = {};   ///< what must be set so for the view to have something to show; empty: nothing
-  std::string value = {};  ///< one choice, or some: "monolithic|deferred"
-  /// Set when the view shows what has to be traced first: computes it from a frame that has been drawn without the view
-  /// (whose pictures and redraw may be absent) and puts it into the world, for the frame that shows it. Who cannot wait
-  /// for that does not offer the view.
+  std::string knob = {};   ///< knob that must be at `value` for the visualizer to work; empty: none
+  std::string value = {};  ///< one choice, or several: "monolithic|deferred"
+  /// Set if the visualizer shows traced data. Computes the data from a frame drawn without the visualizer and puts it
+  /// into the world, for the frame that shows it. `picture` and `redraw` of the input may be absent. Callers that
+  /// cannot wait must not offer the visualizer.
   std::function<Status(World& world, const ReferenceInput& input)> trace = {};
 };
 
-/// A pixel that Renderer::pick was asked about, and what lies there.
+/// The pixel of a call of Renderer::pick, and its depth.
 struct PickedPixel {
   std::uint32_t x = 0;
   std::uint32_t y = 0;
@@ -67,91 +67,92 @@ struct PickedPixel {
   float view_depth_m = 0.0f;  ///< 0 for sky
 };
 
-/// Named numbers of a frame ("lights.visible").
+/// Receives counters of a frame, by name ("lights.visible").
 class CounterSink {
  public:
   virtual ~CounterSink() = default;
   virtual void count(std::string_view name, double value) = 0;
 };
 
-/// One effect. Made once a renderer; its state of a world lives in the world, its GPU state in itself. What a world
-/// does not demand adds no systems to run, passes, pipelines or bytes.
+/// One effect. Created once per renderer. Its state of a world lives in the world, its GPU state in the module. If a
+/// world does not demand the module, it runs no systems and adds no passes, pipelines or bytes.
 class Module {
  public:
   virtual ~Module() = default;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// False while only its components and keys exist: what calls for it is told, nothing is drawn.
+  /// False if only its components and keys exist: its demand is reported, but nothing is drawn.
   [[nodiscard]] virtual bool built() const { return true; }
 
   virtual void register_components(World& world) const = 0;
   virtual void scene_keys(KeyRegistry& registry) const = 0;
   virtual void knobs(KnobRegistry& registry) const { static_cast<void>(registry); }
-  /// For knobs that are judged by more than their most exact value; at most one a knob.
+  /// References for knobs that are not judged by the frame at their exact value; at most one per knob.
   [[nodiscard]] virtual std::vector<ReferenceInfo> references() const { return {}; }
-  /// For knobs whose values all give the same picture: what else tells them apart; at most one a knob, which then needs
-  /// no reference.
+  /// Measures for knobs whose values all draw the same picture; at most one per knob. A knob with a measure needs no
+  /// reference.
   [[nodiscard]] virtual std::vector<MeasureInfo> measures() const { return {}; }
   virtual void add_systems(Schedule& schedule) { static_cast<void>(schedule); }
   [[nodiscard]] virtual std::vector<VisualizerInfo> visualizers() const { return {}; }
 
-  /// Asked twice. Without a view (before a frame's systems, and by `inspect`) the world's answer: "no" means that no
-  /// systems run and that no view is asked, so it must cover every view's. With a view (after that view's systems) the
-  /// view's answer: "no" means no passes in this view; the systems ran all the same. Cheap: looks at counts, never at
-  /// pixels.
+  /// view null: whether the world needs the module. Called before a frame's systems run, and by `inspect`. If not
+  /// needed, no systems run and demand() is not called for views, so it must be needed if any view needs it. view set:
+  /// whether this view needs the module. Called after the systems of the view. If not needed, the view gets no passes;
+  /// its systems have run anyway. Must be cheap: look at counts, never at pixels.
   [[nodiscard]] virtual Demand demand(const World& world, const RenderView* view) const = 0;
 
-  /// Before the systems of a view run, when the world demands the module: puts missing view resources in place, and
-  /// what systems need to know of knobs into them.
+  /// Called before the systems of a view run, if the world demands the module. Adds missing view resources, and stores
+  /// in them the knob values that systems need.
   virtual void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const {
     static_cast<void>(world);
     static_cast<void>(view);
     static_cast<void>(knobs);
   }
-  /// Whether the module's passes look at FrameBuilder::casters(); asked once a frame, when the world demands the
-  /// module.
+  /// Whether the module's passes read FrameBuilder::casters(). Called in every frame, if the world demands the module.
   [[nodiscard]] virtual bool needs_casters(const World& world, const KnobRegistry& knobs) const {
     static_cast<void>(world);
     static_cast<void>(knobs);
     return false;
   }
-  /// Whether they shall have simplified indices (GpuPrimitive::simplified_index_count), asked likewise: made when first
-  /// wanted.
+  /// Whether these casters need simplified indices (GpuPrimitive::simplified_index_count), which are made when first
+  /// needed. Called like needs_casters.
   [[nodiscard]] virtual bool needs_simplified_casters(const World& world, const KnobRegistry& knobs) const {
     static_cast<void>(world);
     static_cast<void>(knobs);
     return false;
   }
-  /// Whether a frame without the module makes no sense: then its pipelines are waited for even under
+  /// Whether a frame without the module makes no sense. Then frames wait for its pipelines even with
   /// Readiness::background.
   [[nodiscard]] virtual bool essential() const { return false; }
-  /// The pipelines add_passes will ask for with the knobs as they are; only asked under Readiness::background.
+  /// Appends the pipelines that add_passes will need with the current knobs. Called only with Readiness::background.
   virtual void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const {
     static_cast<void>(device);
     static_cast<void>(knobs);
     static_cast<void>(list);
   }
-  /// Only called when world and view demand it, once a phase. Pipelines are made on first use.
+  /// Adds the passes of one phase. Called once per phase for each view, if world and view demand the module. Pipelines
+  /// are compiled on first use.
   [[nodiscard]] virtual Status add_passes(FrameBuilder& frame, PassPhase phase) {
     static_cast<void>(frame);
     static_cast<void>(phase);
     return {};
   }
-  /// Once a frame, for its last view: if the module took part in that view (demanded by world and view, pipelines
-  /// there), when its passes have been recorded and before they are submitted. What counts here is known on the CPU.
+  /// Reports counters that are known on the CPU. Called once per frame for its last view, if the module took part in
+  /// that view (demanded by world and view, pipelines ready), after its passes were recorded and before they are
+  /// submitted.
   virtual void counters(const World& world, const RenderView& view, CounterSink& sink) const {
     static_cast<void>(world);
     static_cast<void>(view);
     static_cast<void>(sink);
   }
-  /// In a frame drawn for Renderer::pick, after all phases: copies out what `pick` will look at. Names begin with the
-  /// module's.
+  /// Declares readback copies of the data that `pick` reads. Called after all phases of a frame that is drawn for
+  /// Renderer::pick. Names of copies begin with the module's name.
   [[nodiscard]] virtual Status add_pick_copies(FrameBuilder& frame, Captures& copies) {
     static_cast<void>(frame);
     static_cast<void>(copies);
     return {};
   }
-  /// When that frame has ended on the GPU: what the module knows of the pixel, in lines for people.
+  /// Facts about the pixel, as lines of text. Called after that frame has ended on the GPU; `copies` holds its data.
   [[nodiscard]] virtual std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
                                                       const Captures& copies) const {
     static_cast<void>(frame);
@@ -159,29 +160,29 @@ class Module {
     static_cast<void>(copies);
     return {};
   }
-  /// Before the systems of a view run, when the world demands the module, for each of its results
-  /// (FrameBuilder::keep_result) of that view: the newest of those that are Device::kFramesInFlight or more frames old.
-  /// The same one may come again.
+  /// Called before the systems of a view run, if the world demands the module, for each of its results of that view
+  /// (FrameBuilder::keep_result). `result` is the newest one that is at least Device::kFramesInFlight frames old. The
+  /// same result may be passed several times.
   virtual void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const {
     static_cast<void>(world);
     static_cast<void>(view);
     static_cast<void>(name);
     static_cast<void>(result);
   }
-  /// Counters that the GPU counted, for reports: from a result of the newest frame that has ended.
+  /// Reports counters that the GPU counted, from a result of the newest completed frame.
   virtual void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const {
     static_cast<void>(name);
     static_cast<void>(result);
     static_cast<void>(sink);
   }
-  /// Gives back GPU memory, after 120 frames without demand and at the end; the next demand makes it anew. Pipelines
-  /// are the renderer's.
+  /// Frees the module's GPU memory. Called after 120 frames without demand and when the renderer is destroyed; the
+  /// module allocates the memory again when it is next needed. The renderer owns the pipelines.
   virtual void release() {}
 };
 
 using ModuleList = std::vector<std::unique_ptr<Module>>;
 
-/// The scene keys of engine and modules: what import_gltf reads.
+/// The scene keys of the engine and all modules, for import_gltf.
 [[nodiscard]] KeyRegistry make_key_registry(const ModuleList& modules);
 
 }  // namespace gloam

@@ -8,32 +8,33 @@
 
 namespace gloam {
 
-/// What the geometry pass leaves for a view; formats are in shaders/render/gbuffer_api.glsl.
+/// The geometry buffer of a view, written by the geometry pass; formats are in shaders/render/gbuffer_api.glsl.
 struct GeometryOutputs {
   ImageRef base_color;
   ImageRef normals;
   ImageRef material;
   ImageRef emissive;
-  ImageRef depth;         ///< d32, reversed Z, 0 = sky
-  ImageRef depth_bounds;  ///< rg32f, one texel an 8×8 tile: farthest and nearest depth without sky; (1, 0) where there
-                          ///< is only sky
+  ImageRef depth;  ///< d32, reversed Z, 0 = sky
+  /// rg32f, one texel per 8×8 tile: farthest and nearest depth, sky excluded; (1, 0) if the tile shows only sky.
+  ImageRef depth_bounds;
 };
 
-/// Linear light of the view, cd/m² before exposure, rgba16f. The renderer makes the image, shading fills it, later
-/// phases write in place: `color` moves on to the version that a write gives, and never to another image
-/// (Renderer::read_linear reads this one). A phase that needs the old light beside the new one copies it first.
+/// Linear light of the view, cd/m² before exposure, rgba16f. The renderer creates the image, shading fills it, later
+/// phases write it in place. A write moves `color` on to the image's new version, but `color` must never refer to
+/// another image, because Renderer::read_linear reads this one. A phase that needs the old light while it writes must
+/// copy it first.
 struct LitOutput {
   ImageRef color;
 };
 
-/// Where the finished picture goes: the caller's image or the renderer's, there from the first phase on. Written in
-/// place, as LitOutput.
+/// Image of the finished picture, the caller's or the renderer's. Available from the first phase on. Written in place
+/// like LitOutput.
 struct TargetOutput {
   ImageRef color;
   gpu::Format format = gpu::Format::rgba8_srgb;
 };
 
-/// Pixels along one side of a shadow tile, of a tile of depth_bounds.
+/// Side of a shadow tile and of a depth_bounds tile, in pixels.
 inline constexpr std::uint32_t kTileSize = 8;
 
 /// One texel of GeometryOutputs, decoded on the CPU from its four images' bytes.
@@ -48,7 +49,8 @@ struct GeometryTexel {
   float reflectivity = 0.0f;
 };
 
-/// base_color: rgba8_unorm square roots as 0xAABBGGRR; normals: the two words; material: rgba8_unorm as 0xAABBGGRR.
+/// Decodes one texel. base_color: rgba8_unorm as 0xAABBGGRR, with square roots of the linear colour; normals: the two
+/// words of the texel; material: rgba8_unorm as 0xAABBGGRR.
 [[nodiscard]] GeometryTexel decode_geometry(std::uint32_t base_color, glm::uvec2 normals, std::uint32_t material);
 
 }  // namespace gloam

@@ -19,7 +19,8 @@ struct WideBounds {
   dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
 };
 
-/// Everything drawn, in double: floats far from the world's origin would move it out of the picture.
+/// World bounds of everything drawn. In double: float rounding far from the world's origin would move it out of the
+/// picture.
 WideBounds drawn_bounds(const World& world) {
   WideBounds bounds;
   const SceneAssets* assets = world.try_resource<SceneAssets>();
@@ -100,7 +101,7 @@ ViewSettings settings_for_camera(const World& world, Entity camera, std::uint32_
   const bool empty = !(bounds.min.x <= bounds.max.x);
   const dvec3 center = empty ? dvec3(0.0) : (bounds.min + bounds.max) * 0.5;
   const double radius = empty ? 1.0 : std::max(1e-3, 0.5 * glm::length(bounds.max - bounds.min));
-  // The narrower side of the picture decides.
+  // The narrower field of view decides the distance.
   const double half_fov_y = 0.5 * static_cast<double>(settings.camera.fov_y);
   const double aspect = static_cast<double>(width) / static_cast<double>(height);
   const double half_fov = std::min(half_fov_y, std::atan(std::tan(half_fov_y) * aspect));

@@ -13,29 +13,29 @@
 
 namespace gloam {
 
-/// What a caller asks to see.
+/// A caller's settings for a view.
 struct ViewSettings {
   ViewId id{0};
   std::uint32_t width = 1280;  ///< pixels, > 0
   std::uint32_t height = 720;
-  /// The camera that is looked through: its effects (focus, exposure) are the view's. kNoEntity: one without an entity.
+  /// Camera of the view, whose components set effects (focus, exposure). kNoEntity: a camera without an entity.
   Entity camera_entity = kNoEntity;
-  /// Whether pose and lens are camera_entity's, taken when the frame's systems have moved it; else the two below.
+  /// True: pose and lens are taken from camera_entity after the frame's world systems, if it is alive. Otherwise the
+  /// two members below are used.
   bool follow_camera = true;
   dmat4 world_from_camera = dmat4(1.0);  ///< rigid; the camera looks along −Z
   Camera camera;
   std::string visualizer = "none";  ///< a name of Renderer::visualizers()
 };
 
-/// One view of one frame as systems and passes see it. A view resource. Positions on the GPU are relative to
-/// `position`.
+/// One view of one frame, for systems and passes. A view resource. Positions on the GPU are relative to `position`.
 struct RenderView {
   ViewId id{0};
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint64_t frame = 0;              ///< of its world, counted from 0
-  Entity camera_entity = kNoEntity;     ///< the camera whose effects it has, if any
-  dvec3 position = dvec3(0.0);          ///< of the camera, world
+  std::uint64_t frame = 0;              ///< frame number of its world, from 0
+  Entity camera_entity = kNoEntity;     ///< camera whose effects the view has, or kNoEntity
+  dvec3 position = dvec3(0.0);          ///< world position of the camera
   mat4 view_from_relative = mat4(1.0);  ///< rotation only
   mat4 clip_from_view = mat4(1.0);      ///< reversed Z
   mat4 clip_from_relative = mat4(1.0);
@@ -45,20 +45,20 @@ struct RenderView {
 
   /// Camera-relative float position of a world position.
   [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }
-  /// Metres in front of the camera of what has this depth (reversed Z); not for the sky's 0.
+  /// View depth in metres of a value of the depth image (reversed Z); not for the sky's 0.
   [[nodiscard]] float view_depth(float depth) const {
     const mat4& m = clip_from_view;
     return (m[3][2] - depth * m[3][3]) / (m[2][2] - depth * m[2][3]);
   }
 };
 
-/// Takes pose and lens of settings.camera_entity from the world as it is now, if it is to be followed and alive.
+/// If settings.follow_camera is set and settings.camera_entity is alive, sets pose and lens from its current state.
 void follow_camera(const World& world, ViewSettings& settings);
 
 [[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame);
 
-/// Settings for a camera entity (its Camera and WorldTransform), or for one fitted to the bounds of everything drawn
-/// when `camera` is kNoEntity.
+/// Settings for the view of a camera entity, from its Camera and WorldTransform. kNoEntity: of a camera fitted to the
+/// bounds of everything drawn. width, height: pixels.
 [[nodiscard]] ViewSettings settings_for_camera(const World& world, Entity camera, std::uint32_t width,
                                                std::uint32_t height);
 

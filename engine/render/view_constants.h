@@ -7,7 +7,7 @@
 
 namespace gloam {
 
-/// A view as shaders see it; `visualizer` is left 0. Computed in double.
+/// Shader constants of a view, computed in double. `visualizer` is left 0.
 [[nodiscard]] shaders::ViewConstants view_constants(const RenderView& view);
 
 }  // namespace gloam

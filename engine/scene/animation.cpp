@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-/// Components of one key: for cubic the value between its two tangents.
+/// Components of one part of a key. Cubic keys have three parts (in-tangent, value, out-tangent), others one.
 std::span<const float> key_values(const AnimationChannel& channel, std::size_t key, std::size_t part) {
   const std::size_t parts = channel.interpolation == Interpolation::cubic ? 3 : 1;
   return std::span(channel.values).subspan((key * parts + part) * channel.width, channel.width);
@@ -38,7 +38,8 @@ void store_quat(const dquat& q, std::span<double> out) {
   out[3] = q.w;
 }
 
-/// Cubic Hermite spline between keys `key` and `key + 1`; tangents are per second, hence the factor.
+/// Cubic Hermite spline between keys `key` and `key + 1`, which are `seconds` apart. Tangents are per second, so they
+/// are multiplied by `seconds`.
 void sample_cubic(const AnimationChannel& channel, std::size_t key, double u, double seconds, std::span<double> out) {
   const auto value0 = key_values(channel, key, 1);
   const auto tangent0 = key_values(channel, key, 2);
@@ -70,10 +71,10 @@ dquat slerp_shortest(const dquat& a, const dquat& b, double u) {
   const double sign = cosine < 0.0 ? -1.0 : 1.0;
   const dvec4 from(a.x, a.y, a.z, a.w);
   const dvec4 to = sign * dvec4(b.x, b.y, b.z, b.w);
-  // The arc from chord lengths: acos(cosine) loses half its digits where the two are close.
+  // The angle from chord lengths: acos(cosine) loses half its digits if the rotations are nearly equal.
   const double angle = 2.0 * std::atan2(glm::length(to - from), glm::length(to + from));
   const double sine = std::sin(angle);
-  const bool tiny = angle < 1.0e-6;  // there sin(x)/x = 1 to the last digit
+  const bool tiny = angle < 1.0e-6;  // sin(x)/x = 1 to the last digit
   const double weight_from = tiny ? 1.0 - u : std::sin((1.0 - u) * angle) / sine;
   const double weight_to = tiny ? u : std::sin(u * angle) / sine;
   const dvec4 mixed = weight_from * from + weight_to * to;
@@ -90,7 +91,7 @@ void sample_channel(const AnimationChannel& channel, double time_s, std::span<do
                "a channel has `width` values a key, three times as many when cubic");
 
   const auto& times = channel.times;
-  // Keys are floats, the time is double: the comparison must not round the time.
+  // Keys are floats and the time is a double: the comparison must not round the time.
   const auto next =
       std::upper_bound(times.begin(), times.end(), time_s, [](double t, float key) { return t < double{key}; });
   const std::size_t key = next == times.begin() ? 0 : static_cast<std::size_t>(next - times.begin()) - 1;

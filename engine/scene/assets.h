@@ -14,7 +14,7 @@ namespace gloam {
 
 inline constexpr std::uint32_t kNone = ~0u;
 
-/// Vertex data of one triangle list, one array an attribute; optional ones are empty or as long as `positions`.
+/// Vertex data of one triangle list, one array per attribute. An optional array is empty or as long as `positions`.
 struct Primitive {
   std::uint32_t material = kNone;  ///< index into SceneAssets::materials; kNone: the default material
   std::vector<vec3> positions;
@@ -24,26 +24,26 @@ struct Primitive {
   std::vector<vec2> uv1;
   std::vector<vec4> colors;
   std::vector<std::array<std::uint16_t, 4>> joints;
-  std::vector<vec4> weights;  ///< sum 1
+  std::vector<vec4> weights;  ///< sum to 1 per vertex
   std::vector<std::uint32_t> indices;
   struct MorphTarget {
-    std::vector<vec3> positions;  ///< offsets
-    std::vector<vec3> normals;    ///< offsets, may be empty
+    std::vector<vec3> positions;  ///< offsets from the rest positions
+    std::vector<vec3> normals;    ///< offsets from the rest normals; may be empty
   };
   std::vector<MorphTarget> morph_targets;
-  Aabb bounds;  ///< of the rest positions
+  Aabb bounds;  ///< bounds of the rest positions
 };
 
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
-  std::vector<float> morph_weights;  ///< default weights, one a target
+  std::vector<float> morph_weights;  ///< default weights, one per target
   Aabb bounds;
 };
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-/// Which texture, which coordinates, and KHR_texture_transform as a 2×3 matrix: uv' = (row0·(u,v,1), row1·(u,v,1)).
+/// Texture, coordinate set, and KHR_texture_transform as a 2×3 matrix: uv' = (row0·(u,v,1), row1·(u,v,1)).
 struct TextureSlot {
   std::uint32_t texture = kNone;  ///< index into SceneAssets::textures
   std::uint32_t uv_set = 0;       ///< 0 or 1
@@ -54,7 +54,7 @@ struct TextureSlot {
 struct Material {
   std::string name;
   vec4 base_color = vec4(1.0f);
-  vec3 emissive = vec3(0.0f);  ///< linear, strength included, cd/m²
+  vec3 emissive = vec3(0.0f);  ///< linear, emissive strength included, cd/m²
   float metallic = 1.0f;
   float roughness = 1.0f;
   float normal_scale = 1.0f;
@@ -69,12 +69,12 @@ struct Material {
   TextureSlot emissive_texture;
   // Set by scene keys:
   bool subsurface = false;
-  float reflectivity = -1.0f;  ///< < 0: from metallic and roughness
+  float reflectivity = -1.0f;  ///< < 0: derived from metallic and roughness
 };
 
 enum class WrapMode : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
-/// An 8-bit RGBA image and how it is sampled. `srgb` when colours are read from it.
+/// An 8-bit RGBA image and its sampler settings. `srgb`: the image holds colours, not data.
 struct Texture {
   std::string name;
   std::uint32_t image = kNone;
@@ -88,20 +88,20 @@ struct Image {
   std::string name;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<std::uint8_t> rgba;  ///< width · height · 4, rows from the top
+  std::vector<std::uint8_t> rgba;  ///< width · height · 4 bytes, rows from the top
 };
 
 struct Skin {
   std::string name;
   std::vector<std::uint32_t> joint_nodes;  ///< glTF node indices, see SceneInfo::node_entities
-  std::vector<mat4> inverse_bind;          ///< as many as joints
+  std::vector<mat4> inverse_bind;          ///< one per joint
 };
 
 enum class AnimationPath : std::uint8_t { translation, rotation, scale, weights };
 enum class Interpolation : std::uint8_t { step, linear, cubic };
 
-/// Key frames of one property of one node. `values` holds components, `width` a key (3, 4, or the number of morph
-/// targets), three times as many for cubic (in-tangent, value, out-tangent).
+/// Key frames of one property of one node. A key has `width` components (3, 4, or the number of morph targets); a cubic
+/// key has three times as many in `values` (in-tangent, value, out-tangent).
 struct AnimationChannel {
   std::uint32_t node = kNone;  ///< glTF node index
   AnimationPath path = AnimationPath::translation;
@@ -117,8 +117,8 @@ struct AnimationClip {
   std::vector<AnimationChannel> channels;
 };
 
-/// Everything a scene shares between entities. A resource of the world; built by the importer or by code. `version`
-/// must grow when meshes, materials, images or textures change after the first frame.
+/// Data that the entities of a scene share. A resource of the world, filled by the importer or by code. Increment
+/// `version` when meshes, materials, images or textures change after the first frame.
 struct SceneAssets {
   std::vector<Mesh> meshes;
   std::vector<Material> materials;

@@ -16,18 +16,19 @@ struct LocalTransform {
   dvec3 scale = dvec3(1.0);
 };
 
-/// Replaces LocalTransform's pose for a node given as a matrix that is not T·R·S (sheared); the node is not animated.
+/// Replaces the pose of LocalTransform for a node whose matrix is not T·R·S (sheared). Animation does not move the
+/// node.
 struct LocalMatrix {
   dmat4 matrix = dmat4(1.0);
 };
 
-/// Depth in the node tree (0: root) and the parent; roots have no Parent.
+/// Parent of an entity, and the entity's depth in the node tree. Roots have depth 0 and no Parent.
 struct Parent {
   Entity entity;
   std::uint32_t depth = 1;
 };
 
-/// Node to world, composed in double by the transform system.
+/// World matrix of the node, composed in double by the transform system.
 struct WorldTransform {
   dmat4 matrix = dmat4(1.0);
 };

@@ -29,7 +29,7 @@ namespace {
 
 using namespace gltf;
 
-/// A checked document beside what was seen in its text.
+/// A checked document and the scan of its text.
 struct OpenScene {
   JsonScan scan;
   Document document;
@@ -62,13 +62,14 @@ Result<OpenScene> open_scene(const std::string& path, const std::string& directo
   return OpenScene{std::move(*scan), std::move(*document)};
 }
 
-/// What the parallel part makes; one slot a job.
+/// Results of the import jobs, one slot per job.
 struct Decoded {
   std::vector<std::optional<Result<ImportedMesh>>> meshes;
   std::vector<std::optional<Result<Image>>> images;
 };
 
-/// Decodes images, the largest first so that the last job to end is a short one, and converts meshes.
+/// Decodes images and converts meshes in jobs. The largest image comes first, so that the last job to end is a short
+/// one.
 Decoded decode(const Document& document, std::vector<EncodedImage> encoded, JobExecutor& executor) {
   Decoded decoded;
   decoded.meshes.resize(document.meshes.size());
@@ -89,7 +90,8 @@ Decoded decode(const Document& document, std::vector<EncodedImage> encoded, JobE
   return decoded;
 }
 
-/// Moves what the jobs made into the assets; the first fault in file order wins.
+/// Moves the results of the jobs into the assets and returns the joint count of each mesh. The first fault in file
+/// order is returned.
 Result<std::vector<std::uint32_t>> collect(Decoded decoded, Document& document, SceneAssets& assets, SceneInfo& info) {
   std::vector<std::uint32_t> joint_counts;
   for (std::optional<Result<ImportedMesh>>& slot : decoded.meshes) {
@@ -146,7 +148,7 @@ Status build_world(OpenScene& scene, const std::string& directory, const ImportO
     if (node.mesh != kNone) info.triangles += triangle_count(world.resource<SceneAssets>().meshes[node.mesh]);
   }
   info.node_entities = std::move(*entities);
-  // Whoever finds a fault in the file, a module that resolves a name too: the file is to blame, not the call.
+  // Always an input error, also if a module fails to resolve a name: the file is at fault, not the caller.
   Status keys = import_keys(scene.scan, document, nodes->scene, info.node_entities, directory, registry, world);
   if (keys.ok()) keys = registry.finish(world);
   if (!keys) return Error{ErrorKind::input, keys.error().message};

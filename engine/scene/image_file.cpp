@@ -43,14 +43,15 @@ bool is_jpeg(std::span<const std::uint8_t> file) {
   return file.size() > 3 && file[0] == 0xff && file[1] == 0xd8 && file[2] == 0xff;
 }
 
-/// Bits a pixel takes in the file's own format before compression; PNG keeps depth and colour type at fixed places.
+/// Bits per pixel of a PNG before compression. Depth and colour type are at fixed places in its header.
 std::uint64_t png_bits_per_pixel(std::span<const std::uint8_t> file) {
   constexpr std::array<std::uint64_t, 7> kChannels = {1, 1, 3, 1, 2, 1, 4};
   if (file.size() < 26 || file[25] >= kChannels.size()) return 1;
   return kChannels[file[25]] * std::max<std::uint64_t>(file[24], 1);
 }
 
-/// Deflate shrinks to 1/1032 at best; a progressive JPEG spends 0.75 byte on 256 flat pixels.
+/// Whether the file is large enough for its stated size. Deflate shrinks to 1/1032 at best; a progressive JPEG spends
+/// 0.75 byte on 256 flat pixels.
 bool can_hold(std::span<const std::uint8_t> file, const ImageSize& size) {
   const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
   if (is_png(file)) return pixels * png_bits_per_pixel(file) / 8 <= 1040 * std::uint64_t{file.size()};
@@ -63,7 +64,7 @@ std::uint32_t big_endian_word(std::span<const std::uint8_t> file, std::size_t at
 }
 
 /// The compressed rows of a PNG that needs nothing but inflating and unfiltering: 8-bit RGB or RGBA, not interlaced,
-/// without a transparent colour. Empty for any other, and for one whose chunks do not add up.
+/// without a transparent colour. Empty for any other PNG, and if its chunks do not add up.
 std::vector<std::uint8_t> plain_png_data(std::span<const std::uint8_t> file) {
   constexpr std::size_t kFirstChunk = 8;
   constexpr std::size_t kChunkFrame = 12;  // length, type, checksum
@@ -91,17 +92,17 @@ std::vector<std::uint8_t> plain_png_data(std::span<const std::uint8_t> file) {
   return {};
 }
 
-/// Whether `data` is a zlib stream that is whole and of just so many bytes.
+/// Inflates a zlib stream. False if it is damaged or does not give exactly bytes.size() bytes.
 bool inflate(std::span<const std::uint8_t> data, std::span<std::uint8_t> bytes) {
   const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> decompressor(
       libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
   if (decompressor == nullptr) throw std::bad_alloc();
-  // Without a place for the actual size, anything but a full buffer is a fault.
+  // With nullptr for the actual size, libdeflate fails unless the stream fills the buffer exactly.
   return libdeflate_zlib_decompress(decompressor.get(), data.data(), data.size(), bytes.data(), bytes.size(),
                                     nullptr) == LIBDEFLATE_SUCCESS;
 }
 
-/// Four times as fast as the library's own way for what most textures are. False where it does not apply.
+/// Decodes the PNGs of most textures four times as fast as stb_image. False if this PNG needs stb_image.
 bool decode_plain_png(std::span<const std::uint8_t> file, Image& image) {
   const std::vector<std::uint8_t> data = plain_png_data(file);
   if (data.empty()) return false;

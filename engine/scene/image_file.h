@@ -10,7 +10,7 @@
 
 namespace gloam {
 
-/// Widest and highest image that is read.
+/// Largest accepted width and height of an image, in pixels.
 inline constexpr std::uint32_t kMaxImageSide = 16384;
 
 struct ImageSize {
@@ -18,12 +18,13 @@ struct ImageSize {
   std::uint32_t height = 0;
 };
 
-/// What the header of a PNG or JPEG says, checked against what so many bytes can hold at the format's densest. The
-/// error is the fault alone.
+/// Size from the header of a PNG or JPEG. Input error if the file is neither, its header is damaged, a side exceeds
+/// kMaxImageSide, or it states more pixels than its bytes can hold at the format's best compression. The message holds
+/// only the fault, not the place.
 [[nodiscard]] Result<ImageSize> image_size(std::span<const std::uint8_t> file);
 
-/// Decodes a PNG or JPEG to 8-bit RGBA (16-bit channels are rounded down). Memory beyond the picture itself stays in
-/// proportion to it. The error is the fault alone.
+/// Decodes a PNG or JPEG to 8-bit RGBA (16-bit channels are rounded down). Uses memory in proportion to the size of the
+/// image. An error's message holds only the fault, not the place.
 [[nodiscard]] Result<Image> decode_image(std::span<const std::uint8_t> file);
 
 }  // namespace gloam

@@ -16,11 +16,11 @@
 
 namespace gloam {
 
-/// What a scene key may stand on. `light_node`: a node with a light; `mesh_node`, `camera_node` alike; `node`: any
-/// node.
+/// The element of a scene file that a scene key may stand on. `light_node`, `mesh_node`, `camera_node`: a node with a
+/// light, mesh or camera. `node`: any node.
 enum class KeyElement { node, light_node, mesh_node, camera_node, material, scene };
 
-// GCC takes scoped enumerators that are spelled like a type for shadowing.
+// GCC's -Wshadow warns about scoped enumerators with the name of a type.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
 enum class KeyType { boolean, number, integer, text, choice, vec2, vec3 };
@@ -29,7 +29,8 @@ enum class KeyType { boolean, number, integer, text, choice, vec2, vec3 };
 /// A checked value: boolean → bool, number → double, integer → long long, text and choice → string.
 using KeyValue = std::variant<bool, double, long long, std::string, vec2, vec3>;
 
-/// What a setter changes: the node's entity, or the material's index into SceneAssets, or the scene (world resources).
+/// The target of a setter: the entity of a node, or the material with this index in SceneAssets, or the scene (world
+/// resources).
 struct KeyTarget {
   World& world;
   Entity entity;
@@ -37,7 +38,7 @@ struct KeyTarget {
   std::string directory;  ///< folder of the scene file, for keys that name files
 };
 
-/// One line of a key table. Numbers (and each component of vectors) lie in [min, max].
+/// A scene key. Numbers, and each component of vectors, must lie in [min, max].
 struct SceneKey {
   std::string module;
   KeyElement on = KeyElement::node;
@@ -49,28 +50,30 @@ struct SceneKey {
   std::string unit;
   std::string default_text;
   std::string meaning;
-  std::function<Status(KeyTarget&, const KeyValue&)> set;  ///< an error's message is the fault alone; place is added
+  /// Stores a checked value. An error's message holds only the fault; the importer adds the place.
+  std::function<Status(KeyTarget&, const KeyValue&)> set;
 };
 
-/// Reads one glTF extension that is not the importer's own.
+/// Reader of one glTF extension that the importer does not read itself.
 struct SceneExtension {
   std::string module;
   std::string name;  ///< "KHR_lights_punctual"
-  /// Once a file: the extension object at the root of the file (null when absent there).
+  /// Called once per file with the extension object at the root of the file (null if absent).
   std::function<Status(World&, const SceneValue* root)> begin;
-  /// Once a node that carries the extension, before its keys are set.
+  /// Called for each node that carries the extension, before the node's keys are set.
   std::function<Status(KeyTarget&, const SceneValue& node)> on_node;
 };
 
-/// Everything modules want to read from scene files. Filled by the modules; the importer knows only this.
+/// All scene keys and extensions of the engine and the modules. The modules fill it; the importer knows only this
+/// registry.
 class KeyRegistry {
  public:
   void add(SceneKey key);
   void add_extension(SceneExtension extension);
-  /// Runs once after every node, key and transform is in the world: resolves names, checks what needs the whole scene.
+  /// `finish` is called once, after every node, key and transform is in the world. It resolves names and makes checks
+  /// that need the whole scene.
   void add_finish(std::string module, std::function<Status(World&)> finish);
-  /// Says whether an entity counts as the element (the importer asks for light_node; mesh and camera nodes it knows
-  /// itself).
+  /// Sets the test for KeyElement::light_node. The importer tests for meshes and cameras itself.
   void set_light_test(std::function<bool(const World&, Entity)> is_light);
 
   [[nodiscard]] const std::vector<SceneKey>& keys() const { return keys_; }
@@ -79,10 +82,10 @@ class KeyRegistry {
   [[nodiscard]] bool is_light(const World& world, Entity entity) const { return is_light_ && is_light_(world, entity); }
   [[nodiscard]] Status finish(World& world) const;
 
-  /// Checks type and range of a file's value for a key (booleans may be 0 or 1) and converts it. The error is the fault
-  /// alone, e.g. "must be a number in 0…1, is \"wide\"".
+  /// Checks type and range of a file's value for a key and converts it (booleans may be 0 or 1). The error holds only
+  /// the fault, e.g. "must be a number in 0…1, is \"wide\"".
   [[nodiscard]] static Result<KeyValue> convert(const SceneKey& key, const SceneValue& value);
-  /// The known key closest in spelling, for "did you mean"; empty when none is near.
+  /// The known key with the closest spelling, for "did you mean"; empty if none is near.
   [[nodiscard]] std::string nearest(std::string_view name) const;
 
  private:
@@ -92,7 +95,7 @@ class KeyRegistry {
   std::function<bool(const World&, Entity)> is_light_;
 };
 
-/// Keys the engine itself reads: gloam.sky.*, gloam.exposure, gloam.reflectivity, gloam.subsurface.
+/// Adds the keys that the engine itself reads: gloam.sky.*, gloam.exposure, gloam.reflectivity, gloam.subsurface.
 void add_engine_keys(KeyRegistry& registry);
 
 }  // namespace gloam

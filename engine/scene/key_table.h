@@ -13,20 +13,20 @@
 
 namespace gloam {
 
-/// The component of the target's entity, added with defaults when absent.
+/// Component C of the target's entity; added with defaults if absent.
 template <class C>
 C& component_of(KeyTarget& target) {
   if (C* there = target.world.try_get<C>(target.entity)) return *there;
   return target.world.add<C>(target.entity, C{});
 }
 
-/// Input error when a file holds more than one of what a scene can have one of.
+/// Input error if `count` > 1, for a property that only one node of a scene may have. `what`: subject of the message.
 [[nodiscard]] inline Status at_most_one(std::size_t count, const std::string& what) {
   if (count <= 1) return {};
   return Error{ErrorKind::input, what + " may stand on one node a scene, but stands on " + std::to_string(count)};
 }
 
-/// A key without its setter, for the functions below.
+/// A key without type, range and setter, which the functions below add.
 [[nodiscard]] inline SceneKey key_line(std::string module, KeyElement on, std::string name, std::string default_text,
                                        std::string unit, std::string meaning) {
   SceneKey key;
@@ -39,7 +39,7 @@ C& component_of(KeyTarget& target) {
   return key;
 }
 
-/// Stores a number in a float member of a component, times `factor` (units of the file → units of the code).
+/// The setter stores a number, times `factor` (file units → code units), in a float member of component C.
 template <class C>
 [[nodiscard]] SceneKey number_key(SceneKey key, double min, double max, float C::*member, double factor = 1.0) {
   key.type = KeyType::number;
@@ -98,7 +98,8 @@ template <class C>
   return key;
 }
 
-/// Stores the index of the chosen word in an enumeration member; `first` is the enumerator of choices[0].
+/// The setter stores the enumerator of the chosen word: `first` is the enumerator of choices[0], the others follow in
+/// order.
 template <class C, class Enum>
 [[nodiscard]] SceneKey choice_key(SceneKey key, std::vector<std::string> choices, Enum first, Enum C::*member) {
   key.type = KeyType::choice;
@@ -112,7 +113,7 @@ template <class C, class Enum>
   return key;
 }
 
-/// Stores a string's number in SceneStrings.
+/// The setter adds the string to SceneStrings and stores its number.
 template <class C>
 [[nodiscard]] SceneKey text_key(SceneKey key, std::uint32_t C::*member) {
   key.type = KeyType::text;
@@ -124,7 +125,8 @@ template <class C>
   return key;
 }
 
-/// Number in SceneStrings of the path of a file in the scene's folder. Input error when it is absent or outside.
+/// Adds the path of a file in the scene's folder to SceneStrings and returns its number. Input error if the file is
+/// absent or outside the folder.
 [[nodiscard]] inline Result<std::uint32_t> intern_scene_file(KeyTarget& target, const std::string& name) {
   auto path = resolve_scene_path(target.directory, name);
   if (!path.ok()) return path.error();
@@ -134,7 +136,7 @@ template <class C>
   return target.world.resource<SceneStrings>().intern(*path);
 }
 
-/// Stores intern_scene_file of a string.
+/// The setter stores the number from intern_scene_file.
 template <class C>
 [[nodiscard]] SceneKey file_key(SceneKey key, std::uint32_t C::*member) {
   key.type = KeyType::text;

@@ -10,7 +10,7 @@
 
 namespace gloam {
 
-/// Morph targets of each of a mesh's primitives (glTF: all have as many).
+/// Number of morph targets of a mesh (glTF: the same for each of its primitives).
 [[nodiscard]] std::uint32_t morph_target_count(const Mesh& mesh);
 
 /// One instance and the mesh it draws.
@@ -19,9 +19,9 @@ struct MorphRow {
   const Mesh* mesh = nullptr;
 };
 
-/// Gives every instance a range of its mesh's target count in `values`, in the order of the rows. Weights of an
-/// instance that had a range of the right length stay as they are, others begin with the mesh's defaults. Does nothing
-/// when all ranges fit and the values are as many as the ranges need together. Returns whether it changed anything.
+/// Gives every instance a range in `values` as long as its mesh's target count, in the order of the rows. An instance
+/// that already has a range of the right length keeps its weights; others start with the mesh's defaults. Does nothing
+/// if all ranges fit and `values` is exactly as long as all ranges together. Returns whether anything changed.
 bool lay_out_morph_weights(std::span<const MorphRow> rows, std::vector<float>& values);
 
 }  // namespace gloam

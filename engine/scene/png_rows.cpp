@@ -12,8 +12,8 @@
 #include <emmintrin.h>
 #endif
 
-// PNG (ISO/IEC 15948) § 9, a pixel at a time: the four channels in the lanes of a vector. Half of the time of decoding
-// textures went into doing this a byte at a time.
+// Filters of PNG (ISO/IEC 15948) § 9, one pixel at a time with its four channels in the lanes of a vector. A loop over
+// single bytes took half of the time of decoding textures.
 
 namespace gloam {
 namespace {
@@ -22,8 +22,8 @@ enum class Filter : std::uint8_t { none, sub, up, average, paeth };
 
 #if defined(__SSE2__)
 
-/// Channels in the low bytes of 16-bit lanes: differences need the room, and staying there keeps the chain from pixel
-/// to pixel short.
+/// Channels in the low bytes of 16-bit lanes. Differences need more than 8 bits, and without repacking the dependency
+/// chain from pixel to pixel stays short.
 using Pixel = __m128i;
 
 inline Pixel load(const std::uint8_t* bytes) {
@@ -39,7 +39,7 @@ inline void store(std::uint8_t* bytes, Pixel pixel) {
 
 inline Pixel zero_pixel() { return _mm_setzero_si128(); }
 inline Pixel opaque(Pixel pixel) { return _mm_or_si128(pixel, _mm_set_epi16(0, 0, 0, 0, 255, 0, 0, 0)); }
-/// Wraps in the low byte; the high one stays 0.
+/// Adds modulo 256 in the low bytes; the high bytes stay 0.
 inline Pixel add(Pixel a, Pixel b) { return _mm_add_epi8(a, b); }
 inline Pixel average(Pixel a, Pixel b) { return _mm_srli_epi16(_mm_add_epi16(a, b), 1); }
 
@@ -112,7 +112,7 @@ Pixel prediction(Pixel left, Pixel above, Pixel corner) {
   return zero_pixel();
 }
 
-/// Of RGB, the fourth lane holds a byte of the next pixel and comes out as nonsense, which `opaque` covers.
+/// For RGB the fourth lane holds a byte of the next pixel and a meaningless result, which `opaque` overwrites.
 template <std::uint32_t kChannels, Filter kFilter>
 void unfilter_row(const std::uint8_t* row, std::uint32_t width, const std::uint8_t* above_row, std::uint8_t* out) {
   Pixel left = zero_pixel();

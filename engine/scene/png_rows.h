@@ -8,12 +8,12 @@
 
 namespace gloam {
 
-/// Bytes that unfilter_png_rows may read behind the last row.
+/// Bytes that unfilter_png_rows may read past the last row.
 inline constexpr std::size_t kPngRowPadding = 4;
 
-/// Takes the filters off the inflated rows of an 8-bit RGB or RGBA picture and widens RGB by an alpha of 255, in one
-/// pass. rows: height times a filter byte and width · channels bytes, then kPngRowPadding bytes of any value. channels:
-/// 3 or 4. rgba: width · height · 4. False when a filter is not one of PNG's.
+/// Undoes the filters of the inflated rows of an 8-bit RGB or RGBA image and gives RGB an alpha of 255, in one pass.
+/// rows: for each row a filter byte and width · channels bytes; then kPngRowPadding bytes of any value. channels: 3 or
+/// 4. rgba: width · height · 4 bytes. Sizes are asserted. False if a filter byte is not one of PNG's.
 [[nodiscard]] bool unfilter_png_rows(std::span<const std::uint8_t> rows, std::uint32_t width, std::uint32_t height,
                                      std::uint32_t channels, std::span<std::uint8_t> rgba);
 

@@ -21,34 +21,34 @@ struct SceneClock {
   double dt_s = 1.0 / 60.0;
 };
 
-/// Joint matrices of all skinned instances in use, for the GPU: `origin_relative` maps skin-space rest positions to the
-/// space of the entity in `origins` (its world position subtracted), so that floats stay small far from the world's
-/// origin.
+/// Joint matrices of all skinned instances, for the GPU. Each maps rest positions of the mesh to the world's axes,
+/// relative to its range's `origin`, so that floats stay small far from the world's origin.
 struct JointMatrices {
   struct Range {
     Entity instance;          ///< entity with the MeshInstance
     std::uint32_t first = 0;  ///< index into matrices
     std::uint32_t count = 0;
-    dvec3 origin = dvec3(0.0);  ///< world position that positions after skinning are relative to
-    bool mirrored = false;      ///< the skinned surface is mirrored: front faces swap
+    dvec3 origin = dvec3(0.0);  ///< world position that skinned positions are relative to
+    bool mirrored = false;      ///< skinning mirrors the surface, which swaps front and back faces
   };
-  std::vector<Range> ranges;  ///< ordered by instance index
+  std::vector<Range> ranges;  ///< ordered by instance.index
   std::vector<mat4> matrices;
 };
 
-/// Morph weights of all instances with targets.
+/// Morph weights of all instances with morph targets. MorphInstance holds their ranges.
 struct MorphWeights {
   std::vector<float> values;
 };
 
-/// Which entities carry which name, by kind ("light", "camera", "mesh", "node", …).
+/// Entities by kind ("light", "camera", "mesh", "node", …) and name.
 class SceneNames {
  public:
   void add(std::string_view kind, std::string_view name, Entity entity);
-  /// Usage error when absent (listing the valid names), input error when two share the name.
+  /// The entity with this name. Usage error if there is none (listing the valid names), input error if several entities
+  /// share the name.
   [[nodiscard]] Result<Entity> find(std::string_view kind, std::string_view name) const;
   [[nodiscard]] std::vector<std::string> names(std::string_view kind) const;  ///< in order of adding
-  [[nodiscard]] std::string_view name_of(Entity entity) const;                ///< empty when it has none
+  [[nodiscard]] std::string_view name_of(Entity entity) const;                ///< empty if it has none
 
  private:
   struct Named {
@@ -61,8 +61,8 @@ class SceneNames {
   };
 
   std::map<std::string, Kind, std::less<>> kinds_;
-  std::unordered_map<Entity, std::string>
-      names_;  ///< a node's own name before what a light or a camera on it is called
+  /// A node's name wins over the name of a light, mesh or camera on it.
+  std::unordered_map<Entity, std::string> names_;
 };
 
 /// Strings that components refer to by number; number 0 is the empty string.
@@ -76,7 +76,7 @@ class SceneStrings {
   std::unordered_map<std::string, std::uint32_t> ids_ = {{std::string(), 0u}};
 };
 
-/// Sky, exposure and other facts of a whole scene; set by `gloam.sky.*` and `gloam.exposure`.
+/// Sky and exposure of a whole scene; set by `gloam.sky.*` and `gloam.exposure`.
 struct SceneEnvironment {
   vec3 sky_zenith = vec3(0.0f);  ///< cd/m²
   vec3 sky_horizon = vec3(0.0f);

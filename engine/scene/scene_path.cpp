@@ -38,8 +38,7 @@ std::string percent_decoded(std::string_view uri) {
   return text;
 }
 
-/// Whether following the path, part by part, ever steps above where it began. Backslashes separate too: on some
-/// systems.
+/// Whether the path, followed part by part, ever goes above its start. Backslashes count as separators, as on Windows.
 bool leaves_folder(std::string_view path) {
   int depth = 0;
   std::size_t begin = 0;
@@ -65,7 +64,7 @@ Result<std::string> resolve_scene_path(const std::string& directory, std::string
   if (path.empty()) return fault("the path of a file is empty");
   if (path.find('\0') != std::string::npos) return fault("the path " + in_quotes(path) + " holds a zero byte");
   const bool absolute = path.front() == '/' || path.front() == '\\';
-  // A colon ahead of the first separator: a scheme ("file:…", "https://…") or a drive ("C:…").
+  // A colon before the first separator marks a scheme ("file:…", "https://…") or a drive ("C:…").
   const bool scheme = path.find(':') < path.find_first_of("/\\");
   if (absolute || scheme || leaves_folder(path))
     return fault("the path " + in_quotes(path) + " leaves the scene's folder");
@@ -76,7 +75,7 @@ Result<std::vector<std::uint8_t>> read_scene_file(const std::string& path, std::
   std::error_code code;
   const std::filesystem::file_status status = std::filesystem::status(path, code);
   if (!std::filesystem::exists(status)) return fault("the file " + in_quotes(path) + " is absent");
-  // Devices and pipes may never end.
+  // Reading a device or a pipe may never end.
   if (!std::filesystem::is_regular_file(status)) return fault(in_quotes(path) + " is not a file");
   const std::uint64_t size = std::filesystem::file_size(path, code);
   if (code) return fault("the file " + in_quotes(path) + " cannot be read: " + code.message());

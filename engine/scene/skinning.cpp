@@ -21,8 +21,7 @@ SkinPlacement place_joints(std::span<const dmat4> joint_worlds, std::span<const 
 
   SkinPlacement placement{.origin = dvec3(joint_worlds[0][3])};
   for (std::size_t joint = 0; joint < joint_worlds.size(); ++joint) {
-    // The origin is taken off before the product: what is subtracted afterwards would have lost its last digits
-    // already.
+    // Subtract the origin before the product: afterwards, the last digits would be lost already.
     dmat4 relative = joint_worlds[joint];
     relative[3] -= dvec4(placement.origin, 0.0);
     const dmat4 matrix = relative * dmat4(inverse_bind[joint]);

@@ -11,18 +11,18 @@
 
 namespace gloam {
 
-/// What the transform system keeps from frame to frame, a row an entity with a WorldTransform; meaningful only within a
-/// call.
+/// Memory of the transform system, one row per entity with a WorldTransform. It is kept to save allocations; its
+/// content is valid only within a call.
 struct TransformTree {
   std::vector<Entity> entities;
-  std::vector<std::uint32_t> row_of_index;  ///< by Entity::index; valid where entities[row] is that entity
+  std::vector<std::uint32_t> row_of_index;  ///< by Entity::index; valid only if entities[row] is that entity
   std::vector<std::uint32_t> parents;
   std::vector<std::uint32_t> depths;
   std::vector<dmat4> matrices;
   TransformLevels levels;
 };
 
-/// Puts the systems' own resources (SceneNodes, AnimationBindings, TransformTree) into the world.
+/// Adds the resources of the scene systems (SceneNodes, AnimationBindings, TransformTree) to the world.
 void prepare_scene_systems(World& world);
 
 }  // namespace gloam

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kChannelsPerJob = 64;
 constexpr std::size_t kInstancesPerJob = 4;
 
-/// Reads the SourceNode components again if rows of them came, moved or were marked.
+/// Reads the SourceNode components again if rows were added, moved or marked as changed.
 void refresh_nodes(const View<const SourceNode>& sources, SceneNodes& nodes) {
   bool changed = false;
   nodes.seen =
@@ -85,7 +85,7 @@ void animation_system(View<const SourceNode> sources, View<LocalTransform> poses
     bindings->nodes_version = nodes->version;
     bindings->assets_version = assets->version;
   }
-  // Two channels of one node write different members of its pose, so that they may run at once.
+  // Channels of the same node write different members of its pose, so they may run at the same time.
   jobs.parallel_for(bindings->poses.size(), kChannelsPerJob, [&](JobRange range) {
     for (const AnimationBinding& binding : std::span(bindings->poses).subspan(range.begin, range.end - range.begin)) {
       LocalTransform* pose = poses.try_get<LocalTransform>(binding.entity);

@@ -15,23 +15,24 @@ namespace gloam {
 /// Adds animation, transform, joint-matrix and morph systems (module "engine", world stage), in that order.
 void add_scene_systems(Schedule& schedule);
 
-/// Poses of SceneClock's time into LocalTransform, all clips at once, each looped by its own duration.
+/// Writes the poses at SceneClock's time to LocalTransform. All clips play at once; each loops with its own duration.
 void animation_system(View<const SourceNode> sources, View<LocalTransform> poses, Resource<const SceneAssets> assets,
                       Resource<const SceneClock> clock, Resource<SceneNodes> nodes,
                       Resource<AnimationBindings> bindings, JobExecutor& jobs);
 
-/// WorldTransform of every node. A node with neither LocalTransform nor LocalMatrix stands at its parent's origin;
-/// without a parent as well, its WorldTransform is the host's and stays. A node whose parent is dead or has no
-/// WorldTransform is a root.
+/// Computes the WorldTransform of every node. A node with neither LocalTransform nor LocalMatrix gets its parent's
+/// matrix; if it has no Parent either, the system keeps the WorldTransform that the host set. A node whose parent is
+/// dead or has no WorldTransform is a root.
 using TransformView = View<WorldTransform, Maybe<const LocalTransform>, Maybe<const LocalMatrix>, Maybe<const Parent>>;
 void transform_system(TransformView nodes, Resource<TransformTree> tree, JobExecutor& jobs);
 
-/// JointMatrices of all skinned instances. A joint that is not in the world stands where the instance stands.
+/// Computes the JointMatrices of all skinned instances. A joint that is not in the world gets the world matrix of the
+/// instance.
 void joint_system(View<const MeshInstance> instances, View<const WorldTransform> worlds,
                   Resource<const SceneAssets> assets, Resource<const SceneNodes> nodes, Resource<JointMatrices> joints,
                   JobExecutor& jobs);
 
-/// Lays MorphWeights out for all entities with a MorphInstance and samples the clips that move them.
+/// Gives each MorphInstance its range in MorphWeights and samples the clips that animate the weights.
 void morph_system(View<const MeshInstance, MorphInstance> instances, Resource<const SceneAssets> assets,
                   Resource<const SceneClock> clock, Resource<const AnimationBindings> bindings,
                   Resource<MorphWeights> weights);

@@ -42,23 +42,23 @@ std::vector<std::uint32_t> weld(std::span<const vec3> positions, Topology& topol
   return welded;
 }
 
-/// Unit normal; false when the face has no area (or no finite one).
+/// Unit normal; false if the face's area is zero or not finite.
 bool face_normal(std::span<const vec3> positions, const Corners& face, vec3& normal) {
   const dvec3 a(positions[face[0]]);
   const dvec3 ab = dvec3(positions[face[1]]) - a;
   const dvec3 ac = dvec3(positions[face[2]]) - a;
   const dvec3 cross = glm::cross(ab, ac);
   const double length = glm::length(cross);
-  // Below this sine the direction is rounding noise of the products.
+  // Below this sine of the angle, the direction is rounding noise of the products.
   constexpr double kSmallestSine = 1.0e-14;
   if (!std::isfinite(length) || !(length > kSmallestSine * glm::length(ab) * glm::length(ac))) return false;
   normal = vec3(cross / length);
   return true;
 }
 
-/// True when the corner between the edges `in` and `out` (both drawn already, with their inner sides free) would close
-/// one fan of faces around their common vertex while another fan hangs there too. The same walk OpenMesh does before it
-/// gives up.
+/// Whether a face with the corner from halfedge `in` to `out` would close one fan of faces around their common vertex
+/// while the vertex has another fan. Both halfedges exist and are boundaries. OpenMesh walks the same way before it
+/// refuses a face.
 bool closes_one_of_several_fans(const Mesh& mesh, OpenMesh::HalfedgeHandle in, OpenMesh::HalfedgeHandle out) {
   if (mesh.next_halfedge_handle(in) == out) return false;
   OpenMesh::HalfedgeHandle before = mesh.opposite_halfedge_handle(out);
@@ -68,7 +68,7 @@ bool closes_one_of_several_fans(const Mesh& mesh, OpenMesh::HalfedgeHandle in, O
   return before == in;
 }
 
-/// Whether OpenMesh can take the face. Asked here because its own refusal writes to a stream the whole process shares.
+/// Whether OpenMesh can add the face. Checked here because OpenMesh reports a refusal on a stream of the whole process.
 bool can_add(const Mesh& mesh, const std::array<OpenMesh::VertexHandle, 3>& corners) {
   std::array<OpenMesh::HalfedgeHandle, 3> edges;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -83,7 +83,7 @@ bool can_add(const Mesh& mesh, const std::array<OpenMesh::VertexHandle, 3>& corn
   return true;
 }
 
-/// Face across each edge of each kept face; mesh faces were added in the order of topology.faces.
+/// Finds the face across each edge of each kept face. The mesh's faces are in the order of topology.faces.
 void find_neighbors(const Mesh& mesh, Topology& topology) {
   topology.neighbors.reserve(topology.faces.size());
   for (const Corners& face : topology.faces) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kRowsPerJob = 1024;
 
-/// The columns of one archetype and the row of TransformTree its first row has. Optional columns may be empty.
+/// The columns of one archetype, and the TransformTree row of its first entity. Optional columns may be empty.
 struct NodeChunk {
   std::span<const Entity> entities;
   std::span<WorldTransform> worlds;

@@ -16,7 +16,7 @@ constexpr std::uint32_t kUnknownDepth = ~0u;
 bool depths_fit(std::span<const std::uint32_t> parents, std::span<const std::uint32_t> depths) {
   for (std::size_t row = 0; row < parents.size(); ++row) {
     const std::uint32_t parent = parents[row];
-    // A cycle never fits: its largest depth would have to be one less than its smallest.
+    // Depths never fit a cycle: each row would have to be deeper than its parent.
     const std::uint64_t depth = parent == kNoParentRow ? 0 : std::uint64_t{depths[parent]} + 1;
     if (depths[row] != depth) return false;
   }

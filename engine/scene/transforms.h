@@ -12,23 +12,23 @@
 
 namespace gloam {
 
-/// Translation · rotation · scale. The rotation is unit length.
+/// Translation · rotation · scale. The rotation must have unit length.
 [[nodiscard]] dmat4 local_matrix(const LocalTransform& local);
 
-/// Row of the parent that a root has.
+/// Parent row of a root.
 inline constexpr std::uint32_t kNoParentRow = ~0u;
 
-/// Rows of a forest, level by level: a row comes behind its parent's whole level.
+/// Rows of a forest by depth: all rows of a level come before those of the next level.
 struct TransformLevels {
-  std::vector<std::uint32_t> order;   ///< rows; within a level ascending
-  std::vector<std::uint32_t> starts;  ///< first place in `order` of each level, and one past the last
+  std::vector<std::uint32_t> order;   ///< rows; ascending within a level
+  std::vector<std::uint32_t> starts;  ///< index in `order` of each level's first row; then order.size()
 };
 
-/// parents: row of each row's parent or kNoParentRow. depths: as many; the stated depths (0: root). Where a stated
-/// depth does not fit the parents, all depths are computed again from the parents. A cycle asserts.
+/// parents: row of each row's parent, or kNoParentRow. depths: as many; the stated depths (0: root). If a stated depth
+/// contradicts the parents, all depths are computed from the parents and overwritten. A cycle asserts.
 void build_levels(std::span<const std::uint32_t> parents, std::span<std::uint32_t> depths, TransformLevels& levels);
 
-/// matrices: in, each row relative to its parent; out, each row to world. A level runs in parallel.
+/// matrices: in, each row's matrix relative to its parent; out, its world matrix. The rows of a level run in parallel.
 void compose_worlds(const TransformLevels& levels, std::span<const std::uint32_t> parents, JobExecutor& executor,
                     std::span<dmat4> matrices);
 

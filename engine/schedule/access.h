@@ -10,28 +10,29 @@ namespace gloam {
 
 enum class AccessKind : std::uint8_t { component, resource, view_resource };
 
-/// One thing a system touches.
+/// One component or resource that a system accesses.
 struct Access {
   AccessKind kind = AccessKind::component;
   const void* key = nullptr;  ///< type_key of the component or resource
-  std::string_view name;      ///< type_name of it
+  std::string_view name;      ///< its type_name
   bool write = false;
 };
 
-/// Everything a system touches, as its signature states it.
+/// All accesses of a system, as its signature states them.
 struct SystemAccess {
   std::vector<Access> accesses;  ///< each kind and key once
   bool commands = false;         ///< records structural changes
-  bool per_view = false;         ///< makes sense only for a view
+  bool per_view = false;         ///< takes a parameter that exists only in Stage::view
 
-  /// Adds an access; a second one to the same thing widens the first.
+  /// Adds an access. A second access to the same kind and key is merged: the result writes if either writes.
   void declare(const Access& access);
-  /// Null if the thing is not declared.
+  /// The declared access to this kind and key; null if there is none.
   [[nodiscard]] const Access* find(AccessKind kind, const void* key) const;
 };
 
-/// Whether the two may not run at once: they share a thing and one writes it. Filters of views do not count, commands
-/// neither (they are applied when all systems of the stage have ended).
+/// Whether the two systems must not run at the same time: both access the same component or resource and at least one
+/// writes it. Filters of views and commands do not count (commands are applied when all systems of the stage have
+/// ended).
 [[nodiscard]] bool conflict(const SystemAccess& a, const SystemAccess& b);
 
 }  // namespace gloam

@@ -10,7 +10,7 @@
 namespace gloam {
 namespace {
 
-// Which system the thread runs, and whose world it is checked against. A property of the thread's stack.
+// The checker and the system of the innermost Scope on this thread's stack.
 thread_local const CheckedWorld* t_checker = nullptr;
 thread_local const System* t_system = nullptr;
 

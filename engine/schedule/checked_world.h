@@ -15,8 +15,9 @@
 
 namespace gloam {
 
-/// While it lives, every access to the world that a system makes without having declared it asserts, and so does a
-/// structural change by a system. Accesses outside systems pass. Replaces the world's access checker, and leaves none.
+/// During its lifetime, a system that accesses the world without having declared it, or makes a structural change,
+/// fails an assertion. Accesses outside systems pass. It replaces the world's access checker and sets none when it is
+/// destroyed.
 class CheckedWorld final : public AccessChecker {
  public:
   explicit CheckedWorld(World& world) : world_(world) { world_.set_access_checker(this); }
@@ -28,7 +29,7 @@ class CheckedWorld final : public AccessChecker {
   void resource(std::string_view type_name, bool write) override;
   void structure() override;
 
-  /// While it lives, accesses of the calling thread to the checked world are `system`'s.
+  /// During its lifetime, accesses of the calling thread to the checked world count as accesses of `system`.
   class Scope {
    public:
     Scope(const CheckedWorld& checker, const System& system);
@@ -46,8 +47,9 @@ class CheckedWorld final : public AccessChecker {
   World& world_;
 };
 
-/// Hands jobs on to another executor, each inside a Scope: a system's jobs run on threads that do not know of it, or
-/// that wait inside another system.
+/// Forwards jobs to another executor and runs each inside a Scope of the system. The system's own Scope covers only the
+/// thread that runs the system, while its jobs may run on any thread, even on one that is waiting inside another
+/// system.
 class CheckedExecutor final : public JobExecutor {
  public:
   CheckedExecutor(JobExecutor& inner, const CheckedWorld& checker, const System& system)

@@ -9,7 +9,7 @@
 namespace gloam {
 namespace {
 
-/// Without the namespaces that every type here is in.
+/// The type name without its leading keyword and namespaces.
 std::string_view short_name(std::string_view name) {
   for (const std::string_view prefix : {"struct ", "class ", "gloam::", "{anonymous}::", "(anonymous namespace)::"}) {
     if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
@@ -46,7 +46,7 @@ std::string describe_stage(std::span<const std::unique_ptr<System>> systems, Sta
                            const std::function<bool(const System&)>& runs) {
   const StagePlan plan = plan_stage(systems, stage, runs);
   std::string text;
-  std::size_t next = 0;  // node of the next system that runs
+  std::size_t next = 0;  // index of the node of the next system that runs
   for (std::size_t i = 0; i < systems.size(); ++i) {
     if (!contains(systems[i]->stages, stage)) continue;
     std::string line = (stage == Stage::world ? "world " : "view ") + describe_access(*systems[i]);

@@ -11,8 +11,9 @@
 
 namespace gloam {
 
-/// The systems of one stage, a line each in order of registration:
-/// `view z_bins (lights): reads LightDepth, ZBinParams; writes ZBins; waits for light_bounds`.
+/// Describes the systems of one stage, one line per system in order of registration, e.g. `view z_bins (lights): reads
+/// LightDepth, ZBinParams; writes ZBins; waits for light_bounds`. Systems for which `runs` is false are listed as
+/// disabled.
 [[nodiscard]] std::string describe_stage(std::span<const std::unique_ptr<System>> systems, Stage stage,
                                          const std::function<bool(const System&)>& runs);
 

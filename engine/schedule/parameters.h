@@ -13,11 +13,11 @@
 #include "engine/jobs/executor.h"
 #include "engine/schedule/access.h"
 
-/// What a system may take as parameters, besides View<…>, JobExecutor& and (in Stage::view) ViewId.
+/// Parameter types of systems, besides View<…>, JobExecutor& and (in Stage::view) ViewId.
 
 namespace gloam {
 
-/// A resource that must be there: Resource<const R> reads, Resource<R> writes.
+/// A resource that must exist: Resource<const R> reads, Resource<R> writes.
 template <class R>
 class Resource {
  public:
@@ -37,7 +37,7 @@ class OptionalResource {
   [[nodiscard]] explicit operator bool() const { return value_ != nullptr; }
   /// Null when absent.
   [[nodiscard]] R* get() const { return value_; }
-  /// Must be there.
+  /// The resource must exist.
   [[nodiscard]] R& operator*() const { return *get_checked(); }
   [[nodiscard]] R* operator->() const { return get_checked(); }
 
@@ -49,7 +49,7 @@ class OptionalResource {
   R* value_;
 };
 
-/// The resource of the view that the stage runs for; it must be there. Only in Stage::view.
+/// A resource of the view that the stage runs for; it must exist. Only in Stage::view.
 template <class R>
 class ViewResource {
  public:
@@ -61,12 +61,12 @@ class ViewResource {
   R* value_;
 };
 
-/// Structural changes a system asks for, applied when all systems of the stage have ended: system by system in order of
-/// registration.
+/// Structural changes that a system records. They are applied when all systems of the stage have ended, system by
+/// system in order of registration.
 class Commands : public CommandBuffer {
  public:
-  /// For a parallel loop: `count` buffers, one a range, applied in order behind the system's other commands. Once a
-  /// run.
+  /// For a parallel loop: `count` buffers, one per range, applied in order after the system's other commands. Call it
+  /// once per run.
   [[nodiscard]] CommandLists& ranges(std::size_t count) {
     ranges_.prepare(count);
     return ranges_;
@@ -78,7 +78,7 @@ class Commands : public CommandBuffer {
   CommandLists ranges_;
 };
 
-/// What a system is run with.
+/// Arguments of one run of a system.
 struct SystemContext {
   World& world;
   JobExecutor& executor;
@@ -88,7 +88,7 @@ struct SystemContext {
 
 namespace detail {
 
-/// How a parameter type is declared and made.
+/// Declares the access of a parameter type and makes the parameter.
 template <class Parameter>
 struct SystemParameter {
   static_assert(!std::is_same_v<Parameter, Parameter>,
@@ -116,7 +116,7 @@ void declare_resource(SystemAccess& access, AccessKind kind) {
   access.declare({kind, type_key<Value>(), type_name<Value>(), !std::is_const_v<R>});
 }
 
-/// The world as const as the resource: a const world is told that it is only read.
+/// The world, const if R is const: the access checker then sees a read instead of a write.
 template <class R>
 auto& world_for(const SystemContext& context) {
   if constexpr (std::is_const_v<R>) {

@@ -13,7 +13,7 @@
 
 namespace gloam {
 
-/// What all systems of one run of a stage share.
+/// Data shared by all systems of one run of a stage.
 struct Schedule::Run {
   World& world;
   JobExecutor& executor;
@@ -22,7 +22,7 @@ struct Schedule::Run {
   const CheckedWorld* checker = nullptr;  ///< null: unchecked
 };
 
-/// A stage's plan as jobs. The jobs look up the run that is under way through `run`.
+/// A stage's plan as job nodes. The jobs find the current run through `run`.
 struct Schedule::Graph {
   StagePlan plan;
   std::vector<JobNode> nodes;

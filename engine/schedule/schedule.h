@@ -18,18 +18,20 @@
 
 namespace gloam {
 
-/// Systems and the order that their signatures ask for. Per stage: systems that conflict (one writes what the other
-/// reads or writes) run in order of registration, others in any order or at once; when all have ended, their commands
-/// are applied in order of registration. Results do not depend on the executor, as long as systems touch only what they
-/// declare.
+/// Runs systems in the order that their signatures require. Per stage: systems that conflict (one writes what the other
+/// reads or writes) run in order of registration, others in any order or at the same time. When all have ended, their
+/// commands are applied in order of registration. Results do not depend on the executor, provided that systems access
+/// only what they declare.
 ///
-/// One thread at a time. The graph is built on the first run after systems or enabling changed.
+/// Use it from one thread at a time. A stage's graph is built on the first run after systems were added or modules were
+/// enabled or disabled.
 class Schedule {
  public:
-  /// Refers to the system just added, to say more about it.
+  /// Refers to the system just added, to state further constraints.
   class Added {
    public:
-    /// Runs behind the system `name` too, in stages they share; that one must have been added before.
+    /// Makes the system wait for system `name` as well, in every stage that both belong to. `name` must have been added
+    /// before.
     Added& after(std::string_view name);
 
    private:
@@ -50,21 +52,23 @@ class Schedule {
     return add(name, module, stages, access_of(function), bind_system(function));
   }
 
-  /// Modules are enabled unless said otherwise; systems of disabled ones do not run.
+  /// Modules are enabled by default. Systems of disabled modules do not run.
   void set_enabled(std::string_view module, bool enabled);
   [[nodiscard]] bool is_enabled(std::string_view module) const;
 
-  /// Asserts on accesses that a system did not declare (see CheckedWorld). Slower; for tests and debugging.
+  /// If set, an access that a system did not declare fails an assertion (see CheckedWorld). Slower; for tests and
+  /// debugging.
   void set_checked(bool checked) { checked_ = checked; }
 
-  /// Runs the systems of Stage::world (the only stage allowed here). Zones: one a system; null records none.
-  /// Rethrows what the earliest-registered failing system threw; then systems that wait for a failed one did not run,
-  /// all others did, and the commands of the stage are dropped.
+  /// Runs the systems of Stage::world (the only stage allowed here). `zones` receives one zone per system; may be null.
+  /// If systems throw, rethrows the exception of the one registered first: systems that wait for a failed one are
+  /// skipped, all others run, and the commands of the stage are dropped.
   void run(Stage stage, World& world, JobExecutor& executor, ZoneRecorder* zones = nullptr);
-  /// As run(), the systems of Stage::view, for this view.
+  /// As run(), for the systems of Stage::view and this view.
   void run_view(ViewId view, World& world, JobExecutor& executor, ZoneRecorder* zones = nullptr);
 
-  /// One line a system and stage: stage, name, module, what it reads, writes, records and waits for.
+  /// One line per system and stage: stage, name, module, reads, writes, recorded commands, and the systems it waits
+  /// for.
   [[nodiscard]] std::string describe() const;
 
  private:
@@ -82,7 +86,7 @@ class Schedule {
   std::set<std::string, std::less<>> disabled_;
   bool checked_ = false;
   bool running_ = false;
-  std::array<std::unique_ptr<Graph>, 2> graphs_;  ///< of Stage::world and Stage::view; null until needed
+  std::array<std::unique_ptr<Graph>, 2> graphs_;  ///< graphs of Stage::world and Stage::view; null until needed
 };
 
 }  // namespace gloam

@@ -12,12 +12,12 @@ StagePlan plan_stage(std::span<const std::unique_ptr<System>> systems, Stage sta
   for (std::uint32_t i = 0; i < systems.size(); ++i) {
     if (contains(systems[i]->stages, stage) && runs(*systems[i])) plan.nodes.push_back({i, {}, {}});
   }
-  std::vector<std::vector<bool>> waited(plan.nodes.size());  // by node: the earlier nodes it waits for, at any distance
+  std::vector<std::vector<bool>> waited(plan.nodes.size());  // per node: earlier nodes it waits for, at any distance
   for (std::uint32_t j = 0; j < plan.nodes.size(); ++j) {
     StagePlan::Node& node = plan.nodes[j];
     const System& system = *systems[node.system];
     waited[j].resize(plan.nodes.size(), false);
-    for (std::uint32_t i = j; i-- > 0;) {  // nearest first: what it waits for needs no edge of its own
+    for (std::uint32_t i = j; i-- > 0;) {  // nearest first: nodes that it waits for need no edge
       if (waited[j][i]) continue;
       const std::uint32_t earlier = plan.nodes[i].system;
       const bool told = std::ranges::find(system.after, earlier) != system.after.end();

@@ -12,18 +12,19 @@
 
 namespace gloam {
 
-/// The graph of one stage. Nodes are in order of registration, so edges lead forward.
+/// The graph of one stage. Nodes are in order of registration, so edges lead to later nodes.
 struct StagePlan {
   struct Node {
-    std::uint32_t system = 0;               ///< index of the system
-    std::vector<std::uint32_t> waits_for;   ///< earlier nodes; those that others of them wait for anyway are left out
+    std::uint32_t system = 0;  ///< index of the system
+    std::vector<std::uint32_t>
+        waits_for;  ///< direct dependencies: earlier nodes, ascending; implied waits are left out
     std::vector<std::uint32_t> successors;  ///< later nodes that wait for this one
   };
   std::vector<Node> nodes;
 };
 
-/// `runs`: whether a system of the stage takes part. A system waits for every earlier one it conflicts with or was told
-/// to follow.
+/// Plans the systems of `stage` for which `runs` is true. A system waits for every earlier one that it conflicts with
+/// or must follow (System::after).
 [[nodiscard]] StagePlan plan_stage(std::span<const std::unique_ptr<System>> systems, Stage stage,
                                    const std::function<bool(const System&)>& runs);
 

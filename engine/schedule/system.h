@@ -13,7 +13,7 @@
 
 namespace gloam {
 
-/// When systems run: once a frame for the world, then once for each view. A set of flags.
+/// When systems run: once per frame for the world, then once for each view. A set of flags.
 enum class Stage : std::uint8_t { world = 1, view = 2 };
 
 [[nodiscard]] constexpr Stage operator|(Stage a, Stage b) {
@@ -29,12 +29,12 @@ struct System {
   std::string module;
   Stage stages = Stage::world;
   SystemAccess access;
-  std::vector<std::uint32_t> after;  ///< earlier systems this one waits for, whatever their access; by index
+  std::vector<std::uint32_t> after;  ///< indices of earlier systems that this one waits for, regardless of their access
   std::function<void(const SystemContext&)> run;
   Commands commands;
 };
 
-/// The access list that a function's signature states.
+/// The access list that follows from a function's signature.
 template <class... Parameters>
 [[nodiscard]] SystemAccess access_of(void (*)(Parameters...)) {
   SystemAccess access;
@@ -42,7 +42,7 @@ template <class... Parameters>
   return access;
 }
 
-/// A function that takes its parameters from the context.
+/// Wraps a system's function: the parameters are made from the context.
 template <class... Parameters>
 [[nodiscard]] std::function<void(const SystemContext&)> bind_system(void (*function)(Parameters...)) {
   return [function]([[maybe_unused]] const SystemContext& context) {

@@ -11,11 +11,12 @@ namespace gloam {
 /// This entity's subtree is a close-up subject.
 struct CloseupSubject {
   bool enabled = false;
-  float priority = 1.0f;     ///< order when the budget is short
-  std::uint32_t lights = 0;  ///< comma-separated light names in SceneStrings; 0: every shadowed light that reaches it
+  float priority = 1.0f;  ///< higher first, when there are more pairs than closeups.max_pairs
+  /// Comma-separated light names in SceneStrings; 0: every shadow-casting light that reaches the subject.
+  std::uint32_t lights = 0;
 };
 
-/// One subject lit by one light, with a shadow map of its own. Made by a system.
+/// One subject lit by one light, with its own shadow map. Created by system closeup_pairs.
 struct CloseupPair {
   Entity subject;
   Entity light;

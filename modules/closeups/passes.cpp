@@ -61,21 +61,21 @@ shaders::CloseupConstants constants_of(const CloseupView& pair, const RenderView
   return c;
 }
 
-/// Pairs that share the map at a time.
+/// Pairs that share the close-up map at a time.
 struct Batch {
   std::vector<CloseupView> pairs;
   std::vector<gpu::Binding::BufferRange> constants;
   std::vector<gpu::PipelineHandle> pipelines;
 };
 
-/// All maps of a batch are as large as the largest, and lie in the corners of the close-up map.
+/// Gives all faces of a batch the size of the largest one, and places them side by side in the close-up map.
 void place(std::vector<CloseupView>& pairs) {
   std::uint32_t size = 0;
   for (const CloseupView& pair : pairs) size = std::max(size, pair.face.square.size);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) pairs[i].face.square = {uvec2(i & 1u, i >> 1) * size, size};
 }
 
-/// shadows: as the maps of pairs are looked at.
+/// `shadows`: the outputs with the filter for close-up maps.
 Result<Batch> make_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, const ShadowsOutputs& shadows) {
   const FrameServices& services = frame.services();
   const std::vector<DirectionalLook> suns =
@@ -103,10 +103,10 @@ Status draw_batch(FrameBuilder& frame, const Batch& batch, const CloseupSubjects
   return frame.get<ShadowMapDrawer>().draw(frame, "closeup", kModule, maps, atlas);
 }
 
-/// What a compose pass records with.
+/// Inputs for recording a compose pass.
 struct Compose {
   Batch batch;
-  ShadowsOutputs shadows;  ///< atlas, pyramid and block are those of the close-up map
+  ShadowsOutputs shadows;  ///< with the atlas, pyramid and block of the close-up map
   GeometryOutputs geometry;
   ImageRef texels;
   gpu::SamplerHandle sampler;

@@ -11,15 +11,15 @@
 
 namespace gloam {
 
-/// Casters that pairs draw into maps of their own.
+/// The casters that pairs draw into the close-up map, by light.
 [[nodiscard]] WithheldCasters withheld_casters(std::span<const CloseupView> pairs, const CloseupSubjects& subjects);
 
-/// Whether the pipelines of the frame's pairs are there; those that are not are made in the background.
+/// Whether the pipelines for close-up pairs are ready. Missing ones are built in the background.
 [[nodiscard]] bool closeup_pipelines_ready(const FrameBuilder& frame, const CloseupKnobs& knobs);
 
-/// Draws the pairs of the CloseupFrame on the board one batch after the other into one map, and takes what their
-/// subjects keep of the light from the final lists on the board; where standard maps are looked at, copies of those
-/// hold the subjects too. Nothing in a frame without final lists.
+/// For the pairs of the CloseupFrame on the board, batch after batch: draws them into the close-up map, and lowers the
+/// visibilities in the final lists on the board by what the subjects hide. If the frame reads standard maps, also adds
+/// the subjects to the overlay. Does nothing in a frame without final lists.
 [[nodiscard]] Status add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs);
 
 }  // namespace gloam

@@ -24,7 +24,7 @@ std::optional<CloseupLight> placed(const PlacedLights& lights, Entity entity) {
   return light == nullptr || transform == nullptr ? std::nullopt : closeup_light(*light, transform->matrix);
 }
 
-/// Pairs of subjects with a box and lights of the view, in no order that counts.
+/// Pairs whose subject has a box and whose light is in the view, unordered.
 std::vector<CloseupView> candidates(const View<const CloseupPair>& pairs, const CloseupSubjects& subjects,
                                     const VisibleLights& visible) {
   std::vector<CloseupView> found;
@@ -55,7 +55,7 @@ std::vector<CloseupView> candidates(const View<const CloseupPair>& pairs, const 
 
 std::uint64_t tiles_across(std::uint32_t pixels) { return (pixels + kShadowTile - 1) / kShadowTile; }
 
-/// Higher priority first, then greater coverage, then by entities.
+/// Drawing order: higher priority first, then greater coverage, then by entities.
 bool before(const CloseupView& a, const CloseupView& b) {
   if (a.priority != b.priority) return a.priority > b.priority;
   if (a.coverage != b.coverage) return a.coverage > b.coverage;
@@ -65,7 +65,7 @@ bool before(const CloseupView& a, const CloseupView& b) {
   return entities(a) < entities(b);
 }
 
-/// Gives the pair its map; false when none can hold the subject.
+/// Computes the pair's face and emitter data; false if no face can hold the subject.
 bool give_map(const CloseupSettings& settings, const CloseupSubjects::Subject& subject,
               const CloseupReceivers& receivers, const PlacedLights& lights, CloseupView& view) {
   const std::optional<CloseupLight> light = placed(lights, view.light);

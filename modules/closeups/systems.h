@@ -16,25 +16,26 @@ namespace gloam {
 
 using PlacedLights = View<const Light, const WorldTransform>;
 
-/// Pairs whose lights are the view's, with the tiles that their shadows may touch; those that touch none are left out.
+/// Finds the pairs whose light is in the view, with their umbra ranges. Pairs with an empty range are left out.
 void umbra_projection_system(ViewResource<const VisibleLights> visible, ViewResource<const RenderView> view,
                              ViewResource<const CloseupSettings> settings, Resource<const CloseupSubjects> subjects,
                              Resource<const CloseupReceivers> receivers, View<const CloseupPair> pairs,
                              PlacedLights lights, ViewResource<CloseupViews> found, JobExecutor& jobs);
 
-/// Gives those pairs their maps, ranks them, and keeps those that are drawn.
+/// Sorts the pairs that umbra_projection found, computes their faces, and keeps the first closeups.max_pairs pairs that
+/// have a face.
 void closeup_views_system(ViewResource<const CloseupSettings> settings, Resource<const CloseupSubjects> subjects,
                           Resource<const CloseupReceivers> receivers, PlacedLights lights,
                           ViewResource<CloseupViews> found, JobExecutor& jobs);
 
-/// The systems closeup_subjects, closeup_receivers, closeup_pairs, umbra_projection and closeup_views. The systems of
-/// lights must be added before.
+/// Adds the systems closeup_subjects, closeup_receivers, closeup_pairs, umbra_projection and closeup_views. The systems
+/// of the lights module must be added before.
 void add_closeup_systems(Schedule& schedule);
 
-/// Resources of the world that they need.
+/// Adds the world resources that the systems need.
 void register_closeup_resources(World& world);
 
-/// Puts what they need of a view in place where it is missing.
+/// Adds the view resources that the systems need, where they are missing.
 void prepare_closeup_view(World& world, ViewId view);
 
 }  // namespace gloam

@@ -6,7 +6,7 @@
 
 namespace gloam {
 
-/// Homogeneous fog, one a scene.
+/// Homogeneous fog; at most one per scene.
 struct Fog {
   float density = 0.0f;     ///< 1/m
   vec3 color = vec3(0.0f);  ///< in-scattered radiance, cd/m²

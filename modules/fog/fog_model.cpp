@@ -10,9 +10,10 @@
 namespace gloam {
 namespace {
 
-constexpr double kReferenceRadius = 6.0;  // standard deviations: what is cut off is below 1e-8
+constexpr double kReferenceRadius = 6.0;  // standard deviations; the weight cut off is below 1e-8
 
-/// One direction of the blur. `step`: distance of neighbours in `source`, `count`: texels in that direction.
+/// One direction of the blur, for three doubles per texel. `lines`: number of lines, `line_step` texels apart; `count`:
+/// texels of a line, `step` texels apart. `sigma`: in texels.
 std::vector<double> blur_lines(const std::vector<double>& source, std::size_t lines, std::size_t line_step,
                                std::size_t count, std::size_t step, double sigma) {
   const auto taps = static_cast<long>(std::ceil(kReferenceRadius * sigma));

@@ -11,26 +11,27 @@
 
 namespace gloam {
 
-/// Share of the scattered light that keeps close to its direction and shows as glow.
+/// Share of the scattered light that nearly keeps its direction and shows as glow.
 inline constexpr float kFogForwardShare = 0.5f;
-/// Path through the fog where there is no surface, metres: fog lies near the ground, so a sky is dimmed but not lost.
+/// Path length through the fog for sky pixels, metres. Fog lies near the ground, so the sky is dimmed but still
+/// visible.
 inline constexpr float kFogSkyDistance = 200.0f;
 /// Standard deviation of the glow as a share of the picture's height.
 inline constexpr float kFogGlowSigma = 0.02f;
 
-/// Width of the blur in one image of it.
+/// Gaussian of the blur, in texels of the image that is blurred.
 struct GlowKernel {
   float sigma = 1.0f;  ///< texels
   int taps = 1;        ///< on each side of the centre
 };
 
-/// The kernel for a picture of `height` pixels blurred at 1/divisor of its size and cut after `radius` standard
-/// deviations.
+/// The kernel for a picture of `height` pixels, blurred at 1/divisor of its size. The Gaussian is cut at `radius`
+/// standard deviations.
 [[nodiscard]] GlowKernel glow_kernel(std::uint32_t height, std::uint32_t divisor, float radius);
 
-/// The whole effect by brute force in double: the full picture blurred with a kernel cut after 6 standard deviations,
-/// then the fog of shaders/fog/apply.frag.glsl. `lit`: width · height · 4 floats before fog; `distance_m`: of each
-/// pixel, infinite for sky. Returns what `lit` becomes, same layout, alpha 1.
+/// Reference of the whole effect, by brute force in double: the full picture blurred with a kernel cut at 6 standard
+/// deviations, then the fog of shaders/fog/apply.frag.glsl. `lit`: width · height · 4 floats before fog; `distance_m`:
+/// one per pixel, infinite for sky. Returns the picture with fog, same layout, alpha 1.
 [[nodiscard]] std::vector<double> fog_reference(std::span<const float> lit, std::span<const double> distance_m,
                                                 std::uint32_t width, std::uint32_t height, const Fog& fog);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr gpu::Format kGlowFormat = gpu::Format::rgba16_float;
 
-/// A full-screen pass from one image into another; the constants are pushed where there are any.
+/// A full-screen pass from one image to another. `constants` are pushed unless empty.
 struct FilterPass {
   std::string name;
   gpu::PipelineHandle pipeline;

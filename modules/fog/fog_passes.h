@@ -7,10 +7,10 @@
 
 namespace gloam {
 
-/// What add_fog_passes asks for with the knobs as they are.
+/// Pipelines that add_fog_passes uses with these knobs and a perspective camera.
 void list_fog_pipelines(const KnobRegistry& knobs, PipelineList& list);
 
-/// Blurs LitOutput into a glow and lays the fog over it.
+/// Blurs LitOutput to a glow and blends the fog over LitOutput.
 [[nodiscard]] Status add_fog_passes(FrameBuilder& frame, const Fog& fog);
 
 }  // namespace gloam

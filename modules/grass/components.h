@@ -20,8 +20,8 @@ struct GrassSurface {
 
 enum class ColliderShape : std::uint8_t { none, sphere, capsule, box };
 
-/// Moves grass; follows the node's animation. A capsule's height includes its caps and starts at the node's origin,
-/// along +Y.
+/// An obstacle that moves grass; follows the node's animation. A capsule's height includes its caps and starts at the
+/// node's origin, along +Y.
 struct Collider {
   ColliderShape shape = ColliderShape::none;
   float radius_m = 0.5f;
@@ -29,7 +29,7 @@ struct Collider {
   vec3 size_m = vec3(1.0f);
 };
 
-/// One a scene.
+/// Wind; at most one per scene.
 struct Wind {
   vec3 velocity = vec3(0.0f);  ///< m/s
   float gust = 0.3f;           ///< 0…1

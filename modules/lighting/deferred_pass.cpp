@@ -13,22 +13,23 @@ namespace gloam {
 
 namespace {
 
-/// Where local lights come from.
+/// Source of the local lights in the shader.
 enum class LocalLights : std::uint8_t {
   all,             ///< every light of the view
-  lists_or_masks,  ///< the tile's list, or its group's mask where the list found no room
-  lists,           ///< the tile's list; for LightsOutputs::lists_always_fit
-  final_lists,     ///< the tile's final list, directional lights included; tiles without one are drawn after the others
+  lists_or_masks,  ///< the tile's early list, or its group mask if the list did not fit
+  lists,           ///< the tile's early list; needs LightsOutputs::lists_always_fit
+  final_lists,     ///< the tile's final list, directional lights included; fallback tiles are drawn afterwards
 };
 
-/// Of the bindings behind which shadows come: GLOAM_SHADOWS_BINDING or GLOAM_COOKIES_BINDING of the shaders.
+/// First binding of shadows or cookies: GLOAM_SHADOWS_BINDING or GLOAM_COOKIES_BINDING in the shaders.
 constexpr std::uint32_t kFirstShadowBinding = 13;
-/// Of four bindings; GLOAM_FINAL_LISTS_BINDING of the shaders.
+/// First of four bindings: GLOAM_FINAL_LISTS_BINDING in the shaders.
 constexpr std::uint32_t kFirstFinalListBinding = 9;
 constexpr std::uint32_t kFallbackTilesBinding = 19;
 
-/// A full-screen triangle at depth 0, which is the sky's: the test picks pixels of surfaces or of sky. Devices pass
-/// over pixels that fail it, software devices too, which run both sides of every condition.
+/// A full-screen triangle at depth 0, the depth of the sky: the depth test selects either the pixels with a surface or
+/// the pixels with sky. Pixels that fail the test cost nothing. A condition in the shader would not save time on
+/// software devices, which run both sides of it.
 gpu::GraphicsPipelineDesc tested_pipeline(std::string name, gpu::ShaderCode fragment, gpu::CompareOp compare) {
   gpu::GraphicsPipelineDesc desc =
       fullscreen_pipeline(std::move(name), "lighting", fragment, gpu::Format::rgba16_float);
@@ -41,7 +42,7 @@ constexpr const char* kNames[] = {"deferred/brute", "deferred/tiled", "deferred/
 
 bool has_cookies(const ShadowsOutputs& shadows) { return shadows.cookie_lights > 0; }
 
-/// `shadows`: null without.
+/// `shadows`: null for shading without shadows and cookies.
 gpu::ShaderCode shading_code(LocalLights source, const ShadowsOutputs* shadows) {
   using namespace shaders::lighting;
   const bool tiled = source != LocalLights::all;
@@ -59,7 +60,7 @@ gpu::GraphicsPipelineDesc shading_pipeline(LocalLights source, std::uint32_t dir
   const bool shadowed = shadows != nullptr && !shadows->cookies_only && !final_lists;
   std::vector<gpu::SpecConstant> constants = shadows == nullptr ? std::vector<gpu::SpecConstant>{} : shadows->constants;
   std::string variant = shadows == nullptr ? "" : "/" + shadows->variant;
-  // What a shadow takes is not unrolled: one pipeline for any number of directional lights.
+  // Loops with shadows are not unrolled: one pipeline serves any number of directional lights.
   if (!shadowed) {
     constants.push_back({1, directional_lights});
     variant += "/" + std::to_string(directional_lights);
@@ -77,7 +78,7 @@ gpu::GraphicsPipelineDesc shading_pipeline(LocalLights source, std::uint32_t dir
   return desc;
 }
 
-/// Draws tiles without a final list as shadows.mode = monolithic does.
+/// Draws fallback tiles as with shadows.mode = monolithic.
 gpu::GraphicsPipelineDesc fallback_pipeline(const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
   const LocalLights source = inputs.outputs.has_lists() ? LocalLights::lists_or_masks : LocalLights::all;
   gpu::GraphicsPipelineDesc desc = shading_pipeline(source, inputs.directional_count, &shadows);
@@ -90,7 +91,7 @@ gpu::GraphicsPipelineDesc sky_pipeline() {
   return tested_pipeline("deferred/sky", shaders::lighting::sky_frag, gpu::CompareOp::equal);
 }
 
-/// What the pass records with.
+/// Inputs for recording the pass.
 struct Deferred {
   ShadingInputs inputs;
   const ShadowsOutputs* shadows = nullptr;  ///< on the frame's board
@@ -99,7 +100,7 @@ struct Deferred {
   ImageRef texels;
   ImageRef color;
   gpu::PipelineHandle surfaces;
-  gpu::PipelineHandle fallback;  ///< none where every tile has a final list
+  gpu::PipelineHandle fallback;  ///< none if every tile has a final list
   gpu::PipelineHandle sky;
   gpu::SamplerHandle sampler;
 };
@@ -180,8 +181,8 @@ LocalLights best_source(const ShadingInputs& inputs) {
   return inputs.outputs.lists_always_fit ? LocalLights::lists : LocalLights::lists_or_masks;
 }
 
-/// The best source whose pipeline is there; that of the best one is made in the background. All of them draw the same
-/// picture.
+/// The best source whose pipeline is ready. If it is not the best source of all, the pipeline of that one is built in
+/// the background. All sources draw the same picture.
 std::optional<LocalLights> ready_source(const FrameServices& services, const ShadingInputs& inputs,
                                         const ShadowsOutputs* shadows) {
   const LocalLights best = best_source(inputs);
@@ -200,8 +201,8 @@ bool final_lists_ready(const FrameServices& services, const ShadingInputs& input
   return services.pipelines.request(wanted, services.log);
 }
 
-/// Sets `shadows`, returns the source. Frames come without shadows while no pipeline with them is there, and with brute
-/// force, which is waited for, while none is there at all.
+/// Sets `shadows` and returns the source. While no pipeline with shadows is ready, frames are drawn without shadows.
+/// While none is ready at all, they are drawn by brute force, whose pipeline is waited for.
 LocalLights choose_variant(FrameBuilder& frame, Deferred& d) {
   const FrameServices& services = frame.services();
   d.shadows = frame.find<ShadowsOutputs>();
@@ -241,7 +242,7 @@ Status add_deferred_pass(FrameBuilder& frame) {
   d.sampler = *sampler;
 
   d.geometry = frame.get<GeometryOutputs>();
-  // Without local lights the shader does not look at the image, but every binding must be given.
+  // Without local lights the shader does not read this image, but every binding must be set.
   d.texels = inputs->outputs.texels ? inputs->outputs.texels : d.geometry.base_color;
   LitOutput& lit = frame.get<LitOutput>();
   PassBuilder pass = frame.graph().add_pass("deferred", "lighting");

@@ -8,14 +8,15 @@
 
 namespace gloam {
 
-/// Uniform blocks that all shading reads: put on the frame's board once.
+/// Inputs of all shading, created once per frame and put on the board.
 struct ShadingInputs {
-  gpu::Binding::BufferRange lights;       ///< LightBlock; empty when the scene has no light
+  gpu::Binding::BufferRange lights;       ///< LightBlock; without lights if the scene has none
   gpu::Binding::BufferRange environment;  ///< EnvironmentConstants
   std::uint32_t directional_count = 0;
-  LightsOutputs outputs;  ///< of the lights module; without anything when the scene has no light
+  LightsOutputs outputs;  ///< of the lights module; default values if the scene has no light
 };
 
+/// The frame's ShadingInputs from the board; the first call creates them.
 [[nodiscard]] Result<ShadingInputs> shading_inputs(FrameBuilder& frame);
 
 }  // namespace gloam

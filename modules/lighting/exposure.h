@@ -13,16 +13,16 @@
 
 namespace gloam {
 
-/// Factor from cd/m² to 1 = white before the curve, for an exposure value at ISO 100.
+/// Factor from cd/m² to units in which 1 is white before the tone curve, for an exposure value at ISO 100.
 [[nodiscard]] float exposure_from_ev100(float ev100);
 
-/// Number of a world among those a lighting module has prepared; a resource of the world. An address would not do: a
-/// scene that is loaded again may get the old one's, but not its exposure.
+/// The module's number for this world; a resource of the world. The address of the world would not be unique: a
+/// reloaded scene may get the address of the old one, but must not get its exposure.
 struct LightingWorld {
   std::uint64_t number = 0;
 };
 
-/// Metered exposures on the GPU, one slot a world, view and camera: metered in the camera's first frame, then fixed.
+/// Metered exposures on the GPU, one slot per world, view and camera: metered in the camera's first frame, then fixed.
 class ExposureSlots {
  public:
   static constexpr std::uint32_t kCapacity = 1024;
@@ -32,12 +32,16 @@ class ExposureSlots {
     bool fresh = false;  ///< must be metered in this frame
   };
 
+  /// Creates the buffer on the first call; fails if the device cannot. `device` must live until release().
   [[nodiscard]] Status prepare(gpu::Device& device);
+  /// Destroys the buffer and forgets all slots.
   void release();
   [[nodiscard]] gpu::BufferHandle buffer() const { return buffer_; }
-  /// The buffer in the frame being declared: one import for all its views, and the version the last of them left.
+  /// The buffer in the frame's graph, imported by the frame's first call. A pass that writes the buffer must assign the
+  /// new version to the returned reference, so that the next view continues from it.
   [[nodiscard]] BufferRef& in(FrameGraph& graph);
-  /// The slot of a camera of a world; when all are taken, the oldest camera's is metered anew.
+  /// The slot of a camera in a world. If all slots are in use, takes the oldest one; its camera is metered again when
+  /// it returns.
   [[nodiscard]] Slot slot_of(LightingWorld world, const RenderView& view);
 
  private:

@@ -10,7 +10,7 @@
 namespace gloam {
 namespace {
 
-/// Of the bindings behind which shadows come: GLOAM_SHADOWS_BINDING or GLOAM_COOKIES_BINDING of the shaders.
+/// First binding of shadows or cookies: GLOAM_SHADOWS_BINDING or GLOAM_COOKIES_BINDING in the shaders.
 constexpr std::uint32_t kFirstShadowBinding = 7;
 
 SurfacePass make_surface_pass(std::string name, gpu::ShaderCode fragment) {
@@ -24,7 +24,7 @@ SurfacePass make_surface_pass(std::string name, gpu::ShaderCode fragment) {
   return p;
 }
 
-/// `shadows`: null without.
+/// `shadows`: null for shading without shadows and cookies.
 gpu::ShaderCode shading_code(bool tiled, const ShadowsOutputs* shadows) {
   using namespace shaders::lighting;
   if (shadows == nullptr) return tiled ? forward_tiled_frag : forward_frag;
@@ -40,7 +40,7 @@ SurfacePass forward_surface_pass(bool tiled, const ShadowsOutputs* shadows) {
   return pass;
 }
 
-/// What the pass draws with.
+/// Inputs for drawing the pass.
 struct Forward {
   ShadingInputs inputs;
   const ShadowsOutputs* shadows = nullptr;  ///< on the frame's board
@@ -51,8 +51,8 @@ struct Forward {
   gpu::SamplerHandle sampler;
 };
 
-/// The best variant whose pipelines are there. All lights give the same picture while those of tiles are made; without
-/// shadows it is another one.
+/// Chooses the best variant whose pipelines are ready. While tiled pipelines are built, the pass loops over all lights,
+/// which gives the same picture. While shadowed pipelines are built, the picture has no shadows.
 void choose_variant(FrameBuilder& frame, Forward& f) {
   const std::span<const Draw> draws = frame.draws().blended;
   const auto choose = [&](bool tiled, const ShadowsOutputs* shadows) {
@@ -114,7 +114,7 @@ Status add_forward_pass(FrameBuilder& frame) {
         .view = {.image = context.image(f.geometry.depth)}, .load = gpu::LoadOp::load, .read_only = true};
     gpu::CommandList& commands = context.commands();
     begin_view_rendering(commands, frame.view(), std::move(rendering));
-    // Pipelines were made in declaration: nothing is left to fail.
+    // Cannot fail: the pipelines were created when the pass was declared.
     static_cast<void>(frame.draw_surfaces(context, frame.draws().blended, f.surfaces, bindings_of(frame, context, f)));
     commands.end_rendering();
   });

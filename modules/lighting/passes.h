@@ -7,13 +7,13 @@
 
 namespace gloam {
 
-/// Lights the geometry buffer and fills the sky; writes LitOutput.
+/// Shades the surfaces in the geometry buffer and fills the sky; writes LitOutput.
 [[nodiscard]] Status add_deferred_pass(FrameBuilder& frame);
 
-/// Draws blended surfaces over LitOutput, back to front. Nothing when there are none.
+/// Draws blended surfaces over LitOutput, back to front. Does nothing if there are none.
 [[nodiscard]] Status add_forward_pass(FrameBuilder& frame);
 
-/// LitOutput → TargetOutput, metering first in the first frame of a camera without a set exposure.
+/// Maps LitOutput to TargetOutput. Meters first, in the first frame of a camera without a set exposure.
 [[nodiscard]] Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures);
 
 }  // namespace gloam

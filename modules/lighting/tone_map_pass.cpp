@@ -8,7 +8,7 @@
 namespace gloam {
 namespace {
 
-/// Fills an exposure slot from the frame's light.
+/// Meters the frame's light into an exposure slot.
 Status add_meter_pass(FrameBuilder& frame, BufferRef& slots, std::uint32_t slot) {
   auto pipeline =
       frame.services().pipelines.get(gpu::ComputePipelineDesc{"meter", "lighting", shaders::lighting::meter_comp, {}});
@@ -32,9 +32,9 @@ Status add_meter_pass(FrameBuilder& frame, BufferRef& slots, std::uint32_t slot)
   return {};
 }
 
-/// The chosen curve as a table; none when it is computed.
+/// The chosen tone curve as a table; none if lighting.tone_map_table = exact.
 Result<ImageRef> add_tone_table_pass(FrameBuilder& frame) {
-  static constexpr std::uint32_t kSizes[] = {0, 1024, 256, 64};  // by choice of lighting.tone_map_table
+  static constexpr std::uint32_t kSizes[] = {0, 1024, 256, 64};  // indexed by the choice of lighting.tone_map_table
   const std::uint32_t size = kSizes[frame.knobs().choice("lighting.tone_map_table")];
   if (size == 0) return ImageRef{};
   auto pipeline = frame.services().pipelines.get(
@@ -64,7 +64,7 @@ struct ToneMapPass {
   gpu::PipelineHandle pipeline;
   gpu::SamplerHandle nearest;
   gpu::SamplerHandle linear;
-  ImageRef table;  ///< none: the curve is computed
+  ImageRef table;  ///< none: the curve is computed per pixel
 };
 
 void add_tone_map_pass(FrameBuilder& frame, const ToneMapPass& tone_map, BufferRef slots) {
@@ -76,7 +76,7 @@ void add_tone_map_pass(FrameBuilder& frame, const ToneMapPass& tone_map, BufferR
   if (tone_map.table) pass.read(tone_map.table, gpu::Access::fragment_read);
   target.color = pass.write(target.color, gpu::Access::color_target);
   pass.execute([&frame, lit, slots, tone_map, color = target.color](PassContext& context) {
-    // Without a table the shader does not look at it, but every binding must be given.
+    // Without a table the shader does not read this image, but every binding must be set.
     const ImageRef table = tone_map.table ? tone_map.table : lit;
     FullscreenPass draw;
     draw.pipeline = tone_map.pipeline;

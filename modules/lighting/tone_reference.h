@@ -8,14 +8,15 @@
 
 namespace gloam {
 
-/// The curves of shaders/lighting/tone_curve.glsl in double precision; curve: index of the knob's choice. x ≥ 0.
+/// The curves of shaders/lighting/tone_curve.glsl in double precision. `curve`: index of the choice of
+/// lighting.tone_map. x ≥ 0.
 [[nodiscard]] double tone_curve(std::uint32_t curve, double x);
 
-/// The exposure meter.comp gives for a frame's light, in double precision.
+/// The exposure that meter.comp computes for a frame's light, in double precision.
 [[nodiscard]] double metered_exposure(const LinearPicture& lit);
 
-/// What the drawn light should have become with the chosen curve: exposure, curve and sRGB encoding in double
-/// precision, rounded once.
+/// Reference picture of the chosen curve: exposure, curve and sRGB encoding of the frame's light in double precision,
+/// rounded once.
 [[nodiscard]] Result<FramePictures> draw_tone_reference(const ReferenceInput& input);
 
 }  // namespace gloam

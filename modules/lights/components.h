@@ -16,32 +16,32 @@ class SceneNames;
 
 enum class LightKind : std::uint8_t { point, spot, directional };
 
-/// A light at its entity's WorldTransform, shining along the node's −Z.
+/// A light placed by its entity's WorldTransform. It shines along the node's −Z.
 struct Light {
   LightKind kind = LightKind::point;
-  vec3 color = vec3(1.0f);             ///< linear
+  vec3 color = vec3(1.0f);             ///< linear RGB
   float intensity = 1.0f;              ///< candela; directional: lux
-  float range_m = 0.0f;                ///< 0: where the light falls to 0.01 lx
-  float inner_angle = 0.0f;            ///< spot: half angle of full strength, radians
-  float outer_angle = 0.785398163f;    ///< spot: half angle where it ends, radians; beyond π/2 is taken for π/2
+  float range_m = 0.0f;                ///< 0: the distance at which illuminance falls to 0.01 lx
+  float inner_angle = 0.0f;            ///< spot: half angle of the cone with full intensity, radians
+  float outer_angle = 0.785398163f;    ///< spot: half angle at which intensity reaches 0, radians; clamped to π/2
   float width_m = 0.0f;                ///< diameter of the emitter; 0: hard shadows
   float apparent_angle = 0.00925025f;  ///< directional: apparent diameter, radians
   std::uint32_t cookie = 0;            ///< spot: image file in SceneStrings, 0: none
 };
 
-/// Sphere around everything the entity's Light can light, in the world; kept by system light_bounds, which adds it. A
-/// change tick marks where it has changed. When the Light is removed it stays as it was: whoever removes one removes
-/// both.
+/// World-space sphere around everything the entity's Light can light. System light_bounds adds it and keeps it up to
+/// date; its change tick marks the entities whose sphere changed. Removing the Light does not remove its LightBounds:
+/// code that removes one must remove both.
 struct LightBounds {
   dvec3 center = dvec3(0.0);
-  float radius_m = 0.0f;  ///< 0 for directional lights and for those that give nothing
+  float radius_m = 0.0f;  ///< 0 for directional lights and for lights that emit nothing
 };
 
-/// Distance in metres beyond which a light gives nothing: its range, or √(intensity / 0.01 lx); in 0.001…1e9 for any
-/// light.
+/// Distance in metres beyond which a light has no effect: range_m, or √(intensity / 0.01 lx) if that is 0. Clamped to
+/// 0.001…1e9 for every light, also with NaN.
 [[nodiscard]] float effective_range(const Light& light);
 
-/// The lights a comma-separated list of names means. Input error when one is absent or two lights share it; the message
+/// The lights named in a comma-separated list. Input error when a name is unknown or shared by two lights; the message
 /// names `key`.
 [[nodiscard]] Result<std::vector<Entity>> resolve_light_names(const SceneNames& scene, std::string_view names,
                                                               std::string_view key);

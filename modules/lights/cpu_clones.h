@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Loops over lights that the compiler turns into vector code are compiled for several widths of vectors; the machine
-/// picks one when the program starts. No contraction (see cmake/GloamTargets.cmake): all of them compute the same bits.
-/// Sanitizers cannot watch the picking.
+/// Attribute for loops over lights that the compiler vectorizes: compiles them for several vector widths, and the
+/// program picks one at startup. Floating-point contraction is off (see cmake/GloamTargets.cmake), so all versions
+/// compute the same bits. Off under sanitizers, which do not support the startup selection.
 #if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define GLOAM_CPU_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -12,7 +12,7 @@
 #define GLOAM_CPU_CLONES
 #endif
 
-/// For functions that such loops call: compiled into each of them.
+/// For functions that these loops call: inlined, and so compiled, into each version.
 #if defined(__GNUC__)
 #define GLOAM_CPU_INLINE [[gnu::always_inline]] inline
 #else

@@ -6,7 +6,8 @@
 
 namespace gloam {
 
-/// Registers KHR_lights_punctual, the gloam.light.* keys that shape light, and which nodes count as lights.
+/// Registers KHR_lights_punctual, the keys gloam.light.width, .angle and .cookie, and the test for nodes that are
+/// lights.
 void add_light_keys(KeyRegistry& registry);
 
 }  // namespace gloam

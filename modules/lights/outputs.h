@@ -14,71 +14,71 @@
 
 namespace gloam {
 
-/// What the lights module leaves for a view.
+/// What the lights module provides for a view; later modules read it from the board.
 struct LightsOutputs {
   gpu::Binding::BufferRange lights;  ///< a LightBlock (shaders/lights/lights_shared.h), uniform
   std::uint32_t local_count = 0;
   std::uint32_t directional_count = 0;
-  ImageRef texels;  ///< rgba32f, 3 × GLOAM_MAX_LOCAL_LIGHTS: local lights as light_texels.comp writes them; none
+  ImageRef texels;  ///< rgba32f, 3 × GLOAM_MAX_LOCAL_LIGHTS: local lights in the layout of light_texels.comp; empty
                     ///< without local lights
 
-  /// What follows exists with local lights and lights.culling = tiled.
+  /// The following fields are set only with local lights and lights.culling = tiled.
   gpu::Binding::BufferRange grid;        ///< a LightGrid, uniform
-  gpu::Binding::BufferRange z_bins;      ///< one word a bin: the standard set, then the ranged one; storage
-  gpu::Binding::BufferRange mask_tiles;  ///< GLOAM_MASK_WORDS a tile of 32×32 pixels, as the CPU made them; storage
-  BufferRef group_masks;                 ///< GLOAM_MASK_WORDS a tile group: lights of the approximate search
-  ImageRef tile_lists;  ///< rg32ui, one texel a shadow tile: slot (first list entry, a multiple of 3) or GLOAM_NO_SLOT;
-                        ///< lights in the low 16 bits by the accurate search, in the high 16 by the approximate one
+  gpu::Binding::BufferRange z_bins;      ///< storage; one word per bin: the standard set, then the ranged set
+  gpu::Binding::BufferRange mask_tiles;  ///< storage; GLOAM_MASK_WORDS per tile of 32×32 pixels, built on the CPU
+  BufferRef group_masks;                 ///< GLOAM_MASK_WORDS per tile group: lights found by the approximate search
+  ImageRef tile_lists;  ///< rg32ui, one texel per shadow tile. x: slot (first list entry, a multiple of 3) or
+                        ///< GLOAM_NO_SLOT. y: light count of the accurate search in the low 16 bits, of the approximate
+                        ///< search in the high 16
   BufferRef early_lists;            ///< list entry e: 10 bits at bit 10 · (e % 3) of word e / 3
   BufferRef counters;               ///< a LightCounters
-  std::uint32_t slot_capacity = 0;  ///< list entries early_lists holds
-  bool lists_always_fit =
-      false;  ///< slot_capacity is enough for every tile to list every light: no tile is without a list
+  std::uint32_t slot_capacity = 0;  ///< list entries that early_lists holds
+  bool lists_always_fit = false;    ///< every tile has room to list every light, so every tile gets a list
   [[nodiscard]] bool has_lists() const { return static_cast<bool>(tile_lists); }
 };
 
-/// A later module puts this on the board, before PassPhase::visualize, when it shows view light_list of the view's
-/// lights itself: what became of the early lists.
+/// A later module puts this on the board, before PassPhase::visualize, if it draws the visualizer light_list of the
+/// view's lights itself, to show the final use of the early lists.
 struct LightListViewTaken {};
 
-/// The lights of one view; a view resource that system light_sort makes. What other modules' systems may ask of it
-/// stands here.
+/// The lights of one view; a view resource written by system light_sort. The functions below are its interface for the
+/// systems of other modules.
 struct VisibleLights;
-/// Point and spot lights that may touch the view's frustum, in the order of LightBlock::local. None has NaN or infinity
-/// where no sense can be made of it; each had Light and WorldTransform when the world's systems ran.
+/// Point and spot lights that may touch the view's frustum, in the order of LightBlock::local. Lights made unusable by
+/// NaN or infinity are not among them. Each had Light and WorldTransform when the world's systems ran.
 [[nodiscard]] std::span<const Entity> local_lights(const VisibleLights& visible);
-/// The same for LightBlock::directional.
+/// Directional lights, in the order of LightBlock::directional.
 [[nodiscard]] std::span<const Entity> directional_lights(const VisibleLights& visible);
 
-/// What of a directional light does not depend on where one looks.
+/// Properties of a directional light that do not depend on the view.
 struct DirectionalLook {
-  vec3 direction = vec3(0.0f, -1.0f, 0.0f);  ///< where it shines, unit
-  float brightest = 0.0f;                    ///< lux, of its brightest component
+  vec3 direction = vec3(0.0f, -1.0f, 0.0f);  ///< direction in which it shines, unit length
+  float brightest = 0.0f;                    ///< lux, of the brightest colour channel
 };
-/// By index of LightBlock::directional.
+/// Indexed as LightBlock::directional.
 [[nodiscard]] std::vector<DirectionalLook> directional_looks(const VisibleLights& visible);
 
-/// Pixels along a side of a shadow tile, which has a light list.
+/// Side of a shadow tile in pixels. Each shadow tile has one light list.
 inline constexpr std::uint32_t kShadowTile = 8;
 
-/// Bytes of a LightBlock without lights, for shading a scene that has none.
+/// Bytes of a LightBlock with no lights, for shading a scene that has none.
 [[nodiscard]] std::span<const std::byte> empty_light_block();
 
 /// One texel of LightsOutputs::tile_lists.
 struct TileList {
-  bool has_list = true;            ///< false: no room was left, the tile's lights are those of its group's mask
-  std::uint32_t slot = 0;          ///< its first list entry
-  std::uint32_t count = 0;         ///< lights with a pixel of the tile in their volume
+  bool has_list = true;            ///< false: the buffer was full; use the lights of the tile group's mask
+  std::uint32_t slot = 0;          ///< first list entry
+  std::uint32_t count = 0;         ///< lights whose volume contains a pixel of the tile
   std::uint32_t approx_count = 0;  ///< lights that touch the tile's froxel
 };
 [[nodiscard]] TileList decode_tile_list(uvec2 texel);
 
-/// Indices of the lights in one mask of mask_tiles or group_masks. `words`: its GLOAM_MASK_WORDS words; words whose
-/// group bit is 0 are not looked at.
+/// Indices of the lights in one mask of mask_tiles or group_masks. `words`: GLOAM_MASK_WORDS words; words whose group
+/// bit is 0 are ignored.
 [[nodiscard]] std::vector<std::uint32_t> decode_light_mask(std::span<const std::uint32_t> words);
 
-/// Light indices of `count` list entries from `slot` on. `early_lists`: the buffer's words. Entries beyond the buffer
-/// are left out.
+/// Light indices of the `count` list entries that start at `slot`. `early_lists`: the words of that buffer. Entries
+/// beyond the end of the buffer are omitted.
 [[nodiscard]] std::vector<std::uint32_t> decode_light_list(std::span<const std::uint32_t> early_lists,
                                                            std::uint32_t slot, std::uint32_t count);
 

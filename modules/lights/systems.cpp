@@ -14,13 +14,13 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kBoundsGrain = 128;  // lights a job
+constexpr std::size_t kBoundsGrain = 128;  // lights per job
 
 std::uint64_t different_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
 }
 
-/// Bit by bit, so that NaN is what it was; padding behind `kind` does not count.
+/// Compares bits, so that NaN equals itself. The padding after `kind` is ignored.
 bool same_light(const Light& a, const Light& b) {
   constexpr std::size_t kFirst = offsetof(Light, color);
   using Words = std::array<std::uint64_t, (sizeof(Light) - kFirst) / sizeof(std::uint64_t)>;
@@ -42,7 +42,7 @@ LightBounds bounds_of(const LightTable& table, std::size_t slot) {
   return {dvec3(table.x[slot], table.y[slot], table.z[slot]), std::max(table.radius[slot], 0.0f)};
 }
 
-/// The rows changed: gives every light its place by entity, and takes along what is known of those that stay.
+/// Called when the set of entities changed: assigns slots in entity order and keeps the data of lights that remain.
 void place_rows(std::span<const LightRows> chunks, std::size_t count, LightSet& set) {
   set.rows.clear();
   for (const LightRows& chunk : chunks) set.rows.insert(set.rows.end(), chunk.entities.begin(), chunk.entities.end());
@@ -66,7 +66,7 @@ void place_rows(std::span<const LightRows> chunks, std::size_t count, LightSet& 
       set.lights[slot] = old_lights[old];
       set.table.copy(slot, old_table, old);
     } else {
-      set.lights[slot].entity = kNoEntity;  // not known yet
+      set.lights[slot].entity = kNoEntity;  // filled by update_light
     }
   }
 }
@@ -80,7 +80,7 @@ bool same_rows(std::span<const LightRows> chunks, std::size_t count, const Light
   });
 }
 
-/// Brings one light up to date; whether there was anything to do.
+/// Updates one light. Returns whether anything changed.
 bool update_light(Entity entity, const Light& light, const dmat4& world_from_node, std::size_t slot, LightSet& set) {
   PlacedLight& placed = set.lights[slot];
   const dvec3 node_z(world_from_node[2]);
@@ -156,7 +156,7 @@ ZBinParams z_bin_params(const VisibleLights& visible, const ZBinSettings& settin
   ZBinParams params{near_m, near_m, settings.count};
   for (const LightDepth& depth : visible.depths) params.far_m = std::max(params.far_m, depth.farthest);
   if (settings.farthest_opaque_m > 0.0f) params.far_m = std::min(params.far_m, settings.farthest_opaque_m);
-  // Some room, and a scale that is a float, whatever there is.
+  // Keeps far_m above near_m by a margin, so that the scale is finite.
   params.far_m = std::max(params.far_m, near_m + std::max(1e-3f, std::abs(near_m) * 1e-3f));
   return params;
 }

@@ -12,28 +12,27 @@ namespace gloam {
 using KeptLights = View<const Light, const WorldTransform, LightBounds>;
 using FreshLights = View<const Light, const WorldTransform, Without<LightBounds>>;
 
-/// Finds the world's lights in all archetypes, sees by comparison which have changed, and brings LightBounds and
-/// LightSet up to date.
+/// Finds the world's lights in all archetypes, detects changes by comparison, and updates LightBounds and LightSet.
 void light_bounds_system(KeptLights kept, FreshLights fresh, Resource<LightSet> set, JobExecutor& jobs,
                          Commands& commands);
 
-/// Chooses and orders the view's lights; does nothing when neither they nor the camera have changed.
+/// Selects and sorts the view's lights. Does nothing when neither the lights nor the camera changed.
 void light_sort_system(Resource<const LightSet> set, ViewResource<const RenderView> view,
                        ViewResource<VisibleLights> visible, JobExecutor& jobs);
 
-/// zBins from the near plane to the last light, or to last frame's farthest opaque surface if that is nearer. Does
-/// nothing when neither lists nor parameters have changed.
+/// Builds zBins from the near plane to the farthest light, or to the last frame's farthest opaque surface if that is
+/// nearer. Does nothing when neither the lists nor the parameters changed.
 void zbin_build_system(ViewResource<const VisibleLights> visible, ViewResource<const ZBinSettings> settings,
                        ViewResource<ZBins> bins);
 
-/// Does nothing when neither lists nor the kind of bound have changed.
+/// Builds the tile light masks. Does nothing when neither the lists nor the kind of bound changed.
 void tile_light_masks_system(ViewResource<const VisibleLights> visible, ViewResource<const TileBound> bound,
                              ViewResource<TileLightMasks> masks, JobExecutor& jobs);
 
-/// The four systems under these names.
+/// Adds the four systems above: light_bounds, light_sort, tile_light_masks, zbin_build.
 void add_light_systems(Schedule& schedule);
 
-/// Puts what they need of a view in place where it is missing.
+/// Adds the view resources that the systems need, where they are missing.
 void prepare_light_view(World& world, ViewId view);
 
 }  // namespace gloam

@@ -6,8 +6,8 @@
 
 namespace gloam {
 
-/// Every module of this build in the order of the module graph; modules that are not built yet carry their components
-/// and keys.
+/// Every module of this build, in the order of the module graph. Modules that are not implemented yet provide only
+/// their components and keys.
 [[nodiscard]] ModuleList make_all_modules();
 
 }  // namespace gloam

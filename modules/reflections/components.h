@@ -10,23 +10,23 @@ namespace gloam {
 
 enum class IbrProxyKind : std::uint8_t { scene, fire };
 
-/// A rectangle in the node's local XY plane, facing +Z, that stands for what is reflected.
+/// Proxy: a rectangle in the node's local XY plane, facing +Z, that stands for a part of the scene in reflections.
 struct IbrProxy {
   vec2 size_m = vec2(0.0f);
   IbrProxyKind kind = IbrProxyKind::scene;
   std::uint32_t texture = 0;  ///< image file in SceneStrings instead of a capture
-  std::uint32_t lights = 0;   ///< comma-separated light names in SceneStrings; 0: those that reached it at capture
+  std::uint32_t lights = 0;   ///< comma-separated light names in SceneStrings; 0: the lights that reached it at capture
 };
 
-/// Box around the node; proxies whose centre lies in it belong to it.
+/// Room: a box around the node. Proxies whose centre lies in it belong to it.
 struct IbrRoom {
   vec3 size_m = vec3(0.0f);
 };
 
-/// Captured surroundings inside a box, or of the whole scene.
+/// Probe: captured surroundings, inside a box or of the whole scene.
 struct CubeProbe {
   vec3 size_m = vec3(0.0f);
-  std::uint32_t resolution = 128;  ///< texels of a face
+  std::uint32_t resolution = 128;  ///< texels of a cube face's side
   bool global = false;
 };
 

@@ -6,10 +6,10 @@
 
 namespace gloam {
 
-/// How a light casts shadows. A light without this component casts them, as the defaults say.
+/// How a light casts shadows. A light without this component casts them with these defaults.
 struct ShadowCaster {
   bool enabled = true;
-  std::uint32_t resolution = 0;  ///< texels of one face; 0: from screen coverage
+  std::uint32_t resolution = 0;  ///< texels of a face's side; 0: chosen from screen coverage
 };
 
 }  // namespace gloam

@@ -8,10 +8,10 @@
 
 namespace gloam {
 
-/// Registers the gloam.light.* keys that shape shadows, and what reads cookies when a scene is loaded.
+/// Registers the gloam.light.* keys of shadows, and load_cookies() to run when a scene has been loaded.
 void add_shadow_keys(KeyRegistry& registry);
 
-/// Whether a light of the world, or with a view one that is in it, casts shadows or projects an image.
+/// Whether a light of the world (view: null) or of the view casts shadows or projects a cookie, with the reason.
 [[nodiscard]] Demand shadow_demand(const World& world, const RenderView* view);
 
 }  // namespace gloam

@@ -12,51 +12,52 @@
 
 namespace gloam {
 
-/// The module's knobs as numbers.
+/// The module's knobs as numbers (shadows.NAME, see add_shadow_knobs).
 struct ShadowKnobs {
   bool enabled = true;
-  bool deferred = true;            ///< final lists are made, with a visibility for every pixel that needs one
-  bool classify = true;            ///< whole tiles before pixels
-  std::uint32_t slot_limit = ~0u;  ///< most slots of visibility of a view
-  std::uint32_t pair_limit = ~0u;  ///< most pairs of a tile and a light whose pixels are asked
-  std::uint32_t filter = 3;        ///< GLOAM_SHADOWS_FILTER_ID
-  std::uint32_t kernel = 8;        ///< texels
+  bool deferred = true;            ///< final lists are made
+  bool classify = true;            ///< tiles are classified before pixels are filtered
+  std::uint32_t slot_limit = ~0u;  ///< greatest number of visibility slots per view
+  std::uint32_t pair_limit = ~0u;  ///< greatest number of tile-light pairs per view
+  std::uint32_t filter = 3;        ///< value of GLOAM_SHADOWS_FILTER_ID
+  std::uint32_t kernel = 8;        ///< texels of the kernel's side
   bool mips = true;
-  std::uint32_t mip_operator = GLOAM_SHADOW_MIPS_COVERAGE;
-  bool square = false;
-  bool receiver_plane = true;
-  bool d16 = false;
-  bool oriented = true;
-  float bias_m = 0.002f;
-  float bias_units = 0.0f;  ///< of the map's draws, towards the light's far side; 0 with oriented bias
-  std::uint32_t levels = 255;
+  std::uint32_t mip_operator = GLOAM_SHADOW_MIPS_COVERAGE;  ///< GLOAM_SHADOW_MIPS_…; with d16 never coverage
+  bool square = false;                                      ///< the widest kernel is a square, not a disc
+  bool receiver_plane = true;  ///< taps are compared with the receiver plane, not with the receiver's depth
+  bool d16 = false;            ///< the atlas is r16_unorm, else r32f
+  bool oriented = true;        ///< oriented bias, else the rasteriser's
+  float bias_m = 0.002f;       ///< oriented bias in metres; 0 with hardware bias
+  float bias_units = 0.0f;  ///< constant depth bias of map draws, away from the light, in steps of the depth format; 0
+                            ///< with oriented bias
+  std::uint32_t levels = 255;  ///< steps of a visibility: 15 or 255; 0: not quantised
   std::uint32_t atlas_size = 4096;
   float texels_per_pixel = 3.0f;
-  bool simplified = false;  ///< casters have fewer triangles where that does not show
-  bool early_outs = true;
+  bool simplified = false;  ///< casters are drawn with their simplified triangles
+  bool early_outs = true;   ///< a filter stops as soon as the result is known; false only for measurements
 };
 
-/// The part of the knobs that systems read; a view resource.
+/// The knobs that systems read; a view resource.
 struct ShadowSettings {
   bool enabled = true;              ///< shadows.mode is not off
   std::uint32_t atlas_size = 4096;  ///< texels, a power of two
-  std::uint32_t cascades = 4;       ///< of a directional light
-  float kernel_rim = 0.125f;        ///< rim of a face for kernels, as a share of its half extent
-  float texels_per_pixel = 3.0f;    ///< to a pixel's side, where the atlas has room
+  std::uint32_t cascades = 4;       ///< cascades of a directional light, at most GLOAM_MAX_CASCADES
+  float kernel_rim = 0.125f;        ///< width of a face's rim as a share of the half extent inside it
+  float texels_per_pixel = 3.0f;    ///< wanted shadow-map texels along a pixel's side; lowered until the maps fit
 };
 
 void add_shadow_knobs(KnobRegistry& registry);
 [[nodiscard]] ShadowKnobs shadow_knobs(const KnobRegistry& registry);
 [[nodiscard]] ShadowSettings shadow_settings(const ShadowKnobs& knobs);
 
-/// What shading knows of the knobs when its pipelines are made. `filter`: GLOAM_SHADOWS_FILTER_ID.
+/// Specialisation constants of the knobs, for shaders that include shadows_api.glsl. filter: GLOAM_SHADOWS_FILTER_ID.
 [[nodiscard]] std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter);
-/// The same in a few words, another one for other constants.
+/// A text that differs when the constants differ, for the names of pipelines.
 [[nodiscard]] std::string shadow_variant(const std::vector<gpu::SpecConstant>& constants);
 
-// Of GLOAM_SHADOWS_FILTER_ID.
+// Values of GLOAM_SHADOWS_FILTER_ID.
 inline constexpr std::uint32_t kContactHardening = 3;
 inline constexpr std::uint32_t kTracedShadows = 4;
-inline constexpr std::uint32_t kNoShadows = 5;  ///< cookies alone
+inline constexpr std::uint32_t kNoShadows = 5;  ///< no shadows, cookies only
 
 }  // namespace gloam

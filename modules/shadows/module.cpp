@@ -73,7 +73,7 @@ class ShadowsModule final : public Module {
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
     prepare_shadow_view(world, view);
     world.view_resource<ShadowSettings>(view) = shadow_settings(shadow_knobs(knobs));
-    // Of lights that have come since the scene was loaded; the fault of a bad file is kept for the log.
+    // Cookies of lights added after the scene was loaded. The error of a bad file stays in Cookies::faults for the log.
     static_cast<void>(load_cookies(world));
   }
 
@@ -137,7 +137,7 @@ class ShadowsModule final : public Module {
   void release() override { states_.release(); }
 
  private:
-  /// Only now: later modules may have taken slots.
+  /// Called in PassPhase::shading, because later modules may take slots after PassPhase::lists.
   static void keep_list_counters(FrameBuilder& frame) {
     const auto* note = frame.find<FinalListNote>();
     if (note != nullptr)

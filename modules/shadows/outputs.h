@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+//
+// The interface of the shadows module to other modules: ShadowsOutputs for shaders that evaluate shadows, FinalLists
+// for shaders that read deferred visibilities, ShadowMapDrawer for shadow maps outside the atlas, and OverlayMaps for
+// changes to standard maps that last one frame. "Put on the board" means FrameBuilder::put. Readers call
+// FrameBuilder::find, which returns null if the output is absent.
 #pragma once
 
 #include <cstddef>
@@ -23,32 +28,33 @@
 
 namespace gloam {
 
-/// A square of the atlas; its corner is a multiple of its side.
+/// A square of texels in an atlas. Its origin is a multiple of its size.
 struct AtlasSquare {
-  uvec2 origin = uvec2(0);
-  std::uint32_t size = 0;  ///< texels, a power of two; 0: has no place
+  uvec2 origin = uvec2(0);  ///< texels from the upper left corner of mip 0
+  std::uint32_t size = 0;   ///< texels of a side, a power of two; 0: no place in the atlas
   bool operator==(const AtlasSquare&) const = default;
 };
 
-/// One square of depth: what a light sees along one axis.
+/// One square shadow map: the view from a light along one axis.
 struct ShadowFace {
   Entity light;
-  LightKind kind =
-      LightKind::spot;        ///< directional: orthographic; point: one of a cube's, also of a spot that needs a cube
-  std::uint32_t index = 0;    ///< cube face or cascade
-  dvec3 origin = dvec3(0.0);  ///< world: the light; orthographic: centre of the near side of the box
+  LightKind kind = LightKind::spot;  ///< directional: orthographic; spot: perspective; point: a cube face (also of spot
+                                     ///< lights wider than 120°)
+  std::uint32_t index = 0;  ///< cube face 0 … 5 in the order of shadows_shared.h, or cascade 0 … GLOAM_MAX_CASCADES − 1
+  dvec3 origin = dvec3(0.0);  ///< world position of the light; orthographic: centre of the near side of the box
+  /// World axes of the face: unit vectors at right angles. For a mirrored spot light they are left-handed.
   vec3 right = vec3(1.0f, 0.0f, 0.0f);
   vec3 up = vec3(0.0f, 1.0f, 0.0f);
   vec3 forward = vec3(0.0f, 0.0f, -1.0f);
-  float tan_half = 1.0f;       ///< perspective, rim included; 0: orthographic
-  float half_extent_m = 0.0f;  ///< orthographic, rim included
-  float near_m = 0.05f;        ///< orthographic: 0
-  float far_m = 0.0f;          ///< what is farther cannot be lit: range of the light, or depth of the box
-  AtlasSquare square;          ///< where it lies in the atlas
-  float importance = 0.0f;     ///< the least important ones halve first when the atlas is full
+  float tan_half = 1.0f;       ///< tangent of half the field of view, rim included; 0: the face is orthographic
+  float half_extent_m = 0.0f;  ///< orthographic: half the width of the box, rim included
+  float near_m = 0.05f;        ///< perspective: depth of the near plane; orthographic: 0
+  float far_m = 0.0f;  ///< perspective: range of the light, a distance from `origin`; orthographic: depth of the box
+  AtlasSquare square;  ///< place in the atlas
+  float importance = 0.0f;  ///< ≥ 0; when the atlas is full, the least important faces halve first
 };
 
-/// Texels of a face, rows from its upper edge: from `begin` to before `end`.
+/// A rectangle of a face's texels: x from the left edge, y from the upper edge. `end` is one past the last texel.
 struct TexelRect {
   uvec2 begin = uvec2(0);
   uvec2 end = uvec2(0);
@@ -62,104 +68,117 @@ struct TexelRect {
   bool operator==(const TexelRect&) const = default;
 };
 
-/// Texels that something in the world box may be drawn into, with room for what rounding does.
+/// The texels that casters in a world-space box may be drawn into. Includes a margin for rounding; corners are
+/// multiples of 8 texels. low, high: corners of the box in metres. Empty if the box lies behind the light. The whole
+/// face if low is above high on any axis, or if a bound is not finite.
 [[nodiscard]] TexelRect covered_texels(const ShadowFace& face, const dvec3& low, const dvec3& high);
 
-/// False only if nothing in the box can block light in this face: what is nearer than a perspective face's near plane
-/// or out of the light's range cannot. An orthographic face has no near side: whatever lies towards the light from it
-/// may block. Boxes with min above max or with NaN may be anywhere.
+/// Whether casters in a world-space box may block light in this face. Conservative: false only if they certainly do
+/// not. In a perspective face, casters nearer than near_m or beyond far_m block nothing. In an orthographic face,
+/// casters beyond far_m block nothing, but casters in front of the near side block. min, max: corners of the box in
+/// metres. True if min is above max on any axis or a bound is NaN, because the position is then unknown.
 [[nodiscard]] bool face_may_see(const ShadowFace& face, const dvec3& min, const dvec3& max);
 
-/// What lights each shadow tile of a view and how much of each light its pixels see
-/// (shaders/shadows/final_lists_shared.h), for shaders that include shaders/shadows/final_lists_api.glsl. Opaque
-/// surfaces only.
+/// The final lists of a view: which lights reach each shadow tile, and how much of each light its pixels see. Opaque
+/// surfaces only. Layout: shaders/shadows/final_lists_shared.h. Shaders read them with
+/// shaders/shadows/final_lists_api.glsl.
 struct FinalLists {
-  ImageRef tiles;                   ///< rgba32ui, one texel a shadow tile
-  BufferRef entries;                ///< a word an entry
-  BufferRef visibilities[2];        ///< words of slots; the second is the first when one is enough
-  BufferRef commands;               ///< ShadowListCommands
-  std::uint64_t fallback_draw = 0;  ///< where in `commands` the arguments of the draw of fallback_tiles lie, bytes
-  BufferRef counters;               ///< ShadowListCounters
-  BufferRef fallback_tiles;  ///< y << 16 | x of tiles without a list, as many as ShadowListCommands::fallback_draw says
-  gpu::Binding::BufferRange grid;  ///< a FinalGrid, uniform
-  bool always_complete = false;    ///< there is room for every light of every tile: no tile is without a list
-  std::uint32_t visibility_bits = 8;
-  std::uint32_t slot_capacity = 0;  ///< slots the visibilities hold
-  std::uint32_t pair_capacity = 0;
-  /// GLOAM_FINAL_…_ID; `variant` names them.
+  ImageRef tiles;                   ///< rgba32ui, one texel per shadow tile
+  BufferRef entries;                ///< one 32-bit word per entry
+  BufferRef visibilities[2];        ///< visibility slots; both refs name the same buffer when one is large enough
+  BufferRef commands;               ///< one ShadowListCommands
+  std::uint64_t fallback_draw = 0;  ///< byte offset of ShadowListCommands::fallback_draw in `commands`
+  BufferRef counters;               ///< one ShadowListCounters
+  BufferRef fallback_tiles;  ///< y << 16 | x per fallback tile; their number is ShadowListCommands::fallback_draw.y
+  gpu::Binding::BufferRange grid;     ///< uniform buffer range that holds a FinalGrid
+  bool always_complete = false;       ///< the buffers hold every light of every tile: there are no fallback tiles
+  std::uint32_t visibility_bits = 8;  ///< bits of one visibility: 8 or 4
+  std::uint32_t slot_capacity = 0;    ///< visibility slots that both buffers hold together
+  std::uint32_t pair_capacity = 0;    ///< tile-light pairs that the view has room for
+  /// Specialisation constants of shaders that include final_lists_api.glsl (GLOAM_FINAL_…_ID). `variant` is a text that
+  /// differs when they differ, for the names of pipelines.
   std::vector<gpu::SpecConstant> constants;
   std::string variant;
 };
 
-/// What the shadows module leaves for a view, for shaders that include shaders/shadows/shadows_api.glsl. On the board
-/// only when shadows are to be looked at.
+/// The inputs of shaders that evaluate a view's shadows and cookies with shaders/shadows/shadows_api.glsl. Put on the
+/// board in PassPhase::lists, only in views that demand the module (shadow_demand() in keys.h).
 struct ShadowsOutputs {
-  gpu::Binding::BufferRange block;      ///< a ShadowBlock (shaders/shadows/shadows_shared.h), uniform
-  shaders::ShadowBlock block_values{};  ///< what it holds
-  ImageRef rows;                        ///< rgba32f, GLOAM_SHADOW_ROW_TEXELS × local lights: ShadowRow
-  std::shared_ptr<const std::vector<shaders::ShadowRow>>
-      row_values;    ///< what it holds; directional lights' are CascadeRow
-  ImageRef atlas;    ///< r32f or r16_unorm: depth of all faces and their mips
-  ImageRef pyramid;  ///< r32f: nearest and farthest depth
-  ImageRef cookies;  ///< rgba8_srgb, an array: cookies of spot lights; one white layer when there is none
-  ImageRef traced;   ///< r8_unorm, an array: visibility a light and pixel that a reference has traced; the cookies'
-                     ///< image when there is none
+  gpu::Binding::BufferRange block;      ///< uniform: a ShadowBlock (shaders/shadows/shadows_shared.h)
+  shaders::ShadowBlock block_values{};  ///< content of `block`
+  ImageRef rows;  ///< rgba32f: light rows, GLOAM_SHADOW_ROW_TEXELS texels wide, one row per local light and per cascade
+  /// Content of `rows`: a ShadowRow per local light; from block.cascade_row on, a CascadeRow per cascade.
+  std::shared_ptr<const std::vector<shaders::ShadowRow>> row_values;
+  ImageRef atlas;  ///< r32f or r16_unorm: reversed depth of all faces and mips; without maps, the image of `rows`
+  /// r32f: nearest and farthest depth of blocks of the atlas; without maps, the image of `rows`.
+  ImageRef pyramid;
+  ImageRef cookies;  ///< rgba8_srgb array: cookies of spot lights; one white layer when there is none
+  ImageRef traced;   ///< r8_unorm array: traced visibility, one layer per light, of the view's size; the cookies' image
+                     ///< when nothing was traced
   gpu::SamplerHandle nearest;
   gpu::SamplerHandle linear;
 
-  /// No light asks for a map or traced visibility: shaders may take cookies_api.glsl in place of shadows_api.glsl, many
-  /// times smaller.
+  /// No light of the view has a map or traced visibility. Shaders may then include cookies_api.glsl in place of
+  /// shadows_api.glsl, which is many times smaller.
   bool cookies_only = false;
-  /// The filter is what GLOAM_SHADOWS_STANDARD compiles, half as large.
+  /// The view's shadows use the standard filter. Shaders may then define GLOAM_SHADOWS_STANDARD, which halves their
+  /// code.
   bool standard = false;
-  /// GLOAM_SHADOWS_…_ID, the same for every shader of the frame. `variant` names them, for names of pipelines.
+  /// Specialisation constants of shaders that include shadows_api.glsl (GLOAM_SHADOWS_…_ID), the same for all shaders
+  /// of the frame. `variant` is a text that differs when they differ, for the names of pipelines.
   std::vector<gpu::SpecConstant> constants;
   std::string variant;
 
-  std::uint32_t cookie_lights = 0;  ///< lights of the scene with a cookie
+  std::uint32_t cookie_lights = 0;  ///< spot lights of the scene that project a cookie
 
-  /// With shadows.mode = deferred, when there are maps.
+  /// Set only with shadows.mode=deferred, and only in frames that make final lists: the view has shadow maps, its
+  /// visibilities are quantised, its local lights (if any) have early lists, and all pipelines of the passes are ready.
   std::optional<FinalLists> final_lists;
 };
 
-/// For shaders that look at maps with contact-hardening shadows: the same penumbrae by single fetches from mip 0
-/// (shadows.filter=pcss). What other filter they have stays.
+/// Returns a copy whose constants select shadows.filter=pcss instead of chs: the same penumbrae, computed by single
+/// fetches from mip 0. Outputs with any other filter keep their filter. `standard` becomes false when the filter
+/// changes; `variant` follows the constants.
 [[nodiscard]] ShadowsOutputs by_single_fetches(ShadowsOutputs shadows);
 
+/// Declares that the pass reads all images that append_shadow_bindings binds.
 void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access);
-/// Bindings that shadows_api.glsl takes, from number `first` on: block, rows, atlas, pyramid, cookies, traced.
+/// Appends the six bindings of shadows_api.glsl from number `first` on: block, rows, atlas, pyramid, cookies, traced.
 void append_shadow_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                             const ShadowsOutputs& shadows);
 
-/// The same for shaders that include cookies_api.glsl when shadows.cookies_only, else shadows_api.glsl. The former
-/// takes block, rows, cookies.
+/// Like the two functions above, for shaders that include cookies_api.glsl if shadows.cookies_only is set, and
+/// shadows_api.glsl if not. With cookies_only, only block, rows and cookies are declared and bound.
 void declare_arriving_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access);
 void append_arriving_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                               const ShadowsOutputs& shadows);
 
-/// Block, rows and cookies: what cookies_api.glsl takes.
+/// Appends the three bindings of cookies_api.glsl from number `first` on: block, rows, cookies.
 void append_cookie_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                             const ShadowsOutputs& shadows);
 
-/// Bindings that final_lists_api.glsl takes, from number `first` on: tiles, entries, both visibilities.
+/// declare_final_list_reads() declares that the pass reads the images and buffers of the lists.
+/// append_final_list_bindings() appends the four bindings of final_lists_api.glsl from number `first` on: tiles,
+/// entries and the two visibility buffers.
 void declare_final_list_reads(PassBuilder& pass, const FinalLists& lists, gpu::Access access);
 void append_final_list_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
                                 const FinalLists& lists, gpu::SamplerHandle nearest);
 
-/// Casters that the maps of a light leave out, because a later module sees to what they keep of it. Put on the board in
-/// PassPhase::announce; looked at only in frames that have final lists.
+/// Withheld casters: a light's standard maps leave them out, because a later module draws them itself. That module puts
+/// this on the board in PassPhase::announce. Ignored in frames without final lists, in which the maps hold all casters.
 struct WithheldCasters {
   struct OfLight {
     Entity light;
-    std::vector<Entity> casters;  ///< Caster::entity, ascending by Entity::index
+    std::vector<Entity> casters;  ///< Caster::entity of the left-out casters, ascending by Entity::index
   };
   std::vector<OfLight> lights;  ///< ascending by Entity::index
+  /// The casters withheld from this light; empty when there are none. Valid while `lights` is unchanged.
   [[nodiscard]] std::span<const Entity> of(Entity light) const;
 };
 
-/// One texel of FinalLists::tiles.
+/// One texel of FinalLists::tiles, decoded. Firsts are indices into FinalLists::entries.
 struct FinalList {
-  bool complete = true;  ///< false: a buffer was full, the tile is shaded from shadow maps
+  bool complete = true;  ///< false: a buffer was full; the tile is a fallback tile and all other members are 0
   std::uint32_t directional_first = 0;
   std::uint32_t directional_count = 0;
   std::uint32_t local_first = 0;
@@ -167,69 +186,75 @@ struct FinalList {
 };
 [[nodiscard]] FinalList decode_final_list(uvec4 texel);
 
-/// One word of FinalLists::entries.
+/// One word of FinalLists::entries, decoded.
 struct FinalEntry {
-  std::uint32_t light = 0;  ///< index among the view's directional or local lights
-  std::uint32_t slot = 0;   ///< of visibilities, or GLOAM_ALL_LIT
+  std::uint32_t light = 0;  ///< index among the view's directional or local lights, by the run that the entry is in
+  std::uint32_t slot = 0;   ///< visibility slot, or GLOAM_ALL_LIT
 };
 [[nodiscard]] FinalEntry decode_final_entry(std::uint32_t word);
 
-/// 0 … 1, of a pixel (0 … 63, row by row) of the tile that the entry is in. `words`: of all slots, one buffer after the
-/// other. 0 where the slot lies beyond them.
+/// Visibility 0 … 1 of one pixel (0 … 63, row by row) of the entry's tile. words: all slots, the first visibility
+/// buffer followed by the second. visibility_bits: FinalLists::visibility_bits. 1 for GLOAM_ALL_LIT; 0 for
+/// GLOAM_ALL_UNLIT and for slots beyond `words`.
 [[nodiscard]] float decode_visibility(FinalEntry entry, std::uint32_t pixel, std::span<const std::uint32_t> words,
                                       std::uint32_t visibility_bits);
 
-/// A map of its own: one face, and some casters that it shows.
+/// A shadow map outside the standard atlas: one face and the casters that are drawn into it.
 struct ExtraMap {
-  ShadowFace face;                  ///< its square is its place in an ExtraAtlas
-  std::span<const Entity> casters;  ///< Caster::entity, ascending by Entity::index
+  ShadowFace face;                  ///< face.square is the place in the ExtraAtlas
+  std::span<const Entity> casters;  ///< Caster::entity of the casters, ascending by Entity::index
 };
 
-/// Images laid out as the atlas and its pyramid are (shaders/shadows/shadows_shared.h), of another side.
+/// An atlas and its pyramid in the layout of shaders/shadows/shadows_shared.h, with a size independent of the standard
+/// atlas.
 struct ExtraAtlas {
   ImageRef atlas;
   ImageRef pyramid;
-  std::uint32_t size = 0;  ///< texels, a power of two
+  std::uint32_t size = 0;  ///< texels of the atlas' side (W), a power of two
 };
 
-/// What shaders read of an orthographic face, for positions relative to view_position.
+/// The shader constants of an orthographic face, with a rim of 0, for positions relative to view_position (world).
 [[nodiscard]] shaders::ShadowCascade orthographic_constants(const ShadowFace& face, const dvec3& view_position);
 
-/// Threads of a workgroup that asks the pixels of a shadow tile (shaders/shadows/pair_pixels_api.glsl, constant 0).
+/// Workgroup size for shaders that include shaders/shadows/pair_pixels_api.glsl (specialisation constant 0): 8 on a
+/// device that is a CPU, else 64.
 [[nodiscard]] std::uint32_t threads_a_tile(const gpu::DeviceInfo& device);
 
-struct ShadowMapTools;  ///< what maps are drawn with
+struct ShadowMapTools;  ///< internal to the shadows module
 
-/// How later modules draw shadow maps of their own, alike to those of the atlas. On the board in frames that have final
-/// lists.
+/// Draws shadow maps outside the standard atlas for later modules, with the same knobs, bias and mips as standard maps.
+/// On the board from PassPhase::lists on, only in frames that have final lists.
 class ShadowMapDrawer {
  public:
   explicit ShadowMapDrawer(std::shared_ptr<const ShadowMapTools> tools) : tools_(std::move(tools)) {}
 
-  /// Transient images of a side, whose memory counts as the module's.
+  /// Creates transient images (FrameGraph::create_image) for an atlas with a side of `size` texels, a power of two.
+  /// Their memory counts towards `module`.
   [[nodiscard]] ExtraAtlas create(FrameGraph& graph, const char* module, std::uint32_t size) const;
-  /// Maps of this side that `draw` takes at a time.
+  /// Greatest number of maps with a side of `size` texels that one call of draw() accepts (asserted there).
   [[nodiscard]] static std::size_t most_maps(std::uint32_t size);
-  /// Draws maps, all of one size, and makes their mips and pyramids: passes shadow_map_`name` and
-  /// shadow_map_`name`_mips.
+  /// Draws the maps and makes their mips and pyramids: passes shadow_map_`name` and shadow_map_`name`_mips, which count
+  /// towards `module`. maps: 1 … most_maps(size), all with the same square.size. Afterwards `into` refers to the
+  /// written images. Fails if a pipeline or memory cannot be created.
   [[nodiscard]] Status draw(FrameBuilder& frame, const char* name, const char* module, std::span<const ExtraMap> maps,
                             ExtraAtlas& into) const;
-  /// Constants for looking at maps of such an atlas with shaders/shadows/shadows_api.glsl.
+  /// Uploads the ShadowBlock that shadows_api.glsl needs for maps of an ExtraAtlas, and returns its range in the
+  /// frame's uniform memory. It equals the standard maps' ShadowBlock except for atlas_size. size: ExtraAtlas::size.
   [[nodiscard]] Result<gpu::Binding::BufferRange> block(FrameBuilder& frame, std::uint32_t size) const;
 
  private:
   std::shared_ptr<const ShadowMapTools> tools_;
 };
 
-// How later modules let those who look at standard maps in this frame see more in them. The maps themselves are kept
-// from frame to frame and stay as they are: what is to be seen goes into copies of faces, in squares of the atlas that
-// are free, and rows that point to the copies take the place of ShadowsOutputs::rows. Nothing of it outlives the frame.
+// Overlays: changes to standard maps for one frame. The maps themselves are cached between frames and stay as they are.
+// Faces that change are copied into free squares of the atlas, a later module draws into the copies, and light rows
+// that point to the copies replace ShadowsOutputs::rows. Nothing of an overlay outlives the frame.
 
-/// A standard face, and where its copy has room in the same atlas.
+/// A standard face and the free square of the same atlas that its copy goes to.
 struct OverlayFace {
   ShadowFace face;
   AtlasSquare copy;
-  /// The face where the copy lies.
+  /// The face with `copy` as its square.
   [[nodiscard]] ShadowFace at_copy() const {
     ShadowFace moved = face;
     moved.square = copy;
@@ -240,12 +265,15 @@ struct OverlayFace {
 struct ShadowViews;
 class FreeSquares;
 
-/// Faces that get copies in a frame; for the time when passes are announced or declared.
+/// Chooses the faces that are copied in a frame and finds squares for the copies. The world must outlive the plan, and
+/// the view's ShadowViews must not change while the plan is in use. On a default-constructed plan, add() always returns
+/// false.
 class OverlayPlan {
  public:
   OverlayPlan() = default;
   OverlayPlan(const World& world, ViewId view);
-  /// Adds the faces of a light that may see something in the world box. False: some find no room, and none is added.
+  /// Adds the light's faces for which face_may_see() is true for the world-space box; a face that is already in the
+  /// plan is not added again. If there are not enough free squares for all of them, adds none and returns false.
   [[nodiscard]] bool add(Entity light, const dvec3& low, const dvec3& high);
   [[nodiscard]] std::span<const OverlayFace> faces() const { return faces_; }
 
@@ -255,36 +283,39 @@ class OverlayPlan {
   std::vector<OverlayFace> faces_;
 };
 
-/// Copies of faces while they are added to: compute shaders write to mip 0 of their squares in ShadowsOutputs::atlas,
-/// reversed depth. Whoever does so leaves the version written on the board.
+/// The copies of a frame between OverlayMaps::start() and finish(). In between, compute shaders may write reversed
+/// depth to mip 0 of each copy's square in ShadowsOutputs::atlas. A pass that does so must put the written version back
+/// into ShadowsOutputs::atlas on the board.
 struct OverlayCopies {
   std::vector<OverlayFace> faces;
-  bool d16 = false;  ///< the atlas is r16_unorm; else r32f
-  std::uint32_t depth_bits =
-      ~0u;  ///< mask of a depth's bits, as a float, that mip 0 holds: coarser mips use the others
+  bool d16 = false;                ///< the atlas is r16_unorm, else r32f
+  std::uint32_t depth_bits = ~0u;  ///< bits of a float depth that writers to mip 0 must keep; the others must be 0, as
+                                   ///< coarser mips hold a count in them
   [[nodiscard]] bool empty() const { return faces.empty(); }
 };
 
-/// On the board in frames that have final lists.
+/// Makes overlays (see above). On the board from PassPhase::lists on, only in frames that have final lists.
 class OverlayMaps {
  public:
   explicit OverlayMaps(std::shared_ptr<const ShadowMapTools> tools) : tools_(std::move(tools)) {}
-  /// The atlas is r16_unorm.
+  /// Whether the atlas is r16_unorm; otherwise it is r32f.
   [[nodiscard]] bool d16() const;
-  /// Copies mip 0 of the faces, at least one, within the atlas (pass shadow_overlay_copy). It takes no memory.
+  /// Copies mip 0 of each face (at least one) into OverlayFace::copy: pass shadow_overlay_copy. Allocates no image
+  /// memory. Cached maps that lie in the squares of the copies are dropped from the cache.
   [[nodiscard]] Result<OverlayCopies> start(FrameBuilder& frame, std::span<const OverlayFace> faces) const;
-  /// Makes the copies' mips and pyramids (pass shadow_overlay_mips), and lets ShadowsOutputs on the board point to them
-  /// (pass shadow_overlay_rows).
+  /// Makes the copies' mips and pyramids (pass shadow_overlay_mips), and makes ShadowsOutputs on the board refer to
+  /// them: atlas, pyramid, and rows that point to the copies (pass shadow_overlay_rows). Call after all writes to the
+  /// copies.
   [[nodiscard]] Status finish(FrameBuilder& frame, const OverlayCopies& copies) const;
 
  private:
   std::shared_ptr<const ShadowMapTools> tools_;
 };
 
-/// Pipelines that only overlays take; d16: of OverlayMaps.
+/// Appends the pipelines that only overlays use. d16: as OverlayMaps::d16().
 void list_overlay_map_pipelines(bool d16, PipelineList& list);
 
-/// What a knob of shadows is held against: the frame shaded with traced visibility.
+/// The reference for a knob of this module: the frame shaded with traced visibility.
 [[nodiscard]] ReferenceInfo traced_shadows(std::string knob);
 
 }  // namespace gloam

@@ -15,24 +15,24 @@
 namespace gloam {
 namespace {
 
-/// Of GLOAM_COOKIE_LIGHTS_ID: few values, as each makes pipelines.
+/// Value of GLOAM_COOKIE_LIGHTS_ID. Only three values, because each makes other pipelines.
 std::uint32_t looked_up_cookies(std::size_t lights) {
   constexpr std::uint32_t kMost = GLOAM_COOKIE_LIGHTS;
   return lights <= 1 ? static_cast<std::uint32_t>(lights) : lights <= kMost ? kMost : kMost + 1;
 }
 
-constexpr std::uint32_t kStandardKernel = 8;  // of GLOAM_SHADOWS_STANDARD
+constexpr std::uint32_t kStandardKernel = 8;  // kernel of GLOAM_SHADOWS_STANDARD
 
 bool has_placed_face(const ShadowViews& views) {
   return std::any_of(views.faces.begin(), views.faces.end(),
                      [](const ShadowFace& face) { return face.square.size > 0; });
 }
 
-/// What shading is compiled with. `filter`: GLOAM_SHADOWS_FILTER_ID.
+/// Sets the specialisation constants of the frame's shaders. filter: GLOAM_SHADOWS_FILTER_ID.
 void set_constants(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutputs& outputs) {
   outputs.cookies_only = filter == kNoShadows;
   outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
-  // Knobs are of no use to cookies.
+  // Cookies do not depend on knobs: default values avoid further pipelines.
   outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
   const std::size_t cookie_lights = count_cookie_lights(frame.world());
   outputs.cookie_lights = static_cast<std::uint32_t>(cookie_lights);
@@ -40,8 +40,8 @@ void set_constants(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uin
   outputs.variant = shadow_variant(outputs.constants);
 }
 
-/// Brings the maps of the view's faces, of which at least one has a place, up to date. Only where final lists will be
-/// made of them, they leave casters out: else nobody would see to those.
+/// Updates the maps of the view's faces, of which at least one has a place. Withheld casters are left out only when the
+/// frame makes final lists (for_lists): otherwise no module would draw them.
 Result<ShadowMaps> add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
   auto found = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
@@ -51,13 +51,13 @@ Result<ShadowMaps> add_maps(FrameBuilder& frame, ShadowStates& states, const Sha
   kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
   auto maps = add_shadow_map_passes(frame, states, kept, views, knobs);
   if (!maps.ok()) return maps.error();
-  // Planes are made of what the atlas holds now; frames that do not look at them do not keep them.
+  // Planes follow the atlas only in frames that read them; after others that draw maps they are out of date.
   if (!maps->drawn.empty() && !(for_lists && knobs.classify)) kept.planes.filled = false;
   frame.expose(maps->atlas, "shadow_atlas");
   return maps;
 }
 
-/// Planes first, if tiles are to be classified by them.
+/// Adds the passes of final lists; with classification, the planes before them.
 Status add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
                        ShadowsOutputs& outputs) {
   auto kept = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
@@ -94,7 +94,7 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   } else {
     states.rest(frame.world().resource<ShadowWorld>(), frame.view().id);
   }
-  // Without a map no light asks for one, but every binding must be given.
+  // Without maps, shaders read none, but every binding must be set.
   outputs.atlas = has_maps ? maps.atlas : outputs.rows;
   outputs.pyramid = has_maps ? maps.pyramid : outputs.rows;
   if (has_lists) GLOAM_TRY(add_final_lists(frame, states, maps, knobs, outputs));

@@ -8,8 +8,9 @@
 
 namespace gloam {
 
-/// Brings the view's shadow maps up to date and puts ShadowsOutputs. Exposes "shadow_atlas"; its texels outside of
-/// faces hold anything.
+/// Adds the passes that update the view's shadow maps, and the passes of its final lists if can_generate() and
+/// generate_pipelines_ready() are true. Puts ShadowsOutputs on the board. Exposes the image "shadow_atlas", whose
+/// texels outside of faces are undefined. Fails if an image, upload or pipeline cannot be created.
 [[nodiscard]] Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states);
 
 }  // namespace gloam

@@ -9,8 +9,8 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kMeshGrain = 1024;  // instances a job
-constexpr std::size_t kLightGrain = 64;   // lights a job
+constexpr std::size_t kMeshGrain = 1024;  // instances per job
+constexpr std::size_t kLightGrain = 64;   // lights per job
 
 void grow(CasterBounds& bounds, const Aabb& box, const dmat4& world_from_box) {
   const dvec3 center = dvec3(world_from_box * dvec4(dvec3(box.center()), 1.0));
@@ -18,11 +18,11 @@ void grow(CasterBounds& bounds, const Aabb& box, const dmat4& world_from_box) {
   const dvec3 reach = glm::abs(dvec3(world_from_box[0])) * half.x + glm::abs(dvec3(world_from_box[1])) * half.y +
                       glm::abs(dvec3(world_from_box[2])) * half.z;
   const dvec3 sum = center + reach;
-  if (!(glm::dot(sum, sum) < 1e300)) return;  // what has no place casts no shadow
+  if (!(glm::dot(sum, sum) < 1e300)) return;  // a box that is not finite casts no shadow
   bounds.grow(center - reach, center + reach);
 }
 
-/// Null for a mesh that is absent or has no bounds.
+/// Null when the mesh does not exist or has no bounds.
 const Aabb* box_of(const SceneAssets& assets, const MeshInstance& instance) {
   if (instance.mesh >= assets.meshes.size()) return nullptr;
   const Aabb& box = assets.meshes[instance.mesh].bounds;
@@ -39,7 +39,7 @@ CasterBounds bounds_of(std::span<const MeshInstance> instances, std::span<const 
   return bounds;
 }
 
-/// A skinned vertex lies between where its joints would take it.
+/// A skinned vertex is a weighted mean of the positions that its joints give it, so their boxes enclose it.
 void grow_skinned(CasterBounds& bounds, const JointMatrices& joints, const JointMatrices::Range& range,
                   const Aabb& box) {
   for (std::uint32_t j = range.first; j < range.first + range.count && j < joints.matrices.size(); ++j) {
@@ -49,7 +49,7 @@ void grow_skinned(CasterBounds& bounds, const JointMatrices& joints, const Joint
   }
 }
 
-/// Lights by entity; those that have gone since are left as casting none.
+/// Components of the lights. A light that no longer exists gets caster.enabled = false.
 std::vector<ShadowLight> gather(std::span<const Entity> entities, const ShadowLights& lights, JobExecutor& jobs) {
   std::vector<ShadowLight> gathered(entities.size());
   jobs.parallel_for(entities.size(), kLightGrain, [&](JobRange range) {

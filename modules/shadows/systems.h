@@ -17,21 +17,23 @@ namespace gloam {
 
 using ShadowLights = View<const Light, const WorldTransform, Maybe<const LightBounds>, Maybe<const ShadowCaster>>;
 
-/// Bounds of all meshes, skinned ones by their joints; for directional lights, and left alone without any. Morph
-/// targets are not looked into: what they push out of the bounds towards a light is drawn at the near side of its box.
+/// Sets `casters` to the world-space bounds of all meshes; cascades use them. The bounds of a skinned mesh enclose its
+/// rest box as moved by each of its joints. Does nothing if the view has no directional light. Morph targets are
+/// ignored: geometry that they move out of the bounds toward a light is drawn onto the near side of the light's box.
 void shadow_bounds_system(ViewResource<const VisibleLights> visible,
                           View<const MeshInstance, const WorldTransform> meshes, Resource<const SceneAssets> assets,
                           Resource<const JointMatrices> joints, ViewResource<CasterBounds> casters, JobExecutor& jobs);
 
-/// Faces of the view's lights, with their places in the atlas.
+/// Finds the faces of the view's lights and their places in the atlas.
 void shadow_views_system(ViewResource<const VisibleLights> visible, ViewResource<const RenderView> view,
                          ViewResource<const ShadowSettings> settings, ViewResource<const CasterBounds> casters,
                          ShadowLights lights, ViewResource<ShadowViews> shadows, JobExecutor& jobs);
 
-/// The systems shadow_bounds and shadow_views. They run after light_sort: the systems of lights must be added before.
+/// Adds the systems shadow_bounds and shadow_views. They run after light_sort, so the lights module's systems must be
+/// added first.
 void add_shadow_systems(Schedule& schedule);
 
-/// Puts what they need of a view in place where it is missing.
+/// Creates the view resources that the systems need (CasterBounds, ShadowSettings, ShadowViews), unless they exist.
 void prepare_shadow_view(World& world, ViewId view);
 
 }  // namespace gloam

@@ -9,7 +9,7 @@
 
 namespace gloam {
 
-/// What every command works with.
+/// Input of every command. The references must outlive the call.
 struct CommandContext {
   const Options& options;
   Console& console;

@@ -19,7 +19,7 @@
 namespace gloam {
 namespace {
 
-/// A bar on a terminal, else a line a finished row.
+/// Shows a progress bar on a terminal, otherwise a line for each finished row.
 class ConsoleProgress final : public CostProgress {
  public:
   ConsoleProgress(Console& console, bool quiet) : console_(console), quiet_(quiet) {}
@@ -36,7 +36,7 @@ class ConsoleProgress final : public CostProgress {
     char times[64];
     std::snprintf(times, sizeof(times), ": %.3f ms, %.2f of the default", row.ms.median_ms, row.ratio);
     console_.print(row.knob + "=" + row.value + times + (resumed ? " (measured before)" : "") + "\n");
-    // Whoever waits at the other end of a pipe wants it now; a failure to write is told at the end.
+    // Flush, so that the reader of a pipe gets the line at once. A failure to write is reported at the end.
     static_cast<void>(console_.flush());
   }
 
@@ -81,7 +81,7 @@ std::string conditions_of(const Options& options) {
          "' animation '" + options.animation + "'";
 }
 
-/// Knobs of effects that the scene does not call for change nothing: they are measured only when the user names them.
+/// Knobs of effects that the scene does not demand change nothing: they are measured only if the user names them.
 CostRequest make_request(Session& session, const Options& options, const std::vector<std::string>& chosen) {
   CostRequest request = {.header = header_of(session, options),
                          .conditions = conditions_of(options),
@@ -123,7 +123,7 @@ Status run_cost(const CommandContext& context) {
   GLOAM_TRY(check_scene_exists(options.scene));
   const auto chosen = choose_knobs(knobs_of(make_all_modules()), options.knobs);
   if (!chosen) return chosen.error();
-  // Ahead of minutes of measuring that could not be kept.
+  // Fail before minutes of measuring whose results could not be written.
   GLOAM_TRY(make_folder_of(options.out + "/ledger.json"));
 
   const auto session = open_session(options, context.log);

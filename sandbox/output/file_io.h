@@ -9,13 +9,13 @@
 
 namespace gloam {
 
-/// The whole file. Errors name the path; their kind is `kind`.
+/// Reads a whole file. Errors are of `kind` and name the path.
 [[nodiscard]] Result<std::string> read_text_file(const std::string& path, ErrorKind kind);
 
-/// Writes or replaces a file. ErrorKind::failed, naming the path, when any of it cannot be written.
+/// Creates or replaces a file. Returns ErrorKind::failed, naming the path, if not all bytes could be written.
 [[nodiscard]] Status write_file(const std::string& path, std::string_view bytes);
 
-/// Makes the folder that `path` lies in, with its parents.
+/// Creates the folder that contains `path`, with its parents.
 [[nodiscard]] Status make_folder_of(const std::string& path);
 
 }  // namespace gloam

@@ -10,12 +10,12 @@
 
 namespace gloam {
 
-/// All that was measured of one frame.
+/// All measurements of one frame.
 struct FrameSample {
-  std::uint64_t begin_ns = 0;  ///< on the clock of the zones
-  std::uint64_t end_ns = 0;    ///< after the GPU was done with it
-  FrameReport report;          ///< complete: of this very frame
-  std::vector<Zone> zones;     ///< what the CPU did in it
+  std::uint64_t begin_ns = 0;  ///< time of ZoneRecorder::now_ns
+  std::uint64_t end_ns = 0;    ///< after the GPU finished the frame
+  FrameReport report;          ///< complete: the GPU times and counters are of this frame
+  std::vector<Zone> zones;     ///< CPU zones of the frame
 
   [[nodiscard]] double wall_ms() const { return static_cast<double>(end_ns - begin_ns) * 1e-6; }
 };

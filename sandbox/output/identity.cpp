@@ -18,7 +18,7 @@ std::string hexadecimal(std::uint64_t value) {
   return digits;
 }
 
-/// Items without padding.
+/// Hashes the bytes of the items: T must have no padding.
 template <class T>
 void add_items(Hasher& hasher, const std::vector<T>& items) {
   hasher.value(items.size()).bytes(std::as_bytes(std::span(items)));
@@ -61,7 +61,7 @@ void add_assets(Hasher& hasher, const SceneAssets& assets) {
 
 std::string scene_hash(const std::string& scene, const World& world) {
   Hasher hasher;
-  // A built-in scene has no file; its name stands for it.
+  // A built-in scene has no file: hash its name instead.
   const auto file = read_text_file(scene, ErrorKind::input);
   hasher.text(file ? *file : scene);
   add_assets(hasher, world.resource<SceneAssets>());

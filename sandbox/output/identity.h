@@ -8,12 +8,12 @@
 
 namespace gloam {
 
-/// Hash of what a loaded scene holds, hexadecimal: of its file, and of the geometry and images that files beside it
-/// brought. Built-in scenes are told apart by their names and assets.
+/// Hexadecimal hash of a loaded scene: of its file, and of the world's meshes, images and animation clips, which may
+/// come from other files. For a built-in scene, its name is hashed instead of a file.
 [[nodiscard]] std::string scene_hash(const std::string& scene, const World& world);
 
-/// Hash of the running program's own file, hexadecimal; empty where the system does not tell. Measurements of another
-/// build are others.
+/// Hexadecimal hash of the program's executable file, to tell measurements of different builds apart. Empty if
+/// /proc/self/exe cannot be read.
 [[nodiscard]] std::string program_hash();
 
 }  // namespace gloam

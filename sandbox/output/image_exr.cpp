@@ -21,7 +21,7 @@ Status write_exr(const std::string& path, std::uint32_t width, std::uint32_t hei
     constexpr const char* kChannels[] = {"R", "G", "B"};
     for (std::size_t channel = 0; channel < 3; ++channel) {
       header.channels().insert(kChannels[channel], Imf::Channel(Imf::FLOAT));
-      // The library's interface wants a char* that it does not write through.
+      // OpenEXR takes a char* but does not write through it.
       char* const base = const_cast<char*>(reinterpret_cast<const char*>(rgba.data() + channel));
       frame.insert(kChannels[channel],
                    Imf::Slice(Imf::FLOAT, base, 4 * sizeof(float), std::size_t{width} * 4 * sizeof(float)));

@@ -10,13 +10,14 @@
 
 namespace gloam {
 
-/// Writes sRGB-encoded RGBA, rows from the top, as an RGB PNG (a picture has no holes). rgba: width · height · 4 bytes.
-/// The same picture gives the same bytes. Compression is the fastest that still halves a picture: waiting for a file is
-/// waiting.
+/// Writes an RGB PNG; alpha is dropped. rgba: sRGB-encoded, rows from the top, width · height · 4 bytes. The same
+/// picture always gives the same file. Uses the fastest compression that still halves the size, because the user waits
+/// for the file. ErrorKind::failed if the picture is too large or the file cannot be written.
 [[nodiscard]] Status write_png(const std::string& path, std::uint32_t width, std::uint32_t height,
                                std::span<const std::uint8_t> rgba);
 
-/// Writes linear light, rows from the top, as an EXR with 32-bit R, G, B. rgba: width · height · 4 floats.
+/// Writes an EXR with 32-bit R, G and B; alpha is dropped. rgba: linear light, rows from the top, width · height · 4
+/// floats.
 [[nodiscard]] Status write_exr(const std::string& path, std::uint32_t width, std::uint32_t height,
                                std::span<const float> rgba);
 

@@ -20,9 +20,9 @@ namespace gloam {
 namespace {
 
 constexpr int kMargin = 4;
-constexpr int kLineHeight = 12;  // of the font, pixels at scale 1
+constexpr int kLineHeight = 12;  // pixels at scale 1
 
-/// A vertex as stb_easy_font writes it; four are a rectangle.
+/// Vertex layout of stb_easy_font. Four vertices are a rectangle.
 struct FontVertex {
   float x, y, z;
   std::uint8_t color[4];
@@ -30,7 +30,7 @@ struct FontVertex {
 
 int text_width(std::string text) { return stb_easy_font_width(text.data()); }
 
-/// Lines no wider than `width`, broken at spaces where there are some.
+/// Wraps text at spaces into lines no wider than `width`. A wider word gets a separate line.
 std::vector<std::string> wrapped(std::string_view text, int width) {
   std::vector<std::string> lines(1);
   while (!text.empty()) {

@@ -9,9 +9,9 @@
 
 namespace gloam {
 
-/// A trace for chrome://tracing and Perfetto: one row a CPU thread with its zones, one row "GPU" with the passes. The
-/// clocks of CPU and GPU share no origin: the passes of a frame stand one after another from the frame's begin, each as
-/// long as it took.
+/// A trace for chrome://tracing and Perfetto: one row per CPU thread with its zones, and one row "GPU" with the passes.
+/// The CPU and GPU clocks share no origin, so the passes of a frame are placed one after another from the frame's
+/// begin, each with its measured duration.
 [[nodiscard]] std::string chrome_trace(std::span<const FrameSample> samples);
 
 }  // namespace gloam

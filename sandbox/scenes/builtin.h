@@ -12,17 +12,17 @@
 
 namespace gloam {
 
-/// A scene made by code; each shows one effect.
+/// A scene built by code. Each shows one effect.
 struct BuiltinScene {
   std::string_view name;
   std::string_view shows;
   void (*build)(World& world, SceneInfo& info);
 };
 
-/// In the order in which `gloam scenes` lists them.
+/// All built-in scenes, in the order in which `gloam scenes` lists them.
 [[nodiscard]] std::span<const BuiltinScene> builtin_scenes();
 
-/// Usage error that lists the names when there is none of this name (without "builtin:").
+/// Finds a scene by its name, without "builtin:". An unknown name is ErrorKind::usage; the message lists all names.
 [[nodiscard]] Result<const BuiltinScene*> find_builtin_scene(std::string_view name);
 
 }  // namespace gloam

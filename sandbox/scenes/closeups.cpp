@@ -44,7 +44,7 @@ Materials add_materials(SceneBuilder& builder) {
   return m;
 }
 
-/// Meshes of a figure: parts with a name, a mesh and a place.
+/// One mesh of a figure, placed relative to the figure's root.
 struct Part {
   const char* name;
   std::uint32_t mesh;

@@ -9,13 +9,14 @@
 
 namespace gloam {
 
-inline constexpr int kCloseupFigures = 8;  ///< of builtin:closeups, all of them close-up subjects
-inline constexpr int kCloseupLamps = 8;    ///< that reach every one of them
+inline constexpr int kCloseupFigures = 8;  ///< figures in builtin:closeups, each a close-up subject
+inline constexpr int kCloseupLamps = 8;    ///< point and spot lights in builtin:closeups; each reaches every figure
 
-/// Eight figures of simple shapes in a yard under eight lamps and spots and a moon; each of them is a close-up subject.
+/// Shows close-up shadows: eight figures of simple shapes in a yard, lit by eight point and spot lights and a moon.
+/// Each figure is a close-up subject. Cameras "main" and "face".
 void build_closeups_scene(World& world, SceneInfo& info);
 
-/// Turns all but the first `count` figures into things that are no close-up subjects.
+/// Disables CloseupSubject for all figures but the first `count`.
 void keep_closeup_figures(World& world, int count);
 
 }  // namespace gloam

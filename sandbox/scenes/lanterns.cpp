@@ -38,7 +38,7 @@ struct Materials {
   std::uint32_t bronze = 0;
 };
 
-/// One mesh a colour of the palette, shining in it.
+/// One mesh per palette colour, which emits that colour.
 using GlowMeshes = std::array<std::uint32_t, kPalette.size()>;
 
 Materials add_materials(SceneBuilder& builder) {
@@ -85,7 +85,7 @@ Light spot_light(std::size_t color, float candela, float range_m, float half_ang
   return light;
 }
 
-/// Counts the lights of the scene for their names.
+/// Name of the next light; count: number of lights named so far.
 std::string next_name(int& count) { return "light " + std::to_string(count++); }
 
 void add_arcades(SceneBuilder& builder, const Materials& materials) {
@@ -145,7 +145,7 @@ void add_arch_lanterns(SceneBuilder& builder, int& count) {
       const std::size_t color = i % 2 == 0 ? 0 : 1;
       const dvec3 position(side * kArcadeX, kColumnHeight + 0.45, -(i + 0.5) * kBayLength);
       builder.add_instance("lantern", meshes[color], position);
-      // Just below the body, which would stand between a light inside it and everything else.
+      // The light is just below the body: inside the body everything would be in its shadow.
       builder.add_light(next_name(count), point_light(color, 7.0f, 6.5f, 0.2f), position - dvec3(0.0, 0.26, 0.0),
                         {0, -1, 0}, true);
     }
@@ -187,7 +187,7 @@ void add_garlands(SceneBuilder& builder, int& count) {
   }
 }
 
-/// 17 washers at the foot of either wall and 6 at the gate's: 40 spot lights, cool against the warm lanterns.
+/// 17 wall washers at the foot of each side wall and 6 at the gate: 40 spot lights, cool against the warm lanterns.
 void add_wall_washers(SceneBuilder& builder, int& count) {
   for (const double side : {-1.0, 1.0}) {
     for (int i = 0; i < 17; ++i) {

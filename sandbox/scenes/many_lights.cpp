@@ -16,7 +16,7 @@
 namespace gloam {
 namespace {
 
-// The garden's middle is the origin; things lie on Vogel's spiral, as seeds in a sunflower do. Metres.
+// The garden is centred at the origin. Objects lie on Vogel's spiral, like the seeds of a sunflower. Metres.
 constexpr double kGroundSize = 84.0;
 constexpr int kGroundCells = 56;  // along one side
 constexpr double kGardenRadius = 30.0;
@@ -38,10 +38,10 @@ struct Materials {
   std::array<std::uint32_t, 3> glass{};
 };
 
-/// Triangles of one colour, gathered so that a thousand small things are a handful of draws.
+/// One merged mesh per palette colour, so that a thousand small objects need only a few draws.
 using ColoredShapes = std::array<Primitive, kPalette.size()>;
 
-/// Hills around a hollow.
+/// Height of the ground: hills around a hollow.
 double ground_height(double x, double z) {
   const double hills = 0.9 * std::sin(0.13 * x + 0.4) * std::cos(0.11 * z - 0.3) + 0.35 * std::sin(0.29 * x + 0.21 * z);
   return hills + 0.0046 * (x * x + z * z);
@@ -49,17 +49,17 @@ double ground_height(double x, double z) {
 
 dvec3 on_ground(double x, double z, double above = 0.0) { return {x, ground_height(x, z) + above, z}; }
 
-/// Place i of `count` on the spiral.
+/// Place i of `count` on the spiral, turned by `turn` radians, `above` metres over the ground.
 dvec3 spiral_place(int i, int count, double turn, double above) {
   const double radius = kGardenRadius * std::sqrt((i + 0.7) / count);
   const double angle = kGoldenAngle * i + turn;
   return on_ground(radius * std::cos(angle), radius * std::sin(angle), above);
 }
 
-/// In 0…1, spread evenly over i.
+/// A number in 0…1 that is spread evenly over i.
 double spread(int i, double step) { return std::fmod(0.37 + i * step, 1.0); }
 
-/// Colours go round with the direction from the middle, and change with the distance.
+/// Palette index: changes with the direction from the origin and with the distance from it.
 std::size_t color_at(const dvec3& place, int i) {
   const double turns = std::atan2(place.z, place.x) / (2.0 * static_cast<double>(kPi)) + 1.0;
   const double along = turns + std::hypot(place.x, place.z) * 0.022 + 0.12 * spread(i, 0.618033988);
@@ -261,7 +261,7 @@ void thin_out_lights(World& world, std::size_t count) {
   });
   std::ranges::sort(lights, {}, &Entity::index);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    // Kept are those at which the share of kept ones reaches the next whole number.
+    // Keep light i where i · count / size reaches the next whole number: this spreads the kept lights evenly.
     const bool stays = (i + 1) * count / lights.size() > i * count / lights.size();
     if (!stays) world.remove<Light>(lights[i]);
   }

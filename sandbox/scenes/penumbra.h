@@ -9,8 +9,8 @@ namespace gloam {
 
 inline constexpr double kPenumbraLampHeight_m = 12.0;
 
-/// Shows one penumbra: the straight edge of a sheet of no thickness (mesh "sheet", x < 0) above a floor (y = 0),
-/// straight below a wide lamp (light "lamp", a spot over the edge, kPenumbraLampHeight_m high). Camera "main".
+/// Shows one penumbra: the shadow of the straight edge of a sheet without thickness (mesh "sheet", x < 0) on a floor (y
+/// = 0). A wide lamp (light "lamp", a spot) is straight above the edge at y = kPenumbraLampHeight_m. Camera "main".
 void build_penumbra_scene(World& world, SceneInfo& info);
 
 }  // namespace gloam

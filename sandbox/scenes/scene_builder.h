@@ -13,8 +13,8 @@
 
 namespace gloam {
 
-/// Fills a world by code, as the importer does from a file. The world has all components registered and
-/// prepare_scene_world's resources in place.
+/// Fills a world by code, as the importer does from a file. The world must have all components registered and the
+/// resources of prepare_scene_world.
 class SceneBuilder {
  public:
   SceneBuilder(World& world, SceneInfo& info) : world_(world), info_(info) {}
@@ -25,10 +25,10 @@ class SceneBuilder {
   /// heading: radians about +Y.
   Entity add_instance(const std::string& name, std::uint32_t mesh, dvec3 position, double heading = 0.0,
                       dvec3 scale = dvec3(1.0));
-  /// A root without a mesh, for others to hang on to by Parent.
+  /// Adds a root node without a mesh, which other nodes may name as their Parent.
   Entity add_group(const std::string& name, dvec3 position, double heading = 0.0);
   Entity add_camera(const std::string& name, dvec3 eye, dvec3 target, float fov_y);
-  /// direction: where it shines, any length above 0; a point light's does not matter.
+  /// direction: where the light shines, any length above 0. It has no effect on a point light.
   Entity add_light(const std::string& name, const Light& light, dvec3 position, dvec3 direction, bool casts_shadows);
 
  private:
@@ -38,7 +38,7 @@ class SceneBuilder {
   SceneInfo& info_;
 };
 
-/// A rotation that turns −Z towards `direction` (length above 0) and keeps +Y as near to up as it can be.
+/// A rotation that turns −Z towards `direction` (length above 0) and keeps +Y as close to up as possible.
 [[nodiscard]] dquat rotation_towards(dvec3 direction);
 
 }  // namespace gloam

@@ -16,7 +16,7 @@
 namespace gloam {
 namespace {
 
-// The pergola stands around the origin; metres.
+// The pergola is centred at the origin. Metres.
 constexpr double kSide = 64.0;
 constexpr double kPillarStep = 8.0;
 constexpr double kBeamStep = 4.0;
@@ -28,19 +28,18 @@ constexpr int kBeams = 17;
 constexpr int kWalls = 40;
 constexpr int kCrates = 90;
 constexpr int kBoards = 8;
-constexpr double kBoardTurn = 0.9;  // radians a second
+constexpr double kBoardTurn = 0.9;  // radians per second
 
 constexpr std::array<vec3, 5> kPalette = {vec3(1.0f, 0.60f, 0.26f), vec3(1.0f, 0.38f, 0.16f), vec3(0.95f, 0.78f, 0.45f),
                                           vec3(0.30f, 0.52f, 1.0f), vec3(0.62f, 0.36f, 1.0f)};
 
-/// Place i of an even spread over a square of a side (Roberts' R2 sequence): its first places are spread as evenly as
-/// all.
+/// Point i of Roberts' R2 sequence in a square of side `side`. The first n points are spread evenly for every n.
 dvec3 spread_place(int i, double side, double start) {
   const auto along = [&](double step) { return (std::fmod(start + i * step, 1.0) - 0.5) * side; };
   return {along(0.75487766624669276), 0.0, along(0.56984029099805327)};
 }
 
-/// Out of the pillars.
+/// Moves a place along x until it is `distance` away from the nearest pillar, if it is closer in both x and z.
 dvec3 beside_pillars(dvec3 place, double distance) {
   const auto off_axis = [&](double v) { return v - kPillarStep * std::round(v / kPillarStep); };
   const double x = off_axis(place.x), z = off_axis(place.z);
@@ -78,7 +77,7 @@ void add_pergola(SceneBuilder& builder, const Materials& m) {
   for (int i = 0; i < kBeams; ++i) builder.add_instance("beam", beam, {0.0, kBeamHeight, i * kBeamStep - kSide / 2});
 }
 
-/// Low walls across, crates, and stacks of two crates.
+/// Low walls, crates, stacks of two crates, and posts with boards that turn.
 void add_things(SceneBuilder& builder, const Materials& m) {
   const std::uint32_t wall = builder.add_mesh("wall", box_shape({2.6f, 1.1f, 0.24f}), m.brick);
   for (int i = 0; i < kWalls; ++i)
@@ -110,7 +109,7 @@ Light lamp(int i) {
   return light;
 }
 
-/// Under beams: point lights below a lantern, spots below a hood.
+/// Lamps under the beams: a point light below a lantern, or a spot light below a hood.
 void add_lamps(SceneBuilder& builder, const Materials& m) {
   const vec2 lantern[] = {{0.0f, 0.0f}, {0.12f, 0.03f}, {0.17f, 0.16f}, {0.12f, 0.3f}, {0.0f, 0.33f}};
   const vec2 hood[] = {{0.0f, 0.12f}, {0.26f, 0.12f}, {0.06f, 0.3f}, {0.0f, 0.32f}};
@@ -162,9 +161,9 @@ void build_shadow_grid_scene(World& world, SceneInfo& info) {
 }
 
 double shadow_grid_range_m(std::size_t count, double lights_a_point) {
-  // A lamp's sphere cuts the ground in a disc; discs of all lamps cover the square `lights_a_point` times. Of a spot's,
-  // what its cone leaves is about 0.6 where ranges are small against the height, less where they are large: not told
-  // apart here.
+  // The sphere of a light's range cuts the ground in a disc. The discs of all lights together cover the square
+  // `lights_a_point` times. A spot's cone covers only a part of its disc: about 0.6 if ranges are small against the
+  // height, less if they are large. This is ignored here.
   const double disc = lights_a_point * kSide * kSide / static_cast<double>(std::max<std::size_t>(count, 1));
   return std::sqrt(disc / 3.14159265358979 + kLampHeight * kLampHeight);
 }
@@ -181,7 +180,7 @@ void arrange_shadow_grid_lights(World& world, std::size_t count, double lights_a
   for (std::size_t i = 0; i < std::min(count, lights.size()); ++i) {
     Light& light = world.get<Light>(lights[i]);
     light.range_m = static_cast<float>(range_m);
-    // As bright in sum whatever their number.
+    // The sum of the lights that reach a point is the same for every `lights_a_point`.
     const double candela = (light.kind == LightKind::spot ? 36.0 : 24.0) * 3.0 / std::max(lights_a_point, 1.0);
     light.intensity = static_cast<float>(candela);
   }

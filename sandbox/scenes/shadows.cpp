@@ -34,7 +34,7 @@ Materials add_materials(SceneBuilder& builder) {
   return m;
 }
 
-/// A flat rectangle in the XZ plane, centred, looking up.
+/// A flat rectangle in the XZ plane, centred at the origin, facing up.
 Primitive sheet_shape(float width_m, float depth_m) {
   Primitive sheet;
   const float x = width_m * 0.5f;

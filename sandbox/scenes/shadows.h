@@ -7,8 +7,8 @@
 
 namespace gloam {
 
-/// Shows shadows that widen with the distance to what casts them: columns, a grille, a table, a sheet of no thickness
-/// and a ball under a wide lamp, a spot and a moon. Cameras "main" and "close".
+/// Shows penumbrae that widen with the distance from the caster: columns, a grille, a table, a sheet without thickness
+/// and a ball, lit by a wide lamp, a spot and a moon. Cameras "main" and "close".
 void build_shadows_scene(World& world, SceneInfo& info);
 
 }  // namespace gloam

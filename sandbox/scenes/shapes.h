@@ -10,20 +10,21 @@
 
 namespace gloam {
 
-/// Triangle lists in metres with outward, counter-clockwise faces, unit normals and bounds; no texture coordinates.
-/// Flat faces keep their edges; round ones are smooth.
+/// Shapes as triangle lists in metres. Faces are counter-clockwise seen from outside, normals have unit length, bounds
+/// are set, and there are no texture coordinates. Flat faces have hard edges; round faces have smooth normals.
 
-/// Axis-aligned box of a size, standing on y = 0, centred in x and z.
+/// Axis-aligned box of the given size, standing on y = 0, centred in x and z.
 [[nodiscard]] Primitive box_shape(vec3 size_m);
 
-/// The outline (radius, height), from below to above, turned about +Y: smooth around, an edge at every point of the
-/// outline. Points with radius 0 close the ends. outline: at least 2 points, radii ≥ 0. sides ≥ 3.
+/// The surface of revolution of an outline about +Y. outline: points (radius, height) from bottom to top, at least 2,
+/// radii ≥ 0; a radius of 0 closes an end. sides ≥ 3. Normals are smooth around the axis, with a hard edge at every
+/// point of the outline.
 [[nodiscard]] Primitive turned_shape(std::span<const vec2> outline, std::uint32_t sides);
 
 [[nodiscard]] Primitive sphere_shape(float radius_m, std::uint32_t sides);
 
-/// A wall of `width_m` and `height_m` with a round arch of `radius_m` cut out of its foot, in the XY plane, `depth_m`
-/// thick and centred; y = 0 is where the arch springs. radius < width / 2, radius < height.
+/// A wall in the XY plane with a round arch cut out of its foot, centred in x and z. Both the wall and the arch start
+/// at y = 0. radius_m < width_m / 2, radius_m < height_m.
 struct ArchSize {
   float width_m = 3.0f;
   float height_m = 2.0f;

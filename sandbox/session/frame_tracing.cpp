@@ -18,7 +18,7 @@ constexpr std::uint32_t kViewSamples = kLedgerSamples;
 Result<FrameToTrace> read_frame_to_trace(Session& session, ViewId view) {
   auto geometry = session.renderer->read_geometry(session.world, view);
   if (!geometry) return geometry.error();
-  // Rays begin at pixels: near the camera is where floats shall be finest.
+  // Rays start at visible surfaces. With the camera as the tracer's origin, floats are most precise near the camera.
   auto tracer = make_scene_tracer(session.world, *session.executor, geometry->view.position);
   if (!tracer) return tracer.error();
   return FrameToTrace{.geometry = std::move(geometry).value(), .tracer = std::move(tracer).value()};

@@ -14,23 +14,24 @@
 
 namespace gloam {
 
-/// What rays of references need of a frame: where its pixels lie, and the triangles around them.
+/// Input of traced references for one frame: its geometry buffer, and a tracer for the triangles of the world.
 struct FrameToTrace {
   GeometryPicture geometry;
   std::unique_ptr<SceneTracer> tracer;
 };
 
-/// Of a session's last frame.
+/// Reads the geometry of the session's last frame back and builds the tracer.
 [[nodiscard]] Result<FrameToTrace> read_frame_to_trace(Session& session, ViewId view);
 
-/// The view of this name (with its argument), when something has to be traced before it can be shown.
+/// The visualizer of this name, if something has to be traced before it can be shown; otherwise none. name: NAME or
+/// NAME:ARGUMENT.
 [[nodiscard]] std::optional<VisualizerInfo> traced_view(const Renderer& renderer, std::string_view name);
 
-/// Usage error for a view that has to be traced: such views are of single frames.
+/// Returns ErrorKind::usage for a visualizer that has to be traced: it can show single frames only.
 [[nodiscard]] Status check_shown_live(const Renderer& renderer, std::string_view name);
 
-/// Traces what `info` needs to show the session's last frame and puts it into the world; a bar on a terminal unless
-/// quiet.
+/// Traces the data with which visualizer `info` shows the session's last frame, and stores it in the world. Shows a
+/// progress bar on a terminal unless quiet.
 [[nodiscard]] Status trace_for_view(Session& session, const VisualizerInfo& info, ViewId view, Console& console,
                                     bool quiet);
 

@@ -14,27 +14,28 @@
 
 namespace gloam {
 
-/// What --scene and SCENE name.
+/// The scene and the animation that the command line names.
 struct SceneRequest {
   std::string scene;      ///< path or "builtin:NAME"
-  std::string animation;  ///< empty: the first of clips that move the same target
+  std::string animation;  ///< clip to play where several move the same target; empty: the first
 };
 
-/// Cheap checks that need no world: a built-in scene of that name (usage error), a file that can be opened (input
-/// error).
+/// Cheap check that needs no world. An unknown built-in scene is ErrorKind::usage; a file that cannot be opened is
+/// ErrorKind::input.
 [[nodiscard]] Status check_scene_exists(const std::string& scene);
 
-/// "lanterns" of "builtin:lanterns", "courtyard" of "scenes/courtyard.gltf": for names of files.
+/// The scene's name in names of output files: "lanterns" for "builtin:lanterns", "courtyard" for
+/// "scenes/courtyard.gltf".
 [[nodiscard]] std::string scene_stem(const std::string& scene);
 
-/// Components and resources of engine and modules, for a world without a renderer.
+/// Adds the components and resources of engine and modules, for a world without a renderer.
 void prepare_world(World& world, const ModuleList& modules);
 
-/// Fills a prepared world. An animation that the scene does not have is a usage error.
+/// Loads a scene into a prepared world. An animation that the scene does not have is ErrorKind::usage.
 [[nodiscard]] Result<SceneInfo> load_scene(const SceneRequest& request, const ModuleList& modules, World& world,
                                            JobExecutor& executor, LogSink& log);
 
-/// The camera of that name, the scene's first when the name is empty, or kNoEntity when it has none.
+/// The camera of that name. If the name is empty: the scene's first camera, or kNoEntity if the scene has none.
 [[nodiscard]] Result<Entity> find_camera(const World& world, const SceneInfo& info, const std::string& name);
 
 }  // namespace gloam

@@ -47,8 +47,8 @@ Status open_renderer(Session& session, const Options& options, LogSink& log,
   return set_knobs(session.renderer->knobs(), options);
 }
 
-/// Poses everything once ahead of the first frame: a fitted camera looks at what is drawn, a flying one starts at a
-/// posed one.
+/// Poses the scene once before the first frame: a fitted camera needs the posed meshes, and a flight starts at a posed
+/// camera.
 void pose_scene(Session& session) {
   Schedule schedule;
   add_scene_systems(schedule);

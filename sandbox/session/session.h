@@ -20,8 +20,8 @@
 
 namespace gloam {
 
-/// Device, renderer and a loaded scene: what every command that draws works with. Members are made in their order and
-/// end in the opposite one.
+/// Device, renderer and loaded scene of a command that draws. Members are created in this order and destroyed in
+/// reverse order.
 struct Session {
   std::unique_ptr<JobExecutor> executor;
   std::unique_ptr<gpu::Device> device;
@@ -29,26 +29,25 @@ struct Session {
   std::unique_ptr<Renderer> renderer;
   World world;
   SceneInfo info;
-  Entity camera;  ///< kNoEntity: one fitted to the scene
+  Entity camera;  ///< kNoEntity: a camera fitted to the scene
 
-  /// Simulated time of the frame that is rendered next.
+  /// Sets the simulated time and the time step of the next frame.
   void set_clock(double time_s, double dt_s);
 
-  /// Of the chosen camera at a size, with a visualizer. A camera that moves is followed.
+  /// View settings for the session's camera. Size in pixels. The view follows the camera if it moves.
   [[nodiscard]] ViewSettings view_settings(std::uint32_t width, std::uint32_t height,
                                            const std::string& visualizer) const;
 
-  /// Renders one frame of one view and waits for it.
+  /// Renders one frame of one view and waits until the GPU has finished it.
   [[nodiscard]] Result<FrameSample> render_frame(const ViewRequest& request);
 
-  /// Error of ErrorKind::failed when the validation layer had something to say.
+  /// Returns ErrorKind::failed if the validation layer reported a message.
   [[nodiscard]] Status check_validation() const;
 };
 
-/// Opens the device, makes the renderer with all modules, sets the knobs (--config, then --set), loads the scene, poses
-/// it at
-/// --time and checks camera and visualizer. log must outlive the session. window_extensions: of the window system, or
-/// empty. more_modules: behind the program's own.
+/// Opens the device, creates the renderer with all modules, sets the knobs (--config, then --set), loads the scene,
+/// poses it at --time and checks camera and visualizer. log must outlive the session. window_extensions: Vulkan
+/// instance extensions of the window system, or empty. more_modules: added after the program's own modules.
 [[nodiscard]] Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& log,
                                                             const std::vector<std::string>& window_extensions = {},
                                                             ModuleList more_modules = {});

@@ -57,7 +57,7 @@ Result<FrameCost> SessionCosts::draw(std::uint32_t index) {
 
 Result<std::uint64_t> SessionCosts::gpu_bytes() {
   session_.renderer->free_idle_memory();
-  // The device frees when the frames that could still use it have passed.
+  // The device frees memory only after the frames that may still use it have completed.
   for (int frame = 0; frame < 3; ++frame) GLOAM_TRY(draw(index_));
   std::uint64_t bytes = 0;
   for (const ModuleState& module : session_.renderer->report().modules) bytes += module.gpu_bytes;
@@ -75,7 +75,7 @@ Result<FramePictures> SessionCosts::read() {
 Result<FramePictures> SessionCosts::redraw(const std::function<void(World&)>& change,
                                            const std::function<void(World&)>& restore) {
   change(session_.world);
-  // What a frame takes from the one before has come to rest with the second.
+  // Draw twice: the data that a frame takes from its predecessor is settled in the second frame.
   Status drawn;
   for (int frame = 0; frame < 2 && drawn.ok(); ++frame)
     if (const auto cost = draw(index_); !cost) drawn = cost.error();

@@ -11,10 +11,10 @@
 
 namespace gloam {
 
-/// The frames of a session, for the cost ledger: frame `index` is at --time plus so many --dt.
+/// Draws a session's frames for the cost ledger. Frame `index` is at time --time + index · --dt.
 class SessionCosts final : public CostSubject {
  public:
-  /// Both must outlive it.
+  /// session and options must outlive it.
   SessionCosts(Session& session, const Options& options);
 
   [[nodiscard]] KnobRegistry& knobs() override { return session_.renderer->knobs(); }
@@ -28,7 +28,7 @@ class SessionCosts final : public CostSubject {
                                                      std::uint32_t samples) override;
 
  private:
-  /// The last frame once more with something changed in the world, which is restored afterwards.
+  /// Draws the last frame again after `change` has modified the world, then calls `restore`.
   [[nodiscard]] Result<FramePictures> redraw(const std::function<void(World&)>& change,
                                              const std::function<void(World&)>& restore);
 
@@ -36,7 +36,7 @@ class SessionCosts final : public CostSubject {
   const Options& options_;
   ViewRequest request_;
   std::unique_ptr<ReferenceStore> store_;
-  std::uint32_t index_ = 0;  ///< of the last frame
+  std::uint32_t index_ = 0;  ///< index of the last frame
 };
 
 }  // namespace gloam

@@ -6,14 +6,14 @@
 
 namespace gloam {
 
-/// What is told of a set of measurements.
+/// Median, 10th and 90th percentile of a set of measurements.
 struct Summary {
   double median = 0.0;
   double p10 = 0.0;
   double p90 = 0.0;
 };
 
-/// Quantiles between neighbouring values are linear. No values: all 0.
+/// Percentiles are interpolated linearly between neighbouring values. Without values all are 0.
 [[nodiscard]] Summary summarize(std::vector<double> values);
 
 }  // namespace gloam

@@ -8,8 +8,8 @@
 namespace gloam {
 namespace {
 
-constexpr double kSpeed = 3.0;      // metres a second: a brisk walk
-constexpr double kMaxTilt = 1.553;  // 89°: at 90° the heading would be lost
+constexpr double kSpeed = 3.0;      // metres per second
+constexpr double kMaxTilt = 1.553;  // 89°: at 90° the heading is undefined
 
 struct Axes {
   dvec3 right;
@@ -29,7 +29,7 @@ FlyCamera::FlyCamera(const dmat4& world_from_camera) : position_(world_from_came
   const dvec3 back = glm::normalize(dvec3(world_from_camera[2]));
   tilt_ = std::clamp(std::asin(std::clamp(-back.y, -1.0, 1.0)), -kMaxTilt, kMaxTilt);
   heading_ = std::atan2(back.x, back.z);
-  // Looking straight up or down, the picture's upper edge tells the heading.
+  // If the camera looks straight up or down, its up axis gives the heading.
   if (std::abs(back.y) > 0.999999) {
     const dvec3 up = dvec3(world_from_camera[1]) * (back.y > 0.0 ? -1.0 : 1.0);
     heading_ = std::atan2(up.x, up.z);

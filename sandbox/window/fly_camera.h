@@ -9,7 +9,7 @@
 
 namespace gloam {
 
-/// What the user wants of the camera in one frame; movements in −1…1 along the camera's axes.
+/// The user's input to the camera in one frame. Movements are −1…1 along the camera's axes.
 struct FlyInput {
   double forward = 0.0;
   double right = 0.0;
@@ -19,13 +19,13 @@ struct FlyInput {
   double speed = 1.0;  ///< factor on the camera's speed
 };
 
-/// A camera that flies where it looks; never rolls, never tips over.
+/// A camera that flies along its view direction. It never rolls, and its tilt stays within ±89°.
 class FlyCamera {
  public:
   /// Takes position and direction of a rigid pose (the camera looks along −Z); its roll is dropped.
   explicit FlyCamera(const dmat4& world_from_camera = dmat4(1.0));
 
-  /// dt_s ≥ 0. Diagonal movement is no faster than straight.
+  /// Turns and moves the camera. dt_s ≥ 0. Diagonal movement is no faster than straight movement.
   void advance(const FlyInput& input, double dt_s);
 
   [[nodiscard]] dmat4 world_from_camera() const;
@@ -36,11 +36,11 @@ class FlyCamera {
   double tilt_ = 0.0;     ///< radians above the horizon
 };
 
-/// The camera of a view that follows the scene's until the user flies, and then the user's; its lens and effects stay
-/// the scene's.
+/// The camera pose of a view: follows the scene's camera until the user moves it, then a FlyCamera. Lens and effects
+/// stay those of the scene's camera.
 class ViewFlight {
  public:
-  /// Moves the view, from where the world's camera is now when this is the user's first movement.
+  /// Moves the view. The first movement starts at the current pose of the world's camera.
   void advance(const World& world, const FlyInput& input, double dt_s, ViewSettings& settings);
 
  private:

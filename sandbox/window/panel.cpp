@@ -13,10 +13,10 @@
 namespace gloam {
 namespace {
 
-constexpr float kFontPixels = 13.0f;  // of ImGui's own font, which is drawn for this size
+constexpr float kFontPixels = 13.0f;  // size for which ImGui's default font is designed
 constexpr float kMargin = 10.0f;
 constexpr float kWidth = 460.0f;
-constexpr double kShortestFrame = 1e-6;  // seconds: ImGui divides by it
+constexpr double kShortestFrame = 1e-6;  // seconds; above 0 because ImGui divides by the frame time
 
 struct KeyPair {
   ImGuiKey_ imgui;
@@ -136,7 +136,7 @@ Panel::Panel(double scale) : context_(ImGui::CreateContext()) {
   style.Colors[ImGuiCol_WindowBg].w = 0.9f;
   style.ScaleAllSizes(size);
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // nothing is left in the user's folder
+  io.IniFilename = nullptr;  // write no files into the user's folder
   io.LogFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   for (const KeyPair& pair : kKeys) io.KeyMap[pair.imgui] = static_cast<int>(pair.key);

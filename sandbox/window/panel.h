@@ -19,58 +19,58 @@ struct ImGuiContext;
 
 namespace gloam {
 
-/// What one frame of the panel shows, and what it may change.
+/// The data that one frame of the panel shows and may change.
 struct PanelContent {
   KnobRegistry& knobs;
   const FrameTimes& times;
   std::span<const ModuleState> modules;
   std::span<const VisualizerInfo> visualizers;
-  std::string visualizer;  ///< the current one: name, or name:argument
-  /// Changes it; an error is shown.
+  std::string visualizer;  ///< the current visualizer: NAME or NAME:ARGUMENT
+  /// Changes the visualizer. The panel shows the error if it fails.
   std::function<Status(const std::string& visualizer)> show;
 };
 
-/// The picture the panel lies over.
+/// The picture that the panel is drawn over.
 struct PanelFrame {
   std::uint32_t width = 0;  ///< pixels, > 0
   std::uint32_t height = 0;
   double dt_s = 0.0;  ///< since the last frame
 };
 
-/// One coverage byte a pixel, row by row from the top.
+/// The font's texture: one coverage byte per texel, row by row from the top.
 struct FontTexels {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::span<const std::byte> bytes;
 };
 
-/// A widget of the last frame, in pixels from the picture's upper left.
+/// Rectangle of a widget in the last frame, in pixels from the picture's upper left corner.
 struct PanelWidget {
-  std::string name;  ///< of the knob; "view" for the choice of a visualizer
+  std::string name;  ///< KNOB, "KNOB reset", "KNOB CHOICE", "view", "view VISUALIZER" or "view argument"
   float left = 0.0f;
   float top = 0.0f;
   float right = 0.0f;
   float bottom = 0.0f;
 };
 
-/// The panel of knobs, times, passes and modules, by Dear ImGui; draws nothing itself. One panel is in use at a time on
-/// a thread.
+/// The panel of knobs, times, passes and modules, laid out by Dear ImGui. It draws nothing: PanelRenderer does. Every
+/// call sets ImGui's current context, which is global, so all panels must be used on one thread.
 class Panel {
  public:
-  /// scale: size of letters and widgets, 1 on a usual display.
+  /// scale: factor on the size of text and widgets; 1 for a standard display.
   explicit Panel(double scale = 1.0);
   ~Panel();
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
 
-  /// Takes one frame's input, changes what the user changes, and leaves draw data.
+  /// Handles one frame's input, applies the user's changes to knobs and visualizer, and makes the draw data.
   void update(const PanelInput& input, const PanelFrame& frame, const PanelContent& content);
 
-  /// Whether the last update's mouse or keyboard is the panel's alone.
+  /// Whether the panel used the mouse or keyboard input of the last update, so that nothing else may use it.
   [[nodiscard]] bool wants_mouse() const;
   [[nodiscard]] bool wants_keyboard() const;
 
-  /// Of the last update, valid until the next; there must have been one.
+  /// Draw data of the last update, valid until the next. There must have been an update.
   [[nodiscard]] const ImDrawData& draw_data() const;
   /// Valid as long as the panel.
   [[nodiscard]] FontTexels font() const;
@@ -86,9 +86,9 @@ class Panel {
 
   ImGuiContext* context_ = nullptr;
   std::vector<PanelWidget> widgets_;
-  std::string asked_;     ///< visualizer that waits for its argument
-  std::string argument_;  ///< as typed
-  std::string fault_;     ///< of the last visualizer asked for
+  std::string asked_;     ///< chosen visualizer that waits for its argument
+  std::string argument_;  ///< text typed as the argument
+  std::string fault_;     ///< error of the last chosen visualizer; empty: none
 };
 
 }  // namespace gloam

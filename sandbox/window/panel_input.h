@@ -10,7 +10,7 @@
 
 namespace gloam {
 
-/// Keys that move about in a text or change it.
+/// Keys that edit text or move the cursor in it.
 enum class EditKey : std::uint8_t {
   tab,
   left,
@@ -37,14 +37,14 @@ enum class EditKey : std::uint8_t {
 };
 inline constexpr std::size_t kEditKeyCount = 22;
 
-/// Mouse and keyboard of one frame as a panel takes them. Buttons and keys are on when they are held or were struck
-/// since the last frame, so that a slow frame misses no click.
+/// Mouse and keyboard input of one frame for a panel. A button or key is set if it is held or was pressed since the
+/// last frame, so that a slow frame misses no click.
 struct PanelInput {
-  double mouse_x = -1.0;  ///< pixels from the picture's upper left
+  double mouse_x = -1.0;  ///< pixels from the picture's upper left corner
   double mouse_y = -1.0;
   std::array<bool, 3> buttons = {};  ///< left, right, middle
-  double wheel = 0.0;                ///< steps away from the user
-  std::bitset<kEditKeyCount> keys;   ///< by EditKey
+  double wheel = 0.0;                ///< steps, positive away from the user
+  std::bitset<kEditKeyCount> keys;   ///< indexed by EditKey
   bool control = false;
   bool shift = false;
   bool alt = false;

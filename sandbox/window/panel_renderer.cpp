@@ -80,7 +80,7 @@ std::vector<PanelRenderer::DrawCall> PanelRenderer::draw_calls(const ImDrawData&
   std::uint32_t first_vertex = 0;
   for (const ImDrawList* list : lists_of(data)) {
     for (const ImDrawCmd& command : list->CmdBuffer) {
-      // The window may have changed its size since ImGui laid its windows out: clip to the picture that is drawn.
+      // The window may have been resized since ImGui's layout: clip to the picture.
       const float left = std::max(command.ClipRect.x - data.DisplayPos.x, 0.0f);
       const float top = std::max(command.ClipRect.y - data.DisplayPos.y, 0.0f);
       const float right = std::min(command.ClipRect.z - data.DisplayPos.x, static_cast<float>(width));
@@ -118,7 +118,7 @@ Result<UploadSlice> PanelRenderer::upload_indices(const ImDrawData& data) {
   std::byte* target = slice->bytes.data();
   for (const ImDrawList* list : lists_of(data)) {
     for (const ImDrawIdx narrow : list->IdxBuffer) {
-      const std::uint32_t index = narrow;  // command lists take 32 bits
+      const std::uint32_t index = narrow;  // command lists take 32-bit indices
       std::memcpy(target, &index, sizeof(index));
       target += sizeof(index);
     }

@@ -19,14 +19,15 @@ namespace gloam {
 /// Draws a panel over a picture, in one pass.
 class PanelRenderer {
  public:
-  /// Uploads the font: not between Device::begin_frame and submit_frame.
+  /// Uploads the font, so it must not be called between Device::begin_frame and submit_frame.
   [[nodiscard]] static Result<std::unique_ptr<PanelRenderer>> create(gpu::Device& device, const FontTexels& font);
   ~PanelRenderer();
   PanelRenderer(const PanelRenderer&) = delete;
   PanelRenderer& operator=(const PanelRenderer&) = delete;
 
-  /// Declares the pass, once a frame, after Device::begin_frame; the data is copied. picture: UNORM (colours are
-  /// written as ImGui gives them, sRGB-encoded) or sRGB; left at its newest version. Nothing to draw: no pass.
+  /// Declares the pass. Call it once per frame, after Device::begin_frame. data is copied. picture: a UNORM format, to
+  /// which ImGui's sRGB-encoded colours are written unchanged, or an sRGB format; on return it is the version that the
+  /// pass writes. If there is nothing to draw, no pass is added.
   [[nodiscard]] Status add_pass(FrameGraph& graph, ImageRef& picture, const ImDrawData& data);
 
  private:
@@ -34,7 +35,7 @@ class PanelRenderer {
     std::uint32_t indices = 0;
     std::uint32_t first_index = 0;
     std::int32_t vertex_offset = 0;
-    std::int32_t x = 0;  ///< of the scissor, pixels
+    std::int32_t x = 0;  ///< x, y, width and height: scissor rectangle, pixels
     std::int32_t y = 0;
     std::uint32_t width = 0;
     std::uint32_t height = 0;

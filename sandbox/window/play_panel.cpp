@@ -21,7 +21,7 @@ Status PlayPanel::open() {
 }
 
 Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettings& view) {
-  // A text that is being typed keeps Tab to itself.
+  // Tab does not hide the panel while the user types text.
   if (input.toggle_panel && !(drawn_ && panel_->wants_keyboard())) shown_ = !shown_;
   drawn_ = shown_ && frame.width > 0 && frame.height > 0;
   if (!drawn_) return {};
@@ -30,7 +30,7 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
   Renderer& renderer = *session_.renderer;
   const FrameReport report = renderer.report();
   times_.add(frame.dt_s * 1e3, report);
-  // Escape leaves a text; only the next one leaves the program.
+  // Escape ends text input; only the next Escape leaves the program.
   const bool typing = panel_->wants_keyboard();
   const auto show = [&](const std::string& visualizer) -> Status {
     GLOAM_TRY(renderer.check_visualizer(session_.world, visualizer));

@@ -14,18 +14,18 @@
 
 namespace gloam {
 
-/// The panel of `play`: in sight or not, and where the session's state meets it. Costs nothing before it is first
-/// shown.
+/// The panel of `play`: shows and hides it, and connects it with the session. Panel and renderer are created when it is
+/// first shown.
 class PlayPanel {
  public:
-  /// The session must outlive it. scale: size of letters, 1 on a usual display.
+  /// The session must outlive it. scale: factor on the size of text; 1 for a standard display.
   PlayPanel(Session& session, double scale, bool shown);
 
-  /// Before a frame of the window's size in pixels: shows what is known, changes knobs and view, and takes out of the
-  /// input what the user meant for the panel.
+  /// Call it before each frame. frame: the window's size in pixels and the time step. Updates the panel, applies the
+  /// user's changes to knobs and view, and removes the input that the panel used from `input`.
   [[nodiscard]] Status update(WindowInput& input, const PanelFrame& frame, ViewSettings& view);
 
-  /// For ViewTarget::overlay of the frame after an update; empty while out of sight.
+  /// The function for ViewTarget::overlay in the frame after an update; empty while the panel is hidden.
   [[nodiscard]] std::function<Status(FrameGraph&, ImageRef&)> overlay();
 
  private:
@@ -34,7 +34,7 @@ class PlayPanel {
   Session& session_;
   double scale_;
   bool shown_;
-  bool drawn_ = false;  ///< by the last update
+  bool drawn_ = false;  ///< shown by the last update
   FrameTimes times_;
   std::vector<VisualizerInfo> visualizers_;
   std::unique_ptr<Panel> panel_;

@@ -12,7 +12,8 @@
 
 #include "sandbox/console.h"
 
-// GLFW declares this only behind Vulkan's own headers, which stay in engine/gpu. Handles are as wide as these types.
+// GLFW declares this only after Vulkan's headers, which only engine/gpu includes. These types have the size of the
+// handles.
 extern "C" int glfwCreateWindowSurface(void* instance, GLFWwindow* window, const void* allocator,
                                        std::uint64_t* surface);
 
@@ -36,7 +37,7 @@ static_assert(std::size(kEditKeys) == kEditKeyCount);
 /// GLFW's buttons in the order of PanelInput::buttons.
 constexpr int kButtons[] = {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE};
 
-/// What was struck since the last poll, told by events: polled states miss what is let go within a slow frame.
+/// Input events since the last poll. Polled states miss a key or button that is released within a slow frame.
 struct Strikes {
   std::bitset<GLFW_KEY_LAST + 1> keys;
   std::bitset<GLFW_MOUSE_BUTTON_LAST + 1> buttons;
@@ -87,10 +88,10 @@ struct Window::State {
   }
 };
 
-/// At the cursor position of the last poll.
+/// Uses the cursor position of the last poll.
 PanelInput Window::State::panel_input() const {
   PanelInput input;
-  // The cursor is told in the desktop's units, of which a pixel of the picture may be less than one.
+  // The cursor position is in desktop units, which may be larger than a pixel.
   int width = 0;
   int height = 0;
   glfwGetWindowSize(window, &width, &height);

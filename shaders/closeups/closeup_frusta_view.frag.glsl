@@ -4,15 +4,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/closeups/closeup_views_api.glsl"
 
-// Frusta of close-up pairs as lines over the picture, and their tiles tinted and framed, each pair in its own colour.
+// Visualizer of close-up pairs: frusta as lines over the picture, umbra ranges tinted and framed, one colour per pair.
 
 layout(set = 0, binding = 3, scalar) readonly buffer Lines { CloseupLine lines[]; };
 
-const float kTint = 0.16;    // opacity of the tiles of a lone pair; many would hide the picture
-const float kFrame = 0.7;    // of the outermost pixels of their rectangle
-const float kHidden = 0.25;  // of lines behind surfaces
+const float kTint = 0.16;    // opacity of the tiles of a single pair; less for several, which would hide the picture
+const float kFrame = 0.7;    // opacity of the outermost pixels of the tiles' rectangle
+const float kHidden = 0.25;  // opacity of lines behind surfaces
 
-// Colours laid over one another: premultiplied, and their opacity.
+// Blends a colour over a premultiplied one.
 vec4 over(vec4 below, vec3 color, float opacity) { return below * (1.0 - opacity) + vec4(color, 1.0) * opacity; }
 
 bool in_frame(ShownCloseup closeup, uvec2 pixel) {
@@ -29,7 +29,7 @@ float line_opacity(CloseupLine line, vec2 at, float depth) {
   return hidden ? opacity * kHidden : opacity;
 }
 
-// Where lines of one pair meet, the clearest counts.
+// Where lines of one pair meet, the greatest opacity counts.
 float lines_opacity(ShownCloseup closeup, vec2 at, float depth) {
   if (any(lessThan(at, closeup.lines_low)) || any(greaterThan(at, closeup.lines_high))) return 0.0;
   float opacity = 0.0;

@@ -5,16 +5,16 @@
 #include "shaders/closeups/closeup_views_api.glsl"
 #include "shaders/common/heat.glsl"
 
-// Texels of close-up maps that a pixel's side covers on its surface: the root of those that the pixel covers. Where
-// pairs overlap, of the finest map.
+// Visualizer of the texels of close-up maps per pixel side on the visible surface: the square root of the number of
+// texels that the pixel covers. Where pairs overlap, the finest map counts.
 
 layout(set = 0, binding = 3) uniform usampler2D normals;
 
-const float kOctave = 0.1;   // of the colours, to twice as many texels
-const float kMost = 6e4;     // that the image of the view's name can hold
-const float kEdgeOn = 1e-4;  // sine: surfaces count as seen from no flatter than this
+const float kOctave = 0.1;   // part of the colour scale per doubling of texels
+const float kMost = 6e4;     // limit of the half floats of the named image
+const float kEdgeOn = 1e-4;  // lower limit of the sine between surface and view ray
 
-// A surface around the middle of a pixel: camera-relative metres, and a pixel to the right and down.
+// The surface that a pixel sees: camera-relative position in metres, and the offsets to the next pixel right and down.
 struct Footprint {
   vec3 position;
   vec3 right;
@@ -34,7 +34,7 @@ Footprint footprint_of(uvec2 pixel, float depth) {
 
 vec3 in_face(ShownCloseup c, vec3 v) { return vec3(dot(c.right, v), dot(c.up, v), dot(c.forward, v)); }
 
-// Negative: outside the pair's frustum.
+// Texels per pixel side; negative outside the pair's frustum.
 float texels_of(ShownCloseup c, Footprint f) {
   vec3 at = in_face(c, f.position - c.origin);
   bool perspective = c.tan_half > 0.0;

@@ -3,7 +3,7 @@
 #ifndef GLOAM_SHADERS_CLOSEUPS_CLOSEUP_VIEWS_API_GLSL
 #define GLOAM_SHADERS_CLOSEUPS_CLOSEUP_VIEWS_API_GLSL
 
-// What the views of close-up pairs share.
+// Bindings and helpers of the close-up visualizers.
 
 #include "shaders/closeups/closeup_views_shared.h"
 #include "shaders/lights/light_views_api.glsl"

@@ -7,7 +7,7 @@
 
 GLOAM_SHARED_BEGIN
 
-/// A pair of a subject and a light as the views of close-ups show it.
+/// A close-up pair as the visualizers read it.
 struct ShownCloseup {
   vec3 origin;     // of its face, camera-relative
   float tan_half;  // 0: orthographic
@@ -18,17 +18,17 @@ struct ShownCloseup {
   vec3 forward;
   float far_m;
   vec3 color;  // linear
-  float size;  // texels of the face's side
+  float size;  // side of the face in texels
   uvec2 first_tile;
   uvec2 end_tile;
-  vec2 lines_low;  // of what its lines touch, pixels
+  vec2 lines_low;  // bounding rectangle of its lines, pixels
   vec2 lines_high;
   uint first_line;
   uint line_count;
 };
 
-/// A straight line over the picture. Places are in pixels from the upper left corner, depths are reversed and run
-/// evenly along it.
+/// A straight line over the picture. Positions are in pixels from the upper left corner; depths are reversed and linear
+/// along the line.
 struct CloseupLine {
   vec2 from;
   vec2 to;
@@ -38,7 +38,7 @@ struct CloseupLine {
 
 GLOAM_SHARED_END
 
-/// Pixels from a line's middle to where it ends, its softened rim included.
+/// Half width of a line in pixels, including its softened edge.
 #define GLOAM_CLOSEUP_LINE_REACH 1.25f
 
 #endif

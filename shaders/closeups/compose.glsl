@@ -5,14 +5,15 @@
 
 // Before including this, define GLOAM_SHADOWS_KINDS: 1 for local lights, 4 for directional ones.
 //
-// Takes what a subject keeps of a light from the pixels of a tile (FF XVI paper, §3.4). One workgroup is a tile of the
-// pair's range. A tile that does not list the light, or that sees none of it already, stays as it is; pixels that the
-// close-up map does not hold keep what they see. What is new is the lesser of both: a lit tile takes a slot, one that
-// nobody sees the light from any more becomes unlit. A tile that finds no slot left loses its list and is shaded from
-// maps.
+// Compose (FF XVI paper, §3.4): lowers the visibilities of one light in the final lists to the share that a close-up
+// map leaves. One workgroup per tile of the pair's umbra range. A tile that does not list the light, or is already
+// unlit by it, stays unchanged; pixels outside the close-up face keep their visibility. The other pixels get the lesser
+// of old visibility and close-up visibility. An entry that was lit for the whole tile gets a visibility slot; an entry
+// whose last visible pixel becomes unlit is set to GLOAM_ALL_UNLIT. If no slot is left, the tile loses its final list
+// and becomes a fallback tile.
 
 #define GLOAM_SHADOWS_BINDING 12
-#define GLOAM_SHADOWS_PIXEL ivec2(0)  // what is traced is shaded without lists
+#define GLOAM_SHADOWS_PIXEL ivec2(0)  // unused: traced visibility is shaded without final lists
 #include "shaders/closeups/closeups_shared.h"
 #include "shaders/shadows/pair_pixels_api.glsl"
 
@@ -32,11 +33,11 @@ const uint kNoEntry = 0xFFFFFFFFu;
 const uint kWords = 2u * kVisibilityBits;
 const uint kSlotsPerBuffer = GLOAM_BUFFER_WORDS / kWords;
 
-shared uint place;          // of the entry
-shared uint slot;           // it has, then gets
-shared uint old_words[16];  // what its pixels saw
+shared uint place;          // index of the light's entry in `entries`
+shared uint slot;           // the entry's slot before, then after
+shared uint old_words[16];  // its visibilities before
 
-// What is the same for all pixels.
+// Per-pair data of the light, the same for all pixels.
 #if GLOAM_SHADOWS_KINDS == 4
 struct LightOfPair {
   uint light;
@@ -44,7 +45,7 @@ struct LightOfPair {
 
 LightOfPair light_of_pair() { return LightOfPair(closeup.light); }
 
-// Place in the face, texels and depth; w: 1, or less where the place is none.
+// Homogeneous position in the face: x and y in texels, z is the depth; w is 1.
 vec4 place_in_face(LightOfPair l, vec3 position) {
   vec4 p = vec4(position, 1.0);
   return vec4(dot(closeup.row_u, p), dot(closeup.row_v, p), dot(closeup.row_depth, p), 1.0);
@@ -71,7 +72,8 @@ struct LightOfPair {
 
 LightOfPair light_of_pair() { return LightOfPair(fetch_light(light_texels, closeup.light)); }
 
-// Place in the face, times w > 0: metres in front of the light; depth is near_m / w.
+// Homogeneous position in the face: x and y in texels, z is the depth, all times w. w: metres in front of the light,
+// must be > 0.
 vec4 place_in_face(LightOfPair l, vec3 position) {
   vec3 v = position - l.light.position;
   float z = dot(v, cross(closeup.up, closeup.right)), texels = 0.5 * closeup.size / closeup.tan_half;
@@ -79,7 +81,7 @@ vec4 place_in_face(LightOfPair l, vec3 position) {
               -dot(v, closeup.up) * texels + 0.5 * closeup.size * z, closeup.near_m, z);
 }
 
-// Of a penumbra, for every unit of depth between blocker and receiver.
+// Width of a penumbra in texels, per unit of depth between blocker and receiver.
 float penumbra_texels() { return closeup.width_m * closeup.size / (closeup.near_m * 2.0 * closeup.tan_half); }
 
 ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
@@ -96,7 +98,7 @@ ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
 bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return local_light_gives(l.light, position, normal); }
 #endif
 
-// The lesser of what the pixel saw and what the subject leaves.
+// The lesser of the pixel's old visibility and the close-up visibility, in `steps`; returns the pixel's flags.
 uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps) {
   uint old = old_words[pixel * kVisibilityBits >> 5] >> (pixel * kVisibilityBits & 31u) & kMostSteps;
   steps = p.point.live ? min(visibility_steps(p, visibility), old) : old;
@@ -106,8 +108,8 @@ uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps
 
 #include "shaders/shadows/pair_pixels_asked_api.glsl"
 
-// Whether the subject certainly keeps no light from any pixel of the tile: all lie beside what the map shows, or
-// nothing in the map is near enough to the way between them and the emitter.
+// Whether the subject certainly hides no light from any pixel of the tile: the tile is outside the face, or no depth in
+// the face is near enough to the paths between the tile and the emitter.
 bool subject_is_aside(LightOfPair light, uvec2 tile) {
   vec2 bounds = texelFetch(depth_bounds, ivec2(tile), 0).xy;
   if (bounds.y <= 0.0) return true;
@@ -130,17 +132,17 @@ bool subject_is_aside(LightOfPair light, uvec2 tile) {
   }
   if (any(outside) || most_w < closeup.near_m) return true;
   if (least_w < 1e-3) return false;
-  // Twice: what is nearest in a wide square gives a smaller one.
+  // Two steps: the nearest depth in a wide search region gives a smaller region.
   float nearest = 1.0;
   for (int step = 0; step < 2; ++step) {
-    // Farther than any kernel of a penumbra this wide looks.
+    // Wider than the reach of any kernel of a penumbra this wide.
     float reach = 2.0 * clamp(penumbra_texels() * (nearest - farthest), 0.0, closeup.size) + 14.0, unused;
     nearest = nearest_in_face(closeup.origin, closeup.size, low - reach, high + reach, unused);
   }
   return nearest <= 0.999 * farthest;
 }
 
-// Threads look through the tile's list together.
+// The threads share the search through the tile's list.
 void find_entry(uvec3 list, uint lane) {
 #if GLOAM_SHADOWS_KINDS == 4
   uint first = list.x, count = list.z >> 16;
@@ -164,14 +166,14 @@ void load_slot(uint lane) {
   }
 }
 
-// The tile's list is gone.
+// Removes the tile's final list and makes it a fallback tile.
 void give_tile_up(uvec2 tile) {
   imageStore(final_tiles, ivec2(tile), uvec4(GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0u, 0u));
   fallback_tiles[atomicAdd(commands.fallback_draw.y, 1u)] = tile.y << 16 | tile.x;
   atomicAdd(counters.fallback_tiles, 1u);
 }
 
-// The slot that the entry gets, or GLOAM_ALL_UNLIT, or GLOAM_NO_ROOM for nothing to be stored.
+// The entry's new slot; GLOAM_ALL_UNLIT; or GLOAM_NO_ROOM if nothing is to be stored.
 uint changed_slot(uvec2 tile, uint some) {
   if ((some & kSomeChanged) == 0u) return GLOAM_NO_ROOM;
   if ((some & kSomeSeeAny) == 0u) return GLOAM_ALL_UNLIT;
@@ -192,7 +194,7 @@ void main() {
   barrier();
   if (list.y != GLOAM_NO_FINAL_LIST) find_entry(list, lane);
   barrier();
-  // The same for the whole workgroup.
+  // Uniform over the workgroup.
   if (place == kNoEntry || slot == GLOAM_ALL_UNLIT) return;
   LightOfPair light = light_of_pair();
   if (subject_is_aside(light, tile)) return;

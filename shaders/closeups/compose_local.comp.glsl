@@ -2,5 +2,8 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+
+// Compose for local lights.
+
 #define GLOAM_SHADOWS_KINDS 1
 #include "shaders/closeups/compose.glsl"

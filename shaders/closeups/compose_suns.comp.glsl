@@ -2,5 +2,8 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+
+// Compose for directional lights.
+
 #define GLOAM_SHADOWS_KINDS 4
 #include "shaders/closeups/compose.glsl"

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+
+// Compose for directional lights, standard filter only.
+
 #define GLOAM_SHADOWS_STANDARD
 #define GLOAM_SHADOWS_KINDS 4
 #include "shaders/closeups/compose.glsl"

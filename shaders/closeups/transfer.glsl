@@ -6,11 +6,12 @@
 #include "shaders/closeups/closeups_shared.h"
 #include "shaders/shadows/shadow_maps_api.glsl"
 
-// Adds what a pair's map holds to a standard face (FF XVI paper, §3.5), the other way round: each texel of the standard
-// face looks at the area of the pair's map that it covers, so that none is missed and each is written once. It reads
-// the mip that has two texels across the smaller side of the area, over all of it, and keeps the nearest. A texel of
-// the mip counts where its middle lies: none is lost, and outlines do not grow. Before including this, define
-// GLOAM_SHADOW_ATLAS_FORMAT, and GLOAM_SHADOW_ATLAS_STEPS when the atlas holds less than floats.
+// Transfer (FF XVI paper, §3.5): adds the depths of a pair's face to a standard face. Unlike the paper it gathers: each
+// texel of the standard face reads the area of the pair's face that it covers, so no texel is missed and each is
+// written once. It reads the whole area, in the finest mip that has at most two texels across the smaller side, and
+// keeps the nearest depth. Each mip texel is assigned to the standard texel that contains its centre, so no mip texel
+// is lost and outlines do not grow. Before including this, define GLOAM_SHADOW_ATLAS_FORMAT, and
+// GLOAM_SHADOW_ATLAS_STEPS if the atlas stores depths with less precision than floats.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform Transfer { CloseupTransfer transfer; };
@@ -18,11 +19,11 @@ layout(set = 0, binding = 1) uniform sampler2D closeup_map;
 layout(set = 0, binding = 2) uniform sampler2D closeup_pyramid;
 layout(set = 0, binding = 3, GLOAM_SHADOW_ATLAS_FORMAT) uniform image2D atlas;
 
-// An area of the pair's face.
+// An area of the pair's face, texels.
 struct Area {
   vec2 low;
   vec2 high;
-  bool ahead;  // all of it
+  bool ahead;  // the whole area is in front of the pair's face
 };
 
 void add_corner(inout Area area, vec2 corner) {
@@ -47,7 +48,7 @@ uint level_of(Area area) {
   return texels <= 2u ? 0u : uint(findMSB(texels - 1u));
 }
 
-// Nearest depth of the texels of mip 0 below one of the mip.
+// Nearest depth of the mip-0 texels below a texel of the mip.
 float nearest_depth(uvec2 at, uint mip) {
   if (mip < uint(GLOAM_SHADOW_PYRAMID_MIP)) return texelFetch(closeup_map, ivec2(transfer.origin + at), 0).x;
   uint level = mip - uint(GLOAM_SHADOW_PYRAMID_MIP), size = transfer.map_size / 4u;
@@ -55,7 +56,7 @@ float nearest_depth(uvec2 at, uint mip) {
   return texelFetch(closeup_pyramid, corner + ivec2((transfer.origin >> mip) + at), 0).x;
 }
 
-// 0 where a standard face would show nothing.
+// Depth in the standard face; 0 where a standard face would be empty.
 float standard_depth(float depth, vec2 at) {
   vec3 q = vec3(at, 1.0);
   float w = dot(transfer.depth_w, q);
@@ -72,7 +73,7 @@ bool lies_in(uvec2 texel, vec2 at) {
   return w > 0.0 && max(off.x, off.y) <= 0.5 + 1.0 / 64.0;
 }
 
-// As mip 0 of the atlas holds it.
+// The depth as mip 0 of the atlas stores it.
 float held_depth(float depth) {
 #ifdef GLOAM_SHADOW_ATLAS_STEPS
   depth = floor(clamp(depth, 0.0, 1.0) * GLOAM_SHADOW_ATLAS_STEPS + 0.5) / GLOAM_SHADOW_ATLAS_STEPS;
@@ -108,7 +109,7 @@ void main() {
     nearest = standard_depth(nearest_depth(uvec2(middle / texels), mip), middle);
   }
   if (nearest == 0.0) return;
-  // One thread a texel: nothing comes between.
+  // One thread per texel, so read and write cannot race.
   ivec2 at = ivec2(transfer.target + texel);
   imageStore(atlas, at, vec4(max(held_depth(nearest), imageLoad(atlas, at).x)));
 }

@@ -5,7 +5,7 @@
 
 const float kPi = 3.14159265358979323846;
 
-// Octahedral code of a unit vector in [-1, 1]^2, as engine/math/packing.h has it.
+// Octahedral code, in [-1, 1]^2, of a unit vector; the same as in engine/math/packing.h.
 vec2 octahedral_encode(vec3 n) {
   n /= abs(n.x) + abs(n.y) + abs(n.z);
   vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);

@@ -3,8 +3,8 @@
 #ifndef GLOAM_SHADERS_COMMON_PRELUDE_H
 #define GLOAM_SHADERS_COMMON_PRELUDE_H
 
-// Lets one header declare structs for C++ and for GLSL. Members are in scalar block layout: C++ lays plain floats,
-// vectors and column-major matrices out the same way.
+// Lets one header declare structs for C++ and for GLSL. Structs use scalar block layout, which is how C++ lays out
+// plain floats, vectors and column-major matrices.
 
 #ifdef __cplusplus
 #include "engine/math/types.h"

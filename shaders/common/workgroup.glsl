@@ -3,15 +3,16 @@
 #ifndef GLOAM_SHADERS_COMMON_WORKGROUP_GLSL
 #define GLOAM_SHADERS_COMMON_WORKGROUP_GLSL
 
-// Reductions over a workgroup of 64 threads through shared memory: the same for every subgroup width. All threads must
-// call; each call begins and ends so that the next one may follow at once, and what was written to shared memory before
-// it is seen after it.
+// Reductions over a workgroup of 64 threads through shared memory; they give the same result for every subgroup width.
+// All threads of the workgroup must call. Calls may follow each other directly, and each contains a barrier: shared
+// memory written before a call is visible after it.
 
 #define GLOAM_WORKGROUP 64u
 
 shared uint workgroup_values[2][GLOAM_WORKGROUP];
 
-// Sum of `value` over the threads before this one (Hillis and Steele); `total`: over all threads.
+// Exclusive prefix sum: sum of `value` over the threads before this one (Hillis and Steele). total: sum over all
+// threads.
 uint workgroup_prefix_sum(uint value, out uint total) {
   uint lane = gl_LocalInvocationIndex;
   uint sum = value;

@@ -5,10 +5,10 @@
 #include "shaders/fog/fog_shared.h"
 #include "shaders/render/view_api.glsl"
 
-// What homogeneous fog does to the light of a pixel at distance d, with transmittance T = exp(-density · d):
+// Homogeneous fog. It changes the light of a pixel at distance d, with transmittance T = exp(-density · d), to
 //   T · light + (1 - T) · (radiance + forward · glow)
-// where glow is the picture blurred: light scattered by small angles. The first term is left to blending
-// (premultiplied: alpha = 1 - T).
+// where glow is the blurred picture: light scattered by small angles. Blending computes the first term (premultiplied:
+// alpha = 1 - T).
 
 layout(constant_id = 0) const uint kOrthographic = 0u;
 

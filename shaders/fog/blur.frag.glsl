@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/fog/fog_shared.h"
 
-// One direction of a Gaussian, cut after `taps` texels and normalised; texels beyond the border repeat the border's.
+// One direction of a Gaussian blur, cut after `taps` texels and normalised. Beyond the border the border texel repeats.
 
 layout(push_constant, scalar) uniform Blur { FogBlurConstants c; };
 layout(set = 0, binding = 0) uniform sampler2D image;
@@ -16,7 +16,7 @@ void main() {
   ivec2 last = textureSize(image, 0) - 1;
   vec3 sum = texelFetch(image, center, 0).rgb;
   float total = 1.0;
-  // The condition stands at the end: software devices run the rest of a loop once more when it fails at the start.
+  // The loop tests its condition at the end: software devices run the body once more when a test at the start fails.
   int i = 1;
   if (c.taps > 0) do {
       float distance = float(i) * c.inverse_sigma;

@@ -7,7 +7,7 @@
 
 GLOAM_SHARED_BEGIN
 
-/// One direction of the separable blur of scattered light.
+/// Constants of one direction of the separable blur of scattered light.
 struct FogBlurConstants {
   ivec2 direction;      // (1, 0) or (0, 1)
   int taps;             // texels on each side of the centre
@@ -17,8 +17,8 @@ struct FogBlurConstants {
 struct FogConstants {
   vec4 radiance;         // rgb in-scattered radiance, cd/m²
   float density;         // 1/m
-  float forward;         // share of the scattered light that stays close to its direction
-  float sky_distance_m;  // path through the fog where there is no surface
+  float forward;         // share of the scattered light that nearly keeps its direction
+  float sky_distance_m;  // path length through the fog for sky pixels
 };
 
 GLOAM_SHARED_END

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
-// Adds depth to what two images hold already: storage images of one channel, read and written.
+// Adds depth to the contents of two storage images of one channel, which are read and written.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform sampler2D depth;

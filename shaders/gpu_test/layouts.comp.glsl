@@ -3,7 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
-// Every kind of declaration that reflection reads.
+// Contains every kind of declaration that shader reflection reads.
 layout(local_size_x = 4, local_size_y = 2, local_size_z = 3) in;
 
 struct Light {

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
-// Gives each texel of each layer a value of its own: (x, y, layer, 255).
+// Writes (x, y, layer, 255) to each texel of each layer, so that all texels differ.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0, rgba8) writeonly uniform image2DArray target;

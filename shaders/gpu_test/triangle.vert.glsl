@@ -3,6 +3,8 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
+// Passes clip-space positions and colours to triangle.frag, for the tests of drawing.
+
 layout(location = 0) in vec3 position;  // clip space
 layout(location = 1) in vec4 color;
 layout(location = 0) out vec4 out_color;

@@ -3,9 +3,9 @@
 #ifndef GLOAM_SHADERS_LIGHTING_ARRIVING_LIGHT_GLSL
 #define GLOAM_SHADERS_LIGHTING_ARRIVING_LIGHT_GLSL
 
-// What shadows and cookies leave of a light's illuminance: both with GLOAM_SHADOWS_BINDING (the first of six bindings,
-// see shadows_api.glsl), cookies with GLOAM_COOKIES_BINDING (of three, see cookies_api.glsl), everything without.
-// Included behind `lights`, the view's LightBlock.
+// Reduces a light's illuminance by shadows and cookies. Define GLOAM_SHADOWS_BINDING for both (the first of six
+// bindings, see shadows_api.glsl), or GLOAM_COOKIES_BINDING for cookies only (the first of three, see
+// cookies_api.glsl); without either, light arrives unchanged. Include this after `lights`, the view's LightBlock.
 
 #ifdef GLOAM_SHADOWS_BINDING
 #include "shaders/shadows/shadows_api.glsl"
@@ -14,8 +14,9 @@
 #endif
 
 #if defined(GLOAM_SHADOWS_BINDING) || defined(GLOAM_COOKIES_BINDING)
-// Lights with cookies that are looked up once a surface, before its lights are added up: devices that run both sides of
-// a condition would look for a cookie at every light. More than GLOAM_COOKIE_LIGHTS: each light looks for its own.
+// Lights whose cookies are looked up once per surface, before the loop over its lights: devices that run both sides of
+// a condition would look up a cookie for every light. If greater than GLOAM_COOKIE_LIGHTS, the cookie is looked up per
+// light instead.
 layout(constant_id = GLOAM_COOKIE_LIGHTS_ID) const uint kCookieLights = GLOAM_COOKIE_LIGHTS + 1u;
 
 vec3 receiver_position;
@@ -41,7 +42,7 @@ vec3 through_cookie(vec3 illuminance, uint light, vec3 light_position) { return 
 #endif
 
 #ifdef GLOAM_SHADOWS_BINDING
-ShadowReceiver receiver;  // the shaded surface; set before lights are added up
+ShadowReceiver receiver;  // the shaded surface; set before lights are summed
 
 void set_receiver(vec3 position, vec3 face_normal, bool subsurface) {
   receiver = ShadowReceiver(position, face_normal, subsurface);
@@ -52,7 +53,7 @@ bool gives_light(vec3 illuminance, vec3 normal, vec3 to_light) {
   return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && dot(normal, to_light) > 0.0;
 }
 
-// See shadow_space.glsl.
+// Always false, see shaders/shadows/filter/space.glsl.
 bool never() { return shadow_block.atlas_size < 0.0; }
 
 vec3 arriving_local(vec3 illuminance, uint light, vec3 light_position, vec3 normal, vec3 to_light) {

@@ -15,9 +15,9 @@ struct ShadingPoint {
   vec3 diffuse;  // (1 - metallic) · base colour / π
   vec3 f0;
   float alpha2;   // roughness⁴
-  float n_dot_v;  // kept off 0
+  float n_dot_v;  // > 0
   float n_dot_v_raw;
-  float smith_v;  // the part of the visibility term that does not depend on the light
+  float smith_v;  // the part of the Smith visibility term that does not depend on the light
 };
 
 ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_color, float metallic, float roughness) {
@@ -35,12 +35,12 @@ ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_co
   return p;
 }
 
-// Radiance towards the eye for an illuminance (on a plane facing the light) from a unit direction.
-// With unit l and v, h = (l + v) / |l + v| and |l + v|² = 2 + 2 l·v: its dot products need no vector.
+// Radiance toward the eye for an illuminance (on a plane that faces the light) from the unit direction `to_light`. For
+// unit l and v: h = (l + v) / |l + v| and |l + v|² = 2 + 2 l·v. Dot products with h therefore do not need the vector h.
 vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance) {
   float n_dot_l_raw = dot(p.normal, to_light);
   float n_dot_l = clamp(n_dot_l_raw, 0.0, 1.0);
-  float sum2 = max(2.0 + 2.0 * dot(to_light, p.to_eye), 1e-6);  // a light straight behind the surface: not NaN
+  float sum2 = max(2.0 + 2.0 * dot(to_light, p.to_eye), 1e-6);  // no NaN if to_light = -to_eye
   float inverse_sum = inversesqrt(sum2);
   float n_dot_h = clamp((n_dot_l_raw + p.n_dot_v_raw) * inverse_sum, 0.0, 1.0);
   float v_dot_h = min(0.5 * sum2 * inverse_sum, 1.0);

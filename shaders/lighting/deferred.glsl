@@ -8,11 +8,10 @@
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Lights the surfaces of the geometry buffer: what deferred.frag, deferred_tiled.frag and their twins with shadows or
-// cookies share. They define local_lights.
+// Lights the surfaces of the geometry buffer. Shared by deferred.frag, deferred_tiled.frag and their variants with
+// shadows or cookies, which define local_lights.
 
-layout(constant_id = 1) const uint kDirectionalLights =
-    0u;  // known when the pipeline is made, so that the loop is unrolled
+layout(constant_id = 1) const uint kDirectionalLights = 0u;  // a constant of the pipeline, so that the loop is unrolled
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -28,7 +27,7 @@ layout(location = 0) out vec4 out_light;
 
 #include "shaders/lighting/arriving_light.glsl"
 
-// share: of the light that the surface sees, beside what arriving_local knows.
+// `share`: visibility of the light, multiplied with the shadows and cookies that arriving_local applies.
 vec3 add_local(ShadingPoint p, uint index, float share) {
   vec3 to_light;
   LocalLight light = fetch_light(light_texels, index);
@@ -37,17 +36,17 @@ vec3 add_local(ShadingPoint p, uint index, float share) {
   return reflected(p, to_light, illuminance);
 }
 
-// What directional lights give the surface under a pixel.
+// Radiance from directional lights at the surface under a pixel.
 vec3 directional_lights(ShadingPoint p, uvec2 pixel);
 
-// What local lights give the surface under a pixel. Lights in ascending order: whoever leaves out only lights that do
-// not reach gets the same sum to the bit.
+// Radiance from local lights at the surface under a pixel. Lights are summed in ascending order: versions that leave
+// out only lights that do not reach the surface get bit-identical sums.
 vec3 local_lights(ShadingPoint p, uvec2 pixel);
 
 #ifndef GLOAM_FINAL_LISTS_BINDING
 vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
 #ifdef GLOAM_SHADOWS_BINDING
-  uint count = lights.directional_count;  // what a shadow takes is not to be unrolled
+  uint count = lights.directional_count;  // not a constant: loops with shadows must not be unrolled
 #else
   const uint count = kDirectionalLights;
 #endif

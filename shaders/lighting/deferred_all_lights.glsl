@@ -5,7 +5,7 @@
 
 #include "shaders/lighting/deferred.glsl"
 
-// Every pixel looks at every light of the view.
+// Deferred lighting without light lists: every pixel loops over every light of the view.
 
 vec3 local_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);

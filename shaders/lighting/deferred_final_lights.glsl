@@ -7,8 +7,8 @@
 #include "shaders/lighting/deferred.glsl"
 #include "shaders/shadows/final_lists_api.glsl"
 
-// Every pixel looks at the lights of its shadow tile's final list, which tells how much of each it sees. A tile without
-// one gets no light here: deferred_fallback draws it.
+// Deferred lighting with final lists: every pixel loops over the final list of its shadow tile, which holds each
+// light's visibility. A fallback tile gets no light here; deferred_fallback draws it.
 
 vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
   FinalList list = final_list(pixel);
@@ -28,7 +28,7 @@ vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
 vec3 local_lights(ShadingPoint p, uvec2 pixel) {
   FinalList list = final_list(pixel);
   vec3 sum = vec3(0.0);
-  // The condition stands at the end: software devices run the rest of a loop once more when it fails at the start.
+  // The loop tests its condition at the end: software devices run the body once more when a test at the start fails.
   uint i = 0u;
   if (list.local_count > 0u) do {
       uint entry = final_entries[list.local_first + i];

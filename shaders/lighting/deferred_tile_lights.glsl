@@ -6,14 +6,14 @@
 #include "shaders/lighting/deferred.glsl"
 #include "shaders/lights/light_lists_api.glsl"
 
-// Every pixel looks at the lights of its shadow tile's list; in a tile whose list found no room, at those of its tile
-// group's mask.
+// Deferred lighting with early lists: every pixel loops over the early list of its shadow tile, or over the group mask
+// if the list did not fit.
 
 layout(set = 0, binding = 9, scalar) uniform Grid { LightGrid grid; };
 layout(set = 0, binding = 10) uniform usampler2D tile_lists;
 layout(set = 0, binding = 12, scalar) readonly buffer GroupMasks { uint group_masks[]; };
 
-// 1: every tile has a list. Software devices run the way out of the others for every pixel, taken or not.
+// 1: every tile has a list. Otherwise software devices run the loop over the group mask for every pixel, needed or not.
 layout(constant_id = 2) const uint kAlwaysFit = 0u;
 
 vec3 group_lights(ShadingPoint p, uvec2 pixel) {
@@ -32,9 +32,9 @@ vec3 local_lights(ShadingPoint p, uvec2 pixel) {
   uvec2 tile_list = texelFetch(tile_lists, ivec2(pixel / uint(GLOAM_SHADOW_TILE)), 0).xy;
   bool listed = kAlwaysFit != 0u || has_list(tile_list);
   uint count = listed ? list_count(tile_list) : 0u;
-  // As list_light would read them, without its divisions.
+  // Reads the entries like list_light, but without its divisions.
   uint at = tile_list.x / 3u, shift = 0u;
-  // The condition stands at the end: software devices run the rest of a loop once more when it fails at the start.
+  // The loop tests its condition at the end: software devices run the body once more when a test at the start fails.
   uint i = 0u;
   if (count > 0u) do {
       sum += add_local(p, bitfieldExtract(early_lists[at], int(shift), 10), 1.0);

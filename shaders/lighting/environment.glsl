@@ -12,13 +12,13 @@ vec3 sky_radiance(EnvironmentConstants sky, vec3 direction) {
   return mix(sky.horizon.rgb, up >= 0.0 ? sky.zenith.rgb : sky.ground.rgb, sqrt(abs(up)));
 }
 
-// Radiance an evenly lit hemisphere around the normal gives on average: the sky above, the ground below.
+// Mean radiance of the hemisphere around the normal: the sky above, the ground below.
 vec3 hemisphere_radiance(EnvironmentConstants sky, vec3 normal) {
   vec3 above = mix(sky.horizon.rgb, sky.zenith.rgb, 0.5);
   return mix(sky.ground.rgb, above, 0.5 + 0.5 * normal.y);
 }
 
-// Light of the surroundings a point reflects; specular after the fit of Karis 2014 to the split-sum integral.
+// Radiance of the surroundings that a point reflects; specular by the fit of Karis 2014 to the split-sum integral.
 vec3 ambient(EnvironmentConstants sky, ShadingPoint p, float roughness, float occlusion) {
   vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
   float a = min(r.x * r.x, exp2(-9.28 * p.n_dot_v)) * r.x + r.y;

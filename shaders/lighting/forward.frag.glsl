@@ -2,4 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+
+// Forward lighting without light lists, unshadowed, without cookies.
+
 #include "shaders/lighting/forward_all_lights.glsl"

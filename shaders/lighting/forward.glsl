@@ -8,8 +8,8 @@
 #include "shaders/render/surface_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Lights blended surfaces where they are drawn: what forward.frag, forward_tiled.frag and their twins with shadows or
-// cookies share. They define local_lights.
+// Lights blended surfaces while they are drawn. Shared by forward.frag, forward_tiled.frag and their variants with
+// shadows or cookies, which define local_lights.
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -26,7 +26,7 @@ vec3 add_local(ShadingPoint p, uint index, LocalLight light) {
   return reflected(p, to_light, illuminance);
 }
 
-// What local lights give the surface, in ascending order, see deferred.glsl.
+// Radiance from local lights at the surface, summed in ascending order (see deferred.glsl).
 vec3 local_lights(ShadingPoint p);
 
 void main() {

@@ -5,7 +5,7 @@
 
 #include "shaders/lighting/forward.glsl"
 
-// Every fragment looks at every light of the view.
+// Forward lighting without light lists: every fragment loops over every light of the view.
 
 vec3 local_lights(ShadingPoint p) {
   vec3 sum = vec3(0.0);

@@ -2,5 +2,8 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+
+// Forward lighting without light lists, unshadowed, with cookies.
+
 #define GLOAM_COOKIES_BINDING 7
 #include "shaders/lighting/forward_all_lights.glsl"

@@ -6,8 +6,8 @@
 #include "shaders/lighting/forward.glsl"
 #include "shaders/lights/z_bins_api.glsl"
 
-// Every fragment looks at the lights of its 32×32 tile that are in the zBin of its own depth. The lists of shadow tiles
-// know opaque depths only.
+// Forward lighting with tile masks and zBins: every fragment loops over the lights of its tile mask that are in the
+// zBin of its own depth. Early lists hold only lights at opaque depths.
 
 layout(set = 0, binding = 3, scalar) uniform Grid { LightGrid grid; };
 layout(set = 0, binding = 4) uniform sampler2D light_texels;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+
+// Forward lighting with tile masks and zBins, with shadows (standard filter only) and cookies.
+
 #define GLOAM_Z_BINS_BINDING 5
 #define GLOAM_SHADOWS_STANDARD
 #define GLOAM_SHADOWS_BINDING 7

@@ -7,29 +7,29 @@
 
 GLOAM_SHARED_BEGIN
 
-/// What lights a scene besides its lights. Colours in cd/m².
+/// Sky and ground, which light a scene besides its lights. Colours in cd/m².
 struct EnvironmentConstants {
   vec4 zenith;
   vec4 horizon;
   vec4 ground;
 };
 
-/// How linear light becomes a picture.
+/// Constants of the pass from linear light to picture.
 struct ToneMapConstants {
   uint curve;          // 0 filmic, 1 reinhard, 2 linear
-  uint exposure_slot;  // of the exposure buffer
-  uint metered;        // 1: take the slot's exposure, 0: the one below
-  float exposure;      // factor on cd/m²
-  uint encode_srgb;    // 1: the target does not encode by itself
+  uint exposure_slot;  // index in the exposure buffer
+  uint metered;        // 1: use the slot's exposure; 0: use `exposure`
+  float exposure;      // factor for cd/m²
+  uint encode_srgb;    // 1: the target's format does not encode sRGB, so the shader does
 };
 
-/// A tabulated tone curve.
+/// Constants for tabulating a tone curve.
 struct ToneTableConstants {
   uint curve;
-  uint size;  // texels
+  uint size;  // texels of the table
 };
 
-/// Metering of one view into a slot.
+/// Constants for metering a view into an exposure slot.
 struct MeterConstants {
   uvec2 size;  // pixels of the picture
   uint slot;

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lighting/lighting_shared.h"
 
-// Automatic exposure of one view: the mean of log2 luminance over a grid of 32×32 pixels, summed in one fixed order so
-// that the result does not depend on the subgroup's width; then the key of Krawczyk et al. 2005, which keeps night
+// Automatic exposure of one view: the mean of log2 luminance over a grid of 32×32 pixels, summed in a fixed order so
+// that the result does not depend on the subgroup size. Then the key value of Krawczyk et al. 2005, which keeps night
 // darker than day.
 
 layout(local_size_x = 32) in;
@@ -23,7 +23,7 @@ void main() {
     uvec2 pixel = (uvec2(column, row) * 2u + 1u) * c.size / 64u;
     vec3 light = texelFetch(lit_image, ivec2(pixel), 0).rgb;
     float luminance = dot(light, vec3(0.2126, 0.7152, 0.0722));
-    sum += log2(clamp(luminance, 1e-4, 1e6));  // a black picture must not ask for endless exposure
+    sum += log2(clamp(luminance, 1e-4, 1e6));  // lower limit: a black picture must not get an unbounded exposure
   }
   sums[row] = sum;
   barrier();

@@ -5,7 +5,7 @@
 #include "shaders/lighting/environment.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Light of the pixels without a surface.
+// Radiance of the pixels without a surface.
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 2, scalar) uniform Environment { EnvironmentConstants environment; };

@@ -6,7 +6,7 @@
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/tone_curve.glsl"
 
-// Linear light to picture: exposure, then the curve, computed (kTable = 0) or looked up in a table.
+// Maps linear light to the picture: exposure, then the curve, computed (kTable = 0) or looked up in a table (1).
 
 layout(constant_id = 0) const uint kTable = 0u;
 

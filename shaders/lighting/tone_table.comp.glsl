@@ -5,7 +5,7 @@
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/tone_curve.glsl"
 
-// Tabulates a tone curve over kTableStops stops, one texel a step.
+// Tabulates a tone curve over kTableStops stops, one texel per step.
 
 layout(local_size_x = 64) in;
 

@@ -8,8 +8,8 @@
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Counts what the light lists leave out: pairs of a pixel and a light that gives it light, though the pixel's tile does
-// not list it. Asks every light of the view what shading would get from it; one workgroup is a shadow tile.
+// Counts culling errors: pairs of a pixel and a light that lights it but is missing from the list of the pixel's tile.
+// Tests every local light of the view with the illuminance function of shading. One workgroup per shadow tile.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -22,7 +22,7 @@ layout(set = 0, binding = 5, scalar) readonly buffer GroupMasks { uint group_mas
 layout(set = 0, binding = 6) uniform usampler2D tile_lists;
 layout(set = 0, binding = 8, scalar) buffer Counters { LightCounters counters; };
 
-shared uint listed[GLOAM_LIGHT_GROUPS];  // the lights that shading of this tile sees
+shared uint listed[GLOAM_LIGHT_GROUPS];  // the lights that shading uses in this tile
 
 void read_lights(uint lane) {
   uvec2 tile_list = texelFetch(tile_lists, ivec2(gl_WorkGroupID.xy), 0).xy;

@@ -4,14 +4,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights/find_lights_accurate.glsl"
 
-// Find lights, accurate (FF XVI paper, listing 3): the lights of each shadow tile that have a pixel of it in their
-// volume, in ascending order. One workgroup is a tile. The group's lights are narrowed against the tile's froxel, each
-// thread with lights of its own; then every pixel is asked about those that are left, and one OR over the workgroup
-// answers for 32 of them.
+// Find lights, accurate (FF XVI paper, listing 3): lists, in ascending order, the lights of each shadow tile whose
+// volume contains one of its pixels. One workgroup per tile. First the lights of the tile group are tested against the
+// tile's froxel, different lights per thread. Then every pixel is tested against the remaining lights; one OR over the
+// workgroup gives the result for 32 lights.
 //
-// Unlike the paper's, a thread has 8 / kRows pixels: what is not done for pixels is done by fewer threads. A software
-// rasterizer runs every stage for every thread, whether it has work there or not, and lavapipe ends all loops of a
-// thread after 65,535 turns together: no stage takes more than one turn a light and word.
+// Unlike the paper, each thread handles 8 / kRows pixels. Fewer rows mean fewer threads. That makes the stages that do
+// not work on pixels cheaper on a software rasterizer, which runs each stage for every thread, even for threads without
+// work. lavapipe limits the loop iterations of a thread to 65,535 in total, so no stage takes more than one iteration
+// per light and word.
 
 layout(local_size_x = 8, local_size_y = 2, local_size_y_id = 0) in;  // constant 0: rows of threads; 1, 2, 4 or 8
 
@@ -20,16 +21,16 @@ const uint kThreads = 8u * kRows;
 const uint kPixels = 8u / kRows;
 
 shared uint near_count;  // lights whose range touches the tile's froxel
-shared uint open_count;  // of those, lights that pixels are asked about
+shared uint open_count;  // lights of near_count that pixels are tested against ("open" lights)
 shared uint found_count;
-shared uint open_groups;                          // which of open_words are not 0
-shared uint near_lights[GLOAM_MAX_LOCAL_LIGHTS];  // in any order
+shared uint open_groups;                          // bit w: open_words[w] is not 0
+shared uint near_lights[GLOAM_MAX_LOCAL_LIGHTS];  // unordered
 shared uint open_words[GLOAM_LIGHT_GROUPS];
 shared uint open_lights[GLOAM_MAX_LOCAL_LIGHTS];  // ascending
 shared uint open_hits[GLOAM_LIGHT_GROUPS];        // bit i: open light i reaches a pixel
 shared uint packed_list[(GLOAM_MAX_LOCAL_LIGHTS + 2) / 3];
 
-// The lights of one word of the group's mask.
+// Tests the lights in one word of the group's mask against the froxel.
 void find_near(Froxel f, uint mask, uint word) {
   uint left = (group_masks[mask] >> word & 1u) != 0u ? group_masks[mask + 1u + word] : 0u;
   uint touching = 0u;
@@ -53,7 +54,7 @@ void test_cones(Froxel f, uint lane) {
   }
 }
 
-// A light's place among the open ones is the number of those before it.
+// Sorts the open lights: the position of a light is the number of open lights with a lower index.
 void sort_open(uint lane) {
   for (uint i = lane; i < near_count; i += kThreads) {
     uint light = near_lights[i];
@@ -119,7 +120,7 @@ void main() {
   vec2 bounds = texelFetch(depth_bounds, ivec2(tile), 0).xy;
   uvec2 group = tile / uint(GLOAM_TILE_GROUP);
   uint mask = (group.y * grid.groups.x + group.x) * uint(GLOAM_MASK_WORDS);
-  if (bounds.y <= 0.0 || group_masks[mask] == 0u) return;  // the same for the whole workgroup
+  if (bounds.y <= 0.0 || group_masks[mask] == 0u) return;  // uniform over the workgroup
 
   for (uint word = lane; word < GLOAM_LIGHT_GROUPS; word += kThreads) open_words[word] = open_hits[word] = 0u;
   if (lane == 0u) near_count = open_count = open_groups = 0u;

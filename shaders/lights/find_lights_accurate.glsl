@@ -5,7 +5,7 @@
 
 #include "shaders/lights/froxel_api.glsl"
 
-// What both shaders of the accurate search look at, and the points of pixels.
+// Bindings of both shaders of the accurate search, and the reconstruction of pixel positions.
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -18,8 +18,8 @@ layout(set = 0, binding = 7, rg32ui) uniform uimage2D tile_lists;
 layout(set = 0, binding = 8, scalar) writeonly buffer EarlyLists { uint early_lists[]; };
 layout(set = 0, binding = 9, scalar) buffer Counters { LightCounters counters; };
 
-// Camera-relative point of a pixel with this depth value; where there is only sky, and outside the picture, one that no
-// light reaches.
+// Camera-relative position of a pixel with this depth value. For sky and outside the image: a position that no light
+// reaches.
 vec3 point_at(uvec2 pixel, float depth) {
   if (depth <= 0.0 || any(greaterThanEqual(pixel, view.size))) return vec3(1e30);
   return relative_position(view, vec2(pixel), depth);

@@ -4,16 +4,17 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights/find_lights_accurate.glsl"
 
-// Find lights, accurate, for devices that run a workgroup's threads one after the other: the same lists as
-// find_lights_accurate.comp.glsl from one thread a shadow tile instead of one a pixel. Nothing is shared and nobody
-// waits: where every barrier swaps the state of all threads, that costs less than asking the pixels at once gains. One
-// workgroup is a tile group, so that its threads walk the same mask.
+// Find lights, accurate, for devices that run a workgroup's threads one after another. Gives the same lists as
+// find_lights_accurate.comp.glsl with one thread per shadow tile instead of one per pixel. It needs no shared memory
+// and no barrier. On these devices each barrier swaps the state of all threads, so avoiding barriers saves more time
+// than testing pixels in parallel. One workgroup per tile group, so that its threads read the same mask.
 //
-// lavapipe ends all loops of a thread after 65,535 turns together: a light takes at most 21.
+// lavapipe limits the loop iterations of a thread to 65,535 in total: a light takes at most 21.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Whether the light has a pixel of the tile in its volume. `probes`: four of its points, which decide for most lights.
+// Whether the light's volume contains a pixel of the tile. `probes`: four of the tile's points, which decide most
+// cases.
 bool reaches_tile(LocalLight light, uvec2 first, vec3 probes[4]) {
   bool reaches = false;
   for (uint i = 0u; i < 4u; ++i) reaches = reaches || in_range(light, probes[i]);

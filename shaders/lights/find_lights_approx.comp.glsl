@@ -7,10 +7,11 @@
 #include "shaders/lights/froxel_api.glsl"
 #include "shaders/lights/z_bins_api.glsl"
 
-// Find lights, approximate (FF XVI paper, listings 1 and 2): which lights may touch the opaque surfaces of each shadow
-// tile, and room for its list. One workgroup is a tile group, one thread a shadow tile. Unlike the paper's, the masks
-// of a group go through shared memory, not through a wave: lanes may look at different words, and no width of a
-// subgroup is assumed. The group's own froxel narrows the lights before any tile looks at them.
+// Find lights, approximate (FF XVI paper, listings 1 and 2): finds the lights that may touch the opaque surfaces of
+// each shadow tile, and allocates its list. One workgroup per tile group, one thread per shadow tile. Unlike the paper,
+// the masks of a group are combined in shared memory, not by subgroup operations: lanes may handle different words at
+// the same time, and the code must not assume a subgroup size. The lights are first tested against the froxel of the
+// whole group, then per tile.
 //
 // The counters must be 0 and farthest_depth 0x3F800000 before the first workgroup runs.
 
@@ -26,12 +27,12 @@ layout(set = 0, binding = 7, scalar) writeonly buffer GroupMasks { uint group_ma
 layout(set = 0, binding = 8, rg32ui) uniform writeonly uimage2D tile_lists;
 layout(set = 0, binding = 9, scalar) buffer Counters { LightCounters counters; };
 
-shared uint group_near;  // bits of non-negative floats order as the floats do
+shared uint group_near;  // as bits: non-negative floats sort like their bits
 shared uint group_far;
-shared uint group_begin;  // sorted lights in the depths of any of the group's tiles
+shared uint group_begin;  // union of the tiles' zBin ranges [begin, end) of sorted lights
 shared uint group_end;
 shared uint group_words[GLOAM_LIGHT_GROUPS];  // lights that touch the group's froxel
-shared uint found_words[GLOAM_LIGHT_GROUPS];  // of those, lights of any tile
+shared uint found_words[GLOAM_LIGHT_GROUPS];  // lights of group_words that touch the froxel of any tile
 shared uint mask_sum, candidate_sum, approx_sum, tile_sum, overflow_sum, slot_base;
 
 void clear_shared(uint lane) {
@@ -48,12 +49,12 @@ void clear_shared(uint lane) {
   }
 }
 
-// Word of the mask of one 32×32 tile; 0 where its group bit is: such words may hold anything.
+// One word of the mask of a 32×32 tile. 0 if its group bit is 0: the stored word is then undefined.
 uint mask_word(uint parent, uint word) {
   return (mask_tiles[parent] >> word & 1u) != 0u ? mask_tiles[parent + 1u + word] : 0u;
 }
 
-// Lights of any mask tile of the group, in one word.
+// One word of the union of the group's (up to four) tile masks.
 uint parents_word(uint word) {
   uvec2 first = gl_WorkGroupID.xy * 2u;
   uvec2 last = min(first + 1u, grid.mask_tiles - 1u);
@@ -83,7 +84,7 @@ void narrow_group(uint lane) {
   if (found != 0u) atomicOr(group_words[word], found);
 }
 
-// Lights that touch the tile's froxel, into the group's words; returns how many.
+// Finds the lights that touch the tile's froxel, adds them to found_words, and returns their number.
 uint find_tile_lights(uvec2 tile, vec2 bounds, uvec2 range) {
   uint parent = ((tile.y >> 2) * grid.mask_tiles.x + (tile.x >> 2)) * uint(GLOAM_MASK_WORDS);
   vec2 first = vec2(tile * 8u);
@@ -121,7 +122,7 @@ uint allocate_slot(uvec2 tile, uint count, uint lane) {
     slot = (tile.y * grid.tiles.x + tile.x) * grid.fixed_slots;
     entries = max(rounded, grid.fixed_slots);
   }
-  // Capacity is compared without a sum that could wrap.
+  // Avoids a sum that could wrap.
   bool fits = slot <= grid.slot_capacity && entries <= grid.slot_capacity - slot &&
               (grid.fixed_slots == 0u || rounded <= grid.fixed_slots);
   if (count == 0u) return fits ? slot : 0u;

@@ -6,34 +6,33 @@
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// Which lights reach a froxel (the part of a pixel rectangle between two depths) or a point. Conservative: a light is
-// only left out when shading certainly gets nothing from it, whatever the order in which a compiler rounds.
+// Conservative tests of lights against a froxel (the part of a pixel rectangle between two depths) or a point. A light
+// is rejected only if shading certainly gets nothing from it, for any order of rounding a compiler may choose.
 //
-// The tests of Wronski 2017, "Cull that cone!", and of the FF XVI paper, listing 2. Epsilons nest: every light in range
-// of a pixel's point touches the pixel's froxel of kAccurateEpsilon, and every light that touches that one touches the
-// froxel of kApproxEpsilon. Rounding moves a position by about 1e-6 of its distance and a cosine by about 6e-7: far
-// less than two neighbours differ.
+// The tests are from Wronski 2017, "Cull that cone!", and from the FF XVI paper, listing 2. The epsilons nest: every
+// light in range of a pixel's point touches the pixel's froxel with kAccurateEpsilon, and every light that touches that
+// froxel also touches it with kApproxEpsilon. Rounding moves a position by about 1e-6 of its distance and a cosine by
+// about 6e-7, far less than the differences between consecutive epsilons.
 
 const float kApproxEpsilon = 1e-4;
 const float kAccurateEpsilon = 4e-5;
 const float kPointEpsilon = 1e-6;
 
-// In the view's space: x right, y down, z back; the camera is the origin. A box with one corner cut: two rectangles at
-// two depths.
+// In view axes: x right, y down, z back, camera at the origin. A truncated pyramid: two rectangles at two depths.
 struct Froxel {
-  mat3 view_axes;  // columns, camera-relative
-  vec4 nearest;    // rectangle: least x and y, greatest x and y
+  mat3 view_axes;  // columns: camera-relative unit vectors
+  vec4 nearest;    // rectangle: min x, min y, max x, max y
   vec4 farthest;
-  float nearest_z;  // z of the two; not positive
+  float nearest_z;  // z of the two rectangles, not positive
   float farthest_z;
-  vec3 center;       // of the box around it
-  vec3 half_extent;  // slack included
-  float radius;      // of the sphere around the center that holds the box's used corners; slack included
+  vec3 center;       // of the bounding box
+  vec3 half_extent;  // of the bounding box, including slack
+  float radius;      // of the sphere around `center` that holds the froxel's corners, including slack
   float slack;       // metres by which the bounds are widened
   float epsilon;
 };
 
-// x and y of two opposite corners of the pixel rectangle at a depth value, ordered, and their z.
+// Rectangle (min x, min y, max x, max y) and z of the pixel rectangle at a depth value.
 void froxel_end(ViewConstants view, mat3 axes, vec2 first, vec2 last, float depth, out vec4 rect, out float z) {
   vec3 a = relative_position(view, first - 0.5, depth) * axes;
   vec3 b = relative_position(view, last - 0.5, depth) * axes;
@@ -46,7 +45,7 @@ float corner_distance(Froxel f, vec4 rect, float z) {
   return length(vec3(side, z - f.center.z));
 }
 
-// `first` and `last`: pixel corners. `nearest` and `farthest`: depth values (reversed Z), both > 0.
+// `first`, `last`: pixel corners. `nearest`, `farthest`: depth values (reversed Z), both > 0.
 Froxel make_froxel(ViewConstants view, vec2 first, vec2 last, float nearest, float farthest, float epsilon) {
   Froxel f;
   f.view_axes = mat3(normalize(view.ray_dx.xyz), normalize(view.ray_dy.xyz), view.view_row_z.xyz);
@@ -64,7 +63,7 @@ Froxel make_froxel(ViewConstants view, vec2 first, vec2 last, float nearest, flo
   return f;
 }
 
-// Sphere of a light's range against the froxel: its sphere, and its box. `position`: in the view's space.
+// Sphere of a light's range against the froxel's bounding sphere and bounding box. `position`: in view axes.
 bool sphere_touches(vec3 position, float inverse_range_squared, Froxel f) {
   vec3 v = position - f.center;
   vec3 outside = max(abs(v) - f.half_extent, vec3(0.0));
@@ -72,7 +71,7 @@ bool sphere_touches(vec3 position, float inverse_range_squared, Froxel f) {
   return max(dot(outside, outside), beyond * beyond) * inverse_range_squared <= 1.0 + f.epsilon;
 }
 
-// How far the froxel reaches along an axis.
+// The froxel's greatest coordinate along an axis.
 float extent_along(Froxel f, vec3 axis) {
   vec4 a = axis.xyxy * f.nearest;
   vec4 b = axis.xyxy * f.farthest;
@@ -80,19 +79,20 @@ float extent_along(Froxel f, vec3 axis) {
              max(b.x, b.z) + max(b.y, b.w) + axis.z * f.farthest_z);
 }
 
-// Cone of a spot, without its end, against the froxel. `position`, `direction`: in the view's space. `cos_outer`: of
-// the half angle; it is widened here.
+// A spot's infinite cone against the froxel. `position`, `direction`: in view axes. `cos_outer`: cosine of the half
+// angle; widened here.
 bool cone_touches(vec3 position, vec3 direction, float cos_outer, Froxel f) {
   float cosine = max(cos_outer - 0.125 * f.epsilon, -1.0);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-  // The froxel's sphere. A cross product keeps the digits that the difference of two large squares would lose.
+  // Test of the froxel's bounding sphere. The cross product keeps digits that the difference of two large squares would
+  // lose.
   vec3 v = f.center - position;
   float along = dot(v, direction);
   float across = length(cross(v, direction));
   float rounding = 1e-6 * (abs(along) + across);
   bool touches = cosine * across - along * sine <= f.radius + rounding && along >= -f.radius - rounding;
-  // The froxel's corners in the spot's clip space: a square pyramid round the cone. No side may have all of them
-  // outside.
+  // Test of the froxel's corners against the spot's clip space, a square pyramid around the cone: the froxel is
+  // rejected if all corners lie outside one side. Not for cones over 120°.
   vec3 side =
       normalize(abs(direction.y) < 0.7 ? vec3(direction.z, 0.0, -direction.x) : vec3(0.0, -direction.z, direction.y));
   vec3 up = cross(direction, side);
@@ -109,9 +109,9 @@ bool cone_touches(vec3 position, vec3 direction, float cos_outer, Froxel f) {
   return touches && (cos_outer < 0.5 || least >= -slack);
 }
 
-// The cone of a spot against the froxel; true for a point light.
+// A spot's cone against the froxel; true for a point light.
 bool cone_touches(LocalLight light, Froxel f) {
-  // The cosine of the half angle, known to a few 1e-7.
+  // Recovers the cosine of the half angle, accurate to a few 1e-7.
   return light.spot_scale == 0.0 || cone_touches(light.position * f.view_axes, light.direction * f.view_axes,
                                                  -light.spot_offset / light.spot_scale, f);
 }
@@ -120,11 +120,11 @@ bool touches(LocalLight light, Froxel f) {
   return sphere_touches(light.position * f.view_axes, light.inverse_range_squared, f) && cone_touches(light, f);
 }
 
-// Metres by which rounding may move a camera-relative point.
+// Bound, in metres, of how far rounding moves a camera-relative point.
 float point_slack(vec3 point) { return kPointEpsilon * dot(abs(point), vec3(1.0)); }
 
-// Whether a light may give a camera-relative point any light: whenever local_illuminance is not 0, and hardly more
-// often. False for a point without end (1e30).
+// Whether a light may light a camera-relative point: true whenever local_illuminance is not 0, and rarely otherwise.
+// False for a point at infinity (1e30).
 bool in_range(LocalLight light, vec3 point, float slack) {
   vec3 offset = light.position - point;
   vec3 least = max(abs(offset) - slack, vec3(0.0));

@@ -5,10 +5,10 @@
 #include "shaders/common/heat.glsl"
 #include "shaders/lights/light_views_api.glsl"
 
-// How many lights each tile has after one of the searches: heat colours of 0 to 31, white from 32 on.
+// Visualizer of the number of lights per tile after one of the searches: heat colours for 0 to 31, white from 32.
 
 layout(constant_id = 1) const uint kCount =
-    0u;  // 0 CPU's mask tiles, 1 approximate, 2 accurate, 3 approximate less accurate
+    0u;  // 0 tile masks, 1 approximate search, 2 accurate, 3 approximate minus accurate
 
 layout(set = 0, binding = 0, scalar) uniform Grid { LightGrid grid; };
 layout(set = 0, binding = 1, scalar) readonly buffer MaskTiles { uint mask_tiles[]; };

@@ -6,8 +6,9 @@
 #include "shaders/lights/one_light_view_api.glsl"
 #include "shaders/lights/z_bins_api.glsl"
 
-// How far one light got in each tile: the CPU's mask tile, the zBins of the tile's depths, the mask of the tile group,
-// the tile's list. Loud: the tile does not look at the light although it reaches one of the tile's pixels.
+// Visualizer of the last test that one light passes in each tile: the tile mask, the zBins of the tile's depths, the
+// mask of the tile group, the tile's list. kLoud: the tile is shaded without the light although it reaches one of the
+// tile's pixels.
 
 layout(set = 0, binding = 7) uniform sampler2D depth_bounds;
 layout(set = 0, binding = 9, scalar) readonly buffer MaskTiles { uint mask_tiles[]; };
@@ -24,7 +25,7 @@ bool z_bins_hold(uvec2 pixel) {
   return shown_light >= range.x && shown_light < range.y;
 }
 
-// Whether the light reaches any pixel of a pixel's tile. Looks at no list.
+// Whether the light reaches any pixel of the pixel's tile. Independent of the lists.
 bool lights_tile(uvec2 pixel) {
   LocalLight light = fetch_light(light_texels, shown_light);
   uvec2 first = pixel / GLOAM_SHADOW_TILE * GLOAM_SHADOW_TILE;

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights/one_light_view_api.glsl"
 
-// The pixels that look at one light because their tile's early list holds it: blue, and bright where the light reaches
-// the pixel. Loud where it reaches a pixel whose list does not hold it.
+// Visualizer of one light in the early lists. If the list of a pixel's tile holds the light, the pixel is blue, or
+// bright where the light reaches it. kLoud: the light reaches the pixel, but the list does not hold it.
 
 void main() {
   uvec2 pixel = uvec2(gl_FragCoord.xy);

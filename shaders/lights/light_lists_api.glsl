@@ -5,34 +5,34 @@
 
 #include "shaders/lights/lights_shared.h"
 
-// Readers of the shadow tiles' light lists. Before including this, define GLOAM_EARLY_LISTS_BINDING. `tile_list` is the
-// tile's texel of LightsOutputs::tile_lists. Lists are in ascending order of the light.
+// Access to early lists and light masks. Before including this, define GLOAM_EARLY_LISTS_BINDING. `tile_list` is the
+// tile's texel of LightsOutputs::tile_lists. Lists are sorted by light index.
 //   for (uint i = 0u; i < list_count(tile_list); ++i) shade(list_light(tile_list.x, i));
 
 layout(set = 0, binding = GLOAM_EARLY_LISTS_BINDING, scalar) readonly buffer EarlyLists { uint early_lists[]; };
 
-// False: the tile's lights are those of its group's mask.
+// False: the tile uses the lights of its group's mask.
 bool has_list(uvec2 tile_list) { return tile_list.x != GLOAM_NO_SLOT; }
 
-// Lights with a pixel of the tile in their volume. Also known where there is no list.
+// Lights whose volume contains a pixel of the tile. Valid also without a list.
 uint list_count(uvec2 tile_list) { return tile_list.y & 0xFFFFu; }
 
 // Lights that touch the tile's froxel.
 uint approx_count(uvec2 tile_list) { return tile_list.y >> 16; }
 
-// Entry i of the list that begins at `slot`.
+// Entry i of the list that starts at `slot`.
 uint list_light(uint slot, uint i) {
   uint entry = slot + i;
   return bitfieldExtract(early_lists[entry / 3u], int(10u * (entry % 3u)), 10);
 }
 
-// Where the mask of a pixel's tile group begins in LightsOutputs::group_masks.
+// First word of the mask of a pixel's tile group in LightsOutputs::group_masks.
 uint group_mask_of(LightGrid grid, uvec2 pixel) {
   uvec2 group = pixel / uint(GLOAM_SHADOW_TILE * GLOAM_TILE_GROUP);
   return (group.y * grid.groups.x + group.x) * uint(GLOAM_MASK_WORDS);
 }
 
-// Where the mask of a pixel's 32×32 tile begins in LightsOutputs' masks of the CPU.
+// First word of the mask of a pixel's 32×32 tile in LightsOutputs::mask_tiles.
 uint mask_tile_of(LightGrid grid, uvec2 pixel) {
   uvec2 tile = pixel / uint(GLOAM_LIGHT_TILE);
   return (tile.y * grid.mask_tiles.x + tile.x) * uint(GLOAM_MASK_WORDS);

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights/light_views_api.glsl"
 
-// A view of lists where there are none: no tile has a light, or the light is in no tile.
+// Stands in for a visualizer of lists that has nothing to show: there are no lists, or the light is in no tile.
 
 layout(push_constant, scalar) uniform Push { float opacity; };
 

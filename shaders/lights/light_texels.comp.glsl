@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights/lights_shared.h"
 
-// Local lights as texels: one row a light, three texels. Shading loops over different lights in neighbouring pixels: a
-// texel is one fetch of four floats, an element of a uniform block is one fetch a float.
+// Writes the local lights as texels: one row of three texels per light. In shading, neighbouring pixels loop over
+// different lights: a texel is one fetch of four floats, while an element of a uniform block takes one fetch per float.
 
 layout(local_size_x = 64) in;
 

@@ -5,7 +5,7 @@
 
 #include "shaders/lights/lights_shared.h"
 
-// A light from its three texels (light_texels.comp).
+// Reads a local light from its row of three texels, which light_texels.comp writes.
 LocalLight fetch_light(sampler2D texels, uint index) {
   vec4 a = texelFetch(texels, ivec2(0, index), 0);
   vec4 b = texelFetch(texels, ivec2(1, index), 0);
@@ -13,9 +13,9 @@ LocalLight fetch_light(sampler2D texels, uint index) {
   return LocalLight(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w);
 }
 
-// Illuminance a local light gives at a camera-relative point on a plane that faces it, in lux; `to_light` gets the unit
-// direction. Inverse square, windowed so that it ends at the range: (1 - (d/range)^4)^2, as KHR_lights_punctual
-// recommends.
+// Illuminance, in lux, from a local light at a camera-relative point on a plane that faces the light. `to_light`: the
+// unit direction to the light. Inverse square, multiplied by a window that reaches 0 at the range, (1 - (d/range)^4)^2,
+// similar to the window that KHR_lights_punctual recommends, and by the spot's falloff.
 vec3 local_illuminance(LocalLight light, vec3 point, out vec3 to_light) {
   vec3 offset = light.position - point;
   float d2 = max(dot(offset, offset), 1e-6);

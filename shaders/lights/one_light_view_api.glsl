@@ -3,7 +3,8 @@
 #ifndef GLOAM_SHADERS_LIGHTS_ONE_LIGHT_VIEW_API_GLSL
 #define GLOAM_SHADERS_LIGHTS_ONE_LIGHT_VIEW_API_GLSL
 
-// Where one light is in the lists, for the views that show it. GLOAM_SHOWN_DIRECTIONAL: it may be a directional one.
+// Membership of one light in the lists, for the visualizers that show it. Define GLOAM_SHOWN_DIRECTIONAL if the light
+// may be directional.
 
 #define GLOAM_EARLY_LISTS_BINDING 6
 #include "shaders/lights/light_lists_api.glsl"
@@ -19,9 +20,9 @@ layout(set = 0, binding = 4, scalar) readonly buffer GroupMasks { uint group_mas
 layout(set = 0, binding = 5) uniform usampler2D tile_lists;
 
 layout(push_constant, scalar) uniform Push {
-  uint shown_light;  // its place among the sorted lights
+  uint shown_light;  // index among the sorted local lights
 #ifdef GLOAM_SHOWN_DIRECTIONAL
-  uint shown_directional;  // 1: its place among the directional ones
+  uint shown_directional;  // 1: shown_light is an index among the directional lights
 #endif
 };
 
@@ -31,8 +32,8 @@ bool group_mask_holds(uvec2 pixel) {
   return (group_masks[at] >> word & 1u) != 0u && (group_masks[at + 1u + word] >> (shown_light & 31u) & 1u) != 0u;
 }
 
-// Whether a pixel is shaded with the light: its tile's list holds it; where there is no list, the mask of the tile's
-// group.
+// Whether a pixel is shaded with the light: it is in the list of the pixel's tile or, if the tile has no list, in the
+// mask of the tile group.
 bool list_holds(uvec2 pixel) {
   uvec2 tile_list = texelFetch(tile_lists, ivec2(pixel / GLOAM_SHADOW_TILE), 0).xy;
   if (!has_list(tile_list)) return group_mask_holds(pixel);
@@ -41,10 +42,10 @@ bool list_holds(uvec2 pixel) {
   return held;
 }
 
-// Whether the light gives anything at a pixel's surface. Looks at no list.
+// Whether the light reaches the surface at a pixel. Independent of the lists.
 bool lights_pixel(LocalLight light, uvec2 pixel) {
   float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
-  light.color = vec3(1.0);  // where it reaches counts, not its strength
+  light.color = vec3(1.0);  // tests reach only, not intensity
   vec3 to_light;
   return depth > 0.0 && local_illuminance(light, relative_position(view, vec2(pixel), depth), to_light).x > 0.0;
 }

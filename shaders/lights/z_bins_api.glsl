@@ -5,8 +5,8 @@
 
 #include "shaders/lights/lights_shared.h"
 
-// Sorted lights by view depth, as modules/lights/bins/z_bins.h builds them. Before including this, define
-// GLOAM_Z_BINS_BINDING.
+// Access to the zBins: sorted lights by view depth, as modules/lights/bins/z_bins.h builds them. Before including this,
+// define GLOAM_Z_BINS_BINDING.
 
 layout(set = 0, binding = GLOAM_Z_BINS_BINDING, scalar) readonly buffer ZBinWords { uint z_bin_words[]; };
 
@@ -14,9 +14,9 @@ uint z_bin_of(LightGrid grid, float depth_m) {
   return uint(clamp((depth_m - grid.z_near) * grid.z_scale, 0.0, float(grid.z_bin_count - 1u)));
 }
 
-// Sorted lights [x, y) that may touch view depths between two; none when x >= y. The standard set for one bin or two
-// neighbouring ones, the ranged set otherwise: there the first bin has the least begin of both, the last one the
-// greatest end.
+// The sorted lights [x, y) that may touch view depths between nearest_m and farthest_m; none when x >= y. Uses the
+// standard set for one bin or two neighbouring bins, otherwise the ranged set: its first bin has the lesser begin, its
+// last bin the greater end, so the min and max below fit both sets.
 uvec2 z_bin_range(LightGrid grid, float nearest_m, float farthest_m) {
   uint first = z_bin_of(grid, nearest_m);
   uint last = z_bin_of(grid, farthest_m);
@@ -26,7 +26,7 @@ uvec2 z_bin_range(LightGrid grid, float nearest_m, float farthest_m) {
   return uvec2(min(a & 0xFFFFu, b & 0xFFFFu), max(a >> 16, b >> 16));
 }
 
-// The bits of one word of 32 lights that lie in [range.x, range.y).
+// The bits of one mask word (32 lights) that lie in [range.x, range.y).
 uint z_bin_bits(uvec2 range, uint word) {
   int low = clamp(int(range.x) - int(word * 32u), 0, 32);
   int high = clamp(int(range.y) - int(word * 32u), 0, 32);

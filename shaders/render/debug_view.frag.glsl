@@ -24,7 +24,7 @@ void main() {
     if (view.visualizer == 1u) shown = pow(texelFetch(base_color_image, pixel, 0).rgb, vec3(2.0));
     if (view.visualizer == 2u) {
       vec3 coded = unpack_normal(texelFetch(normal_image, pixel, 0).x) * 0.5 + 0.5;
-      shown = coded * coded;  // so that the encoded picture looks even
+      shown = coded * coded;  // squared, so that the sRGB-encoded picture shows it nearly linearly
     }
     if (view.visualizer == 3u) {
       float metres = view_depth(view, relative_position(view, gl_FragCoord.xy - 0.5, depth));

@@ -5,7 +5,8 @@
 #include "shaders/common/math.glsl"
 #include "shaders/render/deform_shared.h"
 
-// Morphs, then skins the vertices of one primitive. Results are relative to the instance's origin.
+// Morphs, then skins the vertices of one primitive. Skinned vertices are relative to the origin of the instance's joint
+// range, others stay in the mesh's space.
 
 layout(local_size_x = 64) in;
 
@@ -14,9 +15,9 @@ layout(set = 0, binding = 0, scalar) readonly buffer RestPositions { float rest_
 layout(set = 0, binding = 1, scalar) readonly buffer RestFrames { uvec2 rest_frames[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Influences {
   uvec4 influences[];
-};  // joints 2×16 2×16, weights 2×unorm16 ×2
+};  // four joints of 16 bits, four unorm16 weights
 layout(set = 0, binding = 3, scalar) readonly buffer MorphOffsets { float morph_offsets[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer Joints { vec4 joint_rows[]; };  // three rows a joint
+layout(set = 0, binding = 4, scalar) readonly buffer Joints { vec4 joint_rows[]; };  // three rows per joint
 layout(set = 0, binding = 5, scalar) readonly buffer Weights { float morph_weights[]; };
 layout(set = 0, binding = 6, scalar) writeonly buffer Positions { float positions[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer Frames { uvec2 frames[]; };
@@ -56,7 +57,7 @@ void main() {
     vec4 p = vec4(position, 1.0);
     position = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
     vec3 c0 = cross(row1.xyz, row2.xyz), c1 = cross(row2.xyz, row0.xyz), c2 = cross(row0.xyz, row1.xyz);
-    // A mirrored matrix turns the cofactors inside out.
+    // A mirroring matrix flips the sign of the cofactors.
     float side = dot(row0.xyz, c0) < 0.0 ? -1.0 : 1.0;
     normal = side * vec3(dot(c0, normal), dot(c1, normal), dot(c2, normal));
     tangent = vec3(dot(row0.xyz, tangent), dot(row1.xyz, tangent), dot(row2.xyz, tangent));

@@ -7,7 +7,7 @@
 
 GLOAM_SHARED_BEGIN
 
-/// One primitive of one instance whose vertices the GPU moves. Offsets count elements of their buffers.
+/// Push constants that deform one primitive of one instance. Offsets count elements of their buffers.
 struct DeformConstants {
   uint vertex_count;
   uint first_joint;  // into the frame's joint matrices

@@ -12,23 +12,23 @@ struct DrawConstants {
   vec4 row0;
   vec4 row1;
   vec4 row2;
-  uint flags;  // kDraw…
+  uint flags;  // GLOAM_DRAW_… bits
 };
 
-/// Constants of one material, in a uniform buffer of its own set.
+/// Constants of one material, in a uniform buffer (set 1, binding 0).
 struct MaterialConstants {
   vec4 base_color;
   vec4 emissive_cutoff;   // rgb cd/m², alpha cutoff
   vec4 factors;           // metallic, roughness, normal scale, occlusion strength
   vec4 extras;            // subsurface 0 or 1, reflectivity (< 0: from metallic and roughness), 0, 0
-  vec4 uv_transform[10];  // two rows (xyz) a texture: base, normal, metallic-roughness, occlusion, emissive; w of row
+  vec4 uv_transform[10];  // two rows (xyz) per texture: base, normal, metallic-roughness, occlusion, emissive; w of row
                           // 0: uv set
 };
 
 GLOAM_SHARED_END
 
 // DrawConstants::flags
-#define GLOAM_DRAW_MIRRORED 1u  // front faces are clockwise in the mesh's winding
+#define GLOAM_DRAW_MIRRORED 1u  // the matrix mirrors: front faces are clockwise
 // Specialisation constant 0 of the surface shaders
 #define GLOAM_SURFACE_BASE_TEXTURE 1u
 #define GLOAM_SURFACE_NORMAL_TEXTURE 2u
@@ -38,6 +38,6 @@ GLOAM_SHARED_END
 #define GLOAM_SURFACE_MASK 32u
 #define GLOAM_SURFACE_DOUBLE_SIDED 64u
 #define GLOAM_SURFACE_VERTEX_COLOR 128u
-#define GLOAM_SURFACE_UV_TRANSFORM 256u  // some texture has a transform or uses the second coordinates
+#define GLOAM_SURFACE_UV_TRANSFORM 256u  // some texture has a transform or uses the second uv set
 
 #endif

@@ -5,7 +5,7 @@
 
 // Layout of the geometry buffer:
 //   base color  rgba8_unorm  square roots of rgb, a = subsurface 0 or 1
-//               (as fine as sRGB in the dark, and one instruction instead of a curve)
+//               (in dark colours square roots are as precise as sRGB; they take one instruction)
 //   normals     rg32_uint    octahedral shading normal, octahedral face normal
 //   material    rgba8_unorm  roughness, metallic, occlusion, reflectivity
 //   emissive    rgba16_float cd/m²

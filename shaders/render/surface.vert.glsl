@@ -6,12 +6,14 @@
 #include "shaders/render/draw_shared.h"
 #include "shaders/render/view_shared.h"
 
+// Transforms the vertices of a mesh for the fragment shaders that include surface_api.glsl.
+
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in uvec2 in_frame;  // octahedral normal; octahedral tangent with the handedness in the lowest bit
 layout(location = 2) in vec4 in_uv;
 layout(location = 3) in vec4 in_color;
 
-// As surface_api.glsl takes them.
+// Must match the inputs of surface_api.glsl.
 layout(location = 0) out vec4 out_relative_u;
 layout(location = 1) out vec4 out_normal_v;
 layout(location = 2) out vec4 out_tangent;
@@ -29,7 +31,8 @@ void main() {
   gl_Position = view.clip_from_relative * vec4(relative, 1.0);
   out_relative_u = vec4(relative, in_uv.x);
 
-  // Normals transform with the cofactors of the matrix; its rows are cross products, mirrored matrices included.
+  // Normals transform with the matrix's cofactors, whose rows are cross products of the matrix's rows. A mirroring
+  // matrix flips the cofactors' sign.
   vec3 normal = unpack_normal(in_frame.x);
   vec3 c0 = cross(draw.row1.xyz, draw.row2.xyz);
   vec3 c1 = cross(draw.row2.xyz, draw.row0.xyz);

@@ -3,15 +3,15 @@
 #ifndef GLOAM_SHADERS_RENDER_SURFACE_API_GLSL
 #define GLOAM_SHADERS_RENDER_SURFACE_API_GLSL
 
-// What a fragment of a mesh's surface is made of. Include in fragment shaders behind surface.vert; binds set 1.
+// Surface attributes of a fragment of a mesh. Include it in fragment shaders that follow surface.vert; uses set 1.
 
 #include "shaders/common/math.glsl"
 #include "shaders/render/draw_shared.h"
 
-// Packed: every vector costs a triangle its set-up, used to the full or not.
+// Packed into few vectors: each vector costs triangle set-up, even if only partly used.
 layout(location = 0) in vec4 in_relative_u;  // camera-relative position, u of the first coordinates
 layout(location = 1) in vec4 in_normal_v;    // normal, v of the first coordinates
-layout(location = 2) in vec4 in_tangent;
+layout(location = 2) in vec4 in_tangent;     // w: handedness, 1 or -1
 layout(location = 3) in vec2 in_uv1;
 layout(location = 4) in vec4 in_color;
 
@@ -29,8 +29,8 @@ layout(constant_id = 0) const uint kSurface = 0u;
 
 struct Surface {
   vec4 base_color;   // linear, with alpha
-  vec3 normal;       // shading normal, on the visible side; unit where fetch_surface says so
-  vec3 face_normal;  // of the triangle, likewise
+  vec3 normal;       // shading normal on the visible side; unit length only from fetch_surface
+  vec3 face_normal;  // normal of the triangle, same side and length as `normal`
   float metallic;
   float roughness;
   float occlusion;
@@ -50,15 +50,15 @@ vec2 texture_uv(int slot) {
 
 float size_of(vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-// `to_viewer`: towards the camera, any length (view_api.glsl). Normals come out in any length above 0: enough to be
-// packed.
+// Fetches the surface at a fragment; discards masked fragments. Its normals have any length above 0, which is enough
+// for packing. `to_viewer`: direction to the camera, any length (view_api.glsl).
 Surface fetch_surface_unscaled(vec3 to_viewer) {
   Surface s;
   s.base_color = material.base_color;
   if ((kSurface & GLOAM_SURFACE_VERTEX_COLOR) != 0u) s.base_color *= in_color;
   if ((kSurface & GLOAM_SURFACE_BASE_TEXTURE) != 0u) s.base_color *= texture(base_color_texture, texture_uv(0));
 
-  // The visible side is the one towards the camera, whatever the winding and mirroring say.
+  // The visible side is the one towards the camera, regardless of winding and mirroring.
   s.face_normal = cross(dFdx(in_relative), dFdy(in_relative));
   if (dot(s.face_normal, to_viewer) < 0.0) s.face_normal = -s.face_normal;
   if (!(size_of(s.face_normal) > 1e-30)) s.face_normal = to_viewer;  // degenerate derivatives
@@ -67,11 +67,12 @@ Surface fetch_surface_unscaled(vec3 to_viewer) {
   if ((kSurface & GLOAM_SURFACE_NORMAL_TEXTURE) != 0u) {
     vec3 t = texture(normal_texture, texture_uv(1)).xyz * 2.0 - 1.0;
     t.xy *= material.factors.z;
-    // The frame is unit length at vertices and used as it is interpolated, as normal maps are baked.
+    // The tangent frame has unit length at vertices and is used as interpolated, not normalised, as in the baking of
+    // normal maps.
     vec3 bitangent = cross(in_normal, in_tangent.xyz) * in_tangent.w;
     s.normal = in_tangent.xyz * t.x + bitangent * t.y + in_normal * t.z;
   }
-  // Two-sided materials shade their back with the turned normal.
+  // Double-sided materials shade their back with the flipped normal.
   if ((kSurface & GLOAM_SURFACE_DOUBLE_SIDED) != 0u && dot(in_normal, s.face_normal) < 0.0) s.normal = -s.normal;
   if (!(size_of(s.normal) > 1e-30)) s.normal = s.face_normal;
 
@@ -95,7 +96,7 @@ Surface fetch_surface_unscaled(vec3 to_viewer) {
   return s;
 }
 
-// The same with unit normals.
+// Like fetch_surface_unscaled, but with unit normals.
 Surface fetch_surface(vec3 to_viewer) {
   Surface s = fetch_surface_unscaled(to_viewer);
   s.normal = normalize(s.normal);

@@ -21,8 +21,8 @@ struct ViewConstants {
   vec2 inverse_size;
   float near_m;
   uint orthographic;  // 0 or 1
-  uint frame;
-  uint visualizer;
+  uint frame;         // number of the frame
+  uint visualizer;    // code in debug_view.frag; 0: none of its visualizers
 };
 
 GLOAM_SHARED_END

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #version 460
 
-// A yardstick: what a contact-hardening shadow filter does at least, 48 gathers a pixel from a depth map, spread over a
-// footprint of the pixel's own width and each compared with a plane through the receiver.
+// Yardstick for frame times: the least work of a contact-hardening shadow filter. 48 gathers per pixel from a depth
+// map, spread over a footprint whose width varies from pixel to pixel; each is compared with a plane through the
+// receiver.
 
 layout(set = 0, binding = 0) uniform sampler2D map;
 

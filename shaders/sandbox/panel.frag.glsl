@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT
 #version 460
 
-// Dear ImGui's colours are sRGB-encoded: a target that does not encode takes them as they are.
+// Draws Dear ImGui's triangles. Its colours are sRGB-encoded: they are decoded first for a target that encodes sRGB
+// (kDecode = 1), and written unchanged to other targets.
 
 layout(set = 0, binding = 0) uniform sampler2D font;  // coverage in red
 
-layout(constant_id = 0) const uint kDecode = 0u;  // 1: the target encodes sRGB by itself
+layout(constant_id = 0) const uint kDecode = 0u;  // 1: the target encodes sRGB
 
 layout(location = 0) in vec2 uv;
 layout(location = 1) in vec4 color;

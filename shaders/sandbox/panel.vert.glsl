@@ -3,10 +3,10 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
-// Dear ImGui's triangles: positions in pixels from the picture's upper left.
+// Draws Dear ImGui's triangles. Positions are in pixels from the upper left corner of the picture.
 
 layout(push_constant, scalar) uniform Push { vec2 size; }
-push;  // of the picture, pixels
+push;  // size of the picture, pixels
 
 layout(location = 0) in vec2 position;
 layout(location = 1) in vec2 uv;

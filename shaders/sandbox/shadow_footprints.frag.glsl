@@ -8,8 +8,8 @@
 #include "shaders/render/view_api.glsl"
 #include "shaders/shadows/shadows_api.glsl"
 
-// Where the contact-hardening filter of one local light gathers at each pixel, when nothing lets it stop early: first
-// corner of the blocker search and of both mips of the filter, in texels of the atlas image. Below 0 where the light
+// Positions at which the contact-hardening filter of one local light gathers for each pixel, without early-outs: the
+// first corner of the blocker search and of both mips of the filter, in texels of the atlas image. -1 where the light
 // does not reach.
 
 layout(push_constant, scalar) uniform Push { uint shown; };

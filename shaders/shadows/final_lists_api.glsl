@@ -6,9 +6,9 @@
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/shadows/final_lists_shared.h"
 
-// Readers of final light lists (see final_lists_shared.h). Before including this, define GLOAM_FINAL_LISTS_BINDING:
-// four bindings from there are FinalLists' tiles, entries and visibilities (append_final_list_bindings). Specialisation
-// constants are FinalLists::constants.
+// Reads final lists (layout: final_lists_shared.h). Before including this, define GLOAM_FINAL_LISTS_BINDING, the first
+// of four bindings: tiles, entries and both visibility buffers of FinalLists (append_final_list_bindings). The
+// specialisation constants are FinalLists::constants. Example:
 //   FinalList list = final_list(pixel);
 //   for (uint i = 0u; i < list.local_count; ++i) {
 //     uint entry = final_entries[list.local_first + i];
@@ -32,7 +32,7 @@ struct FinalList {
   uint directional_count;
   uint local_first;
   uint local_count;
-  bool complete;  // false: the tile is shaded from shadow maps; there are no entries
+  bool complete;  // false: fallback tile without entries, shaded from shadow maps
 };
 
 FinalList final_list(uvec2 pixel) {
@@ -43,12 +43,12 @@ FinalList final_list(uvec2 pixel) {
 uint entry_light(uint entry) { return entry & 1023u; }
 uint entry_slot(uint entry) { return entry >> 10; }
 
-// A pixel's place in the slots of its tile.
+// Index of a pixel in its tile's slots: 0 … 63, row by row.
 uint slot_pixel(uvec2 pixel) { return (pixel.y & 7u) << 3 | (pixel.x & 7u); }
 
 uint slot_words() { return 2u * kVisibilityBits; }
 
-// 0 … 1, of a pixel of the tile that the entry is in.
+// Visibility 0 … 1 of a pixel (slot_pixel) of the entry's tile.
 float entry_visibility(uint entry, uint pixel) {
   uint slot = entry_slot(entry);
   bool stored = slot < GLOAM_NO_ROOM;

@@ -9,14 +9,15 @@
 #include "shaders/shadows/final_lists_shared.h"
 #include "shaders/shadows/shadows_api.glsl"
 
-// How much of a light the pixels of a shadow tile see: one workgroup is a tile and a light, a thread has kPixels pixels
-// of a row. Before including this, include what shadows_api.glsl asks for; afterwards define
-//   LightOfPair: what is the same for all pixels, with
-//   ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) and
-//   bool gives_light(LightOfPair l, vec3 position, vec3 normal),
-//   uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps), which returns what it says of
-//   the tile, and steps to keep,
-// and include pair_pixels_asked_api.glsl. Bindings 0 and 3 to 6 are taken.
+// Evaluates how much of a light each pixel of a shadow tile sees. One workgroup processes one tile and one light; each
+// thread processes kPixels consecutive pixels (slot_pixel order). Before including this, define what shadows_api.glsl
+// requires. Afterwards define
+//   struct LightOfPair: the values that all pixels share,
+//   ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r),
+//   bool gives_light(LightOfPair l, vec3 position, vec3 normal), and
+//   uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps), which gets a pixel's visibility
+//     and returns flags that are combined into `found`, and the steps to store in the slot,
+// and include pair_pixels_asked_api.glsl. Uses bindings 0 and 3 to 6.
 
 layout(local_size_x = 64, local_size_x_id = 0) in;  // constant 0: 8, 16, 32 or 64
 
@@ -34,29 +35,30 @@ const uint kMostSteps = (1u << kVisibilityBits) - 1u;
 const uint kSomeSeeLess = 1u;
 const uint kSomeSeeAny = 2u;
 
-shared uint packed_words[16];             // of a slot
-shared float widths[GLOAM_SLOT_PIXELS];   // of penumbrae
+shared uint packed_words[16];             // words of the slot
+shared float widths[GLOAM_SLOT_PIXELS];   // penumbra width by pixel
 shared uint filtered[GLOAM_SLOT_PIXELS];  // pixels that need the filter, filtered_count of them
 shared uint filtered_count;
-shared uint found;  // what all pixels say of the tile
-// Of threads whose pixels fill words of their own: those words, one or two. Others share theirs.
+shared uint found;  // combined flags of all pixels
+// Whether the pixels of a thread fill one or two whole words of the slot. The thread then builds these in own_words;
+// otherwise several threads share a word.
 const bool kOwnWords = kPixels * kVisibilityBits >= 32u;
 uvec2 own_words = uvec2(0u);
 
-// A pixel of the tile and the light.
+// A pixel of the tile, seen from the light.
 struct PixelOfPair {
   ShadowPoint point;
-  bool matters;  // the light gives the pixel anything
+  bool matters;  // the light would illuminate the pixel without shadows
 };
 
-// Whether a light gives anything to a surface there.
+// Whether a light would illuminate a surface without shadows.
 bool local_light_gives(LocalLight light, vec3 position, vec3 normal) {
   vec3 to_light;
   vec3 illuminance = local_illuminance(light, position, to_light);
   return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && dot(normal, to_light) > 0.0;
 }
 
-// brightest: lux. direction: where it shines.
+// The same for a directional light. brightest: lux. direction: the way it shines.
 bool sun_gives(float brightest, vec3 direction, vec3 normal) {
   return brightest > 0.0 && dot(normal, -direction) > 0.0;
 }
@@ -70,7 +72,7 @@ void pack_steps(uint pixel, uint steps) {
   atomicOr(packed_words[pixel * kVisibilityBits >> 5], steps << (pixel * kVisibilityBits & 31u));
 }
 
-// Of one of the thread's own pixels.
+// The same for a pixel that this thread processes.
 void pack_own_steps(uint pixel, uint steps) {
   if (!kOwnWords) pack_steps(pixel, steps);
   uint bit = pixel * kVisibilityBits, placed = steps << (bit & 31u);
@@ -78,7 +80,7 @@ void pack_own_steps(uint pixel, uint steps) {
   own_words |= uvec2(second ? 0u : placed, second ? placed : 0u);
 }
 
-// After the last pixel of a thread.
+// Stores own_words, after the thread's last pixel.
 void keep_own_words(uint lane) {
   if (!kOwnWords) return;
   uint words = kPixels * kVisibilityBits / 32u;

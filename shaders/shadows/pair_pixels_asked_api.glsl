@@ -5,7 +5,7 @@
 
 #include "shaders/shadows/pair_pixels_api.glsl"
 
-// See there.
+// The pixel loop; see pair_pixels_api.glsl.
 
 PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
   ivec2 at = ivec2(min(pixel, view.size - 1u));
@@ -25,8 +25,8 @@ PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
 
 uvec2 pixel_at(uvec2 tile, uint pixel) { return tile * uint(GLOAM_SHADOW_TILE) + uvec2(pixel & 7u, pixel >> 3); }
 
-// All pixels of a thread, first as far as it goes without the filter; then those of the tile that need it, dealt out
-// among the threads.
+// Evaluates the tile's pixels. First each thread evaluates its own pixels as far as possible without the filter; then
+// the pixels that need the filter are distributed over all threads.
 void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
   uint some = 0u, i = 0u, steps;
   do {
@@ -56,7 +56,7 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
       uint pixel = filtered[i];
       PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
       uint says = keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]), steps);
-      atomicOr(found, says);  // here, not below: see never()
+      atomicOr(found, says);  // in the loop, not once after it: see never()
       pack_steps(pixel, steps);
       i += kThreads;
     } while (i < count);

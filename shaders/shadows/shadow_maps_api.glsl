@@ -3,7 +3,7 @@
 #ifndef GLOAM_SHADERS_SHADOWS_SHADOW_MAPS_API_GLSL
 #define GLOAM_SHADERS_SHADOWS_SHADOW_MAPS_API_GLSL
 
-// How shadow maps, their mips and pyramids lie in their images, for shaders that read or write them as images.
+// The layout of shadow maps, their mips and pyramids, for shaders that access them as images.
 #include "shaders/shadows/shadows_shared.h"
 
 #endif

@@ -5,11 +5,11 @@
 
 #include "shaders/shadows/shadows_shared.h"
 
-// How much of a light a point sees. Before including this, define GLOAM_SHADOWS_BINDING: six bindings from there are
-// ShadowsOutputs' block, rows, atlas, pyramid, cookies and traced (append_shadow_bindings). Specialisation constants
-// are ShadowsOutputs::constants. GLOAM_SHADOWS_STANDARD: contact-hardening with 8 × 8 texels and nothing else, half of
-// the code, for pipelines that must be there soon. Shaders that are not fragment shaders define GLOAM_SHADOWS_PIXEL,
-// the ivec2 that traced visibility is read at.
+// Evaluates how much of a light a receiver sees. Before including this, define GLOAM_SHADOWS_BINDING, the first of six
+// bindings: block, rows, atlas, pyramid, cookies and traced of ShadowsOutputs (append_shadow_bindings). The
+// specialisation constants are ShadowsOutputs::constants. Define GLOAM_SHADOWS_STANDARD to compile the standard filter
+// only: half of the code, for pipelines that must be ready soon. Shaders that are not fragment shaders define
+// GLOAM_SHADOWS_PIXEL, the ivec2 at which traced visibility is read.
 
 #ifndef GLOAM_SHADOWS_PIXEL
 #define GLOAM_SHADOWS_PIXEL ivec2(gl_FragCoord.xy)
@@ -36,9 +36,10 @@ layout(constant_id = GLOAM_SHADOWS_KERNEL_SHAPE_ID) const uint kKernelShape = 0u
 layout(constant_id = GLOAM_SHADOWS_LEVELS_ID) const uint kLevels = 255u;
 layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 0u;
 layout(constant_id = GLOAM_SHADOWS_COVERAGE_ID) const uint kCoverage = 0u;
-// Who knows the kind of light spares software devices the code of the others, which they would run for nothing; who
-// knows it when the shader is written defines GLOAM_SHADOWS_KINDS, and spares them reading it as well.
-// GLOAM_SHADOWS_IN_FACE likewise: no kernel leaves its receiver's face of a cube.
+// A pipeline may be restricted to some kinds of lights. Software devices would otherwise execute the code of all kinds
+// for every light. GLOAM_SHADOWS_KINDS_ID restricts the kinds when the pipeline is created. Shaders for fixed kinds
+// define GLOAM_SHADOWS_KINDS, which shortens their code as well. Shaders that define GLOAM_SHADOWS_IN_FACE promise that
+// no kernel leaves its receiver's cube face.
 #ifdef GLOAM_SHADOWS_KINDS
 const uint kKinds = GLOAM_SHADOWS_KINDS;
 #else
@@ -55,7 +56,7 @@ struct ShadowReceiver {
   bool subsurface;
 };
 
-// Of the atlas image, which is one and a half times as wide as high.
+// Size of a texel in texture coordinates of the atlas image, which is 1.5 times as wide as high.
 vec2 shadow_texel_size() { return vec2(1.0 / 1.5, 1.0) / shadow_block.atlas_size; }
 
 #include "shaders/shadows/filter/cookies.glsl"
@@ -65,7 +66,7 @@ vec2 shadow_texel_size() { return vec2(1.0 / 1.5, 1.0) / shadow_block.atlas_size
 #include "shaders/shadows/filter/fixed_filters.glsl"
 #endif
 
-// What a slot of visibility keeps.
+// The visibility as a slot stores it.
 float quantised_visibility(float visibility) {
   float v = clamp(visibility, 0.0, 1.0);
   if (kLevels != 0u) {
@@ -93,22 +94,23 @@ float unquantised_visibility(ShadowPoint p) {
 
 float shadow_visibility(ShadowPoint p) { return quantised_visibility(unquantised_visibility(p) * p.horizon); }
 
-// 0 … 1, quantised, of a local light of the view; 1 for one that casts no shadows.
+// Quantised visibility 0 … 1 of a local light of the view; 1 for one that casts no shadows.
 float local_visibility(uint light, vec3 light_position, ShadowReceiver r) {
   if (kFilter == 5u) return 1.0;
   if (kFilter == 4u) return quantised_visibility(traced_visibility(texelFetch(shadow_rows, ivec2(6, light), 0).z));
   return shadow_visibility(local_shadow_point(light, light_position, r));
 }
 
-// The same of a directional light; light_direction: where it shines.
+// The same for a directional light. light_direction: unit vector in which the light shines.
 float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r) {
   if (kFilter == 5u) return 1.0;
   if (kFilter == 4u) return quantised_visibility(traced_visibility(fetch_sun(light).z));
   return shadow_visibility(directional_shadow_point(light, light_direction, r));
 }
 
-// Either; light_vector: the position of a local light, or where a directional one shines. Software devices run what
-// both branches of a condition hold, so whoever does not know the kind of light calls this.
+// For a light of either kind. light_vector: position of a local light, or the direction in which a directional light
+// shines. Software devices execute both branches of a condition, so shaders that do not know the kind of light call
+// this instead of branching.
 ShadowPoint light_shadow_point(bool directional, uint light, vec3 light_vector, ShadowReceiver r) {
   uint local = directional ? 0u : light, distant = directional ? light : 0u;
   if (kKinds == GLOAM_SHADOWS_SUNS) return directional_shadow_point(distant, light_vector, r);

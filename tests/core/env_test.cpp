@@ -9,7 +9,7 @@
 namespace gloam {
 namespace {
 
-/// Sets a variable while it lives; the value before comes back.
+/// Sets an environment variable for its lifetime; the destructor restores the previous value.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name), before_(environment_text(name)) {

@@ -17,7 +17,7 @@
 namespace gloam::test {
 namespace {
 
-/// Writes down what it is told: "r0" reads component 0, "w!name" writes a resource, "structure".
+/// Records its calls: "r0" reads component 0, "w!name" writes a resource, "structure" is a structural change.
 class Notebook final : public AccessChecker {
  public:
   explicit Notebook(World& world) : world_(world) { world_.set_access_checker(this); }

@@ -106,7 +106,8 @@ TEST(CommandBuffer, misuse_asserts) {
   EXPECT_ASSERT(world.view<const Health>().each([&](const Health&) { other.apply(world); }), "while a view iterates");
 }
 
-/// Every third entity doubles, every fifth dies, every seventh freezes.
+/// Records in parallel: a new entity for every third one, the destruction of every fifth and a tag for every seventh.
+/// Returns the entities and values in their final order.
 std::vector<int> run_with(JobExecutor& executor, std::size_t grain) {
   TestWorld world;
   for (int i = 0; i < 2000; ++i) {

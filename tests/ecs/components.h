@@ -7,7 +7,7 @@
 
 #include "engine/ecs/world.h"
 
-// Component types for the tests of this folder: a column of four bytes, of twelve, of eight, of many, and tags.
+// Component types for the tests of this folder: columns of 4, 12, 8 and many bytes per row, and tags.
 namespace gloam::test {
 
 struct Health {

@@ -82,7 +82,7 @@ TEST(ViewChanges, a_change_behind_a_reader_is_news_to_it_next_time) {
   Fixture f;
   (void)f.news<Health>();
   const Tick tick = f.world.tick();
-  f.view.mark_changed<Health>(f.entities[0]);  // after the reader, before anybody advanced the tick
+  f.view.mark_changed<Health>(f.entities[0]);  // after changed_since, before the tick advances again
   EXPECT_EQ(f.world.tick(), tick);
   EXPECT_EQ(f.news<Health>(), (Ranges{{0, kBlock}}));
 }
@@ -106,7 +106,7 @@ TEST(ViewChanges, rows_that_come_or_move_are_news) {
   EXPECT_EQ(f.news<Health>(), (Ranges{{kBlock, kBlock}}));
   f.world.create(Position{}, Health{});
   EXPECT_EQ(f.news<Health>(), (Ranges{{kBlock * 4, 100}}));
-  f.world.add<Frozen>(f.entities[3]);  // leaves for a block of its own, and the last row takes its place
+  f.world.add<Frozen>(f.entities[3]);  // moves to another archetype; the last row takes its place
   std::size_t rows = 0;
   f.seen =
       f.view.changed_since<Health>(f.seen, [&](std::span<Health> h, std::span<const Position>) { rows += h.size(); });

@@ -24,7 +24,7 @@ std::vector<std::unique_ptr<JobExecutor>> executors() {
   return result;
 }
 
-/// Rows in archetypes of 1,000 rows, of 1, of 7, and of none.
+/// Makes archetypes with 1,000 rows, 1 row, no row and 7 rows.
 void populate(TestWorld& world) {
   std::vector<Entity> made(1000);
   world.create_bulk(made, Health{1}, Serial{});

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-// A world against a map of maps: whatever happens to one happens to the other, and they must tell the same.
+// Compares a World with a model, a map of maps: every operation is applied to both, and both must give the same
+// answers.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -25,7 +26,7 @@ using Model = std::map<Key, Row>;
 
 Key key(Entity e) { return {e.index, e.generation}; }
 
-// Each value of a component stands for one number and fills every byte from it.
+// Each component value encodes one number in all of its bytes.
 void make(int value, Health& out) { out.value = value; }
 void make(int value, Position& out) {
   out = {static_cast<float>(value), static_cast<float>(value + 1), static_cast<float>(value + 2)};

@@ -207,7 +207,7 @@ TEST(World, registering_twice_changes_nothing) {
 TEST(World, entities_are_found_behind_components_registered_later) {
   TestWorld world;
   std::vector<Entity> entities;
-  for (int i = 0; i < 1000; ++i) entities.push_back(world.create(Health{i}, Frozen{}));  // in the front and behind it
+  for (int i = 0; i < 1000; ++i) entities.push_back(world.create(Health{i}, Frozen{}));  // in front and rest
   const Entity dead = entities.back();
   entities.pop_back();
   world.destroy(dead);
@@ -310,7 +310,7 @@ TEST(World, structural_changes_while_a_view_iterates_assert) {
               ::testing::HasSubstr("no view iterates"));
   EXPECT_ASSERT(view.each_chunk([&](std::span<const Health>) { world.destroy(e); }), "while a view iterates");
   EXPECT_ASSERT((void)view.changed_since<Health>(0, [&](std::span<const Health>) { world.destroy(e); }), "iterates");
-  world.destroy(e);  // and are fine again afterwards
+  world.destroy(e);  // allowed again afterwards
   EXPECT_EQ(world.entity_count(), 0u);
 }
 

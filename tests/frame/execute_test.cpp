@@ -114,7 +114,7 @@ TEST_F(ExecuteTest, times_and_counts_of_the_newest_completed_frame) {
   EXPECT_EQ(times[0].draws, 0u);
   EXPECT_EQ(times[1].dispatches, 0u);
   EXPECT_EQ(times[1].draws, 1u);
-  // The recording device's clock moves by a microsecond a timestamp: begin and end of two passes are three.
+  // The recording device's clock advances by 1 µs per timestamp; two adjacent passes need three timestamps.
   EXPECT_DOUBLE_EQ(times[0].ms, 0.001);
   EXPECT_DOUBLE_EQ(times[1].ms, 0.001);
   EXPECT_DOUBLE_EQ(graph.gpu_ms(), 0.002);

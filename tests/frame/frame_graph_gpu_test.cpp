@@ -18,9 +18,9 @@ namespace {
 
 using gpu::Access;
 
-constexpr std::uint32_t kCount = 256;  ///< numbers the kernels work on
+constexpr std::uint32_t kCount = 256;  ///< numbers per buffer
 
-/// A real device whose validation must stay silent.
+/// A real device; any validation message fails the test.
 class FrameGraphGpuTest : public testing::Test {
  public:
   void SetUp() override { GLOAM_REQUIRE_GPU(device); }
@@ -60,7 +60,7 @@ TEST_F(FrameGraphGpuTest, random_frames_copy_what_was_written_and_validate) {
     const auto all = static_cast<std::uint32_t>(frame.passes.size());
     for (const std::uint32_t passes : {all, all, all / 2, all}) {
       (void)runner.run(passes);
-      // Some frames overlap with the one before, some do not.
+      // Some frames overlap with the previous frame, some do not.
       if (random() % 2 == 0) continue;
       ASSERT_TRUE(device->wait_idle().ok());
       EXPECT_EQ(runner.wrong_contents(), "") << "random frame " << i;
@@ -87,7 +87,7 @@ TEST_F(FrameGraphGpuTest, kernels_compute_through_transient_buffers_that_share_m
       fill.execute([numbers](PassContext& context) {
         context.commands().fill_buffer(context.buffer(numbers), 0, kCount * 4, 1);
       });
-      // Six doublings through buffers of which at most two live at once.
+      // Six doublings through transient buffers; at most two of them are live at once.
       for (int step = 0; step < 6; ++step) {
         PassBuilder pass = graph.add_pass("double", "test");
         pass.read(numbers, Access::compute_read);

@@ -31,7 +31,7 @@ TEST(frame_graph_properties, passes_run_in_order_exactly_when_reachable_and_with
     const std::uint32_t some = *rc::gen::inRange(0u, all + 1);
     const auto device = gpu::make_recording_device();
     RandomFrameRunner runner(frame, *device, true);
-    // The same structure again meets its own last frame's memory; the other one takes imports over from it.
+    // Running the same structure again reuses the memory of its last frame; the other structure takes over the imports.
     for (std::uint32_t pass_count : {all, all, some, all, some, some}) {
       RC_ASSERT(runner.run(pass_count) == names_of_reachable(frame, pass_count));
       RC_ASSERT(device->faults() == std::vector<std::string>());

@@ -15,7 +15,7 @@ struct FrameResultsTest : GraphFixture {
     return {"test", std::move(name), world, view};
   }
 
-  /// One frame that keeps a word under each key.
+  /// Runs one frame that keeps `word` under each key.
   void frame(std::uint32_t word, const std::vector<ResultKey>& keys) {
     run_frame([&](FrameGraph& g) {
       results.begin_frame();

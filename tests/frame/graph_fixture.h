@@ -24,7 +24,7 @@ inline gpu::BufferDesc buffer_desc(std::string name, std::uint64_t size = 256) {
   return {.name = std::move(name), .module = "test", .size = size};
 }
 
-/// A frame graph on a recording device that must report no fault.
+/// A frame graph on a recording device. Any reported fault fails the test.
 class GraphFixture : public ::testing::Test {
  public:
   /// Declares, compiles and executes one frame.
@@ -38,7 +38,7 @@ class GraphFixture : public ::testing::Test {
     graph.execute(**commands);
     ASSERT_TRUE(device->submit_frame().ok());
   }
-  /// Texts of all recorded commands of this name.
+  /// The texts of all recorded commands with this name.
   [[nodiscard]] std::vector<std::string> texts(std::string_view name) const {
     std::vector<std::string> found;
     for (const gpu::RecordedCommand& command : device->commands()) {

@@ -16,7 +16,7 @@ class HistoryTest : public GraphFixture {
     bool valid = false;
     std::uint64_t age = 0;
   };
-  /// One frame that reads the previous image and writes the current one.
+  /// Runs one frame that reads the previous image and writes the current one.
   Seen run_history_frame(std::uint32_t side = 8) {
     Seen seen;
     run_frame([&](FrameGraph& g) {

@@ -9,7 +9,7 @@ namespace {
 
 class PlanCacheTest : public GraphFixture {
  public:
-  /// One kept pass that writes an image of side × side RGBA8 texels.
+  /// Runs one kept pass that writes an image of side × side RGBA8 texels.
   void run_image_frame(std::uint32_t side) {
     run_frame([side](FrameGraph& g) {
       PassBuilder pass = g.add_pass("a", "test");

@@ -14,7 +14,7 @@ namespace {
 using gpu::Access;
 using gpu::mask_of;
 
-/// Declarations without a graph, to look at plans alone.
+/// Builds declarations without a FrameGraph, to test plans alone.
 class Declarer {
  public:
   std::uint32_t image(std::uint32_t side = 64) {
@@ -69,7 +69,7 @@ TEST(plan, passes_that_nobody_needs_are_culled) {
   const auto unused = d.buffer();
   const auto out = d.import_buffer(Access::none, Access::none);
   d.pass(false).use(chain_a, Access::compute_write);                                     // 0: feeds 2
-  d.pass(false).use(unused, Access::compute_write);                                      // 1: nobody reads
+  d.pass(false).use(unused, Access::compute_write);                                      // 1: never read
   d.pass(false).use(chain_a, Access::compute_read).use(chain_b, Access::compute_write);  // 2: feeds 3
   d.pass(false).use(chain_b, Access::compute_read).use(out, Access::compute_write);      // 3: root
   d.pass(false).use(chain_b, Access::compute_read);                                      // 4: writes nothing
@@ -181,7 +181,7 @@ TEST(plan, images_of_disjoint_lives_share_memory_and_wait_for_each_other) {
   const PlannedBarrier& takes_over = plan.barriers[plan.lives[c].first_barrier];
   EXPECT_EQ(takes_over.before, Access::none);
   EXPECT_EQ(takes_over.also_before, mask_of(Access::compute_read));
-  // The next frame's first user waits for this frame's last one, and for itself where that one was smaller.
+  // In the next frame, `a` waits for `c`, the last user of the slot, and for itself, because `c` is smaller.
   EXPECT_EQ(plan.barriers[plan.lives[a].first_barrier].also_before,
             mask_of(Access::compute_write) | mask_of(Access::compute_read));
   EXPECT_EQ(plan.barriers[plan.lives[b].first_barrier].also_before, mask_of(Access::fragment_read));

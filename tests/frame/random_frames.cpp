@@ -23,16 +23,16 @@ constexpr std::array kBufferAccesses = {Access::compute_write, Access::compute_r
                                         Access::transfer_read, Access::fragment_read, Access::fragment_write};
 constexpr std::uint32_t kBufferUnit = 16;
 constexpr std::uint64_t kScratchBytes = std::uint64_t{1} << 18;
-constexpr std::uint64_t kScratchStep = 1024;  ///< bytes of one copy at most
-constexpr std::uint32_t kMostPasses = 80;     ///< of 3 copies at most each
+constexpr std::uint64_t kScratchStep = 1024;  ///< largest size of one copy, in bytes
+constexpr std::uint32_t kMostPasses = 80;     ///< each makes at most 3 copies
 constexpr Access kRest = Access::compute_read;
 constexpr auto kAllImageUsage = static_cast<gpu::ImageUsage>(0x1f);  // all but depth_target
 constexpr auto kAllBufferUsage = static_cast<gpu::BufferUsage>(0x7f);
 
-/// What a pass writes: never 0, never that of its neighbours.
+/// The value that a pass writes: never 0, and different from those of its neighbours.
 std::uint8_t value_of(std::uint32_t pass) { return static_cast<std::uint8_t>(1 + pass % 255); }
 
-/// Endless numbers from a finite list.
+/// An endless sequence of numbers made from a finite list.
 class Numbers {
  public:
   explicit Numbers(const std::vector<std::uint32_t>& numbers) : numbers_(numbers) {}
@@ -229,7 +229,7 @@ std::vector<std::string> RandomFrameRunner::run(std::uint32_t pass_count) {
       if (!write && is_image) builder.read(images[use.resource], use.access);
       if (!write && !is_image) builder.read(buffers[use.resource], use.access);
     }
-    // The versions as this pass has them, for when it records.
+    // Captures the resource versions of this pass for the time when it records.
     builder.execute([this, p, images, buffers](PassContext& context) { record(context, p, images, buffers); });
   }
   const Status compiled = graph_.compile();

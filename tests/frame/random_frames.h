@@ -13,12 +13,12 @@
 
 namespace gloam::test {
 
-/// A random frame as data, which can be declared to a graph or looked at by an oracle.
+/// A random frame as data. A test can declare it to a graph and compute the expected result from it.
 struct RandomFrame {
   struct Resource {
     bool is_image = false;
     bool imported = false;
-    bool content_kept = false;  ///< of an import: its contents pass from frame to frame
+    bool content_kept = false;  ///< of an import: its contents are kept from frame to frame
     std::uint32_t size = 1;     ///< side of an image in texels, or 16-byte units of a buffer
   };
   struct Use {
@@ -32,26 +32,26 @@ struct RandomFrame {
   std::vector<Resource> resources;
   std::vector<Pass> passes;
 
-  /// Decodes any numbers to a legal frame; more numbers give more passes.
+  /// Decodes arbitrary numbers into a valid frame; more numbers give more passes.
   [[nodiscard]] static RandomFrame from(const std::vector<std::uint32_t>& numbers);
-  /// Which passes must run, found by following edges from the roots.
+  /// For each pass, whether it must run; found by following dependencies back from the root passes.
   [[nodiscard]] std::vector<bool> reachable() const;
   [[nodiscard]] frame::Declaration declaration() const;
 };
 
-/// Runs a random frame on a device, each access by the command that it stands for.
+/// Runs a random frame on a device. For each access it records a command that makes this access.
 class RandomFrameRunner {
  public:
-  /// Without shaders, accesses that need one are declared and record nothing.
+  /// with_shaders false: accesses that need a shader are declared but record nothing.
   RandomFrameRunner(const RandomFrame& frame, gpu::Device& device, bool with_shaders);
   ~RandomFrameRunner();
   RandomFrameRunner(const RandomFrameRunner&) = delete;
   RandomFrameRunner& operator=(const RandomFrameRunner&) = delete;
 
-  /// Declares and runs the first `pass_count` passes as one frame; gives the names of the passes that ran.
+  /// Declares and runs the first `pass_count` passes as one frame. Returns the names of the passes that ran.
   std::vector<std::string> run(std::uint32_t pass_count);
-  /// After the device has become idle: what is wrong with the contents that the last frame's copies saw; empty when
-  /// nothing is. Only for devices that execute clears.
+  /// Call it when the device is idle. Describes all wrong values that the last frame's copies have read; empty if there
+  /// are none. Only for devices that execute clears.
   [[nodiscard]] std::string wrong_contents();
 
  private:
@@ -60,7 +60,7 @@ class RandomFrameRunner {
     gpu::BufferHandle buffer;
     bool used = false;
   };
-  /// A copy to the scratch buffer whose first byte is known.
+  /// A copy to the scratch buffer with a known first byte.
   struct Expected {
     std::uint64_t offset = 0;
     std::uint8_t value = 0;
@@ -88,7 +88,7 @@ class RandomFrameRunner {
   gpu::BufferHandle scratch_;
   std::uint64_t scratch_used_ = 0;
   std::vector<std::string> ran_;
-  std::vector<std::optional<std::uint8_t>> contents_;  ///< of each resource, where known
+  std::vector<std::optional<std::uint8_t>> contents_;  ///< the value of each resource, where known
   std::vector<Expected> expected_;
 };
 

@@ -80,7 +80,7 @@ TEST_F(UploadTest, the_uploader_fills_buffers) {
   EXPECT_TRUE(texts("copy_buffer").empty());
   ASSERT_TRUE(uploader.flush().ok());
   EXPECT_TRUE(std::ranges::equal(device->mapped(target), bytes));
-  EXPECT_EQ(bytes_of_module("engine"), 0u);  // staging is gone
+  EXPECT_EQ(bytes_of_module("engine"), 0u);  // the staging buffer is freed
   EXPECT_EQ(device->frame_number(), 1u);
   ASSERT_TRUE(uploader.flush().ok());
   EXPECT_EQ(device->frame_number(), 1u);  // nothing left to do

@@ -6,8 +6,8 @@
 
 namespace gloam::test {
 
-/// Through the garden of builtin:many_lights: over the whole, down among lanterns, through a standing stone, along the
-/// ground, up to nothing but sky, straight down, and through glass back to the start.
+/// A flight through the garden of builtin:many_lights: over the whole garden, down among the lanterns, through a
+/// standing stone, along the ground, up until only sky is visible, straight down, and through glass back to the start.
 inline constexpr PathKey kManyLightsFlight[] = {
     {{-32.0, 9.8, -17.0}, {4.0, 0.4, 2.0}},   {{-20.0, 4.0, -11.0}, {-6.0, 1.0, -4.0}},
     {{-11.0, 2.0, -6.0}, {2.0, 1.4, 1.0}},    {{-4.0, 0.9, -1.0}, {6.0, 1.0, 6.0}},

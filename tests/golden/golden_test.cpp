@@ -13,8 +13,8 @@
 #include "sandbox/session/session.h"
 #include "tests/support/gpu_device.h"
 
-// Whole pictures. A golden changes only in a commit that says why: the failing test leaves the new picture in the build
-// folder's golden/, to be looked at and copied here.
+// Compares whole pictures with golden pictures. A golden picture changes only in a commit that says why. Each test
+// writes the picture that it drew to golden/ in the build folder, to be checked and copied here.
 
 namespace gloam::test {
 namespace {
@@ -75,7 +75,8 @@ void expect_golden(const Picture& picture, const std::string& name) {
   ASSERT_TRUE(golden.ok()) << golden.error().message << "; the drawn picture is " << drawn;
   ASSERT_EQ(golden->width, picture.width);
   ASSERT_EQ(golden->height, picture.height);
-  // Devices round differently and cover edges differently; a wrong light, material or matrix is far beyond this.
+  // Allows for differences in rounding and edge coverage between devices. A wrong light, material or matrix exceeds it
+  // by far.
   EXPECT_LT(root_mean_square(picture.rgba, golden->rgba), 0.01) << "look at " << drawn;
 }
 
@@ -108,7 +109,7 @@ TEST_F(Courtyard, every_camera_draws_the_same_picture_twice) {
   for (const char* camera : {"court", "closeup", "lawn", "walkway", "down", "grazing"}) {
     Options options = golden_options(kScene, camera);
     const std::string name = camera;
-    if (name != "court") options.assignments = {"shadows.mode=off"};  // they take most of the time
+    if (name != "court") options.assignments = {"shadows.mode=off"};  // shadows take most of the time
     EXPECT_EQ(draw(options).rgba, draw(options).rgba) << camera;
   }
 }
@@ -116,7 +117,7 @@ TEST_F(Courtyard, every_camera_draws_the_same_picture_twice) {
 TEST_F(Courtyard, tiled_culling_draws_what_brute_force_draws) {
   for (const char* camera : {"court", "closeup", "walkway"}) {
     Options options = golden_options(kScene, camera);
-    options.assignments = {"shadows.mode=off"};  // suites of shadows compare with them
+    options.assignments = {"shadows.mode=off"};  // the shadow tests compare pictures with shadows
     const Picture tiled = draw(options);
     options.assignments.emplace_back("lights.culling=brute");
     EXPECT_EQ(tiled.rgba, draw(options).rgba) << camera;

@@ -16,8 +16,8 @@
 #include "tests/support/gpu_device.h"
 #include "tests/support/scale.h"
 
-// Light lists while the camera moves: what a frame learns from the one before it (the zBins' range, the lists' size)
-// must never show.
+// Tests light lists while the camera moves: the state that a frame takes from its predecessor (range of the zBins, size
+// of the lists) must never change the picture.
 
 namespace gloam::test {
 namespace {
@@ -26,10 +26,10 @@ struct FlightSize {
   std::uint32_t width = 96;
   std::uint32_t height = 54;
   std::size_t frames = 300;
-  std::size_t check_every = 5;  ///< frames: lists are compared with what each pixel is in range of
+  std::size_t check_every = 5;  ///< frames from one check of the lists, pixel by pixel, to the next
 };
 
-/// One frame after the other, as a player flies: nothing is settled before it is looked at.
+/// Draws one frame after another along a path, as in play: no extra frames settle buffers first.
 class Flight {
  public:
   Flight(Session& session, std::span<const PathKey> keys, const FlightSize& size)
@@ -48,7 +48,7 @@ class Flight {
     counters_ = sample->report.counters;
     return session_.renderer->read_picture(request_.settings.id);
   }
-  /// Of the last frame; 0 where it was not counted.
+  /// Counter of the last frame; 0 if it was not counted.
   [[nodiscard]] double counter(const char* name) const {
     const auto found = counters_.find(name);
     return found == counters_.end() ? 0.0 : found->second;
@@ -74,11 +74,11 @@ std::size_t differing_pixels(const Picture& a, const Picture& b) {
   return count;
 }
 
-/// Flies once with brute force and once with light lists.
+/// Flies once with brute force and once with light lists. Each frame must give the same picture.
 void expect_flight_without_flicker(Session& session, std::span<const PathKey> keys, const FlightSize& size) {
   KnobRegistry& knobs = session.renderer->knobs();
   std::vector<Picture> brute;
-  // Maps hold on to the size they had: on the second flight not always that of the first.
+  // Without shadows: map sizes have hysteresis, so the second flight may use other sizes than the first.
   ASSERT_TRUE(knobs.set("shadows.mode", "off").ok());
   ASSERT_TRUE(knobs.set("lights.culling", "brute").ok());
   Flight flight(session, keys, size);

@@ -27,7 +27,7 @@ class Executor : public ::testing::TestWithParam<test::ExecutorCase> {
 INSTANTIATE_TEST_SUITE_P(All, Executor, ::testing::ValuesIn(test::all_executors()),
                          [](const auto& test_case) { return test_case.param.name; });
 
-/// What a call throws, as text; empty if it does not throw.
+/// Message of the exception that a call throws; empty if it does not throw.
 template <class Call>
 std::string thrown_by(Call&& call) {
   try {

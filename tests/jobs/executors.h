@@ -20,8 +20,8 @@ struct ExecutorCase {
 
 inline void PrintTo(const ExecutorCase& c, std::ostream* out) { *out << c.name; }
 
-/// One of each kind, a host's own among them; the pool with 8 threads has more than most machines under test have
-/// cores.
+/// One executor of each kind, including one that a host implements. The pool with 8 threads has more threads than most
+/// test machines have cores.
 inline std::vector<ExecutorCase> all_executors() {
   std::vector<ExecutorCase> cases{{"serial", [] { return make_serial_executor(); }},
                                   {"shuffled", [] { return make_shuffled_executor(7); }}};

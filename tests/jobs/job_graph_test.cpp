@@ -17,7 +17,7 @@
 namespace gloam {
 namespace {
 
-/// Owns what the nodes point to.
+/// A job graph that owns the successor lists of its nodes.
 struct Graph {
   explicit Graph(std::size_t count) : successors(count), nodes(count) {}
   void edge(std::uint32_t from, std::uint32_t to) {
@@ -45,7 +45,7 @@ TEST_P(JobGraph, may_be_empty) { executor_->run_graph({}); }
 TEST_P(JobGraph, runs_a_chain_in_order) {
   constexpr std::uint32_t kLength = 1000;
   Graph graph(kLength);
-  std::vector<std::uint32_t> order;  // plain: edges alone must order the writes
+  std::vector<std::uint32_t> order;  // not atomic: the edges alone must order the writes
   for (std::uint32_t i = 0; i < kLength; ++i) {
     graph.nodes[i].work = [&order, i] { order.push_back(i); };
     if (i > 0) graph.edge(i - 1, i);
@@ -65,7 +65,7 @@ TEST_P(JobGraph, runs_each_node_of_a_random_graph_once_and_after_its_predecessor
     std::atomic<int> too_early = 0;
     for (std::uint32_t to = 0; to < count; ++to) {
       for (std::uint32_t n = static_cast<std::uint32_t>(random()) % 4; to > 0 && n > 0; --n) {
-        predecessors[to].push_back(static_cast<std::uint32_t>(random()) % to);  // doubles are legal
+        predecessors[to].push_back(static_cast<std::uint32_t>(random()) % to);  // duplicates are legal
         graph.edge(predecessors[to].back(), to);
       }
       graph.nodes[to].work = [&, to] {
@@ -96,7 +96,7 @@ TEST_P(JobGraph, runs_a_wide_graph) {
 }
 
 TEST_P(JobGraph, leaves_out_what_waits_for_a_failed_node_and_runs_the_rest) {
-  // 0 → 1 → 2, 3 → 4, 5 and 4 both into 6; nodes 1 and 4 fail.
+  // Edges: 0 → 1 → 2, 3 → 4, 4 → 6, 5 → 6. Nodes 1 and 4 fail.
   for (int round = 0; round < test::scaled(50); ++round) {
     Graph graph(7);
     std::vector<int> runs(7, 0);

@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Opens when `count` threads are inside at once; gives up after a generous while.
+/// A barrier that opens when `count` threads wait in it. attend() returns false if that takes longer than 20 s.
 class Meeting {
  public:
   explicit Meeting(int count) : missing_(count) {}
@@ -94,7 +94,8 @@ TEST(pool_executor, calls_helpers_when_short_jobs_of_a_site_turn_long) {
 }
 
 TEST(pool_executor, lets_a_thread_that_waits_for_its_graph_help_inside_the_other_node) {
-  // Node 0 ends at once; node 1 needs a second thread inside its own parallel_for, and only the waiting one is there.
+  // Node 0 ends at once. Node 1 needs a second thread inside its own parallel_for; the only other thread is the one
+  // that waits for the graph.
   const auto executor = make_pool_executor(2);
   for (int round = 0; round < test::scaled(20); ++round) {
     Meeting meeting(2);

@@ -35,7 +35,7 @@ TEST(shuffled_executor, reaches_every_order_of_three_jobs) {
 }
 
 TEST(shuffled_executor, reaches_every_legal_order_of_a_graph) {
-  // 0 → 2 and 1 free: 012, 021, 102.
+  // One edge 0 → 2; node 1 is free. The legal orders are 012, 021 and 102.
   std::set<std::vector<int>> orders;
   const std::uint32_t two[] = {2};
   for (std::uint64_t seed = 0; seed < 200; ++seed) {

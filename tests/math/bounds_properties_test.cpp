@@ -27,7 +27,8 @@ TEST(BoundingSphereProperties, is_no_larger_than_the_smallest_but_for_rounding) 
   test::check_property(2000, [] {
     const Cone cone = test::draw_cone(0.1);
     const Sphere sphere = bounding_sphere(cone);
-    // Two points of the cone 2·r apart need a radius of r: rim to rim, or apex to cap; and a triangle its circumcircle.
+    // Least possible radius. Wide cones: half the distance of two opposite rim points. Narrow cones: the circumradius
+    // of the apex and two opposite rim points.
     const double angle = cone.half_angle;
     const double smallest =
         angle > 0.25 * kPi ? cone.range_m * std::sin(angle) : cone.range_m / (2.0 * std::cos(angle));

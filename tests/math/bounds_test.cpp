@@ -57,7 +57,7 @@ TEST(TransformedAabb, is_the_box_of_the_eight_corners) {
                                 (corner & 4) != 0 ? box.max.z : box.min.z, 1.0f)));
   }
   const Aabb result = transformed(box, m);
-  EXPECT_EQ(result.min, expected.min);  // all numbers are short, so nothing rounds
+  EXPECT_EQ(result.min, expected.min);  // all numbers have few digits, so nothing rounds
   EXPECT_EQ(result.max, expected.max);
 }
 

@@ -16,7 +16,7 @@ struct View {
   dmat4 world_from_view;
 };
 
-/// A camera turned anyhow, up to a thousand kilometres from the origin.
+/// A perspective or orthographic camera with any orientation, up to a thousand kilometres from the origin.
 View draw_view() {
   const dvec3 forward = test::draw_direction();
   const dvec3 helper = std::abs(forward.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
@@ -39,13 +39,13 @@ View draw_view() {
   return {clip_from_view * mat4(glm::inverse(world_from_view)), world_from_view};
 }
 
-/// Whether the very matrix that the frustum was made from shows the point, in double.
+/// Whether the point is visible through the matrix that the frustum was made from, computed in double.
 bool is_visible(const mat4& clip_from_world, dvec3 p) {
   const dvec4 c = dmat4(clip_from_world) * dvec4(p, 1.0);
   return std::abs(c.x) <= c.w && std::abs(c.y) <= c.w && c.z >= 0.0 && c.z <= c.w;
 }
 
-/// A point near the frustum: somewhere in front of the camera, mostly near the edges of the picture.
+/// A point in or near the frustum: in front of the camera, often near the edges of the picture.
 dvec3 draw_point(const View& view) {
   const double distance = test::draw_length(-3.0, 5.0);
   const dvec3 in_view(test::draw(-1.5, 1.5) * distance, test::draw(-1.5, 1.5) * distance, -distance);
@@ -58,7 +58,7 @@ TEST(FrustumProperties, a_sphere_that_holds_a_visible_point_is_never_rejected) {
     const View view = draw_view();
     const dvec3 point = draw_point(view);
     const double radius = test::draw_length(-6.0, 6.0);
-    // Most often the point lies on the far side of the surface, so that the sphere barely reaches into the frustum.
+    // Mostly the point lies on the sphere's surface, so that the sphere barely reaches into the frustum.
     const double depth = test::draw_index(4) == 0 ? test::draw(0.0, 1.0) : 1.0;
     const Sphere sphere{vec3(point + test::draw_direction() * radius * depth), static_cast<float>(radius)};
     if (glm::length(dvec3(sphere.center) - point) > sphere.radius) return;

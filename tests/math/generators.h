@@ -12,7 +12,7 @@
 #include "engine/math/bounds.h"
 #include "engine/math/screen_bounds.h"
 
-/// Draws for the properties of engine/math: mostly hard inputs.
+/// Random inputs for the property tests of engine/math, mostly hard ones.
 namespace gloam::test {
 
 /// Uniform in [low, high].
@@ -22,13 +22,13 @@ inline double draw(double low, double high) {
   return low + (high - low) * (static_cast<double>(step) / kSteps);
 }
 
-/// Below count, evenly.
+/// Uniform integer in [0, count).
 inline int draw_index(int count) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, count)); }
 
-/// Length between 10^low and 10^high metres, even in its logarithm.
+/// Length between 10^low and 10^high metres, uniform in its logarithm.
 inline double draw_length(double low, double high) { return std::pow(10.0, draw(low, high)); }
 
-/// Even over the unit sphere, with the axes themselves among them.
+/// Unit vector, uniform over the sphere; one in eight is a coordinate axis or its negative.
 inline dvec3 draw_direction() {
   if (draw_index(8) == 0) {
     dvec3 axis(0.0);
@@ -46,8 +46,8 @@ inline PerspectiveScale draw_projection() {
   return {vec2(draw(0.3, 4.0), draw(0.3, 4.0)), near_m};
 }
 
-/// Centre for a body of this size, in view space: anywhere, behind the camera, around the camera, at the near plane on
-/// either side, on an axis.
+/// Centre for a body of this size, in view space: anywhere, around the camera, touching the near plane from either
+/// side, across the near plane, in front of the camera, or on the view axis.
 inline vec3 draw_center(double size, double near_m) {
   const double far = draw_length(-6.0, 6.0);
   const dvec3 direction = draw_direction();

@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-/// Any bit pattern of a float: denormals, infinities and NaN in their full variety.
+/// A float of any bit pattern, including denormals, infinities and all kinds of NaN.
 float draw_bits() {
   return std::bit_cast<float>(*rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint32_t>()));
 }
@@ -26,7 +26,7 @@ TEST(HalfProperties, no_half_is_nearer_than_the_one_chosen) {
       return;
     }
     const double magnitude = std::abs(static_cast<double>(value));
-    const auto at = [](std::uint32_t bits) {  // infinity stands for the step past the greatest half
+    const auto at = [](std::uint32_t bits) {  // infinity counts as 65536, one step above the greatest half
       return bits >= 0x7c00u ? 65536.0 : static_cast<double>(half_to_float(static_cast<std::uint16_t>(bits)));
     };
     const std::uint32_t chosen = half & 0x7fffu;

@@ -22,7 +22,7 @@ double angle_degrees(vec3 a, vec3 b) {
   return std::atan2(glm::length(glm::cross(x, y)), glm::dot(x, y)) * 180.0 / 3.14159265358979323846;
 }
 
-/// Even directions over the sphere, poles, axes and octant seams among them.
+/// Directions spread evenly over the sphere, plus axes (poles included), octant seams and octant centres.
 std::vector<vec3> directions() {
   std::vector<vec3> all;
   constexpr int kCount = 20000;
@@ -92,7 +92,7 @@ TEST(Half, every_half_survives_the_way_to_float_and_back) {
   for (std::uint32_t bits = 0; bits <= 0xffffu; ++bits) {
     const auto half = static_cast<std::uint16_t>(bits);
     const bool nan = (bits & 0x7fffu) > kHalfInfinity;
-    // A signalling NaN comes back quiet.
+    // A signalling NaN is returned as a quiet one.
     ASSERT_EQ(float_to_half(half_to_float(half)), nan ? (half | 0x0200u) : half) << bits;
   }
 }
@@ -112,7 +112,7 @@ TEST(Half, values_are_those_of_the_format) {
 }
 
 TEST(Half, rounds_to_the_nearest_and_ties_to_even) {
-  // Between every two neighbours, the step past the greatest half taken as 2¹⁶.
+  // Tests the midpoint of every two neighbouring halves; 2¹⁶ stands for the value above the greatest half.
   for (std::uint32_t bits = 0; bits < kHalfInfinity; ++bits) {
     const auto low = static_cast<std::uint16_t>(bits);
     const auto high = static_cast<std::uint16_t>(bits + 1);
@@ -136,7 +136,7 @@ TEST(Half, overflow_is_infinity_and_underflow_a_signed_zero) {
 
 TEST(Half, a_nan_stays_one_with_its_sign_and_upper_payload) {
   EXPECT_EQ(float_to_half(std::bit_cast<float>(0xffc02000u)), 0xfe01);
-  // A payload that lives in the lower bits only must not become infinity.
+  // A NaN whose payload is in the lower bits only must not become infinity.
   EXPECT_EQ(float_to_half(std::bit_cast<float>(0x7f800001u)), 0x7e00);
 }
 

@@ -12,8 +12,8 @@
 namespace gloam {
 namespace {
 
-/// What the oracle itself may be off by, in normalised device coordinates: points in double lose a few ulps of the size
-/// of everything, which the projection divides by the depth, at least the near distance.
+/// Bound on the oracle's own error, in normalised device coordinates: points in double lose a few ulps of the size of
+/// the coordinates, and the projection divides that by the depth, which is at least the near distance.
 double oracle_noise(dvec3 center, double size, const PerspectiveScale& projection) {
   const double magnitude = glm::length(center) + size;
   const double scale = std::max(projection.scale.x, projection.scale.y);
@@ -33,7 +33,7 @@ NdcRect covered(const test::SupportPoint& support, const PerspectiveScale& proje
   return rect;
 }
 
-/// No visible sample may lie outside the rectangle.
+/// Asserts that no visible sample lies outside the rectangle.
 void check_contains_samples(const NdcRect& rect, const test::SupportPoint& support, dvec3 inside,
                             const PerspectiveScale& projection, double noise) {
   int outside = 0;
@@ -50,17 +50,18 @@ void check_contains_samples(const NdcRect& rect, const test::SupportPoint& suppo
   RC_ASSERT(outside == 0);
 }
 
-/// The body grown by a trillionth of its size and distance: what a rectangle in double may lose to rounding. Where a
-/// body just touches the near plane that is much more than a trillionth on the screen.
+/// The body grown by 1e-12 of its size and distance, the rounding error that a rectangle in double may have. Where a
+/// body just touches the near plane, this is much more than 1e-12 on the screen.
 test::SupportPoint grown(test::SupportPoint support, dvec3 center, double size) {
   const double by = 1e-12 * (glm::length(center) + size);
   return [support = std::move(support), by](dvec3 direction) { return support(direction) + by * direction; };
 }
 
-/// The rectangle holds the body's silhouette and is held by the grown body's, but for the widening.
+/// Asserts that the rectangle contains `least`, that of the body's silhouette, and lies within `most`, that of the
+/// grown body, except for the widening.
 void check_tight(const NdcRect& rect, const NdcRect& least, const NdcRect& most, double noise) {
   constexpr double kTolerance = 1e-6;
-  if (rect.empty || most.empty) {  // a touch of the screen's edge may go either way
+  if (rect.empty || most.empty) {  // a body that just touches the screen's edge may count as visible or not
     const NdcRect& other = rect.empty ? least : rect;
     const double sliver = kTolerance + noise;
     RC_ASSERT(other.empty || other.max.x - other.min.x <= sliver || other.max.y - other.min.y <= sliver);
@@ -74,7 +75,7 @@ void check_tight(const NdcRect& rect, const NdcRect& least, const NdcRect& most,
   }
 }
 
-/// Whether a rectangle says anything: some of the screen, not all of it.
+/// Whether a rectangle covers a part of the screen: neither nothing nor all of it.
 bool is_part_of_screen(const NdcRect& rect) {
   return !rect.empty && (rect.min != vec2(-1.0f) || rect.max != vec2(1.0f));
 }

@@ -37,7 +37,7 @@ TEST(SphereBounds, follow_the_scale_of_each_axis) {
 }
 
 TEST(SphereBounds, beside_the_axis_are_not_centred_on_its_centre) {
-  // Centre (3, -4) deep, radius 3: the tangents are the view axis and the line at twice the centre's angle.
+  // Centre at x = 3, z = -4, radius 3: the tangents are the view axis and the line at twice the centre's angle.
   const double far_side = std::tan(2.0 * std::atan(3.0 / 4.0));
   const NdcRect rect = screen_bounds(Sphere{vec3(3.0f, 0.0f, -4.0f), 3.0f}, {vec2(0.25f), 0.1f});
   EXPECT_NEAR(rect.min.x, 0.0f, 1e-6f);
@@ -71,7 +71,8 @@ TEST(SphereBounds, a_radius_of_zero_is_a_point) {
 }
 
 TEST(SphereBounds, of_a_huge_sphere_beside_the_camera_stay_exact) {
-  // The surface is half a metre to the left; the near plane cuts the sphere, and straight ahead is its tangent.
+  // The surface is half a metre to the left of the camera. The near plane cuts the sphere; the right bound is the
+  // tangent through the camera.
   const Sphere wall{vec3(-1e6f, 0.0f, 0.0f), 999999.5f};
   const NdcRect rect = screen_bounds(wall, {vec2(1.0f), 0.1f});
   EXPECT_EQ(rect.min.x, -1.0f);
@@ -92,7 +93,7 @@ TEST(SphereBounds, misuse_asserts) {
 }
 
 TEST(ConeBounds, looking_away_show_the_rim_or_the_cap) {
-  // Rim radius 3 at depth 14; the cap bulges behind it and stays inside the rim's cone of view.
+  // The rim has radius 3 at depth 14. The cap bulges behind the rim and stays inside its projection.
   const Cone cone{vec3(0.0f, 0.0f, -10.0f), vec3(0.0f, 0.0f, -1.0f), static_cast<float>(std::atan(0.75)), 5.0f};
   expect_rect(screen_bounds(cone, kUnit), vec2(-3.0f / 14.0f), vec2(3.0f / 14.0f));
 }
@@ -101,7 +102,7 @@ TEST(ConeBounds, pointing_sideways_run_from_apex_to_cap) {
   const Cone cone{vec3(0.0f, 0.0f, -10.0f), vec3(1.0f, 0.0f, 0.0f), 0.6f, 5.0f};
   const NdcRect rect = screen_bounds(cone, kUnit);
   EXPECT_NEAR(rect.min.x, 0.0f, 1e-6f);
-  // The range's sphere around the apex, tangent inside the cap: radius 5 at distance 10.
+  // The bound is the tangent to the sphere of radius 5 around the apex at distance 10; it touches inside the cap.
   EXPECT_NEAR(rect.max.x, 5.0 / std::sqrt(75.0), 1e-6);
   EXPECT_NEAR(rect.max.y, -rect.min.y, 1e-6f);
   EXPECT_LT(rect.max.y, rect.max.x);
@@ -113,7 +114,7 @@ TEST(ConeBounds, of_a_thin_cone_are_those_of_its_axis) {
 }
 
 TEST(ConeBounds, from_behind_the_camera_shine_past_it) {
-  // Apex 10 m behind, opening forwards, seen only where it passes the near plane and beyond.
+  // The apex is 10 m behind the camera and the cone opens forwards: only its part beyond the near plane is visible.
   const Cone cone{vec3(5.0f, 0.0f, 10.0f), vec3(0.0f, 0.0f, -1.0f), 0.1f, 100.0f};
   const NdcRect rect = screen_bounds(cone, kUnit);
   EXPECT_FALSE(rect.empty);
@@ -125,7 +126,7 @@ TEST(ConeBounds, from_behind_the_camera_shine_past_it) {
 
 TEST(ConeBounds, pointing_away_behind_the_camera_are_empty) {
   EXPECT_TRUE(screen_bounds(Cone{vec3(0.0f, 0.0f, 1.0f), vec3(0.0f, 0.0f, 1.0f), 1.0f, 10.0f}, kUnit).empty);
-  // Its bounding sphere reaches in front of the near plane; the cone does not.
+  // The bounding sphere reaches beyond the near plane; the cone does not.
   EXPECT_TRUE(screen_bounds(Cone{vec3(0.0f, 0.0f, 0.05f), vec3(0.0f, 0.0f, 1.0f), 1.5f, 10.0f}, kUnit).empty);
 }
 

@@ -9,8 +9,9 @@
 
 #include "engine/math/bounds.h"
 
-/// Brute-force oracle of screen bounds, in double. A convex body is given by its support point: the point of the body
-/// that lies farthest in a direction. Every point used belongs to the body, so the oracle never exceeds the truth.
+/// Brute-force oracle of screen bounds, in double. A convex body is given by a function that returns its support point:
+/// the point of the body that lies farthest in a direction. Every point used belongs to the body, so the oracle never
+/// exceeds the true bounds.
 namespace gloam::test {
 
 using SupportPoint = std::function<dvec3(dvec3 direction)>;
@@ -19,7 +20,7 @@ inline SupportPoint support_of(const Sphere& sphere) {
   return [=](dvec3 direction) { return dvec3(sphere.center) + static_cast<double>(sphere.radius) * direction; };
 }
 
-/// A unit vector across another.
+/// A unit vector perpendicular to `axis`.
 inline dvec3 any_across(dvec3 axis) {
   const dvec3 helper = std::abs(axis.x) < 0.6 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
   return glm::normalize(glm::cross(axis, helper));
@@ -41,15 +42,16 @@ inline SupportPoint support_of(const Cone& cone) {
   };
 }
 
-/// Where the body reaches on one screen axis (0 or 1) on the given side (1 or -1): the greatest side · x / d over its
-/// part with d ≥ near, or -infinity when it has none.
+/// Extent of the body on one screen axis (0 or 1) to the given side (1 or -1): the greatest side · x / d over its part
+/// with d ≥ near, or -infinity if that part is empty.
 inline double reach(const SupportPoint& support, int axis, double side, double near_m) {
   constexpr double kHalfPi = 1.57079632679489661923;
   struct Point {
     double x;
     double d;
   };
-  // Turning from sideways-back to sideways-front walks the silhouette from its least to its greatest depth.
+  // As `turn` goes from -π/2 to π/2, the direction turns from backward over sideways to forward, and its support point
+  // follows the silhouette from the least to the greatest depth.
   const auto at = [&](double turn) {
     dvec3 direction(0.0, 0.0, -std::sin(turn));
     direction[axis] = side * std::cos(turn);
@@ -67,7 +69,7 @@ inline double reach(const SupportPoint& support, int axis, double side, double n
     }
     const Point behind = at(low);
     const Point front = at(high);
-    // The segment between two points of a convex body belongs to it.
+    // The segment between two points of a convex body lies in the body.
     const double share = (near_m - behind.d) / (front.d - behind.d);
     best = std::max(best, (behind.x + share * (front.x - behind.x)) / near_m);
     low = high;
@@ -93,8 +95,8 @@ inline double reach(const SupportPoint& support, int axis, double side, double n
   return best;
 }
 
-/// Points of the body with d ≥ near, handed to the visitor: its surface seen from inside by support points in even
-/// directions, and the segments between neighbours cut at the near plane.
+/// Visits points of the body with d ≥ near: the support points of evenly spread directions, and the points where
+/// segments between consecutive support points cross the near plane.
 template <class Visit>
 void sample_surface(const SupportPoint& support, double near_m, int count, Visit&& visit) {
   dvec3 before = support(dvec3(0.0, 0.0, 1.0));

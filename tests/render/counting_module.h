@@ -12,7 +12,7 @@
 
 namespace gloam::test {
 
-/// Calls for the counting module, and says whether a view sees it.
+/// Makes the world demand the counting module. in_view: whether views demand it, too.
 struct Counted {
   bool in_view = true;
 };
@@ -23,7 +23,7 @@ struct CountedRuns {
   std::uint32_t view = 0;
 };
 
-/// What a counting module was asked for.
+/// Calls of a counting module's functions.
 struct CountedCalls {
   std::uint32_t prepared = 0;
   std::uint32_t passes = 0;  ///< add_passes, any phase
@@ -31,8 +31,8 @@ struct CountedCalls {
   std::uint32_t releases = 0;
 };
 
-/// The smallest module with a bit of everything: two systems, a pipeline, a pass with one dispatch, a transient image,
-/// and a buffer that it keeps until release. `calls` outlives it.
+/// A minimal module with one of everything: two systems, a pipeline, a pass with one dispatch, a transient image, and a
+/// buffer that it keeps until release. `calls` must outlive it.
 class CountingModule final : public Module {
  public:
   static constexpr std::uint64_t kKeptBytes = 4096;

@@ -28,10 +28,10 @@
 
 namespace gloam::test {
 
-inline constexpr std::uint32_t kFramesKept = 120;  ///< a module without demand keeps its memory for so many
+inline constexpr std::uint32_t kFramesKept = 120;  ///< a module without demand keeps its memory for this many frames
 inline const std::vector<std::string> kOptionalModules = {"lights", "fog", "counting"};
 
-/// Lines that went to a log.
+/// A log that keeps its lines.
 class LineLog final : public LogSink {
  public:
   void write(LogLevel, std::string_view line) override {
@@ -48,17 +48,17 @@ class LineLog final : public LogSink {
   std::vector<std::string> lines_;
 };
 
-/// What one module did in a frame and what it owns.
+/// One module's work in the last frame, and the resources that it owns.
 struct Seen {
   std::uint32_t passes = 0;
   std::uint32_t dispatches = 0;
   std::uint32_t draws = 0;
   std::uint32_t pipelines = 0;
   std::uint64_t bytes = 0;
-  std::set<std::string> systems;  ///< that ran
+  std::set<std::string> systems;  ///< systems that ran
 };
 
-/// A renderer of lights, lighting, fog and a counting module on a gated recording device, and a small scene without
+/// A renderer with lights, lighting, fog and a counting module on a gated recording device, and a small scene without
 /// lights or fog. Faults that the recording device finds fail the test.
 class DemandTest : public ::testing::Test {
  protected:
@@ -86,7 +86,7 @@ class DemandTest : public ::testing::Test {
   }
 
   void TearDown() override {
-    gate_->open();  // a thread that waits there would never end
+    gate_->open();  // a thread that waits at the gate would never end
     renderer_.reset();
     EXPECT_THAT(device_->faults(), ::testing::IsEmpty());
     EXPECT_THAT(device_->memory(), ::testing::Each(::testing::Field(&gpu::ModuleMemory::bytes, 0u)));
@@ -111,9 +111,9 @@ class DemandTest : public ::testing::Test {
       ASSERT_TRUE(status.ok()) << status.error().message;
     }
   }
-  /// Frames until the plans of the first ones, which have passes of their own, have given their memory back.
+  /// Renders until the cached plans of the first frames, which have other passes, have freed their memory.
   void settle() { frames(70); }
-  /// Renders until `name` has passes, as it must some day under Readiness::background.
+  /// Renders until `name` has passes. With Readiness::background this takes an unknown number of frames.
   void frames_until_there_are_passes_of(std::string_view name) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (seen(name).passes == 0) {
@@ -123,8 +123,8 @@ class DemandTest : public ::testing::Test {
     }
   }
 
-  /// Renders until no pipeline is made in the background any more: an effect's passes may come before those of others
-  /// it hastens.
+  /// Renders until no pipeline is pending in the background. A module may have passes while pipelines of other modules
+  /// that depend on it are still pending.
   void frames_until_nothing_is_pending() {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (renderer_->report().pipelines_pending > 0) {
@@ -151,7 +151,7 @@ class DemandTest : public ::testing::Test {
     seen.systems = systems_[std::string(name)];
     return seen;
   }
-  /// Commands of the last frame that make the GPU work.
+  /// Number of dispatch and draw commands of the last frame, by name.
   [[nodiscard]] std::map<std::string, std::uint32_t> work() const {
     std::map<std::string, std::uint32_t> work;
     for (const gpu::RecordedCommand& command : device_->commands())
@@ -167,7 +167,7 @@ class DemandTest : public ::testing::Test {
     return text;
   }
 
-  /// Makes the scene call for a module.
+  /// Adds an entity that makes the scene demand a module.
   Entity call_for(std::string_view name) {
     if (name == "fog") return world_->create(Fog{0.05f, vec3(1.0f, 2.0f, 3.0f)});
     if (name == "counting") return world_->create(Counted{});
@@ -176,7 +176,7 @@ class DemandTest : public ::testing::Test {
     lamp.range_m = 5.0f;
     return world_->create(WorldTransform{in_view()}, lamp);
   }
-  /// Where a light of call_for reaches into the view, and where it does not.
+  /// Transforms at which a light of call_for reaches into the view, and at which it does not.
   [[nodiscard]] static dmat4 in_view() { return glm::translate(dmat4(1.0), dvec3(1.0, 3.0, 3.0)); }
   [[nodiscard]] static dmat4 out_of_view() { return glm::translate(dmat4(1.0), dvec3(0.0, 0.0, 1000.0)); }
   void show(std::string_view name, Entity entity, bool visible) {
@@ -184,11 +184,11 @@ class DemandTest : public ::testing::Test {
     if (name == "counting") world_->get<Counted>(entity).in_view = visible;
   }
 
-  bool with_shadows_ = false;  ///< of the next renderer
+  bool with_shadows_ = false;  ///< whether the next renderer has the shadows module
   CountedCalls calls_;
   LineLog log_;
   ZoneRecorder zones_;
-  std::map<std::string, std::set<std::string>> systems_;  ///< of the last frame, by module
+  std::map<std::string, std::set<std::string>> systems_;  ///< systems that ran in the last frame, by module
   std::unique_ptr<JobExecutor> executor_ = make_shuffled_executor(3);
   std::unique_ptr<gpu::RecordingDevice> device_;
   std::unique_ptr<GatedDevice> gate_;

@@ -22,10 +22,10 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kFramesKept = 120;  // a module without demand keeps its memory for so many
+constexpr std::uint32_t kFramesKept = 120;  // a module without demand keeps its memory for this many frames
 
-/// One renderer of lights, lighting and fog with a world of its own. The exposure is set, so that pictures depend on
-/// nothing but the frame's scene.
+/// A renderer with lights, lighting and fog, and its own world. The exposure is set, so that pictures depend only on
+/// the frame's scene.
 struct Set {
   Set(gpu::Device& device, JobExecutor& executor, Readiness readiness) {
     RendererOptions options;
@@ -60,7 +60,7 @@ struct Set {
       drawn += 1;
     }
   }
-  /// Passes of a module in the last frame; waits for its end.
+  /// Number of passes of a module in the last frame. Waits until the frame has ended.
   [[nodiscard]] std::uint32_t passes(std::string_view module) {
     EXPECT_TRUE(renderer->wait().ok());
     std::uint32_t count = 0;
@@ -103,7 +103,7 @@ class DemandOnGpu : public ::testing::Test {
     executor_ = make_pool_executor(2);
   }
   void TearDown() override {
-    if (gate_) gate_->open();  // a thread that waits there would never end
+    if (gate_) gate_->open();  // a thread that waits at the gate would never end
     stage_.reset();
     if (device_) {
       EXPECT_EQ(device_->validation_messages(), 0u);

@@ -15,7 +15,7 @@ using test::kOptionalModules;
 using test::Seen;
 using ::testing::IsEmpty;
 
-/// A module with a scene that can call for it.
+/// The parameter is the name of a module that the scene can demand.
 class DemandOf : public test::DemandTest, public ::testing::WithParamInterface<std::string> {
  protected:
   [[nodiscard]] Seen now() { return seen(GetParam()); }
@@ -41,7 +41,7 @@ class DemandOf : public test::DemandTest, public ::testing::WithParamInterface<s
 INSTANTIATE_TEST_SUITE_P(Modules, DemandOf, ::testing::ValuesIn(kOptionalModules),
                          [](const auto& instance) { return instance.param; });
 
-/// Those that know what a view sees.
+/// Modules whose demand depends on the view.
 class DemandInView : public DemandOf {};
 INSTANTIATE_TEST_SUITE_P(Modules, DemandInView, ::testing::Values("lights", "counting"),
                          [](const auto& instance) { return instance.param; });
@@ -155,7 +155,7 @@ TEST_P(DemandOf, a_hundred_quick_toggles_grow_nothing) {
 }
 
 TEST_P(DemandOf, slow_toggles_return_to_the_same_numbers) {
-  frames(2);  // lighting makes its variant without lights, which it then keeps
+  frames(2);  // lighting compiles its variant without lights and keeps it
   std::string with, without;
   for (int toggle = 0; toggle < 4; ++toggle) {
     const Entity cause = call_for(GetParam());
@@ -165,7 +165,7 @@ TEST_P(DemandOf, slow_toggles_return_to_the_same_numbers) {
     world_->destroy(cause);
     frames(kFramesKept);
     expect_nothing_at_all();
-    if (toggle == 0) without = belongings();  // not sooner: lighting keeps its variant for lights
+    if (toggle == 0) without = belongings();  // taken only here, because lighting keeps its variant with lights
     EXPECT_EQ(belongings(), without) << toggle;
   }
 }
@@ -199,7 +199,7 @@ TEST_F(DemandFrames, memory_goes_after_120_frames_and_not_after_119) {
     EXPECT_EQ(seen("counting").bytes, CountingModule::kKeptBytes) << "the transient image goes with its plan, sooner";
     EXPECT_EQ(calls_.releases, 0u);
     if (round > 0) break;
-    show("counting", counted, true);  // one frame with demand, and the count begins anew
+    show("counting", counted, true);  // one frame with demand restarts the count
     frames();
     show("counting", counted, false);
   }
@@ -281,7 +281,7 @@ TEST_F(DemandFrames, transient_images_are_counted_under_the_module_of_the_first_
   const std::uint64_t before = seen("engine").bytes + seen("lighting").bytes;
   const Entity lamp = call_for("lights");
   settle();
-  // Of 8 × 5 shadow tiles in one tile group: texels of lights, tiles, the group's mask, 24 list entries a tile (3 a
+  // For 8 × 5 shadow tiles in one tile group: texels of lights, tiles, the group mask, 24 list entries per tile (3 per
   // word), counters.
   EXPECT_EQ(seen("lights").bytes, 3u * 1024u * 16u + 8u * 5u * 8u + 33u * 4u + 8u * 5u * 8u * 4u + 12u * 4u);
   world_->destroy(lamp);

@@ -19,23 +19,23 @@
 
 namespace gloam::test {
 
-/// Another device with a gate: pipelines that other threads than its maker's ask for wait until they are let through.
-/// Counts what is created, and makes named pipelines fail for as long as wanted. Safe from any thread.
+/// Wraps a device with a gate. Pipelines that threads other than its creator's request wait until the gate lets them
+/// through. It counts created resources and can make named pipelines fail. Thread-safe.
 class GatedDevice final : public gpu::Device {
  public:
   explicit GatedDevice(gpu::Device& inner) : inner_(inner) {}
 
-  /// From now on other threads' pipelines wait at the gate.
+  /// After this call, pipelines of other threads wait at the gate.
   void close() { set_permits(0); }
-  /// Lets so many more through.
+  /// Lets the next `count` pipelines through.
   void let(std::uint32_t count) { set_permits(count); }
   void open() { set_permits(kOpen); }
-  /// Until a pipeline waits at the gate and no other thread makes one. False: there was none within 20 s.
+  /// Waits until a pipeline waits at the gate and no other one may pass. False if that takes more than 20 s.
   [[nodiscard]] bool wait_for_one_at_the_gate() {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, std::chrono::seconds(20), [&] { return waiting_ > 0 && permits_ == 0; });
   }
-  /// This pipeline cannot be made until heal().
+  /// Makes the creation of this pipeline fail until heal().
   void break_pipeline(std::string name, Error error) {
     const std::lock_guard lock(mutex_);
     broken_.insert_or_assign(std::move(name), std::move(error));
@@ -45,11 +45,11 @@ class GatedDevice final : public gpu::Device {
     broken_.clear();
   }
 
-  /// Pipelines of a module asked for by the thread that made this device.
+  /// Pipelines of a module that the thread which created this device has requested.
   [[nodiscard]] std::uint32_t asked_here(std::string_view module) const { return asked(here_, module); }
-  /// Pipelines of a module asked for by other threads.
+  /// Pipelines of a module that other threads have requested.
   [[nodiscard]] std::uint32_t asked_elsewhere(std::string_view module) const { return asked(elsewhere_, module); }
-  /// Buffers and images made so far.
+  /// Number of buffers and images created so far.
   [[nodiscard]] std::uint64_t resources_made() const {
     const std::lock_guard lock(mutex_);
     return resources_made_;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kPasses = 100;
 
-/// A chain of compute passes, each of which reads the image of the one before; the last one is kept.
+/// Declares a chain of compute passes, each of which reads the image of the previous one. The last one is never culled.
 void declare(FrameGraph& graph, std::uint32_t passes) {
   ImageRef last;
   for (std::uint32_t i = 0; i < passes; ++i) {
@@ -38,7 +38,7 @@ void declare(FrameGraph& graph, std::uint32_t passes) {
 
 class PlanReuse : public ::testing::Test {
  protected:
-  /// Milliseconds of declaration and compilation.
+  /// Milliseconds for declaring and compiling a frame.
   double frame(std::uint32_t passes) {
     auto commands = device_->begin_frame();
     const auto start = std::chrono::steady_clock::now();

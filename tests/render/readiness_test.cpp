@@ -39,7 +39,7 @@ TEST_P(ReadinessOf, a_module_comes_when_its_pipelines_are_made_and_no_frame_wait
   frames(2);
   const auto before = work();
   static_cast<void>(call_for(GetParam()));
-  frames(5);  // would never end if they waited
+  frames(5);  // these frames would never end if they waited for pipelines
   EXPECT_TRUE(gate_->wait_for_one_at_the_gate());
   frames();
   EXPECT_EQ(seen(GetParam()).passes, 0u);
@@ -61,7 +61,8 @@ TEST_P(ReadinessOf, what_goes_while_it_is_compiled_leaves_nothing) {
   world_->destroy(cause);
   frames(kFramesKept + 10);
   gate_->open();
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the longer, the likelier something is made too late
+  std::this_thread::sleep_for(
+      std::chrono::milliseconds(20));  // time for the background thread to make something too late
   frames(2 * kFramesKept);
   EXPECT_EQ(seen(GetParam()).pipelines, 0u);
   EXPECT_EQ(seen(GetParam()).bytes, 0u);
@@ -143,7 +144,7 @@ TEST_F(ReadinessFrames, shading_is_brute_force_until_the_tiled_pipeline_is_made)
   frames();
   const std::uint32_t asked_before = gate_->asked_here("lighting");
   ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
-  gate_->let(3);  // those of lights: shading does not read the lists yet
+  gate_->let(3);  // the pipelines of lights; shading does not read the lists yet
   for (int i = 0; i < 20000 && gate_->asked_elsewhere("lighting") == 0; ++i) {
     frames();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -193,7 +194,7 @@ TEST_F(ReadinessFrames, a_failure_is_forgotten_with_the_modules_pipelines) {
   EXPECT_EQ(gate_->asked_here("counting"), tried) << "made in the background, as if nothing had been";
 }
 
-/// With shadows of the lights that the scene gets.
+/// BackgroundRenderer with the shadows module.
 class ShadowReadiness : public BackgroundRenderer {
  protected:
   ShadowReadiness() {
@@ -221,7 +222,7 @@ TEST_F(ShadowReadiness, frames_come_without_shadows_and_then_with_them_and_none_
   frames(2);
   static_cast<void>(call_for("lights"));
   frames(3);
-  const std::uint32_t asked_before = gate_->asked_here("lighting");  // brute force, which is waited for
+  const std::uint32_t asked_before = gate_->asked_here("lighting");  // the brute-force pipeline, which frames wait for
   ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
   EXPECT_GT(renderer_->report().pipelines_pending, 0u);
   EXPECT_EQ(seen("shadows").passes, 0u);
@@ -243,7 +244,7 @@ TEST_F(ShadowReadiness, frames_come_without_shadows_and_then_with_them_and_none_
 TEST_F(ShadowReadiness, shadows_stay_while_the_pipeline_of_shorter_lists_is_made) {
   ASSERT_TRUE(renderer_->knobs().set("shadows.mode", "monolithic").ok());
   std::vector<Entity> lamps;
-  for (int i = 0; i < 60; ++i) {  // too many for every list to hold all of them
+  for (int i = 0; i < 60; ++i) {  // too many for every list to hold all lamps
     lamps.push_back(call_for("lights"));
     if (i > 0) world_->add(lamps.back(), ShadowCaster{false, 0});
   }

@@ -20,7 +20,7 @@
 #include "shaders/render/shaders.h"
 #include "shaders/render/view_shared.h"
 
-// Structures that C++ fills and shaders read are declared once; here both compilers' offsets are compared.
+// C++ and shaders share one declaration of each structure. These tests compare the offsets of both compilers.
 
 namespace gloam {
 namespace {

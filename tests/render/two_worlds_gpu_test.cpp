@@ -23,8 +23,8 @@ namespace {
 constexpr int kFrames = 3;
 using Pixels = std::vector<std::uint8_t>;
 
-/// World 0 is lit as add_lights does and metered; world 1 stands elsewhere, has lamps of its own, another sky and a
-/// fixed exposure.
+/// World 0 has the lights of add_lights and a metered exposure. World 1 has other lamps, one more box, another sky and
+/// a fixed exposure.
 void fill(World& world, std::uint32_t which) {
   test::fill_small_scene(world);
   std::vector<Entity> lights;
@@ -50,7 +50,7 @@ void fill(World& world, std::uint32_t which) {
   for (const Entity light : lights) world.add<ShadowCaster>(light, {.enabled = false});
 }
 
-/// What differs from frame to frame: the first drawn entity climbs.
+/// Changes the world from frame to frame: raises the first drawn entity and sets the clock.
 void step(World& world, int frame) {
   bool first = true;
   world.view<const MeshInstance, WorldTransform>().each([&](const MeshInstance&, WorldTransform& transform) {
@@ -98,7 +98,7 @@ class TwoWorlds : public ::testing::Test {
     return picture.ok() ? std::move(picture->rgba) : Pixels();
   }
 
-  /// The picture of the last frame, by a renderer that knows nothing else.
+  /// The picture of the last frame from another renderer that draws only this world and view.
   [[nodiscard]] Pixels alone(std::uint32_t which, std::uint32_t view) {
     const auto renderer = make_renderer();
     World world;
@@ -167,7 +167,7 @@ TEST_F(TwoWorlds, that_go_give_their_memory_back) {
     ASSERT_TRUE(renderer->wait().ok());
     bytes.push_back(renderer->report().modules.front().gpu_bytes);
   }
-  EXPECT_EQ(bytes[7], bytes[4]);  // the first few still fill the rings of the frames in flight
+  EXPECT_EQ(bytes[7], bytes[4]);  // the first worlds still fill the rings of the frames in flight
 }
 
 TEST_F(TwoWorlds, can_each_have_a_renderer_on_one_device) {

@@ -165,7 +165,7 @@ TEST_F(CameraWorld, nothing_to_follow_leaves_the_settings) {
   world_.destroy(settings.camera_entity);
   follow_camera(world_, settings);
   EXPECT_EQ(settings.camera.fov_y, 0.9f);
-  settings.camera_entity = world_.create(WorldTransform{});  // no lens
+  settings.camera_entity = world_.create(WorldTransform{});  // has no Camera
   follow_camera(world_, settings);
   EXPECT_EQ(settings.camera.fov_y, 0.9f);
 }

@@ -36,7 +36,7 @@ AnimationChannel arbitrary_channel(Interpolation interpolation) {
   return channel;
 }
 
-/// The same by a walk over all keys in long double.
+/// Oracle of sample_channel: walks over all keys in long double.
 double oracle(const AnimationChannel& channel, double time, std::size_t component) {
   const bool cubic = channel.interpolation == Interpolation::cubic;
   const auto at = [&](std::size_t key, std::size_t part) {
@@ -79,7 +79,7 @@ TEST(AnimationProperties, slerp_is_unit_on_the_arc_and_even_in_angle) {
     const double u = whole(0, 65) / 64.0;
     const dquat mixed = slerp_shortest(a, b, u);
     RC_ASSERT(std::abs(dot4(mixed, mixed) - 1.0L) < 1e-14L);
-    // Shoemake's formula with acos: good where the two are well apart.
+    // Shoemake's formula with acos: accurate if the rotations are well apart.
     const long double cosine = std::min(std::abs(dot4(a, b)), 1.0L);
     if (cosine > 0.99L) return;
     const long double angle = std::acos(cosine);
@@ -91,7 +91,7 @@ TEST(AnimationProperties, slerp_is_unit_on_the_arc_and_even_in_angle) {
 TEST(AnimationProperties, looped_time_is_congruent_and_in_range) {
   test::check_property(600, [] {
     const double time = whole(-100000, 100001) / 64.0;
-    const double duration = whole(1, 1000) / 64.0;  // sixty-fourths: every step below is exact
+    const double duration = whole(1, 1000) / 64.0;  // in sixty-fourths, so that every step below is exact
     const double looped = looped_time(time, duration);
     RC_ASSERT(looped >= 0.0 && looped < duration);
     RC_ASSERT(std::fmod(time - looped, duration) == 0.0);

@@ -36,7 +36,7 @@ dquat sample_rotation(const AnimationChannel& channel, double time_s) {
 
 double dot4(const dquat& a, const dquat& b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
 
-/// Angle in four dimensions between unit quaternions, accurate for small ones.
+/// Angle between unit quaternions in four dimensions; accurate for small angles.
 long double arc(const dquat& a, const dquat& b) {
   long double minus = 0.0L;
   long double plus = 0.0L;

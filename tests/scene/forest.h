@@ -14,7 +14,7 @@
 
 namespace gloam::test {
 
-/// Rows in random order with random parents: chains, stars and lone nodes.
+/// Nodes in rows of random order, with random parents: chains, stars and single nodes.
 struct Forest {
   std::vector<std::uint32_t> parents;
   std::vector<std::uint32_t> depths;
@@ -33,7 +33,7 @@ struct Forest {
 
 [[nodiscard]] inline Forest random_forest(std::uint32_t seed, std::uint32_t count) {
   std::mt19937 random(seed);
-  std::vector<std::uint32_t> row_of(count);  // nodes are made parents first and live in shuffled rows
+  std::vector<std::uint32_t> row_of(count);  // nodes are created parents first, in shuffled rows
   std::iota(row_of.begin(), row_of.end(), 0u);
   std::shuffle(row_of.begin(), row_of.end(), random);
   Forest forest;
@@ -56,7 +56,7 @@ struct Forest {
   return world_by_recursion(forest, forest.parents[row]) * forest.locals[row];
 }
 
-/// Largest difference of an element, relative to the larger matrix's largest element.
+/// Largest difference of an element, relative to the largest element of both matrices.
 [[nodiscard]] inline double relative_difference(const dmat4& a, const dmat4& b) {
   double difference = 0.0;
   double size = 0.0;

@@ -64,11 +64,11 @@ TEST(ImageFile, other_formats_are_refused) {
 TEST(ImageFile, a_cut_file_is_refused_or_a_picture_at_every_length) {
   const Bytes png = test::make_png(20, 20, kColor);
   const Bytes jpeg = test::make_jpeg(20, 20, kColor);
-  // Without its last checksum a PNG is whole.
+  // A PNG that lacks only its last checksum counts as whole.
   for (std::size_t size = 0; size + 4 < png.size(); ++size)
     EXPECT_FALSE(decode_image(std::span(png).first(size)).ok()) << size;
   for (std::size_t size = 0; size < jpeg.size(); ++size) {
-    // JPEG readers fill up what is missing.
+    // JPEG decoders fill in missing data.
     const Result<Image> image = decode_image(std::span(jpeg).first(size));
     if (image.ok()) {
       EXPECT_EQ(image->rgba.size(), 20u * 20 * 4);

@@ -48,7 +48,7 @@ TEST(Morphing, weights_survive_when_another_instance_comes_or_goes) {
   const Mesh two = mesh_with(2, {});
   MorphInstance kept{.first = 2, .count = 2};
   MorphInstance fresh;
-  std::vector<float> values{1.0f, 2.0f, 3.0f, 4.0f};  // the first two belonged to an instance that is gone
+  std::vector<float> values{1.0f, 2.0f, 3.0f, 4.0f};  // the first two belonged to a destroyed instance
   EXPECT_TRUE(lay_out_morph_weights(std::vector<MorphRow>{{&kept, &two}}, values));
   EXPECT_EQ(values, (std::vector{3.0f, 4.0f}));
   EXPECT_TRUE(lay_out_morph_weights(std::vector<MorphRow>{{&fresh, &two}, {&kept, &two}}, values));

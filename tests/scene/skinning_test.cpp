@@ -34,7 +34,8 @@ TEST(Skinning, matrices_equal_the_product_relative_to_the_first_joint) {
 }
 
 TEST(Skinning, ten_kilometres_from_the_origin_lose_no_precision) {
-  // The same skin near and far: relative matrices differ only by what adding 10 km rounds off a double.
+  // The same skin near the origin and 10 km away: the relative matrices differ only by the rounding of doubles at 10
+  // km.
   std::mt19937 random(3);
   std::vector<dmat4> near_worlds;
   for (int i = 0; i < 8; ++i) near_worlds.push_back(local_matrix(test::random_pose(random)));

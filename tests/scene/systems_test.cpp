@@ -141,7 +141,7 @@ TEST(SceneSystems, a_node_that_comes_later_is_animated_from_its_first_frame) {
   run(world, *executor, 0.5);
   EXPECT_EQ(dvec3(world.get<WorldTransform>(late).matrix[3]), dvec3(1.0, 2.0, 3.0));
   world.destroy(late);
-  run(world, *executor, 0.6);  // its channel has nothing to move any more
+  run(world, *executor, 0.6);  // the node of its channel is gone
 }
 
 TEST(SceneSystems, joint_matrices_equal_the_direct_product) {
@@ -204,7 +204,8 @@ TEST(SceneSystems, morph_weights_begin_with_the_defaults_and_follow_the_clip) {
   fill_scene(world);
   const auto executor = make_serial_executor();
   run(world, *executor, 0.5);
-  EXPECT_EQ(world.resource<MorphWeights>().values, (std::vector{0.25f, 0.75f}));  // the clip happens to say the same
+  EXPECT_EQ(world.resource<MorphWeights>().values,
+            (std::vector{0.25f, 0.75f}));  // the clip has the same values at this time
   run(world, *executor, 1.5);
   EXPECT_EQ(world.resource<MorphWeights>().values, (std::vector{0.75f, 0.25f}));
   const Entity second = world.create(MeshInstance{.mesh = 1}, MorphInstance{});

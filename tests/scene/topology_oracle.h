@@ -18,10 +18,10 @@ namespace gloam::test {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// True when the faces around a vertex form one fan, or several open ones: a closed fan stands alone.
+/// Whether the faces around a vertex form one fan or several open ones. A closed fan must be the only one.
 [[nodiscard]] inline bool manifold_or_open(const std::vector<Corners>& faces, std::uint32_t vertex) {
   std::map<std::uint32_t, std::uint32_t>
-      next;  // around the vertex: a face leads from one of its other corners to the next
+      next;  // around the vertex, for each face: the corner after the vertex → the corner before it
   for (const Corners& face : faces) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (face[i] == vertex) next[face[(i + 1) % 3]] = face[(i + 2) % 3];
@@ -33,14 +33,15 @@ using Corners = std::array<std::uint32_t, 3>;
     while (next.contains(at)) {
       at = next.at(at);
       ++steps;
-      if (at == start) return steps == next.size();  // a closed fan: it must be everything
+      if (at == start) return steps == next.size();  // a closed fan: it must hold all faces
       if (steps > next.size()) break;
     }
   }
   return true;
 }
 
-/// Adds faces one by one, each judged against all before it, and compares.
+/// Compares build_topology with brute force: faces are added one by one and each is checked against all faces before
+/// it.
 inline void expect_as_brute_force(std::span<const vec3> positions, std::span<const std::uint32_t> indices) {
   const Topology topology = build_topology(positions, indices);
   const auto equal = [](const vec3& a, const vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; };

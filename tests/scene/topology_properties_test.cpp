@@ -14,7 +14,7 @@ namespace {
 
 TEST(TopologyProperties, random_triangle_soups_equal_brute_force) {
   test::check_property(300, [] {
-    // Few places and many triangles: shared edges, third faces, bow ties, degenerate faces and doubles all come up.
+    // Few positions and many triangles: shared edges, third faces, bow ties, degenerate and duplicate faces all occur.
     const int side = *rc::gen::inRange(2, 5);
     const auto coordinate = [&] { return *rc::gen::element(-0.0f, 0.0f, 1.0f, static_cast<float>(side)); };
     std::vector<vec3> positions;

@@ -49,7 +49,7 @@ TEST(Topology, the_third_face_on_an_edge_is_refused_and_counted) {
 }
 
 TEST(Topology, a_face_on_a_vertex_that_is_closed_all_around_is_refused) {
-  // Four faces close around vertex 4; a fifth hangs on it by its tip.
+  // Four faces close around vertex 4; a fifth touches it with one corner.
   std::vector<vec3> positions = kSquare;
   positions.insert(positions.end(), {vec3(0.5f, 0.5f, 0), vec3(0, 0, 2), vec3(1, 0, 2)});
   const std::vector<std::uint32_t> indices{0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 4, 5, 6};

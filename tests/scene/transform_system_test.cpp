@@ -38,7 +38,7 @@ TEST_F(TransformSystem, random_forests_in_many_archetypes_equal_the_recursive_pr
     for (std::uint32_t row = 0; row < forest.parents.size(); ++row) {
       const Entity entity = world.create(WorldTransform{});
       if (row % 3 == 0) world.add(entity, LocalMatrix{forest.locals[row]});
-      // Where there is a matrix the pose must not count.
+      // Entities with a matrix must ignore the pose.
       world.add(entity, row % 6 == 0 ? LocalTransform{.translation = dvec3(1e9)} : forest.poses[row]);
       if (row % 5 == 0) world.add(entity, MeshInstance{});
       entities.push_back(entity);
@@ -72,7 +72,7 @@ TEST_F(TransformSystem, reparenting_without_new_depths_is_still_right) {
   run();
   EXPECT_EQ(position(c), dvec3(1.0, 1.0, 1.0));
   const Entity top = node(dvec3(100.0, 0.0, 0.0));
-  world_.add(a, Parent{top, 1});  // b and c keep depths that are too small by one now
+  world_.add(a, Parent{top, 1});  // now the depths of b and c are too small by one
   run();
   EXPECT_EQ(position(c), dvec3(101.0, 1.0, 1.0));
   world_.get<Parent>(c) = Parent{top, 2};

@@ -23,7 +23,7 @@ struct Velocity {
 struct Counter {
   int value = 0;
 };
-/// A hole through which test systems reach what they did not declare.
+/// A resource through which test systems access the world without declaring it.
 struct Smuggler {
   std::function<void(World&)> act;
   World* world = nullptr;

@@ -12,7 +12,8 @@
 #include "engine/schedule/schedule.h"
 #include "tests/support/scale.h"
 
-/// A small world of balls that age, move, heat up, split and die, run under every executor: all must agree to the bit.
+/// Simulates a small world of balls that age, move, heat up, split and die, under every executor. All results must
+/// agree to the bit.
 
 namespace gloam {
 namespace {
@@ -202,7 +203,7 @@ std::uint64_t hash_of(const World& world) {
   return hasher.digest();
 }
 
-/// The hash behind every frame, so that a difference shows where it begins.
+/// The hash after every frame, so that a difference shows in which frame it begins.
 std::vector<std::uint64_t> hashes_under(JobExecutor& executor, bool checked = false) {
   const auto world = make_world();
   Schedule schedule;

@@ -11,12 +11,13 @@
 
 namespace gloam::test {
 
-/// What the throwing handler throws. Not a std::exception, so that code under test does not swallow it by accident.
+/// The exception that the throwing handler throws. Not a std::exception, so that code under test does not swallow it by
+/// accident.
 struct AssertionFailed {
   std::string sentence;
 };
 
-/// While it lives, a failed assertion throws AssertionFailed. The handler is one for the process: keep these on one
+/// During its lifetime a failed assertion throws AssertionFailed. The handler is process-wide: use these objects on one
 /// thread.
 class ThrowingAsserts {
  public:
@@ -32,7 +33,7 @@ class ThrowingAsserts {
   AssertHandler previous_;
 };
 
-/// Runs `body`; the sentence of the assertion it fails, or "(no assertion failed)".
+/// Runs `body` and returns the sentence of the assertion that failed, or "(no assertion failed)".
 template <class Body>
 [[nodiscard]] std::string assertion_of(Body&& body) {
   const ThrowingAsserts throwing;

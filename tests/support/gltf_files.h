@@ -18,7 +18,7 @@
 
 namespace gloam::test {
 
-/// A folder of its own below the system's temporary one; removed with everything in it at the end.
+/// A new folder in the system's temporary folder. The destructor removes it with everything in it.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -35,7 +35,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// Writes glTF files bit by bit. Arrays of the root are lists of JSON texts; numbers go into one buffer, which is
+/// Builds a glTF file item by item. Arrays of the root are lists of JSON texts; numbers go into one buffer, which is
 /// embedded.
 class GltfText {
  public:
@@ -51,19 +51,21 @@ class GltfText {
   int view_of(const std::vector<T>& values) {
     return view(std::as_bytes(std::span(values)));
   }
-  /// Values as an accessor of their own view. component_type as glTF numbers it; type "SCALAR", "VEC3", …
+  /// Appends the values as an accessor with a buffer view of its own and returns its index. component_type: glTF's
+  /// number; type: "SCALAR", "VEC3", …
   template <class T>
   int accessor(const std::vector<T>& values, int component_type, const std::string& type,
                const std::string& more = {}) {
     return accessor(view(std::as_bytes(std::span(values))), values.size(), component_type, type, more);
   }
   int floats(const std::vector<float>& values, const std::string& type) { return accessor(values, 5126, type); }
-  /// A mesh with one primitive; `attributes` like "\"POSITION\": 0", `more` like ", \"indices\": 1".
+  /// Appends a mesh with one primitive and returns its index. `attributes`: e.g. "\"POSITION\": 0"; `more`: e.g. ",
+  /// \"indices\": 1".
   int mesh(const std::string& attributes, const std::string& more = {});
-  /// A mesh of one triangle (0,0,0), (1,0,0), (0,1,0).
+  /// Appends a mesh of one triangle (0,0,0), (1,0,0), (0,1,0) and returns its index.
   int triangle();
 
-  /// The whole file, the buffer as a data URI; with `uri`, the buffer is that file instead.
+  /// The whole file. The buffer is a data URI, or the external file `uri` if that is given.
   [[nodiscard]] std::string text(const std::string& uri = {}) const;
   [[nodiscard]] std::vector<std::uint8_t> glb() const;
   [[nodiscard]] const std::vector<std::uint8_t>& buffer() const { return buffer_; }
@@ -78,30 +80,31 @@ class GltfText {
 };
 
 [[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);
-/// Header, JSON chunk, BIN chunk (none when empty), padded as they must be.
+/// A GLB file: header, JSON chunk and BIN chunk (none if `bin` is empty), padded as glTF requires.
 [[nodiscard]] std::vector<std::uint8_t> make_glb(std::string json, std::span<const std::uint8_t> bin);
 
-/// Pictures of one colour, RGBA.
+/// Encoded images of one RGBA colour.
 [[nodiscard]] std::vector<std::uint8_t> make_png(int width, int height, std::span<const std::uint8_t, 4> color);
 [[nodiscard]] std::vector<std::uint8_t> make_jpeg(int width, int height, std::span<const std::uint8_t, 4> color);
 
-/// Any pixels, 1 to 4 channels. filter: the PNG filter of every row, 0…4; −1: whichever packs best.
+/// An encoded image of any pixels with 1 to 4 channels. filter: the PNG filter of every row, 0…4; −1: the encoder
+/// chooses.
 [[nodiscard]] std::vector<std::uint8_t> encode_png(int width, int height, int channels,
                                                    std::span<const std::uint8_t> pixels, int filter = -1);
 
-/// Keys that record nothing but stand where the engine's modules' do: gloam.light.width (light node, number ≥ 0 m),
-/// gloam.closeup (node, boolean), gloam.grass.density (mesh node), gloam.dof.focus (camera node), and
-/// KHR_lights_punctual, whose nodes count as lights. Beside the engine's own.
+/// The engine's own keys, and keys that store nothing but stand for those of the engine's modules: gloam.light.width
+/// (light node, number ≥ 0 m), gloam.closeup (node, boolean), gloam.grass.density (mesh node), gloam.dof.focus (camera
+/// node), and KHR_lights_punctual, whose nodes count as lights.
 [[nodiscard]] KeyRegistry light_registry();
 
-/// One import into a world of its own.
+/// One import and the world that it fills.
 struct Import {
   World world;
   Result<SceneInfo> result = Error{};
   std::vector<std::string> log;
 
   [[nodiscard]] bool ok() const { return result.ok(); }
-  /// "" when it went well.
+  /// Message of the error; "" if the import succeeded.
   [[nodiscard]] std::string fault() const { return ok() ? "" : result.error().message; }
   [[nodiscard]] const SceneInfo& info() const { return result.value(); }
   [[nodiscard]] Entity node(std::size_t index) const { return info().node_entities[index]; }
@@ -110,7 +113,7 @@ struct Import {
 /// Imports a file into `import.world`, serially.
 void import_file(const std::string& path, Import& import, const ImportOptions& options = {},
                  const KeyRegistry& registry = light_registry());
-/// Writes the text as scene.gltf into a folder of its own first.
+/// Writes the text to scene.gltf in a temporary folder and imports it as import_file does.
 void import_text(const std::string& text, Import& import, const ImportOptions& options = {},
                  const KeyRegistry& registry = light_registry());
 

@@ -15,8 +15,8 @@
 namespace gloam::test {
 
 /// Checks a RapidCheck property (a callable that draws with *rc::gen… and uses RC_ASSERT) on scaled(count) cases,
-/// inside a GoogleTest body. The seed is fixed, so that a run repeats; the environment's RC_PARAMS ("seed=…
-/// max_size=…") wins.
+/// inside a GoogleTest body. The seed is fixed, so that runs repeat, unless the environment variable RC_PARAMS ("seed=…
+/// max_size=…") is set.
 template <class Testable>
 void check_property(int count, Testable&& property) {
   const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();

@@ -13,10 +13,10 @@
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 
-/// Small scenes made by code, for tests of what draws.
+/// Small scenes built in code, for tests of rendering.
 namespace gloam::test {
 
-/// Fills in bounds, and indices 0, 1, 2, … where there are none.
+/// Completes a primitive: computes its bounds, and sets indices 0, 1, 2, … if it has none.
 [[nodiscard]] inline Primitive finished(Primitive primitive) {
   if (primitive.indices.empty())
     for (std::uint32_t i = 0; i < primitive.positions.size(); ++i) primitive.indices.push_back(i);
@@ -38,7 +38,7 @@ namespace gloam::test {
   return finished(std::move(p));
 }
 
-/// A box around the origin with faces of its own vertices, counter-clockwise from outside.
+/// A box around the origin, counter-clockwise seen from outside. Faces do not share vertices.
 [[nodiscard]] inline Primitive box(vec3 half, std::uint32_t material = kNone) {
   Primitive p;
   p.material = material;
@@ -73,7 +73,7 @@ class SceneMaker {
     mesh.primitives.push_back(std::move(primitive));
     return add(assets().meshes, std::move(mesh));
   }
-  /// A texture of its own image, without filtering.
+  /// A texture with a new image, without filtering.
   std::uint32_t texture(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgba, bool srgb) {
     Image image{"test", width, height, std::move(rgba)};
     Texture texture;
@@ -87,7 +87,7 @@ class SceneMaker {
   Entity draw(std::uint32_t mesh_index, const dmat4& world_from_mesh = dmat4(1.0)) {
     return world_.create(WorldTransform{world_from_mesh}, MeshInstance{mesh_index});
   }
-  /// An entity at a matrix, e.g. a joint.
+  /// An entity with a world matrix and the index of a source node, e.g. a joint.
   Entity node(std::uint32_t index, const dmat4& matrix) {
     return world_.create(WorldTransform{matrix}, SourceNode{index});
   }
@@ -107,7 +107,7 @@ class SceneMaker {
   ViewSettings settings;
   settings.width = width;
   settings.height = height;
-  // The offset alone: a look-at matrix in world coordinates would lose digits far from the origin.
+  // Uses the offset to the target only: a look-at matrix in world coordinates would lose digits far from the origin.
   settings.world_from_camera = glm::inverse(glm::lookAt(dvec3(0.0), target - eye, dvec3(0.0, 1.0, 0.0)));
   settings.world_from_camera[3] = dvec4(eye, 1.0);
   return settings;

@@ -9,8 +9,8 @@
 
 namespace gloam::test {
 
-/// A number of repetitions times the environment's GLOAM_TEST_SCALE (1 when absent or not a positive number); at
-/// least 1.
+/// `count` times the environment variable GLOAM_TEST_SCALE (1 when absent or not a positive number), rounded; at least
+/// 1.
 [[nodiscard]] inline int scaled(int count) {
   const double scale = environment_number("GLOAM_TEST_SCALE").value_or(1.0);
   if (!(scale > 0.0) || !std::isfinite(scale)) return std::max(count, 1);

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+//
+// Checks of bindings, and of their use by draws and dispatches.
 #include <algorithm>
 
 #include "engine/gpu/recording/command_recorder.h"

@@ -27,7 +27,7 @@ std::string text_of_barrier(const Barrier& barrier, const std::string& object) {
 
 constexpr std::uint64_t kNanosecondsPerTimestamp = 1000;
 constexpr std::uint64_t kDispatchCommandBytes = 12;
-constexpr std::uint64_t kDrawCommandBytes = 20;  // with indices
+constexpr std::uint64_t kDrawCommandBytes = 20;  // of an indexed draw
 constexpr std::uint64_t kPlainDrawCommandBytes = 16;
 
 }  // namespace

@@ -11,13 +11,13 @@
 
 namespace gloam::gpu::recording {
 
-/// Writes down commands, checks them, and moves bytes for copies and fills at once.
+/// Records commands, checks them for faults, and executes copies and fills at once.
 class CommandRecorder final : public CommandList {
  public:
   explicit CommandRecorder(Objects& objects) : objects_(objects), tracker_(objects) {}
 
   void begin_frame(std::uint64_t frame);
-  /// The timestamps of the frame.
+  /// Ends the frame and returns its timestamps in nanoseconds, by index.
   [[nodiscard]] std::vector<std::uint64_t> end_frame();
   void idle() { tracker_.idle(); }
   [[nodiscard]] bool recording() const { return recording_; }
@@ -59,16 +59,18 @@ class CommandRecorder final : public CommandList {
 
  private:
   enum class Place { anywhere, outside_rendering, inside_rendering };
-  /// Writes the command down; a fault when it is not allowed here.
+  /// Records the command. Reports a fault if the command is not allowed here.
   void note(std::string_view name, std::string text, Place place);
   void fault(std::string_view command, const std::string& text);
   [[nodiscard]] std::string name(BufferHandle buffer) const;
   [[nodiscard]] std::string name(ImageHandle image) const;
   [[nodiscard]] std::string text_of(const Binding& binding) const;
-  /// The buffer when it is alive, has the usage and holds [offset, offset + size); else a fault and null.
+  /// Returns the buffer if it is alive, has the usage flag and contains [offset, offset + size); otherwise reports a
+  /// fault and returns null.
   Buffer* buffer_for(BufferHandle handle, BufferUsage usage, std::uint64_t offset, std::uint64_t size,
                      std::string_view command);
-  /// The image when it is alive, has the usage, the mip and the layers; else a fault and null.
+  /// Returns the image if it is alive, has the usage flag, the mip and the layers; otherwise reports a fault and
+  /// returns null.
   Image* image_for(ImageHandle handle, ImageUsage usage, std::uint32_t mip, std::uint32_t layer_end,
                    std::string_view command);
   void use_target(const ImageView& view, ImageUsage usage, Access access);
@@ -85,16 +87,17 @@ class CommandRecorder final : public CommandList {
   bool recording_ = false;
   bool rendering_ = false;
   PipelineHandle pipeline_;
-  std::vector<Binding> bindings_;             ///< of set 0
-  std::vector<ResourceSetHandle> sets_;       ///< by number; none where nothing is bound
-  std::vector<BufferHandle> vertex_streams_;  ///< by number
+  std::vector<Binding> bindings_;             ///< bound to set 0
+  std::vector<ResourceSetHandle> sets_;       ///< by set number; none where nothing is bound
+  std::vector<BufferHandle> vertex_streams_;  ///< by stream number
   BufferHandle indices_;
 };
 
-/// The bytes of a buffer, made on first use.
+/// The bytes of a buffer, allocated as zeros on first use.
 [[nodiscard]] std::span<std::byte> bytes_of(Buffer& buffer);
 
-/// A fault for every binding that names a dead object, reaches past its end or lacks a usage flag.
+/// Reports a fault for every binding that names a dead object, reaches past its end, lacks a usage flag or is given
+/// twice.
 void check_bindings(Objects& objects, std::span<const Binding> bindings, std::string_view command);
 
 }  // namespace gloam::gpu::recording

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+//
+// Copy, fill, clear and blit commands: checks them, and executes copies and fills on plain bytes.
 #include <algorithm>
 #include <cstring>
 

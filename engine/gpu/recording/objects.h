@@ -12,25 +12,25 @@
 
 #include "engine/gpu/types.h"
 
-/// What the recording device keeps instead of GPU objects.
+/// The objects that the recording device keeps instead of GPU objects.
 namespace gloam::gpu::recording {
 
-/// What barriers and uses did to a piece of memory.
+/// The synchronisation state of a buffer or of a piece of image memory.
 struct SyncState {
-  AccessMask ready = 0;             ///< what the last barrier made it ready for; 0: no barrier yet
+  AccessMask ready = 0;             ///< accesses that the last barrier made it ready for; 0: no barrier yet
   AccessMask pending = 0;           ///< accesses since that barrier
-  std::uint64_t pending_frame = 0;  ///< frame of the newest of them
-  std::uint32_t writer = 0;         ///< outermost label that wrote since that barrier; 0: none
+  std::uint64_t pending_frame = 0;  ///< frame of the newest pending access
+  std::uint32_t writer = 0;         ///< number of the outermost label that wrote since that barrier; 0: none
 };
 
 struct Buffer {
   BufferDesc desc;
   bool alive = true;
-  std::vector<std::byte> bytes;  ///< made when first needed
+  std::vector<std::byte> bytes;  ///< allocated on first use
   SyncState sync;
 };
 
-/// Memory of one image, or of several that take turns.
+/// The memory of one image, or of several images that share it.
 struct ImageMemory {
   static constexpr std::uint32_t kNobody = ~0u;
   std::string module;
@@ -60,8 +60,8 @@ struct ResourceSet {
   bool alive = true;
 };
 
-/// Objects by handle. Adding and looking up is safe from any thread; an object never moves and its index is never
-/// used again, so a stale handle finds a dead object.
+/// A table of objects addressed by handles. All methods may be called from any thread. Objects never move and indices
+/// are never reused, so a stale handle finds a dead object.
 template <class Object>
 class Table {
  public:
@@ -70,7 +70,7 @@ class Table {
     objects_.push_back(std::move(object));
     return static_cast<std::uint32_t>(objects_.size() - 1);
   }
-  /// The living object of this handle, or null.
+  /// The object of this handle if it is alive, otherwise null.
   template <class Tag>
   [[nodiscard]] Object* find(Handle<Tag> handle) const {
     const std::lock_guard lock(mutex_);

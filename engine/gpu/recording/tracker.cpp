@@ -19,7 +19,7 @@ constexpr AccessMask mask_of_all(std::initializer_list<Access> accesses) {
 constexpr AccessMask kComputeReads = mask_of_all({Access::compute_read, Access::compute_storage_read});
 constexpr AccessMask kShaderReads = kComputeReads | mask_of_all({Access::vertex_read, Access::fragment_read});
 
-/// Reads that end when all of `mask` has ended: reads only need their stage to have ended.
+/// Adds the reads of the stages in `mask`: a barrier that waits for a stage also waits for the reads of that stage.
 AccessMask with_reads_of_same_stages(AccessMask mask) {
   if ((mask & (kComputeReads | mask_of(Access::compute_write))) != 0) mask |= kComputeReads;
   if ((mask & mask_of_all({Access::fragment_write, Access::depth_test})) != 0) mask |= mask_of(Access::fragment_read);
@@ -122,7 +122,7 @@ void Tracker::image_barrier(const ImageBarrier& b) {
 void Tracker::barrier(std::span<const BufferBarrier> buffers, std::span<const ImageBarrier> images) {
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const auto earlier = buffers.first(i);
-    // All barriers on one buffer in one call act together, so they are taken at the first of them.
+    // All barriers on one buffer in one call act together, so they are all applied when the first of them is reached.
     if (std::ranges::find(earlier, buffers[i].buffer, &BufferBarrier::buffer) != earlier.end()) continue;
     buffer_barriers(buffers.subspan(i));
   }
@@ -140,7 +140,7 @@ void Tracker::note_use(SyncState& sync, AccessMask possible, const std::string& 
     objects_.fault(std::string(command) + ": " + object +
                    " was written under an earlier label and has had no barrier since");
   }
-  // Without a barrier, what a binding does is not known; a command that can only be one thing is.
+  // Without a barrier, the access of a binding is unknown. A command with only one possible access is known.
   const AccessMask used = sync.ready != 0 ? (sync.ready & possible) : (possible & (possible - 1)) == 0 ? possible : 0;
   if (sync.ready == 0 && writes(used)) sync.ready = used;
   sync.pending |= used;

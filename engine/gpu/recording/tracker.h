@@ -11,30 +11,32 @@
 
 namespace gloam::gpu::recording {
 
-/// Follows barriers and uses and writes down faults, as a small synchronization validator:
-/// an object is used only as its last barrier made it ready for; a barrier waits for all accesses since the one before
-/// it and starts from the layout that one left; of images that share memory only the one whose barrier threw contents
-/// away last is used; what one outermost label wrote, another label touches only behind a barrier.
-/// Buffers that never had a barrier may be used freely until something writes them.
+/// Tracks barriers and uses and reports faults, like a small synchronization validator:
+/// - An object may be used only for accesses that its last barrier made it ready for.
+/// - A barrier must wait for all accesses since the previous barrier and start from the layout that the previous
+///   barrier left.
+/// - Of the images that share memory, only the one whose barrier last discarded the contents may be used.
+/// - After one outermost label has written a resource, another label may use it only after a barrier.
+/// A buffer that never had a barrier may be used freely until a command writes it.
 class Tracker {
  public:
   explicit Tracker(Objects& objects) : objects_(objects) {}
 
   void begin_frame(std::uint64_t frame) { frame_ = frame; }
-  /// The device is idle: nothing is pending any more.
+  /// Clears all pending accesses: the device is idle.
   void idle();
   void begin_label();
-  /// False when no label is open.
+  /// Returns false if no label is open.
   bool end_label();
   [[nodiscard]] bool label_open() const { return label_depth_ > 0; }
 
   void barrier(std::span<const BufferBarrier> buffers, std::span<const ImageBarrier> images);
-  /// `possible`: the accesses this command may be; the object's state tells which it is.
+  /// `possible`: the accesses that the command may make; the object's state decides which of them it makes.
   void use(BufferHandle handle, AccessMask possible, std::string_view command);
   void use(ImageHandle handle, AccessMask possible, std::string_view command);
 
  private:
-  /// Those of the first one's buffer.
+  /// Applies all barriers in `barriers` that concern the buffer of the first one.
   void buffer_barriers(std::span<const BufferBarrier> barriers);
   void image_barrier(const ImageBarrier& barrier);
   void pass_barrier(SyncState& sync, AccessMask before, AccessMask after, const std::string& object);
@@ -42,12 +44,12 @@ class Tracker {
 
   Objects& objects_;
   std::uint64_t frame_ = 0;
-  std::uint32_t label_ = 0;  ///< of the outermost label, 0 outside
+  std::uint32_t label_ = 0;  ///< number of the outermost open label; 0: none
   std::uint32_t labels_ = 0;
   std::uint32_t label_depth_ = 0;
 };
 
-/// "compute_read|uniform_read", or "nothing".
+/// The names of the accesses, such as "uniform_read|compute_read"; "nothing" if the mask is empty.
 [[nodiscard]] std::string text_of(AccessMask mask);
 
 }  // namespace gloam::gpu::recording

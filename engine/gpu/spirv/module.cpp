@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x07230203;
 constexpr std::uint32_t kHeaderWords = 5;
-constexpr std::uint32_t kMaxBound = 1u << 22;  // the universal limit of the specification
+constexpr std::uint32_t kMaxBound = 1u << 22;  // the specification's universal limit for the id bound
 
 enum Op : std::uint32_t {
   op_name = 5,
@@ -69,9 +69,9 @@ constexpr std::uint32_t kBuiltInWorkgroupSize = 25;
 constexpr std::uint32_t kModeLocalSize = 17;
 constexpr std::uint32_t kModeLocalSizeId = 38;
 constexpr std::uint32_t kStorageFunction = 7;
-constexpr std::uint32_t kPointerBytes = 8;  // of a buffer reference
+constexpr std::uint32_t kPointerBytes = 8;  // size of a buffer reference
 
-/// Words of an instruction after its first one.
+/// The words of an instruction after its first word (word count and opcode).
 using Operands = std::span<const std::uint32_t>;
 
 std::string literal_text(Operands words) {
@@ -306,7 +306,7 @@ class Parser {
       id.type.members.push_back(o[i]);
       const auto member = id.members.find(i - 1);
       if (member == id.members.end() || !member->second.has_offset) continue;
-      // A member whose type comes later can only be a pointer.
+      // Only a pointer type may be declared after the structure that contains it.
       const std::uint32_t bytes = is_type(o[i]) ? module_.bytes_of(o[i], member->second.matrix_stride) : kPointerBytes;
       id.type.bytes = std::max(id.type.bytes, clamp_bytes(std::uint64_t{member->second.offset} + bytes));
     }
@@ -315,7 +315,7 @@ class Parser {
     return true;
   }
 
-  /// Marks what an instruction of a function body reads or writes through. Only operands that are ids are looked at.
+  /// Marks the ids that an instruction of a function body reads or writes through. Looks only at operands that are ids.
   bool use(std::uint32_t op, Operands o) {
     std::size_t first = o.size();
     std::size_t last = o.size();

@@ -11,7 +11,8 @@
 
 #include "engine/core/result.h"
 
-/// A SPIR-V module taken apart into the tables that reflection asks. Knows opcodes; knows nothing of descriptors.
+/// Parses a SPIR-V module into the tables that reflection needs. It decodes instructions only and does not interpret
+/// descriptors.
 namespace gloam::gpu::spirv {
 
 enum class TypeKind : std::uint8_t {
@@ -32,7 +33,7 @@ struct Type {
   TypeKind kind = TypeKind::none;
   std::uint32_t element = 0;          ///< id of the component, column, element, image or pointee type
   std::uint32_t count = 0;            ///< components, columns or elements
-  std::uint32_t bytes = 0;            ///< to the last byte, without padding after it; 0: opaque, unsized, or a matrix
+  std::uint32_t bytes = 0;            ///< size without trailing padding; 0: opaque, unsized, or a matrix
   std::uint32_t storage_class = 0;    ///< pointers only
   std::uint32_t image_dimension = 0;  ///< Dim operand
   bool image_arrayed = false;
@@ -47,13 +48,13 @@ struct MemberDecorations {
   std::uint32_t matrix_stride = 0;
 };
 
-/// What is known of one id.
+/// The properties of one id.
 struct Id {
   std::string name;
   Type type;
-  std::uint32_t constant = 0;
+  std::uint32_t constant = 0;  ///< value of a constant: its first word
   bool has_constant = false;
-  std::array<std::uint32_t, 3> composite = {0, 0, 0};
+  std::array<std::uint32_t, 3> composite = {0, 0, 0};  ///< first words of a composite constant's parts
   bool is_workgroup_size = false;
   bool has_set = false;
   bool has_binding = false;
@@ -63,24 +64,24 @@ struct Id {
   std::uint32_t set = 0;
   std::uint32_t binding = 0;
   std::uint32_t array_stride = 0;
-  std::uint32_t variable_type = 0;  ///< of a global variable: its pointer type; 0: no variable
+  std::uint32_t variable_type = 0;  ///< pointer type of a global variable; 0: not a variable
   std::uint32_t storage_class = 0;
   std::map<std::uint32_t, MemberDecorations> members;
 };
 
 struct Module {
   std::vector<Id> ids;
-  std::vector<std::uint32_t> variables;  ///< global ones, in order
+  std::vector<std::uint32_t> variables;  ///< ids of the global variables, in order
   std::vector<std::uint32_t> structures;
   bool has_entry = false;
   std::uint32_t execution_model = 0;
   std::array<std::uint32_t, 3> local_size = {0, 0, 0};
 
-  /// As Type::bytes, for matrices too: `matrix_stride` comes from the member that holds one.
+  /// Like Type::bytes, but for matrices too. matrix_stride: bytes; declared by the member that holds the matrix.
   [[nodiscard]] std::uint32_t bytes_of(std::uint32_t type, std::uint32_t matrix_stride) const;
 };
 
-/// The error is a clause ("instruction 12 runs past the end") for a sentence of the caller.
+/// The error message is a clause ("an instruction runs past the end") that the caller puts into a sentence.
 [[nodiscard]] Result<Module> parse_module(std::span<const std::uint32_t> words);
 
 }  // namespace gloam::gpu::spirv

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The one way this layer sees Vulkan: no prototypes, every call goes through a table that belongs to an instance or a
-/// device (functions.h).
+/// This folder's include of the Vulkan headers, without prototypes: every call goes through the function table of an
+/// instance or a device (functions.h).
 #ifndef VK_NO_PROTOTYPES
 #define VK_NO_PROTOTYPES
 #endif

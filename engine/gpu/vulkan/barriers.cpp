@@ -18,12 +18,12 @@ constexpr VkPipelineStageFlags2 kDepth =
 constexpr VkAccessFlags2 kShaderRead = VK_ACCESS_2_SHADER_READ_BIT;
 constexpr VkAccessFlags2 kShaderReadWrite = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 
-// READ_ONLY_OPTIMAL serves sampling and depth testing alike, so a depth image may be tested and sampled in one pass.
+// READ_ONLY_OPTIMAL allows both sampling and depth testing, so one pass may test and sample a depth image.
 constexpr VkImageLayout kReadOnly = VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout kTarget = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL;
 constexpr VkImageLayout kGeneral = VK_IMAGE_LAYOUT_GENERAL;
 
-// In the order of the enumeration.
+// In the order of Access.
 constexpr std::array<AccessFacts, 17> kFacts = {{
     /* none */ {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED},
     /* transfer_read */
@@ -70,7 +70,7 @@ SyncScope source_scope(AccessMask before) {
   for_each_access(before, [&](Access access) {
     const AccessFacts& facts = facts_of(access);
     scope.stages |= facts.stages;
-    // After a read only execution has to wait; there is nothing to flush.
+    // A read needs only an execution dependency; there is nothing to flush.
     if (is_write(access)) scope.access |= facts.access;
   });
   return scope;

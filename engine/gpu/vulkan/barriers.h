@@ -7,7 +7,7 @@
 
 namespace gloam::gpu::vulkan {
 
-/// What an Access means to Vulkan.
+/// The Vulkan stages, accesses and image layout of an Access.
 struct AccessFacts {
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
@@ -15,18 +15,18 @@ struct AccessFacts {
 };
 [[nodiscard]] const AccessFacts& facts_of(Access access);
 
-/// One side of a barrier.
+/// The stages and accesses on one side of a barrier.
 struct SyncScope {
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
 };
-/// What must end before the barrier. An empty mask, or one with Access::present, means all earlier work: what used the
-/// memory, or waits for the window, is not known.
+/// The work that a barrier waits for. An empty mask, or one with Access::present, means all earlier work, because the
+/// last user of the memory, or the wait for the window, is unknown.
 [[nodiscard]] SyncScope source_scope(AccessMask before);
 [[nodiscard]] SyncScope target_scope(AccessMask after);
 
 [[nodiscard]] VkBufferMemoryBarrier2 to_vulkan(const BufferBarrier& barrier, VkBuffer buffer);
-/// All mips and layers.
+/// Covers all mips and layers of the image.
 [[nodiscard]] VkImageMemoryBarrier2 to_vulkan(const ImageBarrier& barrier, VkImage image, VkImageAspectFlags aspect);
 
 }  // namespace gloam::gpu::vulkan

@@ -19,7 +19,7 @@ struct Buffer {
   AllocationOwner memory;
 };
 
-/// Thread-safe.
+/// Creates, stores and destroys buffers. Thread-safe.
 class Buffers {
  public:
   Buffers(Context& context, MemoryAllocator& memory, Graveyard& graveyard)

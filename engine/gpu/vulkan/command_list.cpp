@@ -8,7 +8,7 @@
 #include "engine/gpu/vulkan/barriers.h"
 #include "engine/gpu/vulkan/convert.h"
 
-// Labels, barriers and copies; what draws and dispatches is in command_list_work.cpp.
+// Labels, barriers and copies. Rendering, drawing and dispatching are in command_list_work.cpp.
 namespace gloam::gpu::vulkan {
 namespace {
 

@@ -32,7 +32,7 @@ class VulkanCommandList final : public CommandList {
         frames_(frames) {}
 
   void start(VkCommandBuffer commands);
-  /// The first thing that went wrong while recording, if any.
+  /// The first error of this frame's recording, if any.
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
 
   void begin_label(std::string_view name) override;
@@ -75,7 +75,8 @@ class VulkanCommandList final : public CommandList {
  private:
   void check_range(BufferHandle buffer, std::uint64_t offset, std::uint64_t size) const;
   [[nodiscard]] const Pipeline& bound_pipeline() const;
-  /// An attachment with its view; `layers` shrinks to what the view has.
+  /// The attachment of a view. Lowers `layers` to the view's layer count. If the view cannot be created, records the
+  /// error and returns nullopt.
   [[nodiscard]] std::optional<VkRenderingAttachmentInfo> attachment(const ImageView& view, VkImageLayout layout,
                                                                     std::uint32_t& layers);
   void fail(const Error& error);

@@ -17,11 +17,12 @@
 
 namespace gloam::gpu::vulkan {
 
-/// The VkDevice, its queue and its limits: what every part of this layer needs to make calls. Outlives them all.
+/// The VkDevice with its queue, limits and function table. All parts of this layer call Vulkan through it; it outlives
+/// them.
 class Context {
  public:
   static Result<std::unique_ptr<Context>> create(const Instance& instance, const PhysicalDevice& physical);
-  /// On a host's device, which is not destroyed here. `physical` is from examine_host_device.
+  /// Uses a host's device, which is not destroyed here. `physical`: from examine_host_device.
   static Result<std::unique_ptr<Context>> adopt(const Instance& instance, const PhysicalDevice& physical,
                                                 const HostDevice& host);
   ~Context();
@@ -33,13 +34,13 @@ class Context {
   [[nodiscard]] LogSink& log() const { return instance_->log(); }
   [[nodiscard]] std::uint64_t messages() const { return instance_->messages(); }
 
-  /// Shows `name` in captures and validation messages, where the driver can.
+  /// Sets the name that captures and validation messages show; does nothing without VK_EXT_debug_utils.
   template <class T>
   void set_name(VkObjectType type, T object, std::string_view name) const {
-    set_object_name(type, (std::uint64_t)object, name);  // a pointer or an integer, by platform
+    set_object_name(type, (std::uint64_t)object, name);  // a handle is a pointer or an integer, by platform
   }
 
-  /// Held around every use of the queue: submitting and presenting are not thread-safe in Vulkan.
+  /// Must be locked around every use of the queue: submitting and presenting are not thread-safe in Vulkan.
   [[nodiscard]] std::mutex& queue_mutex() { return *queue_mutex_; }
   /// False on a host's device.
   [[nodiscard]] bool owns_device() const { return owned_; }

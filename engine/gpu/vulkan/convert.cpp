@@ -11,7 +11,7 @@
 namespace gloam::gpu::vulkan {
 namespace {
 
-// In the order of the enumeration.
+// In the order of Format.
 constexpr std::array kFormats = {
     VK_FORMAT_UNDEFINED,
     VK_FORMAT_R8_UNORM,

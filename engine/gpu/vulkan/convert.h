@@ -6,11 +6,11 @@
 #include "engine/gpu/types.h"
 #include "engine/gpu/vulkan/api.h"
 
-/// Our enumerations as Vulkan's.
+/// Conversions between gloam's and Vulkan's enumerations.
 namespace gloam::gpu::vulkan {
 
 [[nodiscard]] VkFormat to_vulkan(Format format);
-/// Format::undefined when we have no name for it.
+/// Returns Format::undefined if Format has no equivalent.
 [[nodiscard]] Format from_vulkan(VkFormat format);
 [[nodiscard]] bool is_integer(Format format);
 [[nodiscard]] VkImageAspectFlags aspect_of(Format format);
@@ -22,9 +22,9 @@ namespace gloam::gpu::vulkan {
 [[nodiscard]] VkCompareOp to_vulkan(CompareOp op);
 [[nodiscard]] VkCullModeFlags to_vulkan(CullMode mode);
 [[nodiscard]] VkAttachmentLoadOp to_vulkan(LoadOp op);
-/// The blending of one colour target; off for integer formats, which cannot blend.
+/// The blend state of one colour target. Blending is off for integer formats, which do not support it.
 [[nodiscard]] VkPipelineColorBlendAttachmentState to_vulkan(BlendMode mode, Format format);
-/// VK_DESCRIPTOR_TYPE_MAX_ENUM for ResourceKind::other.
+/// Returns VK_DESCRIPTOR_TYPE_MAX_ENUM for ResourceKind::other.
 [[nodiscard]] VkDescriptorType to_vulkan(ResourceKind kind);
 
 }  // namespace gloam::gpu::vulkan

@@ -10,7 +10,7 @@
 namespace gloam::gpu::vulkan {
 namespace {
 
-/// The shader says how it looks at an image; the layers given must fit that.
+/// The view type that the shader declares. Asserts that the number of layers fits it.
 VkImageViewType view_type(const ReflectedBinding& slot, std::uint32_t layers) {
   if (slot.dimension == ImageDimension::cube) {
     GLOAM_ASSERT(slot.arrayed ? layers % 6 == 0 : layers == 6,
@@ -38,7 +38,7 @@ Result<std::span<const VkWriteDescriptorSet>> DescriptorWriter::build(const Pipe
   buffer_infos_.clear();
   image_infos_.clear();
   writes_.clear();
-  // The writes point into these; they must not move while they grow.
+  // The writes point into these vectors, so they must not reallocate while they grow.
   buffer_infos_.reserve(bindings.size());
   image_infos_.reserve(bindings.size());
   for (const ReflectedBinding& slot : pipeline.shader.of_set(set)) {
@@ -97,10 +97,10 @@ Status DescriptorWriter::add_image(const ReflectedBinding& slot, const ImageView
   ViewKey key = resolve_view(image.desc, view);
   key.type = view_type(slot, key.layer_count);
   const bool storage = slot.kind == ResourceKind::storage_image;
-  if (storage) key.mip_count = 1;  // a storage image is one mip
+  if (storage) key.mip_count = 1;  // a storage image has one mip
   const Result<VkImageView> vk_view = images_.view(view.image, key);
   if (!vk_view) return vk_view.error();
-  // A kernel that samples one mip and writes the next has the whole image in the general layout.
+  // If a kernel samples one mip and writes the next, the whole image is in the general layout.
   const bool general =
       storage || (layouts == Layouts::as_recorded && facts_of(image.access).layout == VK_IMAGE_LAYOUT_GENERAL);
   image_infos_.push_back({sampler, *vk_view, general ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL});

@@ -14,18 +14,19 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Turns bindings into descriptor writes for one set of a pipeline. Elements of an array binding are given by repeating
-/// its number. Bindings that the shader does not declare are left out; those it declares but never uses may be missing.
+/// Converts bindings to descriptor writes for one set of a pipeline. The elements of an array binding are given in
+/// order, as bindings with the same number. Bindings that the shader does not declare are ignored. Bindings that the
+/// shader declares but never uses may be missing.
 class DescriptorWriter {
  public:
   DescriptorWriter(const Context& context, const Buffers& buffers, Images& images, const Samplers& samplers)
       : context_(context), buffers_(buffers), images_(images), samplers_(samplers) {}
 
-  /// Whether sampled images are in the layout that barriers recorded so far left them in, or will be in the read-only
-  /// one.
+  /// The layout to write for sampled images. as_recorded: the layout that the barriers recorded so far left them in.
+  /// read_only: the read-only layout, which they must be in when the set is used.
   enum class Layouts : std::uint8_t { as_recorded, read_only };
 
-  /// The writes point into this object and hold until the next call.
+  /// The returned writes point into this object and stay valid until the next call.
   [[nodiscard]] Result<std::span<const VkWriteDescriptorSet>> build(const Pipeline& pipeline, std::uint32_t set,
                                                                     std::span<const Binding> bindings,
                                                                     VkDescriptorSet target, Layouts layouts);

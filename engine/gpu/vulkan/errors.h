@@ -10,10 +10,10 @@
 
 namespace gloam::gpu::vulkan {
 
-/// "out of device memory", "the device was lost", …
+/// Describes a result: "out of device memory", "the device was lost", …
 [[nodiscard]] std::string describe(VkResult result);
 
-/// ErrorKind::failed: "<what could not be done>: <why>".
+/// ErrorKind::failed with the message "<what>: <describe(result)>". `what`: the action that failed.
 [[nodiscard]] Error failure(std::string_view what, VkResult result);
 
 }  // namespace gloam::gpu::vulkan

@@ -56,13 +56,13 @@ void add_missing(std::string& list, const std::array<Feature<Part>, kCount>& req
   }
 }
 
-/// A link of a chain, once its sType has said what it is.
+/// Casts a link of a chain to the structure that its sType names.
 template <class Struct>
 const Struct& as(const VkBaseInStructure* link) {
   return *reinterpret_cast<const Struct*>(link);
 }
 
-/// Switches on what one link of a chain switches on.
+/// Enables the features that one link of a chain enables.
 void add_link(Features& on, const VkBaseInStructure* link) {
   const auto add = [](VkBool32& flag, VkBool32 value) {
     flag = flag == VK_TRUE || value == VK_TRUE ? VK_TRUE : VK_FALSE;

@@ -8,29 +8,29 @@
 
 namespace gloam::gpu::vulkan {
 
-/// The features this engine knows of, as a chain for vkGetPhysicalDeviceFeatures2 and vkCreateDevice.
+/// The Vulkan 1.0, 1.2 and 1.3 features as a chain for vkGetPhysicalDeviceFeatures2 and vkCreateDevice.
 struct Features {
   VkPhysicalDeviceFeatures2 core = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
   VkPhysicalDeviceVulkan12Features v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
   VkPhysicalDeviceVulkan13Features v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-  /// Links the parts; the chain holds as long as the object stays where it is.
+  /// Links the structures and returns the first one. The chain is valid until this object is moved or destroyed.
   [[nodiscard]] VkPhysicalDeviceFeatures2* chain();
 };
 
 void require_features(VkPhysicalDeviceFeatures& core, VkPhysicalDeviceVulkan12Features& v12,
                       VkPhysicalDeviceVulkan13Features& v13);
-/// Adds what is used when there; no effect of the engine depends on one.
+/// Enables the optional features that are supported. No effect of the engine requires one of them.
 void add_useful_features(const VkPhysicalDeviceFeatures& core_there, const VkPhysicalDeviceVulkan12Features& v12_there,
                          VkPhysicalDeviceFeatures& core, VkPhysicalDeviceVulkan12Features& v12);
 
-/// What is required, and what is used when there.
+/// The required features and the supported optional features.
 [[nodiscard]] Features features_to_enable(const Features& supported);
 
-/// Names of required features that are off, with commas between; empty when all are on.
+/// The names of the required features that are off, separated by commas; empty if all are on.
 [[nodiscard]] std::string missing_features(const Features& features);
 
-/// What a chain that was given to vkCreateDevice turns on, of what this engine knows of. Structures of single features
-/// count as much as those of a whole version.
+/// The required and optional features that a chain passed to vkCreateDevice enables. Reads structures of single
+/// features as well as those of a whole Vulkan version.
 [[nodiscard]] Features features_of_chain(const VkPhysicalDeviceFeatures2& chain);
 
 }  // namespace gloam::gpu::vulkan

@@ -5,8 +5,8 @@
 #include "engine/core/result.h"
 #include "engine/gpu/vulkan/api.h"
 
-// The calls this layer makes: before there is an instance, of an instance, and of a device; the optional ones are null
-// where their extension is not enabled.
+// The Vulkan functions that this layer calls: global, of an instance, and of a device. Optional functions are null if
+// their extension is not enabled.
 #define GLOAM_VULKAN_GLOBAL_FUNCTIONS(X)    \
   X(vkEnumerateInstanceVersion)             \
   X(vkEnumerateInstanceLayerProperties)     \
@@ -124,7 +124,7 @@
 
 namespace gloam::gpu::vulkan {
 
-// Tables that belong to an instance or a device, and no global pointers: those would tie all devices of a process
+// Each instance and each device has its own function table. Global pointers would tie all devices of a process
 // together, and under Vulkan's own names they would clash with the loader that a host links.
 #define X(name) PFN_##name name = nullptr;
 struct GlobalFunctions {
@@ -140,10 +140,11 @@ struct DeviceFunctions {
 };
 #undef X
 
-/// The entry point of the machine's Vulkan loader, opened once a process and never closed; null when there is none.
+/// vkGetInstanceProcAddr of the installed Vulkan loader; null if there is none. The loader is opened once per process
+/// and never closed.
 [[nodiscard]] PFN_vkGetInstanceProcAddr find_loader();
 
-/// Each fails naming the first call that the other side does not have.
+/// Each fails with ErrorKind::no_device if a required function is missing; the error names the first one.
 [[nodiscard]] Result<GlobalFunctions> load_global_functions(PFN_vkGetInstanceProcAddr get);
 [[nodiscard]] Result<InstanceFunctions> load_instance_functions(PFN_vkGetInstanceProcAddr get, VkInstance instance);
 [[nodiscard]] Result<DeviceFunctions> load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice device);

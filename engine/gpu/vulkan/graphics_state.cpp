@@ -11,8 +11,8 @@ GraphicsState::GraphicsState(const GraphicsPipelineDesc& desc) {
   assembly_ = {.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
                .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
   viewport_ = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-  // Vulkan judges the winding in framebuffer space, after the flipped viewport: counter-clockwise is as seen in the
-  // picture.
+  // Vulkan determines the winding in framebuffer space, after the viewport flip: counter-clockwise means as seen in the
+  // rendered image.
   rasterization_ = {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
                     .polygonMode = VK_POLYGON_MODE_FILL,
                     .cullMode = to_vulkan(desc.cull),

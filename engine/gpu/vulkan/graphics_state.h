@@ -17,7 +17,7 @@ class GraphicsState {
   GraphicsState(const GraphicsState&) = delete;
   GraphicsState& operator=(const GraphicsState&) = delete;
 
-  /// Points into this object. Stages and layout are left to the caller.
+  /// The result points into this object. The caller sets the stages and the layout.
   [[nodiscard]] VkGraphicsPipelineCreateInfo info() const;
 
  private:

@@ -9,14 +9,14 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Destruction that waits for the frames in flight. Thread-safe.
+/// Defers the destruction of objects until the frames in flight have finished. Thread-safe.
 class Graveyard {
  public:
-  /// Calls `destroy` once all frames that were begun until now have ended; at once when none is in flight.
+  /// Calls `destroy` when all frames begun so far have finished; at once if none is in flight.
   void bury(std::function<void()> destroy);
-  /// `begun`: frames begun so far; what is buried from now on waits for them.
+  /// `begun`: number of frames begun so far. Objects that are buried afterwards wait for these frames.
   void set_begun(std::uint64_t begun);
-  /// Destroys what waited for no more than `completed` frames.
+  /// Destroys the objects that wait for at most `completed` frames.
   void collect(std::uint64_t completed);
   void collect_all();
 

@@ -17,7 +17,7 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Exactly what a VkImageView shows.
+/// The view type, mips and layers of a VkImageView.
 struct ViewKey {
   VkImageViewType type = VK_IMAGE_VIEW_TYPE_2D;
   std::uint32_t first_mip = 0;
@@ -30,16 +30,16 @@ struct ViewKey {
 struct Image {
   ImageDesc desc;
   VkImage image = VK_NULL_HANDLE;
-  AllocationOwner memory;  ///< null: somebody else's image, which is not destroyed here
+  AllocationOwner memory;  ///< null: an adopted image, which is not destroyed here
   std::vector<std::pair<ViewKey, VkImageView>> views;
-  /// What the last recorded barrier left the image in; only the recording thread looks at it.
+  /// The access that the last recorded barrier left the image ready for. Only the recording thread uses it.
   Access access = Access::none;
 };
 
-/// The view with "all the rest" made into numbers, checked against the image. `type` is left to the caller.
+/// Replaces counts of 0 by actual counts and asserts that the view lies inside the image. The caller sets `type`.
 [[nodiscard]] ViewKey resolve_view(const ImageDesc& desc, const ImageView& view);
 
-/// Thread-safe, except Image::access.
+/// Creates, stores and destroys images and their views. Thread-safe, except Image::access.
 class Images {
  public:
   Images(Context& context, MemoryAllocator& memory, Graveyard& graveyard)
@@ -48,12 +48,12 @@ class Images {
 
   [[nodiscard]] Result<ImageHandle> create(const ImageDesc& desc);
   [[nodiscard]] Result<std::vector<ImageHandle>> create_aliased(std::span<const ImageDesc> descs);
-  /// An image owned by a window or a host; destroying the handle destroys only its views.
+  /// Adds an image owned by a window or a host. Destroying the handle destroys only the image's views.
   [[nodiscard]] ImageHandle adopt(const ImageDesc& desc, VkImage image);
   void destroy(ImageHandle handle);
   [[nodiscard]] const Image& get(ImageHandle handle) const { return table_.get(handle); }
   [[nodiscard]] Image& get(ImageHandle handle) { return table_.get(handle); }
-  /// Views are made once and live as long as their image.
+  /// Returns the view with this key. Each view is created once and lives as long as its image.
   [[nodiscard]] Result<VkImageView> view(ImageHandle handle, const ViewKey& key);
 
  private:

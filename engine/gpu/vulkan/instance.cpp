@@ -126,7 +126,7 @@ Status Instance::make_messenger() {
 
 VkBool32 Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-  // The loader reports drivers without hardware and odd search paths as general messages; they say nothing about our
+  // The loader reports software drivers and unusual search paths as general messages, which are unrelated to gloam's
   // calls.
   const bool from_loader = data->pMessageIdName != nullptr && std::strcmp(data->pMessageIdName, "Loader Message") == 0;
   if (from_loader || (types & VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT) == 0) return VK_FALSE;

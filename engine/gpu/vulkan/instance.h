@@ -16,11 +16,11 @@
 
 namespace gloam::gpu::vulkan {
 
-/// A VkInstance with its messenger. Messages of the validation layer go to the log and are counted.
+/// A VkInstance with its debug messenger. Messages of the validation layer are logged and counted.
 class Instance {
  public:
   static Result<std::unique_ptr<Instance>> create(const VulkanOptions& options);
-  /// A host's instance, which is not destroyed here and whose messages are the host's.
+  /// Uses a host's instance, which is not destroyed here. Its validation messages go to the host.
   static Result<std::unique_ptr<Instance>> adopt(const HostDevice& host);
   ~Instance();
   Instance(const Instance&) = delete;

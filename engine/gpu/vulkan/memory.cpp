@@ -13,7 +13,8 @@ constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT 
 
 VkMemoryPropertyFlags required_flags(MemoryKind kind) { return kind == MemoryKind::device ? 0 : kMappable; }
 
-/// Larger is better. Memory with special meanings (protected, lazily allocated, uncached by the device) is never taken.
+/// How well a memory type fits; larger is better. types_by_fitness excludes types with special meanings (protected,
+/// lazily allocated, coherent or uncached on the device).
 int fitness(VkMemoryPropertyFlags flags, MemoryKind kind) {
   const bool local = (flags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0;
   const bool visible = (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
@@ -89,7 +90,7 @@ std::optional<AllocationOwner> MemoryAllocator::allocate_in(std::uint32_t type, 
     }
   }
   result = add_block(type, pool, dedicated ? size : kBlockBytes, dedicated);
-  if (result != VK_SUCCESS && !dedicated) result = add_block(type, pool, size, true);  // a small heap, nearly full
+  if (result != VK_SUCCESS && !dedicated) result = add_block(type, pool, size, true);  // no room for a whole block
   if (result != VK_SUCCESS) return std::nullopt;
   const auto block = std::prev(blocks_.end());
   return take(block, block->ranges.allocate(size, alignment).value(), request);
@@ -134,7 +135,8 @@ void MemoryAllocator::give_back(Blocks::iterator block, const Allocation& alloca
 
   block->ranges.free(allocation.offset);
   if (!block->ranges.empty()) return;
-  // One empty block of a kind is kept: an object that comes and goes every frame shall not reach the driver.
+  // Keeps one empty block per memory type and pool, so that an object that is created and destroyed every frame does
+  // not allocate memory from the driver each time.
   const bool another_empty = std::any_of(blocks_.begin(), blocks_.end(), [&](const Block& b) {
     return &b != &*block && b.type == block->type && b.pool == block->pool && !b.dedicated && b.ranges.empty();
   });

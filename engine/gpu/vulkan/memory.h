@@ -20,12 +20,12 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Bytes of device memory; they go back to their allocator with the last owner (aliased images share one).
+/// A range of device memory. It returns to its allocator when its last owner is gone; aliased images share one.
 struct Allocation {
   VkDeviceMemory memory = VK_NULL_HANDLE;
   std::uint64_t offset = 0;
   std::uint64_t size = 0;
-  std::byte* mapped = nullptr;  ///< of the first byte; null for MemoryKind::device
+  std::byte* mapped = nullptr;  ///< address of the first byte; null for MemoryKind::device
 };
 using AllocationOwner = std::shared_ptr<const Allocation>;
 
@@ -34,12 +34,12 @@ struct MemoryRequest {
   MemoryKind kind = MemoryKind::device;
   bool image = false;
   std::string_view module;
-  std::string_view name;  ///< for the error
+  std::string_view name;  ///< for the error message
 };
 
-/// Cuts buffers and images out of blocks of 64 MiB, one list of blocks a use and memory type; what is larger than half
-/// a block gets memory of its own. Images and buffers never share a block, so bufferImageGranularity does not matter.
-/// Thread-safe.
+/// Allocates buffers and images from blocks of 64 MiB. Each block serves one pool and one memory type. An object larger
+/// than half a block gets its own memory. Images and buffers never share a block, so bufferImageGranularity does not
+/// matter. Thread-safe.
 class MemoryAllocator {
  public:
   static constexpr std::uint64_t kBlockBytes = 64ull << 20;

@@ -17,7 +17,7 @@ constexpr VkQueueFlags kQueueNeeds = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BI
 
 struct Candidate {
   PhysicalDevice device;
-  std::string lacks;  ///< why it cannot be used; empty: it can
+  std::string lacks;  ///< missing requirements; empty: the device can be used
 };
 
 DeviceType type_of(VkPhysicalDeviceType type) {
@@ -104,7 +104,7 @@ std::vector<VkQueueFamilyProperties> queue_families(const InstanceFunctions& f, 
   return families;
 }
 
-/// Whether a family serves; sets the device's queue facts when it does.
+/// Whether the family supports graphics and compute. If so, stores its index and timestamp bits in `device`.
 bool take_queue_family(PhysicalDevice& device, std::span<const VkQueueFamilyProperties> families, std::uint32_t index) {
   if (index >= families.size() || (families[index].queueFlags & kQueueNeeds) != kQueueNeeds) return false;
   device.queue_family = index;
@@ -138,7 +138,8 @@ Candidate examine(const Instance& instance, VkPhysicalDevice handle, bool for_wi
   }
   read_properties(f, device);
   candidate.lacks = missing_features(device.features);
-  // Light blocks are larger than the 16 KiB that Vulkan promises; every desktop device has 64 KiB or more.
+  // Uniform blocks of lights are larger than the 16 KiB that Vulkan guarantees; every desktop device has 64 KiB or
+  // more.
   if (device.limits.maxUniformBufferRange < kLeastUniformRange) add(candidate.lacks, "uniform buffers of 64 KiB");
   if (device.limits.maxPushConstantsSize < kLeastPushConstants) add(candidate.lacks, "128 bytes of push constants");
   if (!has_extension(f, handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) {

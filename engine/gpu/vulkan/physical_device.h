@@ -16,13 +16,13 @@
 
 namespace gloam::gpu::vulkan {
 
-/// A device that fits, and what it can do.
+/// A usable physical device with its properties.
 struct PhysicalDevice {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
   DeviceInfo info;
   VkPhysicalDeviceLimits limits = {};
   VkPhysicalDeviceMemoryProperties memory = {};
-  Features features;  ///< supported ones, or on a host's device those it has enabled; not chained
+  Features features;  ///< the supported ones, on a host's device the enabled ones; not chained
   std::uint32_t vendor = 0;
   std::uint32_t device = 0;
   std::array<std::uint8_t, VK_UUID_SIZE> cache_uuid = {};
@@ -34,11 +34,13 @@ struct PhysicalDevice {
   bool can_present = false;
 };
 
-/// `wish` as VulkanOptions::device. `for_window`: the device must be able to present.
+/// `wish`: as VulkanOptions::device. `for_window`: the device must be able to present. Fails with ErrorKind::no_device
+/// if no device fits.
 [[nodiscard]] Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::string_view wish,
                                                             bool for_window);
 
-/// The device a host has opened; fails naming all that it lacks and all that the host has not enabled.
+/// Examines a host's device. Fails with ErrorKind::no_device; the error names everything that the device lacks or that
+/// the host has not enabled.
 [[nodiscard]] Result<PhysicalDevice> examine_host_device(const Instance& instance, const HostDevice& host);
 
 }  // namespace gloam::gpu::vulkan

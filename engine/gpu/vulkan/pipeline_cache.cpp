@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In front of the driver's bytes: drivers may crash on damaged ones, so they only see what we wrote.
+/// Precedes the driver's data in the file. Drivers may crash on damaged data, so only data with a correct hash reaches
+/// them.
 struct FileHeader {
   std::uint64_t magic = 0x3163656e69706c67ull;
   std::uint64_t bytes = 0;
@@ -49,7 +50,7 @@ bool of_this_driver(const PhysicalDevice& device, std::span<const std::byte> dat
          std::memcmp(header.pipelineCacheUUID, device.cache_uuid.data(), device.cache_uuid.size()) == 0;
 }
 
-/// The driver's bytes, or nothing.
+/// The driver's data, or an empty span if the file is damaged or of another driver.
 std::span<const std::byte> checked(const PhysicalDevice& device, std::span<const std::byte> file) {
   FileHeader header;
   if (file.size() < sizeof header) return {};
@@ -101,7 +102,7 @@ void PipelineCache::save() const {
   FileHeader header;
   header.bytes = size;
   header.hash = hash_bytes(std::as_bytes(std::span(data)));
-  // Written beside the file and renamed, so that a reader or a second process never sees half of it.
+  // Written to a temporary file and renamed, so that another process never reads a partial file.
   const auto unique = Hasher()
                           .value(std::chrono::steady_clock::now().time_since_epoch().count())
                           .value(reinterpret_cast<std::uintptr_t>(this))

@@ -9,18 +9,18 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Compiled pipelines, kept in one file a device and driver. A file that is damaged or of another driver counts as
-/// absent; a directory that cannot be written costs a warning, never more.
+/// A VkPipelineCache that is kept in one file per device and driver. A damaged file, or one of another driver, is
+/// ignored. If the directory cannot be written, only a warning is logged.
 class PipelineCache {
  public:
   /// `directory` empty: nothing is read or written.
   PipelineCache(Context& context, const std::string& directory);
-  /// Writes the file, complete or not at all.
+  /// Writes the file, completely or not at all.
   ~PipelineCache();
   PipelineCache(const PipelineCache&) = delete;
   PipelineCache& operator=(const PipelineCache&) = delete;
 
-  /// Null when the driver could not make one; pipelines compile without.
+  /// Null if the driver could not create a cache; pipelines then compile without one.
   [[nodiscard]] VkPipelineCache handle() const { return cache_; }
 
  private:

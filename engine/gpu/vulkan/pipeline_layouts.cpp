@@ -30,7 +30,7 @@ Status add_binding(ShaderInterface& shader, const std::string& who, const Reflec
                                         " in one stage and a " + std::string(name_of(known->kind)) + " in another"};
   }
   if (binding.used && !known->used) {
-    *known = binding;  // the stage that uses it knows the image's shape best
+    *known = binding;  // take the image's shape from the stage that uses it
   }
   return {};
 }
@@ -54,7 +54,7 @@ Result<ShaderInterface> merge_stages(const Context& context, std::string_view pi
     for (const ReflectedBinding& binding : stage.bindings) GLOAM_TRY(add_binding(shader, who, binding));
     shader.push_constant_bytes = std::max(shader.push_constant_bytes, stage.push_constant_bytes);
   }
-  // Vulkan wants a multiple of 4.
+  // Vulkan requires a multiple of 4.
   shader.push_constant_bytes = (shader.push_constant_bytes + 3) & ~3u;
   std::sort(shader.bindings.begin(), shader.bindings.end(),
             [](const auto& a, const auto& b) { return std::tie(a.set, a.binding) < std::tie(b.set, b.binding); });

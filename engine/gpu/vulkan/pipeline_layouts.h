@@ -21,15 +21,16 @@ namespace gloam::gpu::vulkan {
 constexpr VkShaderStageFlags kAllStages =
     VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 
-/// What all stages of a pipeline want bound.
+/// The resources and push constants that all stages of a pipeline declare.
 struct ShaderInterface {
-  std::vector<ReflectedBinding> bindings;  ///< ordered by set, then binding; one a pair
+  std::vector<ReflectedBinding> bindings;  ///< ordered by set, then binding; each pair occurs once
   std::uint32_t push_constant_bytes = 0;
   [[nodiscard]] std::span<const ReflectedBinding> of_set(std::uint32_t set) const;
   [[nodiscard]] std::uint32_t set_count() const { return bindings.empty() ? 0 : bindings.back().set + 1; }
 };
 
-/// Fails with ErrorKind::failed when two stages disagree about a binding, or the device cannot bind so much.
+/// Fails with ErrorKind::failed if two stages declare a binding differently, the engine cannot bind a resource, or a
+/// device limit is exceeded.
 [[nodiscard]] Result<ShaderInterface> merge_stages(const Context& context, std::string_view pipeline,
                                                    std::span<const SpirvReflection> stages);
 
@@ -38,20 +39,20 @@ struct PipelineLayout {
   std::vector<VkDescriptorSetLayout> sets;
 };
 
-/// Layouts by content, for the device's life: equal sets of two pipelines get one layout, so their resource sets fit
-/// both. Every binding is visible to all stages for the same reason. Set 0 is pushed, the others are allocated.
-/// Thread-safe.
+/// Pipeline layouts and set layouts by content. They live as long as the device. Equal sets of two pipelines get one
+/// layout, so a resource set fits both pipelines; for the same reason every binding is visible to all stages. Set 0 is
+/// pushed, the other sets are allocated. Thread-safe.
 class PipelineLayouts {
  public:
   explicit PipelineLayouts(Context& context) : context_(context) {}
   ~PipelineLayouts();
 
-  /// The reference stays good as long as this object.
+  /// The pointer stays valid as long as this object.
   [[nodiscard]] Result<const PipelineLayout*> find_or_create(const ShaderInterface& shader);
 
  private:
   using BindingKey = std::tuple<std::uint32_t, ResourceKind, std::uint32_t>;
-  using SetKey = std::pair<bool, std::vector<BindingKey>>;  // pushed; bindings
+  using SetKey = std::pair<bool, std::vector<BindingKey>>;  // whether it is pushed; its bindings
   using LayoutKey = std::pair<std::vector<VkDescriptorSetLayout>, std::uint32_t>;
 
   Result<VkDescriptorSetLayout> set_layout(std::span<const ReflectedBinding> bindings, bool pushed);

@@ -15,7 +15,7 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Prepared descriptor sets, from pools that are added as they fill up. Thread-safe.
+/// Prepared descriptor sets. A descriptor pool is added when the existing ones are full. Thread-safe.
 class ResourceSets {
  public:
   ResourceSets(Context& context, Graveyard& graveyard, const DescriptorWriter& writer)

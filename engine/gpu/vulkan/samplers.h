@@ -12,7 +12,7 @@
 
 namespace gloam::gpu::vulkan {
 
-/// One sampler a description, for the device's life. Thread-safe.
+/// Samplers by description. Each is created once and lives as long as the device. Thread-safe.
 class Samplers {
  public:
   explicit Samplers(Context& context) : context_(context) {}

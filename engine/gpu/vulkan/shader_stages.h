@@ -12,7 +12,7 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Shader modules and specialisation of one pipeline while it is being compiled.
+/// The shader modules and specialisation constants of one pipeline while it is being compiled.
 class ShaderStages {
  public:
   ShaderStages(Context& context, std::span<const SpecConstant> constants);

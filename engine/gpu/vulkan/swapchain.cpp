@@ -65,7 +65,7 @@ Status VulkanSwapchain::resize(std::uint32_t width, std::uint32_t height) {
   GLOAM_TRY(device_.wait_idle());
   Context& context = device_.context();
   {
-    // The display may still read the last picture; only the whole queue's idleness says that presenting is over.
+    // The display may still read the last image. Only when the whole queue is idle has presentation finished.
     const std::lock_guard lock(context.queue_mutex());
     context.vk.vkQueueWaitIdle(context.queue);
   }

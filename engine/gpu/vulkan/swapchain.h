@@ -12,8 +12,8 @@
 
 namespace gloam::gpu::vulkan {
 
-/// A window's pictures: 8 bits a channel, stored as they are shown (whoever writes them encodes for the display), shown
-/// in step with the display.
+/// The images of a window with 8 bits per channel. They have a UNORM format and are displayed as stored, so shaders
+/// must encode for the display. Presentation is synchronised with the display (FIFO).
 class VulkanSwapchain final : public Swapchain {
  public:
   static Result<std::unique_ptr<Swapchain>> create(VulkanDevice& device, VkSurfaceKHR surface);
@@ -38,10 +38,10 @@ class VulkanSwapchain final : public Swapchain {
   VkSurfaceKHR surface_;
   VkSurfaceFormatKHR format_ = {};
   VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
-  bool stale_ = true;  ///< the window has another size, or there is none
+  bool stale_ = true;  ///< the window has another size, or there is no swapchain
   std::uint32_t acquired_ = kNone;
   std::vector<ImageHandle> images_;
-  std::vector<VkSemaphore> rendered_;  ///< one a picture: presenting waits for it
+  std::vector<VkSemaphore> rendered_;  ///< one per image: presenting waits for it
   std::array<VkSemaphore, Device::kFramesInFlight> available_ = {};
 };
 

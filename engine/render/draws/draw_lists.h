@@ -16,7 +16,7 @@
 
 namespace gloam {
 
-/// One run of triangles of one instance.
+/// One indexed draw: consecutive triangles of one primitive of one instance.
 struct Draw {
   const GpuPrimitive* primitive = nullptr;
   SurfaceVariant variant;
@@ -27,29 +27,29 @@ struct Draw {
   float depth_m = 0.0f;          ///< nearest view depth of the bounds
 };
 
-/// A primitive of an instance whose vertices the GPU moves this frame.
+/// A primitive of an instance whose vertices the GPU morphs or skins in this frame.
 struct DeformJob {
   const GpuPrimitive* primitive = nullptr;
   shaders::DeformConstants constants{};
-  std::uint32_t first_vertex = 0;  ///< in the frame's deformed streams, a multiple of 64
+  std::uint32_t first_vertex = 0;  ///< in the view's deformed streams, a multiple of 64
 };
 
-/// What one view draws: opaque and cut-out surfaces by pipeline, then front to back; blended ones back to front.
-/// `deforms` are those of draws and casters.
+/// All draws of one view. `solid`: opaque and alpha-masked surfaces, by pipeline variant, then front to back.
+/// `blended`: back to front. `deforms`: the deformed primitives of draws and casters.
 struct DrawLists {
   std::vector<Draw> solid;
   std::vector<Draw> blended;
   std::vector<DeformJob> deforms;
   std::uint32_t deformed_vertices = 0;
   std::uint32_t culled_instances = 0;
-  CasterList casters;  ///< empty unless asked for
+  CasterList casters;  ///< empty unless with_casters
 };
 
-/// Push constants of a mesh with this matrix, with vertices relative to `origin` (world); composed in double.
+/// Push constants that draw a mesh relative to `origin` (world). Composed in double.
 [[nodiscard]] shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3& origin);
 
 /// Culls every MeshInstance of the world against the view, in jobs. The result does not depend on the number of
-/// threads. `with_casters`: lists what casts shadows too, wherever it is, and has it deformed.
+/// threads. `with_casters`: also lists all shadow casters, in the view or not, and deforms them.
 [[nodiscard]] DrawLists build_draw_lists(const World& world, const RenderView& view, const GpuScene& scene,
                                          JobExecutor& executor, bool with_casters = false);
 

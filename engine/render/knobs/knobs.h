@@ -12,27 +12,27 @@
 
 namespace gloam {
 
-/// A setting that trades accuracy for time, declared once by its module: it serves the command line, files, panels, the
-/// cost ledger and tests. A default is the value a user gets who sets nothing.
+/// A setting that trades accuracy for time. Its module declares it once, for the command line, files, panels, the cost
+/// ledger and tests. The default is the value for users who set nothing.
 struct Knob {
   enum class Type { choice, integer, number };
   std::string name;  ///< "lights.culling"
   std::string module;
   std::string meaning;
   Type type = Type::choice;
-  std::vector<std::string> choices;  ///< for choice
+  std::vector<std::string> choices;  ///< for Type::choice
   double min = 0.0;
   double max = 0.0;
   double default_number = 0.0;  ///< for choice: index into choices
   std::string unit;
-  std::vector<double>
-      ledger_values;  ///< numbers worth a row of the ledger; empty: all choices, or the default and the exact number
-  /// Text of the most exact value: the same frame drawn with it is what the other values are held against. Empty: no
-  /// value is more right than another, or the module judges the knob by a reference of its own (Module::references).
+  /// Values with a row in the ledger; empty: all choices, or the default and the exact number.
+  std::vector<double> ledger_values;
+  /// Text of the exact value: the frame drawn with it is the reference for the other values. Empty: all values are
+  /// equally right, or the module judges the knob by its own reference (Module::references).
   std::string exact;
 };
 
-/// The text that sets a knob to a number of its range (for choice: an index).
+/// The text that sets a knob to `value` (for choice: an index).
 [[nodiscard]] std::string value_text(const Knob& knob, double value);
 
 /// All knobs of all modules with their current values. Names are unique.
@@ -41,14 +41,15 @@ class KnobRegistry {
   /// Asserts on a duplicate name, a default out of range or an exact value that cannot be set.
   void add(Knob knob);
 
-  /// From text: "tiled", "3", "0.5". Usage error that lists what is valid.
+  /// Sets a knob from text: "tiled", "3", "0.5". Usage error that lists the valid names or values.
   [[nodiscard]] Status set(std::string_view name, std::string_view value);
-  /// "NAME=VALUE".
+  /// Sets a knob from "NAME=VALUE".
   [[nodiscard]] Status set_assignment(std::string_view assignment);
-  /// A JSON object of name → string, number or boolean; usage error names `source` and the fault.
+  /// Sets knobs from a JSON object of name → string, number or boolean. A usage error names `source` and the fault;
+  /// knobs before the faulty one stay set.
   [[nodiscard]] Status set_from_json(std::string_view text, std::string_view source);
 
-  /// Index of the chosen choice. The knob must exist.
+  /// Index of the current choice. The knob must exist and be of Type::choice (asserted).
   [[nodiscard]] std::uint32_t choice(std::string_view name) const;
   [[nodiscard]] double number(std::string_view name) const;
   [[nodiscard]] bool is(std::string_view name, std::string_view choice) const;
@@ -56,7 +57,7 @@ class KnobRegistry {
 
   [[nodiscard]] const std::vector<Knob>& knobs() const { return knobs_; }
   [[nodiscard]] const Knob* find(std::string_view name) const;
-  /// Grows with every change of a value.
+  /// Incremented whenever a value is set.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
  private:

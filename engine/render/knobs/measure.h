@@ -10,25 +10,25 @@
 
 namespace gloam {
 
-/// What a frame counted, by name ("lights.visible").
+/// Counters of a frame, by name ("lights.visible").
 using FrameCounters = std::map<std::string, double>;
 
-/// The error of a knob whose values all give the same picture, some by more work than others: a number of things, told
-/// by what frames count. The ledger quotes it in place of the pictures' difference, which it still takes (it should be
-/// nothing).
+/// Judges a knob whose values all draw the same picture, some with more work than others. The error is a count,
+/// computed from the frame's counters. The ledger shows this count. It also measures the difference between the
+/// pictures, which should be zero.
 struct MeasureInfo {
   std::string knob;  ///< a knob of the same module
-  std::string kind;  ///< of what is right, for the ledger: "brute force"
+  std::string kind;  ///< kind of reference, for the ledger: "brute force"
   std::string name;  ///< "exact per-pixel lists"
   std::string unit;  ///< of the error: "false positives a tile"
-  /// "KNOB=VALUE" in force while frames are judged, not while they are timed: counting may cost.
+  /// "KNOB=VALUE" settings while frames are judged, but not while they are timed: counting may cost time.
   std::vector<std::string> judged_with;
-  /// "KNOB=VALUE" of the frame whose picture is right.
+  /// "KNOB=VALUE" settings of the frame with the right picture.
   std::vector<std::string> picture;
-  /// Of a frame, with what the same frame counts when the knob is at its default. ≥ 0, less is better; none: not
-  /// counted this time.
+  /// Error of a frame, from its counters and those of the same frame with the knob at its default (`standard`). ≥ 0,
+  /// less is better; empty if the counters are missing.
   std::function<std::optional<double>(const FrameCounters& frame, const FrameCounters& standard)> error;
-  /// Why the frame is wrong, whatever its error; empty: it is not.
+  /// Reason why the frame is wrong regardless of its error; empty if the frame is right.
   std::function<std::string(const FrameCounters& frame)> fault;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kGroupSize = 64;
 
-/// Three rows a joint, as the kernel reads them.
+/// Three matrix rows per joint, as the shader reads them.
 std::vector<vec4> joint_rows(const JointMatrices& joints) {
   std::vector<vec4> rows;
   rows.reserve(3 * joints.matrices.size() + 3);
@@ -23,7 +23,7 @@ std::vector<vec4> joint_rows(const JointMatrices& joints) {
 
 template <class T>
 gpu::Binding range_binding(std::uint32_t binding, gpu::BufferHandle buffer, std::uint64_t first, std::uint64_t count) {
-  // An unused input binds the buffer's first elements: every binding must be given.
+  // Every binding must be given, so an unused input binds the buffer's first elements.
   if (count == 0) return {binding, gpu::Binding::BufferRange{buffer, 0, 256}};
   return {binding, gpu::Binding::BufferRange{buffer, first * sizeof(T), count * sizeof(T)}};
 }

@@ -26,7 +26,7 @@ Status add_geometry_pass(FrameBuilder& frame) {
   frame.put(outputs);
   pass.execute([&frame, outputs](PassContext& context) {
     gpu::RenderingDesc rendering;
-    // Sky is told by depth alone: colours are only cleared so that every texel is defined.
+    // Depth alone marks sky; colours are cleared only so that every texel is defined.
     for (const ImageRef ref : {outputs.base_color, outputs.normals, outputs.material, outputs.emissive})
       rendering.colors.push_back({.view = {.image = context.image(ref)}});
     rendering.depth.view.image = context.image(outputs.depth);
@@ -37,7 +37,7 @@ Status add_geometry_pass(FrameBuilder& frame) {
     commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
     commands.set_scissor(0, 0, rendering.width, rendering.height);
     const gpu::Binding bindings[] = {frame.view_binding()};
-    // Pipelines were made in declaration: nothing is left to fail.
+    // Cannot fail: the pipelines were compiled in declaration.
     static_cast<void>(frame.draw_surfaces(context, frame.draws().solid, geometry_surface_pass(), bindings));
     commands.end_rendering();
   });

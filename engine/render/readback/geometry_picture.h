@@ -23,7 +23,7 @@ struct GeometryPicture {
   [[nodiscard]] GeometryTexel texel(std::size_t at) const {
     return decode_geometry(base_color[at], normals[at], material[at]);
   }
-  /// Camera-relative position of the surface under the centre of a pixel that is not sky; in double.
+  /// Camera-relative position of the surface under the centre of a pixel, in double. The pixel must not be sky.
   [[nodiscard]] dvec3 position(std::uint32_t x, std::uint32_t y) const;
 };
 

@@ -20,7 +20,7 @@ struct LinearPicture {
   std::uint32_t height = 0;
   std::vector<float> rgba;  ///< linear light before exposure, cd/m², rows from the top
 };
-/// First mip and layer of an image of the GPU.
+/// Texels of a GPU image, first mip and layer.
 struct ImageBytes {
   std::uint32_t width = 0;
   std::uint32_t height = 0;

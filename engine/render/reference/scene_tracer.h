@@ -9,25 +9,25 @@
 
 namespace gloam {
 
-/// A segment; what lies on it between its ends is asked for.
+/// A segment that is tested for triangles between its ends.
 struct ShadowRay {
   vec3 origin = vec3(0.0f);     ///< relative to SceneTracer::origin()
   vec3 direction = vec3(0.0f);  ///< to the other end, any length
-  float from = 0.0f;            ///< share of `direction` where the segment begins
-  float to = 1.0f;              ///< and where it ends
+  float from = 0.0f;            ///< start of the segment, as a share of `direction`
+  float to = 1.0f;              ///< end of the segment, as a share of `direction`
 };
 
-/// The triangles of a world at one moment, for references: skinned and morphed as the frame shows them, cut-outs by
-/// their alpha, blended surfaces left out, both sides of every triangle. Safe from many threads.
+/// The triangles of a world at one moment, for references: skinned and morphed as in the frame, alpha-masked surfaces
+/// by their alpha, without blended surfaces. Both sides of a triangle block. Thread-safe.
 class SceneTracer {
  public:
   virtual ~SceneTracer() = default;
   /// World position that rays are relative to.
   [[nodiscard]] virtual dvec3 origin() const = 0;
-  /// blocked[i]: 1 when anything lies on rays[i]. As many as rays.
+  /// Sets blocked[i] to 1 if a triangle lies on rays[i], else to 0. blocked: as many as rays.
   virtual void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked) const = 0;
   [[nodiscard]] virtual std::uint64_t triangles() const = 0;
-  /// Another one for other triangles; the same in every run.
+  /// Identifies the triangles: the same in every run, different for different triangles.
   [[nodiscard]] virtual std::uint64_t version() const = 0;
 };
 

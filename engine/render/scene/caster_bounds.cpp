@@ -11,7 +11,7 @@ namespace {
 
 bool finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Box of all sums of a point of each.
+/// Minkowski sum of two boxes; an empty `reach` adds nothing.
 Aabb sum_of(const Aabb& box, const Aabb& reach) {
   if (reach.empty()) return box;
   return {box.min + reach.min, box.max + reach.max};

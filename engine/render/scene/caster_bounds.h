@@ -12,34 +12,35 @@
 #include "engine/render/scene/gpu_scene.h"
 #include "engine/scene/resources.h"
 
-/// Where in the world what a primitive draws lies. In double: floats are not enough far from the world's origin.
+/// World-space bounds of drawn primitives. In double: floats are too coarse far from the world's origin.
 namespace gloam {
 
-/// Axis-aligned box in the world; the default one is "not known".
+/// Axis-aligned box in the world; a default box is unknown.
 struct WorldBox {
   dvec3 min = dvec3(std::numeric_limits<double>::infinity());
   dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
 
-  /// False for empty boxes and for those that numbers which are not finite went into.
+  /// False for empty boxes and for boxes computed from values that are not finite.
   [[nodiscard]] bool known() const;
 };
 
-/// Box of a transformed box. The matrix is affine.
+/// World-space bounds of a transformed box. The matrix must be affine.
 [[nodiscard]] WorldBox world_box(const Aabb& box, const dmat4& world_from_box);
 
-/// GpuPrimitive::joint_bounds. `influences`: one a position. From the packed weights, because those are what the GPU
-/// skins with.
+/// Computes GpuPrimitive::joint_bounds. `influences`: one per position. Uses the packed weights, because the GPU skins
+/// with them.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primitive,
                                                                        std::span<const PackedInfluence> influences);
 
-/// GpuPrimitive::morph_bounds.
+/// Computes GpuPrimitive::morph_bounds.
 [[nodiscard]] std::vector<Aabb> morph_bounds(const Primitive& primitive);
 
-/// Bounds of what the targets add to a vertex with these weights: as many as the primitive has targets, of any sign.
+/// Bounds of the offsets that morphing with these weights adds to a vertex. weights: one per target, of any sign.
 [[nodiscard]] Aabb morph_reach(const GpuPrimitive& primitive, std::span<const float> weights);
 
-/// Bounds of a skinned surface: a convex mix of points lies in the union of their boxes. `reach`: what morphing adds
-/// before; an empty one adds nothing. Not known when a vertex follows a joint that the range lacks.
+/// Bounds of a skinned surface: a skinned vertex is a convex mix of points and lies in the union of their boxes.
+/// `reach`: bounds of the morph offsets, which are added before skinning; an empty box adds nothing. Unknown if a
+/// vertex follows a joint that the range lacks.
 [[nodiscard]] WorldBox posed_box(const GpuPrimitive& primitive, const JointMatrices& joints,
                                  const JointMatrices::Range& range, const Aabb& reach);
 

@@ -10,7 +10,8 @@
 
 namespace gloam {
 
-/// A way to draw surfaces: which fragment shader, into what. Each pass that draws meshes has one.
+/// Pipeline state that all draws of a pass share: fragment shader, targets, blending. Each pass that draws meshes has
+/// one.
 struct SurfacePass {
   std::string name;  ///< "geometry"
   std::string module;
@@ -18,11 +19,11 @@ struct SurfacePass {
   std::vector<gpu::Format> color_formats;
   gpu::BlendMode blend = gpu::BlendMode::opaque;
   bool depth_write = true;
-  std::vector<gpu::SpecConstant> constants =
-      {};  ///< of the fragment shader, but for 0; `name` tells passes of other constants apart
+  /// Constants of the fragment shader, except constant 0. Passes with other constants need another `name`.
+  std::vector<gpu::SpecConstant> constants = {};
 };
 
-/// What distinguishes draws inside a pass. `features`: GLOAM_SURFACE_… bits.
+/// Pipeline state that differs between the draws of a pass. `features`: GLOAM_SURFACE_… bits.
 struct SurfaceVariant {
   std::uint32_t features = 0;
   gpu::CullMode cull = gpu::CullMode::back;

@@ -24,7 +24,7 @@ void append(std::vector<std::byte>& stream, const std::vector<T>& values) {
   std::copy(bytes.begin(), bytes.end(), stream.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-/// The scene's, and one more for primitives that name none.
+/// The scene's materials, and a default one at the end for primitives without a material.
 std::vector<Material> materials_of(const SceneAssets& assets) {
   std::vector<Material> materials = assets.materials;
   materials.emplace_back();
@@ -39,7 +39,7 @@ SurfaceVariant surface_variant(const GpuMaterial& material, const GpuPrimitive& 
           material.double_sided ? gpu::CullMode::none : one_sided};
 }
 
-/// One primitive, packed by a job of its own.
+/// One packed primitive. Each is packed in its own job.
 struct GpuScene::Streams {
   GpuPrimitive primitive;
   std::vector<vec3> positions;
@@ -200,7 +200,8 @@ Status GpuScene::upload_materials(const std::vector<Material>& sources, Uploader
 }
 
 Status GpuScene::make_material_sets(const SceneAssets& assets, const std::vector<Material>& sources) {
-  // Every pipeline of the surface shaders has the layout of set 1; one that is drawn with anyway costs nothing.
+  // All pipelines of the surface shaders have the same layout of set 1. The one chosen here is drawn with anyway, so
+  // that nothing extra is compiled.
   SurfaceVariant drawn;
   for (const std::vector<GpuPrimitive>& primitives : meshes_)
     for (const GpuPrimitive& primitive : primitives)

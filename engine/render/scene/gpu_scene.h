@@ -17,26 +17,27 @@
 
 namespace gloam {
 
-/// Where a primitive lies in the scene's buffers, and what the CPU needs to cull and deform it.
+/// Ranges of a primitive in the scene's buffers, and the data with which the CPU culls and deforms it.
 struct GpuPrimitive {
   std::uint32_t material = 0;  ///< index into GpuScene::materials()
   std::uint32_t vertex_count = 0;
-  std::uint32_t first_vertex = 0;  ///< a multiple of 64, so that every stream's byte offset may be bound
+  std::uint32_t first_vertex = 0;  ///< a multiple of 64, so that the byte offset of every stream is aligned for binding
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
   std::uint32_t simplified_first_index = 0;
-  std::uint32_t simplified_index_count = 0;  ///< 0: casts its shadow as it is drawn (GpuScene::simplify_casters)
+  std::uint32_t simplified_index_count = 0;  ///< 0: the full indices cast its shadow (GpuScene::simplify_casters)
   std::uint32_t first_influence = 0;         ///< a multiple of 64
-  std::uint32_t first_morph = 0;             ///< floats, a multiple of 64
+  std::uint32_t first_morph = 0;             ///< index of a float, a multiple of 64
   std::uint32_t morph_targets = 0;
   bool morph_has_normals = false;
   bool skinned = false;
   bool colored = false;  ///< has vertex colours
   Aabb bounds;
   std::vector<Cluster> clusters;
-  /// Rest bounds of the vertices that follow each joint; their posed union bounds the posed surface.
+  /// Joint index and rest bounds of the vertices that follow the joint. The union of the posed boxes bounds the posed
+  /// surface.
   std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds;
-  std::vector<Aabb> morph_bounds;  ///< by target: bounds of its offsets
+  std::vector<Aabb> morph_bounds;  ///< bounds of the offsets of each target
 };
 
 struct GpuMaterial {
@@ -47,7 +48,7 @@ struct GpuMaterial {
   bool subsurface = false;
 };
 
-/// How a primitive of a material is drawn. `flipped`: its front faces are clockwise.
+/// Pipeline variant that draws a primitive with a material. `flipped`: its front faces are clockwise.
 [[nodiscard]] SurfaceVariant surface_variant(const GpuMaterial& material, const GpuPrimitive& primitive, bool flipped);
 
 /// Meshes, textures and materials of a world's SceneAssets on the GPU.
@@ -58,12 +59,12 @@ class GpuScene {
   GpuScene(const GpuScene&) = delete;
   GpuScene& operator=(const GpuScene&) = delete;
 
-  /// Uploads everything when assets.version is not the one uploaded last. Waits for the GPU then.
+  /// Uploads everything if assets.version is not the version uploaded last, and then waits for the GPU.
   [[nodiscard]] Status sync(const SceneAssets& assets, JobExecutor& executor);
 
-  /// Gives opaque rigid primitives a run of indices with fewer triangles (simplified_casters.h), once after each
-  /// upload; replaces indices(). `assets`: those of the last sync. Waits for the GPU; not between begin_frame and
-  /// submit_frame.
+  /// Gives opaque rigid primitives a second range of indices with fewer triangles (simplified_casters.h), once after
+  /// each upload; replaces the buffer indices(). `assets`: those of the last sync. Waits for the GPU. Must not be
+  /// called between begin_frame and submit_frame.
   [[nodiscard]] Status simplify_casters(const SceneAssets& assets, JobExecutor& executor);
 
   [[nodiscard]] const std::vector<std::vector<GpuPrimitive>>& meshes() const { return meshes_; }
@@ -82,7 +83,7 @@ class GpuScene {
   [[nodiscard]] Status upload_meshes(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader);
   [[nodiscard]] Status upload_textures(const SceneAssets& assets, Uploader& uploader);
   [[nodiscard]] Status replace_indices(std::vector<std::byte> bytes, JobExecutor& executor);
-  /// Adds the texture that stands where a material names none.
+  /// Adds a white texture of one texel, for material slots without a texture.
   [[nodiscard]] Status add_white_texel(Uploader& uploader);
   [[nodiscard]] Status upload_materials(const std::vector<Material>& sources, Uploader& uploader);
   [[nodiscard]] Status make_material_sets(const SceneAssets& assets, const std::vector<Material>& sources);
@@ -92,12 +93,12 @@ class GpuScene {
   gpu::Device& device_;
   Pipelines& pipelines_;
   std::uint64_t version_ = 0;
-  bool casters_simplified_ = false;  ///< of this version
+  bool casters_simplified_ = false;  ///< simplify_casters has run for version_
   std::vector<std::vector<GpuPrimitive>> meshes_;
   std::vector<GpuMaterial> materials_;
   std::array<gpu::BufferHandle, 6> buffers_{};
   gpu::BufferHandle material_constants_;
-  std::vector<gpu::ImageHandle> textures_;  ///< by texture index; one more at the end: a white texel
+  std::vector<gpu::ImageHandle> textures_;  ///< by texture index; the last one is a white texel
 };
 
 }  // namespace gloam

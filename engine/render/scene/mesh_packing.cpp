@@ -18,7 +18,7 @@ std::uint32_t unorm(float value, float scale) {
   return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * scale));
 }
 
-/// Sum 1, none negative. Weights that sum to nothing leave everything to the first joint.
+/// Weights that sum to 1, none negative. If the sum is 0 or not finite, the first joint gets all the weight.
 vec4 normalised(vec4 weights) {
   float sum = 0.0f;
   for (int k = 0; k < 4; ++k) {
@@ -29,7 +29,7 @@ vec4 normalised(vec4 weights) {
   return weights / sum;
 }
 
-/// values[v] goes to place[v]; kNone: nowhere.
+/// Moves values[v] to index place[v]; drops it if place[v] is kNone.
 template <class T>
 std::vector<T> moved(const std::vector<T>& values, std::span<const std::uint32_t> place, std::size_t count) {
   if (values.empty()) return {};

@@ -19,7 +19,7 @@ constexpr std::uint32_t kLinearOne = 8191;  // 13 bits of linear light: enough f
 
 struct SrgbTables {
   std::array<std::uint16_t, 256> to_linear;
-  std::array<std::uint8_t, 4 * kLinearOne + 1> sum_to_srgb;  ///< of the sum of four linear values
+  std::array<std::uint8_t, 4 * kLinearOne + 1> sum_to_srgb;  ///< by the sum of four linear values
 };
 
 const SrgbTables& srgb_tables() {

@@ -12,7 +12,8 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kFewestIndices = std::size_t{3} * 32;  ///< smaller meshes are drawn as fast as they are
+constexpr std::size_t kFewestIndices =
+    std::size_t{3} * 32;  ///< smaller meshes are not drawn faster with fewer triangles
 
 /// A primitive's indices as GpuScene::sync uploads them, and those of the simplified caster.
 struct CasterIndices {
@@ -40,8 +41,7 @@ std::vector<std::uint32_t> simplified_indices(std::span<const vec3> positions, s
   std::vector<std::uint32_t> merged(indices.size());
   meshopt_generateShadowIndexBuffer(merged.data(), indices.data(), indices.size(), &positions[0].x, positions.size(),
                                     sizeof(vec3), sizeof(vec3));
-  // The simplifier would take vertices at one place for seams even where no index names them: it gets none but those in
-  // use.
+  // The simplifier treats vertices at one position as a seam, even unused ones, so it gets only the used vertices.
   std::uint32_t count = 0;
   const std::vector<std::uint32_t> place = fetch_order(positions.size(), merged, count);
   std::vector<vec3> used(count);

@@ -24,7 +24,7 @@ T load(const std::uint8_t* bytes) {
   return value;
 }
 
-/// Elements somewhere in a buffer.
+/// Elements in a buffer, `stride` bytes apart.
 struct Elements {
   const std::uint8_t* bytes = nullptr;
   std::uint64_t stride = 0;
@@ -91,7 +91,8 @@ std::uint32_t sparse_index(const std::uint8_t* bytes, ComponentType type, std::u
   return load<std::uint32_t>(bytes + 4 * i);
 }
 
-/// Indices of replaced elements are checked while they are used: they lie in the buffer.
+/// Writes the sparse elements over `out`. Their indices are checked only here, because they lie in the buffer; false if
+/// one is out of range.
 template <class T>
 bool replace_sparse(const Document& document, const Accessor& accessor, std::span<T> out) {
   const SparseSource& sparse = *accessor.sparse;

@@ -11,14 +11,16 @@
 
 namespace gloam::gltf {
 
-/// All components of a checked accessor as floats, element by element: floats as they are, normalised integers in 0…1
-/// or −1…1, other integers by value. out: count · components. A value that is not finite is a fault (place included).
+/// Reads all components of a checked accessor as floats, element by element. Normalised integers become 0…1 or −1…1,
+/// other integers keep their value. out: exactly count · components (asserted). Input error with its place: a float
+/// that is not finite, or a sparse index out of range.
 [[nodiscard]] Status read_floats(const Document& document, std::uint32_t accessor, std::span<float> out);
 
-/// All components of a checked accessor of unsigned integers.
+/// Reads all components of a checked accessor of unsigned integers. out: exactly count · components (asserted). Input
+/// error with its place: a sparse index out of range.
 [[nodiscard]] Status read_integers(const Document& document, std::uint32_t accessor, std::span<std::uint32_t> out);
 
-/// Elements as vectors of floats; the accessor has as many components as V.
+/// Reads the elements as float vectors. The accessor must have as many components as V.
 template <class V>
 [[nodiscard]] Status read_vectors(const Document& document, std::uint32_t accessor, std::vector<V>& out) {
   out.resize(document.accessors[accessor].count);

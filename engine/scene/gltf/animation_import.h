@@ -10,12 +10,13 @@
 
 namespace gloam::gltf {
 
-/// Skins of a checked document.
+/// Imports the skins of a checked document.
 [[nodiscard]] Result<std::vector<Skin>> import_skins(const Document& document);
 
-/// All clips, in file order. Of clips that move the same property of a node only one keeps its channel: `preferred` (a
-/// clip's name, or empty), else the first. Channels of nodes that are not `used`, or whose pose is no T·R·S, are left
-/// out. An unknown name is a usage error.
+/// Imports all clips, in file order. If several clips animate the same property of a node, only one keeps its channel:
+/// the one named `preferred`, or else the first. Channels are left out if their node is not `used` (by node), or if
+/// they animate the pose of a node with a matrix that is not T·R·S. preferred: a clip's name, or empty; an unknown name
+/// is a usage error.
 [[nodiscard]] Result<std::vector<AnimationClip>> import_animations(Document& document, std::string_view preferred,
                                                                    const std::vector<bool>& used);
 

@@ -17,7 +17,7 @@ constexpr std::uint64_t kChunkHeaderSize = 8;
 
 Error fault(std::string sentence) { return {ErrorKind::input, std::move(sentence)}; }
 
-/// Little-endian word at a byte offset that is known to be inside.
+/// Little-endian word at a byte offset, which must be in range.
 std::uint32_t word(const std::vector<std::uint8_t>& bytes, std::uint64_t offset) {
   std::uint32_t value = 0;
   for (std::uint64_t i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(bytes[offset + i]) << (8 * i);

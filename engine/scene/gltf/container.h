@@ -12,7 +12,7 @@
 
 namespace gloam::gltf {
 
-/// A .gltf or .glb in memory; which of the two, its first bytes say, not its name.
+/// A .gltf or .glb file in memory. `binary`: it is a .glb, by its first bytes and not by its name.
 struct Container {
   std::vector<std::uint8_t> bytes;
   bool binary = false;
@@ -25,7 +25,8 @@ struct Container {
   }
 };
 
-/// Takes apart what read_scene_file gave. Every length of a .glb's chunks is checked. The error is the fault alone.
+/// Finds the JSON text in the bytes of a file. Checks the length of every chunk of a .glb. An error's message holds
+/// only the fault, not the place.
 [[nodiscard]] Result<Container> open_container(std::vector<std::uint8_t> bytes);
 
 }  // namespace gloam::gltf

@@ -12,8 +12,8 @@
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 
-/// What a glTF file says, in plain structs: references are indices, kNone where absent. Nothing is checked until
-/// check_document has passed it.
+/// The content of a glTF file in plain structs. References are indices, kNone if absent. Nothing is checked until
+/// check_document has succeeded.
 namespace gloam::gltf {
 
 struct BufferView {
@@ -26,7 +26,7 @@ struct BufferView {
 /// Values of glTF's componentType.
 enum class ComponentType : std::uint32_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-/// Elements that replace some of an accessor's.
+/// Sparse elements, which replace some of an accessor's elements.
 struct SparseSource {
   std::uint64_t count = 0;
   std::uint32_t index_view = kNone;
@@ -37,16 +37,16 @@ struct SparseSource {
 };
 
 struct Accessor {
-  std::uint32_t view = kNone;  ///< kNone: all zero
+  std::uint32_t view = kNone;  ///< kNone: all elements are zero
   std::uint64_t offset = 0;
   std::uint64_t count = 0;
   ComponentType component_type = ComponentType::f32;
-  std::uint32_t components = 1;  ///< 1…4, or 16 for a 4×4 matrix; 0: a kind that nothing here uses
+  std::uint32_t components = 1;  ///< 1…4, or 16 for a 4×4 matrix; 0: a type that the importer does not use
   bool normalized = false;
   std::optional<SparseSource> sparse;
 };
 
-/// Accessors of one primitive.
+/// One primitive: its mode, its material and the accessor of each attribute.
 struct PrimitiveSource {
   int mode = 4;
   std::uint32_t material = kNone;
@@ -59,7 +59,7 @@ struct PrimitiveSource {
   std::uint32_t color = kNone;
   std::uint32_t joints = kNone;
   std::uint32_t weights = kNone;
-  bool more_influences = false;  ///< there is a second set of joints
+  bool more_influences = false;  ///< has a second set of joints (JOINTS_1)
   struct Target {
     std::uint32_t position = kNone;
     std::uint32_t normal = kNone;
@@ -73,7 +73,7 @@ struct MeshSource {
   std::vector<double> weights;
 };
 
-/// Exactly one of uri, view and bytes says where the file is.
+/// An image file, given by exactly one of uri, view and bytes.
 struct ImageSource {
   std::string name;
   std::string uri;
@@ -147,7 +147,7 @@ struct Document {
   std::vector<BufferView> views;
   std::vector<Accessor> accessors;
   std::vector<MeshSource> meshes;
-  std::vector<Material> materials;  ///< slots hold indices into `textures`
+  std::vector<Material> materials;  ///< texture slots index `textures`
   std::vector<TextureSource> textures;
   std::vector<SamplerSource> samplers;
   std::vector<ImageSource> images;
@@ -157,7 +157,7 @@ struct Document {
   std::vector<NodeSource> nodes;
   std::vector<SceneSource> scenes;
   std::uint32_t default_scene = kNone;
-  std::vector<std::string> warnings;  ///< place and fault
+  std::vector<std::string> warnings;  ///< each holds place and fault
 };
 
 }  // namespace gloam::gltf

@@ -11,12 +11,12 @@
 namespace gloam::gltf {
 namespace {
 
-// What is imported may take this much, and so many times the bytes that were read: a vertex of 100 bytes can come from
-// an index of two, and any number of primitives and channels may share one accessor.
+// The import may take kFreeBytes, plus kBytesPerByte for each byte read: an index of 2 bytes can give a vertex of 100
+// bytes. A limit is needed because any number of primitives and channels may share one accessor.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{512} << 20;
 constexpr std::uint64_t kBytesPerByte = 64;
 
-/// How much memory what is imported may still take.
+/// Memory that the import may still take.
 struct Budget {
   std::uint64_t file_bytes = 0;
   std::uint64_t left = 0;
@@ -33,8 +33,8 @@ bool is_index_type(ComponentType type) {
   return type == ComponentType::u8 || type == ComponentType::u16 || type == ComponentType::u32;
 }
 
-/// Whether [offset, offset + count elements a stride apart) lies in `length` bytes. Element sizes and strides are below
-/// 2^10, counts below 2^32, so only the offset can overflow a sum.
+/// Whether `count` elements, `stride` bytes apart from `offset` on, lie in `length` bytes. Element sizes and strides
+/// are below 2^10, counts below 2^32, so only the offset can overflow a sum.
 bool fits(std::uint64_t offset, std::uint64_t count, std::uint64_t stride, std::uint64_t element,
           std::uint64_t length) {
   return offset <= length && (count - 1) * stride + element <= length - offset;
@@ -85,7 +85,7 @@ Status check_accessor(const Document& document, std::size_t i) {
   return accessor.sparse ? check_sparse(document, accessor, where) : Status();
 }
 
-/// What an attribute must be, besides as long as the positions.
+/// Requirements of an attribute. It must also have one element per position.
 struct Attribute {
   const char* name;
   std::uint32_t accessor;
@@ -131,7 +131,7 @@ Status check_primitive(const Document& document, const PrimitiveSource& primitiv
   return {};
 }
 
-/// Bytes the imported primitive takes at most: at worst every corner of every triangle gets a vertex of its own.
+/// Upper bound of the imported primitive's bytes: at worst, every corner of every triangle gets its own vertex.
 std::uint64_t geometry_bytes(const Document& document, const PrimitiveSource& primitive) {
   if (primitive.position == kNone || primitive.mode < 4) return 0;
   const std::uint64_t vertices = document.accessors[primitive.position].count;
@@ -144,7 +144,7 @@ std::uint64_t geometry_bytes(const Document& document, const PrimitiveSource& pr
   if (primitive.joints != kNone) vertex += sizeof(vec4) + sizeof(std::uint64_t);
   for (const PrimitiveSource::Target& target : primitive.targets)
     vertex += sizeof(vec3) * (target.normal != kNone ? 2 : 1);
-  // Accessors without a view are not backed by any byte of the file.
+  // The positions are counted too: without a view, no byte of the file backs them.
   return corners * vertex + vertices * sizeof(vec3);
 }
 

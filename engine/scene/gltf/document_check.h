@@ -9,15 +9,17 @@
 
 namespace gloam::gltf {
 
-/// Bytes of one element's component.
+/// Size of one component in bytes; 0 if glTF does not define the type.
 [[nodiscard]] std::uint64_t component_size(ComponentType type);
 
-/// Buffer views inside their buffers, accessors inside their views, kinds and counts of what primitives and skins name.
-/// What it passes can be read without a further look at a bound. Indices into the document's arrays must be in range
-/// already. file_bytes: of the scene file itself; it and the buffers justify how much memory the meshes may take.
+/// Checks that buffer views lie inside their buffers and accessors inside their views, and that the accessors of
+/// primitives and skins have the right types and counts. After success, all elements can be read without bounds checks.
+/// Indices into the document's arrays must be in range already. file_bytes: size of the scene file; it and the sizes of
+/// the buffers limit the memory that meshes, skins and animations may take.
 [[nodiscard]] Status check_document(const Document& document, std::uint64_t file_bytes);
 
-/// Finds every node's parent, refuses cycles and second parents, and checks the scenes' roots. Does not recurse.
+/// Sets every node's parent. Input error: a cycle, a node with two parents, a scene that lists a child node or one node
+/// twice, or weights that do not match the mesh's morph targets. Does not recurse.
 [[nodiscard]] Status check_node_tree(Document& document);
 
 }  // namespace gloam::gltf

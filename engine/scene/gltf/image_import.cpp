@@ -13,7 +13,7 @@
 namespace gloam::gltf {
 namespace {
 
-// All images of a scene, decoded.
+// Limit for all decoded images of a scene.
 constexpr std::uint64_t kMaxImageBytes = std::uint64_t{8} << 30;
 
 std::span<const std::uint8_t> bytes_of(const Document& document, const EncodedImage& encoded) {
@@ -57,7 +57,7 @@ Result<WrapMode> wrap_mode(int value) {
   }
 }
 
-/// Sorts one slot into the colour or data list; adds a second texture when the first is taken the other way.
+/// Points slots to textures of colours or of data. A texture that is used as both is duplicated.
 class SlotResolver {
  public:
   explicit SlotResolver(std::vector<Texture>& textures) : textures_(textures), uses_(textures.size()) {}
@@ -77,7 +77,7 @@ class SlotResolver {
 
  private:
   struct Use {
-    std::array<std::uint32_t, 2> index = {kNone, kNone};  ///< as data, as colours
+    std::array<std::uint32_t, 2> index = {kNone, kNone};  ///< texture for data, texture for colours
   };
   std::vector<Texture>& textures_;
   std::vector<Use> uses_;

@@ -8,12 +8,12 @@
 namespace gloam::gltf {
 namespace {
 
-// Arrays of objects are capped where a short text ("{},") would become a large struct.
+// Largest counts of arrays of objects, because a short text ("{},") becomes a large struct.
 constexpr std::uint32_t kMany = 1u << 20;
 constexpr std::uint32_t kFew = 1u << 16;
 
-/// glTF 2.0, appendix A (JSON schema). Grouped by type. `extras` and `extensions` stand on every type and are not
-/// listed unless they are looked into.
+/// glTF 2.0, appendix A (JSON schema), grouped by type. `extras` and `extensions` are allowed on every type and listed
+/// only where they are checked.
 constexpr Rule kRules[] = {
     {"", "asset", Form::object, true, 0, "asset"},
     {"", "extensionsUsed", Form::texts},

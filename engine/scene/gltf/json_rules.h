@@ -8,7 +8,7 @@
 
 namespace gloam::gltf {
 
-/// What the value of a member must look like.
+/// Form that the value of a member must have.
 enum class Form : std::uint8_t {
   any,
   text,
@@ -23,27 +23,27 @@ enum class Form : std::uint8_t {
   object,      ///< of type `item`
   objects,     ///< array of objects of type `item`
   index_map,   ///< object whose members are all indices
-  index_maps,  ///< array of such
+  index_maps,  ///< array of index maps
 };
 
-/// One member of one type of object of a glTF file.
+/// Rule for one member of one type of object in a glTF file.
 struct Rule {
-  std::string_view type;  ///< of the object that holds the member, as messages call it; "" is the file's root
+  std::string_view type;  ///< type of the object that holds the member, as in messages; "" is the file's root
   std::string_view member;
   Form form = Form::any;
   bool required = false;
-  std::uint32_t count = 0;  ///< numbers: exactly so many (0: any); objects: at most so many (0: any)
+  std::uint32_t count = 0;  ///< numbers: exact count; objects: largest count; 0: any
   std::string_view item;
-  std::string_view refers;  ///< index, indices, index maps: the root's array that is counted off
+  std::string_view refers;  ///< index, indices, index maps: the root's array that the indices refer to
 };
 
-/// Types whose `extras` hold scene keys and whose `extensions` are kept as they stand.
+/// Types whose `extensions` are kept as written; except for the root, their `extras` hold scene keys.
 inline constexpr std::string_view kRootType = "";
 inline constexpr std::string_view kNodeType = "node";
 inline constexpr std::string_view kMaterialType = "material";
 inline constexpr std::string_view kSceneType = "scene";
 
-/// The rules of one type, at most 64; empty for a type that is not looked into. They live for ever.
+/// The rules of one type, at most 64; empty for a type that is not checked. The span refers to static storage.
 [[nodiscard]] std::span<const Rule> rules_of(std::string_view type);
 
 }  // namespace gloam::gltf

@@ -45,22 +45,21 @@ std::string unknown_key(const KeyRegistry& registry, const std::string& name) {
   return one_line(name) + " is not a known key" + (nearest.empty() ? "" : ", did you mean " + nearest + "?");
 }
 
-/// What the keys of one element stand on.
+/// An element whose extras may hold scene keys.
 struct Element {
   std::string place;
   const SceneValue& extras;
   bool is_node = false;
   bool has_mesh = false;
   bool has_camera = false;
-  KeyElement kind = KeyElement::node;  ///< material or scene, when not a node
+  KeyElement kind = KeyElement::node;  ///< material or scene, if it is not a node
 };
 
 class KeyImporter {
  public:
   KeyImporter(const KeyRegistry& registry, World& world) : registry_(registry), world_(world) {}
 
-  /// Checks every key of the element; sets them when `set` (a node that is not in the scene has no entity to set them
-  /// on).
+  /// Checks every key of the element and, if `set`, sets it. (A node outside the scene has no entity to set it on.)
   Status import(const Element& element, KeyTarget& target, bool set) const {
     if (element.extras.kind != SceneValue::Kind::object) return {};
     for (const auto& [name, value] : element.extras.members) {
@@ -84,7 +83,7 @@ class KeyImporter {
       case KeyElement::node:
         return element.is_node;
       case KeyElement::light_node:
-        // Without an entity nobody can tell.
+        // Without an entity the light test is not possible: the key passes.
         return element.is_node && (entity == kNoEntity || registry_.is_light(world_, entity));
       case KeyElement::mesh_node:
         return element.is_node && element.has_mesh;

@@ -14,15 +14,17 @@
 
 namespace gloam::gltf {
 
-/// Refuses what the file requires and nobody reads; appends a warning for what it uses besides.
+/// Input error if the file requires an extension that nothing reads. Appends a warning for each unknown extension that
+/// it only uses.
 [[nodiscard]] Status check_extensions(const JsonScan& scan, const KeyRegistry& registry,
                                       std::vector<std::string>& warnings);
 
-/// Refuses "gloam." keys on elements that take none.
+/// Input error if a "gloam." key stands on an element that takes none.
 [[nodiscard]] Status check_stray_keys(const JsonScan& scan, const KeyRegistry& registry);
 
-/// Hands extensions to their readers and sets every scene key, nodes first, then materials and the scene. entities: by
-/// node; keys of nodes without one are checked and not set. The assets are in the world.
+/// Passes extensions to their readers and sets every scene key: nodes first, then materials, then scenes. The assets
+/// must be in the world. scene: index of the chosen scene; keys of other scenes are checked but not set. entities: by
+/// node; keys of nodes without an entity are checked but not set.
 [[nodiscard]] Status import_keys(const JsonScan& scan, const Document& document, std::uint32_t scene,
                                  std::span<const Entity> entities, const std::string& directory,
                                  const KeyRegistry& registry, World& world);

@@ -16,7 +16,7 @@ namespace {
 constexpr int kTriangles = 4;
 constexpr int kTriangleStrip = 5;
 
-/// Triangles of a strip or fan; those with a repeated corner, which only join others, are left out.
+/// Triangles of a strip or fan. Triangles with a repeated corner, which only join others, are left out.
 std::vector<std::uint32_t> unroll(const std::vector<std::uint32_t>& corners, bool strip) {
   std::vector<std::uint32_t> list;
   if (corners.size() < 3) return list;
@@ -62,7 +62,7 @@ Status read_colors(const Document& document, std::uint32_t accessor, std::vector
   return {};
 }
 
-/// Weights are made to sum up to 1; a vertex without any follows its first joint.
+/// Scales weights to sum to 1. A vertex without weights follows its first joint.
 Status read_influences(const Document& document, const PrimitiveSource& source, Primitive& primitive,
                        std::uint32_t& joint_count) {
   std::vector<std::uint32_t> joints(document.accessors[source.joints].count * 4);

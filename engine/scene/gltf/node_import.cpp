@@ -36,7 +36,7 @@ Result<Camera> import_camera(const CameraSource& source) {
   return camera;
 }
 
-/// The node's name, else that of what hangs on it.
+/// The node's name, or `other`, the name of its mesh or camera, if it has none.
 const std::string& name_or(const NodeSource& node, const std::string& other) {
   return node.name.empty() ? other : node.name;
 }

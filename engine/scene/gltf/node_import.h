@@ -13,9 +13,9 @@
 
 namespace gloam::gltf {
 
-/// Makes one entity a node of the scene, in node order, with its pose, mesh, camera and names. The world is prepared.
-/// joint_counts: by mesh, one past the largest joint it names. Returns the entities by node, kNoEntity for those not in
-/// the scene.
+/// Creates one entity per node of the scene, in node order, with its pose, mesh, camera and names. The world must be
+/// prepared (prepare_scene_world). joint_counts: ImportedMesh::joint_count by mesh. Returns the entities by node,
+/// kNoEntity for nodes outside the scene.
 [[nodiscard]] Result<std::vector<Entity>> import_nodes(Document& document, const SceneNodeOrder& nodes,
                                                        std::span<const std::uint32_t> joint_counts, World& world);
 

@@ -23,7 +23,7 @@ Status find_parents(Document& document) {
   return {};
 }
 
-/// With one parent a node, whatever cannot be reached from a root hangs below a cycle.
+/// Each node has at most one parent, so a node that cannot be reached from a root is in or below a cycle.
 Status refuse_cycles(const Document& document) {
   std::vector<bool> reached(document.nodes.size());
   std::vector<std::uint32_t> open;

@@ -12,14 +12,14 @@
 
 namespace gloam::gltf {
 
-/// `node 12 "torch-03"`.
+/// Place of an element in messages: `node 12 "torch-03"`.
 [[nodiscard]] inline std::string place(std::string_view what, std::size_t index, std::string_view name = {}) {
   std::string text = std::string(what) + " " + std::to_string(index);
   if (!name.empty()) text += " " + in_quotes(name);
   return text;
 }
 
-/// Faults inside the importer: "place: fault". The file's name is put in front at the end.
+/// Input error "place: fault". import_gltf puts the file's name in front.
 [[nodiscard]] inline Error fault_at(const std::string& where, const std::string& fault) {
   return {ErrorKind::input, where + ": " + fault};
 }

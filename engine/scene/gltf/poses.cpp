@@ -15,7 +15,7 @@
 namespace gloam::gltf {
 namespace {
 
-/// Largest difference between entries, relative to the longest column of the linear part.
+/// Largest difference between entries of the linear parts, relative to the longest column of `a`.
 double difference(const dmat4& a, const dmat4& b) {
   double largest = 0.0;
   double length = 0.0;
@@ -26,7 +26,7 @@ double difference(const dmat4& a, const dmat4& b) {
   return largest / length;
 }
 
-/// The pose whose matrix this is, up to the rounding of floats.
+/// The pose that gives this matrix, up to the rounding of floats; empty if there is none.
 std::optional<LocalTransform> decompose(const dmat4& matrix) {
   constexpr double kTolerance = 1e-5;
   LocalTransform pose;

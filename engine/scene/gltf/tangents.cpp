@@ -8,8 +8,8 @@
 #include "engine/core/assert.h"
 #include "engine/scene/gltf/vertices.h"
 
-// Tangents as MikkTSpace weighs them (by corner angle, projected off the normal), without its welding: vertices are
-// shared as the file shares them. MikkTSpace itself is not packaged by the distribution.
+// Tangents weighted as in MikkTSpace (by corner angle, projected off the normal), but without its welding: vertices are
+// shared as in the file. The distribution does not package MikkTSpace itself.
 
 namespace gloam::gltf {
 namespace {
@@ -19,7 +19,7 @@ dvec3 perpendicular(const dvec3& normal) {
   return glm::normalize(glm::cross(normal, axis));
 }
 
-/// The part of v across the normal, unit length; zero where there is (nearly) none.
+/// v projected off the normal, unit length; zero if (nearly) nothing is left.
 dvec3 across(const dvec3& v, const dvec3& normal) {
   const double length = glm::length(v);
   if (!(length > 0.0) || !std::isfinite(length)) return dvec3(0.0);
@@ -34,7 +34,8 @@ double corner_angle(const dvec3& a, const dvec3& b) {
   return lengths > 0.0 ? std::acos(std::clamp(glm::dot(a, b) / lengths, -1.0, 1.0)) : 0.0;
 }
 
-/// Direction in which u grows, times a positive factor, and whether the texture lies mirrored on the face.
+/// Direction in which u grows (any length), and whether the texture is mirrored on the face. Not valid if the face has
+/// no area in texture space.
 struct FaceTangent {
   dvec3 direction = dvec3(0.0);
   bool mirrored = false;
@@ -48,13 +49,13 @@ FaceTangent face_tangent(const std::array<dvec3, 3>& p, const std::array<dvec3, 
   FaceTangent face;
   if (area == 0.0 || !std::isfinite(area)) return face;
   face.direction = ((p[1] - p[0]) * duv2.y - (p[2] - p[0]) * duv1.y) * (area > 0.0 ? 1.0 : -1.0);
-  // v points down in glTF's images, so texture space is right-handed where the area is negative.
+  // v points down in glTF images, so texture space is right-handed if the area is negative.
   face.mirrored = area > 0.0;
   face.valid = true;
   return face;
 }
 
-/// Splits vertices that mirrored and unmirrored faces share; returns each vertex's handedness.
+/// Splits vertices that mirrored and unmirrored faces share. Returns each vertex's handedness.
 std::vector<float> split_mirrored(Primitive& primitive, const std::vector<FaceTangent>& faces) {
   constexpr std::uint8_t kPlain = 1;
   constexpr std::uint8_t kMirrored = 2;

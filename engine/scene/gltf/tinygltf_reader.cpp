@@ -25,11 +25,11 @@ std::vector<std::uint32_t> indices_of(const std::vector<int>& values) {
 
 // ---- files ----
 
-/// tinygltf asks for files in the order of buffers, then images.
+/// State of read_file. tinygltf asks for the files of buffers first, then of images, each in file order.
 struct FileRequests {
   const JsonScan& scan;
   const std::string& directory;
-  std::size_t buffer = 0;  ///< next to look at
+  std::size_t buffer = 0;  ///< next one to look at
   std::string fault;
 };
 
@@ -37,14 +37,14 @@ bool file_exists(const std::string&, void*) { return true; }
 std::string same_path(const std::string& path, void*) { return path; }
 bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
-/// Ignores the path, which tinygltf has decoded in its own way: the URI as written is in the scan.
+/// Ignores the path, which tinygltf decodes by its own rules; the scan holds the URI as written.
 bool read_file(std::vector<unsigned char>* out, std::string*, const std::string&, void* user) {
   auto& requests = *static_cast<FileRequests*>(user);
   const std::vector<ByteSource>& buffers = requests.scan.buffers;
   std::size_t& i = requests.buffer;
   while (i < buffers.size() && (buffers[i].uri.empty() || buffers[i].data_uri)) ++i;
   if (i >= buffers.size()) {
-    out->assign(1, 0);  // an image: its file is read when it is decoded
+    out->assign(1, 0);  // an image: its file is read later, when it is decoded
     return true;
   }
   const std::string where = place("buffer", i);
@@ -63,7 +63,7 @@ bool read_file(std::vector<unsigned char>* out, std::string*, const std::string&
   return true;
 }
 
-/// Keeps the bytes of images that stand in the text; others have a URI or a buffer view by which they are found later.
+/// Keeps the bytes of images that are embedded in the text. Other images are found later by URI or buffer view.
 bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
                 void*) {
   if (image->uri.empty() && image->bufferView < 0) image->image.assign(bytes, bytes + size);
@@ -181,7 +181,7 @@ MeshSource translate(const tinygltf::Mesh& source) {
 
 // ---- materials ----
 
-/// Numbers of an extension's member; the scan has checked how many.
+/// Number i of a list in an extension. The scan has checked the size of the list.
 double number_at(const tinygltf::Value& list, int i) { return list.Get(i).GetNumberAsDouble(); }
 
 TextureSlot translate_slot(int index, int uv_set, const tinygltf::ExtensionMap& extensions) {

@@ -11,9 +11,9 @@
 
 namespace gloam::gltf {
 
-/// Reads the text with tinygltf and translates its model. The scan of the same text must have found no fault: tinygltf
-/// itself skips over members of wrong types. Buffers are loaded, from the scene's folder only; images are not, and
-/// files behind image URIs are not opened.
+/// Reads the text with tinygltf and translates its model. The scan of the same text must have found no fault, because
+/// tinygltf skips members of wrong types. Buffers are loaded, only from the scene's folder. Images are not loaded, and
+/// files that image URIs name are not opened.
 [[nodiscard]] Result<Document> read_document(const Container& file, const JsonScan& scan, const std::string& directory);
 
 }  // namespace gloam::gltf

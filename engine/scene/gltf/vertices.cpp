@@ -19,7 +19,8 @@ void gather(std::vector<T>& values, std::span<const std::uint32_t> sources) {
   values = std::move(gathered);
 }
 
-/// Twice the area long. In double: products of large coordinates overflow a float.
+/// Cross product of two edges; its length is twice the face's area. In double: products of large coordinates overflow a
+/// float.
 dvec3 face_cross(const Primitive& primitive, std::size_t first_index) {
   const dvec3 a(primitive.positions[primitive.indices[first_index]]);
   const dvec3 b(primitive.positions[primitive.indices[first_index + 1]]);
@@ -27,7 +28,7 @@ dvec3 face_cross(const Primitive& primitive, std::size_t first_index) {
   return glm::cross(b - a, c - a);
 }
 
-/// Unit vector, or `otherwise` where the length is zero.
+/// Unit vector, or `otherwise` if the length is zero or not finite.
 vec3 unit_or(const dvec3& v, const vec3& otherwise) {
   const double length = glm::length(v);
   return length > 0.0 && std::isfinite(length) ? vec3(v / length) : otherwise;
@@ -76,7 +77,7 @@ void make_flat_normals(Primitive& primitive) {
 }
 
 std::uint32_t repair_normals(Primitive& primitive) {
-  // Shorter than any normal that was meant to be one: exporters write such for faces without area.
+  // Normals shorter than this are not meant as normals: exporters write them for faces without area.
   constexpr float kZeroLength = 1e-6f;
   std::vector<std::uint32_t> zero;
   for (std::size_t i = 0; i < primitive.normals.size(); ++i) {

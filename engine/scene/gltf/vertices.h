@@ -9,25 +9,25 @@
 
 namespace gloam::gltf {
 
-/// Makes new vertex i a copy of old vertex sources[i], in every array of the primitive. Indices stay as they are.
+/// Makes new vertex i a copy of old vertex sources[i], in every array of the primitive. Does not change the indices.
 void gather_vertices(Primitive& primitive, std::span<const std::uint32_t> sources);
 
-/// Drops vertices that no index names, when indices are fewer than vertices: primitives may share one large array.
+/// Drops vertices that no index uses, if there are fewer indices than vertices. Primitives may share one large array.
 void drop_unused_vertices(Primitive& primitive);
 
-/// Gives every corner a vertex of its own and the face's normal (+Y where a triangle has no area).
+/// Gives every corner its own vertex with the face's normal (+Y if the triangle has no area).
 void make_flat_normals(Primitive& primitive);
 
-/// Scales normals to unit length. Those that have none become the area-weighted normal of the faces around the vertex,
-/// else +Y; returns how many those were.
+/// Scales normals to unit length. A normal without length is replaced by the area-weighted normal of the faces around
+/// the vertex, or else by +Y. Returns the number of replaced normals.
 std::uint32_t repair_normals(Primitive& primitive);
 
-/// Unit tangents from the derivatives of the normal texture's coordinates (transform included), weighted by the
-/// corners' angles; any direction across the normal where those say nothing. A vertex whose faces are partly mirrored
-/// is split.
+/// Computes unit tangents from the derivatives of the normal texture's coordinates (transform included), weighted by
+/// the angles of the corners. Where the derivatives give no direction, any direction perpendicular to the normal is
+/// used. A vertex with mirrored and unmirrored faces is split.
 void make_tangents(Primitive& primitive, const TextureSlot& normal_texture);
 
-/// Scales tangents to unit length across the normal and handedness to ±1.
+/// Makes tangents unit length and perpendicular to the normal, and handedness ±1.
 void repair_tangents(Primitive& primitive);
 
 }  // namespace gloam::gltf

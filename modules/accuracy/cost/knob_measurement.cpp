@@ -15,10 +15,10 @@
 namespace gloam {
 namespace {
 
-/// Frames drawn of one moment before it is looked at: what a frame takes from the one before has come to rest.
+/// Frames drawn of one moment before it is read, so that data carried from frame to frame has settled.
 constexpr std::uint32_t kSettlingFrames = 3;
 
-/// Grows when metrics or protocol change: rows of an older program are measured again.
+/// Version of metrics and protocol: rows stored under another version are measured again.
 constexpr int kMethod = 2;
 
 std::string exact_text(double value) {
@@ -34,7 +34,7 @@ std::string hash_of(const FramePictures& frame) {
   return std::to_string(hasher.digest());
 }
 
-/// One line without line breaks of its own.
+/// The text with line breaks replaced by spaces.
 std::string joined_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -63,7 +63,7 @@ KnobMeasurement::~KnobMeasurement() {
 }
 
 Status KnobMeasurement::set(const std::string& value) {
-  // Setting is a change to who watches the knobs, whatever the value.
+  // A set counts as a change for observers of the knobs, even with the same value.
   if (subject_.knobs().text(knob_.name) == value) return {};
   return subject_.knobs().set(knob_.name, value);
 }

@@ -13,8 +13,8 @@
 
 namespace gloam {
 
-/// Measures the values of one knob. The reference is drawn when the first value needs it. Puts the knob back when it
-/// ends.
+/// Measures the values of one knob. Draws the reference when the first value needs it. The destructor restores the
+/// knob.
 class KnobMeasurement {
  public:
   KnobMeasurement(const CostRequest& request, CostSubject& subject, const Knob& knob);
@@ -22,7 +22,7 @@ class KnobMeasurement {
   KnobMeasurement(const KnobMeasurement&) = delete;
   KnobMeasurement& operator=(const KnobMeasurement&) = delete;
 
-  /// All that a row of this value depends on, one line.
+  /// Everything that a row of this value depends on, in one line.
   [[nodiscard]] std::string identity(const std::string& value) const;
   [[nodiscard]] Result<LedgerRow> measure(const std::string& value);
 
@@ -31,22 +31,23 @@ class KnobMeasurement {
     FramePictures frame;
     std::vector<LinearPicture> sequence;  ///< empty unless the request asks for one
   };
+  /// A reference and its noise (LedgerRow::reference_noise).
   struct Held {
     PictureJudge judge;
     double noise = 0.0;
   };
 
-  /// All that a drawn frame depends on, one line.
+  /// Everything that a drawn frame depends on, in one line.
   [[nodiscard]] std::string frame_identity(const std::string& value) const;
   [[nodiscard]] Status set(const std::string& value);
   [[nodiscard]] Status settle();
-  /// With the knobs as they are; leaves frame 0 as the last one drawn.
+  /// Draws with the current knobs. The last frame drawn is frame 0.
   [[nodiscard]] Result<Drawn> draw();
   [[nodiscard]] Result<Drawn> draw(const std::string& value);
   [[nodiscard]] Status judge(const std::string& value, LedgerRow& row);
-  /// Draws the reference that all values are held against.
+  /// Draws the reference that all values are compared with.
   [[nodiscard]] Status hold_reference();
-  /// Draws what a measure holds all values against: the right picture, and what the default counts.
+  /// For a measure: draws the right picture, and reads the counters of the default value.
   [[nodiscard]] Status hold_standard();
   [[nodiscard]] Status judge_by_measure(const std::string& value, LedgerRow& row);
   [[nodiscard]] Status judge_by_exact(const Drawn& drawn, LedgerRow& row);
@@ -58,13 +59,14 @@ class KnobMeasurement {
   const CostRequest& request_;
   CostSubject& subject_;
   const Knob& knob_;
-  std::string users_;  ///< the knob's value before
+  std::string users_;  ///< the knob's value before measuring
   std::string default_;
-  std::optional<MeasureInfo> measure_;      ///< of the module; goes before a reference
-  FrameCounters standard_;                  ///< what the measure's default counts
-  std::optional<ReferenceInfo> reference_;  ///< of the module; none: the exact value, if there is one
+  std::optional<MeasureInfo> measure_;  ///< the module's measure; takes precedence over a reference
+  FrameCounters standard_;              ///< counters of the default value, for the measure
+  std::optional<ReferenceInfo>
+      reference_;  ///< the module's reference; none: a frame with the knob's exact value, if it has one
   ReferenceCache cache_;
-  std::optional<Held> held_;  ///< of references that serve all values
+  std::optional<Held> held_;  ///< the reference, if one serves all values
   std::vector<LinearPicture> exact_sequence_;
 };
 

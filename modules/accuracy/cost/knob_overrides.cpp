@@ -18,7 +18,7 @@ Status KnobOverrides::set(std::span<const std::string> assignments) {
     const std::string name = assignment.substr(0, assignment.find('='));
     const bool exists = knobs_.find(name) != nullptr;
     const std::string before = exists ? knobs_.text(name) : std::string();
-    // Setting is a change to who watches the knobs, whatever the value.
+    // A set counts as a change for observers of the knobs, even with the same value.
     if (exists && assignment == name + "=" + before) continue;
     GLOAM_TRY(knobs_.set_assignment(assignment));
     before_.emplace_back(name, before);

@@ -12,7 +12,7 @@
 
 namespace gloam {
 
-/// Knobs that are set for a while: they get their values back when this ends.
+/// Sets knobs temporarily: the destructor restores their values.
 class KnobOverrides {
  public:
   explicit KnobOverrides(KnobRegistry& knobs) : knobs_(knobs) {}
@@ -20,12 +20,12 @@ class KnobOverrides {
   KnobOverrides(const KnobOverrides&) = delete;
   KnobOverrides& operator=(const KnobOverrides&) = delete;
 
-  /// "KNOB=VALUE", in order. Those of knobs that have the value already change nothing.
+  /// `assignments`: "KNOB=VALUE", set in order. Assignments of the current value are skipped.
   [[nodiscard]] Status set(std::span<const std::string> assignments);
 
  private:
   KnobRegistry& knobs_;
-  std::vector<std::pair<std::string, std::string>> before_;  ///< name and value
+  std::vector<std::pair<std::string, std::string>> before_;  ///< name and previous value
 };
 
 }  // namespace gloam

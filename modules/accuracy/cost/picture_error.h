@@ -21,14 +21,14 @@ namespace gloam {
   return {picture.width, picture.height, picture.rgba};
 }
 
-/// A reference that pictures are held against, one by one.
+/// A reference that pictures are compared with.
 class PictureJudge {
  public:
-  /// At least one side of the reference is there.
+  /// The reference must have at least one side (linear light or picture).
   explicit PictureJudge(FramePictures reference);
 
-  /// Sets flip, psnr_db, rmse and rmse_p99 of the row, as far as the reference has the side. frame: both sides, of the
-  /// reference's size.
+  /// Sets flip and psnr_db of the row if the reference has a picture, rmse and rmse_p99 if it has linear light.
+  /// `frame`: linear light and picture, of the reference's size.
   [[nodiscard]] Status judge(const FramePictures& frame, LedgerRow& row) const;
 
  private:
@@ -36,7 +36,7 @@ class PictureJudge {
   std::optional<FlipFeatures> features_;
 };
 
-/// Sets row.temporal from frames that follow each other. As many of each.
+/// Sets row.temporal from consecutive frames; the same number on both sides.
 [[nodiscard]] Status judge_sequence(const std::vector<LinearPicture>& reference,
                                     const std::vector<LinearPicture>& frames, LedgerRow& row);
 

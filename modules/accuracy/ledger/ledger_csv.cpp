@@ -8,7 +8,7 @@
 namespace gloam {
 namespace {
 
-/// Cells of one line.
+/// Collects the cells of one line.
 class CsvLine {
  public:
   CsvLine& text(std::string_view value) {

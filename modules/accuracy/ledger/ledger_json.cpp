@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 Json pair_json(const ErrorPair& pair) { return {{"mean", pair.mean}, {"p99", pair.p99}}; }
 ErrorPair pair_of(const Json& json) { return {json.at("mean").get<double>(), json.at("p99").get<double>()}; }
 
-/// An absent error has no key; an infinite PSNR (the same picture) is null.
+/// An absent error has no key. An infinite PSNR (identical pictures) is null.
 Json errors_json(const LedgerRow& row) {
   Json json = Json::object();
   if (row.counted) json["counted"] = {{"value", row.counted->value}, {"unit", row.counted->unit}};
@@ -114,7 +114,7 @@ LedgerHeader header_of(const Json& json) {
   return header;
 }
 
-/// `read(json)`, or why the text is not what it should be.
+/// Returns `read(json)`, or an error that names the fault in the text. `what`: names the text in the message.
 template <class Read>
 auto parse(std::string_view text, const char* what, Read&& read) -> Result<decltype(read(Json()))> {
   try {

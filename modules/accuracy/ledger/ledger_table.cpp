@@ -14,8 +14,8 @@ constexpr std::size_t kColumns = 12;
 using Line = std::array<std::string, kColumns>;
 const Line kTitles = {"",     "knob", "value",   "counted", "FLIP mean",      "FLIP p99",
                       "RMSE", "ms",   "p10-p90", "ratio",   "module CPU+GPU", "MiB"};
-constexpr std::size_t kCountedColumn = 3;  // only where a row has one
-constexpr std::size_t kTextColumns = 3;    // aligned to the left
+constexpr std::size_t kCountedColumn = 3;  // shown only if a row has a counted error
+constexpr std::size_t kTextColumns = 3;    // left-aligned
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
@@ -69,7 +69,7 @@ std::string head(const LedgerHeader& header) {
   return text;
 }
 
-/// By what the rows of each knob were judged, and which are wrong.
+/// The reference of each knob's rows, and the reasons of wrong rows.
 std::string judgements(const std::vector<LedgerRow>& rows) {
   std::string text;
   for (const LedgerRow& row : rows) {

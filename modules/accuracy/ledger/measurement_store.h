@@ -10,13 +10,13 @@
 
 namespace gloam {
 
-/// Finished rows in a folder, one file each, so that an interrupted run goes on where it was. A row is found again only
-/// under all that it was measured under: the caller's `identity`, one line.
+/// Finished rows in a folder, one file each, so that an interrupted run can resume. A row is found only under the same
+/// `identity`: one line, from the caller, with everything the row depends on.
 class MeasurementStore {
  public:
   explicit MeasurementStore(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Files that are absent, damaged or of something else are nothing.
+  /// None if the file is absent, damaged or of another identity.
   [[nodiscard]] std::optional<LedgerRow> load(const std::string& identity) const;
   [[nodiscard]] Status save(const std::string& identity, const LedgerRow& row) const;
   [[nodiscard]] std::string path_of(const std::string& identity) const;

@@ -7,8 +7,8 @@
 namespace gloam {
 namespace {
 
-/// Whether `a` makes `b` pointless. Times of two rows were taken minutes apart, their ratios to the default side by
-/// side with it: a machine that drifts changes the first, not the second.
+/// Whether `a` makes `b` pointless. Compares ratios, not times: two rows are timed minutes apart, but each ratio is to
+/// a default that was timed alongside. A drift of the machine changes the times, not the ratios.
 bool dominates(const LedgerRow& a, const LedgerRow& b) {
   const double error_a = *a.error();
   const double error_b = *b.error();
@@ -16,7 +16,7 @@ bool dominates(const LedgerRow& a, const LedgerRow& b) {
   return no_worse && (error_a < error_b || a.ratio < b.ratio);
 }
 
-/// Whether a row can stand on a front, or keep others off it.
+/// Whether a row can be on a front, or keep others off it.
 bool counts(const LedgerRow& row) { return row.error() && row.wrong.empty(); }
 
 }  // namespace

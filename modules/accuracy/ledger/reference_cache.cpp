@@ -23,7 +23,7 @@ void append_picture(std::string& bytes, const P& picture) {
   bytes.append(reinterpret_cast<const char*>(data.data()), data.size());
 }
 
-/// Reads from the front of `bytes` and takes it off; false when too little is left.
+/// Removes a value from the front of `bytes`; false if too few bytes are left.
 template <class T>
 bool take_value(std::string_view& bytes, T& value) {
   if (bytes.size() < sizeof(T)) return false;

@@ -10,7 +10,7 @@
 
 namespace gloam {
 
-/// One row as JSON on one line, and back. Errors are of ErrorKind::input.
+/// One row as JSON on one line, and back. Parse errors are of ErrorKind::input.
 [[nodiscard]] std::string row_json(const LedgerRow& row);
 [[nodiscard]] Result<LedgerRow> parse_row_json(std::string_view text);
 

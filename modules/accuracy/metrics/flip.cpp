@@ -17,7 +17,7 @@ namespace {
 using namespace flip;
 
 constexpr double kColorExponent = 0.7;    // q_c
-constexpr double kCompressFrom = 0.4;     // p_c: share of the largest difference that is stretched …
+constexpr double kCompressFrom = 0.4;     // p_c: differences up to this share of the largest are stretched …
 constexpr double kCompressTo = 0.95;      // p_t: … to this share of the range
 constexpr double kFeatureExponent = 0.5;  // q_f
 
@@ -38,7 +38,7 @@ Opponents opponents_of(const EncodedPixels& picture) {
   return result;
 }
 
-/// Length of the gradient of one feature: `kernel` across, the Gaussian along.
+/// Gradient magnitude of one feature: `kernel` across, the Gaussian along.
 std::vector<float> feature_strength(const Plane& luminance, const Plane& smooth_rows, const Kernel& kernel,
                                     const Kernel& gaussian) {
   const Plane across_x = filter_columns(filter_rows(luminance, kernel), gaussian);
@@ -77,7 +77,7 @@ void add_colors(FlipFeatures& features, Opponents opponents) {
   }
 }
 
-/// Stretches small colour differences over most of 0…1 (§4.1.3). largest: of any two colours.
+/// Stretches small colour differences over most of 0…1 (§4.1.3). `largest`: the largest difference of any two colours.
 double stretched(double difference, double largest) {
   const double knee = kCompressFrom * largest;
   if (difference < knee) return difference * kCompressTo / knee;

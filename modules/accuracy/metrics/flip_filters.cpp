@@ -20,7 +20,7 @@ struct Gaussian {
 constexpr Gaussian kLuminance[] = {{1.0, 0.0047}};
 constexpr Gaussian kRedGreen[] = {{1.0, 0.0053}};
 constexpr Gaussian kBlueYellow[] = {{34.1, 0.04}, {13.5, 0.025}};
-constexpr double kWidestB = 0.04;  // one radius for all channels
+constexpr double kWidestB = 0.04;  // greatest b: all channels use its radius
 
 constexpr double kFeatureWidth = 0.082;  // degrees
 

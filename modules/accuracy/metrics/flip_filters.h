@@ -19,12 +19,12 @@ struct Kernel {
   std::vector<double> weights;
 };
 
-/// Correlation along rows or columns; beyond its border a plane goes on as its last pixel.
+/// Correlation along rows or columns. Beyond the border the border pixel repeats.
 [[nodiscard]] Plane filter_rows(const Plane& plane, const Kernel& kernel);
 [[nodiscard]] Plane filter_columns(const Plane& plane, const Kernel& kernel);
 
-/// A contrast sensitivity as a sum of two-dimensional Gaussians, each the product of its kernel along rows and along
-/// columns. Kernels have the sum 1, and so have the shares.
+/// A contrast sensitivity as a weighted sum of two-dimensional Gaussians. Each is separable: its kernel along rows
+/// times the same kernel along columns. The weights of a kernel sum to 1, and so do the shares.
 struct SensitivityFilter {
   struct Part {
     double share = 0.0;
@@ -37,8 +37,8 @@ enum class Opponent { luminance, red_green, blue_yellow };
 [[nodiscard]] SensitivityFilter sensitivity_filter(Opponent channel, double pixels_per_degree);
 [[nodiscard]] Plane apply(const SensitivityFilter& filter, const Plane& plane);
 
-/// The Gaussian that features are looked for at, with its first and second derivative: positive weights of a derivative
-/// have the sum 1, negative ones the sum −1.
+/// Kernels that detect features: a Gaussian and its first and second derivative. In a derivative, the positive weights
+/// sum to 1 and the negative ones to −1.
 struct FeatureKernels {
   Kernel gaussian;
   Kernel edge;

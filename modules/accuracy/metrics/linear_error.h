@@ -12,22 +12,23 @@
 namespace gloam {
 
 struct RmsError {
-  double rmse = 0.0;       ///< root of the mean square over all pixels and the three channels
-  ErrorStatistics pixels;  ///< of `map`
-  std::vector<float> map;  ///< a pixel's root of the mean square over its three channels
+  double rmse = 0.0;       ///< root mean square over all pixels and the three channels
+  ErrorStatistics pixels;  ///< statistics of `map`
+  std::vector<float> map;  ///< per pixel: root mean square over its three channels
 };
 
-/// Error in linear light, in its unit. Pictures of one size. Error that names the place when a channel is not a finite
-/// number.
+/// RMS error in linear light, in the unit of the pictures, which must have the same size. Fails with ErrorKind::failed
+/// if a channel is not finite; the error names the pixel.
 [[nodiscard]] Result<RmsError> rms_error(const LinearPixels& reference, const LinearPixels& test);
 
-/// Change from frame to frame that the reference does not have (flicker, popping): of |(test_i+1 − test_i) −
+/// Change from frame to frame that the reference does not have (flicker, popping): statistics of |(test_i+1 − test_i) −
 /// (reference_i+1 − reference_i)|, root mean square over the three channels, over all pixels and all pairs of
-/// neighbouring frames. As many frames of each, all of one size; fewer than two have no change. Errors as rms_error.
+/// consecutive frames. The same number of frames on both sides, all of one size; 0 for fewer than two. Errors as
+/// rms_error.
 [[nodiscard]] Result<ErrorStatistics> temporal_error(std::span<const LinearPixels> reference,
                                                      std::span<const LinearPixels> test);
 
-/// Ratio of peak signal to noise of encoded pictures of one size, in decibels; infinity when they are the same.
+/// Peak signal-to-noise ratio of encoded pictures of one size, in decibels; infinity if they are identical.
 [[nodiscard]] double psnr_db(const EncodedPixels& reference, const EncodedPixels& test);
 
 }  // namespace gloam

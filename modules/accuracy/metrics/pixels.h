@@ -8,8 +8,7 @@
 
 namespace gloam {
 
-/// Pixels of a picture, rows from the top: width · height · 4 numbers, of which the fourth of each pixel is not looked
-/// at.
+/// Pixels of a picture, rows from the top: width · height · 4 numbers. The fourth number of each pixel is ignored.
 template <class T>
 struct Pixels {
   std::uint32_t width = 0;   ///< > 0

@@ -7,7 +7,7 @@
 
 namespace gloam {
 
-/// What is told of an error map. All 0 for an empty one.
+/// Summary of an error map. All 0 for an empty one.
 struct ErrorStatistics {
   double mean = 0.0;
   double p99 = 0.0;  ///< 99th percentile
@@ -17,8 +17,8 @@ struct ErrorStatistics {
 
 [[nodiscard]] ErrorStatistics statistics_of(std::span<const float> errors);
 
-/// The value below which a fraction (0…1) of the values lies, linear between neighbours. values: not empty; its order
-/// changes.
+/// The value below which a fraction (0…1) of the values lies, linear between neighbours. `values`: not empty; gets
+/// reordered.
 [[nodiscard]] double quantile(std::vector<double>& values, double fraction);
 
 }  // namespace gloam

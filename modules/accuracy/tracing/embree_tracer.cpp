@@ -19,12 +19,12 @@
 namespace gloam {
 namespace {
 
-/// What a hit on a cut-out surface is judged by.
+/// Data for the alpha test of a hit on a cut-out surface.
 struct CutOutMesh {
   TriangleMesh mesh;
   const CutOut* cut_out = nullptr;
 
-  /// u, v: weights of the second and third corner.
+  /// `u`, `v`: barycentric weights of the second and third corner.
   [[nodiscard]] bool is_hole(std::uint32_t triangle, float u, float v) const {
     const std::uint32_t* corner = &mesh.indices[3 * std::size_t{triangle}];
     const vec3 share(1.0f - u - v, u, v);
@@ -36,7 +36,7 @@ struct CutOutMesh {
   }
 };
 
-/// Lets rays through holes.
+/// Embree filter: rejects hits in holes.
 void pass_holes(const RTCFilterFunctionNArguments* args) {
   const auto& mesh = *static_cast<const CutOutMesh*>(args->geometryUserPtr);
   for (unsigned int i = 0; i < args->N; ++i) {
@@ -63,11 +63,11 @@ class EmbreeTracer final : public SceneTracer {
     if (device_ == nullptr) return;
     rtcSetDeviceErrorFunction(device_, note_error, &error_);
     scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // no ray slips between triangles that share an edge
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // no ray passes between triangles that share an edge
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
     for (TriangleMesh& mesh : triangles.meshes) attach(std::move(mesh));
-    // Embree builds with as many of TBB's threads as its surroundings allow: here the caller alone. Its own setting for
-    // that would hold for everybody in the process who uses TBB.
+    // Embree builds with as many TBB threads as the current arena allows: here the caller alone. Embree's own thread
+    // setting would apply to all users of TBB in the process.
     tbb::task_arena alone(1);
     alone.execute([this] { rtcCommitScene(scene_); });
   }

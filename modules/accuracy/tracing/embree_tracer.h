@@ -10,8 +10,8 @@
 
 namespace gloam {
 
-/// Traces with Embree 3 on the calling threads; no thread of its own. Triangles with positions that are not finite are
-/// left out.
+/// Traces with Embree 3 on the calling threads and starts no threads. Fails with ErrorKind::failed if Embree cannot be
+/// used or cannot take the scene. Triangles with non-finite positions are left out.
 [[nodiscard]] Result<std::unique_ptr<SceneTracer>> make_embree_tracer(SceneTriangles triangles);
 
 }  // namespace gloam

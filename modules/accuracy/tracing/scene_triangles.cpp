@@ -14,14 +14,14 @@
 namespace gloam {
 namespace {
 
-/// An instance and where its vertices go.
+/// A mesh instance and the transforms of its vertices.
 struct Instance {
   Entity entity;
   const Mesh* mesh = nullptr;
   dmat4 world_from_mesh = dmat4(1.0);
   std::span<const mat4> joints;  ///< empty: rigid
   dvec3 joint_origin = dvec3(0.0);
-  std::span<const float> weights;  ///< of morph targets
+  std::span<const float> weights;  ///< of its morph targets
 };
 
 std::span<const mat4> joints_of(const JointMatrices& all, Entity entity, dvec3& origin) {
@@ -69,7 +69,7 @@ dvec3 middle_of(std::span<const Instance> instances) {
   return low.x <= high.x ? (low + high) * 0.5 : dvec3(0.0);
 }
 
-/// Sum 1, none negative; weights that sum to nothing leave everything to the first joint, as in the vertex data of
+/// Weights with sum 1, none negative. If the sum is 0 or not finite, the first joint gets all, as in the vertex data of
 /// frames.
 vec4 normalised(const vec4& weights) {
   vec4 result(0.0f);
@@ -171,7 +171,7 @@ std::size_t wrapped(std::int64_t at, std::int64_t size, WrapMode mode) {
   return static_cast<std::size_t>(rest < size ? rest : period - 1 - rest);
 }
 
-/// In texels; coordinates of which no sense can be made are the first texel's.
+/// Coordinate in texels; 0 if it is NaN or its magnitude is 1e15 or more.
 double texel_coordinate(float uv, std::uint32_t size) {
   const double at = static_cast<double>(uv) * size;
   return std::abs(at) < 1e15 ? at : 0.0;

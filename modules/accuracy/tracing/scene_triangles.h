@@ -13,45 +13,46 @@
 
 namespace gloam {
 
-/// Where a surface has holes: its alpha, as a frame tests it. Frames filter with mips; here the image itself is looked
-/// at, between its texels as the sampler says.
+/// Alpha test of a surface with holes, as frames do it, except that frames sample mips: this samples mip 0 only, with
+/// the texture's nearest or linear filter.
 struct CutOut {
-  float alpha = 1.0f;  ///< of the material
+  float alpha = 1.0f;  ///< alpha of the material
   float cutoff = 0.5f;
   std::uint32_t width = 0;  ///< 0: no texture
   std::uint32_t height = 0;
-  std::vector<std::uint8_t> texels;  ///< alpha alone, rows from the top
+  std::vector<std::uint8_t> texels;  ///< alpha channel only, rows from the top
   bool nearest = false;
   WrapMode wrap_u = WrapMode::repeat;
   WrapMode wrap_v = WrapMode::repeat;
 
-  /// Whether there is a hole. uv: of the texture, its transform applied; vertex_alpha: of vertex colours.
+  /// Whether the surface has a hole at `uv`, the texture coordinates after the texture transform; `vertex_alpha`: alpha
+  /// of the vertex colour.
   [[nodiscard]] bool is_hole(vec2 uv, float vertex_alpha) const;
 };
 
-/// Triangles that are alike in what they let through.
+/// Triangles with one alpha test.
 struct TriangleMesh {
   std::vector<vec3> positions;         ///< relative to SceneTriangles::origin
-  std::vector<std::uint32_t> indices;  ///< three a triangle, below positions.size()
-  std::uint32_t cut_out = kNone;       ///< of SceneTriangles::cut_outs; kNone: without holes
-  std::vector<vec2> uvs;               ///< of cut-outs, one a position
-  std::vector<float> alphas;           ///< of cut-outs with vertex colours, one a position
+  std::vector<std::uint32_t> indices;  ///< three per triangle, each below positions.size()
+  std::uint32_t cut_out = kNone;       ///< index in SceneTriangles::cut_outs; kNone: no holes
+  std::vector<vec2> uvs;               ///< for cut-outs: one per position
+  std::vector<float> alphas;           ///< for cut-outs with vertex colours: one per position
 };
 
-/// What of a world casts shadows.
+/// The triangles of a world that cast shadows.
 struct SceneTriangles {
   dvec3 origin = dvec3(0.0);         ///< world
   std::vector<TriangleMesh> meshes;  ///< ordered by entity index, then by primitive
   std::vector<CutOut> cut_outs;
 
   [[nodiscard]] std::uint64_t count() const;
-  /// Another one for other triangles.
+  /// Hash of the origin, all triangles and all cut-outs.
   [[nodiscard]] std::uint64_t hash() const;
 };
 
 /// The triangles of all MeshInstances as a frame shows them after its systems: WorldTransform in double, morphed by
-/// MorphWeights, skinned by JointMatrices with up to four joints a vertex. Blended surfaces are left out. origin:
-/// world; none: the middle of all there is.
+/// MorphWeights, skinned by JointMatrices with up to four joints per vertex. Blended surfaces are left out. `origin`:
+/// world position; none: the middle of all instances.
 [[nodiscard]] SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& origin,
                                               JobExecutor& executor);
 

@@ -40,7 +40,7 @@ CloseupFrame plan_closeup_frame(const FrameBuilder& frame, std::optional<bool> c
 void add_late_copies(const FrameBuilder& frame, CloseupFrame& closeups) {
   closeups.copies = true;
   closeups.overlay = empty_plan(frame);
-  // Where there is no room, the subject's shadow is missing for this one frame.
+  // A pair without room for its copies loses the subject's shadow in the overlay for this one frame.
   for (const CloseupView& pair : closeups.pairs) static_cast<void>(add_copies(frame, pair, closeups.overlay));
 }
 

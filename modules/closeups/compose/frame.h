@@ -11,22 +11,24 @@
 
 namespace gloam {
 
-/// What a frame does with its view's pairs. On the board from PassPhase::announce on, when it draws any.
+/// The close-up pairs of a frame. On the board from PassPhase::announce on, in frames that draw close-ups.
 struct CloseupFrame {
-  std::vector<CloseupView> pairs;  ///< that have maps of their own, in the order of CloseupViews
-  std::uint32_t skipped = 0;       ///< CloseupViews::skipped, and those whose standard faces found no room for copies
-  bool copies = false;             ///< standard maps are looked at: copies of them will hold the subjects
-  OverlayPlan overlay;             ///< those copies
+  std::vector<CloseupView> pairs;  ///< pairs with their own map, in the order of CloseupViews
+  std::uint32_t skipped = 0;       ///< CloseupViews::skipped, plus pairs whose overlay found no room in the atlas
+  bool copies = false;             ///< standard maps are read in this frame, so an overlay holds the subjects
+  OverlayPlan overlay;             ///< the faces of that overlay
 };
 
-/// Whether something looks at the view's standard maps: forward-lit surfaces, or tiles without a final list.
-/// `complete`: FinalLists::always_complete as far as it is known.
+/// Whether the frame reads the view's standard maps: for forward-lit surfaces or fallback tiles. `complete`:
+/// FinalLists::always_complete, if known.
 [[nodiscard]] bool standard_maps_are_seen(const FrameBuilder& frame, std::optional<bool> complete);
 
-/// complete: as it was in the view's last frame.
+/// Plans the view's close-up pairs for this frame. `complete`: FinalLists::always_complete of the view's last frame, if
+/// known.
 [[nodiscard]] CloseupFrame plan_closeup_frame(const FrameBuilder& frame, std::optional<bool> complete);
 
-/// The same pairs, with what copies of standard faces find room: they turned out to be needed after all.
+/// Plans the overlay for the pairs of `closeups`. For a frame whose need for an overlay becomes known only after
+/// PassPhase::announce.
 void add_late_copies(const FrameBuilder& frame, CloseupFrame& closeups);
 
 }  // namespace gloam

@@ -13,7 +13,7 @@ namespace gloam {
 namespace {
 
 constexpr const char* kModule = "closeups";
-constexpr std::uint32_t kGroup = 8;  // threads of a side of transfer.comp's workgroups
+constexpr std::uint32_t kGroup = 8;  // side of transfer.comp's workgroup, in threads
 
 gpu::ComputePipelineDesc transfer_pipeline(bool d16) {
   if (d16) return {"closeup_transfer/d16", kModule, shaders::closeups::transfer_r16_comp, {}};
@@ -28,13 +28,13 @@ TexelRect covered_by(const CloseupSubjects::Subject& subject, const ShadowFace& 
   return covered_texels(face, subject.low, subject.high);
 }
 
-/// Faces of one size that are drawn into a map of this side at a time.
+/// Number of faces of side `size` that are drawn at a time into a map of side `map_size`.
 std::size_t most_at_a_time(std::uint32_t size, std::uint32_t map_size) {
   const std::size_t squares = std::size_t{map_size / size} * (map_size / size);
   return std::min<std::size_t>(squares, ShadowMapDrawer::most_maps(size));
 }
 
-/// The face in the map's i-th square of its size.
+/// The face, placed in the i-th square of its size in a map of side `map_size`.
 ShadowFace in_square(ShadowFace face, std::size_t i, std::uint32_t map_size) {
   const std::uint32_t a_row = map_size / face.square.size, at = static_cast<std::uint32_t>(i);
   face.square.origin = uvec2(at % a_row, at / a_row) * face.square.size;
@@ -91,9 +91,9 @@ Status CloseupOverlay::add_pass(FrameBuilder& frame, Transfers transfers, const 
         gpu::CommandList& commands = context.commands();
         commands.bind_pipeline(pipeline);
         const gpu::ImageHandle image = context.image(atlas);
-        std::set<std::size_t> written;  // since the last barrier
+        std::set<std::size_t> written;  // faces written since the last barrier
         for (const Transfer& transfer : transfers) {
-          // Pairs of one light may share faces.
+          // Pairs of one light may write the same face.
           if (!written.insert(transfer.face).second) {
             const gpu::ImageBarrier again{image, gpu::Access::compute_write, gpu::Access::compute_write};
             commands.barrier({}, {&again, 1});

@@ -11,30 +11,30 @@
 
 namespace gloam {
 
-/// Lets forward-lit surfaces and tiles without a final list see close-up subjects in this frame: in copies of the
-/// standard faces that may see them. In a frame without such copies nothing happens.
+/// Shows close-up subjects to forward-lit surfaces and fallback tiles: adds them to the overlay, i.e. to copies of the
+/// standard faces that may see them. Does nothing in a frame without overlay.
 class CloseupOverlay {
  public:
-  /// draws: subjects are drawn into a map of the standard face's size where the close-up map has room for one, in place
-  /// of transferring what the pairs' maps hold.
+  /// `draws`: true draws the subjects into the close-up map with the projection of the standard face, if the map is
+  /// large enough, and adds these depths to the copy; false transfers the depths of the pairs' own faces.
   explicit CloseupOverlay(bool draws) : draws_(draws) {}
 
-  /// Copies the faces within the atlas (pass shadow_overlay_copy).
+  /// Copies the planned faces within the atlas (pass shadow_overlay_copy).
   [[nodiscard]] Status start(FrameBuilder& frame, const OverlayPlan& plan);
-  /// Adds the subjects of pairs whose maps lie in `map` (pass closeup_transfer). Their faces are placed. Drawing, it
-  /// uses the map: then it comes after all else that looks at these maps.
+  /// Adds the subjects of `pairs`, whose faces have their place in `map` (pass closeup_transfer). With `draws`, this
+  /// overwrites `map`: call it after every other pass that reads these pairs' faces.
   [[nodiscard]] Status add(FrameBuilder& frame, std::span<const CloseupView> pairs, ExtraAtlas& map);
-  /// ShadowsOutputs on the board with the copies and their mips.
+  /// Makes ShadowsOutputs on the board refer to the copies and their mips.
   [[nodiscard]] Status finish(FrameBuilder& frame);
 
  private:
   struct Transfer {
     gpu::Binding::BufferRange constants;
-    std::size_t face = 0;  ///< in OverlayCopies
-    uvec2 groups = uvec2(0);
+    std::size_t face = 0;     ///< index in OverlayCopies
+    uvec2 groups = uvec2(0);  ///< workgroups of the dispatch
   };
   using Transfers = std::vector<Transfer>;
-  /// Faces in OverlayCopies, of the pair's light, that its subject may be seen in.
+  /// Indices in OverlayCopies of the faces of the pair's light that may see its subject.
   [[nodiscard]] std::vector<std::size_t> faces_of(const FrameBuilder& frame, const CloseupView& pair) const;
   [[nodiscard]] Status add_transfer(FrameBuilder& frame, const CloseupView& pair, const ShadowFace& from,
                                     std::size_t face, const ExtraAtlas& map, Transfers& transfers) const;
@@ -46,7 +46,7 @@ class CloseupOverlay {
   OverlayCopies copies_;
 };
 
-/// Pipelines that these passes take; d16: of OverlayMaps.
+/// Pipelines of these passes. `d16`: as OverlayMaps::d16.
 void list_closeup_overlay_pipelines(bool d16, PipelineList& list);
 
 }  // namespace gloam

@@ -13,15 +13,15 @@ namespace {
 
 bool is_perspective(const ShadowFace& face) { return face.tan_half > 0.0f; }
 
-/// A vector for every point of a face: x · point.x + y · point.y + rest.
+/// A vector that depends linearly on a point of a face: x · point.x + y · point.y + rest.
 struct PointVectors {
   dvec3 x;
   dvec3 y;
   dvec3 rest;
 };
 
-/// Perspective: where a ray through the point comes one metre along the axis, from the face's origin. Orthographic:
-/// where the point lies on the near side, from the middle of it.
+/// Perspective: the ray from the face's origin through the point, with a length of one metre along the axis.
+/// Orthographic: the position of the point on the near side, relative to its centre.
 PointVectors rays_of(const ShadowFace& face) {
   const double half = is_perspective(face) ? face.tan_half : face.half_extent_m;
   const dvec3 right = dvec3(face.right) * half, up = dvec3(face.up) * half;
@@ -30,12 +30,12 @@ PointVectors rays_of(const ShadowFace& face) {
   return {right * texel, up * -texel, ahead - right + up};
 }
 
-/// dot(axis, the vector of a point) as a row.
+/// Row r with dot(r, (point, 1)) = dot(axis, vector of the point).
 dvec3 row(const dvec3& axis, const PointVectors& vectors) {
   return {glm::dot(axis, vectors.x), glm::dot(axis, vectors.y), glm::dot(axis, vectors.rest)};
 }
 
-/// Rows that take a point of a face to where it lies in another.
+/// Rows that map a point of one face to a homogeneous point of another.
 struct PlaceRows {
   dvec3 u;
   dvec3 v;
@@ -46,7 +46,7 @@ PlaceRows place_rows(const ShadowFace& of, const ShadowFace& in) {
   PointVectors rays = rays_of(of);
   const bool perspective = is_perspective(in);
   if (!perspective) {
-    // Along the light is of no matter; without it numbers are small.
+    // The offset along the light has no effect; removing it keeps the numbers small.
     const dvec3 apart = of.origin - in.origin, forward(of.forward);
     rays.rest += apart - forward * glm::dot(forward, apart);
   }
@@ -58,7 +58,8 @@ PlaceRows place_rows(const ShadowFace& of, const ShadowFace& in) {
 
 void set_depths(const ShadowFace& from, const ShadowFace& to, shaders::CloseupTransfer& made) {
   if (is_perspective(from)) {
-    // near / depth along the axis, and depth_w is how far along it a point lies for a metre along the pair's.
+    // Depth is near / distance along the axis. depth_w gives the distance along `to`'s axis per metre along `from`'s
+    // axis.
     made.depth_scale = to.near_m / from.near_m;
     return;
   }

@@ -9,7 +9,7 @@
 namespace gloam {
 namespace {
 
-/// Corners of the near side, then of the far one, each all the way round; camera-relative.
+/// Camera-relative corners: four of the near side in cyclic order, then four of the far side.
 std::array<dvec3, 8> corners_of(const ShadowFace& face, const dvec3& camera) {
   std::array<dvec3, 8> corners;
   for (int i = 0; i < 8; ++i) {
@@ -23,11 +23,11 @@ std::array<dvec3, 8> corners_of(const ShadowFace& face, const dvec3& camera) {
   return corners;
 }
 
-/// Part of a line, by shares of its length.
+/// Part of a line, as shares of its length.
 struct Part {
   double begin = 0.0;
   double end = 1.0;
-  /// Leaves what is not negative of a value that runs evenly from one end of the line to the other.
+  /// Keeps the part in which a value that is linear along the line is not negative.
   void keep(double at_begin, double at_end) {
     if (at_begin < 0.0 && at_end < 0.0) end = begin - 1.0;
     if ((at_begin < 0.0) == (at_end < 0.0)) return;
@@ -40,7 +40,7 @@ struct Part {
   [[nodiscard]] bool empty() const { return !(begin < end); }
 };
 
-/// Pixels and depth.
+/// Position in pixels, and depth.
 dvec3 on_picture(const dvec4& clip, const RenderView& view) {
   return {(0.5 + 0.5 * clip.x / clip.w) * view.width, (0.5 - 0.5 * clip.y / clip.w) * view.height, clip.z / clip.w};
 }

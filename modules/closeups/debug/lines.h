@@ -10,9 +10,9 @@
 
 namespace gloam {
 
-/// The edges of a face's frustum – its near side, its far side, and the four between them; orthographic: of its box –
-/// as a view sees them. What lies nearer than the view's near plane, and what lies farther than `rim_pixels` outside
-/// its picture, is cut off.
+/// The edges of a face's frustum (orthographic: of its box) as a view sees them: near side, far side, and the four
+/// edges between them. Parts nearer than the view's near plane, or more than `rim_pixels` outside its picture, are
+/// clipped.
 [[nodiscard]] std::vector<shaders::CloseupLine> frustum_lines(const ShadowFace& face, const RenderView& view,
                                                               double rim_pixels);
 

@@ -11,8 +11,9 @@
 
 namespace gloam {
 
-/// The close-up pairs whose tiles hold a pixel, and of those whose frustum holds what it shows: size of the map and
-/// texels a pixel's side; in lines for people. Looks at the engine's own copies. Nothing for frames that draw no pair.
+/// Readable lines about a pixel: the close-up pairs whose umbra range holds it, with the size of the pair's face and,
+/// if its frustum holds the visible surface, the texels per pixel side. Reads only the engine's copies. Empty for
+/// frames that draw no pair.
 [[nodiscard]] std::vector<std::string> closeup_pick_lines(const FrameBuilder& frame, const PickedPixel& pixel,
                                                           const Captures& copies);
 

@@ -13,28 +13,28 @@
 
 namespace gloam {
 
-/// Pairs that a view shows; what comes after them is left out.
+/// Greatest number of pairs that a visualizer shows; further pairs are left out.
 inline constexpr std::size_t kMostShownCloseups = 64;
 
-/// The pairs that the frame draws maps of; skipped ones, and all of a frame without final lists, are none.
+/// The pairs that the frame draws: without skipped pairs, and empty in a frame without final lists.
 [[nodiscard]] std::span<const CloseupView> drawn_closeups(const FrameBuilder& frame);
 
-/// Linear colour that stands for a pair, by its entity: it stays while the pair lives.
+/// Linear colour of a pair. It depends on the entity only, so it is stable while the pair exists.
 [[nodiscard]] vec3 closeup_color(Entity pair);
 
-/// Names and legends of the views of this module.
+/// Names and legends of this module's visualizers.
 [[nodiscard]] std::vector<VisualizerInfo> closeup_visualizers();
 
-/// Draws the views of close-ups over the picture, and each into an image of its own name: "closeup_frusta" as it lies
-/// over the picture, "closeup_texels" with the texels a pixel's side in red, −1 where there are none.
+/// Draws the close-up visualizers over the picture. Each is also drawn into an image of the same name: "closeup_frusta"
+/// holds the overlaid colours, "closeup_texels" the texels per pixel side in red, −1 outside all pairs.
 class CloseupViewPasses {
  public:
-  /// Adds the pass of FrameBuilder::visualizer(), if that is one of this module's. A frame that draws no pair is left
-  /// as it is; where final lists are missing, that is told once.
+  /// Adds the pass of FrameBuilder::visualizer() if the visualizer belongs to this module. A frame that draws no pair
+  /// is left unchanged; if the cause is missing final lists, one warning says so.
   [[nodiscard]] Status add_pass(FrameBuilder& frame);
 
  private:
-  std::set<std::string> told_;  ///< warnings
+  std::set<std::string> told_;  ///< warnings already logged
 };
 
 }  // namespace gloam

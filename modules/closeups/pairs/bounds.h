@@ -13,17 +13,17 @@
 
 namespace gloam {
 
-/// Of meshes that deform, what bounds their poses; a resource. Primitives have only bounds, flags and counts of
-/// targets.
+/// Bounds of the poses of meshes that deform; a resource. In the primitives only bounds, `skinned` and the number of
+/// morph targets are set.
 struct CloseupMeshes {
-  std::uint64_t version = 0;                        ///< of the SceneAssets it was made from; 0: of none
-  std::vector<std::vector<GpuPrimitive>> deformed;  ///< by mesh; empty for one that is rigid
+  std::uint64_t version = 0;                        ///< SceneAssets::version it was computed from; 0: none
+  std::vector<std::vector<GpuPrimitive>> deformed;  ///< by mesh; empty for a rigid mesh
 };
 
-/// Makes it anew when it is not of this version.
+/// Recomputes `meshes` if it was computed from another version of `assets`.
 void update_closeup_meshes(const SceneAssets& assets, JobExecutor& jobs, CloseupMeshes& meshes);
 
-/// What the boxes of instances are made from in one frame.
+/// Inputs for the boxes of mesh instances in one frame.
 struct PosedScene {
   const SceneAssets& assets;
   const CloseupMeshes& meshes;
@@ -31,10 +31,10 @@ struct PosedScene {
   const MorphWeights& weights;
 };
 
-/// Box of several instances.
+/// Union of the boxes of several instances.
 struct BoxSum {
   WorldBox box;
-  bool unknown = false;  ///< one of them may be anywhere
+  bool unknown = false;  ///< the box of at least one instance is unknown
   void add(const WorldBox& other) {
     box.min = glm::min(box.min, other.min);
     box.max = glm::max(box.max, other.max);
@@ -45,7 +45,8 @@ struct BoxSum {
   }
 };
 
-/// Adds what an instance draws, morphed and posed. One without a mesh draws nothing. `morph`: null without weights.
+/// Adds the world box of an instance, morphed and posed. An instance without a mesh adds nothing. `morph`: null if the
+/// instance has no weights.
 void add_posed(const PosedScene& scene, Entity entity, const MeshInstance& instance, const dmat4& world_from_node,
                const MorphInstance* morph, BoxSum& sum);
 

@@ -10,7 +10,7 @@
 namespace gloam {
 namespace {
 
-constexpr double kEdgeOn = 1e-4;  // sine: surfaces count as seen from no flatter than this
+constexpr double kEdgeOn = 1e-4;  // lower limit of the sine between surface and view ray
 
 dvec3 in_face(const ShadowFace& face, const dvec3& v) {
   return {glm::dot(dvec3(face.right), v), glm::dot(dvec3(face.up), v), glm::dot(dvec3(face.forward), v)};

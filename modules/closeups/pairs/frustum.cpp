@@ -12,14 +12,14 @@
 namespace gloam {
 namespace {
 
-constexpr double kNearestMeter = 0.05;  // what is nearer to a light casts no shadow in standard maps either
+constexpr double kNearestMeter = 0.05;  // standard maps leave out nearer blockers, too
 constexpr double kWidestTangent = 2.0;
-constexpr double kConeRim = 0.125;  // share of the half extent, for kernels; as ShadowSettings::kernel_rim
-constexpr double kRimTexels = 2.1;  // two, and what floats lose
-constexpr double kRounded = 1e-6;   // share by which floats may lie on the wrong side
+constexpr double kConeRim = 0.125;  // share of the half extent, read by kernels; equals ShadowSettings::kernel_rim
+constexpr double kRimTexels = 2.1;  // two, plus a margin for rounding in floats
+constexpr double kRounded = 1e-6;   // relative margin for rounding in floats
 constexpr std::uint32_t kSmallestMap = 64;
 
-/// A box from the light's place along a map's axes.
+/// Bounds of a box along a map's axes, relative to an origin.
 struct AlongAxes {
   dvec3 low = dvec3(std::numeric_limits<double>::infinity());
   dvec3 high = dvec3(-std::numeric_limits<double>::infinity());
@@ -43,16 +43,16 @@ AlongAxes along(const CloseupAxes& axes, const WorldBox& box, const dvec3& origi
   return all;
 }
 
-/// Greatest tangent to either side from the axis at which a ball lies, `beside` it and `ahead`, farther than its
-/// radius.
+/// Greatest tangent, to either side of the axis, at which a ball is seen. `beside`: distance of its centre from the
+/// axis; `ahead`: distance along the axis, > radius.
 double widest_tangent(double beside, double ahead, double radius) {
   const double far = std::abs(beside);
   return (far * ahead + radius * std::sqrt(far * far + ahead * ahead - radius * radius)) /
          (ahead * ahead - radius * radius);
 }
 
-/// Tangent that the box, grown by the emitter, reaches to; infinite where it reaches the light's plane. The greatest
-/// tangent over the hull of eight balls is that of one of them.
+/// Greatest tangent of the box grown by the emitter's radius; infinite if the grown box reaches the plane through the
+/// light. The grown box is bounded by the hull of eight balls, whose greatest tangent is that of one of the balls.
 double subject_tangent(const CloseupAxes& axes, const WorldBox& box, const CloseupLight& light) {
   double widest = 0.0;
   for (int c = 0; c < 8; ++c) {
@@ -63,7 +63,7 @@ double subject_tangent(const CloseupAxes& axes, const WorldBox& box, const Close
   return widest;
 }
 
-/// What of a half extent is left when the rim goes off it on both sides.
+/// Share of the half extent that lies inside the border texels (kRimTexels on each side).
 double inner_share(std::uint32_t size) { return 1.0 - 2.0 * kRimTexels / static_cast<double>(size); }
 
 ShadowFace looking_along(const CloseupAxes& axes, std::uint32_t size) {
@@ -128,7 +128,7 @@ std::optional<CloseupFrustum> directional_frustum(const CloseupLight& light, con
 }  // namespace
 
 CloseupAxes closeup_axes(const dvec3& forward) {
-  // Turned from straight down, the way that is shortest.
+  // Rotates the axes that look straight down, by the shortest rotation to `forward`.
   const dvec3 down(0.0, -1.0, 0.0);
   const double turned = 1.0 + glm::dot(down, forward);
   dvec3 right(1.0, 0.0, 0.0);

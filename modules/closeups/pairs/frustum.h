@@ -9,19 +9,19 @@
 #include "modules/closeups/pairs/light.h"
 #include "modules/closeups/pairs/views.h"
 
-/// The view from which a pair's map is drawn. FF XVI §3.1, figure 9. Changed: it encloses the penumbra of a wide
-/// emitter (FF's umbra is a point's), exactly: receivers that some of the emitter cannot see for a subject lie in the
-/// directions in which the subject's box, grown by the emitter's radius, lies.
+/// Frustum of a close-up pair's face: FF XVI §3.1, figure 9. Changed: it encloses exactly the penumbra of a wide
+/// emitter (FF's umbra is that of a point). If the subject hides part of the emitter from a receiver, then the
+/// direction from the emitter's centre to the receiver meets the subject's box grown by the emitter's radius.
 namespace gloam {
 
-/// What a pair's map shows.
+/// The face of a close-up pair.
 struct CloseupFrustum {
-  ShadowFace face;         ///< without a place; its light is left to the caller
+  ShadowFace face;         ///< the caller sets its light and its place in the map (square.origin)
   float tan_inner = 0.0f;  ///< see CloseupView
 };
 
-/// Axes of a map that looks along the unit vector `forward`: as it turns they turn by as little as can be, also
-/// straight down; only straight up they are not continuous.
+/// Axes of a face that looks along the unit vector `forward`. When `forward` turns, they rotate as little as possible,
+/// also where `forward` passes straight down. The only discontinuity is at straight up.
 struct CloseupAxes {
   vec3 right = vec3(1.0f, 0.0f, 0.0f);
   vec3 up = vec3(0.0f, 1.0f, 0.0f);
@@ -29,17 +29,18 @@ struct CloseupAxes {
 };
 [[nodiscard]] CloseupAxes closeup_axes(const dvec3& forward);
 
-/// `receivers`: box of what a directional light's shadow may fall on, if known. size: texels of the map's side,
-/// from 64. A local light's map reaches from the subject's nearest point along its axis, or 5 cm, to the light's range;
-/// a directional one's from the subject's nearest point to the farthest one of subject and receivers. The map's border
-/// holds nothing of the subject, two texels wide, unless the cone of a spot light is the smaller bound: then its rim is
-/// an eighth of its half extent as standard maps' are. Nothing where no map can hold the subject: the light is in its
-/// box grown by the emitter, it reaches beyond tangents of 2 from the map's axis, or numbers are not finite.
+/// `receivers`: box of everything that may receive a directional light's shadow, if known. `size`: side of the face in
+/// texels, ≥ 64. Depth range of a local light: from the subject's nearest point along the axis (at least 5 cm) to the
+/// light's range. Depth range of a directional light: from the subject's nearest point to the farthest point of subject
+/// and receivers. The two border texels on each side stay empty, unless a spot's cone is the smaller bound: then the
+/// rim is 1/8 of the half extent, as in standard maps. None if no face can hold the subject: the light is inside the
+/// subject's box grown by the emitter's radius, the subject reaches beyond a tangent of 2 from the axis, or numbers are
+/// not finite.
 [[nodiscard]] std::optional<CloseupFrustum> closeup_frustum(const CloseupLight& light, const WorldBox& subject,
                                                             const WorldBox& receivers, std::uint32_t size);
 
-/// Texels of the side of a pair's map: a power of two, at least 64, that gives the tiles it falls on as many as
-/// settings ask for where there is room; pairs that share the map have half its side.
+/// Side of a pair's face in texels: a power of two, at least 64, enough for settings.texels_per_pixel over `tiles`. At
+/// most the side of the close-up map, or half of it if pairs share the map.
 [[nodiscard]] std::uint32_t closeup_size(const CloseupSettings& settings, const TileRange& tiles);
 
 }  // namespace gloam

@@ -8,17 +8,18 @@
 namespace gloam {
 namespace {
 
-constexpr float kNarrowestCone = kPi / 180.0f;  // half angle in radians, as for standard maps
-constexpr float kWidestDisc = 3.0f;             // apparent diameter in radians, the same
+constexpr float kNarrowestCone = kPi / 180.0f;  // half angle in radians; the same limit as for standard maps
+constexpr float kWidestDisc = 3.0f;             // apparent diameter in radians; the same limit
 
-/// Unit vector of any finite one but zero; zero for others.
+/// The unit vector of v; zero if v is zero or not finite.
 dvec3 unit_or_zero(const dvec3& v) {
   const double greatest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(greatest > 0.0) || !std::isfinite(v.x + v.y + v.z)) return dvec3(0.0);
   return glm::normalize(v / greatest);
 }
 
-/// A unit vector at right angles to the unit vector `forward`, in the plane of it and `wish` where that has one.
+/// A unit vector perpendicular to the unit vector `forward`: the direction of `wish` projected to that plane, or any
+/// direction if `wish` is parallel to `forward`.
 dvec3 across(const dvec3& wish, const dvec3& forward) {
   const dvec3 part = wish - forward * glm::dot(wish, forward);
   if (glm::dot(part, part) > 1e-12) return glm::normalize(part);

@@ -9,20 +9,20 @@
 
 namespace gloam {
 
-/// A light at its place, as close-ups look at it: every number is finite.
+/// A placed light as this module reads it. Every number is finite, except the position of a directional light.
 struct CloseupLight {
   LightKind kind = LightKind::point;
   dvec3 position = dvec3(0.0);         ///< world
-  dvec3 right = dvec3(1.0, 0.0, 0.0);  ///< right, up, forward: unit vectors at right angles, forward where it shines
+  dvec3 right = dvec3(1.0, 0.0, 0.0);  ///< orthonormal axes; the light shines along `forward`
   dvec3 up = dvec3(0.0, 1.0, 0.0);
   dvec3 forward = dvec3(0.0, 0.0, -1.0);
-  double half_angle = 0.0;  ///< spot: of its cone, radians, at most π/2
-  double radius_m = 0.0;    ///< local: of its emitter
+  double half_angle = 0.0;  ///< spot: half angle of its cone, radians, at most π/2
+  double radius_m = 0.0;    ///< local light: radius of its emitter
   double spread = 0.0;      ///< directional: tangent of half its apparent diameter
-  double range_m = 0.0;     ///< local
+  double range_m = 0.0;     ///< local light: effective_range
 };
 
-/// Nothing for a light whose place or angles are not finite.
+/// None for a light whose angles, or position if local, are not finite.
 [[nodiscard]] std::optional<CloseupLight> closeup_light(const Light& light, const dmat4& world_from_node);
 
 }  // namespace gloam

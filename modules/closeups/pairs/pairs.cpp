@@ -12,9 +12,9 @@
 namespace gloam {
 namespace {
 
-constexpr float kLeastRange = 0.05f;  // metres: lights that reach no farther have no shadow maps
+constexpr float kLeastRange = 0.05f;  // metres: lights with a range up to this have no shadow maps
 
-/// A light that casts shadows, and how far.
+/// A shadow-casting light and, if local, the sphere it can light.
 struct CastingLight {
   Entity entity;
   bool directional = false;
@@ -22,7 +22,6 @@ struct CastingLight {
   double radius_m = 0.0;
 };
 
-/// A pair with its entity.
 struct KeptPair {
   CloseupPair pair;
   Entity entity;
@@ -35,7 +34,7 @@ struct PairOrder {
   bool operator()(const CloseupPair& a, const CloseupPair& b) const { return key(a) < key(b); }
 };
 
-/// Of a light in its first frame: its LightBounds come with the next.
+/// Bounds of a light in its first frame, before it gets LightBounds.
 LightBounds first_bounds(const Light& light, const dmat4& world_from_node, float range_m) {
   LightBounds bounds{dvec3(world_from_node[3]), range_m};
   if (light.kind != LightKind::spot) return bounds;
@@ -66,14 +65,14 @@ std::vector<CastingLight> casting_lights(const PairLights& lights) {
   return found;
 }
 
-/// False for a light without a place.
+/// Whether the light may reach the subject's box. False for a local light with an empty sphere.
 bool reaches(const CastingLight& light, const CloseupSubjects::Subject& subject) {
   if (light.directional) return true;
   const dvec3 away = light.center - glm::clamp(light.center, subject.low, subject.high);
   return light.radius_m > 0.0 && glm::dot(away, away) <= light.radius_m * light.radius_m;
 }
 
-/// Null: every light.
+/// The lights that the text names, ascending by index; empty if a name is unknown or ambiguous. Null: every light.
 const std::vector<Entity>* named_lights(std::uint32_t text, const SceneNames& names, const SceneStrings& strings,
                                         CloseupLightNames& resolved) {
   if (strings.text(text).empty()) return nullptr;
@@ -99,7 +98,7 @@ void closeup_pairs_system(PairLights lights, View<const CloseupPair> pairs, Reso
   std::vector<KeptPair> had;
   pairs.each([&](Entity entity, const CloseupPair& pair) { had.push_back({pair, entity}); });
   if (had.empty() && subjects->subjects.empty()) return;
-  // Of two entities for one pair the first stays.
+  // If several entities hold the same pair, the one with the lowest index stays.
   std::ranges::sort(had, {}, [](const KeptPair& p) { return p.entity.index; });
   std::ranges::stable_sort(had, PairOrder{}, &KeptPair::pair);
 
@@ -113,7 +112,7 @@ void closeup_pairs_system(PairLights lights, View<const CloseupPair> pairs, Reso
       if (reaches(light, subject) && (named == nullptr || is_named(*named, light.entity)))
         wanted.push_back({subject.entity, light.entity});
   }
-  // Both are in one order: entities of one index are not alive together.
+  // Both lists are sorted by entity index, which is the same order: live entities never share an index.
   std::size_t next = 0;
   for (const CloseupPair& pair : wanted) {
     for (; next < had.size() && PairOrder{}(had[next].pair, pair); ++next) commands.destroy(had[next].entity);

@@ -17,15 +17,16 @@
 
 namespace gloam {
 
-/// Lists of light names that have been looked up, by number in SceneStrings; a resource.
+/// Resolved lists of light names, keyed by their number in SceneStrings; a resource.
 struct CloseupLightNames {
-  std::unordered_map<std::uint32_t, std::vector<Entity>> lights;  ///< ascending by index
+  std::unordered_map<std::uint32_t, std::vector<Entity>> lights;  ///< each list ascending by index
 };
 
 using PairLights = View<const Light, const WorldTransform, Maybe<const LightBounds>, Maybe<const ShadowCaster>>;
 
-/// Keeps one entity for every subject with a box and every light that casts its shadow. Names that mean no light, or
-/// several, mean none.
+/// Creates and destroys entities so that exactly one CloseupPair exists for each combination of a subject with a known
+/// box and a shadow-casting light that reaches the subject and is named by it (CloseupSubject::lights). A list with an
+/// unknown or ambiguous name matches no light.
 void closeup_pairs_system(PairLights lights, View<const CloseupPair> pairs, Resource<const CloseupSubjects> subjects,
                           Resource<const SceneNames> names, Resource<const SceneStrings> strings,
                           Resource<CloseupLightNames> resolved, Commands& commands);

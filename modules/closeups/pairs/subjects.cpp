@@ -8,10 +8,10 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kMeshGrain = 1024;  // instances a job
-constexpr int kDeepestNode = 4096;        // so that parents in a ring end
+constexpr std::size_t kMeshGrain = 1024;  // instances per job
+constexpr int kDeepestNode = 4096;        // ends the search if parents form a cycle
 
-/// A mesh of a subject.
+/// A mesh instance of a subject.
 struct OwnedMesh {
   std::size_t subject = 0;
   Entity entity;
@@ -30,7 +30,7 @@ std::vector<CloseupSubjects::Subject> enabled_subjects(const View<const CloseupS
   return found;
 }
 
-/// The innermost subject at or above a node; subjects.size() when there is none.
+/// The innermost subject at or above a node; subjects.size() if there is none.
 std::size_t owner_of(Entity node, const View<const Parent>& parents,
                      const std::vector<CloseupSubjects::Subject>& subjects) {
   for (int step = 0; step < kDeepestNode; ++step) {
@@ -45,7 +45,7 @@ std::size_t owner_of(Entity node, const View<const Parent>& parents,
   return subjects.size();
 }
 
-/// Every mesh of a subject, in the order of the world's rows.
+/// Every mesh instance of a subject, in the order of the world's rows.
 std::vector<OwnedMesh> owned_meshes(const PosedMeshes& meshes, const View<const Parent>& parents,
                                     const std::vector<CloseupSubjects::Subject>& subjects, JobExecutor& jobs) {
   std::vector<std::vector<OwnedMesh>> found(meshes.chunk_count(kMeshGrain));
@@ -113,7 +113,7 @@ void closeup_receivers_system(View<const Light> lights, PosedMeshes meshes, Reso
       });
   BoxSum all;
   for (const BoxSum& part : found) all.add(part);
-  receivers->box = all.box;  // what has no place shows no shadow
+  receivers->box = all.box;  // all.unknown is ignored: an instance without a finite position shows no shadow
 }
 
 }  // namespace gloam

@@ -11,20 +11,22 @@
 
 namespace gloam {
 
-/// Where anything is that a subject's shadow of a directional light may fall on; a resource. Made only while there are
-/// a subject and such a light, else not known.
+/// Box of everything that may receive a subject's shadow from a directional light; a resource. Known only while the
+/// world has a subject with a known box and a directional light.
 struct CloseupReceivers {
   WorldBox box;
 };
 
 using PosedMeshes = View<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>;
 
-/// Finds subjects, what belongs to each, and where it is. One with a part that may be anywhere has no box.
+/// Finds the enabled subjects, their casters and their boxes. A subject has no box if the box of one of its casters is
+/// unknown.
 void closeup_subjects_system(View<const CloseupSubject> subjects, PosedMeshes meshes, View<const Parent> parents,
                              Resource<const SceneAssets> assets, Resource<const JointMatrices> joints,
                              Resource<const MorphWeights> weights, Resource<CloseupMeshes> bounds,
                              Resource<CloseupSubjects> found, JobExecutor& jobs);
 
+/// Computes CloseupReceivers.
 void closeup_receivers_system(View<const Light> lights, PosedMeshes meshes, Resource<const SceneAssets> assets,
                               Resource<const JointMatrices> joints, Resource<const MorphWeights> weights,
                               Resource<const CloseupMeshes> bounds, Resource<const CloseupSubjects> subjects,

@@ -15,7 +15,7 @@ using glm::dvec2;
 const ScreenRect kNowhere{dvec2(std::numeric_limits<double>::infinity()),
                           dvec2(-std::numeric_limits<double>::infinity())};
 
-/// What the points' hull looks like from the camera is the hull of these.
+/// Projected points whose hull is the projection of the points' hull, clipped at the near plane.
 std::vector<dvec2> projected(std::span<const dvec3> points, const RenderView& view) {
   const dmat4 clip(view.clip_from_view);
   const double near = view.near_m;
@@ -34,7 +34,7 @@ std::vector<dvec2> projected(std::span<const dvec3> points, const RenderView& vi
     before.push_back(p);
     add(p);
   }
-  // Where edges of the hull cross the near plane, and other lines within it.
+  // The points where edges of the hull, and other segments inside it, cross the near plane.
   for (const dvec3& a : behind) {
     for (const dvec3& b : before) {
       const double share = (near + a.z) / (a.z - b.z);
@@ -49,7 +49,7 @@ double turn(const dvec2& a, const dvec2& b, const dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Andrew's monotone chain, without points that are on an edge or twice there.
+/// Andrew's monotone chain. Drops points on an edge and duplicates.
 std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
   std::ranges::sort(points, [](const dvec2& a, const dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   if (points.size() < 3) return points;

@@ -17,8 +17,8 @@ struct ScreenRect {
   [[nodiscard]] bool empty() const { return !(low.x <= high.x && low.y <= high.y); }
 };
 
-/// The tight rectangle of the part of a convex hull that lies beyond the near plane and shows inside `limit`. Points
-/// are in view space.
+/// The tight rectangle of the part of a convex hull that is beyond the near plane and inside `limit` on the screen.
+/// `points`: in view space.
 [[nodiscard]] ScreenRect hull_on_screen(std::span<const dvec3> points, const RenderView& view, const ScreenRect& limit);
 
 }  // namespace gloam

@@ -16,14 +16,14 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kSlackPixels = 1.0 / 16.0;  // floats of the camera's matrices and of positions from depth
-constexpr double kCellAngle = 0.3;           // radians that a cell of the far end is wide at most
-constexpr double kLeastCellAngle = 0.1;      // the same for narrow cones
-constexpr std::size_t kDiscCorners = 8;      // of the polygon round a directional light's disc
-constexpr double kLeastSlope = 0.05;         // of rays to a side of the scene that they are followed to
-constexpr double kFarthestCone = 1e4;        // metres: farther apexes are too coarse in floats
+constexpr double kSlackPixels = 1.0 / 16.0;  // rounding of the camera's float matrices and of positions from depth
+constexpr double kCellAngle = 0.3;           // greatest width of a cell of the far end, radians
+constexpr double kLeastCellAngle = 0.1;      // width of its cells for narrow cones, radians
+constexpr std::size_t kDiscCorners = 8;      // corners of the polygon around a directional light's disc
+constexpr double kLeastSlope = 0.05;         // rays flatter than this to a side of the scene are not followed to it
+constexpr double kFarthestCone = 1e4;        // metres: an apex farther away is too imprecise in floats
 
-/// The camera as positions in double need it.
+/// The camera, for world positions in double.
 struct CameraFrame {
   const RenderView& view;
   glm::dmat3 turn;
@@ -62,7 +62,7 @@ void cut_off(const NdcRect& rect, const RenderView& view, ScreenRect& limit) {
   limit.high = glm::min(limit.high, dvec2(rect.max) + slack);
 }
 
-/// Takes off the screen what lies out of the light's reach.
+/// The part of the screen that the light can reach.
 ScreenRect light_limit(const CloseupLight& light, const CameraFrame& camera) {
   const RenderView& view = camera.view;
   ScreenRect limit = screen_with_slack(view);
@@ -94,7 +94,7 @@ std::array<dvec3, 8> corners_of(const WorldBox& box) {
   return corners;
 }
 
-/// Positions along one side of a face at distance `ahead`, at angles that are equally far apart as seen from the light.
+/// Positions along one side of a box face at distance `ahead`, at equal angles as seen from the light.
 std::vector<double> steps(double from, double to, double ahead, double cell_angle) {
   const double first = std::atan2(from, ahead);
   const double span = std::atan2(to, ahead) - first;
@@ -109,15 +109,15 @@ std::vector<double> steps(double from, double to, double ahead, double cell_angl
 struct Directions {
   dvec3 axis = dvec3(0.0, 0.0, -1.0);
   double half_angle = 2.0 * static_cast<double>(kPi);
-  /// `cosine`: of the angle within which others lie round the middle one.
+  /// Whether a direction within acos(cosine) of `middle` may be one of these.
   [[nodiscard]] bool may_meet(const dvec3& middle, double cosine) const {
     const double between = std::acos(std::clamp(glm::dot(middle, axis), -1.0, 1.0));
     return between <= half_angle + std::acos(std::clamp(cosine, -1.0, 1.0)) + 1e-6;
   }
 };
 
-/// Adds points, as seen from the light, whose hull lies beyond `range` in every one of `wanted` in which this face of a
-/// box lies. `ahead`: where it is on `axis`, of either sign.
+/// Adds points, relative to the light. In every direction of `wanted` that meets this face of the box, their hull lies
+/// beyond `range`. `ahead`: signed position of the face on `axis`.
 void add_far_end(const dvec3& low, const dvec3& high, int axis, double ahead, double range, const Directions& wanted,
                  std::vector<dvec3>& points) {
   const int u = (axis + 1) % 3;
@@ -132,7 +132,8 @@ void add_far_end(const dvec3& low, const dvec3& high, int axis, double ahead, do
     d[v] = vs[j];
     return glm::normalize(d);
   };
-  // A cell's corners go as far out as keeps what is between them beyond the range: a plane across its middle direction.
+  // Moves the corners of a cell out to a plane perpendicular to its middle direction, so that the whole cell lies
+  // beyond the range.
   std::vector<double> reach(us.size() * vs.size(), 0.0);
   for (std::size_t i = 0; i + 1 < us.size(); ++i) {
     for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
@@ -160,7 +161,7 @@ void add_far_end(const WorldBox& grown, double range, const Directions& wanted, 
   }
 }
 
-/// Box round a cone from the origin, as far as the range.
+/// Box around the light's cone, with the apex at the origin, up to the light's range.
 WorldBox cone_box(const CloseupLight& light) {
   WorldBox box{dvec3(0.0), dvec3(0.0)};
   for (int axis = 0; axis < 3; ++axis) {
@@ -179,11 +180,12 @@ ScreenRect hull_round_light(std::vector<dvec3> points, const WorldBox& near_end,
   return hull_on_screen(points, camera.view, limit);
 }
 
-/// A receiver that a point B of the box hides from a point E of the emitter lies on a ray from B along B − E, so for
-/// all E in directions, as seen from the emitter's middle, in which the box lies when it is grown by the emitter's
-/// radius. The ray leaves the range through the far end that is put up in those directions: the receiver is in the hull
-/// of box and far end. As well it lies behind a point of the grown box in its own direction: one in a cone is in the
-/// hull of those parts of grown box and far end that the cone may meet.
+/// Proof that the hulls contain every shadowed receiver. Let a point B of the box hide a point E of the emitter from
+/// the receiver. The receiver lies on the ray from B along B − E. As seen from the emitter's centre, B − E points to
+/// the box grown by the emitter's radius. The far end covers all of these directions and the ray leaves the range
+/// through it, so the receiver is in the hull of the box and the far end. The receiver also lies behind a point of the
+/// grown box in its own direction. If it is in a spot's cone, it is therefore in the hull of the parts of the grown box
+/// and of the far end that the cone may meet.
 TileRange local_tiles(const CloseupLight& light, const WorldBox& subject, const CameraFrame& camera) {
   ScreenRect limit = light_limit(light, camera);
   const double range = light.range_m;
@@ -192,7 +194,7 @@ TileRange local_tiles(const CloseupLight& light, const WorldBox& subject, const 
   if (!box.known()) return {};
   WorldBox grown{box.min - light.radius_m, box.max + light.radius_m};
   const dvec3 ahead = glm::max(grown.min, -grown.max);
-  // The light is inside: there is no direction in which there can be no shadow.
+  // The light is inside the grown box: the shadow may fall in any direction.
   const bool around = !(std::max({ahead.x, ahead.y, ahead.z}) > 1e-9 * range);
   if (around) return tiles_of(limit, camera.view);
   std::vector<dvec3> points;
@@ -209,7 +211,7 @@ TileRange local_tiles(const CloseupLight& light, const WorldBox& subject, const 
   return tiles_of(limit, camera.view);
 }
 
-/// Directions in whose hull all light arrives.
+/// Directions whose hull holds the directions of all rays of the light.
 std::vector<dvec3> arriving(const CloseupLight& light) {
   if (!(light.spread > 0.0)) return {light.forward};
   std::vector<dvec3> rays;
@@ -221,8 +223,8 @@ std::vector<dvec3> arriving(const CloseupLight& light) {
   return rays;
 }
 
-/// The hull of the box and of where rays from its corners meet a plane, on screen. Their hull holds where all the
-/// others meet it.
+/// Screen bounds of the hull of the box corners and of the points where `rays` from these corners meet a plane. Any ray
+/// inside the hull of `rays`, from any point of the box, meets the plane inside this hull.
 ScreenRect followed_to(const dvec3& normal, double distance, std::span<const dvec3> rays,
                        const std::array<dvec3, 8>& corners, const CameraFrame& camera, const ScreenRect& limit) {
   std::vector<dvec3> points;
@@ -234,8 +236,8 @@ ScreenRect followed_to(const dvec3& normal, double distance, std::span<const dve
   return hull_on_screen(points, camera.view, limit);
 }
 
-/// Receivers are in the scene, so before each of its sides: the volume up to every side that the light goes towards
-/// holds them all.
+/// All receivers are inside the scene's box. The shadow volume up to a side that the light shines toward therefore
+/// holds all receivers; the result is the intersection over these sides.
 TileRange directional_tiles(const CloseupLight& light, const WorldBox& subject, const WorldBox& receivers,
                             const CameraFrame& camera) {
   WorldBox scene = subject;

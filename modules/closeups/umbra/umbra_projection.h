@@ -9,13 +9,13 @@
 
 namespace gloam {
 
-/// Tiles of all pixels of a view that a subject may keep any of a light from: those of the volume behind the subject's
-/// box as seen from every point of the emitter, with the box itself, to the light's range; of a directional light in
-/// the box round subject and `receivers` (not known: the subject's alone). Empty when none shows. All of the view where
-/// numbers are not finite.
+/// The umbra range: tiles of all pixels for which a subject may hide part of a light. It encloses the volume behind the
+/// subject's box as seen from every point of the emitter, including the box, up to the light's range; for a directional
+/// light, up to the box around subject and `receivers` (unknown: the subject alone). Empty if the volume is outside the
+/// view. The whole view if numbers are not finite or the subject's box is unknown.
 ///
-/// FF XVI §3.4, figure 10: rays through the bound's corners. Changed: penumbra, near plane, ends that hold the curved
-/// end of the range.
+/// FF XVI §3.4, figure 10: rays through the corners of the bound. Changed: includes the penumbra, clips at the near
+/// plane, and the far end encloses the curved end of the range.
 [[nodiscard]] TileRange umbra_tiles(const CloseupLight& light, const WorldBox& subject, const WorldBox& receivers,
                                     const RenderView& view);
 

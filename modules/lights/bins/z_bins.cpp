@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// FF §2.1.1 (figures 2 and 3). Both sets in time linear in lights and bins, however far the lights reach.
+// zBins: FF §2.1.1 (figures 2 and 3). Builds both sets in time linear in lights plus bins, for any light range.
 #include "modules/lights/bins/z_bins.h"
 
 #include <algorithm>
@@ -13,11 +13,12 @@
 namespace gloam {
 namespace {
 
-/// Share of a depth that the GPU may lose (depths are reconstructed as near / value, a few roundings of 2^-24 each),
-/// and of a bin that computing it may.
+/// Relative rounding error that the bins allow for: of a view depth on the GPU (reconstructed as near / value with a
+/// few roundings of 2^-24 each), and of the bin computed from it.
 constexpr float kRounding = 0x1p-21f;
 
-/// First and last bins of depths, widened. NaN is 0 in the former and the last bin in the latter.
+/// First and last bin of each light's depth interval, widened by kRounding. NaN gives bin 0 as first bin and the last
+/// bin as last bin.
 GLOAM_CPU_CLONES void find_bins(const LightDepth* lights, std::size_t count, float near_m, float scale, float last,
                                 std::uint16_t* first_bins, std::uint16_t* last_bins) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -32,14 +33,14 @@ GLOAM_CPU_CLONES void find_bins(const LightDepth* lights, std::size_t count, flo
   }
 }
 
-/// Lights counted from 1, so that 0 can stand for "none", which reaches everywhere.
+/// Lights are numbered from 1. Number 0 means no light; its last bin is 0xFFFF, which ends every search.
 struct Reach {
-  std::span<std::uint16_t> last_bin;  ///< of a light
-  std::span<std::uint16_t> earlier;   ///< between this light and a light all have ended: the light to look at next
+  std::span<std::uint16_t> last_bin;  ///< last bin each light touches
+  std::span<std::uint16_t> earlier;   ///< next light to test below each light; every light between the two has ended
 };
 
-/// The last light up to `light` that reaches the bin. Bins are asked for in ascending order: what has ended stays
-/// ended, so ways are cut short behind the search.
+/// The last light up to `light` that reaches the bin. Callers must ask for bins in ascending order: a light that has
+/// ended stays ended, so the search shortens the links it followed (path compression).
 std::uint32_t last_reaching(const Reach& reach, std::uint32_t light, std::uint32_t bin) {
   std::uint32_t found = light;
   while (reach.last_bin[found] < bin) found = reach.earlier[found];
@@ -51,9 +52,10 @@ std::uint32_t last_reaching(const Reach& reach, std::uint32_t light, std::uint32
   return found;
 }
 
-/// Begins: the first light that reaches bin k is the first that reaches farther than all before it, and as far as k.
+/// Begins: bin k begins with the first light whose last bin is at least k. That light also reaches farther than every
+/// light before it.
 void fill_begins(std::span<const std::uint16_t> first_bins, const Reach& reach, std::span<ZBin> standard) {
-  std::uint32_t covered = 0;  // bins below have their begin, or no light reaches them
+  std::uint32_t covered = 0;  // every bin below has its begin, or no light reaches it
   for (std::uint32_t light = 1; light <= first_bins.size(); ++light) {
     const std::uint32_t end = reach.last_bin[light] + 1u;
     if (end <= covered) continue;
@@ -63,7 +65,8 @@ void fill_begins(std::span<const std::uint16_t> first_bins, const Reach& reach, 
   }
 }
 
-/// Ends: of the lights that have begun by bin k, the last that reaches it. `started`: room for a bin each.
+/// Ends: the last light that reaches bin k, among the lights that begin at or before bin k. `started`: scratch, one
+/// item per bin.
 void fill_ends(std::span<const std::uint16_t> first_bins, const Reach& reach, std::span<std::uint16_t> started,
                std::span<ZBin> standard) {
   std::fill(started.begin(), started.end(), std::uint16_t{0});
@@ -71,7 +74,7 @@ void fill_ends(std::span<const std::uint16_t> first_bins, const Reach& reach, st
   std::uint16_t last = 0;
   for (std::uint32_t k = 0; k < standard.size(); ++k) {
     last = std::max(last, started[k]);
-    const bool reaches = reach.last_bin[last] >= k;  // as good as always where lights are dense
+    const bool reaches = reach.last_bin[last] >= k;  // nearly always true where lights are dense
     standard[k].end = static_cast<std::uint16_t>(reaches ? last : last_reaching(reach, last, k));
   }
 }
@@ -106,7 +109,8 @@ void build_z_bins(std::span<const LightDepth> lights, const ZBinParams& params, 
             scratch.first_bin.data(), scratch.last_bin.data() + 1);
   auto first = static_cast<std::uint16_t>(params.count - 1);
   for (std::size_t i = count; i-- > 0;) {
-    // Ordered lights have ordered first bins; the least of all later ones is theirs even if one is out of order or NaN.
+    // Sorted lights have ascending first bins. The minimum over all later lights enforces that even if a light is out
+    // of order or NaN.
     scratch.first_bin[i] = first = std::min(first, scratch.first_bin[i]);
     scratch.last_bin[i + 1] = std::max(first, scratch.last_bin[i + 1]);
     scratch.earlier[i + 1] = static_cast<std::uint16_t>(i);

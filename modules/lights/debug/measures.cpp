@@ -14,7 +14,7 @@ std::optional<double> counter(const FrameCounters& counters, const char* name) {
   return found == counters.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// One counter less the exact count; none where either was not counted (nothing is culled, or there is no surface).
+/// A counter minus the exact count; none if either was not counted (culling is off, or the frame shows no surface).
 std::optional<double> beyond_exact(const std::optional<double>& lights, const FrameCounters& counters) {
   const auto exact = counter(counters, "lights.per_tile_accurate_mean");
   if (!lights || !exact) return std::nullopt;
@@ -25,8 +25,8 @@ std::optional<double> candidates_beyond_exact(const FrameCounters& frame, const 
   return beyond_exact(counter(frame, "lights.per_tile_candidates_mean"), frame);
 }
 
-/// Tiled shading loops over the exact lists, brute force over every local light: what reaches a pixel is known from the
-/// tiled frame.
+/// Tiled shading loops over the exact lists, brute-force shading over every local light. The exact count comes from the
+/// tiled frame in both cases.
 std::optional<double> shaded_beyond_exact(const FrameCounters& frame, const FrameCounters& tiled) {
   const auto listed = counter(frame, "lights.per_tile_accurate_mean");
   return beyond_exact(listed ? listed : counter(frame, "lights.local"), tiled);

@@ -8,10 +8,10 @@
 
 namespace gloam {
 
-/// What tells the values of lights.culling, lights.tile_bound and lights.z_bins apart: how many lights a tile with a
-/// surface is left with that reach none of its pixels (after the tile masks and zBins, or of all that shading loops
-/// over), held against the lists of the accurate search, which asks every pixel. Brute force (lights.check) tells
-/// whether those lack a light: such a frame is wrong.
+/// Error measures for the knobs lights.culling, lights.tile_bound and lights.z_bins: the false positives per tile with
+/// a surface, i.e. lights that are candidates (after tile masks and zBins) or are shaded, but reach none of the tile's
+/// pixels. The reference is the lists of the accurate search, which tests every pixel. The brute-force check
+/// (lights.check) counts lights that are missing from these lists; a frame with a missing light is faulty.
 [[nodiscard]] std::vector<MeasureInfo> light_measures();
 
 }  // namespace gloam

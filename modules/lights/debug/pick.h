@@ -11,10 +11,10 @@
 
 namespace gloam {
 
-/// Copies the light lists out of a frame, for light_pick_lines.
+/// Adds copies of the frame's light lists to `copies`, for light_pick_lines. Does nothing in a frame without lists.
 [[nodiscard]] Status add_light_pick_copies(FrameBuilder& frame, Captures& copies);
 
-/// A pixel's tiles, depths and bins, and the lights that each search left for it, in lines for people.
+/// Readable lines about a pixel: its tiles, depths and bins, and the lights that remain after each search.
 [[nodiscard]] std::vector<std::string> light_pick_lines(FrameBuilder& frame, const PickedPixel& pixel,
                                                         const Captures& copies);
 

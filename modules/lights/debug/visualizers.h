@@ -13,23 +13,24 @@
 
 namespace gloam {
 
-/// Names and legends of the views of this module.
+/// Names and legends of this module's visualizers.
 [[nodiscard]] std::vector<VisualizerInfo> light_visualizers();
 
-/// Draws the views of the light lists over the picture, and each into an image of its own name, which a capture of the
-/// frame shows.
+/// Draws the visualizers of the light lists over the picture. Each is also drawn into an image of the same name, for
+/// captures.
 class LightViews {
  public:
-  /// Adds the pass of FrameBuilder::visualizer(), if that is one of this module's. Usage error unless lights.culling =
-  /// tiled. A light that is in no list of the frame gives a dark picture without a tile; why is told once. Leaves alone
-  /// what LightListViewTaken says.
+  /// Adds the pass of FrameBuilder::visualizer() if the visualizer belongs to this module. Usage error unless
+  /// lights.culling = tiled. If the named light is in none of the frame's lists, the picture is darkened, no tile is
+  /// marked and one warning says why. Adds nothing if a later module draws the visualizer (LightListViewTaken).
   [[nodiscard]] Status add_pass(FrameBuilder& frame);
 
  private:
-  /// Place of the named light among the view's sorted local lights, if it is there.
+  /// Index of the named light in the view's sorted local lights; none if it is not among
+  /// them (logs one warning).
   [[nodiscard]] std::optional<std::uint32_t> shown_light(const FrameBuilder& frame, std::string_view name);
 
-  std::set<std::string> told_;  ///< warnings
+  std::set<std::string> told_;  ///< warnings already logged
 };
 
 }  // namespace gloam

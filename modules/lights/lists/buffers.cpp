@@ -10,7 +10,8 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kNoSurface = 0x3F800000u;  // bits of depth 1.0, where no surface is farther
+constexpr std::uint32_t kNoSurface =
+    0x3F800000u;  // bits of depth 1.0: the initial value of farthest_depth, left unchanged if no surface is visible
 
 constexpr std::uint64_t words_to_entries(std::uint64_t words) { return 3 * words; }
 constexpr std::uint32_t to_whole_words(std::uint64_t entries) {

@@ -15,62 +15,62 @@
 
 namespace gloam {
 
-/// What the searches of an earlier frame found out about a view; a view resource.
+/// Results of the searches of an earlier frame of a view; a view resource.
 struct LightFeedback {
-  std::uint32_t entries_asked = 0;  ///< of the lists
-  std::uint32_t slot_capacity =
-      0;                    ///< entries to make room for; one value for all frames in flight, see light_feedback
-  float farthest_m = 0.0f;  ///< view depth of the farthest opaque surface; 0: unknown, or there was none
+  std::uint32_t entries_asked = 0;  ///< list entries the frame needed
+  std::uint32_t slot_capacity = 0;  ///< list entries to allocate, shared by all frames in flight (see light_feedback)
+  float farthest_m = 0.0f;  ///< view depth of the farthest opaque surface; 0: unknown, or no surface was visible
 };
 
-/// What is noted beside a frame's counters when it is declared.
+/// Recorded with a frame's counters when its passes are declared, and read when the counters come back.
 struct LightCountersNote {
   RenderView view;
   std::uint32_t slot_capacity = 0;
-  bool checked = false;  ///< culling errors were counted
+  bool checked = false;  ///< culling errors were counted (lights.check)
 };
 
-/// Name of the result (FrameBuilder::keep_result) that holds a LightCounters.
+/// Name of the result (FrameBuilder::keep_result) that holds the LightCounters.
 inline constexpr const char* kLightCountersResult = "light_counters";
 
-/// `last`: the view's feedback so far, null when there is none. Its capacity goes on from there, not from that of the
-/// frame that counted: frames in flight would each follow their own, and lists change their size from frame to frame
-/// for ever.
+/// `last`: the view's current feedback, null if there is none. The new capacity is computed from the capacity in
+/// `last`, not from the capacity of the frame that counted: otherwise each frame in flight would keep a different
+/// capacity, and the lists would be resized in every frame.
 [[nodiscard]] LightFeedback light_feedback(const shaders::LightCounters& counters, const LightCountersNote& note,
                                            const LightFeedback* last);
 
-/// The counters lights.… that the GPU counted.
+/// Reports the GPU's LightCounters as counters lights.….
 void count_lights(const shaders::LightCounters& counters, const LightCountersNote& note, CounterSink& sink);
 
-/// Bytes a view's lists may have.
+/// Upper limit of a view's lists, in bytes.
 inline constexpr std::uint64_t kMostListBytes = std::uint64_t{128} << 20;
-/// Entries a tile that a view's lists begin with.
+/// List entries per tile that a view starts with.
 inline constexpr std::uint32_t kFirstEntriesPerTile = 3;
-/// Bytes of lists that are spent on room for all lights in every list (entries_that_fit_all), and no more.
+/// Upper limit, in bytes, of lists sized to hold every light in every tile (entries_that_fit_all).
 inline constexpr std::uint64_t kListBytesThatFitAll = std::uint64_t{512} << 10;
 
-/// Entries a tile that few local lights get without being asked for, so that all of them fit into every list and
-/// shading needs no way out (LightsOutputs::lists_always_fit); 0: too many lights, or tiles. In steps: buffers do not
-/// change with every light that comes into view.
+/// Entries per tile that let every list hold all local lights, so that shading needs no fallback
+/// (LightsOutputs::lists_always_fit). 0: too many lights or too many tiles. In steps, so that buffers are not resized
+/// for every light that comes into view.
 [[nodiscard]] constexpr std::uint32_t entries_that_fit_all(std::uint32_t local_count, std::uint32_t tiles) {
   const std::uint32_t entries = local_count > 24 ? 48 : 24;
   return local_count <= 48 && std::uint64_t{tiles} * entries / 3 * 4 <= kListBytesThatFitAll ? entries : 0;
 }
 
-/// Entries a tile gets in fixed-slot mode: rounded up to whole words. 0: as many as it needs.
+/// Entries per tile in fixed-slot mode: the knob, rounded up to whole words (3 entries). 0: as many as the tile needs.
 [[nodiscard]] constexpr std::uint32_t fixed_slots_of(std::uint32_t knob) { return (knob + 2) / 3 * 3; }
 
-/// List entries to make room for, a multiple of 3. With `fixed_slots` so many a tile; else what an earlier frame asked
-/// for and a quarter more. It shrinks only when four times too large, so that a moving camera does not allocate all the
-/// time.
+/// List entries to allocate, a multiple of 3. With `fixed_slots`: that many per tile. Otherwise: 1.25 times the entries
+/// an earlier frame needed, at least kFirstEntriesPerTile per tile. Shrinks only if the capacity is more than four
+/// times too large, so that a moving camera does not reallocate all the time.
 [[nodiscard]] std::uint32_t list_capacity(std::uint32_t tiles, std::uint32_t fixed_slots,
                                           const LightFeedback& feedback);
 
-/// Uploads what the searches and shading read, and declares their buffers. Fills `outputs` but for what passes write.
+/// Uploads the inputs of the searches and of shading, and declares the list buffers. `outputs`: local_count must be
+/// set; fills grid and all fields after it.
 [[nodiscard]] Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks,
                                         LightsOutputs& outputs);
 
-/// First contents of a view's LightCounters. Recorded in a pass that writes the buffer with transfer_write.
+/// Writes the initial values of a view's LightCounters. Record it in a pass that writes the buffer with transfer_write.
 void record_counters_start(gpu::CommandList& commands, gpu::BufferHandle counters);
 
 }  // namespace gloam

@@ -19,22 +19,24 @@ gpu::ComputePipelineDesc approx_pipeline() {
 }
 gpu::ComputePipelineDesc accurate_pipeline() {
   return {
-      "find_lights_accurate", "lights", shaders::lights::find_lights_accurate_comp, {{0, 8}}};  // one thread a pixel
+      "find_lights_accurate", "lights", shaders::lights::find_lights_accurate_comp, {{0, 8}}};  // one thread per pixel
 }
 gpu::ComputePipelineDesc accurate_tiles_pipeline() {
   return {"find_lights_accurate_tiles", "lights", shaders::lights::find_lights_accurate_tiles_comp, {}};
 }
-/// A device that is a CPU swaps the state of all threads at every barrier: one thread a tile needs none.
+/// On a CPU device a workgroup's threads run one after another, and each barrier swaps all their state. The version
+/// with one thread per tile needs no barrier.
 bool runs_threads_in_turn(const gpu::DeviceInfo& device) { return device.type == gpu::DeviceType::cpu; }
 gpu::ComputePipelineDesc check_pipeline() { return {"check_lists", "lights", shaders::lights::check_lists_comp, {}}; }
 
-/// What a search is made of: a pipeline, its bindings when the images and buffers exist, and workgroups.
+/// The pipeline and workgroup count of a search. Bindings are added when the pass records, because images and buffers
+/// exist only then.
 struct Search {
   gpu::PipelineHandle pipeline;
   uvec2 groups = uvec2(0);
 };
 
-/// Local lights into an image, see light_texels.comp. Also sets the counters of the searches back, which come next.
+/// Copies the local lights into an image (see light_texels.comp). Also resets the counters of the searches that follow.
 Status add_light_texels_pass(FrameBuilder& frame, LightsOutputs& outputs) {
   auto pipeline = frame.services().pipelines.get(light_texels_pipeline());
   if (!pipeline.ok()) return pipeline.error();

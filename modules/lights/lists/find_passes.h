@@ -10,12 +10,12 @@
 
 namespace gloam {
 
-/// Pipelines of the passes below that the knobs call for.
+/// Adds the pipelines that add_find_lights_passes uses with these knobs.
 void list_light_pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list);
 
-/// Uploads the lights of the view and, with local lights and lights.culling = tiled, finds those of every shadow tile:
-/// passes light_texels, find_lights_approx, find_lights_accurate, and with lights.check also check_lists. Puts
-/// LightsOutputs.
+/// Uploads the view's lights. If there are local lights, adds pass light_texels; if also lights.culling = tiled, adds
+/// passes find_lights_approx and find_lights_accurate, which list the lights of each shadow tile, and check_lists if
+/// lights.check = on. Puts LightsOutputs on the board.
 [[nodiscard]] Status add_find_lights_passes(FrameBuilder& frame, const VisibleLights& visible, const ZBins& bins,
                                             const TileLightMasks& masks);
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// FF §2.1.2. Our own: a rectangle is the product of a set of columns and a set of rows, so a tile's mask of rectangles
-// is a mask of its column AND a mask of its row, and both kinds of masks are running exclusive ors of where rectangles
-// begin and end.
+// Tile light masks: FF §2.1.2. Not from the paper: a rectangle is the product of a column set and a row set. The mask
+// of a tile is therefore its column mask AND its row mask. Each column or row mask is the running exclusive or of
+// toggle bits, set where a rectangle begins and where it ends.
 #include "modules/lights/masks/tile_light_masks.h"
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kOutlineGrain = 256;  // lights a job
-constexpr std::size_t kRowGrain = 4;        // rows of tiles a job
+constexpr std::size_t kOutlineGrain = 256;  // lights per job
+constexpr std::size_t kRowGrain = 4;        // rows of tiles per job
 
-/// What the jobs of one call share.
+/// State that the jobs of one call share.
 struct MaskJob {
   std::span<const MaskLight> lights;
   const RenderView& view;
@@ -49,7 +49,7 @@ GLOAM_CPU_CLONES void sum_lines(std::uint32_t* words, std::size_t tiles) {
     for (std::size_t w = 0; w < kTileMaskWords; ++w) words[w] = sums[w] ^= words[w];
 }
 
-/// Masks of `tiles` columns or rows from where lights begin and end.
+/// Builds the mask of each of `tiles` columns (or rows) from the columns (rows) where lights begin and end.
 void build_line_masks(std::span<const std::int32_t> begins, std::span<const std::int32_t> ends, std::size_t count,
                       std::size_t tiles, std::vector<std::uint32_t>& masks) {
   masks.assign((tiles + 1) * kTileMaskWords, 0);
@@ -85,7 +85,7 @@ void build_tile_light_masks(std::span<const MaskLight> lights, const RenderView&
     executor.parallel_for(p.rows, kRowGrain, [&job](JobRange range) { job.and_rows(range); });
     return;
   }
-  // Few bands: each looks at every light.
+  // Few bands, because each band loops over every light.
   const std::size_t wanted = executor.worker_count() == 1 ? 1 : 2 * std::size_t{executor.worker_count()};
   const std::size_t grain =
       std::clamp<std::size_t>((p.rows + wanted - 1) / wanted, std::min<std::size_t>(8, p.rows), kMostBandRows);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// The loops that write the masks, which is all that there is to do for a rect bound: as fast as memory takes them.
-// Written once for any machine, and with the vectors of x86-64 ones that have AVX2 or AVX-512.
+// Inner loops that write the tile masks. For the rect bound they are most of the work and are limited by memory
+// bandwidth. There is a portable version, and AVX2 and AVX-512 versions for x86-64.
 #include "modules/lights/masks/tile_mask_rows.h"
 
 #include <cstring>
@@ -50,7 +50,7 @@ void sum_row_plain(std::uint32_t* toggles, std::size_t columns, std::size_t word
 #define GLOAM_AVX2 __attribute__((target("avx2")))
 #define GLOAM_AVX512 __attribute__((target("avx512f")))
 
-/// Bits of the lanes of 32 bits that are not 0.
+/// One bit for each 32-bit lane: whether the lane is not 0.
 GLOAM_AVX2 inline std::uint32_t filled(__m256i v) {
   const __m256i empty = _mm256_cmpeq_epi32(v, _mm256_setzero_si256());
   return ~static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(empty))) & 0xFFu;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// Rectangles: Mara and McGuire, "2D Polyhedral Bounds of a Clipped, Perspective-Projected 3D Sphere" (JCGT 2(2), 2013),
-// its axis-aligned case, in double and without branches, so that the compiler makes vector code of it.
-// engine/math/screen_bounds.h has the careful version of one sphere at a time; here bounds are grown by more than all
-// of the roundings instead.
+// Screen rectangles of spheres: Mara and McGuire, "2D Polyhedral Bounds of a Clipped, Perspective-Projected 3D Sphere"
+// (JCGT 2(2), 2013), its axis-aligned case, in double and without branches, so that the compiler vectorizes it.
+// engine/math/screen_bounds.h has the careful version for one sphere; this one instead widens the bounds by more than
+// the sum of all rounding errors.
 #include "modules/lights/masks/tile_outlines.h"
 
 #include <algorithm>
@@ -16,27 +16,27 @@
 namespace gloam {
 namespace {
 
-/// What the GPU's floats may lose of a camera-relative position, a share of its length: bounds grow by it.
+/// Relative rounding error of a camera-relative position in the GPU's floats; bounds grow by it.
 constexpr double kRounding = 4e-7;
 constexpr double kTilesAPixel = 1.0 / GLOAM_LIGHT_TILE;
 constexpr double kMargin = kTilesAPixel / 64;
-constexpr double kLineMargin = kTilesAPixel / 16;  // more than floats lose of columns
-/// An ellipse needs its sphere this much farther away than its radius: nearer ones are too long for floats. They keep
-/// their rectangle.
+constexpr double kLineMargin = kTilesAPixel / 16;  // more than the rounding error of columns in floats
+/// An ellipse is used only if the sphere's depth is at least this multiple of its radius: the ellipses of nearer
+/// spheres are too elongated for floats. Nearer spheres keep their rectangle.
 constexpr double kClearance = 1.05;
 constexpr double kEverywhere = 1e9;  // columns
-/// Of cosines of cone angles (floats, and what the GPU compares them with).
+/// Rounding error of the cosine of a cone angle, in floats here and in the GPU's comparison.
 constexpr double kCosineRounding = 4e-7;
-/// Sine of an angle by which the lines of cones are opened.
+/// Sine of the angle by which the tangent lines of a cone are opened.
 constexpr double kLineRounding = 1e-5;
 constexpr double kLeastAcross =
-    0.02;  // of unit vectors: sine of the angle between axis and ray, below which lines lose their digits
+    0.02;  // least sine of the angle between cone axis and view ray; below it the lines lose too many digits
 
-// In these a comparison with NaN is false and gives b.
+// A comparison with NaN is false: both return b if a or b is NaN.
 GLOAM_CPU_INLINE double smaller(double a, double b) { return a < b ? a : b; }
 GLOAM_CPU_INLINE double greater(double a, double b) { return a > b ? a : b; }
 
-/// Greatest slope of the part with depth ≥ near of a disc; tt = x² + d² − r².
+/// Greatest slope of the part of a disc with depth ≥ near; tt = x² + d² − r².
 GLOAM_CPU_INLINE double greatest_slope(double x, double d, double r, double near, double over_near, double tt) {
   const double t = std::sqrt(greater(tt, 0.0));
   const double xd = x * d;
@@ -46,7 +46,7 @@ GLOAM_CPU_INLINE double greatest_slope(double x, double d, double r, double near
   const double tangent = over / under;
   const double half_chord = ((r - d) + near) * ((r + d) - near);
   const double crossing = (x + std::sqrt(half_chord < 0.0 ? 0.0 : half_chord)) * over_near;
-  // The tangent touches in front of the camera, behind the near plane: its depth is t / √(1 + slope²).
+  // The tangent point must lie in front of the camera and beyond the near plane: its depth is t / √(1 + slope²).
   const double in_front = x > 0.0 ? d - r : d + r;
   const double beyond = tt - near * near * (1.0 + tangent * tangent);
   const double touches = greater(beyond, d - r - near);
@@ -70,8 +70,8 @@ GLOAM_CPU_INLINE Slopes parallel_slopes(double x, double d, double r, double nea
   return {x - reach, x + reach};
 }
 
-/// First and behind-last tile that [low, high] touches of `count`, which are `size` long; NaN touches all, nothing
-/// gives two equal ones.
+/// First tile and end (one past the last tile) of the tiles that [low, high] touches, among `count` tiles that are
+/// `size` long together. NaN gives all tiles; an interval that touches none gives begin = end.
 struct Tiles {
   std::int32_t begin, end;
 };
@@ -85,7 +85,7 @@ GLOAM_CPU_INLINE Tiles tiles_between(double low, double high, double count, doub
   return {outside ? 0 : begin, outside ? 0 : end};
 }
 
-/// Columns of TileOutlines as plain pointers: what compilers can be trusted with in loops.
+/// Columns of TileOutlines as plain pointers, so that the compiler vectorizes loops over them.
 struct Columns {
   explicit Columns(TileOutlines& o)
       : x(o.x.data()),
@@ -140,10 +140,10 @@ GLOAM_CPU_CLONES void find_parallel_rectangles(Columns o, TileProjection p, std:
   for (std::size_t i = begin; i < end; ++i) find_rectangle<false>(o, p, i);
 }
 
-/// A number of columns, rows or slopes that fits a float and an integer, also of NaN.
+/// Clamps columns, rows or slopes to ±kEverywhere, which fits a float and an integer. NaN gives one of the limits.
 GLOAM_CPU_INLINE double tame(double v) { return smaller(greater(v, -kEverywhere), kEverywhere); }
 
-/// -1 above the picture, p.rows below it.
+/// The row of tiles as an integer; -1 above the image, p.rows below it.
 GLOAM_CPU_INLINE std::int32_t row_number(double row, const TileProjection& p) {
   const double inside = row > p.height ? static_cast<double>(p.rows) : greater(row, -1.0);
   return static_cast<std::int32_t>(inside + 1.0) - 1;
@@ -154,14 +154,15 @@ GLOAM_CPU_CLONES void find_perspective_ellipses(Columns o, TileProjection p, std
   for (std::size_t i = begin; i < end; ++i) {
     const double x = o.x[i], y = o.y[i], d = o.depth[i], r = o.radius[i];
     const double dd = (d - r) * (d + r);
-    const double along_rows = dd + x * x;  // squared length of the tangents in the plane of x and depth
+    const double along_rows = dd + x * x;  // squared length of the tangent in the plane of x and depth
     const double along_columns = dd + y * y;
     const double t = std::sqrt(greater(dd + x * x + y * y, 0.0));
     const double t_x = std::sqrt(greater(along_rows, 0.0)) * r;
     const double t_y = std::sqrt(greater(along_columns, 0.0)) * r;
     const double over_dd = 1.0 / dd;
     const double scale = p.column_scale / along_columns;
-    const double turn = y / along_rows;  // slope of the row where the outline is `u` wide to a side: (x · u + d) · turn
+    const double turn =
+        y / along_rows;  // row slope of the outline's extreme point with column slope u: (x · u + d) · turn
     const double left_row = (x * ((x * d - t_x) * over_dd) + d) * turn * p.row_scale + p.row_offset;
     const double right_row = (x * ((x * d + t_x) * over_dd) + d) * turn * p.row_scale + p.row_offset;
     const bool clear = (d - r >= p.near_m) & (d >= kClearance * r);
@@ -195,7 +196,7 @@ GLOAM_CPU_CLONES void find_parallel_ellipses(Columns o, TileProjection p, std::s
   }
 }
 
-/// What the lines of cones are made from and where they go.
+/// Inputs and outputs of the cone lines.
 struct LineColumns {
   explicit LineColumns(TileOutlines& o)
       : radius(o.radius.data()),
@@ -220,7 +221,8 @@ struct LineColumns {
   Line first, second;
 };
 
-/// Where nx · u + ny · s + nd ≥ -opening, for slopes u of columns and s of rows.
+/// Writes the line nx · u + ny · s + nd ≥ -opening (u: column slope, s: row slope) as a left or right bound. If the
+/// line is not usable or nearly parallel to the rows, the bound is ±kEverywhere and clips nothing.
 GLOAM_CPU_INLINE void put_line(const LineColumns::Line& line, std::size_t i, const TileProjection& p, bool usable,
                                double nx, double ny, double nd, double opening) {
   const double over_nx = p.column_scale / nx;
@@ -234,9 +236,9 @@ GLOAM_CPU_INLINE void put_line(const LineColumns::Line& line, std::size_t i, con
   line.right_bound[i] = static_cast<float>(right ? bound + kLineMargin : kEverywhere);
 }
 
-/// The planes through camera and apex that touch the cone: unit N with N · P = 0 and N · D = sin θ, for the directions
-/// P to the apex (of an orthographic view: to the front) and D of the cone. What the cone lights has N · v ≥ 0. None
-/// where the camera sees along the axis.
+/// The two planes through the camera that contain the apex and touch the cone: unit normal N with N · P = 0 and N · D =
+/// sin θ, where P is the direction to the apex (orthographic: the view direction) and D the cone's axis. Every point v
+/// that the cone lights has N · v ≥ 0. There are no lines when the camera looks nearly along the axis.
 template <bool kPerspective>
 GLOAM_CPU_INLINE void find_lines_of(const LineColumns& o, const TileProjection& p, std::size_t i) {
   const double px = o.apex_x[i], py = o.apex_y[i], pd = o.apex_depth[i];
@@ -272,7 +274,7 @@ GLOAM_CPU_CLONES void find_parallel_lines(LineColumns o, TileProjection p, std::
   for (std::size_t i = begin; i < end; ++i) find_lines_of<false>(o, p, i);
 }
 
-/// View rotation in double: (x, y, depth) of a camera-relative vector.
+/// View rotation in double: gives (x, y, depth) of a camera-relative vector.
 struct Rotation {
   explicit Rotation(const mat4& view_from_relative) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -290,12 +292,13 @@ struct Rotation {
   double right[3], up[3], front[3];
 };
 
-/// Where bounds are turned into view space.
+/// Output columns of turn_bounds: bounds in view space.
 struct BoundColumns {
   double *x, *y, *depth, *radius, *farthest;
 };
 
-/// Lights come as structures, columns are wanted: a block at a time is gathered and then turned in vectors.
+/// Rotates bounds into view space. Lights are an array of structures and the loop needs columns: each block is gathered
+/// first and then rotated with vector instructions.
 GLOAM_CPU_CLONES void turn_bounds(const MaskLight* lights, BoundColumns o, Rotation rotation, std::size_t begin,
                                   std::size_t end) {
   constexpr std::size_t kBlock = 64;
@@ -321,7 +324,8 @@ GLOAM_CPU_CLONES void turn_bounds(const MaskLight* lights, BoundColumns o, Rotat
       const double depth = rotation.front[0] * a + rotation.front[1] * b + rotation.front[2] * c;
       const double rounding = kRounding * (std::abs(x) + std::abs(y) + std::abs(depth) + given);
       const double farthest = depth + given + rounding;
-      // A spot reaches no farther than its range either; its sphere may, where it shines at the camera from behind.
+      // A spot also reaches no farther than its range from the apex. Its sphere may, if the spot shines toward the
+      // camera.
       const double apex =
           rotation.front[0] * from[4][i] + rotation.front[1] * from[5][i] + rotation.front[2] * from[6][i];
       const double reach = apex + from[7][i] + rounding;
@@ -344,7 +348,7 @@ void load_cones(std::span<const MaskLight> lights, const Rotation& rotation, Job
     rotation.turn(lights[i].apex, o.apex_x[i], o.apex_y[i], o.apex_depth[i]);
     rotation.turn(lights[i].direction, o.toward_x[i], o.toward_y[i], o.toward_depth[i]);
     const double cosine = static_cast<double>(lights[i].cos_outer) - kCosineRounding;
-    o.sine[i] = cosine > 0.0 ? std::sqrt(1.0 - cosine * cosine) : 2.0;  // 2: no lines
+    o.sine[i] = cosine > 0.0 ? std::sqrt(1.0 - cosine * cosine) : 2.0;  // 2: the cone gets no lines
   }
 }
 

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// Rows of tiles are bands of slopes. A convex outline lies within a band where it lies on the band's two edges, or at
-// its outermost points where those are in the band. So: the outline's left and right at every edge, a light at a time
-// with its edges side by side in vectors; then the intervals of every row become two toggled bits each, and a running
-// exclusive or along the row makes masks of them.
+// Column intervals of lights in each row of tiles. A row of tiles is a band between two slopes (its edges). A convex
+// outline reaches its extreme columns within a band either on one of the two edges or at its own leftmost or rightmost
+// point, if that point is in the band. Step 1, per light: left and right columns at all edges, vectorized over edges.
+// Step 2: each interval becomes two toggle bits in its row. Step 3: the running exclusive or along the row gives the
+// masks.
 #include "modules/lights/masks/tile_row_intervals.h"
 
 #include <algorithm>
@@ -25,18 +26,18 @@ constexpr std::uint32_t kEndShift = 11;
 constexpr std::uint32_t kLightShift = 22;
 constexpr std::uint32_t kColumnMask = (1u << kEndShift) - 1;
 constexpr float kEverywhere = 1e9f;          // columns
-constexpr float kMargin = 1.0f / (32 * 16);  // columns: a sixteenth of a pixel, more than floats lose
+constexpr float kMargin = 1.0f / (32 * 16);  // columns: a sixteenth of a pixel, more than the rounding error of floats
 
 GLOAM_CPU_INLINE float smaller(float a, float b) { return a < b ? a : b; }
 GLOAM_CPU_INLINE float greater(float a, float b) { return a > b ? a : b; }
 
-/// The edges of a band of rows, and where it starts.
+/// The row edges of a band, and the rows it covers.
 struct BandEdges {
   std::array<float, kEdges> slopes;
   std::int32_t first_row;
   std::int32_t end_row;
-  float width;    ///< columns of the picture
-  float squared;  ///< 1: slopes widen a sphere's outline (perspective); 0: they do not
+  float width;    ///< width of the image in columns
+  float squared;  ///< 1: perspective, the term s² of q counts; 0: orthographic
 };
 
 BandEdges band_edges(const TileProjection& p, JobRange rows) {
@@ -51,7 +52,7 @@ BandEdges band_edges(const TileProjection& p, JobRange rows) {
   return edges;
 }
 
-/// Columns of TileOutlines as plain pointers.
+/// Columns of TileOutlines as plain pointers, so that the compiler vectorizes loops over them.
 struct Outlines {
   const std::int32_t *column_begin, *column_end, *row_begin, *row_end, *leftmost_row, *rightmost_row;
   const float *middle, *lean, *half, *radius2, *row_slope, *least_slope, *greatest_slope;
@@ -85,7 +86,7 @@ Outlines outlines_of(const TileOutlines& o) {
   return out;
 }
 
-/// Left and right of one light at the edges of its rows, in columns.
+/// Left and right columns of one light at the edges of its rows.
 struct EdgeColumns {
   alignas(64) float left[kEdges];
   alignas(64) float right[kEdges];
@@ -95,7 +96,7 @@ struct EdgeColumns {
 
 struct RowColumns {
   alignas(64) RowInterval intervals[kEdges];
-  alignas(64) std::uint32_t filled[kEdges];  ///< 1, or 0 for an interval without a column
+  alignas(64) std::uint32_t filled[kEdges];  ///< 1; 0 if the interval is empty
 };
 
 template <bool kCones>
@@ -196,7 +197,8 @@ void write_row_intervals(const TileOutlines& outlines, std::size_t count, const 
   const std::size_t row_count = rows.end - rows.begin;
   const std::size_t columns = projection.columns;
   GLOAM_ASSERT(columns <= kColumnMask && count <= (1u << (32 - kLightShift)), "an interval fits 32 bits");
-  band.intervals.resize(row_count * (count + 1));  // one more: the last append writes before it knows whether it counts
+  band.intervals.resize(row_count *
+                        (count + 1));  // one extra item: append writes an interval before it knows whether it is empty
   band.counts.assign(row_count, 0);
   band.toggles.resize((columns + 1) * kTileMaskWords);
   (cones ? list_cones : list_ellipses)(outlines_of(outlines), count, band_edges(projection, rows), count + 1,

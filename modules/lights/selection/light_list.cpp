@@ -8,16 +8,16 @@
 namespace gloam {
 namespace {
 
-constexpr float kLeastIlluminance = 0.01f;  // lux: where a light without a range ends
+constexpr float kLeastIlluminance = 0.01f;  // lux: defines the range of a light without range_m
 constexpr float kLeastRange = 1e-3f;        // metres
-constexpr float kMostRange = 1e9f;          // metres: its square is a float
+constexpr float kMostRange = 1e9f;          // metres: its square fits a float
 constexpr float kHalfPi = kPi * 0.5f;
 
 float brightness(const Light& light) {
   return light.intensity * std::max({light.color.r, light.color.g, light.color.b, 0.0f});
 }
 
-/// Cones over 180° are cut to it.
+/// Half angle, clamped to π/2 (a cone of 180°).
 float outer_angle(const Light& light) { return std::clamp(light.outer_angle, 0.0f, kHalfPi); }
 
 }  // namespace
@@ -25,7 +25,7 @@ float outer_angle(const Light& light) { return std::clamp(light.outer_angle, 0.0
 float effective_range(const Light& light) {
   const float range =
       light.range_m > 0.0f ? light.range_m : std::sqrt(std::max(brightness(light), 0.0f) / kLeastIlluminance);
-  return std::min(std::max(kLeastRange, range), kMostRange);  // in this order NaN gives the least
+  return std::min(std::max(kLeastRange, range), kMostRange);  // this argument order turns NaN into kLeastRange
 }
 
 vec3 unusual_light_direction(const dvec3& node_z) {

@@ -19,35 +19,35 @@
 
 namespace gloam {
 
-/// A stretch of lights of one archetype.
+/// The lights of one archetype chunk.
 struct LightRows {
   std::span<const Entity> entities;
   std::span<const Light> lights;
   std::span<const WorldTransform> transforms;
-  std::span<LightBounds> bounds;  ///< empty: they have none yet
-  std::size_t first = 0;          ///< row number of the first
+  std::span<LightBounds> bounds;  ///< empty: the entities have no LightBounds yet
+  std::size_t first = 0;          ///< row number of the chunk's first light
 };
 
-/// Every light of the world that has a place, ordered by entity index; a resource of the world, kept by system
-/// light_bounds.
+/// Every light of the world that has a WorldTransform, sorted by entity index; a world resource kept up to date by
+/// system light_bounds.
 struct LightSet {
   std::vector<PlacedLight> lights;
-  LightTable table;           ///< of `lights`, in their order
-  std::uint64_t version = 1;  ///< another one whenever anything of this changed
-  std::uint32_t updated = 0;  ///< lights that the last run found changed or new
+  LightTable table;           ///< derived data of `lights`, same order
+  std::uint64_t version = 1;  ///< changes whenever anything in this struct changes
+  std::uint32_t updated = 0;  ///< lights added or changed in the last run
 
-  /// How the last run found them: rows of archetypes in the order of views. The chunks' spans have ended since.
+  /// The rows of the last run, in the order of the ECS views. The spans in `chunks` are valid only during the run.
   std::vector<LightRows> chunks;
   std::vector<Entity> rows;
   std::vector<std::uint32_t> slot_of_row;  ///< index into `lights`
 };
 
-/// Memory that choosing lights keeps from one frame to the next.
+/// Scratch memory of select_lights, reused between frames.
 struct LightSelection {
-  std::vector<float> x, y, z;            ///< camera-relative centre of each light of the world
-  std::vector<float> nearest, farthest;  ///< view depths of each light of the world
-  std::vector<std::uint32_t> kind;       ///< of each light of the world: 1 a visible local one, 2 a directional one
-  std::vector<std::uint32_t> local, directional;  ///< indices of those that are visible
+  std::vector<float> x, y, z;            ///< camera-relative centre of every light of the world
+  std::vector<float> nearest, farthest;  ///< view depths of every light of the world
+  std::vector<std::uint32_t> kind;       ///< of every light of the world: 1 visible local, 2 directional, 0 neither
+  std::vector<std::uint32_t> local, directional;  ///< indices of the selected lights
   std::vector<std::uint64_t> keys, sorted;
   std::vector<std::uint32_t> buckets;
 };
@@ -55,35 +55,36 @@ struct LightSelection {
 /// The lights of one view, packed for the GPU; a view resource.
 struct VisibleLights {
   shaders::LightBlock block{};
-  std::vector<Entity> local_entities;  ///< of block.local, in its order
+  std::vector<Entity> local_entities;  ///< in the order of block.local
   std::vector<Entity> directional_entities;
-  std::vector<LightDepth> depths;      ///< of block.local, in its order: what its bound covers, from the near plane on
-  std::vector<MaskLight> mask_lights;  ///< of block.local, in its order
-  std::uint32_t total = 0;             ///< lights of the world
-  std::uint32_t dropped = 0;           ///< visible, but beyond the capacity
-  std::uint64_t version = 0;           ///< another one whenever the lists were made anew
+  std::vector<LightDepth> depths;  ///< in the order of block.local: view depths of the bound, from the near plane on
+  std::vector<MaskLight> mask_lights;  ///< in the order of block.local
+  std::uint32_t total = 0;             ///< lights in the world
+  std::uint32_t dropped = 0;           ///< lights left out because the capacity was exceeded
+  std::uint64_t version = 0;           ///< changes whenever the lists are rebuilt
 
-  std::uint64_t set_version = 0;  ///< LightSet::version they were made from
-  RenderView view;                ///< that they were made for
+  std::uint64_t set_version = 0;  ///< LightSet::version the lists were built from
+  RenderView view;                ///< view the lists were built for
   LightSelection selection;
 };
 
-/// Places one light. The matrix's scale does not change the light.
+/// The light with the position and direction of its node. The matrix's scale has no effect on the light.
 [[nodiscard]] PlacedLight place_light(Entity entity, const Light& light, const dmat4& world_from_node);
 
-/// The smallest sphere around everything a local light can light, relative to `origin`.
+/// The smallest sphere around everything a local light can light, relative to `origin`. Not for directional lights.
 [[nodiscard]] Sphere light_bounds(const PlacedLight& light, const dvec3& origin);
 
-/// Strength of a spot at the angle whose cosine is c is clamp(c · scale + offset, 0, 1)²; (0, 1) for a point light.
+/// Scale and offset of a spot's falloff: intensity factor = clamp(c · scale + offset, 0, 1)², c the cosine of the angle
+/// to the axis. (0, 1) for a point light.
 [[nodiscard]] vec2 spot_ramp(const Light& light);
 
-/// Chooses the lights whose bounds may touch the view's frustum. More than fit: those with the largest (solid angle ×
-/// intensity) stay, ties by place in `lights`. Lights that give nothing, or have NaN or infinity where no sense can be
-/// made of it, are left out. Local lights come ordered by nearest view depth of their bounds, then by place in `lights`
-/// (which a LightSet orders by entity).
+/// Selects the lights whose bounds may touch the view's frustum. If too many are visible, local lights with the largest
+/// solid angle × intensity stay, and the brightest directional lights; ties go to the lower index in `lights`. Lights
+/// that emit nothing, or are made unusable by NaN or infinity, are left out. Local lights are sorted by the nearest
+/// view depth of their bounds, ties by index in `lights` (a LightSet is sorted by entity).
 void select_lights(std::span<const PlacedLight> lights, const RenderView& view, VisibleLights& visible);
-/// The same from lights that were prepared; `table` is of `lights`. Allocates only when there are more than ever
-/// before.
+/// The same with prepared lights: `table` must describe `lights`, in the same order. Allocates only when there are more
+/// lights than in any call before.
 void select_lights(std::span<const PlacedLight> lights, const LightTable& table, const RenderView& view,
                    JobExecutor& executor, VisibleLights& visible);
 

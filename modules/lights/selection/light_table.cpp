@@ -10,10 +10,10 @@
 namespace gloam {
 namespace {
 
-constexpr float kMostColor = 1e20f;  // candela or lux: what shading makes of it is a float
+constexpr float kMostColor = 1e20f;  // candela or lux: limit that keeps shading results finite in floats
 constexpr double kHalfPi = 3.14159265358979323846 / 2;
-/// The bound of a spot is grown by this share: its axis and cosine are rounded to floats, and a pixel may be lit that
-/// lies off by as much.
+/// A spot's bound grows by this share: its axis and cosine are rounded to floats, so a lit pixel may lie outside the
+/// exact cone by as much.
 constexpr double kSpotRounding = 1e-6;
 
 bool is_finite(const vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -22,14 +22,15 @@ float brightest_channel(const Light& light) {
   return light.intensity * std::max({light.color.r, light.color.g, light.color.b, 0.0f});
 }
 
-/// False for lights that give nothing, and for those with NaN or infinity where no sense can be made of it.
+/// False for lights that emit nothing and for lights made unusable by NaN or infinity.
 bool shines(const Light& light) {
   if (!is_finite(light.color) || !std::isfinite(light.intensity) || !(brightest_channel(light) > 0.0f)) return false;
   if (light.kind == LightKind::directional) return std::isfinite(light.apparent_angle);
   return light.kind != LightKind::spot || (std::isfinite(light.inner_angle) && std::isfinite(light.outer_angle));
 }
 
-/// Smallest sphere around a sector of range 1: narrow ones touch apex and rim, the rim of wide ones is a great circle.
+/// Smallest sphere around a spherical sector of range 1: for a narrow cone it passes through apex and rim, for a wide
+/// one the rim is its great circle.
 void set_spot(const Light& light, LightRecord& record) {
   const double angle = std::clamp<double>(light.outer_angle, 0.0, kHalfPi);
   const double cosine = std::cos(angle);
@@ -74,7 +75,7 @@ void LightTable::set_light(std::size_t i, const PlacedLight& placed) {
   radius[i] = kGivesNothing;
   if (!shines(light)) return;
   record.brightness = std::min(brightest_channel(light), kMostColor);
-  // Free of negative channels and of values that shading could not multiply.
+  // Removes negative channels and values too large for shading.
   record.color = glm::clamp(light.color * light.intensity, vec3(0.0f), vec3(kMostColor));
   if (light.kind == LightKind::directional) {
     radius[i] = kDirectionalLight;
@@ -86,7 +87,7 @@ void LightTable::set_light(std::size_t i, const PlacedLight& placed) {
     record.center_per_range = 0.0f;
     record.radius_per_range = 1.0f;
   } else if (!is_spot_of(record, light)) {
-    set_spot(light, record);  // a light that flickers does not pay for sines again
+    set_spot(light, record);  // reached only if the angles changed: a flickering light recomputes no sines
   }
   record.range_m = effective_range(light);
   record.inverse_range_squared = 1.0f / (record.range_m * record.range_m);

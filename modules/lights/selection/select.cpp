@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// Choosing and ordering the lights of a view. One pass over all lights of the world in floats; then only the visible
-// ones are looked at.
+// Selects and sorts the lights of a view. One pass in floats culls all lights of the world; the rest runs on the
+// visible lights only.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,16 +14,16 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kCullGrain = 512;  // lights a job
+constexpr std::size_t kCullGrain = 512;  // lights per job
 constexpr std::size_t kPackGrain = 512;
-/// Bound of what floats lose where a camera-relative position is rounded, turned and summed, a share of the lengths
-/// that take part. As much is added to bounds, so that no pixel the GPU lights is left out.
+/// Relative rounding error in floats when a camera-relative position is rounded, rotated and summed, as a share of the
+/// lengths involved. Bounds grow by it, so that no pixel the GPU lights is missed.
 constexpr float kRounding = 4e-7f;
-constexpr float kFarthestPosition = 1e37f;  // metres from the camera: beyond, products are no floats
+constexpr float kFarthestPosition = 1e37f;  // metres from the camera: products of larger values overflow a float
 constexpr std::uint32_t kLocal = 1;
 constexpr std::uint32_t kDirectional = 2;
 
-/// A view as the culling loop reads it.
+/// The view's data for the culling loop.
 struct CullView {
   double eye[3];
   float forward[3];
@@ -50,7 +50,7 @@ CullView cull_view(const RenderView& view) {
   return cull;
 }
 
-/// Columns that the culling loop reads and writes.
+/// Input and output columns of the culling loop.
 struct CullColumns {
   const double *x, *y, *z;
   const float* radius;
@@ -58,7 +58,8 @@ struct CullColumns {
   std::uint32_t* kind;
 };
 
-/// A plain loop over columns: the compiler turns it into vector code.
+/// Sets `kind` and the view depths of lights [begin, end). A plain loop over columns, so that the compiler vectorizes
+/// it.
 GLOAM_CPU_CLONES void cull_lights(CullColumns o, CullView v, std::size_t begin, std::size_t end) {
 #pragma GCC ivdep
   for (std::size_t i = begin; i < end; ++i) {
@@ -76,7 +77,7 @@ GLOAM_CPU_CLONES void cull_lights(CullColumns o, CullView v, std::size_t begin, 
     const float depth = v.forward[0] * cx + v.forward[1] * cy + v.forward[2] * cz;
     const float low = depth - reach > v.near_m ? depth - reach : v.near_m;
     const std::uint32_t seen = inside >= -reach - v.plane_rounding ? kLocal : 0u;
-    const std::uint32_t sound = spread < kFarthestPosition ? seen : 0u;  // NaN and infinity are not
+    const std::uint32_t sound = spread < kFarthestPosition ? seen : 0u;  // false for NaN and infinity
     const std::uint32_t local = radius >= 0.0f ? sound : 0u;
     o.center_x[i] = cx;
     o.center_y[i] = cy;
@@ -118,14 +119,15 @@ void find_visible(const LightTable& table, const RenderView& view, JobExecutor& 
     if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
 }
 
-/// Keeps the `capacity` indices of greatest importance in ascending order, equal ones by index; returns how many were
-/// dropped.
+/// Keeps the `capacity` indices of greatest importance (ties: lower index), in ascending order. Returns the number of
+/// dropped indices.
 template <class Importance>
 std::uint32_t keep_most_important(std::vector<std::uint32_t>& lights, std::size_t capacity,
                                   std::vector<std::uint64_t>& keys, Importance&& importance) {
   if (lights.size() <= capacity) return 0;
   keys.clear();
-  // Positive floats order as their bits do; the greatest comes first, then the first index.
+  // The bits of positive floats sort like the floats. Inverted bits put the greatest importance first; ties sort by
+  // index.
   for (const std::uint32_t i : lights)
     keys.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(importance(i))} << 32 | i);
   std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(capacity), keys.end());
@@ -136,7 +138,7 @@ std::uint32_t keep_most_important(std::vector<std::uint32_t>& lights, std::size_
   return dropped;
 }
 
-/// Share of the sphere of directions a light's bound covers, times its brightness.
+/// Solid angle of the light's bound as seen from the camera, up to a constant factor, times its brightness.
 float importance_of(const LightTable& table, const RenderView& view, std::uint32_t i) {
   const vec3 center = view.relative(dvec3(table.x[i], table.y[i], table.z[i]));
   const float radius = table.radius[i];
@@ -144,17 +146,18 @@ float importance_of(const LightTable& table, const RenderView& view, std::uint32
   return radius * radius / (distance * distance) * table.records[i].brightness;
 }
 
-/// Bits that order as the floats do.
+/// Bits that sort like the floats.
 std::uint32_t ordered_bits(float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
-/// Keys by their high 32 bits, equal ones as they came. What a view's depths leave of 32 bits, their least one taken
-/// off, needs three counting passes, rarely four; and no pass finds most of its keys in one place, where each would
-/// wait for the one before. Result in `keys`.
+/// Stable radix sort by the high 32 bits; the result is in `keys`. After the least depth is subtracted, a view's depths
+/// usually need three counting passes, rarely four. No pass has most of its keys in one bucket, where each increment
+/// would wait for the one before.
 void sort_by_depth(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& other) {
-  constexpr std::size_t kPlain = 64;  // fewer are sorted faster without counting; their low bits ascend too
+  constexpr std::size_t kPlain =
+      64;  // below this, std::sort is faster; the low bits also ascend, so the order is the same
   constexpr std::uint32_t kMostDigitBits = 9;
   constexpr std::uint32_t kMostPasses = 4;
   if (keys.size() < kPlain) {
@@ -201,7 +204,7 @@ struct PackJob {
   const RenderView& view;
   VisibleLights& visible;
 
-  /// Lights come in the order of depths, which no cache foresees.
+  /// Lights are visited in depth order, which the hardware prefetcher cannot predict.
   void prefetch(std::size_t i) const {
     if (i >= visible.selection.keys.size()) return;
     const auto light = static_cast<std::uint32_t>(visible.selection.keys[i]);

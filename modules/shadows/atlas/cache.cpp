@@ -30,7 +30,7 @@ std::uint64_t hash_of(const ShadowFace& face) {
   return hasher.digest();
 }
 
-/// The bits of x, each before a zero.
+/// Spreads the bits of x: bit i moves to bit 2 i.
 std::uint64_t spread_bits(std::uint32_t x) {
   std::uint64_t bits = x;
   bits = (bits | bits << 16) & 0x0000FFFF0000FFFF;
@@ -46,7 +46,7 @@ std::uint64_t place_of(const AtlasSquare& square) {
 
 FaceKey key_of(const ShadowFace& face) { return {face.light, face.index}; }
 
-/// Faces of one light that look from one point; or one orthographic face.
+/// Adjacent faces of one light with one origin and range, or one orthographic face: [begin, end).
 struct FaceGroup {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -64,10 +64,10 @@ std::vector<FaceGroup> groups_of(std::span<const ShadowFace> faces) {
   return groups;
 }
 
-/// Indices of casters that a group's faces may see: a few more, never fewer, than may_see finds for all its faces
-/// together.
+/// Indices of casters within the range of a group's faces: a superset of the casters for which may_see() is true in any
+/// of them.
 std::vector<std::uint32_t> casters_in_reach(const ShadowFace& face, std::span<const CasterState> casters) {
-  constexpr double kSlack = 1e-4;  // above what may_see loses in floats, as a share of the lengths that take part
+  constexpr double kSlack = 1e-4;  // above the float rounding of may_see(), as a share of the lengths involved
   const bool everywhere = !(face.tan_half > 0.0f && face.far_m > 0.0f);
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < casters.size(); ++i) {
@@ -75,7 +75,7 @@ std::vector<std::uint32_t> casters_in_reach(const ShadowFace& face, std::span<co
     const dvec3 nearest = glm::max(glm::max(low, -high), dvec3(0.0));
     const dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
     const double reach = face.far_m + kSlack * (face.far_m + farthest.x + farthest.y + farthest.z);
-    // Bounds that are not known, or no numbers, are in reach.
+    // Casters with unknown bounds or NaN count as in range.
     if (everywhere || !(low.x <= high.x) || !(glm::dot(nearest, nearest) > reach * reach)) found.push_back(i);
   }
   return found;

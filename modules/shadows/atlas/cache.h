@@ -17,41 +17,45 @@
 
 namespace gloam {
 
-/// What a face's map is made from.
+/// Identifies the inputs of a face's map by hashes: faces with equal content have equal maps.
 struct FaceContent {
-  std::uint64_t hash = 0;  ///< of the face, of what it may see and of `salt`
-  std::uint64_t pose = 0;  ///< of the face and of `salt` alone
-  bool moving = false;     ///< it may see something that is unsteady: its map is never good for another frame
-  std::uint32_t casters = 0;
+  std::uint64_t hash = 0;     ///< of the face, of all casters that it may see, and of `salt`
+  std::uint64_t pose = 0;     ///< of the face and of `salt` only
+  bool moving = false;        ///< it may see an unsteady caster: its map is redrawn every frame
+  std::uint32_t casters = 0;  ///< number of casters that it may see
   bool operator==(const FaceContent&) const = default;
 };
 
-/// A part of a face that the view's image of backgrounds holds: the map as casters that rest make it.
+/// A part of a face in the view's image of backgrounds: the depth of its resting casters.
 struct FaceBackground {
   TexelRect texels;
-  std::uint64_t hash = 0;  ///< of these casters
+  std::uint64_t hash = 0;  ///< of the resting casters that this part may see
 };
 
-/// One a face. `salt`: whatever else maps depend on (knobs, version of the meshes). `withheld`: casters that are not
-/// there for a light's faces. The result does not depend on the number of threads.
+/// The content of each face, in order. salt: hash of everything else that maps depend on (knobs, version of the
+/// meshes). withheld: casters that are left out for a light's faces. The result does not depend on the number of
+/// threads.
 [[nodiscard]] std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces,
                                                      std::span<const CasterState> casters, std::uint64_t salt,
                                                      JobExecutor& executor, const WithheldCasters& withheld = {});
 
-/// Which maps an atlas holds.
+/// Keeps track of the maps that an atlas holds, with the content that each was drawn from.
 class ShadowCache {
  public:
-  /// Whether the atlas holds this face's map, drawn from this content, where the face says.
+  /// Whether the atlas holds this face's map at face.square, drawn from this content. False when content.moving.
   [[nodiscard]] bool holds(const ShadowFace& face, const FaceContent& content) const;
-  /// Whether the atlas holds this face's map as it was to be in that frame of the CasterHistory: it differs from what
-  /// it is to be in the next by nothing but what changed(light) says.
+  /// Whether the atlas holds this face's map at face.square with the casters of frame `frame` (numbered by
+  /// CasterHistory) and with the same pose and salt. In frame + 1 this map is then outdated only inside the boxes of
+  /// CasterHistory::changed(light). False for frame 0.
   [[nodiscard]] bool held(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) const;
-  /// The face's map has been drawn where the face says, with the casters of that frame; what lay there is gone.
+  /// Records that the face's map was drawn at face.square with the casters of that frame. Maps that overlap the square
+  /// are forgotten.
   void set_drawn(const ShadowFace& face, const FaceContent& content, std::uint64_t frame = 0);
-  /// The face's map, which is there, is as it would be drawn in that frame.
+  /// Records that the face's map is right for that frame as well, and its content. The atlas must hold the map.
   void keep(const ShadowFace& face, const FaceContent& content, std::uint64_t frame);
-  /// What the image of backgrounds holds of a face's map, which the atlas holds.
+  /// The face's backgrounds; empty when the atlas does not hold its map.
   [[nodiscard]] std::span<const FaceBackground> backgrounds(const ShadowFace& face) const;
+  /// Replaces the face's backgrounds. The atlas must hold the face's map.
   void set_backgrounds(const ShadowFace& face, std::vector<FaceBackground> backgrounds);
   void clear() {
     maps_.clear();
@@ -63,14 +67,14 @@ class ShadowCache {
   struct Map {
     AtlasSquare square;
     FaceContent content;
-    std::uint64_t frame = 0;  ///< the newest whose casters it shows
+    std::uint64_t frame = 0;  ///< the newest frame whose casters the map shows
     std::vector<FaceBackground> backgrounds;
   };
   void forget_overlapping(const AtlasSquare& square);
 
   std::unordered_map<FaceKey, Map, FaceKeyHash> maps_;
-  /// Who lies where, by the place of a square's first texel on the curve that fills the atlas square by square
-  /// (Morton's): each square is one stretch of it.
+  /// The map in each place. Squares are ordered by the index of their first texel in Morton order (Z order), in which
+  /// each square is one contiguous range: this index is the key, and the value holds the range's end.
   struct Stretch {
     std::uint64_t end = 0;
     FaceKey key;

@@ -19,8 +19,8 @@ void add(Hasher& hasher, std::span<const float> values) {
   for (const float value : values) hasher.value(std::bit_cast<std::uint32_t>(value));
 }
 
-/// Where the caster is and what it is made of; the meshes' and materials' own content has a version, which is part of
-/// the salt.
+/// Hash of the caster's position, pose, mesh and material. The content of meshes and materials has a version, which is
+/// part of the salt of face_contents().
 std::uint64_t hash_of(const Caster& caster, std::uint64_t pose) {
   Hasher hasher;
   hasher.value(caster.primitive->first_index).value(caster.primitive->first_vertex).value(caster.primitive->material);
@@ -30,7 +30,7 @@ std::uint64_t hash_of(const Caster& caster, std::uint64_t pose) {
   return hasher.digest();
 }
 
-/// Of each range of joints, by its first.
+/// The hash of each range of joints, by the index of its first joint.
 std::map<std::uint32_t, std::uint64_t> joint_hashes(const JointMatrices& joints) {
   std::map<std::uint32_t, std::uint64_t> hashes;
   for (const JointMatrices::Range& range : joints.ranges) {
@@ -60,7 +60,8 @@ std::uint64_t pose_of(const shaders::DeformConstants& deform, const std::map<std
 
 bool by_entity(Entity a, Entity b) { return std::tie(a.index, a.generation) < std::tie(b.index, b.generation); }
 
-/// Of one entity, too: of two that look the same, maps may leave out one.
+/// Whether both are the same, unchanged caster. The entities must be equal too: of two casters that look the same, one
+/// may be withheld.
 bool same(const CasterState& a, const CasterState& b) {
   return a.hash == b.hash && a.entity == b.entity && !a.unsteady && !b.unsteady;
 }
@@ -69,7 +70,7 @@ bool by_hash(const CasterState* a, const CasterState* b) {
   return a->hash != b->hash ? a->hash < b->hash : by_entity(a->entity, b->entity);
 }
 
-/// Calls pair(one of `a`, its equal in `b` or none); both ordered by_hash.
+/// Calls pair(state, equal) for each state of `a` with its equal in `b`, or null. Both are ordered by_hash.
 template <class Pair>
 void for_each_pair(std::span<const CasterState* const> a, std::span<const CasterState* const> b, const Pair& pair) {
   std::size_t at = 0;
@@ -81,7 +82,7 @@ void for_each_pair(std::span<const CasterState* const> a, std::span<const Caster
   }
 }
 
-/// Boxes of the casters that are in `here` and not in `there`. `states`: ordered by entity.
+/// Appends the boxes of the casters in `here` that are not in `there`. states: ordered by entity.
 void append_boxes(std::span<const Entity> here, std::span<const Entity> there, std::span<const CasterState> states,
                   std::vector<CasterBox>& boxes) {
   std::vector<Entity> turned;
@@ -93,7 +94,7 @@ void append_boxes(std::span<const Entity> here, std::span<const Entity> there, s
   }
 }
 
-/// Lights of which maps leave something out.
+/// The lights with withheld casters in either, ascending.
 std::vector<Entity> lights_of(const WithheldCasters& a, const WithheldCasters& b) {
   std::vector<Entity> lights;
   for (const WithheldCasters* withheld : {&a, &b})
@@ -136,7 +137,7 @@ std::vector<CasterState> caster_states(std::span<const Caster> casters, std::spa
 }
 
 void CasterHistory::advance(std::vector<CasterState> states) {
-  // Most stand where they stood, at the same place of the list.
+  // Most casters are unchanged and at the same index.
   std::vector<const CasterState*> gone, come;
   ++frame_;
   std::vector<std::uint64_t> since(states.size(), frame_);
@@ -178,7 +179,7 @@ std::vector<CasterBox> CasterHistory::find_changed(Entity light, std::span<const
   std::vector<CasterBox> boxes;
   for (std::size_t i = 0; i < changed_.size(); ++i)
     if (!is_withheld(i < gone_ ? left_before : left_now, changed_casters_[i])) boxes.push_back(changed_[i]);
-  // Whatever has come to be left out was there before, whatever is not any more is there now.
+  // A caster that becomes withheld was in the map before; one that is no longer withheld is in it now.
   append_boxes(left_now, left_before, before, boxes);
   append_boxes(left_before, left_now, states_, boxes);
   return boxes;

@@ -15,58 +15,60 @@
 
 namespace gloam {
 
-/// Where a caster was in a frame; low above high where that is not known.
+/// World-space bounds of a caster in a frame; unknown when low is above high on any axis.
 struct CasterBox {
   dvec3 low = dvec3(0.0);
   dvec3 high = dvec3(0.0);
   [[nodiscard]] bool known() const { return low.x <= high.x && low.y <= high.y && low.z <= high.z; }
 };
 
-/// What a caster is in one frame.
+/// State of one caster in one frame.
 struct CasterState {
-  std::uint64_t hash = 0;  ///< of where it is, how it is posed and what it is made of: equal ones draw the same
-  bool unsteady = false;   ///< its vertices move and nobody knows how: two frames' are never the same
+  std::uint64_t hash = 0;  ///< of position, pose, mesh and material: casters with equal hashes draw the same
+  bool unsteady = false;   ///< its vertices move in an unknown way: it differs from frame to frame
   CasterBox box;
   Entity entity;
 };
 
-/// Whether a caster is among those that WithheldCasters::of gives.
+/// Whether the caster is in `withheld`, a result of WithheldCasters::of().
 [[nodiscard]] bool is_withheld(std::span<const Entity> withheld, Entity caster);
 
-/// Numbers for how casters are posed, by index; of one whose vertices the GPU does not move, or whose pose is not
-/// known, 0.
+/// A hash of each caster's pose, in the order of draws.casters. 0: the GPU does not move its vertices, or its pose is
+/// unknown.
 [[nodiscard]] std::vector<std::uint64_t> caster_poses(const World& world, const DrawLists& draws);
 
-/// One a caster. `poses`: as caster_poses gives them, or none.
+/// The state of each caster, in order. poses: result of caster_poses(), or empty.
 [[nodiscard]] std::vector<CasterState> caster_states(std::span<const Caster> casters,
                                                      std::span<const std::uint64_t> poses, JobExecutor& executor);
 
-/// How casters differ from frame to frame. Frames are numbered from 1.
+/// Tracks how casters change from frame to frame. Frames are numbered from 1.
 class CasterHistory {
  public:
-  /// What maps leave out in the frame that advance() begins next, and in those that follow.
+  /// Sets the casters that maps leave out, from the frame that the next advance() begins.
   void withhold(WithheldCasters withheld) { next_withheld_ = std::move(withheld); }
-  /// The newest frame's casters, ordered by Entity::index; every call is a frame.
+  /// Begins a frame with these casters, ordered by Entity::index.
   void advance(std::vector<CasterState> states);
   /// Number of the newest frame.
   [[nodiscard]] std::uint64_t frame() const { return frame_; }
-  /// Of the newest frame.
+  /// The casters of the newest frame.
   [[nodiscard]] std::span<const CasterState> states() const { return states_; }
-  /// Likewise.
+  /// The withheld casters of the newest frame.
   [[nodiscard]] const WithheldCasters& withheld() const { return withheld_; }
   [[nodiscard]] std::span<const Entity> withheld(Entity light) const { return withheld_.of(light); }
-  /// Where something is in the newest frame that was not there, or not so, in the one before; and the other way round.
+  /// Boxes of all casters that changed between the frame before and the newest one: first all old boxes, then all new
+  /// ones.
   [[nodiscard]] std::span<const CasterBox> changed() const { return changed_; }
-  /// The same as maps of the light have it: what they leave out is not there.
+  /// The same for the maps of one light, which leave its withheld casters out. A caster that becomes withheld, or stops
+  /// being withheld, counts as changed.
   [[nodiscard]] std::span<const CasterBox> changed(Entity light) const;
-  /// Whether a caster of the newest frame has been as it is for kRestFrames frames, or since the first.
+  /// Whether a caster (index into states()) has not changed for kRestFrames frames, or since frame 1: a resting caster.
   [[nodiscard]] bool rests(std::size_t caster) const {
     return since_[caster] <= 1 || since_[caster] + kRestFrames <= frame_;
   }
   static constexpr std::uint64_t kRestFrames = 16;
 
  private:
-  /// changed() of a light whose maps leave something out, in the newest frame or the one before.
+  /// changed() of a light with withheld casters in the newest frame or the one before.
   struct Changed {
     Entity light;
     std::vector<CasterBox> boxes;
@@ -74,15 +76,15 @@ class CasterHistory {
   [[nodiscard]] std::vector<CasterBox> find_changed(Entity light, std::span<const CasterState> before) const;
 
   std::uint64_t frame_ = 0;
-  std::vector<std::uint64_t> since_;  ///< the frame that each has been the same since
+  std::vector<std::uint64_t> since_;  ///< by caster: the frame since which it has not changed
   std::vector<CasterState> states_;
   std::vector<CasterBox> changed_;
-  std::vector<Entity> changed_casters_;  ///< of changed_
-  std::size_t gone_ = 0;                 ///< how many of changed_ are of the frame before the newest; they come first
+  std::vector<Entity> changed_casters_;  ///< by index into changed_
+  std::size_t gone_ = 0;                 ///< the first gone_ boxes of changed_ are old boxes, of the frame before
   WithheldCasters next_withheld_;
-  WithheldCasters withheld_;         ///< in the newest frame
-  WithheldCasters withheld_before_;  ///< in the one before
-  std::vector<Changed> changed_of_;  ///< by light
+  WithheldCasters withheld_;         ///< of the newest frame
+  WithheldCasters withheld_before_;  ///< of the frame before
+  std::vector<Changed> changed_of_;  ///< ascending by light
 };
 
 }  // namespace gloam

@@ -13,10 +13,10 @@
 namespace gloam {
 namespace {
 
-/// With more, faces are drawn whole: looking at all for every face would cost more than it saves.
+/// With more changed boxes, faces are drawn whole: testing all boxes for every face would cost more than it saves.
 constexpr std::size_t kMostChanges = 2048;
 
-/// Whatever maps depend on beside face and casters.
+/// Hash of everything that maps depend on besides face and casters.
 std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
   return Hasher()
       .value(frame.world().resource<SceneAssets>().version)
@@ -26,7 +26,7 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
       .digest();
 }
 
-/// What of the face's map is not as it should be.
+/// The regions of the face's map that must be drawn; none when the map is up to date.
 std::vector<TexelRect> stale_regions(const ViewShadows& kept, const ShadowFace& face, const FaceContent& content) {
   const CasterHistory& history = kept.history;
   if (kept.cache.holds(face, content)) return {};
@@ -35,7 +35,7 @@ std::vector<TexelRect> stale_regions(const ViewShadows& kept, const ShadowFace& 
   return covered_regions(face, changed);
 }
 
-/// Of a background: casters that rest and that its part of the face may see.
+/// Hash of a background: the resting casters that this part of the face may see.
 std::uint64_t hash_of_resting(const ViewShadows& kept, const ShadowFace& face, const TexelRect& texels) {
   const FaceVolume volume = face_volume(face, texels);
   const std::span<const CasterState> states = kept.history.states();
@@ -47,14 +47,15 @@ std::uint64_t hash_of_resting(const ViewShadows& kept, const ShadowFace& face, c
   return hasher.digest();
 }
 
-/// Room for what moves to move on.
+/// Widens a region, so that its background still contains the changed texels while casters keep moving.
 TexelRect widened(const ShadowFace& face, const TexelRect& texels) {
   constexpr std::uint32_t kLeast = 16;
   const uvec2 more = glm::max((texels.end - texels.begin) / 4u / kRegionStep * kRegionStep, uvec2(kLeast));
   return {texels.begin - glm::min(texels.begin, more), glm::min(texels.end + more, uvec2(face.square.size))};
 }
 
-/// Puts the face's regions on backgrounds. Those that are not there become regions of `made`.
+/// Gives each of the face's regions a background that contains it. Backgrounds that do not exist yet become regions of
+/// `made`.
 void find_backgrounds(const ViewShadows& kept, DrawnFace& face, DrawnFace& made) {
   constexpr std::size_t kMost = 2 * kMostRegions;
   if (face.regions.front().texels == whole_face(face.face)) return;
@@ -66,7 +67,7 @@ void find_backgrounds(const ViewShadows& kept, DrawnFace& face, DrawnFace& made)
     const auto holds = [&](const FaceBackground& background) { return background.texels.contains(region.texels); };
     const auto found = std::find_if(there.begin(), there.end(), holds);
     if (found != there.end()) {
-      std::rotate(found, found + 1, there.end());  // last: it is of use
+      std::rotate(found, found + 1, there.end());  // moves to the end: recently used
       continue;
     }
     const TexelRect texels = widened(face.face, region.texels);
@@ -93,7 +94,7 @@ void find_draws(const CasterHistory& history, DrawnFace& face, DrawnRegion& regi
     region.matrices.push_back(clip_from_mesh(face.face, draw.caster->world_from_mesh));
 }
 
-/// Faces with a place, and what their maps are made from.
+/// Placed faces, their contents, and the regions that must be drawn.
 struct PlacedFaces {
   std::vector<ShadowFace> faces;
   std::vector<FaceContent> contents;

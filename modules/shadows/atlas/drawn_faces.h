@@ -15,12 +15,12 @@
 
 namespace gloam {
 
-/// A part of a face that is drawn in this frame, to the last bit as if all of the face were.
+/// A part of a face that is drawn in this frame. Its depths are bit-identical to those of drawing the whole face.
 struct DrawnRegion {
   TexelRect texels;
   std::vector<FaceDraw> draws;
-  std::vector<mat4> matrices;  ///< clip from mesh, of `draws`
-  /// `draws` are of casters that do not rest; the others' depth is in the image of backgrounds.
+  std::vector<mat4> matrices;  ///< clip_from_mesh of each of `draws`
+  /// The depth of resting casters comes from the image of backgrounds; `draws` holds the other casters only.
   bool on_background = false;
 };
 
@@ -28,20 +28,21 @@ struct DrawnRegion {
 struct DrawnFace {
   ShadowFace face;
   FaceContent content;
-  std::vector<DrawnRegion> regions;         ///< they do not overlap
-  std::vector<FaceBackground> backgrounds;  ///< that the image of backgrounds will hold
+  std::vector<DrawnRegion> regions;         ///< not overlapping
+  std::vector<FaceBackground> backgrounds;  ///< content of the image of backgrounds for the face, after the frame
 };
 
-/// What one frame draws.
+/// All shadow-map draws of one frame.
 struct DrawnMaps {
   std::vector<DrawnFace> faces;
-  /// Before them, into the image of backgrounds: what casters that rest make of regions of faces.
+  /// Parts of faces whose resting casters are drawn into the image of backgrounds, before `faces`.
   std::vector<DrawnFace> backgrounds;
 };
 
-/// Sorts the view's faces into those whose maps the atlas holds and those that must be drawn: those with regions, where
-/// casters have changed since the last frame, or whole. Counts them, and advances the view's history: casters that it
-/// withholds are not there for faces of their lights.
+/// Decides which of the view's faces are drawn in this frame: all faces whose map the atlas does not hold. If only
+/// casters changed since the last frame, only the regions around the changed casters are drawn, otherwise the whole
+/// face. Advances the view's CasterHistory and sets kept.counts and kept.drawn. Casters withheld from a light are left
+/// out of its faces.
 [[nodiscard]] DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
                                       const ShadowKnobs& knobs);
 

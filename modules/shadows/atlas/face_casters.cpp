@@ -10,8 +10,7 @@
 namespace gloam {
 namespace {
 
-/// Bound of what GPU and CPU lose of a length where they turn and sum it in floats, as a share of the lengths that take
-/// part.
+/// Bound on the float rounding of GPU and CPU when they rotate and sum lengths, as a share of the lengths involved.
 constexpr float kRounding = 1e-5f;
 
 void widen(Aabb& box) {
@@ -71,7 +70,8 @@ FaceVolume face_volume(const ShadowFace& face) {
   for (std::size_t i = 0; i < 4; ++i)
     volume.frustum.planes[i] = perspective ? Plane{glm::normalize(sides[i] + face.forward * face.tan_half), 0.0f}
                                            : Plane{sides[i], face.half_extent_m};
-  // What stands between a sun and its box casts shadows into it: it is drawn at the box's near side.
+  // Casters between a directional light and its box cast shadows into it: they are drawn at the near side, so there is
+  // no near plane.
   volume.frustum.planes[4] = perspective ? Plane{face.forward, -face.near_m} : Plane{vec3(0.0f), 1.0f};
   if (face.far_m > 0.0f) volume.frustum.planes[5] = {-face.forward, face.far_m};
   if (perspective) volume.reach_m = face.far_m;
@@ -84,7 +84,7 @@ FaceVolume face_volume(const ShadowFace& face, const TexelRect& region) {
   const float extent = perspective ? face.tan_half : face.half_extent_m;
   const float texel = 2.0f * extent / static_cast<float>(face.square.size);
   const auto from_edge = [&](std::uint32_t texels) { return static_cast<float>(texels) * texel - extent; };
-  // Where its sides lie, seen from the middle to the inside: left, right, lower and upper.
+  // Signed distances of the region's sides from the face's middle, along the inward normals: left, right, lower, upper.
   const float distances[] = {from_edge(region.begin.x) - texel, -from_edge(region.end.x) - texel,
                              -from_edge(region.end.y) - texel, from_edge(region.begin.y) - texel};
   const vec3 inward[] = {face.right, -face.right, face.up, -face.up};
@@ -101,7 +101,7 @@ CasterBox relative_box(const dvec3& origin, const CasterBox& box) {
 }
 
 bool may_see(const FaceVolume& volume, const CasterBox& box) {
-  if (!box.known()) return true;  // nobody knows where it is
+  if (!box.known()) return true;  // unknown: it may be anywhere
   return may_see(volume, Aabb{vec3(box.low - volume.origin), vec3(box.high - volume.origin)});
 }
 

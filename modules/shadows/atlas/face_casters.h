@@ -14,38 +14,39 @@
 
 namespace gloam {
 
-/// What a face may see, relative to its origin and in the world's axes.
+/// The volume that a face may see, relative to its origin, in world axes.
 struct FaceVolume {
   dvec3 origin = dvec3(0.0);  ///< world
   Frustum frustum;
-  float reach_m = 0.0f;  ///< radius round the origin beyond which nothing is lit; 0: without one
+  float reach_m = 0.0f;  ///< radius around the origin beyond which nothing is lit; 0: unlimited
 };
 [[nodiscard]] FaceVolume face_volume(const ShadowFace& face);
-/// The part of it that is drawn into these texels, and a texel more at each side.
+/// The part of the volume that is drawn into these texels, widened by one texel on each side.
 [[nodiscard]] FaceVolume face_volume(const ShadowFace& face, const TexelRect& region);
 
-/// The box relative to `origin`, widened by what GPU and CPU may lose of its place.
+/// The box relative to `origin`, widened by the rounding of GPU and CPU transforms.
 [[nodiscard]] CasterBox relative_box(const dvec3& origin, const CasterBox& box);
 
-/// Whether a caster may be drawn into the face; false only when it certainly is not.
+/// Whether a caster may be drawn into the face. Conservative: false only when it certainly is not.
 [[nodiscard]] bool may_see(const FaceVolume& volume, const Caster& caster);
 [[nodiscard]] bool may_see(const FaceVolume& volume, const CasterBox& box);
 
-/// From a caster's mesh to the face's clip space, composed in double relative to the light.
+/// The transform from a caster's mesh to the face's clip space, composed in double relative to the light.
 [[nodiscard]] mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh);
 
-/// One run of a caster's triangles.
+/// One range of a caster's indices that is drawn.
 struct FaceDraw {
   const Caster* caster = nullptr;
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
 };
-/// Clusters that the face may see, as few runs as they make; opaque casters come before cut-out ones. `simplified`:
-/// those that have fewer triangles for it (GpuPrimitive::simplified_index_count) are drawn so, whole. `withheld`:
-/// casters that are left out, as WithheldCasters::of gives them.
+/// The draws of all clusters that the face may see; adjacent clusters share a draw. Opaque casters come before cut-out
+/// ones. simplified: casters with simplified triangles (GpuPrimitive::simplified_index_count) are drawn with those,
+/// whole. withheld: casters that are left out, a result of WithheldCasters::of().
 [[nodiscard]] std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters,
                                                bool simplified = false, std::span<const Entity> withheld = {});
 
+/// Whether the caster's alpha is tested.
 [[nodiscard]] bool is_cut_out(const Caster& caster);
 
 }  // namespace gloam

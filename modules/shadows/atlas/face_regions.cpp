@@ -12,13 +12,13 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kLeastPartial = 64;     // texels of a face's side: smaller ones are drawn whole
+constexpr std::uint32_t kLeastPartial = 64;     // texels of a face's side; smaller faces are drawn whole
 constexpr std::uint64_t kRegionCost = 64 * 64;  // texels that cost as much as one more region
-constexpr double kWholeShare = 0.75;            // of a face: when regions have so much, the whole face costs no more
-constexpr double kMargin = 2.0;                 // texels at each side
-constexpr double kNearShare = 0.5;              // of near_m: nothing is drawn that is nearer
+constexpr double kWholeShare = 0.75;  // share of a face; when regions cover more, the whole face costs no more
+constexpr double kMargin = 2.0;       // texels of margin at each side
+constexpr double kNearShare = 0.5;    // share of near_m; nothing nearer is drawn
 
-/// Bounds of places in a face, in units of its half extent, x to the right and y upward.
+/// Bounds of points in a face, in units of its half extent, x to the right and y upward.
 struct FaceBounds {
   glm::dvec2 low = glm::dvec2(std::numeric_limits<double>::infinity());
   glm::dvec2 high = glm::dvec2(-std::numeric_limits<double>::infinity());
@@ -28,7 +28,7 @@ struct FaceBounds {
   }
 };
 
-/// Corners of a box along a face's axes: to the right, upward and away from the light.
+/// The corners of a box in a face's axes: right, up, forward.
 std::array<dvec3, 8> corners_along(const ShadowFace& face, const CasterBox& box) {
   const dvec3 right(face.right), up(face.up), forward(face.forward);
   std::array<dvec3, 8> corners;
@@ -46,7 +46,7 @@ FaceBounds orthographic_bounds(const ShadowFace& face, const std::array<dvec3, 8
   return bounds;
 }
 
-/// Of what the box has beyond the near side.
+/// Bounds of the part of the box beyond kNearShare of the near plane.
 FaceBounds perspective_bounds(const ShadowFace& face, const std::array<dvec3, 8>& corners) {
   FaceBounds bounds;
   const double near = kNearShare * static_cast<double>(face.near_m);
@@ -85,13 +85,14 @@ bool overlap(const TexelRect& a, const TexelRect& b) {
   return a.begin.x < b.end.x && b.begin.x < a.end.x && a.begin.y < b.end.y && b.begin.y < a.end.y;
 }
 
-/// What joining costs in texels; far below zero where there is no choice.
+/// Cost of joining two regions, in texels; −∞ when they overlap and must be joined.
 double growth(const TexelRect& a, const TexelRect& b) {
   if (overlap(a, b)) return -std::numeric_limits<double>::infinity();
   return static_cast<double>(joined(a, b).texels()) - static_cast<double>(a.texels() + b.texels() + kRegionCost);
 }
 
-/// Joins the two that cost least, if that saves something or there are too many.
+/// Joins the two regions with the least cost, if that saves something or there are too many. Returns false when nothing
+/// was joined.
 bool join_two(std::vector<TexelRect>& regions) {
   double least = std::numeric_limits<double>::infinity();
   std::size_t first = 0, second = 0;
@@ -118,12 +119,12 @@ TexelRect covered_texels(const ShadowFace& face, const CasterBox& box) {
   const std::array<dvec3, 8> corners = corners_along(face, relative);
   const bool perspective = face.tan_half > 0.0f;
   const FaceBounds bounds = perspective ? perspective_bounds(face, corners) : orthographic_bounds(face, corners);
-  if (!(bounds.low.x <= bounds.high.x)) return {};  // all of it lies behind the light
+  if (!(bounds.low.x <= bounds.high.x)) return {};  // the whole box is behind the light
   const std::uint32_t size = face.square.size;
   const double half = 0.5 * size;
   const glm::dvec2 low(half + half * bounds.low.x - kMargin, half - half * bounds.high.y - kMargin);
   const glm::dvec2 high(half + half * bounds.high.x + kMargin, half - half * bounds.low.y + kMargin);
-  if (!(glm::length(low) < 1e15 && glm::length(high) < 1e15)) return whole_face(face);  // no numbers
+  if (!(glm::length(low) < 1e15 && glm::length(high) < 1e15)) return whole_face(face);  // NaN or infinity
   return {{texel_down(low.x, size), texel_down(low.y, size)}, {texel_up(high.x, size), texel_up(high.y, size)}};
 }
 

@@ -12,26 +12,27 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kGrain = 64;  // lights a job
-/// A cube's face shows a quarter of what lies round the light, and half of what a camera sees of its sphere across.
+constexpr std::size_t kGrain = 64;  // lights per job
+/// A cube face shows a quarter of the surroundings, and half the diameter of the light's sphere in the picture.
 constexpr float kCubeShare = 0.5f;
 constexpr std::size_t kMostDirectional = std::size(decltype(shaders::ShadowBlock::directional){});
-constexpr float kWidestSun = 3.0f;  // radians of apparent angle: the tangent of half of it is a float
+constexpr float kWidestSun = 3.0f;  // radians of apparent angle; the tangent of half of it is finite
 
 bool earlier(const WantedSize& a, const WantedSize& b) { return a.light.index < b.light.index; }
 
-/// Texels that a light's faces wanted in the last frame; 0 when it was not there. `wanted` is ordered by entity index.
+/// The face size requested for a light in the last frame; 0 if the light was not in view. wanted: ordered by entity
+/// index.
 std::uint32_t size_before(std::span<const WantedSize> wanted, Entity light) {
   const auto found = std::lower_bound(wanted.begin(), wanted.end(), WantedSize{light, 0}, earlier);
   return found != wanted.end() && found->light == light ? found->size : 0;
 }
 
-/// A local light on its way to faces.
+/// The planned faces of a local light.
 struct LocalPlan {
   LocalShadow shadow;
-  float pixels = 0.0f;       ///< across what a face shows, at least 1; 0: its ShadowCaster says the size
-  std::uint32_t before = 0;  ///< texels that a face wanted in the last frame
-  std::uint32_t size = 0;    ///< texels that a face wants
+  float pixels = 0.0f;       ///< pixels across a face's content, ≥ 1; 0: its ShadowCaster sets the size
+  std::uint32_t before = 0;  ///< face size that it wanted in the last frame
+  std::uint32_t size = 0;    ///< face size
   float importance = 0.0f;
   std::size_t first_request = 0;
   std::size_t first_face = 0;
@@ -52,7 +53,7 @@ LocalPlan plan_local(const ShadowLight& light, const RenderView& view, const Sha
     plan.size = asked_size(light.caster.resolution);
     return plan;
   }
-  // Texels lie across the light's path: a narrow cone needs no more for being long.
+  // Texels are spread across the light's direction: the length of a narrow cone does not matter.
   const bool cube = plan.shadow.kind == GLOAM_SHADOW_CUBE;
   const float share = cube ? kCubeShare : std::min(1.0f, plan.shadow.range_m * plan.shadow.tan_inner / radius);
   plan.pixels = std::max(1.0f, pixels_across(view, center, radius) * share);
@@ -64,16 +65,16 @@ std::uint32_t size_at(const LocalPlan& plan, float density) {
   return plan.pixels > 0.0f ? wanted_size(plan.pixels * density, plan.before) : plan.size;
 }
 
-/// A directional light on its way to cascades.
+/// The plan for a directional light's cascades.
 struct DirectionalPlan {
   FaceAxes axes;
   std::size_t first_request = 0;
-  std::size_t count = 0;   ///< of requests
-  std::uint32_t size = 0;  ///< texels of each
+  std::size_t count = 0;   ///< number of requests
+  std::uint32_t size = 0;  ///< texels of each cascade's side
 };
 
-/// Of each cascade of a light without a size of its own. Those of one light leave three quarters of the atlas to
-/// others, and those of all lights leave half of it.
+/// Size of each cascade of a light whose ShadowCaster sets none. The cascades of one light fill at most a quarter of
+/// the atlas, those of all lights at most half of it.
 std::uint32_t cascade_size(std::size_t lights, const RenderView& view, const ShadowSettings& settings) {
   const float pixels = static_cast<float>(std::max(view.width, view.height));
   std::uint32_t most = settings.atlas_size / 4;
@@ -107,7 +108,7 @@ double texels_of(std::size_t faces, std::uint32_t size) {
   return static_cast<double>(faces) * static_cast<double>(size) * static_cast<double>(size);
 }
 
-/// For local lights' maps, in what cascades leave of the atlas.
+/// The density for local lights' maps, in the part of the atlas that cascades leave.
 float local_density(const ShadowSettings& settings, const Plans& plans, float previous) {
   double room = texels_of(1, settings.atlas_size);
   for (const DirectionalPlan& plan : plans.directional) room -= texels_of(plan.count, plan.size);
@@ -133,7 +134,7 @@ void request_directional(std::span<const ShadowLight> lights, ShadowViews& shado
   }
 }
 
-/// Requests of local lights, and what they wanted for the next frame.
+/// Adds the requests of local lights, and stores their wanted sizes for the next frame.
 void request_local(std::span<const ShadowLight> lights, ShadowViews& shadows, Plans& plans) {
   shadows.wanted.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -149,7 +150,7 @@ void request_local(std::span<const ShadowLight> lights, ShadowViews& shadows, Pl
   std::sort(shadows.wanted.begin(), shadows.wanted.end(), earlier);
 }
 
-/// Faces and rows of local lights, each job its own.
+/// Fills the faces and rows of local lights, in parallel over lights.
 void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, JobExecutor& jobs, Plans& plans,
                 ShadowViews& shadows) {
   std::size_t faces = 0;

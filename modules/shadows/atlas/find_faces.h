@@ -13,17 +13,17 @@
 
 namespace gloam {
 
-/// A light of the view as its components are.
+/// A light of the view with its components.
 struct ShadowLight {
   Entity entity;
   Light light;
   dmat4 world_from_node = dmat4(1.0);
-  LightBounds bounds;   ///< radius 0: not known
-  ShadowCaster caster;  ///< not enabled: casts no shadow
+  LightBounds bounds;   ///< radius 0: unknown
+  ShadowCaster caster;  ///< enabled = false: casts no shadow
 };
 
-/// Sets up the faces of a view's lights and gives them places: local lights and directional ones in the view's order.
-/// Of `shadows` it reads what the last frame left: places and sizes.
+/// Finds the faces of a view's lights and places them in the atlas. local, directional: the lights in the view's order.
+/// shadows: holds the places and sizes of the last frame, which are reused, and receives the result.
 void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLight> directional, const RenderView& view,
                   const ShadowSettings& settings, const CasterBounds& casters, JobExecutor& jobs, ShadowViews& shadows);
 

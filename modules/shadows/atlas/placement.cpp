@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// Squares whose sides are powers of two fit into a square whose side is one as soon as their areas do, the greatest
-// placed first. So sizes are settled by summing areas, and only then places are sought, size by size downwards. Blocks
-// of a size are numbered in Z order: the four quarters of block b are blocks 4b … 4b + 3 of the next smaller size.
+// Places faces in an atlas. Squares with power-of-two sides fit into a square with a power-of-two side if the sum of
+// their areas fits, provided that the largest are placed first. So shrink_to_fit() chooses sizes by summing areas, and
+// FacePlacer then finds places, from the largest size down. Blocks of a size are numbered in Z order: the quarters of
+// block b are blocks 4b … 4b + 3 of the next smaller size.
 #include "modules/shadows/atlas/placement.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ std::uint64_t area(std::uint32_t size) { return std::uint64_t{size} * size; }
 
 std::uint32_t level_of(std::uint32_t size) { return static_cast<std::uint32_t>(std::bit_width(size / kSmallest)) - 1; }
 
-/// Puts a zero in front of each of the low 16 bits.
+/// Spreads the low 16 bits of v: bit i moves to bit 2 i.
 std::uint32_t spread_bits(std::uint32_t v) {
   v = (v | v << 8) & 0x00FF00FFu;
   v = (v | v << 4) & 0x0F0F0F0Fu;
@@ -47,7 +48,7 @@ AtlasSquare square_of(std::uint32_t block, std::uint32_t size) {
   return {uvec2(gather_bits(block), gather_bits(block >> 1)) * size, size};
 }
 
-/// Requests that share their fate.
+/// Adjacent requests that are shrunk or left out together.
 struct FaceGroup {
   std::size_t first = 0;
   std::uint32_t count = 0;
@@ -75,7 +76,7 @@ std::vector<FaceGroup> group_faces(std::uint32_t atlas_size, std::span<const Fac
   return groups;
 }
 
-/// Brings groups to sizes of which all fit; 0: left out.
+/// Shrinks groups until all fit. Size 0: left out.
 void shrink_to_fit(std::uint32_t atlas_size, std::vector<FaceGroup>& groups) {
   std::uint64_t texels = 0;
   for (const FaceGroup& group : groups) texels += group.texels();
@@ -113,7 +114,7 @@ class FacePlacer {
     GLOAM_ASSERT(top_ < kMostLevels, "an atlas' side is at most 2^15 of the smallest face's");
   }
 
-  /// squares[face] has the size; whether it has a place too is said here.
+  /// Adds a face. squares[face].size must be set; placed: its origin is set too, and is kept if possible.
   void add(std::size_t face, bool placed) {
     const std::uint32_t level = level_of(squares_[face].size);
     (placed ? kept_ : waiting_)[level].push_back(static_cast<std::uint32_t>(face));
@@ -121,7 +122,7 @@ class FacePlacer {
 
   void run() {
     count_used();
-    std::vector<std::uint32_t> open{0};  // blocks in which no face so far lies, ascending
+    std::vector<std::uint32_t> open{0};  // blocks without faces so far, ascending
     for (std::uint32_t level = top_;; --level) {
       take_kept(level, open);
       place_waiting(level, open);
@@ -135,7 +136,7 @@ class FacePlacer {
   }
 
  private:
-  /// How many smallest blocks in each block belong to smaller faces that would keep their squares.
+  /// Counts, per block, the smallest-size blocks that belong to smaller faces with places to keep.
   void count_used() {
     for (std::uint32_t level = 0; level <= top_; ++level) used_[level].assign(std::size_t{1} << 2 * (top_ - level), 0);
     for (std::uint32_t level = 0; level < top_; ++level) {
@@ -146,7 +147,8 @@ class FacePlacer {
     }
   }
 
-  /// Faces that keep their squares close them; those in whose place a larger one lies now wait.
+  /// Takes the blocks of faces that keep their squares from `open`. A face whose block is taken by a larger face must
+  /// wait.
   void take_kept(std::uint32_t level, std::vector<std::uint32_t>& open) {
     if (kept_[level].empty()) return;
     std::vector<std::uint8_t> is_open(used_[level].size(), 0);
@@ -160,7 +162,7 @@ class FacePlacer {
     std::sort(waiting_[level].begin(), waiting_[level].end());
   }
 
-  /// The emptiest blocks first, then the first ones.
+  /// Places waiting faces in the emptiest open blocks, in block order among equals.
   void place_waiting(std::uint32_t level, std::vector<std::uint32_t>& open) {
     const std::vector<std::uint32_t>& waiting = waiting_[level];
     if (waiting.empty()) return;
@@ -178,17 +180,17 @@ class FacePlacer {
 
   std::uint32_t top_;
   std::span<AtlasSquare> squares_;
-  std::array<std::vector<std::uint32_t>, kMostLevels> kept_, waiting_;  // faces by size
+  std::array<std::vector<std::uint32_t>, kMostLevels> kept_, waiting_;  // faces by level
   std::array<std::vector<std::uint32_t>, kMostLevels> used_;
 };
 
-/// A block of an atlas as a stretch of its smallest blocks.
+/// A block as a range of smallest-size blocks.
 struct BlockStretch {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
 };
 
-/// Adds the greatest blocks within a block in which nothing lies. `taken`: stretches inside it, ascending.
+/// Adds the largest free blocks inside a block. taken: occupied ranges inside it, ascending.
 void add_free(std::uint32_t level, std::uint32_t block, std::span<const BlockStretch> taken,
               std::vector<std::vector<std::uint32_t>>& free) {
   if (taken.empty()) return free[level].push_back(block);

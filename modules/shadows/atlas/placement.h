@@ -14,7 +14,7 @@
 
 namespace gloam {
 
-/// Names a face: a light and which of its faces.
+/// Identifies a face: a light and the face's index.
 struct FaceKey {
   Entity light;
   std::uint32_t index = 0;
@@ -27,50 +27,51 @@ struct FaceKeyHash {
   }
 };
 
-/// What a face asks for.
+/// A face that needs a place.
 struct FaceRequest {
   FaceKey key;
   std::uint32_t size = 0;   ///< texels, a power of two from GLOAM_SHADOW_SMALLEST_FACE to the atlas' side
   float importance = 0.0f;  ///< ≥ 0
 };
 
-/// What a request got, in the order of the requests.
+/// The places of the requests.
 struct FacePlaces {
-  std::vector<AtlasSquare> squares;
-  std::uint32_t shrunk = 0;    ///< faces that got less than they asked for
-  std::uint32_t left_out = 0;  ///< faces that got nothing
+  std::vector<AtlasSquare> squares;  ///< in the order of the requests; size 0: no place
+  std::uint32_t shrunk = 0;          ///< faces with a smaller square than requested
+  std::uint32_t left_out = 0;        ///< faces without a square
 };
 
-/// Squares of an atlas in which nothing lies.
+/// The free squares of an atlas.
 class FreeSquares {
  public:
   FreeSquares() = default;
-  /// size: of the atlas. `taken` do not overlap.
+  /// size: texels of the atlas' side. taken: occupied squares that do not overlap.
   FreeSquares(std::uint32_t size, std::span<const AtlasSquare> taken);
-  /// A square of this size out of the smallest free place that holds one; size 0 when none does. For several or none:
-  /// take from a copy.
+  /// Takes a square of this size (a power of two) out of the smallest free square that can hold it. If none can, takes
+  /// nothing and returns a square of size 0. To test without taking, or to take several squares or none, call it on a
+  /// copy.
   [[nodiscard]] AtlasSquare take(std::uint32_t size);
 
  private:
-  /// Blocks in Z order by size, from the smallest face's on.
+  /// By size, from the smallest face's up: numbers of free blocks, which count squares of that size in Z order.
   std::vector<std::vector<std::uint32_t>> free_;
 };
 
-/// Places faces in a square of texels. A face keeps its square while it asks for the same size and nothing has to
-/// shrink. When not all fit, the least important halve, ties the last one first, until all do: each halves once before
-/// any halves again. At the smallest size the least important are left out. Faces of one light that follow each other
-/// and ask for the same at the same importance are one: they halve and go together. When free texels lie too scattered
-/// for a new face, the smaller ones of the emptiest place make way for it. Deterministic: the same calls give the same
-/// squares.
+/// Places faces in an atlas. A face keeps its square while its requested size stays the same and nothing has to shrink.
+/// If not all faces fit, they halve one by one until they fit: the least important first, and of equally important ones
+/// the last request first. No face halves again before every face has halved once. If all have the smallest size and
+/// still do not fit, the least important get no square. Adjacent requests of one light with equal size and importance
+/// form a group that halves, or is left out, as a whole. If the free texels are too scattered for a face, the smaller
+/// faces in the emptiest block of its size move elsewhere. Deterministic: the same calls give the same squares.
 class ShadowAtlas {
  public:
-  /// size: texels of a side, a power of two, at least the smallest face. Another size forgets all places. No two
-  /// requests have one key.
+  /// Places all faces of a frame. size: texels of the atlas' side, a power of two, at least the smallest face; a
+  /// different size than in the last call forgets all places. No two requests may have the same key.
   [[nodiscard]] FacePlaces place(std::uint32_t size, std::span<const FaceRequest> requests);
   [[nodiscard]] std::uint32_t size() const { return size_; }
-  /// Texels that are taken.
+  /// Texels of all placed faces.
   [[nodiscard]] std::uint64_t used_texels() const { return used_texels_; }
-  /// What is left: nothing that is placed moves, and nothing is placed by looking.
+  /// The free squares. Placed faces stay where they are.
   [[nodiscard]] FreeSquares free_squares() const;
 
  private:

@@ -14,24 +14,25 @@
 
 namespace gloam {
 
-/// What a local light's faces wanted, so that sizes near a limit do not change every frame.
+/// The face size requested for a local light in the last frame. Kept so that a size near a limit does not change every
+/// frame.
 struct WantedSize {
   Entity light;
   std::uint32_t size = 0;  ///< texels
 };
 
-/// What a view's lights need for shadows; a view resource, made by system shadow_views. Squares of faces stay where
-/// they were while their size does not change.
+/// All shadow views of a view: the faces of its lights; a view resource, written by system shadow_views. A face keeps
+/// its square while its size stays the same.
 struct ShadowViews {
-  /// Faces with a place: light by light, in the order of the view's local lights, then of the directional ones.
+  /// Placed faces, grouped by light, in the order of the view's local lights, then of its directional lights.
   std::vector<ShadowFace> faces;
   std::vector<shaders::ShadowRow> rows;  ///< by index of the view's local lights
-  shaders::ShadowBlock block{};          ///< directional lights; the rest is filled by the passes
-  std::uint32_t faces_shrunk = 0;        ///< faces smaller than they asked for because the atlas was full
-  std::uint32_t faces_left_out = 0;  ///< faces without a place even at the smallest size: their lights cast no shadow
-  std::uint32_t casting_lights = 0;  ///< lights that asked for faces
-  ShadowAtlas atlas;                 ///< who lies where; kept from frame to frame
-  float texels_per_pixel = 0.0f;     ///< of local lights, to a pixel's side; kept from frame to frame; 0: no frame yet
+  shaders::ShadowBlock block{};          ///< the system sets `directional`; the passes set the other members
+  std::uint32_t faces_shrunk = 0;        ///< faces smaller than requested, because the atlas was full
+  std::uint32_t faces_left_out = 0;  ///< faces without a place, even at the smallest size: their lights cast no shadow
+  std::uint32_t casting_lights = 0;  ///< lights that requested faces
+  ShadowAtlas atlas;                 ///< places of the faces; kept from frame to frame
+  float texels_per_pixel = 0.0f;     ///< density of local lights' maps; kept from frame to frame; 0: no frame yet
   std::vector<WantedSize> wanted;    ///< ordered by entity index; kept from frame to frame
 };
 

@@ -12,34 +12,34 @@
 
 namespace gloam {
 
-/// What a view's passes did, for counters.
+/// Counters of a view's passes in the newest frame.
 struct ShadowCounts {
   std::uint32_t drawn = 0;    ///< faces that were drawn
-  std::uint32_t cached = 0;   ///< whose map was there already
-  std::uint32_t skipped = 0;  ///< drawn without anything in them
-  std::uint64_t texels = 0;   ///< that were drawn, of all faces
+  std::uint32_t cached = 0;   ///< faces whose map was in the atlas already
+  std::uint32_t skipped = 0;  ///< faces without casters, which were only cleared
+  std::uint64_t texels = 0;   ///< texels drawn in all faces and backgrounds
 };
 
-/// An image that lives on between frames.
+/// An image that is kept between frames.
 struct KeptImage {
   gpu::ImageHandle image;
-  bool filled = false;  ///< a frame has been recorded that wrote it
+  bool filled = false;  ///< a frame that writes it has been recorded
 };
 
-/// What one view of one world keeps on the GPU.
+/// State that one view of one world keeps between frames: its images, and the data about their content.
 struct ViewShadows {
   KeptImage atlas;
   KeptImage pyramid;
-  KeptImage planes;  ///< made when they are first wanted; filled: those of all faces are as the atlas is
-  /// An array of one, laid out as the atlas' mip 0: depth of casters that rest, where others move. Made when it is
-  /// first wanted.
+  KeptImage planes;  ///< created on first use; filled: up to date with the atlas for all faces
+  /// Depth of resting casters, in parts of faces where others move: an array of one layer, laid out as mip 0 of the
+  /// atlas. Created on first use.
   KeptImage backgrounds;
   std::uint32_t atlas_size = 0;
   bool d16 = false;
   ShadowCache cache;
-  CasterHistory history;  ///< of this view's frames
+  CasterHistory history;  ///< its frames are the frames of this view
   ShadowCounts counts;
-  std::vector<FaceKey> drawn;    ///< in the newest frame
+  std::vector<FaceKey> drawn;    ///< faces drawn in the newest frame
   std::uint64_t last_frame = 0;  ///< Device::frame_number of its last use
 };
 

@@ -11,16 +11,17 @@
 
 namespace gloam {
 
-/// Names and legends of the views of final lists that have a name of their own.
+/// Names and legends of the visualizers of final lists, except light_list, which belongs to the lights module.
 [[nodiscard]] std::vector<VisualizerInfo> final_list_visualizers();
 
-/// After the frame's shadows: when it has final lists, takes view light_list over from the lights module
-/// (LightListViewTaken).
+/// Puts LightListViewTaken on the board when the frame has final lists: this module then draws visualizer light_list
+/// instead of the lights module. Call after add_shadow_passes().
 void take_light_list_view(FrameBuilder& frame);
 
-/// Adds the pass of FrameBuilder::visualizer(), if that is "visibility_slots", "lights_final" or, where it was taken
-/// over, "light_list:LIGHT" of a light in view: over the picture, and into an image of the view's name, which a capture
-/// of the frame shows. Without final lists the picture stays as it is, and `warn` is told why.
+/// Adds the visualizer's pass if FrameBuilder::visualizer() is "visibility_slots", "lights_final" or, after
+/// take_light_list_view() has taken it over, "light_list:LIGHT" for a light in view. It draws over the picture and into
+/// an image of the visualizer's name, for captures. Without final lists the picture stays as it is, and warn() gets the
+/// reason.
 [[nodiscard]] Status add_final_list_view_pass(FrameBuilder& frame,
                                               const std::function<void(const std::string& sentence)>& warn);
 

@@ -8,8 +8,7 @@
 
 namespace gloam {
 
-/// What tells the values of shadows.classify apart: the share of pairs of a tile and a light whose pixels have to be
-/// asked.
+/// The measure of shadows.classify: the share of tile lights whose pixels are filtered.
 [[nodiscard]] std::vector<MeasureInfo> shadow_measures();
 
 }  // namespace gloam

@@ -16,7 +16,6 @@
 namespace gloam {
 namespace {
 
-/// Pixels along one side of a shadow tile.
 static_assert(kShadowTile * kShadowTile == GLOAM_SLOT_PIXELS);
 
 using Words = std::vector<std::uint32_t>;
@@ -27,7 +26,7 @@ void append_words(Words& words, std::span<const std::byte> bytes) {
   if (!bytes.empty()) std::memcpy(words.data() + first, bytes.data(), (words.size() - first) * sizeof(std::uint32_t));
 }
 
-/// A run of lights: all directional ones of the view, or all local ones.
+/// All directional lights of the view, or all local ones.
 struct LightRun {
   const char* kind;
   std::span<const Entity> lights;
@@ -73,7 +72,7 @@ class PickLines {
  private:
   void say(std::string line) { lines_.push_back(std::move(line)); }
 
-  /// "3 lamp" – place among the lights of its kind, and name where the scene has one.
+  /// "local 3 lamp": kind, index among the lights of its kind, and the name if the scene has one.
   [[nodiscard]] std::string light_text(const LightRun& run, std::uint32_t light) const {
     const std::string_view name = light < run.lights.size() ? names_.name_of(run.lights[light]) : std::string_view();
     return std::string(run.kind) + " " + std::to_string(light) + (name.empty() ? "" : " " + std::string(name));
@@ -87,7 +86,7 @@ class PickLines {
     return text;
   }
 
-  /// Tells of each entry, and takes its light out of `left_out`.
+  /// Adds a line per entry, and removes its light from `left_out`.
   void add_run(const LightRun& run, std::uint32_t first, std::uint32_t count, Words& left_out) {
     for (std::uint32_t i = first; i < first + count && i < entries_.size(); ++i) {
       const FinalEntry entry = decode_final_entry(entries_[i]);
@@ -103,7 +102,7 @@ class PickLines {
     if (!text.empty()) say("left out, no pixel of the tile sees them: " + text);
   }
 
-  /// Local lights of the tile's early list; the lights module has copied it.
+  /// The local lights of the tile's early list, from the readbacks of the lights module.
   [[nodiscard]] Words early_lights() const {
     if (copies_.bytes("lights.tile_lists").empty()) return {};
     const TileList list = decode_tile_list(copies_.item<uvec2>("lights.tile_lists", tile_));
@@ -118,7 +117,7 @@ class PickLines {
   const FinalLists& lists_;
   LightRun local_;
   LightRun directional_;
-  std::uint32_t pixel_;  ///< of the tile, row by row
+  std::uint32_t pixel_;  ///< index in the tile, row by row
   std::size_t tile_ = 0;
   Words entries_, visibilities_;
   std::vector<std::string> lines_;

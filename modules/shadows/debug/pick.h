@@ -11,12 +11,13 @@
 
 namespace gloam {
 
-/// Copies the final lists out of a frame, for shadow_pick_lines: "shadows.final_tiles", "shadows.final_entries",
-/// "shadows.visibilities" and, where there are two buffers, "shadows.visibilities_1".
+/// Adds readbacks of the final lists for shadow_pick_lines(): "shadows.depth_bounds", "shadows.final_tiles",
+/// "shadows.final_entries", "shadows.visibilities" and, with two visibility buffers, "shadows.visibilities_1". None
+/// without final lists.
 [[nodiscard]] Status add_shadow_pick_copies(FrameBuilder& frame, Captures& copies);
 
-/// What the final list of a pixel's tile holds, how much of each light the pixel sees, and the lights that were left
-/// out, in lines for people.
+/// Lines of text about the pixel's tile: the lights of its final list, their visibility at the pixel, and the lights
+/// that were left out. Empty without final lists.
 [[nodiscard]] std::vector<std::string> shadow_pick_lines(FrameBuilder& frame, const PickedPixel& pixel,
                                                          const Captures& copies);
 

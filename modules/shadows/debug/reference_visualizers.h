@@ -9,13 +9,14 @@
 
 namespace gloam {
 
-/// Names and legends of the views that show traced visibility (VisualizerInfo::trace).
+/// Names and legends of the visualizers of traced visibility (VisualizerInfo::trace).
 [[nodiscard]] std::vector<VisualizerInfo> shadow_reference_visualizers();
 
-/// Adds the pass of FrameBuilder::visualizer(), if that is one of these: "shadow_reference:LIGHT" draws one light's
-/// traced visibility over the picture and into the image "shadow_reference" (r32f; −1 where the light does not reach),
-/// "error" how far drawn visibilities are from traced ones, into the image "shadow_error" (r32f: their mean over the
-/// traced lights that reach the pixel; −1 where there is none). Usage error when nothing has been traced for the view.
+/// Adds the visualizer's pass if FrameBuilder::visualizer() is one of these. "shadow_reference:LIGHT" draws one light's
+/// traced visibility over the picture and into the image "shadow_reference" (r32f; −1 where the light does not reach).
+/// "error" draws how far drawn visibilities differ from traced ones, also into the image "shadow_error" (r32f: mean
+/// over the traced lights that reach the pixel; −1 where there is none). Usage error when nothing was traced for the
+/// view.
 [[nodiscard]] Status add_shadow_reference_view_pass(FrameBuilder& frame);
 
 }  // namespace gloam

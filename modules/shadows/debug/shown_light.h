@@ -10,7 +10,8 @@
 
 namespace gloam {
 
-/// The light of a view "NAME:LIGHT" among those of the frame's view; nothing when it reaches nothing there.
+/// The index of the light with this name among the lights of the frame's view; none when it does not exist or reaches
+/// nothing in view.
 [[nodiscard]] std::optional<shaders::ShownLightConstants> shown_light(const FrameBuilder& frame, std::string_view name);
 
 }  // namespace gloam

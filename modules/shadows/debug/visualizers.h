@@ -10,13 +10,13 @@
 
 namespace gloam {
 
-/// Names and legends of the views of this module.
+/// Names and legends of the visualizers of shadow maps.
 [[nodiscard]] std::vector<VisualizerInfo> shadow_visualizers();
 
-/// Adds the pass of FrameBuilder::visualizer(), if that is one of this module's: "shadow:LIGHT" draws one light's
+/// Adds the visualizer's pass if FrameBuilder::visualizer() is one of these. "shadow:LIGHT" draws one light's
 /// visibility over the picture and into the exposed image "shadow_visibility" (r32f; −1 where the light does not
-/// reach), "shadow_atlas" the maps of the frame. Where there are final lists, visibility is what they hold; tiles
-/// without a list are asked about as in shadows.mode = monolithic.
+/// reach); "shadow_atlas" draws the frame's maps. With final lists, "shadow" shows the visibilities that they hold;
+/// fallback tiles are evaluated as in shadows.mode=monolithic.
 [[nodiscard]] Status add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states);
 
 }  // namespace gloam

@@ -34,14 +34,14 @@ std::uint8_t srgb_of(float linear) {
   return static_cast<std::uint8_t>(encoded * 255.0f + 0.5f);
 }
 
-/// Which pixels of a line make up one pixel of a line of another length, and by how much; weights sum to 1.
+/// A pixel of a line and its weight in one pixel of the resampled line. The weights of a resampled pixel sum to 1.
 struct Weight {
   std::uint32_t from = 0;
   float share = 0.0f;
 };
 std::vector<Weight> weights_of(std::uint32_t target, std::uint32_t source_size) {
   const double scale = static_cast<double>(source_size) / kCookieSide;
-  const double reach = std::max(scale, 1.0);  // half the width of a tent
+  const double reach = std::max(scale, 1.0);  // half the width of the tent filter
   const double center = (target + 0.5) * scale - 0.5;
   const auto last = static_cast<double>(source_size - 1);
   std::vector<Weight> weights;
@@ -68,7 +68,7 @@ Result<Image> read_image(const std::string& path) {
 
 std::vector<std::uint8_t> resampled_cookie(const Image& image) {
   const auto& linear = linear_of_srgb();
-  // Lines first: one line of the target's width for each line of the source.
+  // First horizontally: one line of the target's width per line of the source.
   std::vector<vec3> lines(std::size_t{kCookieSide} * image.height);
   for (std::uint32_t x = 0; x < kCookieSide; ++x) {
     const std::vector<Weight> weights = weights_of(x, image.width);

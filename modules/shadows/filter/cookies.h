@@ -14,27 +14,28 @@
 
 namespace gloam {
 
-/// Pixels of a side of a cookie on the GPU, whatever its file has.
+/// Pixels of a cookie's side on the GPU, independent of its file.
 inline constexpr std::uint32_t kCookieSide = 512;
 
-/// The images that spot lights project; a resource of the world. One that could not be read is white.
+/// The cookies of a world's spot lights; a resource of the world. A cookie whose file could not be read is white.
 struct Cookies {
-  std::map<std::uint32_t, std::uint32_t> layers;  ///< by Light::cookie
+  std::map<std::uint32_t, std::uint32_t> layers;  ///< layer by Light::cookie
   std::vector<std::vector<std::uint8_t>> texels;  ///< by layer: sRGB, kCookieSide² · 4 bytes, rows from the top
-  std::vector<std::string> faults;                ///< of those that could not be read
-  std::uint64_t version = 0;                      ///< another one whenever there are more
+  std::vector<std::string> faults;                ///< one text per file that could not be read
+  std::uint64_t version = 0;                      ///< changes whenever layers are added
 };
 
-/// Whether a light projects an image.
+/// Whether a light projects a cookie.
 [[nodiscard]] inline bool has_cookie(const Light& light) { return light.kind == LightKind::spot && light.cookie != 0; }
+/// Number of lights in the world with a cookie.
 [[nodiscard]] std::size_t count_cookie_lights(const World& world);
 
-/// Reads the images of all spot lights that are not there yet. Input error of the first that cannot be read; the others
-/// are there.
+/// Loads the cookies of all spot lights whose cookie is not loaded yet. Continues after an error; returns the input
+/// error of the first file that could not be read.
 [[nodiscard]] Status load_cookies(World& world);
 
-/// The picture at kCookieSide²: each pixel the mean linear light of what it covers, or between pixels where there are
-/// fewer.
+/// The image resampled to kCookieSide², as sRGB bytes: each pixel is the mean linear light of the source pixels it
+/// covers, or an interpolation where the source is smaller.
 [[nodiscard]] std::vector<std::uint8_t> resampled_cookie(const Image& image);
 
 }  // namespace gloam

@@ -62,7 +62,8 @@ void record_copies(PassContext& context, const CopyWork& work, ImageRef atlas) {
   dispatch_groups(commands, shaders::ShadowCopyConstants{}, work.all);
 }
 
-/// What lay in the copies' squares, of faces that are not in view now, is gone when they come back.
+/// Drops cached maps in the squares of the copies. They belong to faces that are not in view in this frame; the copies
+/// overwrite them, so the faces must be drawn again when they return.
 void forget_what_lay_there(ShadowCache& cache, std::span<const OverlayFace> faces) {
   std::uint32_t number = 0;
   for (const OverlayFace& overlaid : faces) {
@@ -84,13 +85,13 @@ void record_mips(PassContext& context, const ShadowMipWork& work, ImageRef atlas
   record_coarse_mips(commands, work, of);
 }
 
-/// Points a local light's row to the copy.
+/// Makes a local light's row refer to the copy.
 void redirect_local(shaders::ShadowRow& row, const OverlayFace& overlaid) {
   GLOAM_ASSERT(row.origins[overlaid.face.index] == vec2(overlaid.face.square.origin), "rows name the view's faces");
   row.origins[overlaid.face.index] = vec2(overlaid.copy.origin);
 }
 
-/// The same for a directional light's rows, one a cascade.
+/// The same for the rows of a directional light, one per cascade.
 void redirect_cascade(std::span<shaders::ShadowRow> rows, const OverlayFace& overlaid) {
   for (shaders::ShadowRow& row : rows) {
     auto cascade = std::bit_cast<shaders::CascadeRow>(row);

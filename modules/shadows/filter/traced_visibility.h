@@ -13,24 +13,23 @@
 
 namespace gloam {
 
-/// How much of each light reaches the surface under each pixel of one frame, as rays have found it. A resource of the
-/// world: while it is there, as large as a view and `shades`, shading takes these visibilities instead of its shadow
-/// maps'. Whoever sets it removes it before the view, a light or anything that casts or receives shadows moves.
+/// Traced visibility of each light at the surface under each pixel of one frame. A resource of the world: while it
+/// exists, has the view's size and `shades` is set, shading uses it instead of shadow maps. The code that adds it must
+/// remove it before the camera, a light, a caster or a receiver moves.
 struct TracedVisibility {
   std::uint32_t width = 0;  ///< pixels
   std::uint32_t height = 0;
-  bool shades = true;          ///< false: only views that compare look at it, shading stays with its shadow maps
-  std::vector<Entity> lights;  ///< by layer; lights that reach no pixel of the frame or cast no shadow have none: they
-                               ///< are lit everywhere
-  /// One byte a pixel, rows from the top, layer after layer: 0 nothing of the light is seen … 255 all of it. 255 where
-  /// `judged` is not set.
+  bool shades = true;  ///< false: only visualizers that compare read it; shading uses shadow maps
+  /// By layer. A light without a layer (it reaches no pixel or casts no shadow) counts as lit.
+  std::vector<Entity> lights;
+  /// One byte per pixel, rows from the top, layer after layer: 0 unlit … 255 fully lit. 255 where `judged` is not set.
   std::vector<std::uint8_t> visibility;
-  /// One bit a byte of `visibility`, bit i % 8 of byte i / 8: whether the light reaches the surface, by range and cone,
-  /// so that rays were traced. Sky is never judged.
+  /// One bit per byte of `visibility`, bit i % 8 of byte i / 8: whether the light reaches the surface by range and
+  /// cone, so that rays were traced. Never set for sky.
   std::vector<std::uint8_t> judged;
-  std::uint32_t samples = 0;  ///< rays a light and pixel; one for lights without width
-  double noise = 0.0;         ///< mean change of a judged visibility from half to all of the samples
-  std::uint64_t version = 0;  ///< another one for other content
+  std::uint32_t samples = 0;  ///< rays per light and pixel; lights without width get one
+  double noise = 0.0;         ///< mean absolute difference of judged visibilities between half of the samples and all
+  std::uint64_t version = 0;  ///< hash of the content
 
   [[nodiscard]] std::size_t pixels() const { return std::size_t{width} * height; }
   [[nodiscard]] std::optional<std::uint32_t> layer_of(Entity light) const {

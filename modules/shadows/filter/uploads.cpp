@@ -19,7 +19,7 @@ constexpr std::uint32_t kFewestRows = 16;
 
 static_assert(sizeof(shaders::ShadowRow) == GLOAM_SHADOW_ROW_TEXELS * sizeof(vec4));
 
-/// Copies from staging memory into one image.
+/// A copy from staging memory into an image.
 struct Copy {
   ImageRef target;
   UploadSlice source;
@@ -58,7 +58,8 @@ std::vector<shaders::ShadowRow> rows_of(const FrameBuilder& frame, const ShadowV
   return rows;
 }
 
-/// Names lights with cookies as long as there is room, which there is while the scene has no more of them.
+/// Fills block.cookie_lights with the lights that have cookies, as far as there is room. All fit when the scene has at
+/// most GLOAM_COOKIE_LIGHTS of them.
 void name_cookies(std::span<const shaders::ShadowRow> rows, shaders::ShadowBlock& block) {
   std::fill(std::begin(block.cookie_lights), std::end(block.cookie_lights), ~0u);
   std::size_t named = 0;
@@ -96,7 +97,7 @@ Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, std::span<c
   return copies.back().target;
 }
 
-/// The world's cookies; staged when they are not on the GPU yet. One import a frame, for all views.
+/// The world's cookies, with a copy into their image when it is not up to date. Imported once per frame, for all views.
 Result<WorldCookies*> add_cookies(FrameBuilder& frame, ShadowStates& states, std::vector<Copy>& copies) {
   const Cookies& cookies = frame.world().resource<Cookies>();
   const auto layers = static_cast<std::uint32_t>(cookies.texels.size());
@@ -161,7 +162,8 @@ Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const Shado
   const TracedVisibility* traced = traced_visibility_of(frame.world(), frame.view());
   std::vector<shaders::ShadowRow> rows_now = rows_of(frame, views, traced);
   shaders::ShadowBlock block_now = block_of(frame, views, knobs, traced, rows_now);
-  // Few heights, so that the frame's plan stays as it is while lights come and go.
+  // Rounded up, so that few different heights occur and cached frame-graph plans can be reused when the number of
+  // lights changes.
   rows_now.resize(std::bit_ceil(std::max<std::size_t>(rows_now.size(), kFewestRows)));
   append_cascade_rows(directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id)), block_now,
                       rows_now);

@@ -15,15 +15,15 @@
 
 namespace gloam {
 
-/// What rays found, when it is of this view's size; else null.
+/// The world's traced visibility if it has this view's size, else null.
 [[nodiscard]] const TracedVisibility* traced_visibility_of(const World& world, const RenderView& view);
 
-/// Uploads the view's ShadowRows, ShadowBlock, cookies and traced visibilities (pass shadow_rows, where rows or images
-/// have to be copied): those members of the outputs, and the samplers.
+/// Uploads the view's light rows, ShadowBlock, cookies and traced visibility: pass shadow_rows. Sets block,
+/// block_values, rows, row_values, cookies, traced, nearest and linear of the outputs.
 [[nodiscard]] Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views,
                                         const ShadowKnobs& knobs, ShadowsOutputs& outputs);
 
-/// Another version of ShadowsOutputs::rows with these values (pass `pass_name`).
+/// Uploads `rows` into another image, which may replace ShadowsOutputs::rows: pass `pass_name`. Returns that image.
 [[nodiscard]] Result<ImageRef> upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::string_view pass_name,
                                                   std::span<const shaders::ShadowRow> rows);
 

@@ -13,59 +13,63 @@
 
 namespace gloam {
 
-/// What an earlier frame's final lists asked for; a view resource.
+/// Pairs and slots that an earlier frame's final lists needed, and the capacities computed from them; a view resource.
 struct FinalListFeedback {
   std::uint32_t pairs_asked = 0;
   std::uint32_t slots_asked = 0;
-  std::uint32_t pair_capacity = 0;  ///< to make room for; one value for all frames in flight
+  std::uint32_t pair_capacity = 0;  ///< capacity of the next frames; the same for all frames in flight
   std::uint32_t slot_capacity = 0;
 };
 
-/// What is noted beside a frame's counters when it is declared.
+/// Values recorded when a frame is declared, for the later readback of its counters.
 struct FinalListNote {
   std::uint32_t tiles = 0;  ///< shadow tiles of the view
   std::uint32_t slot_capacity = 0;
   std::uint32_t pair_capacity = 0;
-  std::uint64_t list_bytes = 0;        ///< of entries, early ones too, and of pairs
-  std::uint64_t visibility_bytes = 0;  ///< of slots
+  std::uint64_t list_bytes = 0;        ///< bytes of final entries, early lists and pairs
+  std::uint64_t visibility_bytes = 0;  ///< bytes of visibility slots
   std::uint32_t visibility_bits = 8;
 };
 
-/// Name of the result (FrameBuilder::keep_result) that holds a ShadowListCounters.
+/// Name of the frame result (FrameBuilder::keep_result) that holds a ShadowListCounters.
 inline constexpr const char* kShadowListResult = "shadow_list_counters";
 
-/// Bytes of visibilities that a view may have at once without its frames asking for them, so that all lights fit and
-/// shading needs no other way (FinalLists::always_complete).
+/// If the visibilities of all lights in all tiles need at most this many bytes, and shadows.slot_limit and
+/// shadows.pair_limit allow it, the view gets buffers for all of them from its first frame on, regardless of feedback.
+/// All lists then fit, and shading needs no fallback (FinalLists::always_complete).
 inline constexpr std::uint64_t kBytesThatFitAll = std::uint64_t{8} << 20;
-/// Slots a tile that a view has at least.
+/// Least visibility slots per tile.
 inline constexpr std::uint32_t kFirstSlotsPerTile = 2;
-/// Pairs a tile that a view begins with: many, as its first picture may be the only one; and has at least when it knows
-/// what frames ask for.
+/// kFirstPairsPerTile: tile-light pairs per tile until the first feedback. It is large, because the first picture of a
+/// view may be its only one. kLeastPairsPerTile: least pairs per tile afterwards.
 inline constexpr std::uint32_t kFirstPairsPerTile = 4;
 inline constexpr std::uint32_t kLeastPairsPerTile = 1;
 
-/// Room for `asked` and a quarter more; stays as it is while that is enough and it is not four times too large. At
-/// least `least`.
+/// The next capacity of a buffer that has room for `there` items, of which a frame needed `asked`: asked × 1.25,
+/// between `least` and `most`. The capacity stays `there` while that is at least `asked` and `least`, and at most about
+/// four times the result.
 [[nodiscard]] std::uint32_t kept_capacity(std::uint32_t there, std::uint32_t asked, std::uint32_t least,
                                           std::uint32_t most);
 
-/// The feedback of a frame's counters. `last`: the view's feedback so far, null when there is none.
+/// The feedback from a frame's counters. note: of the same frame. last: the view's feedback so far, or null.
 [[nodiscard]] FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counters,
                                                     const FinalListNote& note, const FinalListFeedback* last);
 
-/// The counters shadows.… that the GPU counted.
+/// Writes the counters shadows.… of final lists into the sink.
 void count_final_lists(const shaders::ShadowListCounters& counters, const FinalListNote& note, CounterSink& sink);
 
-/// A view's final lists before the first pass that writes them.
+/// A view's final lists as created, before the first pass writes them.
 struct FinalListBuffers {
   FinalLists lists;
   BufferRef pairs;
   gpu::Binding::BufferRange grid;  ///< a FinalGrid, uniform
   FinalListNote note;
 };
-/// Of a slot.
+/// Bits of a visibility in a slot: 4 or 8.
 [[nodiscard]] std::uint32_t visibility_bits_of(const ShadowKnobs& knobs);
 
+/// Creates the view's images and buffers, with capacities from its FinalListFeedback. LightsOutputs must be on the
+/// board.
 [[nodiscard]] Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs);
 
 }  // namespace gloam

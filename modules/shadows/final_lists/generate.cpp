@@ -16,7 +16,7 @@ namespace gloam {
 namespace {
 
 constexpr std::uint32_t kFirstShadowBinding = 12;
-constexpr std::uint32_t kTilesAGroup = 8;  // along a side
+constexpr std::uint32_t kTilesAGroup = 8;  // tiles along a side of a workgroup
 
 gpu::ComputePipelineDesc classify_pipeline(const ShadowsOutputs& shadows) {
   return {"classify_shadows/" + shadows.variant, "shadows", shaders::shadows::classify_comp, shadows.constants};
@@ -41,21 +41,21 @@ gpu::ComputePipelineDesc generate_pipeline(const ShadowsOutputs& shadows, std::u
   return desc;
 }
 
-/// Whether the view has lights of which there may be such pairs.
+/// Whether the view has lights that can form pairs of this kind.
 bool has_pairs(const LightsOutputs& lights, std::uint32_t kind) {
   return (kind == GLOAM_PAIRS_DIRECTIONAL ? lights.directional_count : lights.local_count) > 0;
 }
 
 gpu::ComputePipelineDesc finish_pipeline() { return {"finish_lists", "shadows", shaders::shadows::finish_comp, {}}; }
 
-/// What all passes record with.
+/// The inputs of all passes.
 struct Generate {
   FinalListBuffers buffers;
   LightsOutputs lights;
   GeometryOutputs geometry;
-  ImageRef texels;      ///< of local lights; any image when there are none
-  ImageRef tile_lists;  ///< early ones; likewise
-  ImageRef planes;      ///< any image when tiles are not classified
+  ImageRef texels;      ///< of local lights; without any, another image
+  ImageRef tile_lists;  ///< early lists; without any, another image
+  ImageRef planes;      ///< without classification, another image
   gpu::SamplerHandle sampler;
   ShadowsOutputs shadows;
   uvec2 tiles;
@@ -121,7 +121,7 @@ Status add_classify_pass(FrameBuilder& frame, Generate& g) {
   return {};
 }
 
-/// By kind of pair; none of lights that the view has none of.
+/// By kind of pair; null when the view has no lights of the kind.
 using PairPipelines = std::array<gpu::PipelineHandle, GLOAM_PAIR_KINDS>;
 
 Result<PairPipelines> pair_pipelines(FrameBuilder& frame, Generate& g) {
@@ -160,7 +160,7 @@ void record_pairs(const FrameBuilder& frame, PassContext& context, Generate& g, 
   const FinalLists& l = g.lists();
   const gpu::BufferHandle arguments = context.buffer(l.commands);
   const std::vector<gpu::Binding> bindings = pair_bindings(frame, context, g);
-  // Pairs write different places of the same buffers.
+  // Pairs of different kinds write to different places of the same buffers.
   std::vector<gpu::BufferBarrier> written;
   for (const BufferRef buffer : {l.entries, l.visibilities[0], l.counters})
     written.push_back({context.buffer(buffer), gpu::Access::compute_write, gpu::Access::compute_write});

@@ -9,17 +9,18 @@
 
 namespace gloam {
 
-/// Whether the view can have final lists: shadows.mode = deferred, visibilities are quantised, and local lights have
-/// early lists.
+/// Whether the view can have final lists: shadows.mode=deferred, visibilities are quantised, and local lights (if any)
+/// have early lists.
 [[nodiscard]] bool can_generate(const FrameBuilder& frame, const ShadowKnobs& knobs);
 
-/// Whether the pipelines of the passes below are there; else they are made in the background, and the frame does
-/// without final lists.
+/// Whether the pipelines of add_generate_passes() are ready. If not, they are made in the background, and the frame
+/// must do without final lists. Always true when the services wait for pipelines.
 [[nodiscard]] bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knobs,
                                             const ShadowsOutputs& shadows);
 
-/// Makes final lists of early ones: passes shadow_list_start, classify_shadows, generate_shadows, finish_lists. Sets
-/// shadows.final_lists. planes: of add_shadow_planes_pass; none: no tile is classified.
+/// Makes final lists from early lists: passes shadow_list_start, classify_shadows, generate_shadows, finish_lists. Sets
+/// shadows.final_lists, and puts a FinalListNote on the board. planes: from add_shadow_planes_pass(), or null when
+/// tiles are not classified.
 [[nodiscard]] Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes,
                                          ShadowsOutputs& shadows);
 

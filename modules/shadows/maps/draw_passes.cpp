@@ -14,7 +14,7 @@
 namespace gloam {
 namespace {
 
-/// All that is drawn in this frame; outlives the declaration, as pass functions run later.
+/// All draws of this frame. Outlives the declaration, because pass functions run later.
 struct MapWork {
   FacePlan backgrounds;
   FacePlan faces;
@@ -22,8 +22,8 @@ struct MapWork {
   ShadowMipWork mips;
 };
 
-/// Draws what casters that rest make of parts of faces, batch by batch, into the image of backgrounds. The graph does
-/// not know it, as it does not know the scratch map; between frames it is ready to be read.
+/// Draws resting casters into the image of backgrounds, batch by batch. The frame graph does not track this image, nor
+/// the scratch image; between frames it is in state compute_read.
 void record_backgrounds(FrameBuilder& frame, PassContext& context, const MapWork& work, ViewShadows& kept) {
   if (work.backgrounds.faces.empty()) return;
   gpu::CommandList& commands = context.commands();
@@ -49,14 +49,14 @@ ShadowMipImages mip_images(PassContext& context, const MapWork& work, std::size_
           context.image(maps.pyramid), kept.backgrounds.filled ? kept.backgrounds.image : gpu::ImageHandle{}};
 }
 
-/// Draws a batch and moves it into the atlas; nothing where the plan has no such batch. Before the first: the frame's
-/// backgrounds.
+/// Adds the passes that draw a batch and move it into the atlas; both are empty when `index` is beyond the plan's
+/// batches. The first batch also draws the frame's backgrounds.
 void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, std::size_t index, ViewShadows& kept,
                ShadowMaps& maps) {
   const bool there = index < work->faces.plan.batches.size();
   PassBuilder draw = frame.graph().add_pass("shadow_map_draw", "shadows");
   frame.read_vertices(draw);
-  draw.keep();  // what it writes, the graph does not know
+  draw.keep();  // writes images the graph does not track: never cull
   if (there)
     draw.execute([&frame, work, index, &kept](PassContext& context) {
       if (index == 0) record_backgrounds(frame, context, *work, kept);
@@ -72,7 +72,7 @@ void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, 
   });
 }
 
-/// The last of the passes: then the atlas holds what was drawn.
+/// Adds the last pass; after it the atlas holds all that was drawn.
 void add_coarse_mips(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, ViewShadows& kept,
                      ShadowMaps& maps) {
   PassBuilder mips = frame.graph().add_pass("shadow_map_mips", "shadows");
@@ -81,7 +81,7 @@ void add_coarse_mips(FrameBuilder& frame, const std::shared_ptr<const MapWork>& 
   mips.execute([work, maps, &kept, drawn_in = kept.history.frame()](PassContext& context) {
     const std::size_t last_batch = work->faces.plan.batches.size() - 1;
     record_coarse_mips(context.commands(), work->mips, mip_images(context, *work, last_batch, kept, maps));
-    // Only now: a frame that ended before has drawn nothing.
+    // Set here, because a frame that ends before this pass has drawn nothing.
     kept.atlas.filled = kept.pyramid.filled = true;
     for (const DrawnFace& face : work->faces.faces) {
       kept.cache.set_drawn(face.face, face.content, drawn_in);
@@ -126,7 +126,7 @@ Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& stat
   auto scratch = states.scratch(std::max(work->backgrounds.plan.texels(), work->faces.plan.texels()));
   if (!scratch.ok()) return scratch.error();
   work->map.scratch = *scratch;
-  // Few different numbers of passes, so that the frame's plans are met again.
+  // Rounded up, so that few different numbers of passes occur and cached frame-graph plans can be reused.
   const std::size_t batches = std::bit_ceil(work->faces.plan.batches.size());
   for (std::size_t batch = 0; batch < batches; ++batch) add_batch(frame, work, batch, kept, maps);
   add_coarse_mips(frame, work, kept, maps);

@@ -13,25 +13,25 @@
 
 namespace gloam {
 
-/// Pipelines of the passes below.
+/// Appends the pipelines of add_shadow_map_passes().
 void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list);
 
-/// A part of a face in the atlas.
+/// A rectangle of a face in the atlas.
 struct FacePart {
-  AtlasSquare square;  ///< of the face
-  TexelRect texels;    ///< of the face
+  AtlasSquare square;  ///< place of the face
+  TexelRect texels;    ///< the rectangle in the face
 };
 
-/// The view's atlas and pyramid with this frame's maps. None when no face has a place.
+/// The view's atlas and pyramid with this frame's maps; null refs when no face has a place.
 struct ShadowMaps {
   ImageRef atlas;
   ImageRef pyramid;
-  std::vector<FacePart> drawn;  ///< in this frame
+  std::vector<FacePart> drawn;  ///< parts drawn in this frame; parts of one face follow each other
 };
 
-/// Draws the faces whose maps the atlas does not hold, batch by batch through ShadowScratch: passes shadow_map_draw and
-/// shadow_map_mips, of which those beyond the last batch do nothing, then coarser mips of all of them: one more
-/// shadow_map_mips.
+/// Draws the faces whose maps the atlas does not hold, batch by batch through ShadowScratch. Each batch has a pass
+/// shadow_map_draw and a pass shadow_map_mips; the number of batches is rounded up to a power of two with empty passes.
+/// A last pass shadow_map_mips makes the coarser mips of all faces.
 [[nodiscard]] Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
                                                        const ShadowViews& views, const ShadowKnobs& knobs);
 

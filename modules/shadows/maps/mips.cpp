@@ -9,7 +9,7 @@
 namespace gloam {
 namespace {
 
-/// ShadowMipGroup::gap: what recedes more steeply is taken for two surfaces.
+/// ShadowMipGroup::gap for a face whose surfaces recede by at most `steepest` metres per metre.
 float surface_gap(const ShadowFace& face, float steepest) {
   const auto texels = static_cast<float>(face.square.size);
   if (face.tan_half > 0.0f) return steepest * 2.0f * face.tan_half / texels;
@@ -23,10 +23,11 @@ TexelRect bounds_of(const DrawnFace& face) {
   return bounds;
 }
 
+/// Collects the workgroups of all dispatches of a frame.
 class GroupList {
  public:
   explicit GroupList(float steepest = kSteepestSurface) : steepest_(steepest) {}
-  /// What one dispatch makes of these texels of a face: the run of mips after `first`.
+  /// Adds the workgroups of one dispatch for these texels of a face: the run of mips after mip `first`.
   void add(const ShadowFace& face, std::uint32_t layer, const TexelRect& texels, std::uint32_t first,
            bool on_background = false) {
     const std::uint32_t block = std::uint32_t{GLOAM_SHADOW_MIP_BLOCK} << first;
@@ -44,7 +45,7 @@ class GroupList {
                  groups_.push_back(group);
                });
   }
-  /// All regions of a plan's batches; a range for each.
+  /// Adds all regions of a plan; returns a range per batch.
   [[nodiscard]] std::vector<GroupRange> add_batches(const FacePlan& faces) {
     std::vector<GroupRange> ranges;
     for (const ScratchPlan::Batch& batch : faces.plan.batches) {
@@ -56,7 +57,7 @@ class GroupList {
     }
     return ranges;
   }
-  /// All that was added since the last call.
+  /// The workgroups added since the last call.
   [[nodiscard]] GroupRange take_range() {
     const GroupRange range{taken_, static_cast<std::uint32_t>(groups_.size()) - taken_};
     taken_ += range.count;
@@ -98,14 +99,15 @@ void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMip
 void add_coarse_runs(const FacePlan& faces, GroupList& list, ShadowMipWork& work) {
   for (std::uint32_t first = GLOAM_SHADOW_MIP_RUN; faces.plan.batches.front().size >> first > 1;
        first += GLOAM_SHADOW_MIP_RUN) {
-    // Coarser mips have few texels: what lies between a face's regions is made along with them, and nothing twice.
+    // Coarser mips have few texels: those between a face's regions are made along with them, so that none is made
+    // twice.
     for (const DrawnFace& face : faces.faces)
       if (face.face.square.size >> first > 1) list.add(face.face, 0, bounds_of(face), first);
     work.coarse.push_back(list.take_range());
   }
 }
 
-/// What both ways to make mips need on the device.
+/// Uploads the workgroups and gets the pipeline.
 Status prepare(FrameBuilder& frame, const GroupList& list, const gpu::ComputePipelineDesc& desc,
                const ShadowKnobs& knobs, ShadowMipWork& work) {
   work.constants.mip_operator = knobs.mip_operator;
@@ -196,7 +198,7 @@ void record_coarse_mips(gpu::CommandList& commands, const ShadowMipWork& work, c
   bind(commands, work, images);
   for (std::uint32_t run = 0; run < work.coarse.size(); ++run) {
     if (run > 0) {
-      // Each run of mips reads the last of the one before.
+      // Each run reads the last mip of the run before.
       const gpu::ImageBarrier written[] = {{images.atlas, gpu::Access::compute_write, gpu::Access::compute_write},
                                            {images.pyramid, gpu::Access::compute_write, gpu::Access::compute_write}};
       commands.barrier({}, written);

@@ -12,7 +12,7 @@ namespace gloam {
 namespace {
 
 constexpr std::uint32_t kCoarsest = GLOAM_SHADOW_PLANE_BLOCK
-                                    << (GLOAM_SHADOW_PLANE_LEVELS - 1);  // texels of a block of the last level
+                                    << (GLOAM_SHADOW_PLANE_LEVELS - 1);  // texels of a block's side, last level
 
 gpu::ComputePipelineDesc planes_pipeline() { return {"shadow_planes", "shadows", shaders::shadows::planes_comp, {}}; }
 
@@ -24,7 +24,7 @@ std::vector<FacePart> parts_of(const ShadowMaps& maps, const ShadowViews& views,
   return parts;
 }
 
-/// Parts of one face follow each other: one part for all of them.
+/// Joins adjacent parts of one face into one.
 std::vector<FacePart> joined_by_face(std::span<const FacePart> parts) {
   std::vector<FacePart> joined;
   for (const FacePart& part : parts) {
@@ -38,12 +38,12 @@ std::vector<FacePart> joined_by_face(std::span<const FacePart> parts) {
   return joined;
 }
 
-/// Dispatches of shadow_planes.comp: level 0, then the others.
+/// The dispatches of planes.comp: level 0, then the other levels.
 struct PlaneWork {
   std::vector<shaders::ShadowPlaneGroup> groups;
   GroupRange ranges[2];
 
-  /// block: texels of mip 0 along the side of what a thread makes.
+  /// block: texels of mip 0 per side of the area that one thread processes.
   [[nodiscard]] GroupRange add(std::span<const FacePart> parts, std::uint32_t block) {
     GroupRange range{static_cast<std::uint32_t>(groups.size()), 0};
     for (const FacePart& part : parts)
@@ -59,7 +59,7 @@ struct PlaneWork {
 PlaneWork work_of(std::span<const FacePart> parts) {
   PlaneWork work;
   work.ranges[0] = work.add(parts, GLOAM_SHADOW_PLANE_BLOCK);
-  work.ranges[1] = work.add(joined_by_face(parts), kCoarsest);  // few texels, and none of them twice
+  work.ranges[1] = work.add(joined_by_face(parts), kCoarsest);  // joined, so that none of the few texels is made twice
   return work;
 }
 
@@ -99,7 +99,7 @@ Result<ImageRef> add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& state
         {context.image(planes), gpu::Access::compute_write, gpu::Access::compute_write}};
     commands.barrier({}, written);
     dispatch_groups(commands, shaders::ShadowPlaneConstants{1, kept.atlas_size, 0}, others);
-    kept.planes.filled = true;  // only now: a frame that ended before has made none
+    kept.planes.filled = true;  // set here: a frame that ends before has made none
   });
   return planes;
 }

@@ -11,11 +11,12 @@
 
 namespace gloam {
 
+/// Appends the pipeline of add_shadow_planes_pass().
 void list_shadow_plane_pipelines(PipelineList& list);
 
-/// Brings the planes above what the view's maps hold (shaders/shadows/maps/planes_shared.h) up to date with parts of
-/// faces that this frame draws: pass shadow_planes. All of the view's faces when planes were not kept up to date
-/// before.
+/// Updates the view's planes (shaders/shadows/maps/planes_shared.h) for the parts of faces that this frame draws: pass
+/// shadow_planes. If the planes were out of date (ViewShadows::planes is not filled), updates them for all faces.
+/// Returns the image of planes.
 [[nodiscard]] Result<ImageRef> add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
                                                       const ShadowMaps& maps, const ShadowViews& views);
 

@@ -35,7 +35,7 @@ gpu::GraphicsPipelineDesc map_pipeline(bool cut_out) {
 
 namespace {
 
-/// Records the draws of regions; the viewport is set.
+/// Records the draws of regions. The viewport must be set.
 class FaceRecorder {
  public:
   FaceRecorder(FrameBuilder& frame, PassContext& context, const MapRecording& map)
@@ -58,7 +58,7 @@ class FaceRecorder {
   void bind(gpu::PipelineHandle pipeline) {
     if (bound_ == pipeline) return;
     commands_.bind_pipeline(pipeline);
-    commands_.set_depth_bias(-map_.bias_units, -kSlopeBias);  // depth is reversed: less is farther
+    commands_.set_depth_bias(-map_.bias_units, -kSlopeBias);  // negative: depth is reversed
     bound_ = pipeline;
   }
 
@@ -69,8 +69,8 @@ class FaceRecorder {
   gpu::PipelineHandle bound_;
 };
 
-/// Begins drawing into a part of a layer; what lies there is cleared. Viewport: the whole face, so that depths do not
-/// depend on the part.
+/// Begins drawing into a part of a layer, and clears it. The viewport is the whole face, so that depths do not depend
+/// on the part.
 void begin_region(gpu::CommandList& commands, const gpu::ImageView& layer, std::uint32_t size,
                   const TexelRect& texels) {
   gpu::RenderingDesc rendering;

@@ -12,20 +12,21 @@
 
 namespace gloam {
 
+/// The pipeline that draws casters into the scratch image. cut_out: with an alpha test.
 [[nodiscard]] gpu::GraphicsPipelineDesc map_pipeline(bool cut_out);
 
-/// What draws of shadow maps are recorded with.
+/// The inputs of recorded shadow-map draws.
 struct MapRecording {
   const ShadowScratch* scratch = nullptr;
   float bias_units = 0.0f;  ///< ShadowKnobs::bias_units
   gpu::PipelineHandle opaque;
-  gpu::PipelineHandle cut_out;  ///< where one is needed
+  gpu::PipelineHandle cut_out;  ///< null when no cut-out caster is drawn
 };
 
-/// The pipelines that the plans need.
+/// Sets map.opaque, and map.cut_out if a plan draws a cut-out caster. Fails if a pipeline cannot be created.
 [[nodiscard]] Status make_map_pipelines(FrameBuilder& frame, std::span<const FacePlan* const> plans, MapRecording& map);
 
-/// Draws a batch of a plan into the scratch map.
+/// Records the draws of one batch of the plan into the scratch image.
 void record_draws(FrameBuilder& frame, PassContext& context, const MapRecording& map, const FacePlan& plan,
                   std::size_t batch);
 

@@ -10,26 +10,28 @@
 
 namespace gloam {
 
-/// The depth images that faces are drawn into: an array for each size of a face, all in the same memory, so one of them
-/// at a time holds something. The frame graph does not know them: frames that draw other faces would be other frames to
-/// it. Memory: 4 bytes a texel, that is 16 MiB (kScratchTexels), or 64 MiB where a face has kMostFace texels.
+/// The scratch images that faces are drawn into: one depth array per face size, all in the same memory, so only one of
+/// them holds data at a time. The frame graph does not track them: if it did, each different set of drawn faces would
+/// need another frame-graph plan. Memory: 4 bytes per texel, that is 16 MiB (kScratchTexels), or 64 MiB when a face has
+/// a side of kMostFace texels.
 class ShadowScratch {
  public:
-  /// Makes room for faces of so many texels together, all of one size. Not between frames' recording; what is there
-  /// only grows.
+  /// Makes room for a batch of faces of one size with `texels` texels together. May replace all images, so call it
+  /// before the frame's commands are recorded. Memory grows only.
   [[nodiscard]] Status reserve(gpu::Device& device, std::uint64_t texels);
-  /// For faces of this side in texels, a power of two that reserve has heard of.
+  /// The array for faces of this size. size: texels of a side, a power of two; size² texels must be reserved.
   [[nodiscard]] gpu::ImageHandle image(std::uint32_t size) const;
+  /// Destroys all images.
   void release(gpu::Device& device);
   [[nodiscard]] std::uint64_t texels() const { return texels_; }
 
-  /// Before its layers are drawn, whatever was done with the memory before; and before they are read by compute
-  /// shaders.
+  /// Barriers of image(size). begin_drawing: between any earlier use of the memory and draws into its layers.
+  /// begin_reading: between these draws and reads by compute shaders.
   void begin_drawing(gpu::CommandList& commands, std::uint32_t size) const;
   void begin_reading(gpu::CommandList& commands, std::uint32_t size) const;
 
  private:
-  std::vector<gpu::ImageHandle> images_;  ///< by size, from GLOAM_SHADOW_SMALLEST_FACE up
+  std::vector<gpu::ImageHandle> images_;  ///< by size, from GLOAM_SHADOW_SMALLEST_FACE up, each twice the one before
   std::uint64_t texels_ = 0;
 };
 

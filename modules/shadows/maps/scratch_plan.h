@@ -8,23 +8,23 @@
 
 namespace gloam {
 
-/// Where faces are drawn before they move into the atlas: each fills a layer of a depth image of its own size. So its
-/// depth does not depend on what else is drawn, or where it will lie, to the last bit.
+/// How faces are drawn before they move into the atlas: each fills one layer of a depth array of the face's size. So a
+/// face's depths are bit-identical regardless of the other faces of the frame and of its place in the atlas.
 struct ScratchPlan {
   struct Batch {
     std::uint32_t size = 0;            ///< texels of a layer's side
-    std::vector<std::uint32_t> items;  ///< indices into the sizes, by layer
+    std::vector<std::uint32_t> items;  ///< by layer: index of the face in `sizes`
   };
   std::vector<Batch> batches;
-  /// Texels of the largest batch.
+  /// Texels of all layers of the largest batch.
   [[nodiscard]] std::uint64_t texels() const;
 };
 
-/// Texels of a batch's image, unless one face has more.
+/// Most texels of a batch, unless a single face has more.
 inline constexpr std::uint32_t kScratchTexels = 2048 * 2048;
 inline constexpr std::uint32_t kMostScratchLayers = 256;
 
-/// sizes: powers of two, in texels. Large ones come first.
+/// Sorts faces into batches of one size, the largest size first. sizes: texels of each face's side, powers of two.
 [[nodiscard]] ScratchPlan plan_scratch(std::span<const std::uint32_t> sizes);
 
 }  // namespace gloam

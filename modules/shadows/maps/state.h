@@ -17,21 +17,21 @@
 
 namespace gloam {
 
-/// Number of a world among those that a shadows module has prepared; a resource of the world.
+/// Identifies a world among those that this shadows module has prepared; a resource of the world.
 struct ShadowWorld {
   std::uint64_t number = 0;
 };
 
-/// Cookies of one world.
+/// The GPU images of one world's cookies.
 struct WorldCookies {
   KeptImage images;
   std::uint32_t layers = 0;
-  std::uint64_t version = 0;  ///< of Cookies that was uploaded
-  ImageRef imported;          ///< in the frame being declared
-  std::uint64_t last_frame = 0;
+  std::uint64_t version = 0;     ///< version of the uploaded Cookies
+  ImageRef imported;             ///< import of the image in the frame that is being declared
+  std::uint64_t last_frame = 0;  ///< Device::frame_number of its last use
 };
 
-/// GPU memory of the module, by world and view. Two worlds never share.
+/// GPU memory of the module, by world and view. Worlds share no images of maps or cookies.
 class ShadowStates {
  public:
   ShadowStates() = default;
@@ -39,27 +39,31 @@ class ShadowStates {
   ShadowStates(const ShadowStates&) = delete;
   ShadowStates& operator=(const ShadowStates&) = delete;
 
-  /// Once a view and frame, before the others; forgets what no frame has used for long.
+  /// Call once per view and frame, before the other functions. Destroys images that no frame has used for 120 frames.
   void begin(gpu::Device& device);
-  /// The view's images, made anew when size or format are others: then its cache is empty.
+  /// The view's images and cache. When size or format differ from the last call, the images are created anew and the
+  /// cache is empty.
   [[nodiscard]] Result<ViewShadows*> view(ShadowWorld world, ViewId view, std::uint32_t atlas_size, bool d16);
-  /// Makes sure that the view has an image of planes, of the size of its atlas.
+  /// Creates the view's image of planes, in the size of its atlas, unless it exists.
   [[nodiscard]] Status reserve_planes(ViewShadows& view);
-  /// The same for its image of backgrounds.
+  /// Creates the view's image of backgrounds, in the size of its atlas, unless it exists.
   [[nodiscard]] Status reserve_backgrounds(ViewShadows& view);
+  /// The view's state; null if view() was never called for it, or if its images have been destroyed since.
   [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId view) const;
-  /// A frame of the view draws no maps: what earlier ones did is no news any more.
+  /// Resets the view's counters and its list of drawn faces. For frames of the view that draw no maps.
   void rest(ShadowWorld world, ViewId view);
-  /// An array of at least `layers` rgba8_srgb images of the world.
+  /// The world's cookies: an rgba8_srgb array of `layers` layers with side × side texels. If the number of layers
+  /// differs from the last call, the array is created anew and is not filled.
   [[nodiscard]] Result<WorldCookies*> cookies(ShadowWorld world, std::uint32_t layers, std::uint32_t side);
-  /// Memory whose bytes this frame copies into images.
+  /// Staging memory of this frame for copies into images.
   [[nodiscard]] UploadRing& staging() { return *staging_; }
-  /// The same for visibilities that rays have found, which may be many bytes: given back with the first frame that has
-  /// none.
+  /// The same for traced visibilities, which may need many bytes. Its memory is released in the first frame that does
+  /// not use it.
   [[nodiscard]] UploadRing& traced_staging();
-  /// With room for so many texels in this frame. One for all worlds and views; look up images while recording, not
-  /// before.
+  /// The scratch images, with room for a batch of `texels` texels. All worlds and views share them. Later calls in the
+  /// same frame may replace the images: look them up while recording, not before.
   [[nodiscard]] Result<const ShadowScratch*> scratch(std::uint64_t texels);
+  /// Destroys everything.
   void release();
 
  private:
@@ -72,9 +76,9 @@ class ShadowStates {
   std::map<std::uint64_t, WorldCookies> cookies_;
   std::unique_ptr<UploadRing> staging_;
   std::unique_ptr<UploadRing> traced_staging_;
-  bool has_traced_ = false;  ///< in the newest frame
+  bool has_traced_ = false;  ///< the newest frame used traced_staging()
   ShadowScratch scratch_;
-  std::uint64_t scratch_frame_ = 0;  ///< of its last use
+  std::uint64_t scratch_frame_ = 0;  ///< frame of its last use
   std::uint64_t staging_frame_ = ~0ull;
 };
 

@@ -8,11 +8,11 @@
 
 namespace gloam {
 
-/// What ShadowMapDrawer and OverlayMaps work with.
+/// The parts of the module that ShadowMapDrawer and OverlayMaps use.
 struct ShadowMapTools {
   ShadowStates& states;
   ShadowKnobs knobs;
-  shaders::ShadowBlock block;  ///< of the frame's standard maps
+  shaders::ShadowBlock block;  ///< constants of the frame's standard maps
 };
 
 }  // namespace gloam

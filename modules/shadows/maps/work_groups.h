@@ -8,26 +8,27 @@
 #include "engine/gpu/command_list.h"
 #include "engine/math/types.h"
 
-// Dispatches whose workgroups look up in a buffer what they are to do: one for the parts of many faces, as every
-// dispatch has its price.
+// Dispatches whose workgroups read their work from a buffer. One dispatch then serves parts of many faces, which saves
+// the fixed cost of a dispatch per part.
 
 namespace gloam {
 
-/// Workgroups of one dispatch, in a buffer of them.
+/// The entries of the workgroup buffer that one dispatch processes.
 struct GroupRange {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 };
 
-/// Calls add(begin, end) with the corners of parts, at most `side` wide and high, that fill what lies between two
-/// corners.
+/// Splits the rectangle [begin, end) into parts of at most side × side and calls add(part_begin, part_end) for each,
+/// row by row.
 template <class Add>
 void add_groups(uvec2 begin, uvec2 end, std::uint32_t side, const Add& add) {
   for (std::uint32_t y = begin.y; y < end.y; y += side)
     for (std::uint32_t x = begin.x; x < end.x; x += side) add(uvec2(x, y), glm::min(uvec2(x, y) + side, end));
 }
 
-/// Constants::first_group tells a workgroup where its range begins.
+/// Pushes `constants` and dispatches one workgroup per entry of `groups`, in several dispatches when there are many.
+/// Constants::first_group is set to the first entry of each dispatch.
 template <class Constants>
 void dispatch_groups(gpu::CommandList& commands, Constants constants, const GroupRange& groups) {
   constexpr std::uint32_t kMost = 32768;  // workgroups along an axis; devices have at least 65535

@@ -22,7 +22,7 @@ void append_items(std::string& bytes, const std::vector<T>& items) {
   bytes.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T));
 }
 
-/// Reads from the front of `bytes` and takes it off; false when too little is left.
+/// Moves `size` bytes from the front of `bytes` to target; false when too few are left.
 bool take_bytes(std::string_view& bytes, void* target, std::size_t size) {
   if (bytes.size() < size) return false;
   if (size > 0) std::memcpy(target, bytes.data(), size);
@@ -125,8 +125,8 @@ ReferenceInfo traced_shadows(std::string knob) {
 std::vector<ReferenceInfo> shadow_references() {
   KnobRegistry registry;
   add_shadow_knobs(registry);
-  // Their own model tells what is right: mode and visibility_bits have an exact value, classify is counted
-  // (shadow_measures). Of the limits none is.
+  // Knobs without this reference: mode and visibility_bits have an exact value, classify has a measure
+  // (shadow_measures()), and limits have no right value.
   constexpr std::string_view kOthers[] = {"shadows.mode", "shadows.classify", "shadows.visibility_bits",
                                           "shadows.slot_limit", "shadows.pair_limit"};
   std::vector<ReferenceInfo> references;

@@ -15,16 +15,19 @@
 
 namespace gloam {
 
-/// For files. `from_bytes`: nothing when they are damaged.
+/// Serialisation for files of the reference store. visibility_from_bytes: none when the bytes are damaged.
 [[nodiscard]] std::string to_bytes(const TracedVisibility& traced);
 [[nodiscard]] std::optional<TracedVisibility> visibility_from_bytes(std::string_view bytes);
 
-/// Traces, or takes from the input's store. Usage error where the input offers no triangles or no geometry.
+/// The visibility of the input's frame: from the input's store, or traced and then stored. Usage error when the input
+/// has no tracer or no geometry.
 [[nodiscard]] Result<TracedVisibility> find_visibility(const ReferenceInput& input);
-/// The same into the world, for views that show it (VisualizerInfo::trace): shading leaves it alone.
+/// Puts the result of find_visibility() into the world, for visualizers that show it (VisualizerInfo::trace). Sets
+/// `shades` to false, so that shading does not use it.
 [[nodiscard]] Status put_traced_visibility(World& world, const ReferenceInput& input);
 
-/// The frame shaded with traced visibility, for every knob of the module.
+/// The reference "frame shaded with traced visibility" for each knob of the module that changes shadows. Knobs with an
+/// exact value, counted knobs and limits are left out.
 [[nodiscard]] std::vector<ReferenceInfo> shadow_references();
 
 }  // namespace gloam

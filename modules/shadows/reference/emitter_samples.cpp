@@ -24,7 +24,7 @@ std::uint32_t sobol(std::uint32_t index) {
   return result;
 }
 
-/// A permutation of the 32-bit numbers without visible order.
+/// A pseudorandom permutation of the 32-bit numbers.
 std::uint32_t mixed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;
@@ -33,7 +33,7 @@ std::uint32_t mixed(std::uint32_t x) {
 
 double unit(std::uint32_t x) { return (static_cast<double>(x) + 0.5) / 4294967296.0; }
 
-/// From the unit square to the disc, keeping areas in proportion and neighbours together.
+/// Maps the unit square to the disc, preserving ratios of areas, and neighbourhood.
 vec2 on_disc(double x, double y) {
   constexpr double kQuarter = 0.78539816339744830962;
   const double a = 2.0 * x - 1.0, b = 2.0 * y - 1.0;

@@ -9,21 +9,21 @@
 
 namespace gloam {
 
-/// How drawn visibilities differ from traced ones. Counts are of pairs of a light and a pixel that it reaches; more
-/// layers add up.
+/// How drawn visibilities differ from traced ones. Counts are pairs of a light and a pixel that it reaches; layers are
+/// summed with +=.
 ///
-/// Silhouette: where traced visibility crosses one half between two pixels. A pixel that touches one, by any of its
-/// eight neighbours, may show either side: it is no more than a pixel away.
+/// Silhouette: where traced visibility crosses one half between two pixels. A pixel with a silhouette to one of its
+/// eight neighbours may show either side, as the edge is at most a pixel away.
 struct ShadowError {
   std::uint64_t pairs = 0;
   std::uint64_t penumbra_pairs = 0;  ///< traced visibility 0.05…0.95
-  double difference = 0.0;           ///< sum of absolute differences
-  double penumbra_difference = 0.0;
-  std::uint64_t wrong = 0;  ///< off by more than 0.5, away from silhouettes
-  std::uint64_t acne = 0;   ///< traced wholly lit, drawn below 0.5, away from silhouettes
-  std::uint64_t leaks = 0;  ///< traced wholly unlit, drawn above 0.5, away from silhouettes
-  /// Pixels that rays were traced for and shading found out of the light's reach, where floats round otherwise than
-  /// doubles: in no pair.
+  double difference = 0.0;           ///< sum of absolute differences over `pairs`
+  double penumbra_difference = 0.0;  ///< the same over `penumbra_pairs`
+  std::uint64_t wrong = 0;           ///< off by more than 0.5, away from silhouettes
+  std::uint64_t acne = 0;            ///< traced fully lit, drawn below 0.5, away from silhouettes
+  std::uint64_t leaks = 0;           ///< traced unlit, drawn above 0.5, away from silhouettes
+  /// Pixels with traced rays that shading finds out of the light's reach, because floats round differently from
+  /// doubles. They are in no pair.
   std::uint64_t unreached = 0;
 
   [[nodiscard]] double mean() const { return share(difference, pairs); }
@@ -39,8 +39,9 @@ struct ShadowError {
   }
 };
 
-/// drawn: visibility of the layer's light at each pixel, 0…1; negative where shading finds that the light does not
-/// reach it. Only pixels that it reaches by both count.
+/// Compares one layer. drawn: visibility 0 … 1 of the layer's light at each pixel, or negative where shading finds that
+/// the light does not reach the pixel. A pixel counts as a pair only if both tracing and shading find it within the
+/// light's reach.
 [[nodiscard]] ShadowError compare_visibility(const TracedVisibility& traced, std::uint32_t layer,
                                              std::span<const float> drawn);
 

@@ -20,15 +20,15 @@
 namespace gloam {
 namespace {
 
-/// A light as points see it. Positions are camera-relative.
+/// A light as an emitter of rays. Positions are camera-relative.
 struct Emitter {
   Entity entity;
   LightKind kind = LightKind::point;
   dvec3 position = dvec3(0.0);
-  dvec3 axis = dvec3(0.0, 0.0, -1.0);  ///< where it shines
+  dvec3 axis = dvec3(0.0, 0.0, -1.0);  ///< unit, the way it shines
   double range_m = 0.0;
-  double cos_outer = -1.0;  ///< spot
-  double radius = 0.0;      ///< of the disc: metres; directional: at a distance of one
+  double cos_outer = -1.0;  ///< cosine of a spot's outer half angle
+  double radius = 0.0;      ///< radius of the disc in metres; directional: at distance 1
 
   [[nodiscard]] bool reaches(const dvec3& point) const {
     if (kind == LightKind::directional) return true;
@@ -62,7 +62,7 @@ Emitter make_emitter(Entity entity, const Light& light, const dmat4& world_from_
   return emitter;
 }
 
-/// Ordered by entity index.
+/// All casting lights, ordered by entity index.
 std::vector<Emitter> casting_lights(const World& world, const dvec3& camera) {
   std::vector<Emitter> emitters;
   world.view<const Light, const WorldTransform, Maybe<const ShadowCaster>>().each(
@@ -83,14 +83,14 @@ struct SurfacePoint {
   bool subsurface = false;
 };
 
-/// Two unit vectors across `d`, which is of unit length.
+/// Two unit vectors orthogonal to each other and to the unit vector d.
 void span_disc(const dvec3& d, dvec3& u, dvec3& v) {
   const dvec3 helper = std::abs(d.x) < 0.6 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
   u = glm::normalize(glm::cross(helper, d));
   v = glm::cross(d, u);
 }
 
-/// Work of one job.
+/// Traces rays for one job.
 class RowTracer {
  public:
   RowTracer(const VisibilityInput& input, const EmitterSamples& wide, const EmitterSamples& single)
@@ -104,7 +104,7 @@ class RowTracer {
     return {geometry.position(x, y), dvec3(texel.face_normal), texel.subsurface};
   }
 
-  /// How many of the emitter's samples the point sees, and how many of the first half of them.
+  /// Number of the emitter's samples that the point sees: of all, and of the first half; `of` is the total.
   struct Seen {
     std::uint32_t all = 0;
     std::uint32_t first_half = 0;
@@ -125,7 +125,8 @@ class RowTracer {
   }
 
  private:
-  /// False when the point is so near to the light that nothing can be between.
+  /// Sets up the rays. Returns false when the point is within kEmitterClearance_m of the light, so that nothing can
+  /// block.
   bool aim(const SurfacePoint& point, const Emitter& emitter, const EmitterSamples::Pattern& pattern) {
     const bool local = emitter.kind != LightKind::directional;
     const dvec3 to_light = local ? emitter.position - point.position : -emitter.axis;
@@ -157,7 +158,7 @@ class RowTracer {
   std::vector<std::uint8_t> blocked_;
 };
 
-/// Those of the lights that reach a pixel.
+/// The casting lights that reach any pixel.
 std::vector<Emitter> reaching_lights(const VisibilityInput& input) {
   const GeometryPicture& geometry = input.geometry;
   const std::vector<Emitter> all = casting_lights(input.world, geometry.view.position);
@@ -181,9 +182,9 @@ std::vector<Emitter> reaching_lights(const VisibilityInput& input) {
   return kept;
 }
 
-/// Sums of integers, so that their order does not matter.
+/// Sums of integers, so that the order of summation does not matter.
 struct NoiseSum {
-  std::uint64_t change = 0;  ///< in shares of half · all samples
+  std::uint64_t change = 0;  ///< difference of both estimates, in units of 1 / (half · all samples)
   std::uint64_t pairs = 0;
 };
 
@@ -211,7 +212,7 @@ NoiseSum trace_row(std::uint32_t y, const GeometryPicture& geometry, std::span<c
   return sum;
 }
 
-/// Tells how many rows are done.
+/// Reports progress in rows.
 class RowCounter {
  public:
   RowCounter(const VisibilityInput& input) : input_(input) {}
@@ -279,7 +280,7 @@ std::string visibility_identity(const VisibilityInput& input) {
   hasher.bytes(bytes_of(geometry.view.position)).bytes(bytes_of(geometry.view.clip_from_relative));
   hasher.bytes(std::as_bytes(std::span(geometry.depth))).bytes(std::as_bytes(std::span(geometry.normals)));
   for (const std::uint32_t color : geometry.base_color)
-    hasher.value(static_cast<std::uint8_t>(color >> 24));  // subsurface or not
+    hasher.value(static_cast<std::uint8_t>(color >> 24));  // the alpha byte flags subsurface materials
   for (const Emitter& e : casting_lights(input.world, dvec3(0.0))) {
     hasher.value(e.entity.index)
         .value(e.entity.generation)
@@ -288,7 +289,7 @@ std::string visibility_identity(const VisibilityInput& input) {
         .bytes(bytes_of(e.axis));
     hasher.bytes(bytes_of(e.range_m)).bytes(bytes_of(e.cos_outer)).bytes(bytes_of(e.radius));
   }
-  constexpr int kMethod = 1;  // grows when the same input would give other visibilities
+  constexpr int kMethod = 1;  // increase when the same input gives other visibilities
   return "visibility " + std::to_string(kMethod) + " of triangles " + std::to_string(input.tracer.version()) +
          " frame and lights " + std::to_string(hasher.digest()) + " size " + std::to_string(geometry.view.width) + "x" +
          std::to_string(geometry.view.height) + " samples " + std::to_string(input.samples);

@@ -15,39 +15,39 @@
 
 namespace gloam {
 
-/// The model that shadow maps are held against, traced:
-/// - The emitter of a point or spot light is a sphere of Light::width_m in diameter; a point sees it as a disc of that
-/// diameter which faces
-///   the point. A penumbra is then (d_r − d_b) · width / d_b wide, as the maps' filters assume. Of a directional light
-///   it is a cone of Light::apparent_angle. Without width there is one ray, to the middle.
-/// - Rays begin at the surface under a pixel's centre, kRayStart off along its face normal on the visible side (for
-/// subsurface materials:
-///   on the light's side), and end kEmitterClearance_m before the disc: a lamp's bulb does not darken it, as what is
-///   nearer than a map's near plane is in no map.
-/// - What of the emitter is behind the surface itself is hidden by it.
+/// The model of the reference that shadow maps are compared with:
+/// - The emitter of a point or spot light is a sphere with diameter Light::width_m. A receiver sees it as a disc of
+///   that diameter that faces the receiver, so that a penumbra is (d_r − d_b) · width / d_b wide, as the filters
+///   assume. The emitter of a directional light is a cone of Light::apparent_angle. Without width, one ray goes to the
+///   centre.
+/// - Rays begin at the surface under a pixel's centre, offset by kRayStart along its face normal to the visible side
+///   (subsurface materials: to the light's side). They end kEmitterClearance_m before the disc: a lamp's bulb does not
+///   block its light, as shadow maps hold nothing nearer than their near plane.
+/// - The part of the emitter below the plane of the receiver's surface is hidden.
 inline constexpr double kEmitterClearance_m = 0.05;
-/// Metres, and per metre from the camera: several times what depth buffer and transforms round.
+/// Offset of ray starts in metres, and per metre of distance from the camera: several times the rounding error of depth
+/// buffer and transforms.
 inline constexpr double kRayStart_m = 1e-4;
 inline constexpr double kRayStartPerMetre = 2e-5;
-/// Samples of pictures that people look at.
+/// Default number of rays per light and pixel.
 inline constexpr std::uint32_t kVisibilitySamples = 256;
 
-/// What visibility is traced from. The world is as the frame's systems left it, the geometry is that frame's.
+/// Input of trace_visibility(). The world is as the frame's systems left it; the geometry is that frame's.
 struct VisibilityInput {
   const World& world;
   const GeometryPicture& geometry;
   const SceneTracer& tracer;
   JobExecutor& executor;
-  std::uint32_t samples = kVisibilitySamples;  ///< rays a light and pixel, ≥ 1; powers of two are spread best
-  std::function<void(std::size_t done, std::size_t total)>
-      progress;  ///< rows of pixels; by one thread at a time; may be empty
+  std::uint32_t samples = kVisibilitySamples;  ///< rays per light and pixel, ≥ 1; powers of two are spread best
+  /// Reports rows of pixels that are done; called by one thread at a time; may be empty.
+  std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
-/// Visibility of every light that casts shadows, at every pixel of the frame that it reaches by range and cone. The
-/// same input gives the same bytes, whatever the executor.
+/// The visibility of every casting light at every pixel that it reaches by range and cone. The result depends on the
+/// input only, not on the executor.
 [[nodiscard]] TracedVisibility trace_visibility(const VisibilityInput& input);
 
-/// One line that tells what trace_visibility would compute: the same for the same result.
+/// One line that identifies the result of trace_visibility(): the same for the same result.
 [[nodiscard]] std::string visibility_identity(const VisibilityInput& input);
 
 }  // namespace gloam

@@ -10,8 +10,10 @@
 
 namespace gloam {
 
-/// Appends the cascades of a view's directional lights to the rows of its local ones, GLOAM_MAX_CASCADES a light and
-/// those of one light at least, and says in the block where they begin. lights: by index of ShadowBlock::directional.
+/// Appends the CascadeRows of the view's directional lights to `rows`, which holds the rows of its local lights:
+/// GLOAM_MAX_CASCADES rows per light. Without lights, appends the rows of one light without cascades, so that shaders
+/// always find a row. Sets block.cascade_row to the index of the first appended row. lights: in the order of
+/// ShadowBlock::directional.
 void append_cascade_rows(std::span<const DirectionalLook> lights, shaders::ShadowBlock& block,
                          std::vector<shaders::ShadowRow>& rows);
 

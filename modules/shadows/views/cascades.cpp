@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// Cascades that do not swim: spheres round slices of the frustum (Valient, "Stable cascaded shadow maps", ShaderX6),
-// whose size no turn of the camera changes, in boxes that move by whole texels. Ours end with a box round all casters
-// as soon as that is the smaller one: small scenes and cameras far away get one box that never moves.
+// Stable cascades (Valient, "Stable cascaded shadow maps", ShaderX6): each cascade is a box around the bounding sphere
+// of a slice of the frustum. The sphere keeps its size when the camera turns, and the box moves by whole texels. In
+// addition, a box around all casters replaces the first cascade that would be larger, so small scenes and distant
+// cameras get one box that never moves.
 #include "modules/shadows/views/cascades.h"
 
 #include <algorithm>
@@ -15,26 +16,26 @@
 namespace gloam {
 namespace {
 
-constexpr double kLogarithmicShare = 0.9;  // of splits; the rest is uniform
-constexpr double kLeastStart = 1e-3;       // of the far end: where logarithmic splits begin at the earliest
-constexpr double kReachUnknown = 1000.0;   // metres of depth to each side of a sphere when nothing is known of casters
-constexpr double kMostReach = 20000.0;     // metres of depth to each side of a sphere
-constexpr double kLeastSize = 1e-2;        // metres: radius of the casters' sphere, depth of a box
-constexpr double kStepsOfRange = 16.0;     // depths begin and end at steps of about this part of the range
+constexpr double kLogarithmicShare = 0.9;  // weight of the logarithmic split; the rest is uniform
+constexpr double kLeastStart = 1e-3;       // share of the far depth: logarithmic splits begin there or farther
+constexpr double kReachUnknown = 1000.0;   // metres to each side of a sphere when the casters' bounds are unknown
+constexpr double kMostReach = 20000.0;     // most metres to each side of a sphere
+constexpr double kLeastSize = 1e-2;        // metres: least radius of the casters' sphere, and least depth of a box
+constexpr double kStepsOfRange = 16.0;     // depth ranges begin and end at multiples of about range / this
 
-/// The least power of two that is not smaller.
+/// The least power of two ≥ value.
 double power_above(double value) { return std::exp2(std::ceil(std::log2(value))); }
 
 dvec3 center_of(const CasterBounds& casters) { return (casters.min + casters.max) * 0.5; }
 
-/// Rounded up in steps, so that casters which move a little do not change it.
+/// Radius of the casters' sphere, rounded up in steps, so that small movements of casters do not change it.
 double radius_of(const CasterBounds& casters) {
   const double radius = std::max(0.5 * glm::length(casters.max - casters.min), kLeastSize);
   const double step = power_above(radius) / kStepsOfRange;
   return std::ceil(radius / step) * step;
 }
 
-/// The camera's rotation as shading has it.
+/// Rotates a view-space direction into the world, with the same matrix as shading.
 dvec3 world_direction(const RenderView& view, const dvec3& in_view) {
   const mat4& m = view.view_from_relative;
   dvec3 world;
@@ -44,7 +45,7 @@ dvec3 world_direction(const RenderView& view, const dvec3& in_view) {
 
 bool is_orthographic(const RenderView& view) { return view.clip_from_view[2][3] == 0.0f; }
 
-/// The point of a view depth whose normalised device coordinates these are, in view space.
+/// The view-space point with these normalised device coordinates and this view depth.
 dvec3 view_point(const RenderView& view, double ndc_x, double ndc_y, double depth_m) {
   const mat4& m = view.clip_from_view;
   const double w = is_orthographic(view) ? 1.0 : depth_m;
@@ -58,7 +59,7 @@ struct Range {
   double high = 0.0;
 };
 
-/// Along an axis of a box's map: what the casters cover.
+/// The range that the casters cover along an axis.
 Range extent_along(const CasterBounds& casters, const dvec3& axis) {
   const double center = glm::dot(axis, center_of(casters));
   const double half = glm::dot(glm::abs(axis), (casters.max - casters.min) * 0.5);
@@ -79,8 +80,8 @@ Range depth_range(const CasterBounds& casters, const dvec3& forward, const Casca
   return {low, std::max(std::ceil(range.high / step) * step, low + step)};
 }
 
-/// The position whose products with the three axes these are. Axes rounded to floats stand at right angles only nearly:
-/// far from the world's origin summing them up would miss by centimetres.
+/// The position with these dot products with the three axes. Axes rounded to floats are only nearly orthogonal: a
+/// weighted sum of them would be off by centimetres far from the world's origin.
 dvec3 solve(const dvec3& right, const dvec3& up, const dvec3& forward, const dvec3& products) {
   const dvec3 sum = glm::cross(up, forward) * products.x + glm::cross(forward, right) * products.y +
                     glm::cross(right, up) * products.z;
@@ -133,7 +134,7 @@ CascadeSphere slice_sphere(const RenderView& view, double near_m, double far_m) 
     }
     return std::sqrt(squared);
   };
-  // The greatest of convex functions is convex: its least value is found by thirds.
+  // radius_at is convex, as a maximum of convex functions, so a ternary search finds its minimum.
   double low = 0.0;
   double high = 1.0;
   for (int i = 0; i < 60; ++i) {
@@ -180,7 +181,7 @@ ShadowFace cascade_face(Entity light, const FaceAxes& axes, const CascadeSphere&
   const dvec3 right(axes.right);
   const dvec3 up(axes.up);
   const dvec3 forward(axes.forward);
-  // The sphere, a texel for snapping, and the rim.
+  // Half extent: the sphere, the rim, and a texel at each side for snapping.
   const double rim = 1.0 + static_cast<double>(kernel_rim);
   ShadowFace face;
   face.half_extent_m = static_cast<float>(sphere.radius_m * rim / (1.0 - 2.0 * rim / square.size));

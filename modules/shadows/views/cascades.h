@@ -12,12 +12,12 @@
 
 namespace gloam {
 
-/// Box around everything in the world that may cast a shadow; a view resource, made by system shadow_bounds.
+/// World-space box around all casters; a view resource, written by system shadow_bounds.
 struct CasterBounds {
   dvec3 min = dvec3(std::numeric_limits<double>::infinity());
   dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
 
-  /// False without casters, and when one may be anywhere.
+  /// False when there are no casters, and when a bound is not finite.
   [[nodiscard]] bool known() const;
   void grow(const dvec3& box_min, const dvec3& box_max) {
     min = glm::min(min, box_min);
@@ -25,45 +25,49 @@ struct CasterBounds {
   }
 };
 
-/// What one cascade encloses. Neither its radius nor, for the casters' own sphere, its centre depends on where the
-/// camera stands or looks.
+/// The bounding sphere of one cascade. Its radius does not depend on the camera's position or direction. If it is the
+/// sphere around all casters, its centre does not depend on them either.
 struct CascadeSphere {
-  std::uint32_t slice = 0;  ///< of the frustum, from the camera outwards
+  std::uint32_t slice = 0;  ///< slice of the frustum, counted from the camera outwards
   dvec3 center = dvec3(0.0);
   double radius_m = 0.0;
 };
 
-/// Metres from the camera beyond which directional lights cast no shadow where nothing is known of casters.
+/// Metres from the camera to which shadows of directional lights reach when the casters' bounds are unknown.
 inline constexpr double kDefaultShadowDistance = 100.0;
-/// The same from where the casters begin, whatever is known. Sharing texels out farther would leave none for what is
-/// near.
+/// Greatest shadow_distance() in metres for a camera inside the casters' bounds. A greater distance would leave too few
+/// texels for near surfaces.
 inline constexpr double kMostShadowDistance = 1000.0;
 
-/// How far shadows of directional lights reach: a power of two times the diameter of the casters' bounds that encloses
-/// them from where the camera is, at most kMostShadowDistance or, away from the casters, a power of two times that. It
-/// is the same for all places among the casters.
+/// Metres from the camera to which shadows of directional lights reach. The distance is the diameter of the casters'
+/// bounding sphere, times the smallest power of two (at least 1) with which all casters are within that distance of the
+/// camera. The limit is kMostShadowDistance for a camera inside the sphere; outside, a power of two that grows with the
+/// distance to the sphere multiplies the limit. All positions inside the sphere get the same result.
 [[nodiscard]] double shadow_distance(const RenderView& view, const CasterBounds& casters);
 
-/// View depths at which slice 0…count − 1 of [near_m, far_m] end: the practical split scheme (Zhang et al. 2006),
-/// mostly logarithmic for a perspective camera, uniform for an orthographic one.
+/// The view depths at which slices 0 … count − 1 of [near_m, far_m] end, ascending; the last is far_m. The practical
+/// split scheme (Zhang et al. 2006): mostly logarithmic for a perspective camera, uniform for an orthographic one.
 [[nodiscard]] std::vector<double> cascade_splits(double near_m, double far_m, std::uint32_t count, bool orthographic);
 
-/// The smallest sphere with its centre on the frustum's middle line round its part between two view depths.
+/// The smallest sphere, centred on the frustum's middle line, that holds the frustum between two view depths. `slice`
+/// is 0.
 [[nodiscard]] CascadeSphere slice_sphere(const RenderView& view, double near_m, double far_m);
 
-/// Spheres of at most `count` cascades, inner ones first. A slice that reaches no caster has none; the first one that
-/// would be larger than the casters' bounds becomes their sphere and is the last.
+/// The spheres of at most `count` cascades, inner ones first. A slice whose sphere does not touch the casters' bounding
+/// sphere is left out. The first slice whose sphere would be at least as large as the casters' bounding sphere gets
+/// that sphere instead, and is the last cascade.
 [[nodiscard]] std::vector<CascadeSphere> cascade_spheres(const RenderView& view, const CasterBounds& casters,
                                                          std::uint32_t count);
 
-/// The box of a cascade: `square` says how many texels it has. Its corners lie on whole texels of a grid fixed to the
-/// world, and its depths begin and end at steps of one, so that the map of a camera that moves shifts by whole texels.
-/// It reaches from the first caster on the light's side to the last one; 1000 m to both sides of the sphere when they
-/// are not known, and never more than 20 km.
+/// The box of a cascade that holds the sphere. square: place in the atlas; its size (> 2) is the resolution. The
+/// corners lie on a texel grid fixed to the world, and near and far side lie at steps of a depth grid, so that the map
+/// of a moving camera shifts by whole texels. The box reaches from the nearest caster to the farthest along the light;
+/// 1000 m to both sides of the sphere when the casters' bounds are unknown, and never more than 20 km to either side.
 [[nodiscard]] ShadowFace cascade_face(Entity light, const FaceAxes& axes, const CascadeSphere& sphere,
                                       const CasterBounds& casters, const AtlasSquare& square, float kernel_rim);
 
-/// What shaders read, for positions relative to view_position.
+/// The shader constants of the cascade, for positions relative to view_position (world). kernel_rim: as in
+/// cascade_face.
 [[nodiscard]] shaders::ShadowCascade cascade_constants(const ShadowFace& face, const dvec3& view_position,
                                                        float kernel_rim);
 

@@ -10,25 +10,25 @@
 namespace gloam {
 namespace {
 
-constexpr float kNear = 0.05f;  // metres: what is farther from a light than this casts shadows
-// What a cube's near planes leave out is a cube: it lies within that distance to its corners.
+constexpr float kNear = 0.05f;  // metres: near plane of a spot's face
+// Near plane of a cube face, in metres. The near planes of the six faces form a cube, whose corners are kNear away.
 constexpr float kCubeNear = 0.02886f;
-constexpr float kWidestSpot = kPi / 3.0f * 1.0001f;  // half angle in radians: wider cones have a cube
+constexpr float kWidestSpot = kPi / 3.0f * 1.0001f;  // half angle in radians: wider cones get a cube
 constexpr float kNarrowestSpot = kPi / 180.0f;       // half angle in radians
-constexpr float kWidestCookie = kPi * 0.47f;         // half angle in radians: the tangent of a right angle is none
-/// Boxes are taken for larger by this share of the lengths that take part: axes are floats.
+constexpr float kWidestCookie = kPi * 0.47f;         // half angle in radians: below 90°, which has no tangent
+/// Boxes are enlarged by this share of the lengths involved, as axes are floats.
 constexpr double kRounding = 1e-6;
 
 bool is_finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Unit vector of any finite one but zero; zero for others.
+/// The unit vector of v; zero when v is zero or not finite.
 dvec3 direction_of(const dvec3& v) {
   const double greatest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!is_finite(v) || !(greatest > 0.0)) return dvec3(0.0);
   return glm::normalize(v / greatest);
 }
 
-/// The part of a unit vector at right angles to another one, as a unit vector; zero when next to nothing is left.
+/// The part of unit vector v orthogonal to unit vector `axis`, normalised; zero when they are nearly parallel.
 dvec3 beside(const dvec3& v, const dvec3& axis) {
   const dvec3 part = v - axis * glm::dot(v, axis);
   return glm::dot(part, part) > 1e-12 ? glm::normalize(part) : dvec3(0.0);
@@ -159,7 +159,8 @@ bool face_may_see(const ShadowFace& face, const dvec3& min, const dvec3& max) {
   const dvec3 half = (max - min) * 0.5;
   const double slack =
       kRounding * (std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + half.x + half.y + half.z);
-  // How far the box reaches along a vector from the face's origin. NaN compares as false: seen.
+  // How far the box extends from the face's origin along v. NaN makes all comparisons below false, so the box counts as
+  // seen.
   const auto reach = [&](const dvec3& v) { return glm::dot(v, center) + glm::dot(glm::abs(v), half) + slack; };
   const dvec3 right(face.right);
   const dvec3 up(face.up);

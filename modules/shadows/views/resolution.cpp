@@ -11,15 +11,15 @@
 namespace gloam {
 namespace {
 
-/// Powers of two that a size may be off before it changes: half a one is where the next is as near.
+/// Difference in powers of two up to which a size is kept; at 0.5 the next size is equally near.
 constexpr float kHoldOn = 0.7f;
 
 }  // namespace
 
 float pixels_across(const RenderView& view, const dvec3& center, float radius_m) {
   const auto longer = static_cast<float>(std::max(view.width, view.height));
-  const float pixels_per_unit =
-      view.clip_from_view[1][1] * static_cast<float>(view.height);  // of a width at distance 1; orthographic: of metres
+  // Diameter in pixels of a radius of 1 at distance 1; orthographic: of a radius of 1 m.
+  const float pixels_per_unit = view.clip_from_view[1][1] * static_cast<float>(view.height);
   if (view.clip_from_view[2][3] == 0.0f) return std::min(radius_m * pixels_per_unit, longer);
   const auto distance = static_cast<float>(glm::length(center - view.position));
   const float squared = distance * distance - radius_m * radius_m;

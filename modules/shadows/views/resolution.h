@@ -11,30 +11,31 @@
 
 namespace gloam {
 
-inline constexpr std::uint32_t kMostWantedFace = 2048;  ///< texels, where no ShadowCaster asks for more
-inline constexpr std::uint32_t kMostFace = 4096;        ///< texels
+inline constexpr std::uint32_t kMostWantedFace = 2048;  ///< texels of a side; ShadowCaster::resolution may set more
+inline constexpr std::uint32_t kMostFace = 4096;        ///< texels of a side; limit for all faces
 
-/// Pixels that something `radius_m` wide to each side covers across where the sphere is, whichever way the camera
-/// looks: turning it changes no shadow map. From within the sphere, and never more than, the longer side of the
-/// picture.
+/// Diameter in pixels of the sphere's image, at most the longer side of the picture; the latter when the camera is
+/// inside the sphere. It does not depend on the camera's direction, so turning the camera changes no shadow map.
 [[nodiscard]] float pixels_across(const RenderView& view, const dvec3& center, float radius_m);
 
-/// Share of the picture that a sphere covers, 0…1, whichever way the camera looks.
+/// Share of the picture that a sphere covers, 0 … 1. It does not depend on the camera's direction.
 [[nodiscard]] float coverage(const RenderView& view, const dvec3& center, float radius_m);
 
-/// Texels of a face from how many would be right: the nearest power of two, from the smallest face to kMostWantedFace.
-/// `previous` (0: none) stays until another is clearly nearer, so that a face at the limit does not change every frame.
+/// The face size for an ideal number of texels: the nearest power of two, from the smallest face to kMostWantedFace.
+/// `previous` (0: none) is kept until another size is clearly nearer, so that a face at the limit does not change size
+/// every frame.
 [[nodiscard]] std::uint32_t wanted_size(float texels, std::uint32_t previous);
 
-/// Share of the room that maps may fill. Squares whose sides are powers of two then always find a place.
+/// Share of the available texels that maps may fill. Below it, squares with power-of-two sides always find a place.
 inline constexpr double kMostFilled = 0.9;
-/// The same at the next higher density, for going up to it: lights that come into view and leave it change no maps of
-/// others.
+/// The same limit for raising the density. It is lower, so that lights that enter and leave the view do not resize the
+/// maps of others.
 inline constexpr double kMostFilledHigher = 0.6;
 
-/// Texels to a pixel's side for maps that share a room: the highest of `most`, `most` / 2^¼, `most` / 2^½ … `most` /
-/// 2^6 at which they fit. `previous` (0: none) stays until they do not fit or fit well at a higher one.
-/// `filled(density)`: texels that maps take at it.
+/// The density, in texels per pixel side, for maps that share room_texels: the highest of `most`, `most` / 2^¼, `most`
+/// / 2^½ … `most` / 2^6 at which they fit. The lowest of these if they fit at none. `previous` (0: none) is kept until
+/// the maps no longer fit, or until they fill at most kMostFilledHigher at a higher density. filled(density): texels
+/// that all maps take at that density.
 template <class Filled>
 [[nodiscard]] float fitting_density(float most, float previous, double room_texels, const Filled& filled) {
   constexpr int kSteps = 24;
@@ -47,10 +48,10 @@ template <class Filled>
   return most * std::exp2(-0.25f * static_cast<float>(step));
 }
 
-/// Texels of a face when ShadowCaster::resolution, above 0, says how many: the next power of two, at most kMostFace.
+/// The face size for ShadowCaster::resolution > 0: the next power of two, from the smallest face to kMostFace.
 [[nodiscard]] std::uint32_t asked_size(std::uint32_t resolution);
 
-/// Candela or lux of the brightest channel; 0 for a light that gives none or is not finite.
+/// Candela or lux of the brightest channel, at most 1e20; 0 for a light that gives none, or whose value is NaN.
 [[nodiscard]] float brightness_of(const Light& light);
 
 }  // namespace gloam

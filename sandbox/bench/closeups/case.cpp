@@ -18,14 +18,14 @@ namespace gloam {
 namespace {
 
 constexpr const char* kLargestAtlas = "8192";
-constexpr double kMostDensity = 8.0;  // of shadows.texels_per_pixel
+constexpr double kMostDensity = 8.0;  // largest shadows.texels_per_pixel that is tried
 constexpr double kLeastDensity = 0.25;
-constexpr double kStep = 1.0905077326652577;  // 2^⅛: a face's side is a power of two, faces change at different steps
+constexpr double kStep = 1.0905077326652577;  // 2^⅛: faces have power-of-two sides and change size at different steps
 constexpr double kNearEnough = 1.05;
 
 ViewId view_of(const Session& session) { return session.view_settings(1, 1, "none").id; }
 
-/// Sizes of faces hold on to what they were: all come from the smallest, so that one density gives one size.
+/// Face sizes have hysteresis: starts at the least density, so that each density always gives the same sizes.
 Status set_side(ShadowCase& shadows, double density, const char* pairs) {
   GLOAM_TRY(shadows.set("closeups.max_pairs", pairs));
   for (const double each : {kLeastDensity, density}) {
@@ -35,13 +35,14 @@ Status set_side(ShadowCase& shadows, double density, const char* pairs) {
   return {};
 }
 
-/// Texels with this density and these pairs.
+/// Counts the texels with this density and at most this many pairs.
 Result<MapTexels> texels_at(ShadowCase& shadows, double density, const char* pairs) {
   GLOAM_TRY(set_side(shadows, density, pairs));
   return map_texels(shadows.session());
 }
 
-/// More texels for standard maps alone, until they have no less than both kinds together.
+/// Raises the density of standard maps alone until they have at least as many texels as both kinds together. None if
+/// kMostDensity is not enough.
 Result<std::optional<EqualTexels>> raise_standard(ShadowCase& shadows, EqualTexels texels) {
   texels.standard = 0;
   for (double density = texels.with_density; density <= kMostDensity; density *= kStep) {
@@ -54,7 +55,8 @@ Result<std::optional<EqualTexels>> raise_standard(ShadowCase& shadows, EqualTexe
   return std::optional<EqualTexels>();
 }
 
-/// Fewer texels for the standard maps beside close-ups, until all together have no more than standard maps alone.
+/// Lowers the density of the standard maps beside close-ups until both kinds together have at most as many texels as
+/// standard maps alone. None if kLeastDensity is not low enough.
 Result<std::optional<EqualTexels>> lower_beside(ShadowCase& shadows, double user_density, const char* pairs,
                                                 std::uint64_t closeups) {
   EqualTexels texels{user_density, user_density, 0, 0};
@@ -166,7 +168,8 @@ MapTexels map_texels(const Session& session) {
 }
 
 Result<EqualTexels> find_equal_texels(ShadowCase& shadows, const char* most_pairs, std::uint64_t closeup_texels) {
-  // What the user's atlas has room for, so that a larger one gives nobody more by itself.
+  // Start from the density that fits the user's atlas: the larger atlas below must not give either side more texels by
+  // itself.
   GLOAM_TRY(shadows.set("shadows.mode", "deferred"));
   GLOAM_TRY(shadows.set("closeups.max_pairs", most_pairs));
   if (auto frame = shadows.draw(); !frame) return frame.error();

@@ -12,13 +12,13 @@
 
 namespace gloam {
 
-/// A place on a camera's path: where it is, and a point it looks at. Metres.
+/// A point of a camera path: the camera's position and a point that it looks at, in metres.
 struct PathKey {
   dvec3 eye;
   dvec3 target;
 };
 
-/// A path through all cameras of a scene, in their order. WorldTransforms must be there.
+/// A path through all cameras of a scene, in their order. The cameras must have WorldTransforms.
 [[nodiscard]] std::vector<PathKey> path_through_cameras(const World& world, const SceneInfo& info);
 
 /// world_from_camera at frame `frame` of `frames` on the closed, smooth curve (Catmull-Rom) through the keys; at least

@@ -14,24 +14,23 @@
 
 namespace gloam {
 
-/// What benches share. Sessions are opened by the first bench that asks for them: benches of the CPU never touch
-/// Vulkan.
+/// State that benches share. A session is opened when a bench first asks for it, so CPU benches never use Vulkan.
 class BenchContext {
  public:
   BenchContext(const Options& options, LogSink& log) : options_(options), log_(log) {}
 
   [[nodiscard]] const Options& options() const { return options_; }
   [[nodiscard]] LogSink& log() const { return log_; }
-  /// Of the chosen scene and size.
+  /// The shared session of the chosen scene and size.
   [[nodiscard]] Result<Session*> session();
-  /// Of a scene made by code ("builtin:NAME") whatever was chosen, with its first camera; one that is the caller's to
-  /// change. more_modules: behind the program's own.
+  /// Opens a separate session of a built-in scene ("builtin:NAME") with its first camera, independent of the user's
+  /// choice. The caller owns it and may change it. more_modules: added after the program's own modules.
   [[nodiscard]] Result<std::unique_ptr<Session>> open_builtin(const std::string& scene, ModuleList more_modules = {});
-  /// The scene the user named, or `scene` if he named none.
+  /// The scene that the user named, or `scene` if the user named none.
   [[nodiscard]] const std::string& scene_or(const std::string& scene) const;
-  /// Of scene_or(scene).
+  /// The shared session of scene_or(scene).
   [[nodiscard]] Result<Session*> session_or(const std::string& scene);
-  /// Of the sessions; empty while there is none.
+  /// Device of the sessions; empty before the first one is opened.
   [[nodiscard]] const gpu::DeviceInfo& device_info() const { return device_info_; }
 
  private:

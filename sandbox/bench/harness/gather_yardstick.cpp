@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kMapSize = 1024;
 
-/// Depths in 0…1 that look random and are the same everywhere.
+/// Pseudo-random depths in 0…1, the same on every platform.
 std::vector<std::byte> map_texels() {
   std::vector<float> texels(std::size_t{kMapSize} * kMapSize);
   std::uint32_t state = 1;

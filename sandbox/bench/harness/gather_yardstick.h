@@ -10,7 +10,8 @@
 
 namespace gloam {
 
-/// One full-screen pass of 48 gathers a pixel from a 1024² depth map: what frames are held against on any machine.
+/// The gather pass: one full-screen pass of 48 gathers per pixel from a 1024² depth map. Frame times are compared with
+/// it, so that a bar holds on any machine.
 class GatherYardstick {
  public:
   [[nodiscard]] static Result<std::unique_ptr<GatherYardstick>> create(gpu::Device& device, std::uint32_t width,
@@ -21,7 +22,7 @@ class GatherYardstick {
 
   /// Submits the pass and waits for it.
   [[nodiscard]] Status draw();
-  /// Hash of the picture the pass gave last.
+  /// Hash of the picture that the pass drew last.
   [[nodiscard]] Result<std::uint64_t> picture_hash();
 
  private:

@@ -9,11 +9,11 @@
 
 namespace gloam {
 
-/// Something that several rows are told from: measured when the first of them is asked for, once a run of the program.
+/// A measurement that several rows share: made for the first row that asks, once per run of the program.
 template <class T>
 class Once {
  public:
-  /// `measure()` is a Result<T>; one that failed is tried again.
+  /// `measure()` returns a Result<T>. After a failure the next call tries again.
   template <class Measure>
   [[nodiscard]] Result<const T*> get(Measure&& measure) {
     if (!value_) {

@@ -16,31 +16,31 @@ namespace gloam {
 
 class BenchContext;
 
-/// What running a bench gave.
+/// The result of a bench.
 struct BenchValue {
   double value = 0.0;
   std::optional<double> p10;
   std::optional<double> p90;
-  std::optional<std::string> hash;   ///< of what was computed, so that a fast wrong answer shows
-  std::optional<std::string> scene;  ///< it was measured on, where that is not the run's
+  std::optional<std::string> hash;   ///< of the computed data, so that a fast wrong answer shows
+  std::optional<std::string> scene;  ///< scene of the measurement, if it is not the run's scene
 };
 
 enum class Better { lower, higher };
 
-/// One thing that can be measured.
+/// One bench.
 struct BenchRow {
   std::string id;             ///< "jobs.empty"; unique
   std::string unit;           ///< "ms", "ratio", "ns/entity", "bytes"
-  std::optional<double> bar;  ///< what the value is held against; none: it only informs
+  std::optional<double> bar;  ///< limit that the value must keep; none: the value only informs
   Better better = Better::lower;
   std::function<Result<BenchValue>(BenchContext&)> run;
 };
 
 class BenchRegistry {
  public:
-  /// Asserts on an id that is there already.
+  /// Asserts that no row has the same id.
   void add(BenchRow row);
-  /// In the order of adding.
+  /// All rows, in the order of adding.
   [[nodiscard]] const std::vector<BenchRow>& rows() const { return rows_; }
   /// Rows whose id is a name or starts with a name and a dot, in the order of adding, each once. A name that chooses
   /// nothing is a usage error.

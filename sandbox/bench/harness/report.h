@@ -15,7 +15,7 @@ struct MeasuredRow {
   BenchValue value;
 };
 
-/// One line for people: id, value, unit, bar.
+/// One readable line: id, value, unit, bar.
 [[nodiscard]] std::string bench_line(const MeasuredRow& measured);
 /// The `bench --json` text (schema version 1).
 [[nodiscard]] std::string bench_json(const RunDescription& run, std::span<const MeasuredRow> rows);

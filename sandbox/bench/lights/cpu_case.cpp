@@ -20,8 +20,8 @@ namespace gloam::bench {
 namespace {
 
 constexpr std::size_t kMoments = 4;
-constexpr double kTurn = 0.01;  // radians a frame
-constexpr double kMove = 0.05;  // metres a frame
+constexpr double kTurn = 0.01;  // radians per frame
+constexpr double kMove = 0.05;  // metres per frame
 constexpr float kFov = 1.0471975512f;
 constexpr ViewId kView{0};
 

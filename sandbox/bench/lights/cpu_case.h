@@ -16,7 +16,8 @@
 
 namespace gloam::bench {
 
-/// Lights before a camera of 60°, 1 to 100 m away, half of them points, half spots, in several archetypes.
+/// Lights in front of a camera with a field of view of 60°, 1 to 100 m away, half of them point and half spot lights,
+/// in several archetypes.
 struct LightCpuScene {
   std::uint32_t lights = 1024;
   std::uint32_t width = 3840;
@@ -30,16 +31,18 @@ class LightCpuCase {
  public:
   explicit LightCpuCase(const LightCpuScene& scene);
 
-  /// "rect", "row_interval", "cone"; "256" … "4096".
+  /// Sets a knob of the module lights, which must exist: "lights.tile_bound" ("rect", "row_interval", "cone") or
+  /// "lights.z_bins" ("256" … "4096").
   void set_knob(const char* name, const char* value);
-  /// Moves lights and camera. What is drawn repeats, so that hashes do too.
+  /// Moves lights and camera to the next pose of a repeating sequence. Every case has the same poses, so that hashes
+  /// repeat.
   void move();
-  /// All light systems: world and view stage.
+  /// Runs all light systems: world and view stage.
   void run(JobExecutor& executor);
 
   [[nodiscard]] std::size_t bytes_written() const;
   [[nodiscard]] double lights_per_tile() const;
-  /// Of masks and zBins.
+  /// Hash of tile masks and zBins.
   [[nodiscard]] std::uint64_t hash() const;
 
  private:

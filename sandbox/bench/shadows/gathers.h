@@ -8,11 +8,11 @@
 
 namespace gloam {
 
-/// Name of the view that draws the bare gathers of one local light's filter, and of the pass that does.
+/// Name of the visualizer, and of its pass, that does only the gathers of one local light's filter.
 inline constexpr const char* kShadowGathersView = "shadow_gathers";
 
-/// A module of benches: with the view shadow_gathers:LIGHT it adds two passes to a frame. The first finds out where the
-/// contact-hardening filter gathers at each pixel, the second ("shadow_gathers") gathers there and does nothing else.
+/// Makes a module for benches. With the visualizer shadow_gathers:LIGHT it adds two passes to a frame. The first
+/// computes where the contact-hardening filter gathers at each pixel; the second ("shadow_gathers") only gathers there.
 [[nodiscard]] std::unique_ptr<Module> make_shadow_gathers_module();
 
 }  // namespace gloam

@@ -10,7 +10,7 @@
 
 namespace gloam {
 
-/// A way to have shadows.
+/// Knob values for one way to compute shadows.
 struct ShadowVariant {
   const char* mode;            ///< shadows.mode
   const char* classify;        ///< shadows.classify
@@ -21,8 +21,8 @@ inline constexpr ShadowVariant kUnclassified{"deferred", "off"};
 inline constexpr ShadowVariant kClassified{"deferred", "on"};
 inline constexpr ShadowVariant kWithCloseups{"deferred", "on", "8"};
 
-/// Draws by a variant until buffers have grown to what it needs; the last frame, which is never the first one after a
-/// change of knobs. Fails when they do not.
+/// Draws with a variant until buffers have grown enough that every tile has room. Returns the last frame, which is
+/// never the first one after a change of knobs. ErrorKind::failed if tiles still have no room after ten frames.
 [[nodiscard]] Result<FrameSample> draw_settled(ShadowCase& shadows, const ShadowVariant& variant);
 
 }  // namespace gloam

@@ -5,10 +5,10 @@
 #include "shaders/common/math.glsl"
 #include "shaders/shadows/maps/map_shared.h"
 
-// One face of the atlas in its square of the picture: white near the light, dark at the end of its reach, blue where
-// nothing lies.
+// Visualizer shadow_atlas: draws one face into its square of the picture. White near the light, dark at the end of its
+// range, blue where the map is empty. Border: orange if drawn in this frame, else green.
 
-layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture does not encode sRGB by itself
+layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture's format does not encode sRGB
 
 layout(push_constant, scalar) uniform Push { AtlasFaceConstants face; };
 layout(set = 0, binding = 0) uniform sampler2D atlas;

@@ -9,12 +9,12 @@
 #include "shaders/render/view_api.glsl"
 #include "shaders/shadows/shadows_api.glsl"
 
-// How far drawn visibilities are from traced ones: mean of the absolute differences over the traced lights that reach
+// Visualizer error: the mean absolute difference between drawn and traced visibility, over the traced lights that reach
 // the surface.
 
-layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture does not encode sRGB by itself
+layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture's format does not encode sRGB
 
-const float kWhite = 0.5;  // a difference that is shown white
+const float kWhite = 0.5;  // difference that is shown white
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -26,12 +26,12 @@ layout(set = 0, binding = 5) uniform sampler2D light_texels;
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_difference;
 
-// Sum and count.
+// x: sum of the differences; y: their number.
 vec2 local_differences(ShadowReceiver r) {
   vec2 sum = vec2(0.0);
   for (uint i = 0u; i < lights.local_count; ++i) {
     LocalLight light = fetch_light(light_texels, i);
-    light.color = vec3(1.0);  // where it reaches counts, not its strength
+    light.color = vec3(1.0);  // only the light's reach matters, not its strength
     vec3 to_light;
     float layer = texelFetch(shadow_rows, ivec2(6, i), 0).z;
     bool counts = layer >= 0.0 && local_illuminance(light, r.position, to_light).x > 0.0;

@@ -8,23 +8,24 @@
 #include "shaders/lights/light_views_api.glsl"
 #include "shaders/shadows/debug/final_list_views.glsl"
 
-// What each tile's final list holds: how many lights, or how many slots of visibility and, where there are none, why.
+// Visualizers lights_final and visibility_slots: how many lights, or how many visibility slots, each tile's final list
+// holds; without slots, why there are none.
 
 layout(constant_id = 2) const uint kSlots = 0u;  // 1: slots
 
 layout(push_constant, scalar) uniform Push { uint directional_count; };
 layout(set = 0, binding = 5) uniform usampler2D tile_lists;
 
-const float kMostSlots = 10.0;  // that colours tell apart
+const float kMostSlots = 10.0;  // most slots that colours distinguish
 
-// Entries of a run that have a slot.
+// Number of entries of a run with a visibility slot.
 uint slots_of(uint first, uint count) {
   uint slots = 0u;
   for (uint i = 0u; i < count; ++i) slots += uint(entry_slot(final_entries[first + i]) < GLOAM_NO_ROOM);
   return slots;
 }
 
-// Lights that the tile's early list holds, directional ones included.
+// Number of lights in the tile's early list, directional lights included.
 uint early_count(uvec2 pixel) {
   if (!has_surface(pixel)) return 0u;
   return directional_count +

@@ -6,11 +6,11 @@
 #include "shaders/lights/one_light_view_api.glsl"
 #include "shaders/shadows/debug/final_list_views.glsl"
 
-// What became of one light in each tile whose early list holds it: lit as a whole, a slot (as bright as the pixel's
-// visibility), or left out. Loud where it reaches a pixel whose early list does not hold it.
+// Visualizer light_list with final lists: the result of one light in each tile whose early list holds it. Lit as a
+// whole, a visibility slot (as bright as the pixel's visibility), or left out. Pixels that the light reaches although
+// their tile's early list does not hold it get a loud colour.
 
-// Whether the pixel's tile looks at the light before shadows are known; directional lights are looked at wherever there
-// is a surface.
+// Whether the tile's early list holds the light. A directional light counts wherever there is a surface.
 bool is_early(uvec2 pixel) {
   if (!has_surface(pixel)) return false;
   return shown_directional != 0u || (kEarlyLists != 0u && list_holds(pixel));

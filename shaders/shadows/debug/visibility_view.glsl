@@ -3,8 +3,8 @@
 #ifndef GLOAM_SHADERS_SHADOWS_SHADOW_VISIBILITY_VIEW_GLSL
 #define GLOAM_SHADERS_SHADOWS_SHADOW_VISIBILITY_VIEW_GLSL
 
-// How much of one light each pixel's surface sees: black nothing, white all of it, blue where the light does not reach.
-// By shadow maps, or with GLOAM_FINAL_LISTS_BINDING by what the tile's final list holds.
+// Visualizer shadow: the visibility of one light at each pixel. Black: unlit, white: fully lit, blue: the light does
+// not reach the pixel. Evaluated from shadow maps, or, with GLOAM_FINAL_LISTS_BINDING, read from the tile's final list.
 
 #define GLOAM_SHADOWS_BINDING 6
 #include "shaders/lights/lights_api.glsl"
@@ -15,10 +15,10 @@
 #ifdef GLOAM_FINAL_LISTS_BINDING
 #include "shaders/shadows/final_lists/entry.glsl"
 
-layout(constant_id = 1) const uint kFallback = 0u;  // 1: there may be tiles without a final list
+layout(constant_id = 1) const uint kFallback = 0u;  // 1: there may be fallback tiles
 #endif
 
-layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture does not encode sRGB by itself
+layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture's format does not encode sRGB
 
 layout(push_constant, scalar) uniform Push { ShownLightConstants shown; };
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
@@ -49,7 +49,7 @@ void main() {
   r.subsurface = texelFetch(base_color_image, pixel, 0).a > 0.5;
   bool directional = shown.directional != 0u;
   LocalLight local = fetch_light(light_texels, directional ? 0u : shown.light);
-  local.color = vec3(1.0);  // where it reaches counts, not its strength
+  local.color = vec3(1.0);  // only the light's reach matters, not its strength
   vec3 to_light;
   bool reaches = directional || local_illuminance(local, r.position, to_light).x > 0.0;
   vec3 light_vector = directional ? lights.directional[directional ? shown.light : 0u].direction : local.position;

@@ -5,18 +5,18 @@
 
 #include "shaders/shadows/filter/taps.glsl"
 
-// Where blockers can be that hide part of the light from a receiver: a square round it as wide as the penumbra of the
-// nearest thing in it.
+// Search region: a square around a receiver that holds all its possible blockers. It is as wide as the penumbra of the
+// nearest surface in it.
 struct SearchRegion {
   float width;     // texels of mip 0
-  float nearest;   // depth; not less than the nearest in the region
-  float farthest;  // not more than the farthest in the region; 0: unknown
+  float nearest;   // at least the nearest depth in the region
+  float farthest;  // at most the farthest depth in the region; 0: unknown
 };
 
 float nearest_of(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 float farthest_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
-// Nearest and farthest depth of the four texels round a corner in the pyramid, which is in texels of its level 0.
+// Nearest and farthest depth of the four texels around a corner of the pyramid, in texels of its level 0.
 float gather_nearest(vec2 corner) {
   return nearest_of(textureGather(shadow_pyramid, corner * shadow_texel_size() * vec2(4.0, 2.0)));
 }
@@ -24,7 +24,7 @@ float gather_farthest(vec2 corner) {
   return farthest_of(textureGather(shadow_pyramid, corner * shadow_texel_size() * vec2(4.0, 2.0) + vec2(0.0, 0.5)));
 }
 
-// Nearest and farthest depth of texels [low, high] of a face, from its pyramid; whatever is beyond it is left out.
+// Nearest and farthest depth of texels [low, high] of a face, from its pyramid. Texels beyond the face are ignored.
 float nearest_in_face(vec2 origin, float size, vec2 low, vec2 high, out float farthest) {
   low = clamp(low, vec2(0.0), vec2(size)) * 0.25;
   high = clamp(high, vec2(0.0), vec2(size)) * 0.25;
@@ -32,7 +32,7 @@ float nearest_in_face(vec2 origin, float size, vec2 low, vec2 high, out float fa
   float side = max(high.x - low.x, high.y - low.y);
   int level = clamp(ceil_log2(max(side / 3.0, 1.0)), 0, last);
   MipSquare square = mip_square(origin * 0.25, size * 0.25, level, shadow_block.atlas_size * 0.25);
-  // Four texels a side hold what is three of them wide; in the coarsest level two are all there is.
+  // Four by four texels hold a square three texels wide at any position; the coarsest level has only two by two.
   vec2 first = floor(low / square.texel) + 1.0;
   float nearest = 0.0;
   farthest = 1.0;
@@ -46,8 +46,8 @@ float nearest_in_face(vec2 origin, float size, vec2 low, vec2 high, out float fa
 
 float penumbra_width(ShadowPoint p, float blocker) { return clamp(p.scale * (blocker - p.depth), 0.0, p.size); }
 
-// The pyramid's level whose texel is at least this wide; there, two by two texels hold a square of that width round any
-// point.
+// The finest pyramid level with texels at least this wide. Two by two of its texels hold a square of that width around
+// any point.
 int pyramid_level(float width, int last) {
   return clamp(ceil_log2(max(width, 1.0)) - GLOAM_SHADOW_PYRAMID_MIP, 0, last);
 }
@@ -59,16 +59,17 @@ vec2 pyramid_corner(ShadowPoint p, int level) {
 }
 
 #ifdef GLOAM_SHADOWS_CROSSING
-// Whether another face of a cube, whose nearest depth is this, may hold anything between the emitter and a receiver of
-// `depth` that is `off` texels from that face's border. What lies at the tangent t ≥ 1 has t times its depth in the
-// receiver's own face, and the cone (SearchCone) begins at depth + 2 (t − tangent of the receiver) / (scale ·
-// to_tangent) there: if not at the border, then nowhere.
+// Whether another cube face, with this nearest depth, may hold a blocker between the emitter and a receiver of `depth`,
+// which is `off` texels from the border with that face. A surface of that face at the tangent t ≥ 1 has t times its
+// depth in the receiver's own face. There the cone (SearchCone) begins at depth + 2 (t − tangent of the receiver) /
+// (scale · to_tangent). Both are linear in t: the surface may block only if its depth rises faster than the cone, or if
+// it is in the cone at the border already.
 bool may_block_from_other_face(float nearest, float depth, float off, float scale, float to_tangent) {
   float a_texel = 2.0 / max(scale, 1e-6);
   return nearest * to_tangent > a_texel || nearest > depth + a_texel * max(off - 4.0, 0.0);
 }
 
-// Texels from a place in a face of a cube to the border with another face; far where they have none.
+// Texels from a point in cube face `own` to the border with another face; 1e9 when they share no border.
 float texels_to_face(int own, int face, vec2 at, float size, float to_tangent) {
   mat3 axes = cube_face_axes(own);
   vec3 toward = cube_face_axes(face)[2] * axes;
@@ -76,8 +77,9 @@ float texels_to_face(int own, int face, vec2 at, float size, float to_tangent) {
   return toward.z == 0.0 ? 1.0 / to_tangent - along : 1e9;
 }
 
-// One face of a cube, looked at whole. ahead: how far it looks the receiver's way, 1, 0 or -1; along: how far the
-// receiver is off the middle of its own face toward this one, texels.
+// Takes one whole cube face into account. held: its nearest depth. ahead: 1 for the receiver's own face, 0 for a
+// neighbour, −1 for the opposite face. along: offset of the receiver from the middle of its own face toward this one,
+// texels.
 void look_at_face(ShadowPoint p, float held, float ahead, float along, float to_tangent, inout float nearest,
                   inout bool others) {
   bool other = ahead <= 0.0 && may_block_from_other_face(held, p.depth, ahead == 0.0 ? 1.0 / to_tangent - along : 1e9,
@@ -86,8 +88,8 @@ void look_at_face(ShadowPoint p, float held, float ahead, float along, float to_
   nearest = max(nearest, ahead > 0.0 ? held : other ? 2.0 * held : 0.0);
 }
 
-// Nearest depth of all that a cube holds: any face may see what another holds within its field of view twice over.
-// others: some of it in other faces than the receiver's own.
+// Bound on the nearest depth of all faces that may hold blockers. Depths of other faces count twice, which covers
+// tangents up to 2 in the receiver's own face. others: a face other than the receiver's own may hold blockers.
 float nearest_of_cube(ShadowPoint p, mat3 own, float to_tangent, out bool others) {
   vec2 off = p.at - 0.5 * p.size;
   vec3 along = own[0] * off.x - own[1] * off.y, ahead = own[2], forward = light_faces.along_nearest,
@@ -103,7 +105,8 @@ float nearest_of_cube(ShadowPoint p, mat3 own, float to_tangent, out bool others
   return nearest;
 }
 
-// A cube's region, from the pyramid's texels. across: the region leaves the face.
+// Search region in a cube, from texels of the pyramid. across: set to true if the region leaves the receiver's face;
+// only then the returned region is final.
 SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
   const int taps = 9;
   int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP;
@@ -115,7 +118,7 @@ SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
   across = p.face >= 0 && others && leaves_cube_face(p, 0.5 * region.width);
   int level = pyramid_level(0.5 * region.width, last), tap = 0;
   float nearest = 0.0;
-  // Nine texels of the square that this gives, then, if it leaves the face, of the smaller square that these give.
+  // First nine texels of that square. They give a smaller square; if it still leaves the face, then nine texels of it.
   for (int left = 2 * taps; across && left > 0; --left) {
     vec2 tangent = (p.at + 0.5 * region.width * vec2(tap % 3 - 1, tap / 3 - 1) - 0.5 * p.size) * to_tangent;
     vec3 v = own * vec3(tangent.x, -tangent.y, 1.0);
@@ -138,7 +141,8 @@ SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
 }
 #endif
 
-// From coarse to fine: the nearest thing in a square that is too large gives a smaller one that is still large enough.
+// Finds the search region from coarse to fine: the nearest depth in a square that is too large gives a smaller square
+// that still holds all blockers.
 SearchRegion find_region(ShadowPoint p) {
   int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
   bool across = false;
@@ -160,8 +164,8 @@ SearchRegion find_region(ShadowPoint p) {
 }
 
 struct Blockers {
-  float count;  // texels in the cone; whole_plane: weighted, (N − 1)² when every texel blocks
-  float depth;  // of their mean distance; that of the receiver when there are none
+  float count;  // blocking texels in the cone; with whole_plane: their weights, (N − 1)² if every texel blocks
+  float depth;  // depth at the mean distance of the blockers; depth of the receiver if none blocks
 };
 
 Blockers blockers_of(ShadowPoint p, float count, float sum) {
@@ -169,40 +173,40 @@ Blockers blockers_of(ShadowPoint p, float count, float sum) {
   return Blockers(count, count <= 1e-6 ? p.depth : p.orthographic ? mean : 1.0 / mean);
 }
 
-// Sums of the rows of a gather.
+// Sums over the two rows of a gather.
 struct BlockerSums {
-  vec2 count;  // lower, upper
+  vec2 count;  // lower row, upper row
   vec2 distance;
 };
 
-// Half the width of a search in texels: what is narrower would miss an edge for want of texels.
+// Least half width of a search, in texels. A narrower one would miss edges between its few texels.
 const float kLeastHalfWidth = 1.5;
 
-// What can hide part of the emitter from the receiver lies in the cone between them: the farther from the receiver's
-// texel, the nearer to the light. In texels of a mip; reach: how much farther out texels still count.
+// Blockers lie in the cone between receiver and emitter: the farther a texel is from the receiver's texel, the nearer
+// to the light a blocker in it must be. Offsets are in texels of a mip. reach: offset up to which the least depth of a
+// blocker is still `apex`.
 struct SearchCone {
-  float apex;  // depth
+  float apex;  // depth of the receiver
   float depth_per_texel;
   float reach;
-  float least;  // of any depth
+  float least;  // least depth of a blocker
 };
 
-// half_width: of the search region, texels of the mip. whole_plane: no cone, and the receiver's plane counts as far as
-// the kernel goes, for a kernel that is as wide as it is whatever the light; else blockers are nearer to the light than
-// the receiver.
+// half_width: of the search region, texels of the mip. whole_plane: no cone; all texels of the kernel are compared with
+// the receiver plane, for kernels of a fixed width. Otherwise blockers must be nearer to the light than the receiver.
 SearchCone make_cone(ShadowPoint p, Kernel k, float half_width, bool whole_plane) {
   if (whole_plane) return SearchCone(0.0, 0.0, 0.0, p.least);
   return SearchCone(p.depth, 2.0 * k.square.texel / max(p.scale, 1e-6), 0.5 + max(kLeastHalfWidth - half_width, 0.0),
                     max(k.least, p.threshold));
 }
 
-// Least depths at distances in texels.
+// Least depths of blockers at these offsets, in texels.
 vec4 cone_depths(SearchCone cone, vec4 off) {
   return max(cone.apex + (abs(off) - cone.reach) * cone.depth_per_texel, vec4(cone.least));
 }
 
-// threshold: of each texel. rows, columns: least depths of the cone, lower and upper, left and right. left, right:
-// shares of the columns.
+// Adds the blockers of one gather. threshold: of each texel. rows: least depths of the cone in the lower and upper row;
+// columns: in the left and right column. left, right: weights of the columns.
 void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, vec4 threshold, vec2 rows, vec2 columns, float left,
                   float right) {
   vec4 depth = textureGather(shadow_atlas, at);
@@ -218,7 +222,8 @@ void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, vec4 threshold
   sums.distance.y = blocks.w ? sums.distance.y + left * distance.w : sums.distance.y;
 }
 
-// Two gathers beside each other. rows: least depths of the lower and the upper texel row, shares: of what they add.
+// Two gathers side by side. rows: least depths of the lower and upper texel row; shares: weights of these rows; ends:
+// weights of the outermost columns.
 void add_blocker_row(inout vec2 sums, ShadowPoint p, vec2 u, float v, vec2 columns, float row, vec4 corner, vec2 rows,
                      vec2 left, vec2 right, vec2 shares, vec2 ends) {
   BlockerSums s = BlockerSums(vec2(0.0), vec2(0.0));
@@ -227,9 +232,9 @@ void add_blocker_row(inout vec2 sums, ShadowPoint p, vec2 u, float v, vec2 colum
   sums += vec2(dot(s.count, shares), dot(s.distance, shares));
 }
 
-// Blockers of 8×8 texels, see find_blockers: first the inner 4×4, then those beside them, above and below, in the
-// corners. What a cone of half_width reaches is often in the inner ones alone. Bilinear edges are for the kernel that
-// is as wide as it is; a cone has its own.
+// Finds blockers among 8×8 texels, as find_blockers() does: first in the inner 4×4, then beside them, above and below
+// them, and in the corners. A cone of half_width often reaches only the inner texels. Only whole_plane kernels have
+// bilinear edges; a cone limits its texels by depth.
 Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
@@ -240,12 +245,12 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
   vec4 lower = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
   vec2 first = whole_plane ? 1.0 - k.fraction : vec2(1.0), last = whole_plane ? k.fraction : vec2(1.0);
   vec2 beyond = min(k.fraction, 1.0 - k.fraction),
-       sums = vec2(0.0);  // other texels' middles are at least 2 + beyond away
+       sums = vec2(0.0);  // the middles of outer texels are at least 2 + beyond away
   bool inner_only = !whole_plane && kFullPenumbra == 0u && half_width <= kLeastHalfWidth + min(beyond.x, beyond.y);
   int turn = 0, turns = inner_only ? 1 : 4;
   do {
     bool outer_x = (turn & 1) != 0, outer_y = turn > 1;
-    sums = turn == 0 ? vec2(0.0) : sums;  // see never()
+    sums = turn == 0 ? vec2(0.0) : sums;  // reset, as the body may run again: see never()
     vec2 u = outer_x ? g.u.xw : g.u.yz, columns = outer_x ? g.column.xw : g.column.yz, v = outer_y ? g.v.xw : g.v.yz;
     vec2 rows = outer_y ? g.row.xw : g.row.yz, ends = outer_x ? vec2(first.x, last.x) : vec2(1.0);
     vec2 lefts = outer_x ? left.xw : left.yz, rights = outer_x ? right.xw : right.yz;
@@ -259,7 +264,7 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
 }
 
 #ifndef GLOAM_SHADOWS_STANDARD
-// Blockers of N × N texels, (N / 2)² gathers.
+// Finds blockers among N × N texels, with (N / 2)² gathers. Parameters: see make_cone().
 Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, texels);
   SearchCone cone = make_cone(p, k, half_width, whole_plane);
@@ -287,7 +292,7 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, flo
 #endif
 
 #ifdef GLOAM_SHADOWS_CROSSING
-// The same where other faces of a cube have part in it: texel by texel.
+// The same for kernels that leave the receiver's cube face: texel by texel.
 Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_plane, float half_width) {
   Kernel k = make_kernel(p, mip, texels);
   SearchCone cone = make_cone(p, k, half_width, whole_plane);
@@ -327,7 +332,7 @@ Blockers box_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, floa
   return found;
 }
 
-// The mip whose kernel holds a search region.
+// The finest mip whose kernel holds the search region.
 int region_mip(ShadowPoint p, SearchRegion region) {
   return clamp(ceil_log2(max(region.width / float(kKernel - 1), 1.0)), 0, coarsest_mip(p, kKernel));
 }

@@ -6,10 +6,12 @@
 #include "shaders/shadows/filter/blocker_search.glsl"
 #include "shaders/shadows/filter/kernels.glsl"
 
-// Contact-hardening filter (Thief §1.3.3): two mips, in each of which the penumbra is 4 to 8 and 2 to 4 texels wide.
+// The contact-hardening filter (Thief §1.3.3). It blends two mips, in which the penumbra is 4 to 8 and 2 to 4 texels
+// wide.
 
-// What a kernel adds up to when its middle is texel column 3 (x), and when it is column 4 (y); between, by the
-// fraction.
+// Adds the blocked weights of one gather. sums: blocked weight of the kernel whose middle is texel column 3 (x), and of
+// the kernel whose middle is column 4 (y); the result is interpolated between both. at_3, at_4: weights of the four
+// texels in the first and in the second kernel.
 void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, float least, vec4 at_3, vec4 at_4) {
   vec4 depth = textureGather(shadow_atlas, at);
   bvec4 blocked = is_nearer(depth, threshold + corner, least);
@@ -20,8 +22,8 @@ void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, float le
   sums = blocked.w ? sums + share.w * vec2(at_3.w, at_4.w) : sums;
 }
 
-// Four gathers beside each other. `upper` and `lower` texel row: weights of the cells 0, 1, 2, 3 columns from the
-// middle.
+// Four gathers side by side. upper, lower: weights of the upper and lower texel row, for the cells 0, 1, 2, 3 columns
+// from the middle.
 void add_gathers(inout vec2 sums, Gathers8 g, float v, float row, float least, vec4 upper, vec4 lower) {
   add_gather(sums, vec2(g.u.x, v), g.column.x + row, g.corner, least, vec4(lower.wz, upper.zw),
              vec4(0.0, lower.w, upper.w, 0.0));
@@ -33,7 +35,8 @@ void add_gathers(inout vec2 sums, Gathers8 g, float v, float row, float least, v
              vec4(lower.zw, upper.wz));
 }
 
-// Blocked share under the 8×8 kernel. Rows come in pairs that mirror each other about the middle, from the outside in.
+// Blocked share of the 8×8 kernel. Gather rows come in pairs that mirror each other about the middle: the outer pair
+// first.
 float blocked_share_8(ShadowPoint p, int mip, float width) {
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
@@ -47,20 +50,20 @@ float blocked_share_8(ShadowPoint p, int mip, float width) {
   return mix(sums.x, sums.y, k.fraction.x);
 }
 
-// Share of a texel that a disc or square covers, by the distance of their middles. All in texels.
+// Share of a texel that the disc (or square) covers, from the offset between their middles. All in texels.
 vec4 covered(float radius, vec4 x, vec4 y) {
   if (kKernelShape != 0u) return clamp(radius + 0.5 - abs(x), 0.0, 1.0) * clamp(radius + 0.5 - abs(y), 0.0, 1.0);
   return clamp(radius + 0.5 - sqrt(x * x + y * y), 0.0, 1.0);
 }
 
-// Radius of a kernel in texels of its mip. From half a texel, below which it would miss all texels, to what N texels
-// hold.
+// Radius of a kernel in texels of its mip: at least half a texel, as a smaller one could miss all texels, and at most
+// the radius that N texels hold.
 float covering_radius(Kernel k, float width, int texels) {
   return clamp(0.5 * width / k.square.texel, 0.5, 0.5 * float(texels - 1));
 }
 
 #ifndef GLOAM_SHADOWS_STANDARD
-// Blocked share under N × N texels, each weighted by what the disc (or square) covers of it.
+// Blocked share of N × N texels, each weighted by the part of it that the disc (or square) covers.
 float blocked_share_any(ShadowPoint p, int mip, float width, int texels) {
   Kernel k = make_kernel(p, mip, texels);
   float radius = covering_radius(k, width, texels);
@@ -80,32 +83,32 @@ float blocked_share_any(ShadowPoint p, int mip, float width, int texels) {
 }
 #endif
 
-// The two mips that a penumbra of some width is filtered in.
+// The two mips in which a penumbra of a given width is filtered.
 struct FilterMips {
   int fine;
   int coarse;
-  float blend;  // share of the coarse one
+  float blend;  // weight of the coarse one
 };
 
 FilterMips filter_mips(ShadowPoint p, float width) {
   int last = coarsest_mip(p, kKernel);
   float level =
-      max(2.0 * width / float(kKernel), 1.0);  // the penumbra is half as wide as the kernel in mip log2(level)
+      max(2.0 * width / float(kKernel), 1.0);  // in mip log2(level) the penumbra is half as wide as the kernel
   int fine = min(floor_log2(level), last);
   float blend = fine < last ? clamp(log2(level * power_of_two(-fine)), 0.0, 1.0) : 0.0;
   return FilterMips(fine, min(fine + 1, last), blend);
 }
 
 #ifdef GLOAM_SHADOWS_CROSSING
-// What kernels that other faces of a cube have part in add to the blocked share: texel by texel, first in the fine mip,
-// if that leaves the face, then in the coarse one, which does if the fine one does.
+// Blocked share of the kernels that leave the receiver's cube face, texel by texel. First the kernel in the fine mip,
+// if it leaves the face, then the one in the coarse mip, which leaves the face whenever the fine one does.
 float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
   const int texels = kKernel * kKernel;
   int i = leaves_cube_face(p, kernel_reach(mips.fine, kKernel)) ? 0 : texels;
   int end = mips.blend > 0.0 ? 2 * texels : texels;
   float share = 0.0, all = 0.0, blocked = 0.0;
   bool across = leaves_cube_face(p, kernel_reach(mips.coarse, kKernel));
-  while (across && i < end) {  // not do … while: see never()
+  while (across && i < end) {  // not do … while: a repeated body would change the sums, see never()
     bool fine = i < texels;
     int mip = fine ? mips.fine : mips.coarse;
     Kernel k = make_kernel(p, mip, kKernel);
@@ -129,14 +132,14 @@ float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
 }
 #endif
 
-// Visibility under a penumbra of this width, texels of mip 0.
+// Filtered visibility for a penumbra of this width, in texels of mip 0.
 float filtered_visibility(ShadowPoint p, float width) {
   FilterMips mips = filter_mips(p, width);
   float share = 0.0;
   int turns = mips.blend > 0.0 || kFullPenumbra != 0u ? 2 : 1;
   int turn = 0;
   do {
-    share = turn == 0 ? 0.0 : share;  // see never()
+    share = turn == 0 ? 0.0 : share;  // reset, as the body may run again: see never()
     int mip = turn == 0 ? mips.fine : mips.coarse;
     float part = turn == 0 ? 1.0 - mips.blend : mips.blend;
 #ifdef GLOAM_SHADOWS_STANDARD
@@ -152,8 +155,8 @@ float filtered_visibility(ShadowPoint p, float width) {
   return 1.0 - share;
 }
 
-// Whether all of a receiver's visibility is known before the filter: then it is `visibility`, else the filter's for a
-// penumbra of `width` texels of mip 0.
+// Whether a receiver's visibility is known without the filter. If so, it is `visibility`; otherwise
+// filtered_visibility() gives it, for a penumbra of `width` texels of mip 0.
 bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
   SearchRegion region = SearchRegion(0.0, 0.0, 0.0);
   if (p.live) do {

@@ -3,17 +3,17 @@
 #ifndef GLOAM_SHADERS_SHADOWS_COOKIES_GLSL
 #define GLOAM_SHADERS_SHADOWS_COOKIES_GLSL
 
-// What lights project. Included by shadows_api.glsl and cookies_api.glsl, which name shadow_block, shadow_rows and
+// Evaluates cookies. Included by shadows_api.glsl and cookies_api.glsl, which declare shadow_block, shadow_rows and
 // shadow_cookies.
 
-// Where a spot's face looks; mirrored nodes turn it round.
+// The direction in which a spot shines. The axes of a mirrored node are left-handed, so the cross product is negated.
 vec3 spot_forward(uint light, vec3 right, vec3 up) {
   vec3 forward = cross(up, right);
   return texelFetch(shadow_rows, ivec2(6, light), 0).w > 0.5 ? -forward : forward;
 }
 
-// What a spot light's cookie leaves of its light at a position: white without one; beyond its square the colors of its
-// border.
+// The factor by which a spot light's cookie filters its light at a position: white without a cookie. Positions beyond
+// its square get the colour of its border.
 vec3 cookie_color(uint light, vec3 light_position, vec3 position) {
   vec2 cookie = texelFetch(shadow_rows, ivec2(6, light), 0).xy;  // layer, tangent
   vec3 color = vec3(1.0);

@@ -5,7 +5,7 @@
 
 #include "shaders/shadows/filter/contact_hardening.glsl"
 
-// What contact-hardening shadows are compared with. All read mip 0 only.
+// The filters that contact hardening is compared with. All read mip 0 only.
 
 // One comparison with the nearest texel.
 float hard_visibility(ShadowPoint p) {
@@ -19,7 +19,7 @@ float hard_visibility(ShadowPoint p) {
   return visibility;
 }
 
-// A box of N × N texels with bilinear edges, whatever the light.
+// A box of N × N texels with bilinear edges, the same for every light.
 float pcf_visibility(ShadowPoint p) {
   float visibility = 1.0;
   if (p.live) do {
@@ -29,7 +29,10 @@ float pcf_visibility(ShadowPoint p) {
   return visibility;
 }
 
-// N × N single fetches spread over a square of this width in texels. x: share of those that block, y: their mean depth.
+// N × N single fetches, spread over a square of `width` texels. Returns x: share of the fetches that block; y: depth at
+// the mean distance of the blockers (the receiver's depth if there are none). search: true for the blocker search,
+// which has equal weights and counts only blockers nearer to the light than the receiver; false for the filter, with
+// the filter's weights. across: texels may be in other cube faces.
 vec2 spread_taps(ShadowPoint p, float width, bool search, bool across) {
   Kernel k = make_kernel(p, 0, 2);
   float least = search ? max(k.least, p.threshold) : k.least;

@@ -3,21 +3,21 @@
 #ifndef GLOAM_SHADERS_SHADOWS_FILTER_KERNELS_GLSL
 #define GLOAM_SHADERS_SHADOWS_FILTER_KERNELS_GLSL
 
-// Weights of the 8×8 filter: 7×7 cells, each compared bilinearly, which makes 8×8 texels. They follow the penumbra's
-// width through a cubic Bézier over four kernels, from a point to as wide as the texels allow (Thief §1.3.3, after
-// Gruen 2010).
+// Weights of the 8×8 filter: 7×7 cells, each compared bilinearly, which takes 8×8 texels. The weights depend on the
+// penumbra's width through a cubic Bézier curve over four kernels, from a point to the widest that the texels allow
+// (Thief §1.3.3, after Gruen 2010).
 //
-// The kernels are a least-squares fit: at t = width / 8 texels, t from 0 to 1, the 49 weights shall be the shares of a
-// disc (or square) that lie in each cell, and the variance of the weights, plus that of a cell, plus that of where an
-// edge lies inside a texel of the map, that of the disc of this width: 1/12 texel² each for cell and texel. So the blur
-// that the texels add is not in the penumbra twice. Errors count by how much a width is used (0.25 to 1 through the two
-// mips, then below 0.25), those of the variance 60 times. Kernel 0 is a point, every kernel's sum is 1, weights stay
-// above −0.0035. The standard deviation is within 1.2 % of the disc's for 0.25 ≤ t ≤ 1, bars one texel wide leave ±
-// 0.001 (square: ± 0.016) at t = 0.5. The disc of width 8 at t = 1 does not fit into 7 cells, whose corners have to
-// make up for it; there the coarser mip has all the weight.
+// The kernels are a least-squares fit over t = width / 8 texels, 0 ≤ t ≤ 1. Targets: each of the 49 weights is the
+// share of a disc (or square) in its cell; and the variance of the disc is the sum of three variances, those of the
+// weights, of a cell, and of an edge's position inside a texel of the map (1/12 texel² for each of the latter two). So
+// the blur that texels add is not in the penumbra twice. Errors are weighted by how often a width is used (0.25 to 1 by
+// the two mips, then below 0.25), errors of the variance 60 times. Kernel 0 is a point, each kernel's sum is 1, and
+// weights stay above −0.0035. The standard deviation is within 1.2 % of the disc's for 0.25 ≤ t ≤ 1; bars one texel
+// wide give an error of ±0.001 (square: ±0.016) at t = 0.5. The disc of t = 1, 8 texels wide, does not fit into 7
+// cells, and the corner weights make up for that; there the coarser mip has all the weight.
 //
-// A kernel is symmetric to both axes and the diagonals: of cells (column, row), counted from the centre, it needs
-// a = (0,0) (1,0) (2,0) (3,0), b = (1,1) (2,1) (3,1) (2,2), c = (3,2) (3,3).
+// A kernel is symmetric about both axes and the diagonals. Of the cells (column, row), counted from the centre, it
+// stores a = (0,0) (1,0) (2,0) (3,0), b = (1,1) (2,1) (3,1) (2,2), c = (3,2) (3,3).
 
 struct FilterKernel {
   vec4 a;
@@ -25,7 +25,7 @@ struct FilterKernel {
   vec2 c;
 };
 
-// Rows of the kernel, from the middle out: weights of the cells 0, 1, 2, 3 columns from the centre.
+// Rows of the kernel, from the middle outwards: weights of the cells 0, 1, 2, 3 columns from the centre.
 struct FilterRows {
   vec4 row0;
   vec4 row1;
@@ -49,7 +49,7 @@ const FilterKernel kSquareKernels[3] =
                     FilterKernel(vec4(0.01376, 0.02660, -0.00107, 0.03152), vec4(-0.00014, 0.00072, 0.03128, 0.03411),
                                  vec2(0.03271, 0.02612)));
 
-// Weights of a penumbra that is t · 8 texels wide; t from 0 to 1. Their sum over the 49 cells is 1.
+// Weights for a penumbra of t · 8 texels, 0 ≤ t ≤ 1. They sum to 1 over the 49 cells.
 FilterRows filter_rows(float t, bool square) {
   float s = 1.0 - t;
   vec3 bezier = vec3(3.0 * s * s * t, 3.0 * s * t * t, t * t * t);

@@ -5,7 +5,7 @@
 
 #include "shaders/shadows/filter/probe_shared.h"
 
-// Evaluates the functions of shadows_api.glsl at points of a list, for tests.
+// Evaluates the functions of shadows_api.glsl at a list of points, for tests.
 
 #define GLOAM_SHADOWS_BINDING 2
 #define GLOAM_SHADOWS_PIXEL ivec2(gl_GlobalInvocationID.x, 0)

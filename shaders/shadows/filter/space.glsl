@@ -3,10 +3,11 @@
 #ifndef GLOAM_SHADERS_SHADOWS_SHADOW_SPACE_GLSL
 #define GLOAM_SHADERS_SHADOWS_SHADOW_SPACE_GLSL
 
-// A receiver as one face of a shadow map sees it. Included by shadows_api.glsl.
+// The receiver in the space of one face (ShadowPoint), for local and directional lights. Included by shadows_api.glsl.
 
-// A local light's faces, by the axis of its cube that they look along, or against: corners in the atlas, texels of mip
-// 0, and the nearest depth of all they hold. A spot has one, where a cube has its first.
+// The faces of a local light, grouped by the axis of the cube that they look along (along) or against (against).
+// along_x … against_y: corners in the atlas, texels of mip 0; component i is the face of axis i. along_nearest,
+// against_nearest: nearest depth of the whole face. A spot's only face is stored as the cube's first.
 struct LightFaces {
   vec3 along_x, along_y;
   vec3 against_x, against_y;
@@ -15,8 +16,8 @@ struct LightFaces {
 #endif
 };
 
-// Of the light that was asked about last: as a part of every ShadowPoint it would make pipelines as slow to build again
-// by half.
+// Faces of the light that was evaluated last. A global variable: as a member of ShadowPoint, it makes compiling
+// pipelines take 1.5 times as long.
 LightFaces light_faces;
 
 vec2 origin_of_face(int face) {
@@ -25,33 +26,32 @@ vec2 origin_of_face(int face) {
   return face < 2 ? vec2(x.x, y.x) : face < 4 ? vec2(x.y, y.y) : vec2(x.z, y.z);
 }
 
-// The plane through a receiver and its normal is an affine function of texel coordinates, in perspective faces too: 1 /
-// z is.
+// A receiver in the space of one face. Depth on the receiver plane is an affine function of texel coordinates, in
+// perspective faces too, because 1 / z is.
 struct ShadowPoint {
-  vec2 origin;      // of the face in the atlas, texels of mip 0
-  float size;       // of the face, texels
+  vec2 origin;      // corner of the face in the atlas, texels of mip 0
+  float size;       // side of the face, texels
   vec2 at;          // the receiver, texels of mip 0 from the face's corner
-  float depth;      // of the receiver, without bias
-  float threshold;  // with bias: what is nearer blocks. > 0
-  vec2 slope;       // of the receiver's plane, depth a texel of mip 0
+  float depth;      // depth of the receiver, without bias
+  float threshold;  // depth of the receiver with bias: nearer surfaces block; > 0
+  vec2 slope;       // depth per texel of mip 0 on the receiver plane
   float least;      // no tap's threshold is below this; > 0
   float scale;      // width of the penumbra in texels of mip 0 = scale · (depth of the blocker − depth)
   bool orthographic;
-  bool live;       // false: lit, whatever the map says
-  int face;        // of a cube; −1: no cube
-  float tan_half;  // of a cube
-  float horizon;   // share of the emitter that is on the surface's visible side: what lies below its own plane hides
-                   // nothing, and lights nothing
+  bool live;       // false: no map is read; the visibility is 1 before `horizon`
+  int face;        // cube face; −1: no cube
+  float tan_half;  // tangent of half the face's field of view, for cubes
+  float horizon;   // share of the emitter above the receiver plane; the part below gives no light
 };
 
 // A face's square at one mip, in texels of the atlas image.
 struct MipSquare {
   vec2 corner;
   float size;
-  float texel;  // of mip 0 a texel
+  float texel;  // texels of mip 0 per texel of this mip
 };
 
-// Exact, unlike exp2 and log2 of some devices. x > 0 and finite.
+// Exact, unlike exp2 and log2 on some devices. x: > 0 and finite.
 float power_of_two(int exponent) { return intBitsToFloat((exponent + 127) << 23); }
 int floor_log2(float x) { return (floatBitsToInt(x) >> 23) - 127; }
 int ceil_log2(float x) { return ((floatBitsToInt(x) + 0x7FFFFF) >> 23) - 127; }
@@ -62,40 +62,43 @@ MipSquare mip_square(vec2 origin, float size, int mip, float atlas_size) {
   return MipSquare(corner + origin * scale, size * scale, power_of_two(mip));
 }
 
-// Normals reach shaders in 16 bits a component: nearer to the horizon than this they do not tell which side the light
-// is on, and the surface counts as facing it.
+// Normals in the G-buffer have 16 bits per component. If the sine of the angle between light ray and surface is smaller
+// than this, the normal is too coarse to tell on which side of the surface the light is, and the surface counts as
+// facing the light.
 const float kFacingSine = 2e-4;
-// A receiver's plane is followed for no more than this many texels to where it recedes from the light: what lies
-// farther from the light than a receiver cannot hide the light from it, except through the width of a texel.
+// Where the receiver plane recedes from the light, taps follow it over at most this many texels. Surfaces farther from
+// the light than the receiver cannot block the light, except for errors of a texel's width.
 const float kRecedingTexels = 2.0;
-// Texel coordinates carry rounding of about this size, in texels.
+// Rounding error of texel coordinates, in texels.
 const float kTexelRounding = 1.0 / 64.0;
 
-// False; no compiler knows. `if (condition) do … while (never(p));`: software devices run what a plain `if` guards for
-// all threads and what `for (bool go = condition; go; go = false)` guards once more than needed; this they run once.
-// None of them jumps ahead: work that no thread needs costs one turn. Threads that have left a loop whose condition is
-// at its end run the turns of the others too, over what some of their variables were and others have become: only
-// bodies that give the same when they are run again may be in such loops.
+// Always false, but compilers cannot know that. It guards code as `if (condition) do … while (never(p));`. Software
+// devices execute the body of a plain `if` for all threads, whether the condition holds or not. They execute the body
+// of `for (bool go = condition; go; go = false)` once more than needed, and the body of this form exactly once. None of
+// the three forms skips the body if no thread needs it. A thread that has left a loop with its condition at the end
+// still executes the iterations that other threads need, and then some of its variables keep their old values while
+// others change. So the body of this loop must give the same result when it runs again.
 bool never(ShadowPoint p) { return p.size < 0.0; }
 
 float slope_per_texel(ShadowPoint p) { return abs(p.slope.x) + abs(p.slope.y); }
 
-// Share of a disc on one side of a line, at the distance u from its middle in radii; within 0.01 of 0.5 + (asin u + u
-// √(1 − u²)) / π.
+// Share of a disc on one side of a line at distance u from its centre, in radii; within 0.01 of 0.5 + (asin u + u √(1 −
+// u²)) / π.
 float disc_share(float u) {
   u = clamp(u, -1.0, 1.0);
   return 0.5 + u * (0.6366 - 0.1366 * u * u);
 }
 
-// Fills threshold, least and horizon; depth and slope are there. `facing_sine`: of the angle between the light's rays
-// and the surface, negative when it faces the light. emitter_sine: of half the emitter's angle. depth_per_m: depth a
-// metre toward the light.
+// Sets threshold, least and horizon, from depth, slope and live, which must be set. Clears slope if there is no usable
+// receiver plane, and live if the whole emitter is below the plane. facing_sine: sine of the angle between the light's
+// rays and the surface, negative when the surface faces the light. emitter_sine: sine of half the angle that the
+// emitter covers. depth_per_m: depth per metre toward the light.
 void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, float depth_per_m, bool subsurface) {
   float quantum = max(shadow_block.depth_quantum, abs(p.depth) * shadow_block.relative_quantum);
-  // The rasteriser's own bias is in the map already, but never finer than the map's format.
+  // Hardware bias is already in the map, but the threshold needs at least a step of the map's format.
   float bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * depth_per_m, quantum)
                            : shadow_block.depth_quantum;
-  // Where the surface's own plane cuts the emitter, the part above it decides.
+  // Where the receiver plane cuts the emitter, the part above the plane decides.
   bool toward = subsurface || kBias == 0u || facing_sine < max(emitter_sine, kFacingSine);
   p.horizon =
       kBias != 0u && p.live && !subsurface ? disc_share((kFacingSine - facing_sine) / max(emitter_sine, 1e-6)) : 1.0;
@@ -113,7 +116,7 @@ ShadowPoint no_shadow_point() {
 // Axes of a cube in the world, as columns.
 const mat3 kCube = mat3(GLOAM_CUBE_X, GLOAM_CUBE_Y, GLOAM_CUBE_Z);
 
-// Axes of a face in its cube: x, y, and where it looks.
+// Axes of a face in the cube's axes, as columns: x, y, forward.
 mat3 cube_face_axes(int face) {
   float sign = (face & 1) == 0 ? 1.0 : -1.0;
   int axis = face >> 1;
@@ -122,7 +125,7 @@ mat3 cube_face_axes(int face) {
   return mat3(cross(forward, up), up, forward);
 }
 
-// v: in the cube's axes.
+// The face that a direction falls on. v: in the cube's axes.
 int cube_face_of(vec3 v) {
   vec3 a = abs(v);
   if (a.x >= a.y && a.x >= a.z) return v.x >= 0.0 ? 0 : 1;
@@ -135,7 +138,7 @@ vec2 cube_face_origin(uint light, int face) {
   return (face & 1) == 0 ? two.xy : two.zw;
 }
 
-// What is the same for all receivers of a local light.
+// The values that all receivers of a local light share.
 struct LocalShadow {
   vec3 position;  // camera-relative
   vec4 first;     // kind, near, width, size
@@ -145,14 +148,14 @@ struct LocalShadow {
   LightFaces faces;
 };
 
-// Nearest depth of a whole face.
+// Nearest depth in a whole face, from the coarsest level of its pyramid.
 float nearest_of_face(vec2 origin, float size) {
   MipSquare square = mip_square(origin * 0.25, size * 0.25, floor_log2(size) - GLOAM_SHADOW_PYRAMID_MIP,
                                 shadow_block.atlas_size * 0.25);
   return texelFetch(shadow_pyramid, ivec2(square.corner), 0).x;
 }
 
-// What a spot has no faces for stays undefined; nobody looks at it.
+// For a spot, the components of the other five faces stay undefined and are never read.
 LightFaces fetch_faces(uint light, float size, bool cube) {
   LightFaces faces;
   int axis = 0;
@@ -203,7 +206,7 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   z = p.live ? z : 1.0;
   local = p.live ? local : vec3(0.0, 0.0, 1.0);
   vec2 tangent = local.xy / z;
-  float texel = 2.0 * right.w / first.w;  // tangent a texel
+  float texel = 2.0 * right.w / first.w;  // tangent per texel
   p.origin = origin_of_face(max(p.face, 0));
   p.size = first.w;
   p.tan_half = right.w;
@@ -215,8 +218,8 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   float distance = length(local);
   float along = abs(facing) < 1e-5 * distance ? (facing < 0.0 ? -1e-5 : 1e-5) * distance : facing;
   p.slope = vec2(normal.x, -normal.y) * (near * texel / along);
-  // A spot's emitter is a disc that faces forward, as the map does. A cube's is a sphere: off the axis the map shows
-  // its outline stretched along the radius; a round kernel can only be as large.
+  // A spot's emitter is a disc parallel to its map. A cube's emitter is a sphere: off the axis, the map stretches its
+  // outline along the radius, and a round kernel can only have the same area.
   if (cube) p.scale *= sqrt(distance / z);
   set_threshold(p, facing / distance, 0.5 * max(first.z, 0.0) / distance, p.depth / z, r.subsurface);
   return p;
@@ -237,17 +240,17 @@ ShadowCascade fetch_cascade(int row) {
                        texelFetch(shadow_rows, ivec2(2, row), 0), d.xy, d.z, d.w, e.x, e.y, vec2(0.0));
 }
 
-// Of a directional light: CascadeRow's cascade_count, penumbra_m_per_m, traced_layer, brightest.
+// x … w: CascadeRow's cascade_count, penumbra_m_per_m, traced_layer, brightest.
 vec4 fetch_sun(uint light) { return texelFetch(shadow_rows, ivec2(5, cascade_row(light, 0u)), 0); }
 
-// Receivers of a directional light.
+// A receiver of a directional light, while its cascade is searched.
 struct SunReceiver {
   ShadowPoint point;
   vec4 position;
   vec3 face_normal;
   float facing;       // cosine between the face normal and the light's direction
   float penumbra;     // CascadeRow::penumbra_m_per_m
-  float depth_per_m;  // of the cascade that it lies in
+  float depth_per_m;  // depth per metre in the cascade that it lies in
 };
 
 SunReceiver sun_receiver(vec3 light_direction, float penumbra_m_per_m, ShadowReceiver r) {
@@ -257,7 +260,7 @@ SunReceiver sun_receiver(vec3 light_direction, float penumbra_m_per_m, ShadowRec
   return s;
 }
 
-// Takes the cascade for the receiver's if it lies in that and has none.
+// Assigns the cascade to the receiver if the receiver lies in it and has none yet. exists: the light has this cascade.
 void try_cascade(inout SunReceiver s, ShadowCascade c, bool exists) {
   vec3 at = vec3(dot(c.row_u, s.position), dot(c.row_v, s.position), dot(c.row_depth, s.position));
   float inside = min(min(at.x, at.y), c.size - max(at.x, at.y)) - c.rim;
@@ -285,17 +288,17 @@ ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowRec
   vec4 sun = fetch_sun(light);
   uint count = min(uint(sun.x), uint(GLOAM_MAX_CASCADES)), i = 0u;
   SunReceiver s = sun_receiver(light_direction, sun.y, r);
-  // Until every thread has its cascade: loads of cascades are dear.
+  // Ends when every thread has its cascade: loading cascades is expensive.
   do {
     try_cascade(s, fetch_cascade(cascade_row(light, i)), i < count);
   } while (!s.point.live && ++i < count);
   return sun_shadow_point(s, r.subsurface);
 }
 
-// What is the same for all receivers of a directional light.
+// The values that all receivers of a directional light share.
 struct SunShadow {
-  vec4 sun;        // fetch_sun
-  vec3 direction;  // where it shines
+  vec4 sun;        // result of fetch_sun()
+  vec3 direction;  // the way the light shines
   ShadowCascade cascades[GLOAM_MAX_CASCADES];
 };
 
@@ -318,14 +321,15 @@ ShadowPoint directional_shadow_point(SunShadow shadow, ShadowReceiver r) {
   return sun_shadow_point(s, r.subsurface);
 }
 
-// Share of a texel that its nearest surface covers; all of it in mip 0.
+// Share of each texel that its nearest surface covers: from the low bits of coverage mips, 1 for other maps.
 vec4 coverage(vec4 depth) {
   return kCoverage != 0u ? 1.0 - vec4(floatBitsToUint(depth) & 63u) * (1.0 / 64.0) : vec4(1.0);
 }
 
-// Depth of what a cube holds in the direction of a texel coordinate (mip 0) of face p.face, in or beyond it, as that
-// face would hold it. `at` becomes the direction of the texel that was read, `rise` how much nearer the receiver's own
-// plane may be inside that texel of a mip, `share` what of the texel is covered.
+// Reads the cube's depth in the direction of `at`: a texel coordinate (mip 0) of face p.face, which may be outside that
+// face. Returns the depth converted to face p.face, and sets `at` to the centre of the texel that was read, as a
+// coordinate of p.face. rise: how much nearer to the light the receiver plane may be inside that texel of the mip.
+// share: covered share of the texel.
 float cube_depth(ShadowPoint p, inout vec2 at, int mip, out float rise, out float share) {
   mat3 own = cube_face_axes(p.face);
   float to_texel = p.size * 0.5 / p.tan_half;
@@ -342,8 +346,7 @@ float cube_depth(ShadowPoint p, inout vec2 at, int mip, out float rise, out floa
   vec2 center = ((cell + 0.5) * square.texel - 0.5 * p.size) / to_texel;
   vec3 read = (axes * vec3(center.x, -center.y, 1.0)) * own;
   read.z = max(read.z, 0.05);
-  // The plane's depth is dot(plane, direction) for directions whose component along the face's axis is 1, in every
-  // face.
+  // In every face, the plane's depth is dot(plane, direction) for directions with component 1 along the face's axis.
   vec2 gradient = vec2(p.slope.x, -p.slope.y) * to_texel;
   vec2 receiver = (p.at - 0.5 * p.size) / to_texel;
   vec3 plane = (own * vec3(gradient, p.depth - dot(gradient, vec2(receiver.x, -receiver.y)))) * axes;

@@ -12,12 +12,12 @@
 #include "shaders/shadows/final_lists/pair_places.glsl"
 #include "shaders/shadows/final_lists/classify_tile.glsl"
 
-// Makes final lists of early ones, as far as they are known before any pixel is asked: a light that casts no shadow, or
-// whose shadow map shows that nothing can hide it from any of the tile's pixels, is lit; one that something hides from
-// all of them is left out; the others become pairs for generate_shadows.comp. One thread is a tile.
+// Makes final lists from early lists by classification. Each thread processes one tile. A light that casts no shadow,
+// or that its shadow map shows to be visible from all pixels of the tile, gets an entry that is lit as a whole. A light
+// that is hidden from all pixels gets no entry. Every other light becomes a tile-light pair for generate.glsl.
 //
-// lavapipe ends all loops of a thread after 65,535 turns together: a face of a light takes at most kMostTurns in blocks
-// and 64 in texels.
+// lavapipe ends the loops of a thread after 65,535 iterations in total. Each face of a light takes at most kMostTurns
+// iterations over blocks and 64 over texels.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -49,15 +49,16 @@ uint classify(TileBounds tile, bool directional, uint light, int most_turns, out
   return classify_local(tile, light, texelFetch(light_texels, ivec2(0, light), 0).xyz, most_turns, in_face);
 }
 
-// Blocks that are looked at of a light, if the tile has no more faces of lights than this; else none, and no light is
-// lit at once.
+// Most blocks of planes that are tested per face of a light. If the tile has more than kMostFaces faces of lights, none
+// are tested, and classification finds no light lit.
 const int kMostTurns = 160;
 const uint kMostFaces = 128u;
 
-// What a thread has counted.
+// Counts of this thread.
 uint unshadowed, lit_at_once, unlit_at_once;
 
-// Slot of an entry that pixels are asked about: until they have been, its tile.
+// Makes a tile-light pair of an entry. Returns the slot that the entry holds until the pair is filtered: the tile's
+// index, or GLOAM_NO_ROOM when the buffer of pairs is full.
 uint add_pair(uint entry, uint tile_index, uint kind) {
   if (atomicAdd(counters.pairs, 1u) >= grid.pair_capacity) return GLOAM_NO_ROOM;
   uint pair = atomicAdd(commands.pairs[kind].w, 1u);
@@ -66,7 +67,7 @@ uint add_pair(uint entry, uint tile_index, uint kind) {
   return tile_index;
 }
 
-// Adds the light's entry at `entry`, if it has one.
+// Classifies the light and writes its entry at index `entry`, which is then incremented, unless the light is unlit.
 void add_light(TileBounds tile, uint tile_index, bool directional, uint light, int most_turns, inout uint entry) {
   bool in_face = directional || local_kind(light) == GLOAM_SHADOW_SPOT;
   uint verdict = grid.classify != 0u         ? classify(tile, directional, light, most_turns, in_face)
@@ -104,7 +105,7 @@ void main() {
   uvec2 list = grid.has_early_lists != 0u ? texelFetch(tile_lists, ivec2(at), 0).xy : uvec2(0u);
   uint tile_index = at.y * grid.tiles.x + at.x;
   uint count = list_count(list), shared_entries = grid.tiles.x * grid.tiles.y * grid.directional_count;
-  // Both compared without a sum that could wrap.
+  // Two comparisons, because the sum could overflow.
   if (!has_list(list) || shared_entries > grid.entry_capacity || list.x > grid.entry_capacity - shared_entries ||
       count > grid.entry_capacity - shared_entries - list.x) {
     imageStore(final_tiles, ivec2(at), uvec4(GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0u, 0u));

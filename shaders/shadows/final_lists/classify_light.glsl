@@ -3,18 +3,18 @@
 #ifndef GLOAM_SHADERS_SHADOWS_CLASSIFY_LIGHT_GLSL
 #define GLOAM_SHADERS_SHADOWS_CLASSIFY_LIGHT_GLSL
 
-// Tiles in the faces of a light: the bounds that classify_tile.glsl works with. Included by it.
+// Bounds of a tile in the faces of a light, for classify_tile.glsl, which includes this file.
 
-// What depends on the planes of the tile's pixels. sines: least and greatest of the angle between the light's rays and
-// the pixels' surfaces, negative where they face the light. emitter: greatest sine of half the emitter's angle, and
-// least.
+// Sets the members that depend on the planes of the tile's pixels. sines: least and greatest sine of the angle between
+// the light's rays and the pixels' surfaces, negative where they face the light. emitter: greatest and least sine of
+// half the angle that the emitter covers.
 void set_facing(inout TileInFace f, vec2 sines, vec2 emitter, bool subsurface) {
   const float slack = 1e-5;
   f.faces_light = kBias == 0u || sines.y + slack < kFacingSine - emitter.x;
   f.turned_away = kBias != 0u && !subsurface && sines.x - slack > kFacingSine + emitter.x;
 }
 
-// bias: least and greatest of a metre's depth.
+// Sets the least and greatest bias. depth_per_m: least and greatest depth per metre.
 void set_biases(inout TileInFace f, vec2 depth_per_m, bool subsurface) {
   float relative = f.nearest * shadow_block.relative_quantum;
   float quantum = max(shadow_block.depth_quantum, relative);
@@ -25,7 +25,8 @@ void set_biases(inout TileInFace f, vec2 depth_per_m, bool subsurface) {
                             : shadow_block.depth_quantum;
 }
 
-// The axes and rows that a local light's face has for a tile; false: pixels of the tile lie in several faces, or none.
+// Sets the tile's bounds in the face of a local light. Returns false when pixels of the tile are in several faces or in
+// none, and when the light has no face.
 bool tile_in_local_face(TileBounds t, uint light, vec3 light_position, out TileInFace f) {
   vec4 first = texelFetch(shadow_rows, ivec2(0, light), 0);  // kind, near, width, size
   vec4 right = texelFetch(shadow_rows, ivec2(1, light), 0);  // right, tan_half
@@ -60,9 +61,9 @@ bool tile_in_local_face(TileBounds t, uint light, vec3 light_position, out TileI
   f.farthest = near / max(most_z, 1e-9) * (1.0 - slack);
   f.scale = width / (near * texel) * (f.cube ? sqrt(most_stretch) : 1.0) * (1.0 + slack);
   f.surrounded = outermost < 0.0;
-  f.clear = least_r > 1.74 * near;  // of a cube's near planes, which are farthest in its corners
-  // Planes: n · v = h for points v of the tile, relative to the light. The plane farthest from it lies below all
-  // others.
+  f.clear = least_r > 1.74 * near;  // 1.74 > √3: the corners of a cube's near planes are farthest away
+  // Planes: n · v = h for points v of the tile relative to the light. The plane that is farthest from the light is
+  // below the planes of all pixels.
   float shift = dot(t.normal, light_position), error = 1e-6 * (abs(shift) + most_r);
   vec2 heights = t.offsets - shift + vec2(-error, error);
   float tilted = t.spread * most_r;
@@ -87,13 +88,13 @@ bool tile_in_local_face(TileBounds t, uint light, vec3 light_position, out TileI
   return first.x != float(GLOAM_SHADOW_NONE) && least_z > near * 1.0001 && most_z < 1e18 && (!f.cube || f.surrounded);
 }
 
-// Depth that an orthographic face gives a point, and its texel.
+// The texel (xy) and depth (z) of a point in an orthographic face.
 vec3 cascade_texel(ShadowCascade c, vec3 point) {
   vec4 p = vec4(point, 1.0);
   return vec3(dot(c.row_u, p), dot(c.row_v, p), dot(c.row_depth, p));
 }
 
-// outside: no pixel lies in the cascade.
+// Sets the tile's bounds in a cascade. outside: no pixel is in the cascade.
 void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, out TileInFace f, out bool outside) {
   vec3 low = vec3(1e30), high = vec3(-1e30);
   vec2 texels[8];
@@ -123,7 +124,7 @@ void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, 
   bool one_side = abs(along) > 2.0 * t.spread + 1e-5;
   along = one_side ? along : 1.0;
   float scale = c.texel_m * c.texel_m * texel_depth / along;
-  // Of the planes with the tile's normal the farthest from the light.
+  // A point on the pixels' plane that is farthest from the light; all these planes have the tile's normal.
   vec3 lowest = t.center + t.normal * ((along < 0.0 ? t.offsets.x : t.offsets.y) - dot(t.normal, t.center));
   vec3 at = cascade_texel(c, lowest);
   vec2 slope = kReceiverPlane == 0u ? vec2(0.0) : vec2(dot(t.normal, c.row_u.xyz), dot(t.normal, c.row_v.xyz)) * scale;
@@ -138,8 +139,8 @@ void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, 
   f.slope = one_side ? f.slope : 1e30;
 }
 
-// A pixel looks at the first cascade that it lies in: what all cascades agree on that may be one's first holds for the
-// tile.
+// Each pixel uses the first cascade that it is in. So a verdict holds for the tile when all cascades that may be the
+// first one of a pixel agree on it.
 uint classify_directional(TileBounds t, uint light, vec3 direction, int most_turns) {
   uint count = min(uint(fetch_sun(light).x), uint(GLOAM_MAX_CASCADES));
   if (count == 0u) return kCastsNone;
@@ -150,7 +151,7 @@ uint classify_directional(TileBounds t, uint light, vec3 direction, int most_tur
     bool outside;
     tile_in_cascade(t, light, direction, fetch_cascade(cascade_row(light, i)), f, outside);
     bool surrounded = f.surrounded;
-    // Pixels that are not in this cascade have no part in what it says.
+    // Pixels outside this cascade do not count for its verdict.
     f.surrounded = f.nearest < 0.9999;
     bool in_face;
     uint here = classify_in_face(f, most_turns, in_face);
@@ -158,12 +159,11 @@ uint classify_directional(TileBounds t, uint light, vec3 direction, int most_tur
     first = first && outside;
     done = surrounded || (!outside && here == kUnknown);
   } while (!done && ++i < count);
-  // Pixels beyond the last cascade are lit.
+  // Pixels in no cascade are lit.
   return done ? verdict : verdict == kLit || first ? kLit : kUnknown;
 }
 
-// Whether the pixels of the tile may look at other faces of a cube before they know that what they need is in their
-// own.
+// Whether a pixel's search region may leave the tile's cube face while another face may hold a blocker for it.
 bool other_faces_matter(TileInFace f, uint light) {
   int last = floor_log2(f.size) - GLOAM_SHADOW_PYRAMID_MIP;
   float to_tangent = 2.0 * f.tan_half / f.size;
@@ -182,7 +182,7 @@ bool other_faces_matter(TileInFace f, uint light) {
   return matter && leaves_face(f, 0.5 * widest(f, nearest) + 1.0);
 }
 
-// in_face: all that the tile's pixels look at lies in one face.
+// in_face: all taps of the tile's pixels are in one face.
 uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turns, out bool in_face) {
   TileInFace f;
   float kind = texelFetch(shadow_rows, ivec2(0, light), 0).x;
@@ -190,7 +190,8 @@ uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turn
   bool alone = inside && (!f.cube || !other_faces_matter(f, light));
   in_face = kind == float(GLOAM_SHADOW_SPOT);
   if (kind == float(GLOAM_SHADOW_NONE)) return kCastsNone;
-  // Turned away is turned away, whatever the face; beyond its near plane all of a cube's pixels look at one.
+  // Surfaces that face away are unlit in any face, provided that each pixel is in some face: the tile is inside one
+  // face, or every pixel is beyond the cube's near planes.
   if (!alone) return f.turned_away && (inside || (f.cube && f.clear)) ? kUnlit : kUnknown;
   return classify_in_face(f, most_turns, in_face);
 }

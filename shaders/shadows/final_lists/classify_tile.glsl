@@ -7,14 +7,14 @@
 #include "shaders/shadows/shadows_api.glsl"
 #include "shaders/shadows/final_lists/tile_bounds.glsl"
 
-// What shadow maps tell of a whole tile and one light, before any pixel is asked. Conservative: it says lit or unlit
-// only where the filter of every pixel of the tile says so, whatever the filter is; every bound here holds the pixel's
-// own value with room for rounding.
+// Classification: a verdict on a whole tile and one light from shadow maps, before any filtering. Conservative: the
+// verdict is lit or unlit only if the filter of every pixel of the tile would find that, for any filter. All bounds
+// here enclose the values of the pixels, with a margin for rounding.
 //
-// Lit: in the part of the map that the kernels of the tile's pixels may look at, every block of texels lies below the
-// pixels' planes, or so far to the side that it is outside of the cone between pixel and emitter. Comparing with planes
-// is what makes it work: a surface that slants toward the light is nearer to it beside every tile than in it. Unlit:
-// the farthest texel there is nearer than all pixels.
+// Lit: in the part of the map that the pixels' kernels may reach, every block of texels is below the pixels' planes, or
+// so far to the side that it is outside the cone between pixel and emitter. Blocks are compared with planes and not
+// with depths: beside the tile, a surface that slants toward the light is nearer to the light than inside the tile.
+// Unlit: the farthest texel of that part is nearer to the light than all pixels.
 //
 // Before including this, define GLOAM_SHADOW_PLANES_BINDING.
 
@@ -25,35 +25,36 @@ const uint kLit = 1u;
 const uint kUnlit = 2u;
 const uint kCastsNone = 3u;
 
-const int kMostBlocks = 6;        // along a side of what is looked at, in the largest of them
-const float kPlaneMargin = 0.75;  // share of the bias that planes may differ by
+const int kMostBlocks = 6;        // most blocks along a side of the tested area, at its coarsest level
+const float kPlaneMargin = 0.75;  // share of the bias that a block may exceed the pixels' planes by
 
-// A tile in one face's texels and depths.
+// Bounds of a tile's pixels in one face, in texels and depths.
 struct TileInFace {
-  vec2 origin;  // of the face in the atlas, texels of mip 0
+  vec2 origin;  // corner of the face in the atlas, texels of mip 0
   float size;
-  vec2 low, high;  // texels of mip 0 that hold the pixels
+  vec2 low, high;  // bounds of the pixels, texels of mip 0
   float farthest;  // least and greatest depth of the pixels
   float nearest;
-  vec3 plane;   // depth at texel (0, 0), and a texel to the right and down; below the planes of all pixels, but for
-                // their tilt
-  float tilt;   // what a pixel's plane may lie below that a texel of distance
-  float slope;  // bound of any pixel's slope_per_texel
-  float scale;  // greatest of the pixels' ShadowPoint::scale
-  float least_bias;  // depth
+  vec3 plane;   // depth at texel (0, 0), slope per texel to the right and down; below the planes of all pixels, except
+                // for `tilt`
+  float tilt;   // how far a pixel's plane may be below `plane`, per texel of distance from the pixel
+  float slope;  // greatest slope_per_texel of the pixels
+  float scale;  // greatest ShadowPoint::scale of the pixels
+  float least_bias;  // least and greatest bias of the pixels, depth
   float most_bias;
-  bool cube;         // what leaves the face goes on in others
-  int face;          // of a cube
-  float tan_half;    // of a local light's face
-  mat2 sides;        // columns: across the tile's two sides, texels of mip 0, so long that |x| + |y| = 1
-  vec4 side_ranges;  // least and greatest dot products of pixels with the first, and with the second
-  bool surrounded;   // all pixels look at this face
-  bool clear;        // no pixel is as near to a local light as near planes may be
-  bool faces_light;  // all pixels see all of the emitter above their own surface
-  bool turned_away;  // none sees any of it
+  bool cube;         // kernels that leave the face continue in others
+  int face;          // cube face
+  float tan_half;    // tangent of half the face's field of view, for local lights
+  mat2 sides;        // columns: normals of the tile's two sides, in texels of mip 0, scaled to |x| + |y| = 1
+  vec4 side_ranges;  // least and greatest dot product of the pixels with the first, then with the second
+  bool surrounded;   // all pixels use this face
+  bool clear;        // all pixels are beyond the near planes of a local light
+  bool faces_light;  // the whole emitter is above the surface of each pixel
+  bool turned_away;  // the whole emitter is below the surface of each pixel
 };
 
-// The tile's corners in texels of mip 0: `corners[i]` and `corners[i + 4]` lie on the same ray.
+// Sets the bounds in texels. corners: of the tile, in texels of mip 0; corners[i] and corners[i + 4] are on the same
+// view ray. slack: margin in texels.
 void set_texels(vec2 corners[8], float slack, inout TileInFace f) {
   f.low = f.high = corners[0];
   for (int i = 1; i < 8; ++i) {
@@ -62,7 +63,8 @@ void set_texels(vec2 corners[8], float slack, inout TileInFace f) {
   }
   f.low -= slack;
   f.high += slack;
-  // Pixels of a tile that is seen at a low angle lie along a diagonal of that box.
+  // If the camera sees the tile at a grazing angle, its pixels lie along a diagonal of that box: bound them by the
+  // tile's sides as well.
   vec2 right = corners[1] + corners[3] - corners[0] - corners[2],
        down = corners[2] + corners[3] - corners[0] - corners[1];
   vec2 first = vec2(-right.y, right.x) / max(abs(right.x) + abs(right.y), 1e-9);
@@ -83,11 +85,11 @@ float nearest_in(TileInFace f, vec2 low, vec2 high, out float farthest) {
 
 float widest(TileInFace f, float nearest) { return clamp(f.scale * (nearest - f.farthest), 0.0, f.size); }
 
-// How far from a pixel find_region looks when it knows of a penumbra this wide.
+// Distance from a pixel, in texels of mip 0, up to which find_region() reads the pyramid for a penumbra of this width.
 float footprint(float width) { return 4.0 * max(width, 2.0); }
 
-// How far from a pixel the kernels of the filter reach whose region is at most this wide, in texels of mip 0; `coarse`:
-// texels of mip 0 in those of the coarsest mip that they may use.
+// Reach of the filter's kernels from a pixel, in texels of mip 0, for search regions up to this width. coarse: texels
+// of mip 0 per texel of the coarsest mip that they may use.
 float kernels_reach(float width, out float coarse) {
   coarse = 1.0;
   if (kFilter == 0u) return 2.0;
@@ -97,15 +99,15 @@ float kernels_reach(float width, out float coarse) {
   return (0.5 * float(kKernel) + 1.0) * coarse + 1.0;
 }
 
-// What a tile's pixels may look at in a face.
+// The part of a face that the tile's pixels may read.
 struct Looks {
-  vec2 low, high;  // texels of mip 0
-  float reach;     // of kernels beyond the tile
-  float slack;     // a texel counts for the cone where it lies this much farther out
+  vec2 low, high;  // bounds, texels of mip 0
+  float reach;     // reach of kernels beyond the tile
+  float slack;     // margin of the cone in texels: a blocker may be stored up to this much farther out
 };
 
-// Whether nothing in a block of texels can be a blocker for any of the pixels. middle: of the block; half_side: from
-// there to its outermost texels' middles.
+// Whether no texel of a block can be a blocker for any of the pixels. block: a texel of the planes. middle: of the
+// block, texels of mip 0. half_side: texels from there to the middles of the block's outermost texels.
 bool is_harmless(TileInFace f, Looks looks, vec4 block, vec2 middle, float half_side) {
   vec2 beyond = max(max(f.low - middle, middle - f.high) - half_side, vec2(0.0));
   vec2 farthest_off = max(abs(middle - f.low), abs(middle - f.high)) + half_side;
@@ -115,21 +117,22 @@ bool is_harmless(TileInFace f, Looks looks, vec4 block, vec2 middle, float half_
   vec2 steeper = abs(block.yz - f.plane.yz);
   float excess = block.x - (f.plane.x + dot(f.plane.yz, middle)) + (steeper.x + steeper.y) * half_side;
   bool below = excess + f.tilt * max(farthest_off.x, farthest_off.y) <= kPlaneMargin * f.least_bias;
-  // Only one filter has a cone. Below it: seen from the farthest pixel, or from pixels that lie on the plane or above
-  // it, where the cone rises faster than the plane falls.
+  // Only filter chs has a cone. The block is outside the cone if it is outside the cone of the farthest pixel; or,
+  // where the cone rises faster than the plane falls, if it is outside the cones of all pixels on or above the plane.
   float cone_slope = 2.0 / max(f.scale, 1e-6), rise = cone_slope - abs(f.plane.y) - abs(f.plane.z);
   bool outside = block.w <= f.farthest + cone_slope * max(off - looks.slack, 0.0) ||
                  (rise > 0.0 && excess <= rise * off - cone_slope * looks.slack);
   return block.w <= 0.0 || below || off > looks.reach || (kFilter == 3u && outside);
 }
 
-// The same of one texel.
+// The same for one texel.
 bool is_harmless(TileInFace f, Looks looks, float depth, vec2 middle) {
   return is_harmless(f, looks, vec4(depth, f.plane.yz, depth), middle, 0.0);
 }
 
-// Blocks of level 0, few enough to be looked at texel by texel, a byte a coordinate: the newest in the lowest 16 bits
-// of blocks.x. The one that is too many has room too.
+// A stack of blocks of level 0 that are tested texel by texel, one byte per coordinate. The newest is in the low 16
+// bits of blocks.x. The stack has room for more than kMostCloseBlocks, so that the block that exceeds the limit can be
+// pushed.
 struct CloseBlocks {
   uvec4 blocks;
   int count;
@@ -157,7 +160,7 @@ bool block_is_harmless(TileInFace f, Looks looks, ivec2 block, int level) {
   return is_harmless(f, looks, plane, (vec2(block) + 0.5) * side, 0.5 * side - 0.5);
 }
 
-// quad: four texels of a block of level 0, row by row.
+// Whether four texels of a block of level 0 are harmless. quad: 0 … 15, row by row.
 bool quad_is_harmless(TileInFace f, Looks looks, ivec2 block, int quad) {
   vec2 corner = vec2(block) * float(GLOAM_SHADOW_PLANE_BLOCK) + 2.0 * vec2(quad % 4, quad / 4) + 1.0;
   vec4 depths = textureGather(shadow_atlas, (f.origin + corner) * shadow_texel_size());
@@ -167,8 +170,9 @@ bool quad_is_harmless(TileInFace f, Looks looks, ivec2 block, int quad) {
          is_harmless(f, looks, depths.w, corner + vec2(-0.5, -0.5));
 }
 
-// From large blocks to small ones, only where a block may hold a blocker. What is left of level 0 is looked at closely;
-// false when that is too much, or after so many turns.
+// Tests blocks from coarse to fine, descending only where a block may hold a blocker. Blocks of level 0 that may hold
+// one are returned in `close`, relative to `low`. Returns false if there are more than kMostCloseBlocks, or if the test
+// is not finished after most_turns iterations.
 bool blocks_harmless(TileInFace f, ivec2 low, ivec2 high, Looks looks, int most_turns, out CloseBlocks close) {
   close = CloseBlocks(uvec4(0u), 0);
   int top = 0;
@@ -188,7 +192,8 @@ bool blocks_harmless(TileInFace f, ivec2 low, ivec2 high, Looks looks, int most_
       block *= 2;
       continue;
     }
-    // The next of the four blocks that are one of the next level; after the last, that one is done.
+    // Go to the next of the four blocks that form a block of the coarser level. After the fourth, the coarser block is
+    // done.
     ivec2 child = block & 1;
     bool at_top = level == top;
     done += int(at_top);
@@ -213,29 +218,31 @@ bool all_harmless(TileInFace f, Looks looks, int most_turns) {
       quad = (quad + 1) % quads;
       if (quad == 0) pop(close);
     } while (harmless && close.count > 0);
-  return harmless && close.count == 0;  // a device that ends long loops has not looked at all
+  return harmless && close.count == 0;  // count > 0 if the device ended the loop early: not all blocks were tested
 }
 
 bool leaves_face(TileInFace f, float reach) {
   return f.cube && (min(f.low.x, f.low.y) < reach || max(f.high.x, f.high.y) > f.size - reach);
 }
 
-// in_face: kernels of all pixels stay in the face.
+// Classifies the tile in one face. in_face: the kernels of all pixels stay in the face.
 uint classify_in_face(TileInFace f, int most_turns, out bool in_face) {
   float farthest, coarse;
   float width = widest(f, nearest_in(f, vec2(0.0), vec2(f.size), farthest));
   for (int step = 0; step < 2; ++step) {
-    // Filters that do not search for a region look at all that their kernel holds.
+    // Filters without a search region read every texel of their kernel.
     float look = max(footprint(width), kernels_reach(width, coarse));
     width = widest(f, nearest_in(f, f.low - look, f.high + look, farthest));
   }
   float reach = kernels_reach(width, coarse);
-  // The filter's coarser mip is up to half as coarse as its penumbra is wide, its kernel eight of its texels.
+  // A texel of the filter's coarser mip is up to half as wide as the penumbra, and the kernel is eight texels wide: it
+  // reaches up to two penumbra widths from the receiver.
   in_face = !leaves_face(f, max(reach, 2.0 * width + 2.0));
   bool unlit = f.turned_away || farthest > f.nearest + f.most_bias + f.slope * max(0.5 * width + 2.0, reach);
   if (unlit) return f.surrounded ? kUnlit : kUnknown;
   if (!f.faces_light || leaves_face(f, reach) || most_turns == 0) return kUnknown;
-  // A texel of a mip may hold what lies half of it farther out; see SearchCone for its own reach.
+  // Reasons for the slack: a texel of a mip may hold a depth from half a texel farther out, and a SearchCone begins to
+  // rise only at its reach.
   Looks looks = Looks(f.low - reach, f.high + reach, reach, max(2.0 + 0.5 * coarse, coarse));
   return all_harmless(f, looks, most_turns) ? kLit : kUnknown;
 }

@@ -5,7 +5,8 @@
 
 #include "shaders/shadows/final_lists_api.glsl"
 
-// One light's entry in a tile's final list; GLOAM_ALL_UNLIT where it has none. Those who iterate over lists do without.
+// A light's entry in a tile's final list, with slot GLOAM_ALL_UNLIT when it has none. Shaders that iterate over lists
+// do not need this.
 uint entry_of(FinalList list, bool directional, uint light) {
   uint first = directional ? list.directional_first : list.local_first;
   uint count = directional ? list.directional_count : list.local_count;

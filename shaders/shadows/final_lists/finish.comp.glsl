@@ -4,8 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shadows/final_lists_shared.h"
 
-// Takes entries that no pixel needs out of final lists, and names the tiles that must do without one. One thread is a
-// tile.
+// Removes GLOAM_ALL_UNLIT entries from final lists, and collects the fallback tiles. Each thread processes one tile.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -16,7 +15,8 @@ layout(set = 0, binding = 3, scalar) writeonly buffer FallbackTiles { uint fallb
 layout(set = 0, binding = 4, scalar) buffer Counters { ShadowListCounters counters; };
 layout(set = 0, binding = 5, scalar) buffer Commands { ShadowListCommands commands; };
 
-// Entries that stay of a run; they move to its begin. `complete`: false when one of them found no room.
+// Moves the entries that stay to the start of their run and returns their number. complete: set to false if an entry
+// has GLOAM_NO_ROOM.
 uint pack_run(uint first, uint count, inout bool complete) {
   uint kept = 0u;
   for (uint i = 0u; i < count; ++i) {

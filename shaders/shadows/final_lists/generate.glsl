@@ -3,19 +3,20 @@
 #ifndef GLOAM_SHADERS_SHADOWS_GENERATE_SHADOWS_GLSL
 #define GLOAM_SHADERS_SHADOWS_GENERATE_SHADOWS_GLSL
 
+// Generates visibilities (FF XVI paper, §2.2): how much of one light each pixel of a tile sees. The result is a
+// visibility slot, unless all pixels see the whole light or none sees any. Each workgroup processes one tile-light
+// pair. Pixels without a surface, and pixels that the light does not illuminate, do not count.
+//
+// Unlike in the paper, a workgroup processes only one light of a tile. The cost of pairs is similar, while the cost of
+// tiles varies; and lavapipe ends the loops of a thread after 65,535 iterations in total. Each thread processes 64 /
+// kThreads consecutive pixels of the tile. On lavapipe the threads of a workgroup run one after another and each
+// barrier swaps all their state, so fewer threads are faster.
+//
 // Before including this, define GLOAM_SHADOWS_KINDS: 3 for local lights, 4 for directional ones; and
 // GLOAM_SHADOWS_IN_FACE for GLOAM_PAIRS_IN_FACE.
-//
-// Generate shadows (FF XVI paper, §2.2): how much of one light each pixel of a tile sees, into a slot, unless all of
-// them see all of it or none sees any. One workgroup is a pair of a tile and a light. Pixels without a surface, or that
-// the light gives nothing, have no say.
-//
-// Unlike the paper's, a workgroup is one light of a tile, not all of them: pairs cost alike, tiles do not; lavapipe
-// ends all loops of a thread after 65,535 turns together. A thread has 64 / kThreads pixels of a row; devices that run
-// threads in turn swap the state of few.
 
 #define GLOAM_SHADOWS_BINDING 12
-#define GLOAM_SHADOWS_PIXEL ivec2(0)  // what is traced is shaded without lists
+#define GLOAM_SHADOWS_PIXEL ivec2(0)  // unused: frames with traced visibility have no lists
 #include "shaders/shadows/pair_pixels_api.glsl"
 #include "shaders/shadows/final_lists/pair_places.glsl"
 
@@ -36,7 +37,7 @@ const uint kPairKind = uint(GLOAM_PAIRS_CROSSING);
 #endif
 shared uint slot;
 
-// What is the same for all pixels of a pair.
+// The values that all pixels of a pair share.
 #if GLOAM_SHADOWS_KINDS == 4
 struct LightOfPair {
   SunShadow shadow;
@@ -73,13 +74,13 @@ uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps
 
 #include "shaders/shadows/pair_pixels_asked_api.glsl"
 
-// What the entry becomes; counts it.
+// Takes the final slot of the pair's entry and counts the result. some: combined flags of all pixels.
 uint take_slot(uint some) {
   if (some == (kSomeSeeLess | kSomeSeeAny)) {
     uint taken = atomicAdd(counters.slots, 1u);
     return taken < grid.slot_capacity ? taken : GLOAM_NO_ROOM;
   }
-  // Pixels that the light gives nothing are no reason to look at it.
+  // If no flag is set, the light illuminates no pixel of the tile: unlit.
   bool lit = some == kSomeSeeAny;
   if (lit)
     atomicAdd(counters.lit_by_filter, 1u);

@@ -5,7 +5,8 @@
 
 #include "shaders/shadows/final_lists_shared.h"
 
-// Where in the buffer of pairs a pair of some kind lies. All kinds together are no more than pair_capacity.
+// Index in the buffer of pairs of the pair with number `pair` of its kind. All kinds together have at most
+// pair_capacity pairs.
 uint pair_place(FinalGrid grid, uint kind, uint pair) {
   uint end = grid.pair_capacity;
   return kind == uint(GLOAM_PAIRS_IN_FACE) ? pair : kind == uint(GLOAM_PAIRS_CROSSING) ? end - 1u - pair : end + pair;

@@ -7,19 +7,19 @@
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 
-// What holds the surfaces of a shadow tile: points, planes and normals. Sky is left out.
+// Bounds of the surfaces in a shadow tile: positions, planes and normals. Sky is left out.
 
 struct TileBounds {
-  vec3 corners[8];  // camera-relative; their hull holds every surface point of the tile
-  vec3 center;      // of the corners
-  float radius;     // of a sphere round the center that holds them
+  vec3 corners[8];  // camera-relative; their convex hull holds every surface point of the tile
+  vec3 center;      // mean of the corners
+  float radius;     // radius of a sphere around the center that holds the corners
   vec3 normal;      // mean face normal of a few of the pixels, unit
-  float spread;     // no pixel's face normal is farther than this from it (length of the difference)
-  vec2 offsets;     // least and greatest dot(normal, point) of the pixels
-  bool subsurface;  // of any pixel
+  float spread;     // greatest length of the difference between `normal` and a pixel's face normal
+  vec2 offsets;     // least and greatest dot(normal, position) of the pixels
+  bool subsurface;  // any pixel has a subsurface material
 };
 
-// The four pixels of a quad: their depths and face normals widen the bounds.
+// Widens spread and offsets by the four pixels of a quad.
 void add_quad(ViewConstants view, ivec2 pixel, vec4 depths, uvec4 normals, inout TileBounds t) {
   const ivec2 offsets[4] = ivec2[](ivec2(0, 1), ivec2(1, 1), ivec2(1, 0), ivec2(0, 0));  // in the order of a gather
   for (int i = 0; i < 4; ++i) {
@@ -32,8 +32,8 @@ void add_quad(ViewConstants view, ivec2 pixel, vec4 depths, uvec4 normals, inout
   }
 }
 
-// Distances along a ray, as shares of `ray`, between which it meets planes with these offsets; less than 0 where it
-// does not.
+// The two factors of `ray`, ascending, at which the ray meets the planes with these offsets. Both −1 if the ray is
+// nearly parallel to the planes.
 vec2 between_planes(vec3 ray, vec3 normal, vec2 offsets) {
   float along = dot(ray, normal);
   if (abs(along) < 1e-4 * length(ray)) return vec2(-1.0);
@@ -41,8 +41,9 @@ vec2 between_planes(vec3 ray, vec3 normal, vec2 offsets) {
   return t.x <= t.y ? t : t.yx;
 }
 
-// Corners: rays through the tile's corners end at the tile's nearest and farthest depth, or at the planes through its
-// nearest and farthest pixels, all of them alike: what lies between two such ends of four rays is the hull of the ends.
+// Sets the corners. The rays through the tile's corners are cut at the tile's nearest and farthest depth, or, when that
+// is tighter, at the planes through its nearest and farthest pixels. All four rays are cut in the same way, so the
+// convex hull of the cut points holds the surfaces.
 void set_corners(ViewConstants view, uvec2 tile, vec2 bounds, inout TileBounds t) {
   vec2 first = vec2(tile * uint(GLOAM_SHADOW_TILE)) - 0.5;
   vec2 last = min(first + float(GLOAM_SHADOW_TILE), vec2(view.size) - 0.5);
@@ -59,7 +60,7 @@ void set_corners(ViewConstants view, uvec2 tile, vec2 bounds, inout TileBounds t
   }
   t.center = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
-    // Of a perspective view the far end is a multiple of the near one.
+    // In a perspective view the far corner is a multiple of the near one.
     vec3 near = t.corners[i];
     if (planes) {
       t.corners[i] = near * ranges[i].x;
@@ -69,7 +70,7 @@ void set_corners(ViewConstants view, uvec2 tile, vec2 bounds, inout TileBounds t
   }
   t.radius = 0.0;
   for (int i = 0; i < 8; ++i) t.radius = max(t.radius, distance(t.center, t.corners[i]));
-  // Rounding of positions.
+  // Margin for the rounding of positions.
   t.radius += 1e-6 * (abs(t.center.x) + abs(t.center.y) + abs(t.center.z));
 }
 
@@ -78,7 +79,7 @@ TileBounds make_tile_bounds(ViewConstants view, sampler2D depth_image, usampler2
                             uvec2 tile, vec2 bounds) {
   TileBounds t;
   ivec2 first = ivec2(tile) * GLOAM_SHADOW_TILE;
-  // Normals of pixels without a surface hold anything.
+  // Normals of pixels without a surface are undefined.
   vec3 sum = vec3(0.0, 1e-6, 0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 at = min(first + ivec2(2 + 3 * (i & 1), 2 + 3 * (i >> 1)), ivec2(view.size) - 1);
@@ -95,7 +96,7 @@ TileBounds make_tile_bounds(ViewConstants view, sampler2D depth_image, usampler2
     vec4 flags = textureGather(color_image, corner, 3);
     t.subsurface = t.subsurface || max(max(flags.x, flags.y), max(flags.z, flags.w)) > 0.5;
   }
-  // Rounding of the dot products.
+  // Margin for the rounding of dot products.
   float slack = 1e-6 * (abs(t.offsets.x) + abs(t.offsets.y));
   t.offsets += vec2(-slack, slack);
   set_corners(view, tile, bounds, t);

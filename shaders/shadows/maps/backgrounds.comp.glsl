@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shadows/maps/mips_shared.h"
 
-// Moves what casters that rest have drawn from the scratch map into the image of backgrounds. One thread takes a block
+// Copies the depth of resting casters from the scratch image into the image of backgrounds. Each thread copies a block
 // of 8 × 8 texels.
 
 layout(local_size_x = GLOAM_SHADOW_MIP_GROUP, local_size_y = GLOAM_SHADOW_MIP_GROUP) in;

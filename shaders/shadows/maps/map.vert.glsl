@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shadows/maps/map_position.glsl"
 
-// Depth of opaque casters in one face of a light; there is no fragment shader.
+// Draws the depth of opaque casters into one face of a light. There is no fragment shader.
 
 layout(location = 0) in vec3 in_position;
 

@@ -4,11 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/draw_shared.h"
 
-// Leaves the holes of cut-out casters open, as the texture's finest level has them.
+// Discards the holes of cut-out casters, sampling alpha at the texture's finest level.
 
 layout(location = 0) in vec3 in_uv_alpha;
 
-// All of a material's set, so that sets made for other passes fit.
+// Declares the whole material set, so that sets made for other passes are compatible.
 layout(set = 1, binding = 0, scalar) uniform MaterialBlock { MaterialConstants material; };
 layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
 layout(set = 1, binding = 2) uniform sampler2D normal_texture;

@@ -5,7 +5,7 @@
 #include "shaders/render/draw_shared.h"
 #include "shaders/shadows/maps/map_position.glsl"
 
-// Depth of cut-out casters: shadow_map.vert with what their alpha is read from.
+// Draws the depth of cut-out casters: as map.vert, with the values that the alpha test needs.
 
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec4 in_uv;

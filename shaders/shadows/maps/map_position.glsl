@@ -5,8 +5,8 @@
 
 #include "shaders/shadows/maps/map_shared.h"
 
-// Where a vertex lies in the map. What stands before the near side of a directional light's box still casts its shadow
-// into it.
+// Clip-space position of a vertex in the map. In an orthographic face, vertices in front of the near side are moved
+// onto it, so that they still cast shadows.
 vec4 map_position(ShadowDrawConstants draw, vec3 position) {
   vec4 clip = draw.clip_from_mesh * vec4(position, 1.0);
   if (draw.orthographic != 0u) clip.z = min(clip.z, 1.0);

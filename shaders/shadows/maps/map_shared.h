@@ -7,27 +7,27 @@
 
 GLOAM_SHARED_BEGIN
 
-/// Push constants of one caster in one face; composed in double relative to the light.
+/// Push constants that draw one caster into one face. clip_from_mesh is composed in double relative to the light.
 struct ShadowDrawConstants {
   mat4 clip_from_mesh;
-  uint orthographic;  // 1: what is nearer than the near side is drawn there
+  uint orthographic;  // 1: vertices in front of the near side are moved onto it
 };
 
-/// One face in the view of the atlas.
+/// One face in visualizer shadow_atlas.
 struct AtlasFaceConstants {
-  vec2 origin;   // in the atlas, texels
-  float size;    // texels
+  vec2 origin;   // corner in the atlas, texels
+  float size;    // texels of a side
   float near_m;  // 0: orthographic
   float far_m;
-  float drawn;   // 1: in this frame
-  vec2 corner;   // of its square in the picture, pixels
+  float drawn;   // 1: drawn in this frame
+  vec2 corner;   // corner of its square in the picture, pixels
   float pixels;  // side of its square in the picture
 };
 
-/// The light whose visibility is shown.
+/// The light that a visualizer shows.
 struct ShownLightConstants {
   uint light;
-  uint directional;  // 1: `light` is a place among the view's directional lights
+  uint directional;  // 1: `light` is an index among the view's directional lights, else among its local ones
 };
 
 GLOAM_SHARED_END

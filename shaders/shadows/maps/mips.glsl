@@ -6,11 +6,12 @@
 #include "shaders/shadows/maps/mips_shared.h"
 #include "shaders/shadows/shadows_shared.h"
 
-// Moves faces' depth from the scratch map into the atlas and makes mips 1 to 3 of it, or makes the next three mips of a
-// mip that is there, and the pyramid along with them. One thread takes a block of 8 × 8 texels of its source; a
-// workgroup belongs to one face. Before including this, define GLOAM_SHADOW_ATLAS_FORMAT, and GLOAM_SHADOW_ATLAS_STEPS
-// when the atlas holds less than the scratch map: what it holds is what counts. With GLOAM_SHADOW_MIPS_IN_PLACE there
-// is no scratch map: mip 0 is in the atlas already.
+// Makes mips of faces and their pyramid. The first run copies the faces' depth from the scratch image into the atlas
+// and makes mips 1 to 3; each further run makes the next three mips from the last one that exists. Each thread
+// processes a block of 8 × 8 texels of its source; all threads of a workgroup belong to one face. Before including
+// this, define GLOAM_SHADOW_ATLAS_FORMAT. If the atlas format is coarser than the scratch image, also define
+// GLOAM_SHADOW_ATLAS_STEPS: mips are then made from the rounded depths. With GLOAM_SHADOW_MIPS_IN_PLACE there is no
+// scratch image: mip 0 is in the atlas already.
 
 layout(local_size_x = GLOAM_SHADOW_MIP_GROUP, local_size_y = GLOAM_SHADOW_MIP_GROUP) in;
 #ifndef GLOAM_SHADOW_MIPS_IN_PLACE
@@ -20,21 +21,21 @@ layout(set = 0, binding = 1, GLOAM_SHADOW_ATLAS_FORMAT) uniform image2D atlas;
 layout(set = 0, binding = 2, r32f) uniform image2D pyramid;
 layout(set = 0, binding = 3, scalar) readonly buffer Groups { ShadowMipGroup groups[]; };
 #ifndef GLOAM_SHADOW_MIPS_IN_PLACE
-layout(set = 0, binding = 4) uniform sampler2DArray
-    backgrounds;  // depth of casters that the scratch map lacks, laid out as mip 0 of the atlas
+// Depth of resting casters, laid out as mip 0 of the atlas.
+layout(set = 0, binding = 4) uniform sampler2DArray backgrounds;
 #endif
 layout(push_constant, scalar) uniform Constants { ShadowMipConstants run; };
 
-ShadowMipGroup face;  // of this workgroup
+ShadowMipGroup face;  // this workgroup's entry
 
-// What becomes one texel of the next mip.
+// Accumulates the texels that become one texel of the next mip.
 struct Texels {
   float nearest;
-  float sum;  // of distances in units of the near plane, or of depths (orthographic), occupied texels only
-  float count;
-  float covered;  // texels that the nearest surface covers
-  float depths;   // sum of its depths, by what each texel's surface covers
-  vec2 bounds;    // of the pyramid: farthest, nearest
+  float sum;      // sum over occupied texels of the distances in units of the near plane (orthographic: of the depths)
+  float count;    // occupied texels
+  float covered;  // texels that the nearest surface covers, summed by share
+  float depths;   // sum of the nearest surface's depths, weighted by the covered share of each texel
+  vec2 bounds;    // values of the pyramid: farthest, nearest
 };
 
 const Texels kNone = Texels(0.0, 0.0, 0.0, 0.0, 0.0, vec2(1.0, 0.0));
@@ -43,8 +44,8 @@ const uint kFreeBits = GLOAM_SHADOW_FREE_BITS;
 
 float without_free_bits(float depth) { return uintBitsToFloat(floatBitsToUint(depth) & ~kFreeBits); }
 
-// Counts a texel's share of the nearest surface. What lies behind it by more than a surface recedes over a texel is
-// another one.
+// Adds a texel to the nearest surface. gap: greatest depth step of one surface from a texel to the next
+// (ShadowMipGroup::gap); depths that differ by more belong to different surfaces.
 void add_covered(inout Texels t, float texel, float gap) {
   float depth = without_free_bits(texel);
   float share = depth > 0.0 ? 1.0 - float(floatBitsToUint(texel) & kFreeBits) / 64.0 : 0.0;
@@ -56,7 +57,7 @@ void add_covered(inout Texels t, float texel, float gap) {
   t.nearest = near;
 }
 
-// gap: of the mip that the texels become.
+// gap: as in add_covered(), for texels of the mip that is being made.
 void add(inout Texels t, float depth, vec2 bounds, float gap) {
   bool occupied = depth > 0.0;
   if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE))
@@ -71,7 +72,7 @@ void add(inout Texels t, float depth, vec2 bounds, float gap) {
 float depth_of(Texels t) {
   if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) {
     uint free = uint(clamp(floor((1.0 - 0.25 * t.covered) * 64.0 + 0.5), 0.0, float(kFreeBits)));
-    // The mean of a plane's depths is its depth in the middle.
+    // The mean depth of a plane is its depth in the middle.
     return t.nearest > 0.0 ? uintBitsToFloat(floatBitsToUint(without_free_bits(t.depths / t.covered)) | free) : 0.0;
   }
   if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_NEAREST) || t.count == 0.0) return t.nearest;
@@ -86,7 +87,8 @@ void store_depth(uint mip, uvec2 at, float depth) {
   imageStore(atlas, mip_corner(mip, run.atlas_size) + ivec2((face.origin >> mip) + at), vec4(depth));
 }
 
-// Where the pyramid holds the nearest depth of a mip's texel; the farthest is below_nearest() from there.
+// Texel of the pyramid that holds the nearest depth of a mip's texel. The farthest depth is at that texel +
+// below_nearest().
 ivec2 nearest_place(uint mip, uvec2 at) {
   return mip_corner(mip - uint(GLOAM_SHADOW_PYRAMID_MIP), run.atlas_size / 4u) + ivec2((face.origin >> mip) + at);
 }
@@ -99,14 +101,15 @@ void store_bounds(uint mip, uvec2 at, vec2 bounds) {
   imageStore(pyramid, place + below_nearest(), vec4(bounds.x));
 }
 
-// Of mips that small faces may lack.
+// Stores a texel of a mip, unless the face is too small to have that mip.
 void store(uint mip, uvec2 at, float depth, vec2 bounds) {
-  uint size = face.size >> mip;  // 0 for mips it lacks
+  uint size = face.size >> mip;  // 0 if the face is too small to have this mip
   if (at.x >= size || at.y >= size) return;
   store_depth(mip, at, depth);
   store_bounds(mip, at, bounds);
 }
 
+// The depth rounded to the value that mip 0 of the atlas stores.
 float held_depth(float depth) {
 #ifdef GLOAM_SHADOW_ATLAS_STEPS
   depth = floor(clamp(depth, 0.0, 1.0) * GLOAM_SHADOW_ATLAS_STEPS + 0.5) / GLOAM_SHADOW_ATLAS_STEPS;
@@ -115,22 +118,22 @@ float held_depth(float depth) {
 }
 
 #ifdef GLOAM_SHADOW_MIPS_IN_PLACE
-// Four texels of mip 0: what becomes texel `at1` of mip 1.
+// Reads the four texels of mip 0 that become texel `at1` of mip 1.
 Texels first_texels(uvec2 at1, float gap) {
   Texels texels = kNone;
   for (uint one = 0u; one < 4u; ++one) {
     uvec2 at = at1 * 2u + uvec2(one & 1u, one >> 1);
-    // Loading may round what storing did not.
+    // Rounds again, because loading may change the stored value by conversion.
     float depth = held_depth(imageLoad(atlas, ivec2(face.origin + at)).x);
     add(texels, depth, vec2(depth), gap);
   }
   return texels;
 }
 #else
-// Four texels of the scratch map, which move into the atlas: what becomes texel `at1` of mip 1.
+// Copies four texels of the scratch image into the atlas; they become texel `at1` of mip 1.
 Texels first_texels(uvec2 at1, float gap) {
   vec4 gathered = textureGather(scratch, vec3(vec2(at1 * 2u + 1u) / float(face.size), float(face.layer)));
-  // Whatever is drawn, the nearest is what a map holds.
+  // The map holds the nearest depth of resting and moving casters.
   for (bool go = face.on_background != 0u; go; go = false)
     gathered =
         max(gathered, textureGather(backgrounds, vec3(vec2(face.origin + at1 * 2u + 1u) / float(run.atlas_size), 0.0)));
@@ -145,7 +148,7 @@ Texels first_texels(uvec2 at1, float gap) {
 }
 #endif
 
-// Mips 0 to 3 of a block (in place: 1 to 3). All faces have them: the smallest is 16 texels wide.
+// Makes mips 0 to 3 of a block (in place: 1 to 3). All faces have them, as the smallest is 16 texels wide.
 void make_first_mips(uvec2 block, float gap) {
   Texels third = kNone;
   for (uint quarter = 0u; quarter < 4u; ++quarter) {
@@ -167,6 +170,7 @@ void make_first_mips(uvec2 block, float gap) {
   store_bounds(3u, block, third.bounds);
 }
 
+// Depth and pyramid values of a texel of mip run.first.
 float source_texel(uvec2 at, out vec2 bounds) {
   at = min(at, uvec2((face.size >> run.first) - 1u));
   ivec2 place = nearest_place(run.first, at);
@@ -174,7 +178,7 @@ float source_texel(uvec2 at, out vec2 bounds) {
   return imageLoad(atlas, mip_corner(run.first, run.atlas_size) + ivec2((face.origin >> run.first) + at)).x;
 }
 
-// The three mips after `first` of a block.
+// Makes the three mips after run.first for a block.
 void make_next_mips(uvec2 block, float gap) {
   Texels third = kNone;
   for (uint quarter = 0u; quarter < 4u; ++quarter) {
@@ -204,7 +208,8 @@ void main() {
   uvec2 block = face.begin + gl_LocalInvocationID.xy;
   bool inside = all(lessThan(block, face.end));
   float gap = face.gap * float(1u << (run.first + 1u));
-  // Loops of one turn: a device that runs threads in lockstep on a CPU skips these, but no branches.
+  // Loops of one iteration instead of branches: a device that runs threads in lockstep on a CPU can skip a loop, but
+  // executes both sides of a branch.
   for (bool go = inside && run.first == 0u; go; go = false) make_first_mips(block, gap);
   for (bool go = inside && run.first != 0u; go; go = false) make_next_mips(block, gap);
 }

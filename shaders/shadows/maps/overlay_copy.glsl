@@ -5,8 +5,8 @@
 
 #include "shaders/shadows/maps/mips_shared.h"
 
-// Copies mip 0 of faces to other squares of the atlas, which no face of the dispatch lies in. One thread takes a block
-// of 8 × 8 texels. Before including this, define GLOAM_SHADOW_ATLAS_FORMAT.
+// Copies mip 0 of faces into other squares of the atlas. The copies must not overlap any face that is copied. Each
+// thread copies a block of 8 × 8 texels. Before including this, define GLOAM_SHADOW_ATLAS_FORMAT.
 
 layout(local_size_x = GLOAM_SHADOW_MIP_GROUP, local_size_y = GLOAM_SHADOW_MIP_GROUP) in;
 layout(set = 0, binding = 0, GLOAM_SHADOW_ATLAS_FORMAT) uniform image2D atlas;

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shadows/maps/planes_shared.h"
 
-// Planes above what shadow maps hold. One thread makes one texel of level 0, or one of the last level with all of the
-// levels between.
+// Makes planes, which bound the depths of blocks of shadow maps from above (planes_shared.h). Each thread makes one
+// texel of level 0, or one texel of the last level together with those of the levels between.
 
 layout(local_size_x = GLOAM_SHADOW_PLANE_GROUP, local_size_y = GLOAM_SHADOW_PLANE_GROUP) in;
 
@@ -14,7 +14,7 @@ layout(set = 0, binding = 1, rgba32f) uniform image2D planes;
 layout(set = 0, binding = 2, scalar) readonly buffer Groups { ShadowPlaneGroup groups[]; };
 layout(push_constant, scalar) uniform Constants { ShadowPlaneConstants run; };
 
-ShadowPlaneGroup stretch;  // of this workgroup
+ShadowPlaneGroup stretch;  // this workgroup's entry
 
 const int kBlock = GLOAM_SHADOW_PLANE_BLOCK;
 
@@ -31,7 +31,7 @@ vec4 quad_depths(ivec2 texel) {
 float greatest(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 float least(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
-// The plane with the slopes of the block's depths by least squares, raised until nothing is above it.
+// The plane of a block of level 0: slopes by least squares, raised until no depth is above it.
 vec4 plane_of_block(ivec2 corner) {
   const vec4 right = vec4(-0.5, 0.5, 0.5, -0.5), down = vec4(0.5, 0.5, -0.5, -0.5);
   vec2 moments = vec2(0.0);
@@ -44,7 +44,7 @@ vec4 plane_of_block(ivec2 corner) {
     nearest = max(nearest, greatest(depth));
     farthest = min(farthest, least(depth));
   }
-  // Σ (x − mean)² over eight columns is 42, over eight rows of them 336.
+  // Σ (x − mean)² over eight columns is 42, so over eight rows of them it is 336.
   vec2 slope = farthest > 0.0 ? moments / 336.0 : vec2(0.0);
   float height = -1e30;
   for (int i = 0; i < 16; ++i) {
@@ -56,7 +56,7 @@ vec4 plane_of_block(ivec2 corner) {
   return vec4(height, slope, nearest);
 }
 
-// Four planes of a level, two by two, become one of the next.
+// Four planes of a level, two by two, that become one of the next level.
 struct Merge {
   vec4 children[4];
 };
@@ -79,7 +79,7 @@ ivec2 level_texel(int level, ivec2 in_face) {
   return level_corner(level) + (ivec2(stretch.origin) / kBlock >> level) + in_face;
 }
 
-// Whether the face has a texel of this level there.
+// Whether the texel of this level is inside the face.
 bool in_face(int level, ivec2 texel) { return all(lessThan(texel, ivec2(stretch.size / uint(kBlock) >> level))); }
 
 void store(int level, ivec2 texel, vec4 plane) {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-// Builds a world by code, without a scene file, lets the schedule move it on an executor of the host's own, and checks
-// what came out.
+// Builds a world in code, without a scene file, runs the schedule on an executor of the host, and checks the result.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -33,7 +32,7 @@ void orbit_system(gloam::View<const Orbit, gloam::LocalTransform> orbits,
   });
 }
 
-/// Hands the work to the serial executor and counts it: what a host with threads of its own would put in between.
+/// Forwards the work to the serial executor and counts the calls. A host with its own threads would use them here.
 class HostExecutor final : public gloam::JobExecutor {
  public:
   [[nodiscard]] std::uint32_t worker_count() const override { return serial_->worker_count(); }

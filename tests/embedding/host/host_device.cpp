@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-// A host with a Vulkan device, images and threads of its own lets gloam draw two views into them, and checks that the
-// pictures are, bit for bit, those that gloam draws on a device of its own. Exit code 77: there is no Vulkan here.
+// A host with its own Vulkan device, images and threads. gloam draws two views into the host's images; they must equal,
+// bit for bit, the images that gloam draws on its own device. Exit code 77: there is no Vulkan device.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -44,7 +44,7 @@ void check(const gloam::Status& status) {
   if (!status.ok()) fail(status.error().message);
 }
 
-/// Two eyes: one in front, one from the side and smaller.
+/// Two views: view 0 from the front, view 1 from the side at half the resolution.
 gloam::ViewSettings view_settings(std::uint32_t index) {
   gloam::ViewSettings settings;
   settings.id = gloam::ViewId{index};
@@ -68,7 +68,7 @@ gpu::ImageDesc target_desc(gpu::Format format, const gloam::ViewSettings& view, 
   return desc;
 }
 
-/// gloam on the host's device, in the host's threads, into the host's images.
+/// Draws with gloam on the host's device and threads into the host's images.
 std::array<Bytes, 2> draw_on(host::VulkanHost& vulkan, gloam::LogSink& log) {
   gpu::HostDevice description = vulkan.describe();
   description.log = &log;
@@ -92,7 +92,7 @@ std::array<Bytes, 2> draw_on(host::VulkanHost& vulkan, gloam::LogSink& log) {
   const gpu::ImageHandle side_handle =
       gpu::import_image(*device, side.image, target_desc(gpu::Format::bgra8_unorm, views[1].settings, usage));
 
-  // Every frame waits until the host allows it, and tells the host when it is over.
+  // Each frame waits for a semaphore of the host and signals another one when it has finished.
   const VkSemaphore may_draw = vulkan.create_timeline();
   const VkSemaphore drawn = vulkan.create_timeline();
   std::uint64_t frame = 0;
@@ -115,7 +115,7 @@ std::array<Bytes, 2> draw_on(host::VulkanHost& vulkan, gloam::LogSink& log) {
   device->destroy(side_handle);
   renderer.reset();
   device.reset();
-  // gloam is gone; device, image and semaphore are the host's as before.
+  // gloam's objects are destroyed; the host's device, image and semaphore still exist.
   pictures[1] = vulkan.read(side, gpu::host_image_layout(gpu::Access::fragment_read), {drawn, kFrames});
   vulkan.destroy(front);
   vulkan.destroy(side);
@@ -143,7 +143,7 @@ Bytes read_back(gpu::Device& device, gpu::ImageHandle image) {
   return bytes;
 }
 
-/// The same on a device and threads of gloam's.
+/// Draws the same views on gloam's own device and threads.
 std::array<Bytes, 2> draw_alone(const std::string& device_name, gloam::LogSink& log) {
   const auto executor = gloam::make_pool_executor(2);
   auto device = value_of(gpu::create_vulkan_device({.device = device_name, .log = &log}));
@@ -161,7 +161,7 @@ std::array<Bytes, 2> draw_alone(const std::string& device_name, gloam::LogSink& 
   return {value_of(renderer->read_picture(gloam::ViewId{0})).rgba, read_back(*device, side)};
 }
 
-/// A device that gloam cannot use is refused with the names of what is missing.
+/// Checks that an unusable device is refused and that the error names what is missing.
 void check_refusal(host::VulkanHost& vulkan) {
   gpu::HostDevice bare = vulkan.describe();
   bare.enabled_extensions = {};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-// A module of the host's own, with a shader of its own, among gloam's: drawn on a device that only writes down what it
-// is told.
+// Adds a module with a shader, both defined by the host, to gloam's modules. Draws on the recording device, which only
+// records commands.
 #include <cstdio>
 #include <string>
 #include <utility>

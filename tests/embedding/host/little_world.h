@@ -15,7 +15,7 @@
 
 namespace host {
 
-/// A box around the origin with faces of its own vertices, counter-clockwise from outside.
+/// A box around the origin. Each face has its own vertices, counter-clockwise seen from outside.
 inline gloam::Primitive box(gloam::vec3 half_m, std::uint32_t material) {
   gloam::Primitive p;
   p.material = material;
@@ -37,7 +37,7 @@ inline gloam::Primitive box(gloam::vec3 half_m, std::uint32_t material) {
   return p;
 }
 
-/// Three boxes on a floor, a lamp and the last of the sun. The world has been prepared by Renderer::prepare_world.
+/// Adds three boxes on a floor, a lamp and a sun. world: prepared by Renderer::prepare_world.
 inline void build_little_world(gloam::World& world) {
   auto& assets = world.resource<gloam::SceneAssets>();
   const auto add_mesh = [&](gloam::vec3 half_m, gloam::vec4 color) {
@@ -70,7 +70,7 @@ inline void build_little_world(gloam::World& world) {
   gloam::Light sun;
   sun.kind = gloam::LightKind::directional;
   sun.intensity = 400.0f;
-  // Shines along the node's −Z, turned here to look steeply down.
+  // A directional light shines along the node's −Z; this rotation points it steeply down.
   world.create(gloam::LocalTransform{.rotation = gloam::dquat(0.866, -0.5, 0.0, 0.0)}, gloam::WorldTransform{}, sun,
                gloam::ShadowCaster{.enabled = false});
   auto& environment = world.resource<gloam::SceneEnvironment>();

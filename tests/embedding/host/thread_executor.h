@@ -19,8 +19,8 @@
 
 namespace host {
 
-/// gloam's jobs on a host's own threads: one stack of tasks under one lock. Whoever waits for a batch works meanwhile,
-/// so batches may be started from inside jobs.
+/// Runs gloam's jobs on the host's own threads: one stack of tasks under one lock. A thread that waits for a batch runs
+/// tasks in the meantime, so jobs may start batches.
 class ThreadExecutor final : public gloam::JobExecutor {
  public:
   explicit ThreadExecutor(std::uint32_t threads) {
@@ -71,8 +71,8 @@ class ThreadExecutor final : public gloam::JobExecutor {
  private:
   struct Batch {
     std::function<void(std::size_t)> job;
-    std::function<void(std::size_t, bool failed)> ended;  ///< under the lock
-    std::size_t left = 0;                                 ///< under the lock
+    std::function<void(std::size_t, bool failed)> ended;  ///< called with the lock held
+    std::size_t left = 0;                                 ///< guarded by the lock
     gloam::FirstFailure failure;
   };
   struct Task {
@@ -85,7 +85,7 @@ class ThreadExecutor final : public gloam::JobExecutor {
     batch.left = count;
     batch.job = std::move(job);
     std::vector<std::size_t> ready(count);
-    for (std::size_t i = 0; i < count; ++i) ready[i] = count - 1 - i;  // the stack then gives them out in order
+    for (std::size_t i = 0; i < count; ++i) ready[i] = count - 1 - i;  // reversed, so that the stack pops them in order
     finish(batch, ready);
   }
 
@@ -99,7 +99,7 @@ class ThreadExecutor final : public gloam::JobExecutor {
     batch.failure.rethrow_if_any();
   }
 
-  /// done() is asked under the lock.
+  /// Runs tasks until done() returns true. done() is called with the lock held.
   template <class Done>
   void work_until(Done done) {
     std::unique_lock lock(mutex_);
@@ -120,7 +120,7 @@ class ThreadExecutor final : public gloam::JobExecutor {
       }
       lock.lock();
       if (task.batch->ended) task.batch->ended(task.index, failed);
-      --task.batch->left;  // the last thing done to the batch: whoever waits for it may now drop it
+      --task.batch->left;  // the last access to the batch: the waiting thread may now destroy it
       wake_.notify_all();
     }
   }

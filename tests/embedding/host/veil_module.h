@@ -9,7 +9,7 @@
 
 namespace host {
 
-/// A thin veil of mist over the whole scene.
+/// Component: mist of uniform density over the whole scene.
 struct Veil {
   float density = 0.0f;                      ///< 1/m
   gloam::vec3 radiance = gloam::vec3(0.0f);  ///< cd/m²

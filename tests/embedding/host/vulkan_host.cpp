@@ -96,7 +96,7 @@ bool VulkanHost::make_device(std::string& why) {
   constexpr VkQueueFlags kNeeds = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   while (family_ < count && (families[family_].queueFlags & kNeeds) != kNeeds) ++family_;
 
-  // What the host itself wants would be switched on here; gloam adds what it needs.
+  // A host would enable its own features here; gloam adds the features that it uses.
   features_.pNext = &features12_;
   features12_.pNext = &features13_;
   VkPhysicalDeviceVulkan12Features supported12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
@@ -139,7 +139,7 @@ std::uint64_t VulkanHost::close() {
     vkDeviceWaitIdle(device_);
     for (VkSemaphore semaphore : timelines_) vkDestroySemaphore(device_, semaphore, nullptr);
     vkDestroyCommandPool(device_, pool_, nullptr);
-    vkDestroyDevice(device_, nullptr);  // validation complains here about whatever was left behind
+    vkDestroyDevice(device_, nullptr);  // validation reports leaked objects here
     device_ = VK_NULL_HANDLE;
   }
   return messages_;

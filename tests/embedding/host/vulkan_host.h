@@ -23,30 +23,31 @@ struct HostImage {
   std::uint32_t height = 0;
 };
 
-/// What a program with a renderer of its own has anyway: an instance, a device, a queue, images and commands. It links
-/// libvulkan and calls it by its prototypes.
+/// The Vulkan objects of a program with its own renderer: instance, device, queue, images and commands. It links
+/// libvulkan and calls its prototypes.
 class VulkanHost {
  public:
-  /// Null when the machine has no device that gloam can use; `why` says what is missing.
+  /// Returns null if the machine has no device that gloam can use; `why` then names what is missing.
   static std::unique_ptr<VulkanHost> open(std::string& why);
   ~VulkanHost();
   VulkanHost(const VulkanHost&) = delete;
   VulkanHost& operator=(const VulkanHost&) = delete;
 
-  /// Everything gloam must know to draw on this device; points into this object.
+  /// The description of this device for gloam. It points into this object.
   [[nodiscard]] gloam::gpu::HostDevice describe();
   [[nodiscard]] const std::string& device_name() const { return name_; }
   [[nodiscard]] bool validates() const { return messenger_ != VK_NULL_HANDLE; }
-  /// Destroys everything but the instance, then tells how often validation complained in this object's life.
+  /// Destroys everything except the instance. Returns the number of validation messages in this object's lifetime.
   [[nodiscard]] std::uint64_t close();
 
-  /// A picture of four bytes a texel, to be drawn into, sampled and copied from.
+  /// Creates an image of four bytes per texel that can be rendered to, sampled and copied from.
   [[nodiscard]] HostImage create_image(VkFormat format, std::uint32_t width, std::uint32_t height);
   void destroy(const HostImage& image);
-  /// A timeline semaphore that starts at 0; lives until close().
+  /// Creates a timeline semaphore with value 0. It lives until close().
   [[nodiscard]] VkSemaphore create_timeline();
   void signal(VkSemaphore semaphore, std::uint64_t value);
-  /// The picture's bytes, rows from the top. `left` is what gloam left it in; `after`: what the copy waits for.
+  /// Returns the image's texels, rows from the top. `left`: the layout that gloam left the image in. `after`: the
+  /// semaphore that the copy waits for.
   [[nodiscard]] std::vector<std::uint8_t> read(const HostImage& image, const gloam::gpu::HostImageLayout& left,
                                                const gloam::gpu::HostSemaphore& after);
 

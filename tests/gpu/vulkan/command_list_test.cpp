@@ -21,7 +21,7 @@ struct Vertex {
 constexpr std::uint32_t kSize = 32;
 constexpr Texel kClear = {0, 0, 51, 255};
 
-/// Draws triangles with the test shaders into colour and depth; set 1 holds the tints.
+/// Draws triangles with the test shaders into a colour and a depth image; set 1 holds the tints.
 class CommandLists : public VulkanTest {
  protected:
   void SetUp() override {
@@ -50,7 +50,7 @@ class CommandLists : public VulkanTest {
             .depth_format = Format::d32_float};
   }
 
-  /// A triangle over the lower left half of the picture, counter-clockwise as seen.
+  /// A triangle over the lower left half of the image, counter-clockwise on screen.
   static std::vector<Vertex> lower_left(float depth, Texel color) {
     return {{{-1, -1, depth}, color}, {{1, -1, depth}, color}, {{-1, 1, depth}, color}};
   }
@@ -77,7 +77,7 @@ class CommandLists : public VulkanTest {
         device().create_resource_set(pipeline, 1, std::array{Binding{3, Binding::BufferRange{tints_}}}));
   }
 
-  /// Draws `vertices` with a pipeline of this description and gives back the colours.
+  /// Draws `vertices` with a pipeline of this description and returns the colours.
   std::vector<Texel> draw(const GraphicsPipelineDesc& pipeline_desc, const std::vector<Vertex>& vertices,
                           std::uint32_t tint = 0) {
     const auto pipeline = test::value_of(device().create_pipeline(pipeline_desc));

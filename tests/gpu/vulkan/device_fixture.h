@@ -14,7 +14,7 @@
 
 namespace gloam::gpu {
 
-/// A validated device a test; a validation message fails the test.
+/// Creates a device with validation for each test. Any validation message fails the test.
 class VulkanTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -35,7 +35,7 @@ class VulkanTest : public ::testing::Test {
     return 0;
   }
 
-  /// Copies mip 0 of one layer into a fresh readback buffer; the image is left in transfer_read.
+  /// Copies one mip of one layer to a new readback buffer. Leaves the image ready for transfer_read.
   [[nodiscard]] BufferHandle read_layer(CommandList& commands, ImageHandle image, Access before,
                                         std::uint32_t layer = 0, std::uint32_t mip = 0) {
     const ImageDesc& desc = device_->desc(image);

@@ -93,7 +93,7 @@ TEST_F(VulkanDevice, validation_messages_are_counted) {
   const auto commands = (*other)->begin_frame();
   ASSERT_TRUE(commands.ok());
   (*commands)->fill_buffer(buffer, 0, 64, 1);
-  (*commands)->fill_buffer(buffer, 0, 64, 2);  // no barrier between: a hazard that synchronisation validation must see
+  (*commands)->fill_buffer(buffer, 0, 64, 2);  // no barrier in between: synchronization validation must report it
   ASSERT_TRUE((*other)->submit_frame().ok());
   EXPECT_GT((*other)->validation_messages(), 0u);
 }

@@ -27,7 +27,7 @@ class Images : public VulkanTest {
                                                  .shape = shape}));
   }
 
-  /// Records the kernel that gives each texel (x, y, layer, 255); the image is left in compute_write.
+  /// Records the kernel that writes (x, y, layer, 255) to each texel. Leaves the image ready for compute_write.
   void paint(CommandList& commands, ImageHandle image) {
     if (!paint_) {
       paint_ = test::value_of(
@@ -234,7 +234,7 @@ TEST_F(Images, aliased_images_share_memory_that_is_counted_once) {
   EXPECT_EQ(test::items_of<std::uint16_t>(device(), read_a).at(0), 0x3c00);
   EXPECT_EQ(test::items_of<Texel>(device(), read_b).at(0), (Texel{0, 0, 0, 255}));
   device().destroy(images[0]);
-  EXPECT_EQ(bytes_of("first"), 2 * bytes);  // the other one still holds it
+  EXPECT_EQ(bytes_of("first"), 2 * bytes);  // the other image still uses the memory
   device().destroy(images[1]);
   device().destroy(alone);
   EXPECT_EQ(bytes_of("first"), 0u);

@@ -15,7 +15,7 @@
 namespace gloam::gpu {
 namespace {
 
-/// The fixture's own device stands for the host's: its handles are lent to a second gpu::Device.
+/// The fixture's device acts as the host's device: a second gpu::Device is created on its handles.
 class Interop : public VulkanTest {
  protected:
   [[nodiscard]] vulkan::Context& context() { return dynamic_cast<vulkan::VulkanDevice&>(device()).context(); }

@@ -22,7 +22,7 @@ class Pipelines : public VulkanTest {
             .constants = std::move(constants)};
   }
 
-  /// What the kernel makes of 0 … 99, with 1000 added through the uniform and only 90 numbers asked for.
+  /// Runs the kernel on the numbers 0 … 99, of which it processes 90; the uniform adds 1000.
   std::vector<std::uint32_t> run(PipelineHandle pipeline) {
     std::vector<std::uint32_t> numbers(100);
     std::iota(numbers.begin(), numbers.end(), 0u);

@@ -61,7 +61,7 @@ TEST(flip, says_of_seven_pairs_what_the_reference_implementation_says) {
   }
 }
 
-// ---- The paper's formulas as they are printed: filters in two dimensions, one pixel at a time. ----
+// ---- The formulas exactly as the paper prints them: two-dimensional filters, one pixel at a time. ----
 
 struct Weights {
   int radius = 0;

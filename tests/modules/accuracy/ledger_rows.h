@@ -10,7 +10,7 @@
 
 namespace gloam::test {
 
-/// A row with a number of its own in every field.
+/// A row with a different number in every field.
 inline LedgerRow full_row(std::uint32_t seed = 1) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> number(0.0, 1.0);
@@ -37,7 +37,7 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
   return row;
 }
 
-/// A row without a reference, and so without errors.
+/// A row without a reference and therefore without errors.
 inline LedgerRow bare_row() {
   LedgerRow row = {.knob = "lighting.tone_map", .value = "filmic", .is_default = true};
   row.ms = {1.0, 0.5, 2.0};

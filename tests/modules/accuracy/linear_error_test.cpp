@@ -71,7 +71,7 @@ TEST(rms_error, names_the_pixel_that_is_not_a_number) {
   EXPECT_THAT(reference.error().message, HasSubstr("the reference cannot be judged"));
   b.rgba[(2 * 5 + 3) * 4 + 1] = std::numeric_limits<float>::infinity();
   EXPECT_FALSE(rms_error(a.pixels(), b.pixels()).ok());
-  // Opacity is not looked at.
+  // Opacity is ignored.
   FloatPicture c = a;
   c.rgba[3] = kNan;
   EXPECT_TRUE(rms_error(a.pixels(), c.pixels()).ok());
@@ -119,7 +119,7 @@ TEST(temporal_error, sees_only_change_that_the_reference_does_not_have) {
   EXPECT_NEAR(none->max, 0.0, 1e-5);
   const auto flicker = temporal_error(pixels(reference), pixels(flickering));
   ASSERT_TRUE(flicker.ok());
-  EXPECT_NEAR(flicker->mean, 2.0, 1e-5);  // two of three changes, by 3
+  EXPECT_NEAR(flicker->mean, 2.0, 1e-5);  // two of three changes, each by 3
   EXPECT_NEAR(flicker->p99, 3.0, 1e-5);
 }
 

@@ -31,7 +31,7 @@ TEST(pareto_front, keeps_what_nothing_else_beats) {
 TEST(pareto_front, goes_by_ratios_for_times_drift) {
   std::vector<LedgerRow> rows = {point("a", 0.0, 1.0), point("a", 0.1, 0.5)};
   rows[0].ms.median_ms = 10.0;
-  rows[1].ms.median_ms = 11.0;  // measured when the machine was busy
+  rows[1].ms.median_ms = 11.0;  // as if measured while the machine was busy
   EXPECT_EQ(front_of(rows), (std::vector<bool>{true, true}));
 }
 
@@ -75,7 +75,7 @@ TEST(pareto_front, goes_by_linear_light_where_there_is_no_picture) {
   EXPECT_EQ(front_of({right, wrong}), (std::vector<bool>{true, false}));
 }
 
-/// Straight from the definition: a point is on the front when no cheaper or equally cheap one errs less.
+/// The definition: a point is on the front if no point that is as cheap or cheaper has a smaller error.
 TEST(pareto_front, agrees_with_brute_force) {
   std::mt19937 random(7);
   for (int round = 0; round < 200; ++round) {

@@ -16,7 +16,7 @@
 namespace gloam {
 namespace {
 
-/// A world and segments through it.
+/// A world, and segments traced through it.
 class Tracing : public testing::Test {
  protected:
   Tracing() { prepare_scene_world(world_); }
@@ -57,7 +57,7 @@ TEST_F(Tracing, a_box_blocks_what_crosses_it_and_nothing_else) {
   int inside = 0;
   for (int i = 0; i < 2000; ++i) {
     const dvec3 from(place(random), place(random), place(random)), to(place(random), place(random), place(random));
-    // Slabs: where the segment is inside all three. Both ends outside.
+    // Slab test: the interval in which the segment is inside all three slabs. Both ends are outside the box.
     const dvec3 low(2.5, -1.0, -2.0), high(3.5, 1.0, 2.0);
     const auto within = [&](const dvec3& p) {
       return glm::all(glm::greaterThan(p, low - 1e-3)) && glm::all(glm::lessThan(p, high + 1e-3));
@@ -116,7 +116,7 @@ TEST_F(Tracing, no_ray_slips_through_the_seams_of_a_fine_mesh) {
     }
   maker_.draw(maker_.mesh(test::finished(std::move(grid))));
   trace();
-  // Through every vertex and along the edges, where a tracer that is not watertight fails.
+  // Rays through every vertex and along the edges: a tracer that is not watertight fails here.
   for (int y = 1; y < kSide; ++y)
     for (int x = 1; x < kSide; ++x)
       for (const double shift : {0.0, 0.5}) {
@@ -126,7 +126,7 @@ TEST_F(Tracing, no_ray_slips_through_the_seams_of_a_fine_mesh) {
 }
 
 TEST_F(Tracing, rays_pass_through_holes_of_cut_out_surfaces) {
-  // Left half a hole, right half solid.
+  // The left half is a hole, the right half is solid.
   const std::uint32_t texture = maker_.texture(2, 1, {255, 255, 255, 0, 255, 255, 255, 255}, true);
   Material material;
   material.alpha_mode = AlphaMode::mask;
@@ -164,11 +164,11 @@ TEST_F(Tracing, blended_surfaces_cast_nothing) {
 TEST_F(Tracing, mirrored_and_sheared_instances_block_where_they_are_drawn) {
   dmat4 matrix(1.0);
   matrix[0] = dvec4(-2.0, 0.0, 0.0, 0.0);  // mirrored, twice as wide
-  matrix[1] = dvec4(0.5, 1.0, 0.0, 0.0);   // leaning
+  matrix[1] = dvec4(0.5, 1.0, 0.0, 0.0);   // sheared
   matrix[3] = dvec4(10.0, 0.0, 0.0, 1.0);
   maker_.draw(maker_.mesh(test::quad(1.0f)), matrix);
   trace();
-  // Corner (1, 1) lies at 10 − 2 + 0.5, corner (−1, 1) at 10 + 2 + 0.5.
+  // Corner (1, 1) is at 10 − 2 + 0.5, corner (−1, 1) at 10 + 2 + 0.5.
   EXPECT_TRUE(blocked({8.6, 0.95, 1.0}, {8.6, 0.95, -1.0}));
   EXPECT_FALSE(blocked({8.3, 0.95, 1.0}, {8.3, 0.95, -1.0}));
   EXPECT_TRUE(blocked({12.4, 0.95, -1.0}, {12.4, 0.95, 1.0}));
@@ -193,7 +193,7 @@ TEST_F(Tracing, skinned_instances_block_in_their_pose) {
   joints.matrices = {mat4(1.0f), glm::translate(mat4(1.0f), vec3(4.0f, 0.0f, 0.0f))};
   joints.ranges = {{.instance = entity, .first = 0, .count = 2, .origin = dvec3(20.0, 0.0, 0.0)}};
   trace();
-  // The node's own place does not count; the pose is 0.75 · 4 m to the right of the skin's origin.
+  // The node's own transform is ignored; the pose is 0.75 · 4 m to the right of the skin's origin.
   EXPECT_TRUE(blocked({22.1, 0.5, 1.0}, {22.1, 0.5, -1.0}));
   EXPECT_TRUE(blocked({23.9, 0.5, 1.0}, {23.9, 0.5, -1.0}));
   EXPECT_FALSE(blocked({21.9, 0.5, 1.0}, {21.9, 0.5, -1.0}));
@@ -270,7 +270,7 @@ TEST_F(Tracing, version_tells_worlds_apart) {
   EXPECT_NE(tracer_->version(), version);
 }
 
-/// Alpha 0 and 1 next to each other.
+/// Two texels, with alpha 0 and 1.
 CutOut two_texels(bool nearest, WrapMode wrap) {
   CutOut cut_out;
   cut_out.width = 2;
@@ -285,7 +285,7 @@ TEST(CutOuts, bilinear_alpha_crosses_the_cutoff_between_texel_centres) {
   CutOut cut_out = two_texels(false, WrapMode::clamp_to_edge);
   EXPECT_TRUE(cut_out.is_hole({0.49f, 0.5f}, 1.0f));
   EXPECT_FALSE(cut_out.is_hole({0.51f, 0.5f}, 1.0f));
-  cut_out.cutoff = 0.25f;  // a quarter of the way from centre 0.25 to centre 0.75
+  cut_out.cutoff = 0.25f;  // reached at a quarter of the way between the texel centres 0.25 and 0.75
   EXPECT_TRUE(cut_out.is_hole({0.37f, 0.5f}, 1.0f));
   EXPECT_FALSE(cut_out.is_hole({0.38f, 0.5f}, 1.0f));
 }

@@ -24,7 +24,7 @@ struct FloatPicture {
   [[nodiscard]] LinearPixels pixels() const { return {width, height, rgba}; }
 };
 
-/// Blocks of colours with noise: edges, flat places and points.
+/// Noisy blocks of colour: edges, flat areas and points.
 inline EncodedPicture random_encoded(std::uint32_t width, std::uint32_t height, std::uint32_t seed) {
   std::mt19937 random(seed);
   EncodedPicture picture{width, height, {}};

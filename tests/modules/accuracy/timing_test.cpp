@@ -11,10 +11,10 @@
 namespace gloam {
 namespace {
 
-/// A machine whose clock only moves when it draws.
+/// A fake machine whose clock advances only when it draws.
 class FakeMachine {
  public:
-  /// Every frame takes longer than the one before by `drift_ms`; the first after a change of side by 1000 ms.
+  /// Each frame takes `drift_ms` longer than the one before. The first frame after a change of side takes 1000 ms more.
   explicit FakeMachine(double drift_ms = 0.0) : drift_ms_(drift_ms) {}
 
   RunFrame runner() {
@@ -72,7 +72,7 @@ TEST(timing, a_machine_that_slows_down_hardly_moves_the_ratio) {
   FakeMachine drifting(0.05);
   const TimedValue timed = summarize_times(*time_alternating({}, drifting.runner()));
   EXPECT_GT(timed.ms.p90_ms, timed.ms.p10_ms + 2.0);
-  // Around the middle frame of the run; one side after the other would give more than 2.
+  // The ratio at the middle frame of the run. Timing one side after the other would give more than 2.
   const double middle = 0.05 * 46.0;
   EXPECT_NEAR(timed.ratio, (20.0 + middle) / (10.0 + middle), 0.05);
 }

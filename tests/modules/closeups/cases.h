@@ -14,7 +14,7 @@
 
 namespace gloam::test {
 
-/// Random lights, boxes, and the receivers that a box hides from some of a light: rays from points of the emitter
+/// Random lights and boxes, and receivers for which a box hides part of a light: on rays from points of the emitter
 /// through points of the box.
 class CloseupCases {
  public:
@@ -35,13 +35,13 @@ class CloseupCases {
     const dvec3 half = dvec3(in(least, most), in(least, most), in(least, most)) * 0.5;
     return {middle - half, middle + half};
   }
-  /// A node somewhere that looks along `forward`.
+  /// A node at `at` that looks along `forward`, with a random roll.
   [[nodiscard]] dmat4 looking(const dvec3& at, const dvec3& forward) {
     const dvec3 side = std::abs(forward.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
     const dmat4 node = glm::inverse(glm::lookAt(at, at + forward, side));
     return glm::rotate(node, in(-3.0, 3.0), dvec3(0, 0, 1));
   }
-  /// Often one of its corners.
+  /// A point of the box, half of the time a corner.
   [[nodiscard]] dvec3 inside(const WorldBox& b) {
     const bool corner = chance(0.5);
     dvec3 p;
@@ -54,7 +54,7 @@ class CloseupCases {
     dvec3 receiver = dvec3(0.0);
     dvec3 blocker = dvec3(0.0);
   };
-  /// Nothing for rays that leave the light's reach first. `share`: how far along the ray, 0…1.
+  /// None for rays that leave the light's reach before the box. `share`: position along the ray, 0…1.
   [[nodiscard]] std::optional<Hidden> hidden(const CloseupLight& light, const WorldBox& subject,
                                              const WorldBox& receivers, double share) {
     const dvec3 blocker = inside(subject);
@@ -73,7 +73,7 @@ class CloseupCases {
     const dvec3 from = light.position + direction() * light.radius_m * (chance(0.5) ? 1.0 : in(0.0, 1.0));
     const dvec3 ray = blocker - from;
     const dvec3 start = blocker - light.position;
-    // |start + u · ray| = range
+    // Solves |start + u · ray| = range.
     const double a = glm::dot(ray, ray);
     const double b = glm::dot(start, ray);
     const double c = glm::dot(start, start) - light.range_m * light.range_m;
@@ -87,8 +87,8 @@ class CloseupCases {
     return Hidden{receiver, blocker};
   }
 
-  /// A receiver somewhere in a spot light's cone, often at its edge, if some of the light cannot see it for the box.
-  /// For narrow cones, which few rays through the box stay in.
+  /// A random receiver in a spot's cone, often at its edge; none unless the box hides part of the light from it. Needed
+  /// for narrow cones, which few rays through the box stay in.
   [[nodiscard]] std::optional<Hidden> hidden_in_cone(const CloseupLight& light, const WorldBox& subject) {
     const double angle = light.half_angle * (chance(0.5) ? 0.9999 : std::sqrt(in(0.0, 1.0)));
     const double turn = in(-3.15, 3.15);

@@ -7,17 +7,17 @@
 
 #include "tests/modules/closeups/scene.h"
 
-// A program of its own: memory and pipelines are counted by module, whichever renderer of the device made them.
+// A separate program: memory and pipelines are counted per module, over all renderers of the device.
 
 namespace gloam::test {
 namespace {
 
-/// With a renderer of its own, which has made no pipelines for other scenes.
+/// Has its own renderer, which has made no pipelines for other scenes.
 class CloseupCosts : public LitSceneTest {
  protected:
   [[nodiscard]] bool with_shadows() const override { return true; }
 
-  /// The module's, of frames with so many pairs.
+  /// GPU memory of the module, by number of pairs.
   [[nodiscard]] std::map<int, std::uint64_t> bytes_by_pairs() {
     EXPECT_TRUE(renderer->knobs().set("shadows.mode", "deferred").ok());
     const std::uint32_t stone = scene.material(exact_material(180, 170, 160, 255, 0));

@@ -6,28 +6,27 @@
 
 #include "tests/modules/closeups/scene.h"
 
-// What a close-up leaves of a light, against rays, against standard maps of high resolution that hold everything, and
-// against the frame without the subject: a subject takes light away, only where it is in the way, and nothing else
-// changes.
+// Close-up shadows against rays, against standard maps of high resolution that hold all casters, and against the frame
+// without the subject. A subject must only reduce light, only where it blocks, and change nothing else.
 
 namespace gloam::test {
 namespace {
 
-/// Against maps of high resolution: half a pixel of blur on either side of each silhouette, of which rays leave
-/// kMostMean.
+/// Limit of the mean difference from maps of high resolution, which allows for half a pixel of blur on both sides of
+/// each silhouette. The limit against rays is kMostMean.
 constexpr double kMostFromMaps = 0.015;
-constexpr double kMostOppositeToMaps = 0.01;  ///< share of pixels that are dark by one and lit by the other
+constexpr double kMostOppositeToMaps = 0.01;  ///< share of pixels that are dark in one and lit in the other
 
 class CloseupFrames : public CloseupScene {
  protected:
-  /// A room with a block that rests and a figure.
+  /// A room with a static block and a figure.
   void put_scene(const dvec3& feet = dvec3(0.15, 0.0, 0.3), double scale = 1.0) {
     put_room();
     put(shapes_[0], glm::scale(glm::rotate(at(-0.9, 0.25, -0.7), 0.5, dvec3(0.0, 1.0, 0.0)), dvec3(0.4, 0.5, 0.4)));
     put_far_boxes();
     figure = put_figure(feet, scale);
   }
-  /// Where a point lies in a face: texels from its corner, and metres before the light, or its near side.
+  /// Position of a point in a face: texels from its corner, and metres from the light or from the near side.
   [[nodiscard]] static dvec3 place_in(const ShadowFace& face, const dvec3& point) {
     const dvec3 v = point - face.origin;
     const double z = glm::dot(v, dvec3(face.forward)), size = static_cast<double>(face.square.size);
@@ -36,7 +35,7 @@ class CloseupFrames : public CloseupScene {
     return {(0.5 + 0.5 * glm::dot(v, dvec3(face.right)) / half) * size,
             (0.5 - 0.5 * glm::dot(v, dvec3(face.up)) / half) * size, z};
   }
-  /// Whether a close-up certainly does not hold the point.
+  /// Whether the point is certainly outside the close-up face.
   [[nodiscard]] static bool is_outside(const ShadowFace& face, const dvec3& point) {
     constexpr double kMargin = 0.1;  // texels
     const dvec3 p = place_in(face, point);
@@ -48,12 +47,12 @@ class CloseupFrames : public CloseupScene {
   struct Checked {
     std::size_t pairs = 0;
     std::size_t darker = 0;   ///< pixels
-    std::size_t outside = 0;  ///< that the map does not hold, in the pair's tiles
+    std::size_t outside = 0;  ///< pixels of the pair's tiles that are outside its face
     ShadowError error;
     SeenDifference maps;
   };
 
-  /// Everything this file is about, for a light and no more than one pair with it.
+  /// All checks of this file, for a light with at most one pair.
   Checked expect_right_closeup(const std::string& what, Entity lamp) {
     Checked checked;
     const CloseupShot close = second_shot();
@@ -156,7 +155,7 @@ TEST_F(CloseupFrames, of_a_sun_keep_what_rays_and_large_maps_say) {
   }
 }
 
-// A thin pole before many tiles: most pixels of its tiles are not in its map.
+// A thin pole in front of many tiles: most pixels of these tiles are outside its face.
 TEST_F(CloseupFrames, leave_pixels_beside_a_thin_subject_alone) {
   put_room();
   put_far_boxes();
@@ -188,7 +187,7 @@ TEST_F(CloseupFrames, of_a_light_inside_the_subject_are_left_to_the_standard_map
 
 TEST_F(CloseupFrames, reach_no_receiver_before_the_subject) {
   put_scene(dvec3(0.15, 0.0, 0.0));
-  // Sheets between the lamp and the figure, of which one keeps some light from it.
+  // Sheets between the lamp and the figure. One of them blocks part of the light that would reach the figure.
   put(shapes_[0], glm::scale(at(0.75, 1.35, 0.7), dvec3(0.3, 0.02, 0.3)));
   const Entity lamp = put_light(point(0.05f), dvec3(0.9, 1.9, 0.9), dvec3(0.0, -1.0, 0.0), 1024);
   set("shadows.atlas", "4096");
@@ -239,7 +238,7 @@ TEST_F(CloseupFrames, of_subjects_at_the_camera_are_right) {
     put_room();
     put_far_boxes();
     settings = look_at(dvec3(0.2, 0.9, 1.6), dvec3(0.0, 0.2, 0.0), 160, 96);
-    // Its shadow falls into view; it is beside and behind the camera.
+    // The subject is beside and behind the camera; its shadow falls into view.
     figure = put_block(dvec3(0.75, 1.1, 1.5 - ahead), dvec3(0.5, 0.3, 1.6));
     const Entity lamp = put_light(spot(65.0, 0.12f), dvec3(1.3, 2.3, 1.9), dvec3(-0.7, -1.0, -0.9), 2048);
     set("shadows.atlas", "4096");

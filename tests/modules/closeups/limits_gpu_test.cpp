@@ -7,7 +7,7 @@
 
 #include "tests/modules/closeups/scene.h"
 
-// Close-ups where buffers are too small, where nothing asks for them, and in scenes made at random.
+// Close-ups with buffers that are too small, in frames that do not need them, and in random scenes.
 
 namespace gloam::test {
 namespace {
@@ -40,7 +40,7 @@ class CloseupLimits : public CloseupScene {
   Figure first, second;
 };
 
-/// With `bits` a visibility.
+/// Parameter: bits per visibility.
 class CloseupSlots : public CloseupLimits, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(CloseupSlots, are_made_up_for_by_standard_maps_where_there_are_none) {
@@ -65,7 +65,7 @@ TEST_P(CloseupSlots, are_made_up_for_by_standard_maps_where_there_are_none) {
     const double off = differing(limited.light, all.light);
     std::printf("%s: %zu tiles fall back, %.4f of the pixels differ\n", what.c_str(),
                 limited.lists.fallback_tiles.size(), off);
-    // Maps are off by a part of a pixel at silhouettes; without the subjects it would be 0.04.
+    // The two kinds of maps differ by part of a pixel at silhouettes. Without the subjects the share would be 0.04.
     EXPECT_LE(off, 0.01) << what;
   }
   set("shadows.slot_limit", std::to_string(static_cast<int>(need)));
@@ -76,7 +76,7 @@ TEST_P(CloseupSlots, are_made_up_for_by_standard_maps_where_there_are_none) {
 
 INSTANTIATE_TEST_SUITE_P(Bits, CloseupSlots, ::testing::Values("8", "4"));
 
-// Tiles fall back when pairs, not slots, are short, too; close-ups then have nothing to say there.
+// Tiles also fall back when tile-light pairs, not slots, run out. Compose must leave these tiles alone.
 TEST_F(CloseupLimits, tiles_without_a_list_show_subjects_from_standard_maps) {
   put_scene();
   put_lights_of_all_kinds();
@@ -139,7 +139,7 @@ TEST_F(CloseupLimits, nothing_is_done_without_subjects_in_view) {
   EXPECT_EQ(disabled.light.rgba, removed.light.rgba);
 }
 
-// Values that have no place in a scene: nothing may become no number, and nothing may crash.
+// Values that make no sense in a scene: nothing may become NaN, and nothing may crash.
 TEST_F(CloseupLimits, values_out_of_reason_leave_everything_finite) {
   put_scene();
   put_lights_of_all_kinds();

@@ -11,7 +11,7 @@ namespace {
 
 using CloseupRandom = CloseupScene;
 
-// Whatever stands and shines wherever: finite, in order, and alike with and without maps of their own.
+// Random scenes: finite, lists in order, and the same with and without close-up maps.
 TEST_F(CloseupRandom, random_scenes_are_alike_with_and_without_closeups) {
   SeenDifference sum;
   double pairs = 0.0;

@@ -20,18 +20,18 @@
 
 namespace gloam::test {
 
-/// A subtree of meshes.
+/// A subtree of meshes: one close-up subject.
 struct Figure {
   Entity root;
   std::vector<Entity> parts;
   std::vector<MeshInstance> meshes;  ///< by part
 };
 
-/// What the pixels of a frame see of a light, by its final lists.
+/// Visibility of a light at the pixels of a frame, from its final lists.
 struct SeenLight {
-  static constexpr float kUnknown = -1.0f;  ///< the tile has no list
+  static constexpr float kUnknown = -1.0f;  ///< the tile has no final list
   std::vector<float> pixels;
-  std::vector<std::uint32_t> slots;  ///< by tile, of the light's entry; GLOAM_NO_ROOM for no entry
+  std::vector<std::uint32_t> slots;  ///< by tile: the slot of the light's entry; GLOAM_NO_ROOM if it has no entry
 };
 
 /// One frame with its final lists.
@@ -43,7 +43,7 @@ struct CloseupShot {
   CloseupViews views;
 };
 
-/// How two visibilities differ over some pixels.
+/// Differences of two visibilities, summed over pixels.
 struct SeenDifference {
   std::size_t pixels = 0;
   std::size_t more_than_half = 0;
@@ -62,7 +62,7 @@ struct SeenDifference {
   }
 };
 
-/// Frames with close-up subjects.
+/// Base class of tests that draw frames with close-up subjects.
 class CloseupScene : public DeferredShadowsTest {
  protected:
   void SetUp() override {
@@ -71,7 +71,7 @@ class CloseupScene : public DeferredShadowsTest {
     settings.width = 160, settings.height = 96;
   }
 
-  /// Far boxes keep the bounds of all casters, and so a sun's cascades, where they are.
+  /// Far boxes fix the bounds of all casters, and with them a sun's cascades.
   void put_far_boxes() {
     for (const double side : {-1.0, 1.0})
       put(shapes_[0], glm::scale(at(4.5 * side, 2.0 + 1.5 * side, 4.0 * side), dvec3(0.2)));
@@ -86,7 +86,7 @@ class CloseupScene : public DeferredShadowsTest {
     }
     return figure;
   }
-  /// Legs, a trunk, arms and a head, a metre tall; it stands at `feet`.
+  /// A figure one metre tall (legs, trunk, arms, head) that stands at `feet`.
   [[nodiscard]] Figure put_figure(const dvec3& feet, double scale = 1.0, double turn = 0.4) {
     const dmat4 stand = glm::scale(glm::rotate(at(feet.x, feet.y, feet.z), turn, dvec3(0.0, 1.0, 0.0)), dvec3(scale));
     const auto part = [&](std::uint32_t mesh, const dvec3& center, const dvec3& size) {
@@ -98,7 +98,6 @@ class CloseupScene : public DeferredShadowsTest {
                        part(shapes_[0], dvec3(0.0, 0.66, 0.1), dvec3(0.8, 0.06, 0.06)),
                        part(shapes_[1], dvec3(0.0, 0.88, 0.0), dvec3(0.22))});
   }
-  /// A box.
   [[nodiscard]] Figure put_block(const dvec3& center, const dvec3& size, float priority = 1.0f) {
     return subject_of({put(shapes_[0], glm::scale(at(center.x, center.y, center.z), size))}, priority);
   }
@@ -129,7 +128,7 @@ class CloseupScene : public DeferredShadowsTest {
     EXPECT_EQ(bad, 0u) << "light is finite and not negative";
     return taken;
   }
-  /// After a frame from which later ones know what buffers need.
+  /// A shot after one frame that determines the buffer sizes.
   [[nodiscard]] CloseupShot second_shot() {
     draw();
     return shot();
@@ -164,13 +163,13 @@ class CloseupScene : public DeferredShadowsTest {
     }
     return found;
   }
-  /// 0 where nothing asks the module to count.
+  /// 0 if the module is not asked to count.
   [[nodiscard]] double counted(const std::string& name) const {
     const FrameReport report = renderer->report();
     const auto at = report.counters.find(name);
     return at == report.counters.end() ? 0.0 : at->second;
   }
-  /// Whether the light gives the surface something, with room to spare: elsewhere what lists hold says nothing.
+  /// Whether the light clearly reaches the surface; elsewhere the visibility in the lists is undefined.
   [[nodiscard]] bool gives(const GeometryPicture& geometry, std::size_t pixel, Entity light) const {
     if (geometry.is_sky(pixel)) return false;
     const dmat4& node = world.get<WorldTransform>(light).matrix;
@@ -200,7 +199,7 @@ class CloseupScene : public DeferredShadowsTest {
     });
   }
 
-  /// Visibility of a light by maps that hold everything.
+  /// Visibility of a light from standard maps that hold all casters.
   [[nodiscard]] std::vector<float> monolithic(Entity lamp) {
     set("shadows.mode", "monolithic");
     settings.visualizer = "shadow:" + names_.at(lamp);
@@ -217,7 +216,7 @@ class CloseupScene : public DeferredShadowsTest {
     for (std::size_t i = 0; i < a.rgba.size(); ++i) worst = std::max(worst, std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
     return worst;
   }
-  /// Share of pixels of which a channel of the light differs by more than a tenth.
+  /// Share of pixels with a channel of light that differs by more than 10 %.
   [[nodiscard]] static double differing(const LinearPicture& a, const LinearPicture& b) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
@@ -241,7 +240,7 @@ class CloseupScene : public DeferredShadowsTest {
     }
     EXPECT_EQ(incomplete, once.size()) << what;
   }
-  /// Entries ascend, each slot is one entry's and lies in the buffers.
+  /// Entries must ascend, and each slot must belong to one entry and lie inside the buffers.
   static void expect_slots_are_one_entrys(const ReadFinalLists& lists, const std::string& what) {
     std::set<std::uint32_t> taken;
     for (std::uint32_t tile = 0; tile < lists.texels.size(); ++tile)
@@ -258,7 +257,7 @@ class CloseupScene : public DeferredShadowsTest {
       }
     EXPECT_LE(taken.size(), lists.counters.slots) << what;
   }
-  /// Depths of the faces that the frame had; between them lies what earlier frames left.
+  /// Checks only the faces of the frame: the rest of the atlas holds data of earlier frames.
   void expect_finite_maps(const std::string& what) {
     const auto image = renderer->read_image(world, settings.id, "shadow_atlas");
     if (!image.ok()) return;  // a frame without lights

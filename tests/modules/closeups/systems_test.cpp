@@ -22,7 +22,7 @@ namespace {
 
 dmat4 at(double x, double y, double z) { return glm::translate(dmat4(1.0), dvec3(x, y, z)); }
 
-/// A world with lights, close-up subjects and one view, run as a renderer does. Mesh 0 is a cube of 1 m.
+/// A world with lights, close-up subjects and one view, run like in a renderer. Mesh 0 is a cube of 1 m.
 struct CloseupWorld {
   World world;
   std::unique_ptr<Module> lights = make_lights_module();
@@ -80,7 +80,7 @@ struct CloseupWorld {
     static const CloseupSubjects::Subject none;
     return none;
   }
-  /// The entity of a pair, if there is one.
+  /// The entity of a pair; kNoEntity if there is none.
   [[nodiscard]] Entity pair(Entity of, Entity light) const {
     Entity found = kNoEntity;
     world.view<const CloseupPair>().each([&](Entity entity, const CloseupPair& p) {
@@ -146,7 +146,7 @@ TEST(CloseupSystems, a_ring_of_parents_ends) {
   EXPECT_EQ(w.world.resource<CloseupSubjects>().subjects[0].casters.size(), 1u);
 }
 
-/// Two bars of which each follows a joint of its own.
+/// Two bars, each skinned to a different joint.
 void add_skinned_mesh(SceneAssets& assets) {
   Mesh mesh;
   Primitive& p = mesh.primitives.emplace_back();
@@ -274,7 +274,7 @@ TEST(CloseupSystems, named_lights_only) {
   EXPECT_EQ(w.pairs(), 0u);
 }
 
-/// Subjects and lights of all kinds; `order` says in which order lights are made of the places.
+/// Subjects and lights of all kinds. `order`: the order in which the lights are created.
 void fill(CloseupWorld& w, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -24,7 +24,7 @@ struct ModuleDemand : ::testing::Test {
     prepare_scene_world(world);
     for (const auto& module : modules) module->register_components(world);
   }
-  /// The reason, with a + in front when the module is needed and a − when not.
+  /// The reason of the demand, prefixed with + if the module is needed and − if not.
   [[nodiscard]] std::string demand(std::string_view name) const {
     for (const auto& module : modules) {
       if (module->name() != name) continue;

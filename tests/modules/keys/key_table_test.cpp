@@ -24,7 +24,7 @@ using test::text;
 using test::yes_or_no;
 using Kind = SceneValue::Kind;
 
-/// A default as the table prints it.
+/// The value of a default as the table prints it.
 SceneValue parsed(const std::string& words) {
   if (words == "true" || words == "false") return yes_or_no(words == "true");
   if (words.front() == '[') {

@@ -49,7 +49,7 @@ Look string_field(std::uint32_t C::*member, std::string expected_end) {
   };
 }
 
-// Parts of scene_format_table() in files of their own.
+// Parts of scene_format_table() that are in separate files.
 std::vector<Line> grass_lines();
 std::vector<Line> particle_lines();
 

@@ -28,8 +28,8 @@ inline SceneValue list(std::initializer_list<double> values) {
   return array;
 }
 
-/// Where keys are set in this test: a light (the kind that `kind` says), a material, a scene's environment, a folder
-/// with a file.
+/// Target of the keys in this test: a light of the given kind, a material, a scene's environment, and a folder with a
+/// file.
 struct Place {
   World world;
   TemporaryFolder folder;
@@ -46,7 +46,7 @@ struct Place {
   }
 };
 
-/// Looks at one member after a key was set: is it what was asked for (false: the member's default)?
+/// Checks one member after a key was set. `wanted`: it must have the value of the key; false: its default.
 using Look = std::function<void(const Place&, bool wanted)>;
 
 struct Line {
@@ -62,7 +62,7 @@ struct Line {
   LightKind light = LightKind::spot;
 };
 
-/// The table of the scene format, line by line.
+/// All lines of the scene format's table.
 [[nodiscard]] std::vector<Line> scene_format_table();
 
 }  // namespace gloam::test

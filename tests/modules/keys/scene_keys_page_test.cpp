@@ -9,7 +9,7 @@
 
 #include "modules/module_list/module_list.h"
 
-// docs/scene-keys.md is written for people; its table is the registry, line by line.
+// The table in docs/scene-keys.md must match the registry, line by line.
 
 namespace gloam {
 namespace {

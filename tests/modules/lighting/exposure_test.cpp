@@ -78,7 +78,7 @@ TEST_F(Slots, worlds_views_cameras_and_their_generations_have_their_own) {
 TEST_F(Slots, that_are_all_taken_go_to_the_newest_cameras) {
   for (std::uint32_t i = 0; i < ExposureSlots::kCapacity; ++i) EXPECT_TRUE(slots.slot_of(world, view_of(i)).fresh);
   EXPECT_FALSE(slots.slot_of(world, view_of(0)).fresh);
-  // One more takes the oldest camera's slot, and only that one.
+  // One camera more takes the oldest camera's slot, and no other.
   const auto more = slots.slot_of(world, view_of(5000));
   EXPECT_TRUE(more.fresh);
   EXPECT_LT(more.index, ExposureSlots::kCapacity);

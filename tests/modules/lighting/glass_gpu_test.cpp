@@ -9,8 +9,8 @@
 namespace gloam {
 namespace {
 
-/// Panes of glass among many lights: they take the lights of their 32×32 tile at their own depth, whatever lies behind
-/// them.
+/// Panes of glass among many lights: they are lit by the lights of their tile mask at their own depth, whatever is
+/// behind them.
 struct Glass : test::LitSceneTest {
   void SetUp() override {
     LitSceneTest::SetUp();
@@ -91,7 +91,7 @@ TEST_F(Glass, before_the_sky_is_lit_where_no_opaque_tile_has_a_list) {
   pane(dvec3(0.0, 1.0, 0.0), 0.0, 3.0f);
   expect_tiled_is_brute("before the sky");
   const LinearPicture lit = drawn("tiled");
-  std::size_t bright = 0;  // the sky is black: what is not is glass that lamps light
+  std::size_t bright = 0;  // the sky is black, so every other pixel is glass lit by lamps
   for (std::size_t i = 0; i < lit.rgba.size(); i += 4) bright += lit.rgba[i] + lit.rgba[i + 1] > 0.0f ? 1 : 0;
   EXPECT_GT(bright, 500u);
 }
@@ -99,7 +99,7 @@ TEST_F(Glass, before_the_sky_is_lit_where_no_opaque_tile_has_a_list) {
 TEST_F(Glass, that_reaches_from_the_camera_to_the_far_end_sees_the_lights_of_every_depth) {
   floor_and_wall();
   lamps(250, 7.5, -8.0, 5);
-  pane(dvec3(0.4, 1.2, 0.0), glm::radians(87.0), 12.0f);  // seen almost edge on
+  pane(dvec3(0.4, 1.2, 0.0), glm::radians(87.0), 12.0f);  // seen nearly edge-on
   for (const bool orthographic : {false, true}) {
     settings.camera.orthographic = orthographic;
     settings.camera.half_height_m = 3.0f;
@@ -108,7 +108,7 @@ TEST_F(Glass, that_reaches_from_the_camera_to_the_far_end_sees_the_lights_of_eve
 }
 
 TEST_F(Glass, beyond_the_farthest_opaque_surface_of_frames_before_sees_its_lights) {
-  // The bins end at the floor's far end of frames that are over; glass and lamps then come far behind it.
+  // The zBins end at the farthest surface of earlier frames; then glass and lamps appear far beyond it.
   const std::uint32_t stone = scene.material(exact_material(180, 170, 160, 128, 0));
   scene.draw(scene.mesh(test::quad(1.0f, stone)), glm::translate(dmat4(1.0), dvec3(-1.0, 0.5, 4.0)));
   lamps(100, 5.0, 3.0, 6);

@@ -20,13 +20,13 @@
 
 namespace gloam::test {
 
-/// The device of all tests of this program.
+/// The device that all tests of this program share.
 [[nodiscard]] inline gpu::Device* shared_device() {
   static const std::unique_ptr<gpu::Device> made = make_test_device();
   return made.get();
 }
 
-/// A renderer with all modules and one world, made by code. Every test ends without a validation message.
+/// A renderer with all modules and one world built in code. Every test must end without validation messages.
 class LitSceneTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -49,9 +49,9 @@ class LitSceneTest : public ::testing::Test {
     settings.width = 61;
     settings.height = 43;
   }
-  /// Shadows have suites of their own; elsewhere they would only take time.
+  /// Shadows have separate suites; in other tests they would only cost time.
   [[nodiscard]] virtual bool with_shadows() const { return false; }
-  /// What the renderer is made of.
+  /// The modules of the renderer.
   [[nodiscard]] virtual ModuleList make_modules() { return make_all_modules(); }
   void TearDown() override {
     renderer.reset();
@@ -83,7 +83,7 @@ class LitSceneTest : public ::testing::Test {
   [[nodiscard]] LinearPicture linear(std::uint32_t view = 0) { return value_of(renderer->read_linear(ViewId{view})); }
   [[nodiscard]] Picture picture(std::uint32_t view = 0) { return value_of(renderer->read_picture(ViewId{view})); }
 
-  /// Sets what an 8-bit geometry buffer holds exactly.
+  /// A material whose values an 8-bit geometry buffer stores exactly.
   [[nodiscard]] static Material exact_material(std::uint8_t r, std::uint8_t g, std::uint8_t b, std::uint8_t roughness,
                                                std::uint8_t metallic) {
     const auto channel = [](std::uint8_t c) {
@@ -115,7 +115,7 @@ class LitSceneTest : public ::testing::Test {
     return {dvec3(m[3]), glm::normalize(dvec3(m * dvec4(u * slope, v * slope, -1.0, 0.0)))};
   }
 
-  /// Where a ray meets the plane z = `at`, as a surface of this material.
+  /// The point where a ray meets the plane z = `at`, as a surface of this material.
   [[nodiscard]] static OracleSurface plane_surface(const Ray& r, double at, const Material& material) {
     OracleSurface s;
     s.position = r.origin + r.direction * ((at - r.origin.z) / r.direction.z);
@@ -130,7 +130,7 @@ class LitSceneTest : public ::testing::Test {
     const float* at = &p.rgba[(std::size_t{y} * p.width + x) * 4];
     return {at[0], at[1], at[2]};
   }
-  /// Relative difference of the worst channel, where a thousandth of the brightest channel counts as the least.
+  /// Relative difference of the worst channel. Values below a thousandth of the brightest channel count as that much.
   [[nodiscard]] static double relative_error(const dvec3& actual, const dvec3& expected, double brightest) {
     double worst = 0.0;
     for (int c = 0; c < 3; ++c)

@@ -46,7 +46,7 @@ struct PictureOfLight : test::LitSceneTest {
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(LitSceneTest::SetUp());
     if (IsSkipped()) return;
-    settings.camera.fov_y = 2.4f;  // much sky: every value of its gradient
+    settings.camera.fov_y = 2.4f;  // much sky, so that every value of its gradient occurs
     set_sky(1.0f);
   }
   void set_sky(float factor) {
@@ -54,7 +54,7 @@ struct PictureOfLight : test::LitSceneTest {
     environment().sky_horizon = factor * vec3(0.0f, 0.9f, 3.0f);
     environment().sky_ground = factor * vec3(0.3f, 0.002f, 0.0f);
   }
-  /// Bytes of a picture against linear light through a curve.
+  /// Checks a picture's bytes against linear light mapped through a curve.
   static void expect_shown(const LinearPicture& light, std::span<const std::uint8_t> bytes, const std::string& name,
                            double exposure) {
     ASSERT_EQ(bytes.size(), light.rgba.size());
@@ -128,7 +128,7 @@ TEST_F(PictureOfLight, is_metered_in_the_first_frame_and_then_fixed) {
     expect_shown(linear(), picture().rgba, "linear", exposure);
     EXPECT_NE(picture().rgba, first.rgba);
   }
-  // Another size of the same camera keeps it too.
+  // The same camera at another size also keeps its exposure.
   settings.width = 90;
   ASSERT_NO_FATAL_FAILURE(draw());
   expect_shown(linear(), picture().rgba, "linear", exposure);

@@ -16,10 +16,10 @@ using test::OracleSurface;
 struct Shading : test::LitSceneTest {
   Material material = exact_material(200, 120, 60, 102, 0);
 
-  /// A wall that fills the view, at z = 0.
+  /// A wall at z = 0 that fills the view.
   void wall() { scene.draw(scene.mesh(test::quad(50.0f, scene.material(material)))); }
 
-  /// The picture against the oracle, pixel by pixel.
+  /// Compares the picture with the oracle, pixel by pixel.
   void expect_wall_as_computed(double tolerance = 1e-2) {
     ASSERT_NO_FATAL_FAILURE(draw());
     const LinearPicture drawn = linear();
@@ -201,7 +201,7 @@ TEST_F(Shading, lights_blended_surfaces_and_lays_them_over_what_is_behind) {
     for (std::uint32_t x = 0; x < settings.width; ++x) {
       const OracleSurface front = plane_surface(ray(x, y), 0.5, glass);
       const double reach = std::max(std::abs(front.position.x), std::abs(front.position.y));
-      if (std::abs(reach - 0.5) < 0.05) continue;  // the edge
+      if (std::abs(reach - 0.5) < 0.05) continue;  // at the edge of the light's reach
       dvec3 expected = test::oracle_shade(plane_surface(ray(x, y), 0.0, material), oracle_lights, environment());
       if (reach < 0.5) {
         expected = 0.75 * expected + 0.25 * test::oracle_shade(front, oracle_lights, environment());
@@ -285,8 +285,8 @@ TEST_F(Shading, never_gives_nan_or_infinity) {
   Light lamp;
   lamp.intensity = 1e12f;
   light(lamp, dvec3(0.0, 0.0, 0.01));
-  light(lamp, dvec3(0.0, 0.0, 0.0));  // in the surface
-  light(lamp, dvec3(0.4, 0.3, 3.0));  // in the eye
+  light(lamp, dvec3(0.0, 0.0, 0.0));  // on the surface
+  light(lamp, dvec3(0.4, 0.3, 3.0));  // at the camera
   lamp.intensity = 1e38f;
   light(lamp, dvec3(0.1, 0.0, 0.5));
   lamp.kind = LightKind::directional;
@@ -303,7 +303,8 @@ TEST_F(Shading, never_gives_nan_or_infinity) {
 }
 
 TEST_F(Shading, of_a_light_straight_behind_a_surface_is_black) {
-  // The view looks along −Z at the middle of the wall: there, light and eye lie on one line, and no half vector exists.
+  // The view looks along −Z at the middle of the wall. There, light and eye are on one line through the surface, so the
+  // half vector does not exist.
   settings = test::look_at(dvec3(0.0, 0.0, 3.0), dvec3(0.0), 61, 43);
   wall();
   Light sun;

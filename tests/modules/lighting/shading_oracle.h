@@ -9,7 +9,7 @@
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
 
-/// What shading should give, in double precision, written from the formulas alone.
+/// Expected results of shading, in double precision, written from the formulas alone.
 namespace gloam::test {
 
 struct OracleSurface {

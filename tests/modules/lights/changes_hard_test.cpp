@@ -17,8 +17,8 @@ namespace {
 
 using test::SceneRandom;
 
-/// A world whose lights change in every way there is. What its systems keep from frame to frame must equal what is made
-/// anew.
+/// A world whose lights change in every possible way. The state that systems keep between frames must equal a fresh
+/// rebuild.
 struct ChangingWorld {
   World world;
   std::unique_ptr<Module> module = make_lights_module();
@@ -111,7 +111,7 @@ struct ChangingWorld {
       case 6:
         world.remove<WorldTransform>(e);
         return;
-      case 7: {  // the row of another, in one archetype: nothing but entities has moved
+      case 7: {  // an equal light under another entity, in the same archetype
         if (!world.has<Light>(e) || !world.has<WorldTransform>(e)) return;
         const Light light = world.get<Light>(e);
         const WorldTransform place = world.get<WorldTransform>(e);
@@ -193,7 +193,7 @@ TEST(LightChangesHard, leave_the_lights_as_they_are_when_made_anew) {
 TEST(LightChangesHard, of_one_world_do_not_reach_another_that_is_run_in_turn) {
   ChangingWorld a(100, make_serial_executor());
   ChangingWorld b(101, make_serial_executor());
-  // One module and schedule for both, as in a renderer.
+  // One module and schedule for both worlds, as in a renderer.
   for (int i = 0; i < 40; ++i) a.create();
   for (int i = 0; i < 33; ++i) b.create();
   for (int step = 0; step < 40; ++step) {
@@ -210,8 +210,8 @@ TEST(LightChangesHard, of_one_world_do_not_reach_another_that_is_run_in_turn) {
   }
 }
 
-/// Whatever the view, depths of a light hold the view depths of all that it lights, and masks are made from the same
-/// lights.
+/// In every view, the depths of a light must cover the view depths of everything it lights, and the masks must be built
+/// from the same lights.
 TEST(LightChangesHard, of_cameras_leave_depths_that_hold_what_lights_light) {
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
     SceneRandom random(seed);

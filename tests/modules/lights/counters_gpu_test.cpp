@@ -12,7 +12,7 @@ namespace {
 using test::LightScene;
 using test::point_lamp;
 
-/// What the GPU counts, against a count by hand: a wall across the view at z = 0, lamps just before it.
+/// The GPU's counters against a manual count: a wall across the view at z = 0, with lamps just in front of it.
 struct LightCounterTest : test::LightScenesTest {
   static constexpr double kDistance = 4.0;
 
@@ -22,11 +22,11 @@ struct LightCounterTest : test::LightScenesTest {
     s.look(dvec3(0.0, 0.0, kDistance), dvec3(0.0), width, height);
     return s;
   }
-  /// Metres across a pixel of the wall.
+  /// Size of a pixel of the wall in metres.
   [[nodiscard]] static double pixel_m(const LightScene& s) {
     return 2.0 * kDistance * std::tan(0.5 * static_cast<double>(s.view.camera.fov_y)) / s.view.height;
   }
-  /// Where a pixel of the wall lies.
+  /// World position of a pixel of the wall.
   [[nodiscard]] static dvec3 at_pixel(const LightScene& s, double x, double y) {
     return {(x - 0.5 * s.view.width) * pixel_m(s), (0.5 * s.view.height - y) * pixel_m(s), 0.0};
   }
@@ -58,7 +58,7 @@ TEST_F(LightCounterTest, of_lamps_each_in_one_tile_are_one_a_tile) {
 
 TEST_F(LightCounterTest, of_lamps_that_reach_no_pixel_are_approximate_only) {
   LightScene s = wall(16, 16);
-  // Between four pixels, with a range that ends before the nearest of them.
+  // Between four pixels, with a range that ends before the nearest pixel centre.
   s.light(point_lamp(1.0f, static_cast<float>(0.6 * pixel_m(s))), at_pixel(s, 4.0, 4.0));
   const Drawn frame = settled(s);
   EXPECT_EQ(counter(frame, "lights.per_tile_approx_mean"), 0.25);
@@ -70,7 +70,7 @@ TEST_F(LightCounterTest, of_lamps_that_reach_no_pixel_are_approximate_only) {
 TEST_F(LightCounterTest, of_tiles_of_sky_are_not_in_the_means) {
   LightScene s = empty_scene();
   s.look(dvec3(0.0, 0.0, kDistance), dvec3(0.0), 64, 32);
-  // The left half of the picture, to the middle of a column of tiles.
+  // A wall over the left part of the picture, up to the middle of a column of tiles.
   const double edge = at_pixel(s, 28.0, 0.0).x;
   s.draw(s.make.mesh(test::quad(50.0f, s.make.material(exact_material(200, 180, 160, 128, 0)))),
          glm::translate(dmat4(1.0), dvec3(edge - 50.0, 0.0, 0.0)));

@@ -5,7 +5,7 @@
 #include "tests/modules/lights/lists/light_scenes.h"
 #include "tests/support/scale.h"
 
-/// Light lists from frame to frame: knobs, room for lists, several views and worlds, cameras that move.
+/// Light lists over several frames: knobs, list capacity, several views and worlds, moving cameras.
 namespace gloam {
 namespace {
 
@@ -14,7 +14,7 @@ using test::point_lamp;
 using test::spot_lamp;
 
 struct LightFramesTest : test::LightScenesTest {
-  /// So many entries that a first guess of their number cannot hold them.
+  /// More list entries than the initial capacity holds.
   LightScene crowded() {
     LightScene s = stage();
     for (int i = 0; i < 1024; ++i) s.light(point_lamp(0.01f, 30.0f), dvec3(0.01 * i - 5.0, 2.0, 0.0));
@@ -132,7 +132,7 @@ TEST_F(LightFramesTest, of_two_worlds_in_turn_are_the_same_as_of_each_alone) {
   for (LightScene* s : scenes) renderer->release_world(*s->world);
 }
 
-/// A camera that flies, cuts, changes its size and its lens, among lights that move, come and go.
+/// A camera that flies, cuts, and changes size and lens, among lights that move, appear and disappear.
 TEST_F(LightFramesTest, of_a_moving_camera_among_moving_lights_are_the_same) {
   LightScene s = stage();
   scatter(s, 120, 37, 1.3);

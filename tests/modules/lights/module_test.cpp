@@ -17,7 +17,7 @@
 namespace gloam {
 namespace {
 
-/// A world of `count` lights over several archetypes, whose entities have the same indices whatever the order.
+/// A world of `count` lights over several archetypes. The entities have the same indices for any order of creation.
 struct LitWorld {
   World world;
   std::unique_ptr<Module> module = make_lights_module();

@@ -18,7 +18,7 @@
 namespace gloam {
 namespace {
 
-/// A world of lights in two archetypes and one view, run as a renderer does.
+/// A world with lights in two archetypes and one view, run like in a renderer.
 struct LightWorld {
   World world;
   std::unique_ptr<Module> module = make_lights_module();
@@ -65,7 +65,7 @@ struct LightWorld {
   [[nodiscard]] const ZBins& bins() const { return world.view_resource<ZBins>(settings.id); }
   [[nodiscard]] const TileLightMasks& masks() const { return world.view_resource<TileLightMasks>(settings.id); }
 
-  /// Of everything that reaches the GPU.
+  /// Hash of everything that reaches the GPU.
   [[nodiscard]] std::uint64_t hash() const {
     Hasher hasher;
     const VisibleLights& v = visible();
@@ -110,7 +110,7 @@ TEST(LightSystems, update_only_what_changed) {
   LightWorld lit(90);
   lit.run();
   EXPECT_EQ(lit.set().updated, 90u);
-  lit.run();  // the bounds came by commands: rows have moved between archetypes, lights have not changed
+  lit.run();  // the bounds were added by commands: rows moved between archetypes, but no light changed
   EXPECT_EQ(lit.set().updated, 0u);
   lit.run();
   EXPECT_EQ(lit.set().updated, 0u);
@@ -152,7 +152,7 @@ TEST(LightSystems, make_nothing_anew_without_a_change) {
   lit.run();
   const std::uint64_t version = lit.visible().version;
   const std::uint64_t hash = lit.hash();
-  // What nobody writes keeps a mark.
+  // Data that is not rewritten keeps these marks.
   auto& masks = lit.world.view_resource<TileLightMasks>(lit.settings.id);
   auto& bins = lit.world.view_resource<ZBins>(lit.settings.id);
   const std::uint32_t word = masks.words[0];

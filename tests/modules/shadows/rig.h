@@ -13,7 +13,7 @@
 
 namespace gloam::test {
 
-/// A suite that looks at shadow maps.
+/// A suite of kernel tests that share the pipelines of ShadowMaps::probe().
 class ShadowKernelTest : public KernelTest {
  protected:
   static void TearDownTestSuite() {
@@ -22,7 +22,7 @@ class ShadowKernelTest : public KernelTest {
   }
 };
 
-/// One spot light with one face, and points that look at it.
+/// One spot light with one face, and probes of it.
 struct SpotRig {
   FacePose pose{.origin = dvec3(0.0, 4.0, 0.0),
                 .right = dvec3(1.0, 0.0, 0.0),
@@ -36,9 +36,9 @@ struct SpotRig {
   bool d16 = false;
   bool average = false;
 
-  /// Tangent a texel.
+  /// Tangent per texel.
   [[nodiscard]] double texel() const { return 2.0 * pose.tan_half / size; }
-  /// Width of the emitter whose penumbra is so many texels of mip 0 wide.
+  /// Width of an emitter whose penumbra is `texels` texels of mip 0 wide.
   [[nodiscard]] double width_for(double texels, double receiver_z, double blocker_z) const {
     return texels * texel() * receiver_z * blocker_z / (receiver_z - blocker_z);
   }
@@ -46,7 +46,7 @@ struct SpotRig {
                                         std::uint32_t light = 0) const {
     return {.position = vec3(point), .light = light, .face_normal = vec3(normal), .light_vector = vec3(pose.origin)};
   }
-  /// What the probes find in a face with these depths.
+  /// Evaluates the probes with a face of these depths.
   [[nodiscard]] std::vector<shaders::ShadowProbeResult> look(gpu::Device& device, const std::vector<float>& depths,
                                                              const std::vector<shaders::ShadowProbe>& probes,
                                                              const ProbeSettings& settings = {}) const {
@@ -59,8 +59,8 @@ struct SpotRig {
   }
 };
 
-/// Every filter, shape and use of mips by kernels of several sizes, others with vectors of an unusual width: each of
-/// these is a pipeline to compile.
+/// Settings for every filter, kernel shape and use of mips, with several kernel sizes; fewer sizes at vector widths
+/// other than 256. Each setting is a pipeline to compile.
 [[nodiscard]] inline std::vector<ProbeSettings> every_filter() {
   const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
   const bool usual = width == nullptr || std::string_view(width) == "256";
@@ -83,7 +83,7 @@ inline constexpr dvec3 kUp = dvec3(0.0, 1.0, 0.0);
 
 inline RayScene floor_plane() { return plane(dvec3(0.0), kUp); }
 
-/// A rig above the floor's origin at `height`, whose face is tilted from straight down by `tilt` radians toward −Z.
+/// A rig at `height` above the origin of the floor. Its face looks down, tilted by `tilt` radians toward −Z.
 inline SpotRig tilted(double height, double tilt, double tan_half) {
   SpotRig rig;
   rig.pose.origin = dvec3(0.0, height, 0.0);
@@ -94,8 +94,8 @@ inline SpotRig tilted(double height, double tilt, double tan_half) {
   return rig;
 }
 
-/// Depths of a face that looks at a floor at distance 4, with blockers at distance 2 where blocks(x, y) of a texel
-/// holds.
+/// Depths of a face that sees a floor at distance 4, and blockers at distance 2 in the texels where blocks(x, y) is
+/// true.
 template <class Blocks>
 std::vector<float> over_floor(std::uint32_t size, Blocks&& blocks) {
   std::vector<float> depths;
@@ -104,7 +104,7 @@ std::vector<float> over_floor(std::uint32_t size, Blocks&& blocks) {
   return depths;
 }
 
-/// A point of the floor by texel coordinate of mip 0.
+/// The point of the floor at a texel coordinate of mip 0.
 inline dvec3 floor_at(const SpotRig& rig, double x, double y) {
   const double half = 0.5 * rig.size;
   return dvec3((x - half) * rig.texel() * 4.0, 0.0, (y - half) * rig.texel() * 4.0);

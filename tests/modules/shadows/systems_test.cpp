@@ -19,7 +19,7 @@
 namespace gloam {
 namespace {
 
-/// A world of lights and one view, run as a renderer does.
+/// A world of lights and one view, run like in a renderer.
 struct ShadowWorld {
   World world;
   std::unique_ptr<Module> lights = make_lights_module();
@@ -39,7 +39,7 @@ struct ShadowWorld {
     settings.height = 360;
   }
 
-  /// Some of every kind, all before the camera.
+  /// Adds lights of every kind in front of the camera.
   void add_random(std::uint32_t count, std::uint32_t seed = 1) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -68,7 +68,7 @@ struct ShadowWorld {
     light.kind = LightKind::directional;
     return add(light, glm::rotate(dmat4(1.0), -1.0, dvec3(1, 0, 0)));
   }
-  /// A cube of 2 m.
+  /// Adds a cube with a side of 2 m.
   void add_mesh(const dvec3& at) {
     auto& assets = world.resource<SceneAssets>();
     if (assets.meshes.empty()) {
@@ -96,7 +96,7 @@ struct ShadowWorld {
   }
 };
 
-/// Of everything that passes and shaders read.
+/// Hash of everything that passes and shaders read.
 std::uint64_t hash_of(const ShadowViews& shadows) {
   Hasher hasher;
   const auto floats = [&](std::initializer_list<float> values) {
@@ -123,7 +123,7 @@ bool all_finite(std::span<const std::byte> bytes) {
   return std::all_of(values, values + bytes.size() / sizeof(float), [](float v) { return std::isfinite(v); });
 }
 
-/// Rows and faces say the same, and all of it in numbers.
+/// Expects that rows and faces agree, and that all values are finite.
 void expect_sound(const ShadowViews& shadows) {
   EXPECT_TRUE(all_finite(std::as_bytes(std::span(shadows.rows))));
   std::size_t next = 0;
@@ -395,9 +395,9 @@ TEST(ShadowSystems, serve_lights_around_and_behind_every_kind_of_camera) {
   ShadowWorld scene;
   Light light;
   light.range_m = 6.0f;
-  scene.add(light, dmat4(1.0));                                   // the camera stands in the lamp
-  scene.add(light, glm::translate(dmat4(1.0), dvec3(0, 0, 4)));   // behind it, reaching before it
-  scene.add(light, glm::translate(dmat4(1.0), dvec3(0, 0, 40)));  // behind it
+  scene.add(light, dmat4(1.0));                                   // the camera is inside the light's range
+  scene.add(light, glm::translate(dmat4(1.0), dvec3(0, 0, 4)));   // behind the camera; its range reaches in front of it
+  scene.add(light, glm::translate(dmat4(1.0), dvec3(0, 0, 40)));  // entirely behind the camera
   for (const bool orthographic : {false, true}) {
     scene.settings.camera.orthographic = orthographic;
     scene.settings.camera.half_height_m = 3.0f;
@@ -434,7 +434,7 @@ TEST(ShadowSystems, find_skinned_meshes_where_their_joints_are) {
   auto& joints = scene.world.resource<JointMatrices>();
   joints.ranges.push_back({skinned, 0, 1, dvec3(100.0, 0.0, 0.0), false});
   joints.matrices.push_back(mat4(1.0f));
-  // Asks the system itself: the world's systems make joint matrices anew.
+  // Calls the system directly, because the world's systems would overwrite the joint matrices.
   scene.run();
   World& world = scene.world;
   const ViewId id = scene.settings.id;

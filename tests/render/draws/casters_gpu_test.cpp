@@ -12,12 +12,12 @@
 #include "engine/render/scene/mesh_packing.h"
 #include "tests/render/draws/drawn_scene.h"
 
-// Casters that no camera sees: deformed by the GPU all the same.
+// Casters outside the camera's view are deformed by the GPU, too.
 
 namespace gloam {
 namespace {
 
-/// What a probe has seen of the last frame.
+/// The data of the last frame that a probe module has recorded.
 struct Seen {
   std::vector<Caster> casters;
   std::vector<std::uint32_t> first_vertices;  ///< by caster; kNone for rigid ones
@@ -27,7 +27,7 @@ struct Seen {
   bool simplified = false;
 };
 
-/// Looks at casters, and copies moved vertices out. `seen` outlives it.
+/// Records the casters and copies the deformed vertices out. `seen` must outlive it.
 class ProbeModule final : public Module {
  public:
   ProbeModule(Seen& seen, bool simplified) : seen_(seen), simplified_(simplified) {}
@@ -72,7 +72,7 @@ class CastersOnTheGpu : public test::DrawingTest {
   }
 };
 
-/// The bar's vertices as the GPU holds them.
+/// The bar's vertices in the GPU's order.
 Primitive bar_in_gpu_order() {
   const Primitive bar = test::skinned_bar();
   std::vector<std::uint32_t> indices;

@@ -45,7 +45,7 @@ class Casters : public ::testing::Test {
     EXPECT_EQ(made.casters.casters.size(), 1u);
     return made.casters.casters.empty() ? Caster{} : made.casters.casters[0];
   }
-  /// A bar of 4 m that follows two joints with these matrices, which are relative to `origin`.
+  /// Draws a bar of 4 m that follows two joints with these matrices, which are relative to `origin`.
   Entity draw_bar(const dvec3& origin, const mat4& lower, const mat4& upper, std::uint32_t material = kNone) {
     const Entity entity = world_.create(WorldTransform{}, MeshInstance{maker_.mesh(test::skinned_bar(material)), 0});
     auto& joints = world_.resource<JointMatrices>();
@@ -210,7 +210,7 @@ TEST_F(Casters, come_by_entity_and_primitive_whatever_the_executor) {
   for (int i = 0; i < 700; ++i) {
     const double z = std::uniform_real_distribution<double>(-50.0, 50.0)(random);
     if (i % 3 != 0) {
-      // Two archetypes: the world's order is not that of the entities.
+      // Two archetypes, so that the world's order differs from the order of entities.
       const Entity entity = maker_.draw(box, at(0.0, 0.0, z));
       if (i % 3 == 1) world_.add<SourceNode>(entity, {0});
       continue;

@@ -22,13 +22,13 @@
 
 namespace gloam::test {
 
-/// The device of all tests of this program.
+/// The device that all tests of this program share.
 [[nodiscard]] inline gpu::Device* drawing_device() {
   static const std::unique_ptr<gpu::Device> made = make_test_device();
   return made.get();
 }
 
-/// What Renderer::pick says about a pixel.
+/// Facts from Renderer::pick about a pixel.
 struct Picked {
   bool sky = false;
   double depth_m = 0.0;
@@ -59,7 +59,7 @@ struct Picked {
   return p;
 }
 
-/// A renderer with all modules, and perhaps one more, and a world of its own.
+/// A renderer with all modules and optionally one more, and its own world.
 struct Stage {
   explicit Stage(std::unique_ptr<Module> more = nullptr) {
     RendererOptions options;
@@ -70,7 +70,7 @@ struct Stage {
     if (more != nullptr) options.modules.push_back(std::move(more));
     renderer = value_of(Renderer::create(std::move(options)));
     renderer->prepare_world(world);
-    world.resource<SceneEnvironment>().has_exposure = true;  // pictures of different scenes can be compared
+    world.resource<SceneEnvironment>().has_exposure = true;  // makes pictures of different scenes comparable
   }
   [[nodiscard]] ViewRequest request(std::uint32_t id = 0) const {
     ViewRequest made;
@@ -92,7 +92,7 @@ struct Stage {
   [[nodiscard]] Picked pick(std::uint32_t x, std::uint32_t y) {
     return parse_picked(value_of(renderer->pick(world, ViewId{0}, x, y)));
   }
-  /// The middle of the picture, after a frame.
+  /// Draws a frame and picks its middle pixel.
   [[nodiscard]] Picked pick_middle() {
     render();
     return pick(settings.width / 2, settings.height / 2);
@@ -106,7 +106,7 @@ struct Stage {
       look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 33, 33);  ///< the middle pixel's centre is straight ahead
 };
 
-/// Tests that draw; each ends without a validation message.
+/// Base of tests that draw. Each must end without validation messages.
 class DrawingTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -137,11 +137,11 @@ struct Rgba {
   return {t[0], t[1], t[2], t[3]};
 }
 
-/// Triangles in world space, three corners each, and the first one a ray meets: the twin of rasterising with a depth
-/// test.
+/// CPU twin of rasterisation with a depth test: the first triangle that the ray through a pixel hits. corners: three
+/// per triangle, in world space.
 struct RayHit {
   double depth_m = std::numeric_limits<double>::infinity();
-  dvec3 normal = dvec3(0.0);  ///< of the triangle, unit, towards the camera
+  dvec3 normal = dvec3(0.0);  ///< unit normal of the triangle, towards the camera
 };
 [[nodiscard]] inline RayHit first_hit(std::span<const dvec3> corners, const ViewSettings& settings, double pixel_x,
                                       double pixel_y) {
@@ -149,7 +149,7 @@ struct RayHit {
   const double x = (2.0 * pixel_x / settings.width - 1.0) * half * settings.width / settings.height;
   const double y = (1.0 - 2.0 * pixel_y / settings.height) * half;
   const dvec3 origin(settings.world_from_camera[3]);
-  const dvec3 ray(settings.world_from_camera * dvec4(x, y, -1.0, 0.0));  // so that the parameter is the view depth
+  const dvec3 ray(settings.world_from_camera * dvec4(x, y, -1.0, 0.0));  // its parameter is the view depth
   RayHit hit;
   for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
     const dvec3 edge1 = corners[t + 1] - corners[t], edge2 = corners[t + 2] - corners[t];

@@ -11,8 +11,8 @@
 
 namespace gloam::test {
 
-/// A bar of 5 sections along Y (0…4 m, 1 m wide), wound counter-clockwise, that follows joint 0 below and joint 1 above
-/// 2 m.
+/// A bar of 5 sections along Y (0…4 m, 1 m wide), wound counter-clockwise. It follows joint 0 below 2 m and joint 1
+/// above.
 [[nodiscard]] inline Primitive skinned_bar(std::uint32_t material = kNone) {
   Primitive p;
   p.material = material;
@@ -36,8 +36,8 @@ namespace gloam::test {
   return finished(std::move(p));
 }
 
-/// Adds a skin of two joints at glTF nodes `first_node` and the next one, which stand at these matrices; inverse bind
-/// matrices are those of joints at 0 and at 2 m height. Returns the skin.
+/// Adds a skin of two joints with world matrices `lower` and `upper`, at glTF nodes `first_node` and `first_node` + 1.
+/// Its inverse bind matrices are those of joints at heights of 0 and 2 m. Returns the skin's index.
 inline std::uint32_t two_joint_skin(World& world, std::uint32_t first_node, const dmat4& lower, const dmat4& upper) {
   SceneMaker scene(world);
   Skin skin;
@@ -49,8 +49,8 @@ inline std::uint32_t two_joint_skin(World& world, std::uint32_t first_node, cons
   return static_cast<std::uint32_t>(scene.assets().skins.size()) - 1;
 }
 
-/// A bit of everything that draws, around the origin and not larger than 10 m: a floor, boxes, textured, cut-out and
-/// blended quads, a bent bar, a morphed quad. No lights.
+/// Fills the world with one of everything that can be drawn, around the origin and within 10 m: a floor, boxes,
+/// textured, alpha-masked and blended quads, a bent bar, a morphed quad. No lights.
 inline void fill_small_scene(World& world) {
   SceneMaker scene(world);
   const auto at = [](double x, double y, double z) { return glm::translate(dmat4(1.0), dvec3(x, y, z)); };
@@ -88,7 +88,7 @@ inline void fill_small_scene(World& world) {
   world.create(WorldTransform{at(3, 0, 1)}, MeshInstance{flag_mesh}, MorphInstance{});
 }
 
-/// A point light and a sun.
+/// Adds a point light and a sun.
 inline std::vector<Entity> add_lights(World& world) {
   Light lamp;
   lamp.intensity = 100.0f;

@@ -18,7 +18,7 @@ namespace gloam {
 namespace {
 
 constexpr std::uint32_t kHandednessBit = 0x10000u;
-constexpr double kAngleBound = 0.012;  // degrees: 0.01 of the packed code, and float arithmetic
+constexpr double kAngleBound = 0.012;  // degrees: 0.01 for the packed code, the rest for float arithmetic
 
 double angle_degrees(const dvec3& a, const dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / 3.14159265358979323846;
@@ -38,7 +38,7 @@ dvec3 decoded(std::uint32_t packed) {
   return glm::normalize(n);
 }
 
-/// A moved vertex.
+/// A deformed vertex.
 struct Moved {
   dvec3 position;
   dvec3 normal;   ///< unit; zero: has no direction
@@ -46,7 +46,7 @@ struct Moved {
   bool left_handed = false;
 };
 
-/// What the kernel gets.
+/// Input of the kernel.
 struct Job {
   Primitive primitive;
   std::vector<mat4> joints;    ///< used from constants.first_joint
@@ -54,7 +54,7 @@ struct Job {
   shaders::DeformConstants constants{};
 };
 
-/// The twin: double precision, cofactors for normals, from the packed vertices as the kernel has them.
+/// CPU twin of the kernel in double precision. Reads the packed vertices, as the kernel does; normals use cofactors.
 class Twin {
  public:
   explicit Twin(const Job& job)
@@ -85,7 +85,7 @@ class Twin {
     for (std::size_t k = 0; k < 4; ++k)
       blended += weights[k] / 65535.0 * dmat4(job_.joints[job_.constants.first_joint + joints[k]]);
     const glm::dmat3 linear(blended);
-    // Cofactors: the inverse transposed times the determinant, without dividing by it.
+    // Cofactor matrix: the inverse transpose times the determinant, but without a division.
     const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                glm::cross(linear[0], linear[1]));
     const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
@@ -123,7 +123,7 @@ class DeformKernel : public test::KernelTest {
     job.constants.first_joint = 3;
     job.joints.assign(3, mat4(99.0f));  // of another instance
     for (std::uint32_t j = 0; j < joints; ++j) {
-      // Turned by less than a right angle all told, so that no mix of them collapses.
+      // Rotations that differ by less than a right angle, so that no mix of the joints collapses.
       job.joints.push_back(mat4(glm::translate(dmat4(1.0), dvec3(point(5.0f))) *
                                 glm::rotate(dmat4(1.0), static_cast<double>(in(0.0f, 0.7f)), dvec3(direction())) *
                                 glm::scale(dmat4(1.0), scale * static_cast<double>(in(0.5f, 2.0f)))));

@@ -23,7 +23,7 @@ struct Depths {
   [[nodiscard]] std::uint32_t tiles_y() const { return (height + kTileSize - 1) / kTileSize; }
 };
 
-/// Farthest and nearest depth of every tile, sky left out.
+/// Farthest and nearest depth of every tile, sky excluded.
 std::vector<vec2> bounds_on_the_cpu(const Depths& depths) {
   std::vector<vec2> bounds;
   for (std::uint32_t ty = 0; ty < depths.tiles_y(); ++ty) {
@@ -81,7 +81,7 @@ TEST_F(DepthBoundsKernel, finds_farthest_and_nearest_of_every_tile) {
 TEST_F(DepthBoundsKernel, a_tile_of_sky_alone_is_one_and_zero) {
   Depths depths = depths_of(20, 12, 0.0f);
   expect_the_same(depths);
-  depths.texels[19] = 0.25f;  // in the cut-off tile at the right edge
+  depths.texels[19] = 0.25f;  // in the partial tile at the right edge
   expect_the_same(depths);
   EXPECT_EQ(bounds_on_the_cpu(depths)[2], vec2(0.25f));
   EXPECT_EQ(bounds_on_the_cpu(depths)[0], vec2(1.0f, 0.0f));
@@ -90,7 +90,7 @@ TEST_F(DepthBoundsKernel, a_tile_of_sky_alone_is_one_and_zero) {
 TEST_F(DepthBoundsKernel, the_extremes_of_depth_count) {
   Depths depths = depths_of(8, 8, 1.0f);
   expect_the_same(depths);
-  depths.texels[5] = 1.17549435e-38f;  // the least normal number
+  depths.texels[5] = 1.17549435e-38f;  // the smallest normal float
   expect_the_same(depths);
 }
 

@@ -9,7 +9,7 @@
 #include "engine/math/packing.h"
 #include "tests/render/draws/drawn_scene.h"
 
-// What lies in the geometry buffer under a pixel, as Renderer::pick tells.
+// Content of the geometry buffer under a pixel, read with Renderer::pick.
 
 namespace gloam {
 namespace {
@@ -27,7 +27,7 @@ void expect_near(const dvec3& value, const dvec3& expected, double bound) {
 
 class Geometry : public test::DrawingTest {
  protected:
-  /// Texture coordinates 0…1 over a square that fills the picture, 4 m ahead.
+  /// Draws a square that fills the picture, 4 m ahead, with texture coordinates 0…1.
   Entity fill_picture(const Material& material, const dmat4& matrix = dmat4(1.0)) {
     const float half = 4.0f * std::tan(0.5f * stage->settings.camera.fov_y);
     return stage->scene.draw(stage->scene.mesh(test::quad(half, stage->scene.material(material))),
@@ -175,7 +175,7 @@ TEST_F(Geometry, cut_outs_leave_what_is_below_the_cutoff) {
   EXPECT_FALSE(stage->pick(28, 4).sky);
   EXPECT_TRUE(stage->pick(4, 28).sky);
   EXPECT_FALSE(stage->pick(28, 28).sky);
-  // Beside the edge the whole quad of fragments still knows its plane.
+  // At the edge of the cut-out, discarded fragments still take part in derivatives, so the face normal is exact.
   for (std::uint32_t y = 2; y < 31; y += 4) expect_near(stage->pick(17, y).face_normal, dvec3(0, 0, 1), 2e-4);
 }
 
@@ -235,8 +235,8 @@ TEST_F(Geometry, orthographic_cameras_see_faces_and_depths_as_they_are) {
   stage->settings.camera.half_height_m = 4.0f;
   stage->settings.camera.near_m = 0.5f;
   stage->settings.camera.far_m = 20.0f;
-  // Far to the right and close, a face that looks right-forward is visible, though it looks away from the camera's own
-  // position.
+  // A face far to the right whose normal points to the right: an orthographic camera sees it, though it faces away from
+  // the camera's position.
   const double angle = std::atan2(0.6, 0.8);
   stage->scene.draw(stage->scene.mesh(test::quad(0.8f)), at(3, 0, -2) * turned(angle, dvec3(0, 1, 0)));
   stage->render();
@@ -254,7 +254,7 @@ TEST_F(Geometry, a_skinned_bar_bends_as_its_twin) {
   const dmat4 upper = at(0, 0, -7) * turned(0.8, dvec3(0, 0, 1)) * turned(0.3, dvec3(0, 1, 0));
   const std::uint32_t skin = test::two_joint_skin(stage->world, 0, lower, upper);
   const Primitive bar = test::skinned_bar();
-  // The mesh node's own place does not count.
+  // The mesh node's transform must have no effect.
   stage->world.create(WorldTransform{at(100, 100, 100)}, MeshInstance{stage->scene.mesh(bar), skin});
   const dmat4 joints[] = {lower, upper * at(0, -2, 0)};
   std::vector<dvec3> corners;

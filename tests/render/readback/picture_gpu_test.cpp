@@ -12,7 +12,7 @@
 #include "engine/render/readback/capture.h"
 #include "tests/render/draws/drawn_scene.h"
 
-// Whole pictures of the renderer: what must not change them, and what must.
+// Whole pictures: which changes must leave them equal, and which must not.
 
 namespace gloam {
 namespace {
@@ -25,7 +25,7 @@ dmat4 at(double x, double y, double z) { return glm::translate(dmat4(1.0), dvec3
 
 class Pictures : public test::DrawingTest {
  protected:
-  /// The small scene with its lights, seen from one side; everything moved by `offset`.
+  /// The small scene with its lights, seen from one side. Everything is moved by `offset`.
   static void fill(Stage& stage, const dvec3& offset = dvec3(0.0)) {
     test::fill_small_scene(stage.world);
     test::add_lights(stage.world);
@@ -35,7 +35,8 @@ class Pictures : public test::DrawingTest {
     stage.settings = test::look_at(dvec3(2.0, 3.0, 9.0), dvec3(0.0), 96, 54);
     stage.settings.world_from_camera[3] += dvec4(offset, 0.0);
   }
-  /// A sun's maps hold on to a grid of the world, and maps to the size they had: they differ by what texels differ.
+  /// Turns shadows off. Cascades snap to a grid in the world and faces keep their earlier size, so that shadowed
+  /// pictures may differ by texels.
   static void without_shadows(Stage& stage) { ASSERT_TRUE(stage.renderer->knobs().set("shadows.mode", "off").ok()); }
 };
 

@@ -109,7 +109,7 @@ TEST_F(ReadBack, reading_leaves_picture_and_views_as_they_were) {
   EXPECT_EQ(stage->picture(0).rgba, picture.rgba);
 }
 
-/// Exposes an image, and writes it once more after that.
+/// Exposes an image and writes it again afterwards.
 class ExposingModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "exposing"; }

@@ -28,7 +28,7 @@ class CasterBounds : public ::testing::Test {
     for (int i = 0; i < 2; ++i) made.grow(vec3(point(3.0)));
     return made;
   }
-  /// Sheared, mirrored or flattened as it comes.
+  /// A random affine matrix: sheared, and sometimes mirrored or flattened.
   [[nodiscard]] dmat4 affine(double far) {
     dmat4 m(1.0);
     for (int c = 0; c < 3; ++c) m[c] = dvec4(point(2.0), 0.0);

@@ -205,7 +205,7 @@ TEST(PackMorphOffsets, no_targets_no_offsets) {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Corners keep their order (the winding); the triangle may start at any of them.
+/// Rotates the triangle to begin with its least corner. The winding stays.
 Triangle from_least_corner(Triangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
@@ -292,7 +292,7 @@ TEST(FetchOrder, keeps_every_corner_and_names_vertices_in_order) {
   }
   primitive.morph_targets.push_back({primitive.normals, {}});
   std::vector<std::uint32_t> before(900);
-  for (std::uint32_t& index : before) index = random.below(400);  // the last hundred are never named
+  for (std::uint32_t& index : before) index = random.below(400);  // no index uses the last hundred vertices
   std::vector<std::uint32_t> after = before;
   const Primitive ordered = in_fetch_order(primitive, after);
   EXPECT_LT(ordered.positions.size(), 401u);

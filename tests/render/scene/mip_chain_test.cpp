@@ -39,7 +39,7 @@ std::vector<std::byte> chain_of(const std::vector<std::uint8_t>& texels, std::ui
   return chain;
 }
 
-/// One level of a chain.
+/// One mip of a chain.
 struct Level {
   Size size;
   const std::uint8_t* texels;
@@ -62,7 +62,7 @@ std::vector<Level> levels_of(const std::vector<std::byte>& chain, Size size) {
   return levels;
 }
 
-/// The mean of four texels in double, colours in linear light.
+/// The mean of four texels, in double; colours of sRGB images in linear light.
 double halved(const Level& source, std::uint32_t x, std::uint32_t y, std::size_t channel, bool linear_light) {
   double sum = 0.0;
   for (std::uint32_t dy = 0; dy < 2; ++dy) {

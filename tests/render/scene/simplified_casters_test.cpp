@@ -45,7 +45,7 @@ Primitive ball(float radius, std::uint32_t rings, std::uint32_t material = kNone
   return test::finished(std::move(p));
 }
 
-/// Height `height(x, z)` over a square of side·side cells of 1 m.
+/// A terrain of height `height(x, z)` over side × side cells of 1 m.
 template <class Height>
 Primitive terrain(std::uint32_t side, Height height) {
   Primitive p;
@@ -68,7 +68,8 @@ float flat(float, float) { return 0.0f; }
 using Place = std::tuple<float, float, float>;
 Place place_of(const vec3& v) { return {v.x, v.y, v.z}; }
 
-/// Edges by the places they join, counted one way and down the other.
+/// Open edges by the positions that they join. An edge counts up in one direction and down in the other, so closed
+/// edges cancel.
 std::map<std::pair<Place, Place>, int> open_edges(const std::vector<vec3>& positions,
                                                   const std::vector<std::uint32_t>& indices) {
   std::map<std::pair<Place, Place>, int> edges;

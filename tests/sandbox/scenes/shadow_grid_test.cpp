@@ -39,7 +39,7 @@ std::vector<Lamp> lamps(World& world) {
   return found;
 }
 
-/// Spheres that hold a point of the ground, in the mean over the inner part of the square.
+/// Number of lights whose range reaches a point on the ground: the mean over the inner part of the square.
 double mean_reached(World& world) {
   double sum = 0.0, points = 0.0;
   const std::vector<Lamp> all = lamps(world);

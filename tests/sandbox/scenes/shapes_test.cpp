@@ -10,7 +10,7 @@
 namespace gloam {
 namespace {
 
-/// Faces agree with their normals and, seen from a point inside, look outwards; bounds and counts fit.
+/// Checks counts, bounds, unit normals, and that every triangle has an area and faces the way of its normals.
 void expect_sound(const Primitive& shape) {
   ASSERT_FALSE(shape.indices.empty());
   ASSERT_EQ(shape.indices.size() % 3, 0u);
@@ -36,7 +36,7 @@ void expect_sound(const Primitive& shape) {
   }
 }
 
-/// Of a closed surface; positive when faces look outwards.
+/// Volume of a closed surface; positive if its faces point outwards.
 float volume_of(const Primitive& shape) {
   float volume = 0.0f;
   for (std::size_t i = 0; i < shape.indices.size(); i += 3) {

@@ -15,7 +15,7 @@
 namespace gloam {
 namespace {
 
-/// A panel drawn on a device that only writes down what it is told; any fault it finds fails the test.
+/// Draws a panel on the recording device. Any fault that the device finds fails the test.
 class PanelRendererTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -14,7 +14,7 @@
 namespace gloam {
 namespace {
 
-/// A panel that a test looks at and clicks on; nothing is drawn.
+/// Reads a panel's widgets and clicks on them. Nothing is drawn.
 class PanelTest : public ::testing::Test {
  protected:
   void frame(const PanelInput& input = {}) {
@@ -37,9 +37,10 @@ class PanelTest : public ::testing::Test {
     return nullptr;
   }
 
-  /// At a share of the widget's width, 0.5 its middle: moves there, presses, lets go, and draws once more.
+  /// Clicks on a widget at a share of its width (0.5: the middle): moves there, presses, releases, and updates once
+  /// more.
   void click(const std::string& name, double share = 0.5) {
-    for (int i = 0; i < 2; ++i) frame();  // ImGui lays tables out from what their cells needed before
+    for (int i = 0; i < 2; ++i) frame();  // ImGui lays out tables from the cell sizes of the last frame
     const PanelWidget* widget = find(name);
     ASSERT_NE(widget, nullptr) << name << " is not shown";
     PanelInput input = pointing_at(*widget, share);
@@ -171,7 +172,7 @@ TEST_F(PanelTest, takes_the_mouse_where_it_lies_and_nowhere_else) {
   beside.mouse_y = 300.0;
   frame(beside);
   EXPECT_FALSE(panel_.wants_mouse());
-  // A drag that began beside it stays the camera's.
+  // A drag that begins beside the panel stays with the camera.
   beside.buttons[0] = true;
   frame(beside);
   over.buttons[0] = true;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr PanelFrame kFrame = {.width = 640, .height = 480, .dt_s = 0.02};
 
-/// The panel over an empty scene, on a device that only writes down what it is told; any fault it finds fails the test.
+/// The panel over an empty scene, on the recording device. Any fault that the device finds fails the test.
 class PlayPanelTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -13,20 +13,20 @@ using test::GltfText;
 using test::Import;
 using ::testing::HasSubstr;
 
-/// One way to be wrong and what the sentence must hold.
+/// A broken file, and pieces that the message must contain.
 struct Broken {
   const char* name;
   std::string text;
   std::vector<std::string> pieces;
 };
 
-/// GoogleTest would print the bytes.
+/// Prints the name; by default, GoogleTest prints the bytes.
 void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.name; }
 
-/// A file with these members beside the asset.
+/// A file with these members and the asset.
 std::string file(const std::string& members) { return R"({"asset": {"version": "2.0"}, )" + members + "}"; }
 
-/// A file whose only mesh's positions are this accessor; the buffer holds 36 bytes of zeros.
+/// A file with one mesh whose positions are this accessor. The buffer holds 36 bytes of zeros.
 std::string file_with_accessor(const std::string& accessor,
                                const std::string& view = R"({"buffer": 0, "byteLength": 36})") {
   return file(R"("buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)" +
@@ -41,7 +41,7 @@ std::string file_with_positions(const std::vector<float>& positions) {
   return gltf.text();
 }
 
-/// A triangle with a further member of its primitive, and accessor 1 of these 16-bit values.
+/// A triangle whose primitive has further attributes and members, with these 16-bit values as accessor 1.
 std::string file_with_primitive(const std::string& attributes, const std::string& more,
                                 const std::vector<std::uint16_t>& values = {0}, const std::string& type = "SCALAR") {
   GltfText gltf;
@@ -64,7 +64,7 @@ std::string file_with_animation(
   return gltf.text();
 }
 
-/// A skinned triangle whose vertices all follow this joint, and a skin of one.
+/// A skinned triangle whose vertices all follow this joint, and a skin with one joint.
 std::string file_with_joint(std::uint8_t joint) {
   GltfText gltf;
   gltf.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");

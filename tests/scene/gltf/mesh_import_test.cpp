@@ -23,7 +23,7 @@ std::string attribute(const char* name, int accessor) {
   return "\"" + std::string(name) + "\": " + std::to_string(accessor);
 }
 
-/// Imports a file whose meshes are drawn by one node each, and returns its only primitive.
+/// Imports a file whose only node draws mesh 0, and returns the file's only primitive.
 const Primitive& only_primitive(GltfText& gltf, Import& import) {
   gltf.add("nodes", R"({"mesh": 0})");
   test::import_text(gltf.text(), import);

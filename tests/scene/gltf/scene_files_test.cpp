@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 constexpr std::uint8_t kRed[4] = {255, 0, 0, 255};
 
-/// A file that uses most of what can be broken.
+/// A file that uses most features that can be broken.
 GltfText rich_scene() {
   GltfText gltf;
   const std::string positions = std::to_string(gltf.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3"));
@@ -142,7 +142,7 @@ TEST(SceneFiles, chunk_lengths_that_lie_are_refused) {
   }
 }
 
-/// Whatever a few changed bytes make of a file: it loads or is refused in one line. Sanitizers watch.
+/// A file with a few changed bytes loads or is refused with one line. Sanitizer builds also check its memory accesses.
 TEST(SceneFiles, changed_bytes_never_do_worse_than_an_error) {
   const TemporaryFolder folder;
   const std::string text = rich_scene().text();

@@ -23,7 +23,7 @@
 #include "tests/modules/shadows/support/final_lists_kernels.h"
 #include "tests/modules/shadows/support/maps.h"
 
-// compose_local.comp and compose_suns.comp over a wall of made-up lists, against the same in doubles.
+// Runs compose_local.comp and compose_suns.comp on a wall with synthetic lists, and compares with a model in double.
 
 namespace gloam {
 namespace {
@@ -32,29 +32,29 @@ using test::FacePose;
 using test::kGuard;
 
 constexpr std::uint32_t kFace = 256;
-constexpr std::uint32_t kLight = 37;    ///< the pair's
-constexpr std::uint32_t kRoom = 64;     ///< entries of a run
-constexpr std::uint32_t kPerSlot = 16;  ///< words, at most
-constexpr double kWall = 4.0;           ///< metres before the camera
-constexpr double kInner = 0.43;         ///< tangent
+constexpr std::uint32_t kLight = 37;    ///< index of the pair's light
+constexpr std::uint32_t kRoom = 64;     ///< space for the entries of one tile
+constexpr std::uint32_t kPerSlot = 16;  ///< most words per slot
+constexpr double kWall = 4.0;           ///< metres in front of the camera
+constexpr double kInner = 0.43;         ///< tangent inside the rim
 
 struct Settings {
   bool directional = false;
   bool standard = false;
   std::uint32_t bits = 8;
   std::uint32_t threads = 64;
-  std::uint32_t first_slot = 0;  ///< of those that lists have already
+  std::uint32_t first_slot = 0;  ///< first slot that the lists use
   std::optional<std::uint32_t> slots_left;
 };
 
-/// A wall with holes, in tiles that the close-up's dispatch covers but for a rim.
+/// A wall with holes to the sky. The dispatch covers its tiles except for the first and last column.
 struct Wall {
   static constexpr std::uint32_t kWidth = 85, kHeight = 46;
   RenderView view;
   std::vector<float> depth;
   std::vector<uvec2> normals;
   std::vector<std::uint32_t> base_color;
-  std::vector<vec2> bounds;  ///< by tile
+  std::vector<vec2> bounds;  ///< depth bounds by tile
   std::vector<dvec3> points;
 
   static constexpr uvec2 size() { return {kWidth, kHeight}; }
@@ -94,10 +94,10 @@ Wall make_wall(std::uint32_t seed) {
   return wall;
 }
 
-/// The pair: a light before the wall that looks at its middle, and what stands between.
+/// A close-up pair: a light in front of the wall that shines at it, and blockers between.
 struct Pair {
   FacePose pose;
-  std::vector<float> depths;  ///< of its map
+  std::vector<float> depths;  ///< of its face
   shaders::CloseupConstants constants{};
 };
 
@@ -136,7 +136,7 @@ Pair make_pair(const Settings& s) {
   return pair;
 }
 
-/// What the close-up does to a point: `aside`, its map does not hold it; `either`, rounding and the filter decide.
+/// Effect of the close-up on a point. `aside`: outside its face; `either`: depends on rounding and on the filter.
 enum class Says : std::uint8_t { aside, lit, unlit, either };
 
 Says says_of(const Pair& pair, const Settings& s, const dvec3& point) {
@@ -148,7 +148,7 @@ Says says_of(const Pair& pair, const Settings& s, const dvec3& point) {
   if (off > -1e-3) return Says::either;
   const double u = (0.5 + 0.5 * v.x / half) * kFace, w = (0.5 - 0.5 * v.y / half) * kFace;
   const double receiver = s.directional ? 1.0 - z / pair.pose.depth_m : pair.pose.near_m / z;
-  // The hard filter looks at one texel, the other at penumbrae of lights without width: kernels of eight texels and
+  // The hard filter reads one texel. The standard filter reads, for lights without width, kernels of eight texels with
   // their gathers.
   const double reach = s.standard ? 9.0 : 0.02;
   bool lit = false, unlit = false;
@@ -162,7 +162,7 @@ Says says_of(const Pair& pair, const Settings& s, const dvec3& point) {
   return lit && unlit ? Says::either : unlit ? Says::unlit : Says::lit;
 }
 
-/// Lists as they are before and after.
+/// The lists, before or after.
 struct Lists {
   std::vector<uvec4> tiles;
   std::vector<std::uint32_t> entries;
@@ -182,7 +182,7 @@ struct Lists {
   }
 };
 
-/// Runs of 0, 1, 31, 33 and 64 entries, with and without the light, at the first, the last and any place.
+/// Runs of 0, 1, 31, 33 or 64 entries, with or without the light, at the first, the last or any position.
 std::vector<std::uint32_t> random_run(std::mt19937& random, bool with_light) {
   constexpr std::uint32_t kCounts[] = {0, 1, 31, 33, 64};
   const std::uint32_t count = kCounts[random() % 5];
@@ -214,7 +214,8 @@ Lists make_lists(const Settings& s, std::mt19937& random, bool split) {
   for (std::uint32_t tile = 0; tile < count; ++tile) {
     uvec4 texel(tile * kRoom, (count + tile) * kRoom, 0, 0);
     for (const bool directional : {false, true}) {
-      // Nine of ten of the pair's kind list its light; so do half of the other kind, which has nothing to do with it.
+      // Nine of ten lists of the pair's kind hold its light. So do half of the lists of the other kind, where that
+      // index means another light.
       const std::vector<std::uint32_t> run =
           random_run(random, directional == s.directional ? random() % 10 != 0 : random() % 2 == 0);
       const std::uint32_t first = directional ? texel.x : texel.y;
@@ -295,12 +296,13 @@ class ComposeCloseup : public test::ShadowKernelTest {
     std::size_t either = 0, pixels = 0;
     std::set<std::uint32_t> taken;
   };
-  /// What may become of a tile's entry.
+  /// Allowed outcomes for a tile's entry.
   struct Outcome {
-    bool must_change = false, may_change = false, must_stay = false, may_stay = false;  ///< stay: some pixel sees some
+    bool must_change = false, may_change = false, must_stay = false,
+         may_stay = false;  ///< stay: some pixel still sees the light
   };
 
-  /// Runs the kernel and holds everything it may write against what it should have written.
+  /// Runs the kernel and checks everything that it may write.
   Tally expect_composed(const Settings& s, std::uint32_t seed, bool split = false) {
     std::mt19937 random(seed);
     const Wall wall = make_wall(seed);
@@ -308,7 +310,7 @@ class ComposeCloseup : public test::ShadowKernelTest {
     Lists before = make_lists(s, random, split), after = before;
     compose(wall, pair, s, after);
     Tally tally;
-    std::vector<std::uint32_t> entries = before.entries;  // with what changed as it should
+    std::vector<std::uint32_t> entries = before.entries;  // expected entries
     for (std::uint32_t tile = 0; tile < before.tiles.size() && !HasFailure(); ++tile) {
       SCOPED_TRACE("tile " + std::to_string(tile));
       check_tile(wall, pair, s, tile, before, after, tally, entries);
@@ -371,7 +373,7 @@ class ComposeCloseup : public test::ShadowKernelTest {
       ASSERT_GE(slot, before.end_slot);
     } else {
       ASSERT_EQ(slot, old_slot);
-      // All unlit already stays a slot: nothing changes. Otherwise what changed sees some still.
+      // A slot whose pixels are all unlit already stays as it is. Otherwise a changed slot still has a lit pixel.
       EXPECT_TRUE(!outcome.must_change || outcome.may_stay);
       ++tally.kept_slots;
     }
@@ -416,7 +418,7 @@ class ComposeCloseup : public test::ShadowKernelTest {
       }
     }
   }
-  /// Slots of other entries, and words beyond all slots.
+  /// Checks that slots of other entries and words beyond all slots are unchanged.
   static void check_words(const Settings& s, Lists& before, Lists& after, const Tally& tally) {
     std::set<std::uint32_t> own = tally.taken;
     const auto count = static_cast<std::uint32_t>(before.tiles.size());

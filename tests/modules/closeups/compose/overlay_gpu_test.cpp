@@ -15,12 +15,12 @@
 #include "tests/modules/shadows/support/deferred_scene.h"
 #include "tests/modules/shadows/support/held_faces.h"
 
-// What forward-lit surfaces see of close-up subjects.
+// Close-up subjects as forward-lit surfaces see them: the overlay.
 
 namespace gloam::test {
 namespace {
 
-/// Says which copies frames made; comes after the other modules.
+/// Records which overlay copies the frames make. Added after all other modules.
 class CopyReader final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "copy_reader"; }
@@ -53,7 +53,7 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
     set("shadows.filter", "hard");
     put_room();
     put(shapes_[0], glm::scale(glm::rotate(at(-0.6, 0.3, -0.4), 0.4, dvec3(0.0, 1.0, 0.0)), dvec3(0.4, 0.6, 0.4)));
-    // Far boxes keep the bounds of all casters, and so a sun's cascades, where they are.
+    // Far boxes fix the bounds of all casters, and with them a sun's cascades.
     for (const double side : {-1.0, 1.0})
       put(shapes_[0], glm::scale(at(4.0 * side, 2.0 + 1.5 * side, -2.5), dvec3(0.2)));
     subject_ = put(shapes_[1], glm::scale(at(0.2, 0.75, 0.3), dvec3(0.5, 0.7, 0.5)));
@@ -72,7 +72,7 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
     return made;
   }
 
-  /// What is seen through: the floor's shadow falls on it too.
+  /// A pane above the floor, which receives the shadows, too.
   void put_pane() { pane_entity_ = put(pane_, glm::scale(flat_pane(), dvec3(2.4))); }
   [[nodiscard]] static dmat4 flat_pane() { return flat(0.12); }
   void put_lamp(LightKind kind) {
@@ -105,13 +105,13 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
     return std::ranges::any_of(renderer->report().passes, [&](const PassTime& pass) { return pass.name == name; });
   }
 
-  /// How much a depth changes over two texels of a surface that recedes a metre a metre across.
+  /// Change of depth over two texels of a surface that recedes one metre per metre across.
   [[nodiscard]] static float slack_of(const ShadowFace& face, float depth) {
     const auto texels = static_cast<float>(face.square.size);
     return 2.0f * (face.tan_half > 0.0f ? depth * 2.0f * face.tan_half / texels
                                         : 2.0f * face.half_extent_m / texels / face.far_m);
   }
-  /// Depths of the subject within a texel of one.
+  /// Depths of the subject within one texel of a texel.
   struct Around {
     float low = 2.0f;
     float high = 0.0f;
@@ -130,8 +130,9 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
     }
     return found;
   }
-  /// Every texel of one that shows the subject does so within a texel in the other, at a depth that lies there; at its
-  /// outline, where surfaces recede steeply and drawn maps are biased by as much, depths within a texel of both meet.
+  /// Every texel of `a` that shows the subject must have it in `b` within one texel, with a depth in the range found
+  /// there. Up to a tenth of the texels are exceptions, at outlines, where surfaces are steep and drawn maps are biased
+  /// by the slope: there the depth ranges within one texel must overlap.
   static std::size_t expect_within_a_texel(const FaceDepths& a, const FaceDepths& b, const FaceDepths& without,
                                            const ShadowFace& face, const std::string& what) {
     std::size_t shown = 0, off = 0, apart = 0;
@@ -172,7 +173,7 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
     }
     EXPECT_GT(shown, 100u);
   }
-  /// Share of pixels whose light differs by more than a tenth.
+  /// Share of pixels whose light differs by more than 10 %.
   [[nodiscard]] static double differing(const LinearPicture& a, const LinearPicture& b) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < a.rgba.size(); i += 4)
@@ -291,7 +292,7 @@ TEST_F(CloseupOverlayFrames, tiles_without_a_list_see_the_subject) {
   EXPECT_FALSE(has_pass("closeup_transfer"));
   set("shadows.slot_limit", "1");
   for (int i = 0; i < 2; ++i) {
-    // Also in the first frame, whose pairs were announced before it was known.
+    // Also in the first frame, whose pairs were announced before fallback tiles were known.
     const LinearPicture deferred = frame("deferred").light;
     EXPECT_GT(counter("shadows.fallback_tiles"), 0.0);
     EXPECT_EQ(counter("closeups.pairs"), 1.0);
@@ -321,7 +322,7 @@ TEST_F(CloseupOverlayFrames, a_pair_without_room_for_copies_is_left_to_the_stand
 TEST_F(CloseupOverlayFrames, a_face_that_comes_back_to_where_a_copy_lay_is_drawn_again) {
   put_light(spot(45.0), dvec3(-0.5, 2.0, 1.0), dvec3(0.3, -1.0, -0.4), 512);
   std::vector<Entity> others;
-  // They see nothing of the subject and fill the rest.
+  // These lights do not reach the subject; their maps fill the atlas.
   for (int i = 0; i < 3; ++i)
     others.push_back(put_light(spot(20.0), dvec3(-1.2 + 0.1 * i, 0.6, 0.4), dvec3(-0.5, -1.0, -0.8), 512));
   draw_twice();

@@ -10,7 +10,7 @@
 
 namespace gloam::test {
 
-/// A pair's face and a standard face of one light.
+/// A pair's face and a standard face of the same light.
 struct TransferCase {
   ShadowFace from;
   ShadowFace to;
@@ -36,7 +36,7 @@ class TransferDice {
     }
     return made;
   }
-  /// A point anywhere in what a face sees.
+  /// A random point inside a face's frustum.
   [[nodiscard]] dvec3 seen_by(const ShadowFace& face) {
     const double side = face.square.size, far = face.far_m, near = face.near_m;
     return unproject(face, between(0.0, side), between(0.0, side), between(near, near + 0.5 * (far - near)));
@@ -69,7 +69,7 @@ class TransferDice {
     const dvec3 ahead = glm::normalize(dvec3(between(-1.0, 1.0), -1.0, between(-1.0, 1.0)));
     const CloseupAxes axes = closeup_axes(ahead);
     set_axes(made.from, axes);
-    // The same direction, turned about it.
+    // The same direction, rotated about it.
     const double turn = between(-3.0, 3.0), c = std::cos(turn), s = std::sin(turn);
     const dvec3 right = dvec3(axes.right) * c + dvec3(axes.up) * s;
     set_axes(made.to, {vec3(right), vec3(glm::cross(right, dvec3(axes.forward))), axes.forward});

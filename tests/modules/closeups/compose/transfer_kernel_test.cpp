@@ -22,19 +22,19 @@ namespace {
 constexpr std::uint32_t kMap = 512;
 constexpr std::uint32_t kStandard = 256;  // side of the image of standard faces
 
-/// An area in a pair's face.
+/// An area of a pair's face.
 struct Area {
   glm::dvec2 low = glm::dvec2(1e30);
   glm::dvec2 high = glm::dvec2(-1e30);
   bool ahead = true;
 };
 
-/// Twin of transfer.comp in double precision, from what the faces see rather than from its constants.
+/// Model of transfer.comp in double precision, computed from the faces instead of the shader's constants.
 class Twin {
  public:
   Twin(const TransferCase& pair, const std::vector<float>& depths) : pair_(pair), depths_(depths) {}
 
-  /// Bounds of what a texel may become: floats decide which texels at an area's rim belong to it.
+  /// Bounds of a transferred texel: rounding decides which texels at the border of an area belong to it.
   struct Bounds {
     double low = 0.0;
     double high = 0.0;
@@ -68,8 +68,8 @@ class Twin {
     }
     return area;
   }
-  /// Of the mip's texels with their middles no farther from the standard texel's than `reach`; without one, of the one
-  /// in the middle.
+  /// Nearest depth of the mip's texels whose centres are within `reach` of the standard texel's centre; if there is
+  /// none, of the texel at the centre of the area.
   [[nodiscard]] double nearest(const Area& area, const glm::dvec2& texel, double reach, std::uint32_t mip) const {
     const double texels = 1u << mip;
     const int side = static_cast<int>(pair_.from.square.size >> mip);
@@ -96,7 +96,7 @@ class Twin {
   [[nodiscard]] double standard_depth(int x, int y, std::uint32_t mip) const {
     return standard_depth(x, y, mip, glm::dvec2(x, y));
   }
-  /// As if the texel lay at `at`, in texels of the mip.
+  /// The depth of a mip texel, placed at `at` (in texels of the mip).
   [[nodiscard]] double standard_depth(int x, int y, std::uint32_t mip, const glm::dvec2& at) const {
     const int block = 1 << mip, side = static_cast<int>(pair_.from.square.size);
     double depth = 0.0;
@@ -127,7 +127,7 @@ class CloseupTransferKernel : public KernelTest {
     run(kernel, texels);
     return face_of(kernel.read<float>(3), pair.to.square);
   }
-  /// Into an atlas of 16 bits.
+  /// Transfers to an atlas of 16 bits.
   [[nodiscard]] std::vector<std::uint16_t> transferred_steps(const TransferCase& pair, const ShadowMaps& maps,
                                                              const TexelRect& texels) {
     Kernel kernel(device(), shaders::closeups::transfer_r16_comp);
@@ -148,7 +148,7 @@ class CloseupTransferKernel : public KernelTest {
     const uvec2 extent = texels.end - texels.begin;
     kernel.run((extent.x + 7) / 8, (extent.y + 7) / 8);
   }
-  /// The face's texels of an image of standard faces. Beside it nothing is written.
+  /// The texels of one face in the image of standard faces. Checks that no other texel was written.
   template <class Texel>
   [[nodiscard]] static std::vector<Texel> face_of(const std::vector<Texel>& image, const AtlasSquare& square) {
     std::vector<Texel> face;
@@ -236,8 +236,8 @@ TEST_F(CloseupTransferKernel, depths_are_held_as_the_atlas_holds_them) {
 }
 
 TEST_F(CloseupTransferKernel, fifteen_by_thirty_seven_texels_are_read_at_level_three) {
-  // One texel of the standard face covers 15 × 37 of the pair's, in the middle of it. A near point just outside shows
-  // how far it looks.
+  // One texel of the standard face covers 15 × 37 texels in the middle of the pair's face. A single near point probes
+  // which texels are read.
   TransferCase pair = TransferDice(1).pair(false);
   pair.to.right = pair.from.right;
   pair.to.up = pair.from.up;
@@ -264,7 +264,7 @@ TEST_F(CloseupTransferKernel, fifteen_by_thirty_seven_texels_are_read_at_level_t
     kernel.run(1);
     return !is_untouched(kernel.read<float>(3)[0]);
   };
-  // 40…55 × 56…93: at level 3 these are texels 5…6 × 7…11, of eight each.
+  // 40…55 × 56…93: at level 3, texels 5…6 × 7…11, each of eight texels.
   for (const uvec2 inside : {uvec2(40, 56), uvec2(55, 56), uvec2(47, 95), uvec2(55, 95)})
     EXPECT_TRUE(looks_at(inside)) << inside.x << ',' << inside.y;
   for (const uvec2 outside : {uvec2(39, 60), uvec2(56, 60), uvec2(47, 55), uvec2(47, 96)})

@@ -27,7 +27,7 @@ TEST(CloseupTransfer, the_level_is_the_finest_with_two_texels_across_the_smaller
   EXPECT_EQ(transfer_level(vec2(1e9f, 1e9f), 64), 5u) << "two texels of the whole map";
 }
 
-/// A row's value at (x, y, 1).
+/// The value of a row at (x, y, 1).
 double at(const vec3& row, double x, double y) { return glm::dot(dvec3(row), dvec3(x, y, 1.0)); }
 
 TEST(CloseupTransfer, points_lie_and_have_depths_where_faces_see_them) {

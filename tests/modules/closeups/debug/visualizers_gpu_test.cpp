@@ -16,7 +16,7 @@
 #include "modules/shadows/views/faces.h"
 #include "tests/modules/shadows/support/deferred_scene.h"
 
-// What the views of close-ups and pixel picking show, against projections with the camera's own lens.
+// Close-up visualizers and pixel picking, checked against projections computed from the camera's lens.
 
 namespace gloam::test {
 namespace {
@@ -26,7 +26,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A point over the picture, and how far in front of the camera it is.
+/// A projected point: pixels, and distance in front of the camera.
 struct Projected {
   double x = 0.0;
   double y = 0.0;
@@ -52,7 +52,7 @@ class CloseupViewsTest : public DeferredShadowsTest {
   void take_lamps_away() {
     for (const Entity lamp : std::exchange(lamps, {})) world.remove<Light>(lamp);
   }
-  /// A few frames, so that pairs have come and sizes are settled.
+  /// Draws a few frames, so that pairs exist and buffer sizes have settled.
   [[nodiscard]] Picture shown(const std::string& view) {
     settings.visualizer = view;
     for (int i = 0; i < 3; ++i) draw();
@@ -71,14 +71,15 @@ class CloseupViewsTest : public DeferredShadowsTest {
   [[nodiscard]] dvec3 in_camera(const dvec3& point) const {
     return dvec3(glm::inverse(settings.world_from_camera) * dvec4(point, 1.0));
   }
-  /// Of a point in the camera's axes, in front of it.
+  /// Projects a point given in camera axes; it must be in front of the camera.
   [[nodiscard]] Projected projected(const dvec3& p) const {
     const double half = settings.camera.orthographic ? static_cast<double>(settings.camera.half_height_m)
                                                      : -p.z * std::tan(0.5 * settings.camera.fov_y);
     const double scale = 0.5 * settings.height / half;
     return {0.5 * settings.width + p.x * scale, 0.5 * settings.height - p.y * scale, -p.z};
   }
-  /// Calls function(Projected) in steps of half a pixel along what the camera has in front of it of a frustum's edge.
+  /// Calls function(Projected) in steps of half a pixel along the part of a frustum's edge that is in front of the
+  /// camera.
   template <class F>
   void walk(dvec3 from, dvec3 to, F&& function) const {
     from = in_camera(from);
@@ -107,7 +108,7 @@ class CloseupViewsTest : public DeferredShadowsTest {
     }
   }
 
-  /// What the pixels of view closeup_frusta must be for a lone pair.
+  /// Expected pixels of visualizer closeup_frusta for a single pair.
   enum class Line : std::uint8_t { none, close, hidden, clear };
   [[nodiscard]] std::vector<Line> lines_of(const ShadowFace& face) {
     const GeometryPicture geometry = value_of(renderer->read_geometry(world, settings.id));
@@ -121,7 +122,7 @@ class CloseupViewsTest : public DeferredShadowsTest {
       if (!(std::abs(p.x) < 1e4 && std::abs(p.y) < 1e4)) return;
       const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
       for (int i = 0; i < 25; ++i) raise(x + i % 5 - 2, y + i / 5 - 2, Line::close);
-      // Only what lies near a pixel's centre says that it must be drawn.
+      // Only points near a pixel's centre require that the pixel is drawn.
       if (std::max(std::abs(p.x - x - 0.5), std::abs(p.y - y - 0.5)) > 0.3) return;
       if (x < 0 || y < 0 || x >= static_cast<int>(settings.width) || y >= static_cast<int>(settings.height)) return;
       const float depth = geometry.depth[static_cast<std::size_t>(y) * settings.width + static_cast<std::size_t>(x)];
@@ -134,7 +135,7 @@ class CloseupViewsTest : public DeferredShadowsTest {
   struct Met {
     std::size_t clear = 0, hidden = 0, tinted = 0, framed = 0, untouched = 0, wrong = 0;
   };
-  /// Checks every pixel of the view's own image, and that the picture is as it is where nothing lies over it.
+  /// Checks every pixel of the visualizer's image, and that the picture is unchanged where nothing is drawn over it.
   Met expect_frustum_and_tiles(const std::string& what) {
     const Picture lit = shown("none"), over = shown("closeup_frusta");
     const ImageBytes named = image("closeup_frusta");
@@ -150,7 +151,7 @@ class CloseupViewsTest : public DeferredShadowsTest {
       const bool inside = x >= low.x && y >= low.y && x <= high.x && y <= high.y;
       const bool rim = inside && (x == low.x || y == low.y || x == high.x || y == high.y);
       const double below = rim ? 0.7 : inside ? 0.16 : 0.0;
-      // Of the line alone.
+      // Opacity of the line alone.
       const double line = 1.0 - (1.0 - opacity) / (1.0 - below);
       bool right = true;
       if (lines[i] == Line::none) {
@@ -166,7 +167,7 @@ class CloseupViewsTest : public DeferredShadowsTest {
     expect_color_of(pair.pair, lines, over, what);
     return met;
   }
-  /// The brightest channel of the pair's colour is the brightest of what lines show.
+  /// The brightest channel of the pair's colour must be the brightest channel of its lines.
   static void expect_color_of(Entity pair, const std::vector<Line>& lines, const Picture& over,
                               const std::string& what) {
     const vec3 color = closeup_color(pair);
@@ -195,12 +196,13 @@ class CloseupViewsTest : public DeferredShadowsTest {
     const Ray r = ray(x, y);
     return r.origin - r.direction * (r.origin.y / r.direction.y);
   }
-  /// Texels between the places of two points of the floor.
+  /// Texels between two points of the floor.
   [[nodiscard]] static glm::dvec2 apart(const ShadowFace& face, const dvec3& a, const dvec3& b) {
     const auto from = project(face, a), to = project(face, b);
     return from && to ? glm::dvec2(to->x - from->x, to->y - from->y) : glm::dvec2(0.0);
   }
-  /// Of the pixel, by where its neighbours lie. None: outside; too near to the frustum's sides to tell.
+  /// Texels per pixel side, from the positions of the neighbouring pixels; negative: outside. unsure: too near to the
+  /// sides of the frustum.
   struct Density {
     double texels = -1.0;
     bool unsure = false;
@@ -224,7 +226,7 @@ class CloseupViewsTest : public DeferredShadowsTest {
     }
     return most;
   }
-  /// Checks every pixel that shows the floor; how many are in a frustum.
+  /// Checks every pixel that shows the floor. Returns how many are in a frustum.
   std::size_t expect_texels_of_the_floor(const std::string& what) {
     static_cast<void>(shown("closeup_texels"));
     const std::vector<float> texels = texels_shown();
@@ -268,7 +270,7 @@ TEST_F(CloseupViewsTest, lines_lie_where_the_frustum_is_and_its_tiles_are_tinted
 
 TEST_F(CloseupViewsTest, lines_are_cut_at_the_near_plane_and_right_for_orthographic_cameras) {
   put_lamp(LightKind::spot);
-  // From inside the frustum.
+  // With the camera inside the frustum.
   const ViewId id = settings.id;
   settings = look_at(dvec3(0.3, 0.9, 0.9), dvec3(0.1, 0.2, -0.6), 150, 109);
   settings.id = id;

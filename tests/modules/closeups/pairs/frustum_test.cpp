@@ -12,7 +12,7 @@
 namespace gloam {
 namespace {
 
-/// Where a map sees a point: in half extents from its middle, and metres along its axis.
+/// A point as a face sees it: half extents from the centre, and metres along the axis.
 dvec3 seen(const ShadowFace& face, const dvec3& world) {
   const dvec3 to = world - face.origin;
   const double z = glm::dot(dvec3(face.forward), to);

@@ -4,15 +4,15 @@
 
 #include "tests/modules/closeups/scene.h"
 
-// Several pairs: one after the other into the same tiles, in any order, with and without maps of their own, coming and
-// going.
+// Several pairs: composed one after another into the same tiles, in any order, with and without their own maps, added
+// and removed.
 
 namespace gloam::test {
 namespace {
 
 class CloseupPairs : public CloseupScene {
  protected:
-  /// A light above the floor, and a camera that sees the floor below what hangs between.
+  /// A light above the floor, and a camera that sees the floor below the subjects.
   Entity put_stage(LightKind kind, float width = 0.0f) {
     put(plane_, flat(0.0) * glm::scale(dmat4(1.0), dvec3(3.0)));
     put_far_boxes();
@@ -21,7 +21,7 @@ class CloseupPairs : public CloseupScene {
     const Light made = kind == LightKind::spot ? spot(40.0, width) : point(width);
     return put_light(made, dvec3(0.0, 4.0, 0.1), dvec3(0.0, -1.0, 0.0), 1024);
   }
-  /// Two that overlap above the middle, at different heights.
+  /// Two blocks at different heights that overlap above the middle.
   void put_halves() {
     left = put_block(dvec3(-0.43, 1.5, 0.0), dvec3(1.0, 0.05, 0.9));
     right = put_block(dvec3(0.481, 1.6, 0.0), dvec3(0.95, 0.05, 0.9));
@@ -44,7 +44,7 @@ class CloseupPairs : public CloseupScene {
     EXPECT_EQ(a.light.rgba, b.light.rgba) << what;
     EXPECT_EQ(a.picture.rgba, b.picture.rgba) << what;
   }
-  /// Tiles that go from lit to unlit by both, through slots.
+  /// Tiles that both subjects together take from lit to unlit, through slots.
   void expect_lit_partly_unlit(LightKind kind) {
     const Entity lamp = put_stage(kind);
     put_halves();
@@ -64,7 +64,7 @@ class CloseupPairs : public CloseupScene {
                           by_both = slots[3][tile];
       if (none == GLOAM_NO_ROOM) continue;
       ASSERT_EQ(none, GLOAM_ALL_LIT) << tile;
-      // What is unlit by one stays so, what both leave alone stays lit.
+      // A tile that one subject makes unlit stays unlit; a tile that neither changes stays lit.
       if (by_left == GLOAM_ALL_UNLIT || by_right == GLOAM_ALL_UNLIT) {
         EXPECT_EQ(by_both, GLOAM_ALL_UNLIT) << tile;
       }
@@ -103,7 +103,7 @@ TEST_F(CloseupPairs, finish_what_the_standard_map_left) {
   SeenDifference off;
   for (std::size_t i = 0; i < with_one.pixels.size(); ++i)
     if (gives(one.geometry, i, lamp)) off.add(with_one.pixels[i], with_two.pixels[i]);
-  // The standard map and the close-up's are off by a pixel at silhouettes.
+  // The standard map and the close-up map differ by one pixel at silhouettes.
   EXPECT_LE(off.mean(), 0.01);
   EXPECT_LE(off.half_share(), 0.005);
   EXPECT_GT(std::ranges::count(with_one.slots, GLOAM_ALL_UNLIT), 0);
@@ -132,7 +132,7 @@ TEST_F(CloseupPairs, in_another_order_give_the_same_picture) {
 TEST_F(CloseupPairs, that_share_the_map_give_the_same_picture) {
   put_stage(LightKind::point, 0.06f);
   put_light(spot(45.0, 0.05f), dvec3(0.2, 3.5, 0.6), dvec3(0.0, -1.0, -0.1), 512);
-  // As large as each other in view, so that they have maps of one size.
+  // Of equal size in view, so that their maps have the same size.
   left = put_block(dvec3(-0.45, 1.0, 0.0), dvec3(0.7, 0.1, 0.7));
   right = put_block(dvec3(0.45, 1.0, 0.0), dvec3(0.7, 0.1, 0.7));
   CloseupShot first;
@@ -161,7 +161,7 @@ TEST_F(CloseupPairs, that_share_a_map_with_larger_ones_are_as_good) {
   SeenDifference off;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
     if (gives(alone.geometry, i, lamp)) off.add(a.pixels[i], b.pixels[i]);
-  // The small one's silhouettes move by no more than half a pixel.
+  // The smaller one's silhouettes move by at most half a pixel.
   EXPECT_LE(off.mean(), 0.005);
   EXPECT_LE(off.half_share(), 0.002);
 }
@@ -184,7 +184,8 @@ TEST_F(CloseupPairs, beyond_the_budget_are_in_standard_maps) {
       SeenDifference off;
       for (std::size_t i = 0; i < a.pixels.size(); ++i)
         if (gives(all.geometry, i, light)) off.add(a.pixels[i], b.pixels[i]);
-      // Silhouettes of a pixel, and penumbrae of both blocks over one another, which maps of their own see one by one.
+      // Silhouettes may differ by a pixel. So may overlapping penumbrae of both blocks, which close-up maps filter one
+      // by one.
       EXPECT_LE(off.mean(), 0.015) << most << ' ' << names_.at(light);
       EXPECT_LE(off.half_share(), 0.01) << most << ' ' << names_.at(light);
     }

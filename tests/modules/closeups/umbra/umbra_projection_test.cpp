@@ -13,7 +13,7 @@
 namespace gloam {
 namespace {
 
-/// A camera from its pose and lens alone.
+/// A camera given by its pose and lens alone.
 struct Eye {
   dmat4 pose;
   Camera camera;
@@ -28,7 +28,7 @@ struct Eye {
     settings.camera = camera;
     return make_view(settings, 0);
   }
-  /// The pixel that shows a point, with its place in it.
+  /// The pixel position of a point, with fractions; none if it is not visible.
   [[nodiscard]] std::optional<glm::dvec2> pixel(const dvec3& world) const {
     const dvec3 to = world - dvec3(pose[3]);
     const double depth = -glm::dot(dvec3(pose[2]), to);
@@ -72,7 +72,7 @@ class UmbraProjection : public ::testing::Test {
     camera.far_m = 1000.0f;
     return camera;
   }
-  /// Anything anywhere: cameras in the volume, subjects behind lights and cameras, lights in subjects.
+  /// Arbitrary cases: cameras in the shadow volume, subjects behind lights and cameras, lights inside subjects.
   [[nodiscard]] Case any() {
     Case made;
     const dvec3 world = cases_.chance(0.2) ? cases_.point(1e5) : dvec3(0.0);
@@ -85,14 +85,14 @@ class UmbraProjection : public ::testing::Test {
     made.receivers.min = glm::min(made.receivers.min, made.subject.min);
     made.receivers.max = glm::max(made.receivers.max, made.subject.max);
     made.eye = {cases_.looking(world + cases_.point(8.0), cases_.direction()), lens()};
-    if (cases_.chance(0.5)) {  // in the shadow
+    if (cases_.chance(0.5)) {  // camera inside the shadow
       const auto hidden = cases_.hidden(made.light, made.subject, made.receivers, cases_.in(0.0, 1.0));
       if (hidden) made.eye.pose[3] = dvec4(hidden->receiver, 1.0);
     }
     if (cases_.chance(0.1)) made.eye.size = {7, 5};
     return made;
   }
-  /// A subject before the camera, lit from somewhere.
+  /// A subject in front of the camera, lit from any side.
   [[nodiscard]] Case in_view() {
     Case made;
     made.subject = cases_.box(cases_.point(0.5), 0.3, 2.0);
@@ -180,7 +180,7 @@ TEST_F(UmbraProjection, is_empty_where_nothing_shows) {
   Light lamp;
   lamp.range_m = 5.0f;
   const CloseupLight light = *closeup_light(lamp, dmat4(1.0));
-  Eye away{glm::translate(dmat4(1.0), dvec3(0, 0, -20.0)), {}};  // looks farther along −Z
+  Eye away{glm::translate(dmat4(1.0), dvec3(0, 0, -20.0)), {}};  // looks along −Z, away from the subject
   const WorldBox subject{dvec3(0.5, -0.5, -2.0), dvec3(1.5, 0.5, -1.0)};
   EXPECT_TRUE(umbra_tiles(light, subject, {}, away.view()).empty());
   const WorldBox far{dvec3(10.0), dvec3(11.0)};

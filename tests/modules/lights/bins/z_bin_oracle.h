@@ -16,7 +16,7 @@
 /// Brute-force oracle of zBins, in double.
 namespace gloam::test {
 
-/// By nearest depth, equal ones as they came.
+/// Sorts by nearest depth; stable.
 inline void sort_lights(std::vector<LightDepth>& lights) {
   std::stable_sort(lights.begin(), lights.end(),
                    [](const LightDepth& a, const LightDepth& b) { return a.nearest < b.nearest; });
@@ -40,8 +40,9 @@ inline void sort_lights(std::vector<LightDepth>& lights) {
   return static_cast<std::uint32_t>(std::clamp(at, 0.0, params.count - 1.0));
 }
 
-/// What is wrong with finding a light at a depth of its own: nothing when the bin of the depth holds it, also when the
-/// depth is off by what a GPU may lose (four steps of a float) and whether the bin is computed in floats or exactly.
+/// An error text if a light is not found at one of its depths, else empty. The bin of the depth must hold the light,
+/// also if the depth is off by GPU rounding (four steps of a float), and whether the bin is computed in floats or
+/// exactly.
 [[nodiscard]] inline std::string missed_at(const ZBins& bins, std::uint32_t light, double depth) {
   for (const double off : {0.0, 4.0, -4.0}) {
     const double seen = std::max(depth * (1.0 + off * 5.96e-8), static_cast<double>(bins.params.near_m));
@@ -58,7 +59,7 @@ inline void expect_found(const ZBins& bins, std::uint32_t light, float depth) {
   EXPECT_EQ(missed_at(bins, light, static_cast<double>(depth)), "");
 }
 
-/// Depths of a light worth a look: its ends, some between, the middles and ends of the bins it reaches.
+/// Depths of a light to test: its ends, some between, and the centres and edges of the bins it reaches.
 [[nodiscard]] inline std::vector<double> depths_of(const LightDepth& light, const ZBinParams& params,
                                                    std::mt19937& random) {
   const double nearest = light.nearest;
@@ -78,9 +79,9 @@ inline void expect_found(const ZBins& bins, std::uint32_t light, float depth) {
   return depths;
 }
 
-/// The first fault of both sets, or nothing: every depth of every light finds it; a bin holds no light that is farther
-/// from it than rounding excuses (a thousandth of a bin and 1e-5 of the depth); the ranged set follows from the
-/// standard one; and every pair of depths finds every light between them.
+/// The first fault of both sets, or empty. Checks that every depth of every light finds it; that a bin holds no light
+/// farther away than rounding allows (a thousandth of a bin plus 1e-5 of the depth); that the ranged set follows from
+/// the standard one; and that every pair of depths finds every light between them.
 [[nodiscard]] inline std::string fault_of(const ZBins& bins, const std::vector<LightDepth>& lights) {
   const ZBinParams& params = bins.params;
   std::mt19937 random(static_cast<std::uint32_t>(lights.size()));
@@ -96,7 +97,7 @@ inline void expect_found(const ZBins& bins, std::uint32_t light, float depth) {
     if (bin.begin >= bin.end || bin.end > lights.size()) return name + " has no order";
     const double low = static_cast<double>(params.near_m) + k * width;
     const double slack = 1e-3 * width + 1e-5 * (low + width);
-    // Both ends of the bin's hull must be lights that touch it.
+    // The first and the last light of a bin must touch it.
     for (const std::uint32_t end : {std::uint32_t{bin.begin}, std::uint32_t{bin.end} - 1u}) {
       const bool before = k > 0 && static_cast<double>(lights[end].farthest) < low - slack;
       const bool behind = k + 1 < params.count && static_cast<double>(lights[end].nearest) > low + width + slack;
@@ -110,7 +111,7 @@ inline void expect_found(const ZBins& bins, std::uint32_t light, float depth) {
     for (std::uint32_t j = 0; j <= k; ++j) expected.end = std::max(expected.end, bins.bins[j].end);
     if (bins.bins[params.count + k] != expected)
       return "ranged bin " + std::to_string(k) + " does not follow from the standard ones";
-    if (params.count > 1024 && k % 7 != 0) k += 6;  // the square of the bins is what this costs
+    if (params.count > 1024 && k % 7 != 0) k += 6;  // the check is quadratic in the number of bins
   }
 
   std::uniform_real_distribution<double> share(0.0, 1.0);

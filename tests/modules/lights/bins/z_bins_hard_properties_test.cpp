@@ -23,7 +23,7 @@ ZBinParams draw_params() {
   return params;
 }
 
-/// Depths near, between and beyond the bins; some start on an edge, some have no extent.
+/// Depths before, within and beyond the bins. Some start on a bin's edge, some have no extent.
 LightDepth draw_light(const ZBinParams& params) {
   const double near_m = params.near_m;
   const double extent = static_cast<double>(params.far_m) - near_m;

@@ -78,7 +78,7 @@ TEST(ZBinsHard, hold_a_light_on_the_edge_of_two_bins_from_both_sides) {
   }
 }
 
-/// FF figure 3: twenty bins, three lights. Both errors come from taking the first and the last bin of a range alone.
+/// FF figure 3: twenty bins, three lights. Both errors come from using only the first and the last bin of a range.
 TEST(ZBinsHard, of_figure_3_find_what_lies_between_two_bins) {
   const ZBinParams params{1.0f, 21.0f, 20};  // bins of one metre
   const auto from_to = [](int first, int last) {
@@ -86,7 +86,7 @@ TEST(ZBinsHard, of_figure_3_find_what_lies_between_two_bins) {
   };
   const ZBins bins = expect_right_bins({from_to(2, 5), from_to(4, 12), from_to(6, 10)}, params);
   const auto at = [](int bin) { return static_cast<float>(bin) + 1.5f; };
-  // 3a: bins 3 and 11 know lights 0 and 1 only; light 2 lies between them.
+  // 3a: bins 3 and 11 hold only lights 0 and 1; light 2 lies between them.
   EXPECT_EQ(bins.bins[3], (ZBin{0, 1}));
   EXPECT_EQ(bins.bins[11], (ZBin{1, 2}));
   EXPECT_EQ(z_bin_range(bins, at(3), at(11)), (ZBin{0, 3}));
@@ -94,7 +94,7 @@ TEST(ZBinsHard, of_figure_3_find_what_lies_between_two_bins) {
   EXPECT_EQ(bins.bins[0], ZBin{});
   EXPECT_EQ(bins.bins[13], ZBin{});
   EXPECT_EQ(z_bin_range(bins, at(0), at(13)), (ZBin{0, 3}));
-  // The paper's other figures: 2a at one depth, 2b over a range.
+  // The paper's other cases: 2a at one depth, 2b over a range.
   EXPECT_EQ(z_bin_range(bins, at(10), at(10)), (ZBin{1, 3}));
   EXPECT_EQ(z_bin_range(bins, at(2), at(13)), (ZBin{0, 3}));
 }
@@ -110,7 +110,7 @@ TEST(ZBinsHard, of_two_neighbours_take_the_standard_set_even_when_one_is_empty) 
 
 TEST(ZBinsHard, between_lights_find_none_of_them_by_range) {
   const ZBins bins = built({{1.25f, 1.75f}, {19.25f, 19.75f}}, {1.0f, 21.0f, 20});
-  // Begin from all later bins, end from all earlier ones: light 1 begins later, light 0 ended before.
+  // The begin comes from later bins, the end from earlier ones: light 1 begins later, light 0 has ended.
   const ZBin found = z_bin_range(bins, 5.5f, 12.5f);
   EXPECT_GE(found.begin, found.end);
 }
@@ -132,7 +132,7 @@ TEST(ZBinsHard, from_a_centimetre_to_100_kilometres_lose_no_light) {
 }
 
 TEST(ZBinsHard, finer_than_a_float_lose_no_light) {
-  // Far from the origin of depths, neighbouring bins fall between two floats.
+  // At large depths, the edges of neighbouring bins fall between two floats.
   const float near_m = 5000.0f;
   const float far_m = near_m + 0.25f;
   std::vector<LightDepth> lights;
@@ -163,7 +163,7 @@ TEST(ZBinsHard, overwrite_what_was_in_the_spans) {
 }
 
 TEST(ZBinsHard, of_lights_with_equal_near_depths_keep_their_order) {
-  // Long and short ones in turn: the hull of a bin far away must reach from the first long one to the last.
+  // Alternating long and short lights: a far bin must reach from the first long light to the last one.
   std::vector<LightDepth> lights;
   for (int i = 0; i < 64; ++i) lights.push_back({5.5f, i % 4 == 1 ? 50.5f : 5.6f});
   const ZBins bins = expect_right_bins(lights, {1.0f, 65.0f, 64});

@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-/// The sets as their definition says, from the bins of every light.
+/// The sets computed from their definition, with the bins of every light.
 ZBins made_plainly(const std::vector<LightDepth>& lights, const ZBinParams& params) {
   ZBins bins;
   bins.params = params;
@@ -30,7 +30,7 @@ ZBins made_plainly(const std::vector<LightDepth>& lights, const ZBinParams& para
   return bins;
 }
 
-/// Lights whose ends lie well inside of bins, so that widening changes nothing.
+/// Lights whose ends are well inside bins, so that widening changes nothing.
 std::vector<LightDepth> lights_inside_bins(std::uint32_t count, float longest, std::mt19937& random) {
   std::uniform_int_distribution<int> first(0, 59);
   std::uniform_real_distribution<float> share(0.0f, 1.0f);

@@ -52,7 +52,7 @@ TEST(LightMeasures, a_frame_that_lost_a_light_is_wrong) {
   EXPECT_EQ(measure.fault(lost), "7 times a pixel is in range of a light that its tile's list lacks");
 }
 
-/// The ledger sets what a measure names: it must exist.
+/// The ledger sets the knobs and values that a measure names, so they must exist.
 TEST(LightMeasures, name_knobs_and_values_that_exist) {
   const auto module = make_lights_module();
   KnobRegistry knobs;

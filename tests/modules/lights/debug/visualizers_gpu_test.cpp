@@ -35,7 +35,7 @@ bool is_near(const Rgb& a, const Rgb& b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) <= 2;
 }
 
-/// As shaders/common/heat.glsl for a count of lights.
+/// Same as shaders/common/heat.glsl, for a number of lights.
 dvec3 heat(int count) {
   const dvec3 stops[] = {dvec3(0.0),        {0.02, 0.05, 0.6}, {0.0, 0.45, 0.6},
                          {0.05, 0.5, 0.05}, {0.8, 0.6, 0.0},   {0.8, 0.02, 0.02}};
@@ -45,7 +45,7 @@ dvec3 heat(int count) {
   return glm::mix(stops[low], stops[low + 1], at - low);
 }
 
-/// What a pixel of light_culling or light_list tells. The picture underneath is black, of which a quarter is seen.
+/// Meaning of a pixel of light_culling or light_list. The picture below is black, and a quarter of it shows through.
 enum class Shown { nothing, mask, z_bins, group, list, reached, held, loud, unknown };
 struct Shade {
   Shown shown;
@@ -61,7 +61,7 @@ const Shade kShades[] = {{Shown::nothing, dvec3(0.0), 0.75},
                          {Shown::held, dvec3(0.02, 0.1, 0.6), 0.75},
                          {Shown::loud, dvec3(1.0, 0.0, 0.25), 0.95}};
 
-/// Empties every tile's list behind the lights module's back.
+/// Empties every tile's list after the lights module has written it.
 class ForgetfulModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "forgetful"; }
@@ -81,8 +81,8 @@ class ForgetfulModule final : public Module {
   bool forgets = false;
 };
 
-/// A black wall that fills the left half of the picture, 5 m away, sky beside it; lights before the wall, a sun, and a
-/// lamp behind the camera. The middle of the picture looks along −Z from the origin.
+/// A black wall 5 m away fills the left half of the picture, with sky beside it. Lights are in front of the wall; there
+/// is a sun, and a lamp behind the camera. The camera is at the origin and looks along −Z.
 class LightViewsTest : public test::LitSceneTest {
  protected:
   [[nodiscard]] ModuleList make_modules() override {
@@ -136,7 +136,7 @@ class LightViewsTest : public test::LitSceneTest {
         return shade.shown;
     return Shown::unknown;
   }
-  /// The count whose colour a count view shows for a tile, -1 for a colour that is none's.
+  /// The count whose colour a visualizer of counts shows for a tile; -1 if the colour is that of no count.
   [[nodiscard]] static int count_at(const Picture& p, uvec2 tile, std::uint32_t side) {
     const Rgb color = at(p, std::min(tile.x * side + 2, p.width - 1), std::min(tile.y * side + 2, p.height - 1));
     for (int count = 0; count <= 32; ++count)
@@ -144,8 +144,8 @@ class LightViewsTest : public test::LitSceneTest {
     return -1;
   }
 
-  enum class Reach { no, yes, close };  // close: too close to the border to tell by floats
-  /// Whether light `index` (in order of adding) reaches what a pixel shows.
+  enum class Reach { no, yes, close };  // close: too close to the border for floats
+  /// Whether light `index` (in the order of adding) reaches the surface at a pixel.
   [[nodiscard]] Reach reach(std::size_t index, std::uint32_t x, std::uint32_t y) const {
     const Ray r = ray(x, y);
     const dvec3 point = r.direction * (-5.0 / r.direction.z);

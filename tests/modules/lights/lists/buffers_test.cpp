@@ -97,12 +97,12 @@ TEST(LightFeedbackOf, a_picture_of_sky_knows_no_distance) {
   shaders::LightCounters counters{};
   counters.farthest_depth = std::bit_cast<std::uint32_t>(1.0f);
   EXPECT_EQ(light_feedback(counters, {view_of(false), 360, false}, nullptr).farthest_m, 0.0f);
-  counters.farthest_depth = 0;  // a depth that no surface has: infinitely far
+  counters.farthest_depth = 0;  // no surface has this depth: infinitely far
   EXPECT_EQ(light_feedback(counters, {view_of(false), 360, false}, nullptr).farthest_m, 0.0f);
 }
 
-/// Feedback comes from two frames before, so that a capacity made from that frame's would be another for every second
-/// frame.
+/// Feedback comes from two frames before. If the capacity continued from that frame's, odd and even frames would have
+/// different capacities.
 TEST(LightFeedbackOf, frames_in_flight_settles_at_one_capacity) {
   const RenderView view = view_of(false);
   constexpr std::uint32_t kTiles = 8 * 6;

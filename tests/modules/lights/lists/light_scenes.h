@@ -16,16 +16,16 @@
 
 #include "tests/modules/lighting/lit_scene.h"
 
-/// Whole frames among lights: drawn from the light lists and by looking at all lights, which must give the same picture
-/// to the bit.
+/// Whole frames among lights: drawn from the light lists and by looping over all lights. Both must give bit-identical
+/// pictures.
 namespace gloam::test {
 
-/// A world of its own with a camera.
+/// A separate world with a camera.
 struct LightScene {
   std::unique_ptr<World> world = std::make_unique<World>();
   SceneMaker make{*world};
   ViewSettings view;
-  dvec3 origin = dvec3(0.0);  ///< where the stage stands in the world
+  dvec3 origin = dvec3(0.0);  ///< world position of the stage
 
   Entity light(const Light& what, const dmat4& node) {
     return world->create(what, WorldTransform{glm::translate(dmat4(1.0), origin) * node});
@@ -71,7 +71,7 @@ class LightScenesTest : public LitSceneTest {
     ASSERT_NO_FATAL_FAILURE(LitSceneTest::SetUp());
     if (IsSkipped()) return;
     set("lights.check", "on");
-    set("shadows.mode", "off");  // lists are the matter here, and thousands of lights' maps take long
+    set("shadows.mode", "off");  // these tests are about lists, and shadow maps of thousands of lights take long
   }
 
   void set(const std::string& knob, const std::string& value) {
@@ -79,7 +79,7 @@ class LightScenesTest : public LitSceneTest {
     ASSERT_TRUE(done.ok()) << done.error().message;
   }
 
-  /// Nothing but a camera and a sky. `origin`: where all that follows stands.
+  /// Only a camera and a sky. `origin`: world position of everything added later.
   [[nodiscard]] LightScene empty_scene(const dvec3& origin = dvec3(0.0)) const {
     LightScene scene_;
     scene_.origin = origin;
@@ -94,7 +94,7 @@ class LightScenesTest : public LitSceneTest {
     return scene_;
   }
 
-  /// Ground, a wall behind, boxes and a pane of glass; the middle lies in the origin, the camera stands 5 m before it.
+  /// Ground, a back wall, boxes and a pane of glass, centred at the origin. The camera is 5 m in front.
   [[nodiscard]] LightScene stage(const dvec3& origin = dvec3(0.0)) const {
     LightScene s = empty_scene(origin);
     Material stone;
@@ -120,7 +120,7 @@ class LightScenesTest : public LitSceneTest {
     Picture picture;
     std::map<std::string, double> counters;
   };
-  /// One frame.
+  /// Draws one frame.
   [[nodiscard]] Drawn drawn(World& what, const ViewSettings& view, const std::string& culling) {
     set("lights.culling", culling);
     Drawn result;
@@ -137,7 +137,7 @@ class LightScenesTest : public LitSceneTest {
     return at == frame.counters.end() ? 0.0 : at->second;
   }
 
-  /// Whether the picture has nothing that is not a number and the counters no error.
+  /// Checks that the picture has no NaN and the counters report no error.
   static void expect_sound(const Drawn& frame, const std::string& what) {
     for (const float value : frame.light.rgba) {
       const bool sound = std::isfinite(value) && value >= 0.0f && value <= 65504.0f;
@@ -148,7 +148,7 @@ class LightScenesTest : public LitSceneTest {
     }
     EXPECT_EQ(counter(frame, "lights.capacity_violations"), 0.0) << what;
     EXPECT_EQ(counter(frame, "lights.culling_errors"), 0.0) << what;
-    // Each search finds no more than the one before it.
+    // Each search must find no more than the one before.
     const double mask = counter(frame, "lights.per_tile_mask_mean");
     const double candidates = counter(frame, "lights.per_tile_candidates_mean");
     const double approx = counter(frame, "lights.per_tile_approx_mean");
@@ -174,7 +174,7 @@ class LightScenesTest : public LitSceneTest {
     EXPECT_EQ(tiled.picture.rgba, brute.picture.rgba) << what;
   }
 
-  /// Draws both ways; what the lists gave.
+  /// Draws both ways and compares. Returns the tiled frame.
   Drawn expect_tiled_is_brute(LightScene& s, const std::string& what) {
     Drawn tiled = drawn(*s.world, s.view, "tiled");
     if (HasFatalFailure()) return tiled;
@@ -186,7 +186,7 @@ class LightScenesTest : public LitSceneTest {
     return tiled;
   }
 
-  /// The same, and then the world goes.
+  /// The same, then destroys the world.
   Drawn expect_tiled_is_brute_and_release(LightScene s, const std::string& what) {
     Drawn tiled = expect_tiled_is_brute(s, what);
     renderer->release_world(*s.world);

@@ -15,7 +15,7 @@ using test::spot_lamp;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Lights that are hard, on the stage.
+/// Difficult lights on the stage.
 struct HardCase {
   const char* name;
   std::function<void(LightScene&)> add;
@@ -175,7 +175,7 @@ TEST_F(LightScenesTest, of_any_number_of_lights_are_the_same) {
     scatter(s, count, 3, 1.0);
     const Drawn frame = expect_tiled_is_brute_and_release(std::move(s), std::to_string(count) + " lights");
     if (HasFatalFailure()) return;
-    if (count > 30) {  // fewer may all be out of sight
+    if (count > 30) {  // fewer lights may all be out of view
       EXPECT_EQ(counter(frame, "lights.total"), count);
     }
   }
@@ -237,8 +237,7 @@ TEST_F(LightScenesTest, from_a_centimetre_to_100_kilometres_are_the_same) {
   s.view.camera.near_m = 0.01f;
   scatter(s, 40, 13, 1.4);
   const std::uint32_t board = s.make.mesh(test::quad(1.0f));
-  for (const double depth :
-       {0.02, 0.1, 30.0, 1e3, 1e5}) {  // each a quarter of a degree wide, side by side over the stage
+  for (const double depth : {0.02, 0.1, 30.0, 1e3, 1e5}) {  // each about 3.4 degrees wide, side by side over the stage
     const dvec3 to = glm::normalize(dvec3(-0.25 + 0.05 * std::log10(depth), 0.06, -1.0));
     s.draw(board, glm::scale(glm::translate(dmat4(1.0), kEye + to * depth), dvec3(0.03 * depth)));
     s.light(point_lamp(static_cast<float>(0.02 * depth * depth), static_cast<float>(0.2 * depth)),
@@ -259,7 +258,7 @@ TEST_F(LightScenesTest, of_one_far_light_are_the_same) {
   EXPECT_GT(brightest(frame.light), 0.5f);
 }
 
-/// What rasterising interpolates over a pane of this size is off by many of its pixels near the camera.
+/// Rasterisation interpolates over a pane of this size with errors of many of its pixels near the camera.
 TEST_F(LightScenesTest, through_glass_of_100_kilometres_are_the_same) {
   for (const double roll : {0.0, 0.7}) {
     LightScene s = stage();
@@ -283,7 +282,7 @@ TEST_F(LightScenesTest, of_4095_columns_lose_no_light) {
   scatter(s, 9, 47, 2.0);
   s.view.width = 4095;
   s.view.height = 2161;
-  draw(*s.world, s.view);  // its pictures would take longer than all the others
+  draw(*s.world, s.view);  // comparing its pictures would take longer than all the other cases
   const std::map<std::string, double> counters = renderer->report().counters;
   EXPECT_EQ(counters.at("lights.culling_errors"), 0.0);
   EXPECT_EQ(counters.at("lights.capacity_violations"), 0.0);
@@ -309,15 +308,15 @@ TEST_F(LightScenesTest, of_sky_and_near_things_in_one_tile_are_the_same) {
   EXPECT_GT(counter(frame, "lights.list_entries"), 0.0);
 }
 
-/// FF figure 3: a tile whose nearest and farthest surfaces lie in bins that do not know the lights between them, where
-/// thin poles stand.
+/// FF figure 3: a tile whose nearest and farthest surfaces are in bins that do not hold the lights between them. Thin
+/// poles stand there.
 TEST_F(LightScenesTest, of_figure_3_light_what_stands_between_the_ends_of_a_tile) {
   for (const char* bins : {"256", "1024", "4096"}) {
     set("lights.z_bins", bins);
     LightScene s = empty_scene();
     s.look(dvec3(0.0, 0.0, 0.0), dvec3(0.0, 0.0, -1.0), 64, 64);
     s.view.camera.fov_y = 0.5f;
-    for (int i = 0; i < 40; ++i) {  // poles a third of a pixel to a pixel apart, ever farther
+    for (int i = 0; i < 40; ++i) {  // poles a third of a pixel to a pixel apart, with growing distances
       const double depth = 1.0 + 0.5 * i;
       const std::uint32_t pole = s.make.mesh(test::box(vec3(dvec3(0.006, 0.3, 0.006) * depth)));
       s.draw(pole, glm::translate(dmat4(1.0), dvec3((0.012 * (i % 40) - 0.24) * depth, 0.0, -depth)));

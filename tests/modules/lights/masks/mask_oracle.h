@@ -17,19 +17,19 @@
 #include "modules/lights/masks/tile_light_masks.h"
 #include "tests/math/silhouette.h"
 
-/// Brute-force oracle of tile light masks, in double: points of a light's volume are projected one by one, and the tile
-/// that shows a point must have the light's bit. Every point belongs to the volume, so the oracle never asks for more
-/// than the truth.
+/// Brute-force oracle of tile light masks, in double. It projects points of a light's volume one by one, and the tile
+/// that shows a point must have the light's bit. All points are inside the volume, so the oracle never demands too
+/// much.
 namespace gloam::test {
 
-/// Numbers of a random scene, all from one seed.
+/// Random numbers of one scene, from one seed.
 class SceneRandom {
  public:
   explicit SceneRandom(std::uint32_t seed) : engine_(seed) {}
   double between(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
   }
-  double length(double low, double high) { return std::pow(10.0, between(low, high)); }  ///< of 10^low…10^high metres
+  double length(double low, double high) { return std::pow(10.0, between(low, high)); }  ///< 10^low…10^high metres
   int index(int count) { return static_cast<int>(engine_() % static_cast<std::uint32_t>(count)); }
   bool one_in(int count) { return index(count) == 0; }
   dvec3 direction() {
@@ -48,14 +48,14 @@ class SceneRandom {
   std::mt19937 engine_;
 };
 
-/// A rigid matrix: turned anyhow, rolled too.
+/// A rigid matrix with a random rotation.
 inline dmat4 draw_pose(SceneRandom& random, const dvec3& position) {
   dmat4 pose = glm::rotate(dmat4(1.0), random.between(-3.2, 3.2), random.direction());
   pose[3] = dvec4(position, 1.0);
   return pose;
 }
 
-/// Moves the picture's middle away from the camera's axis, by shares of half a picture.
+/// Moves the centre of the picture off the camera's axis, in halves of the picture.
 inline void shift_off_centre(RenderView& view, double x, double y) {
   const int column = view.camera.orthographic ? 3 : 2;
   view.clip_from_view[column][0] = static_cast<float>(x);
@@ -95,7 +95,7 @@ inline MaskLight spot_mask_light(const dvec3& apex, const dvec3& direction, doub
   light.direction = glm::normalize(vec3(direction));
   light.cos_outer = static_cast<float>(std::max(0.0, std::cos(half_angle)));
   light.range_m = static_cast<float>(range);
-  // The angle that the rounded cosine means.
+  // The angle of the rounded cosine.
   const auto angle = static_cast<float>(std::acos(static_cast<double>(light.cos_outer)));
   light.bounds = bounding_sphere(Cone{light.apex, light.direction, angle, light.range_m});
   return light;
@@ -106,7 +106,8 @@ inline dvec3 relative_of_view(const RenderView& view, const dvec3& in_view) {
   return dvec3(glm::transpose(dmat4(view.view_from_relative)) * dvec4(in_view, 1.0));
 }
 
-/// A light near what is seen: in front, behind, around the camera, touching the near plane from either side.
+/// A light near the visible volume: in front of, behind or around the camera, or touching the near plane from either
+/// side.
 inline MaskLight draw_mask_light(SceneRandom& random, const RenderView& view) {
   const double range = random.one_in(20) ? 0.0 : random.one_in(4) ? random.length(-4.0, 5.0) : random.length(-1.0, 1.3);
   const double depth = random.one_in(4) ? random.length(-2.0, 5.0) : random.length(-0.5, 2.0);
@@ -139,7 +140,7 @@ inline MaskLight draw_mask_light(SceneRandom& random, const RenderView& view) {
   return spot_mask_light(position, random.direction(), half_angle, range);
 }
 
-/// The tile whose pixels show the point, when it is seen and farther than a hundredth of a pixel from any other tile.
+/// The tile that shows the point; none if the point is not visible or within a hundredth of a pixel of another tile.
 inline std::optional<uvec2> tile_of(const RenderView& view, const dvec3& point) {
   const dvec4 clip = dmat4(view.clip_from_relative) * dvec4(point, 1.0);
   if (!(clip.w > 0.0) || clip.z < 0.0 || clip.z > clip.w || std::abs(clip.x) > clip.w || std::abs(clip.y) > clip.w)
@@ -159,7 +160,7 @@ inline std::optional<uvec2> tile_of(const RenderView& view, const dvec3& point) 
   return (words[0] >> (light / 32) & 1u) != 0 && (words[1 + light / 32] >> (light % 32) & 1u) != 0;
 }
 
-/// The words with those cleared whose content means nothing.
+/// The words, with undefined ones set to 0.
 [[nodiscard]] inline std::vector<std::uint32_t> meant_words(const TileLightMasks& masks) {
   std::vector<std::uint32_t> words = masks.words;
   for (std::size_t tile = 0; tile + GLOAM_MASK_WORDS <= words.size(); tile += GLOAM_MASK_WORDS)
@@ -168,7 +169,7 @@ inline std::optional<uvec2> tile_of(const RenderView& view, const dvec3& point) 
   return words;
 }
 
-/// Hands points of a light's volume to the visitor, among them those of its outline as the camera sees it.
+/// Passes points of a light's volume to the visitor, including points of its outline as the camera sees it.
 template <class Visit>
 void sample_light(const MaskLight& light, const RenderView& view, SceneRandom& random, int count, Visit&& visit) {
   const bool spot = light.cos_outer > -1.0f;
@@ -188,7 +189,7 @@ void sample_light(const MaskLight& light, const RenderView& view, SceneRandom& r
   for (int i = 0; i < count; ++i) {
     const double turn = 2.0 * 3.14159265358979323846 * (i + random.between(0.0, 1.0)) / count;
     dvec3 outward = std::cos(turn) * side + std::sin(turn) * up;
-    // The outline of the bounding sphere: where rays from the eye touch it.
+    // Outline of the bounding sphere: where rays from the camera touch it.
     if (!view.camera.orthographic && distance > radius)
       outward = outward * std::sqrt(1.0 - radius / distance * (radius / distance)) - axis * (radius / distance);
     visit(support(outward));
@@ -205,7 +206,8 @@ void sample_light(const MaskLight& light, const RenderView& view, SceneRandom& r
   }
 }
 
-/// What the masks miss of one light: a sentence, or nothing. `count`: a third of the points that are tried.
+/// An error text for the first point of a light that the masks miss, or empty. `count`: a third of the number of
+/// points.
 [[nodiscard]] inline std::string missed_tile(const TileLightMasks& masks, const MaskLight& light, std::uint32_t index,
                                              const RenderView& view, SceneRandom& random, int count) {
   std::string missed;
@@ -241,20 +243,20 @@ void sample_light(const MaskLight& light, const RenderView& view, SceneRandom& r
   return missed;
 }
 
-/// Whether a sphere before the near plane shows within a tile widened by `margin` pixels; in double, by the angle
-/// between rays (of an orthographic camera: by distance).
+/// Whether a sphere beyond the near plane is visible within a tile widened by `margin` pixels. In double, by the angle
+/// between rays (orthographic: by distance).
 [[nodiscard]] inline bool touches_tile(const Sphere& sphere, const RenderView& view, uvec2 tile, double margin) {
   const dmat4 view_from_clip = glm::inverse(dmat4(view.clip_from_view));
   const dvec3 center = dvec3(dmat4(view.view_from_relative) * dvec4(dvec3(sphere.center), 1.0));
   const auto on_near = [&](double x, double y) {
-    const double right = (tile.x + 1.0) * GLOAM_LIGHT_TILE + margin;  // also where that is outside the picture
+    const double right = (tile.x + 1.0) * GLOAM_LIGHT_TILE + margin;  // may be outside the picture
     const double bottom = (tile.y + 1.0) * GLOAM_LIGHT_TILE + margin;
     const double px = glm::mix(tile.x * double{GLOAM_LIGHT_TILE} - margin, right, x);
     const double py = glm::mix(tile.y * double{GLOAM_LIGHT_TILE} - margin, bottom, y);
     const dvec4 p = view_from_clip * dvec4(2.0 * px / view.width - 1.0, 1.0 - 2.0 * py / view.height, 1.0, 1.0);
     return dvec3(p) / p.w;
   };
-  // How far a point of the near plane is from the middle of the sphere's picture: an angle between rays, or metres.
+  // Distance of a point of the near plane from the centre of the sphere's image: an angle between rays, or metres.
   const auto away = [&](const dvec3& p) {
     if (view.camera.orthographic) return std::hypot(p.x - center.x, p.y - center.y);
     return std::atan2(glm::length(glm::cross(p, center)), glm::dot(p, center));

@@ -50,7 +50,8 @@ TileLightMasks built(const std::vector<MaskLight>& lights, const RenderView& vie
   return masks;
 }
 
-/// All three bounds miss nothing, each finds no more than the one before it, and none sets a bit that is no light's.
+/// None of the three bounds may miss a light, each must find no more than the one before, and no bit may be set for a
+/// light that does not exist.
 void expect_right_masks(const std::vector<MaskLight>& lights, const RenderView& view, int samples = 40) {
   std::vector<std::uint32_t> before;
   for (const TileBound bound : kBounds) {
@@ -76,7 +77,7 @@ void expect_right_masks(const std::vector<MaskLight>& lights, const RenderView& 
   }
 }
 
-/// How many tiles see each light, all added up.
+/// The sum over all lights of the number of tiles that hold the light.
 std::size_t bits_of(const TileLightMasks& masks) {
   std::size_t bits = 0;
   const std::vector<std::uint32_t> words = meant_words(masks);
@@ -98,7 +99,7 @@ const Lens kLenses[] = {{},
                         {.roll = 3.0, .off_centre = 0.5},
                         {.width = 97, .height = 500, .off_centre = -1.5}};
 
-/// Cases of one point light, and of a spot with the same place and range.
+/// Cases of a point light, and of a spot with the same position and range.
 void expect_right_everywhere(const std::vector<std::pair<dvec3, double>>& places, int samples = 40) {
   std::vector<MaskLight> lights;
   for (const auto& [position, range] : places) {
@@ -264,8 +265,8 @@ TEST(TileLightMasksHard, keep_every_other_light_when_one_is_not_a_number) {
   }
 }
 
-/// Spheres before the near plane: a row interval holds no tile that is more than a pixel away from the sphere's
-/// outline, a rectangle no tile more than a pixel outside of the outline's own rectangle.
+/// For spheres beyond the near plane: a row interval holds no tile farther than a pixel from the sphere's outline. A
+/// rectangle holds no tile farther than a pixel from the outline's bounding rectangle.
 TEST(TileLightMasksHard, hold_no_tile_farther_than_a_pixel_from_the_light) {
   for (const Lens& lens :
        {Lens{}, Lens{.width = 1023, .height = 577, .roll = 0.4}, Lens{.orthographic = true, .off_centre = 0.3},
@@ -284,7 +285,7 @@ TEST(TileLightMasksHard, hold_no_tile_farther_than_a_pixel_from_the_light) {
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
       std::vector<bool> columns(rects.tiles.x, false);
       std::vector<bool> lines(rects.tiles.y, false);
-      // The picture may cut the outline, or miss it: then its own rectangle is larger than that of the tiles it
+      // If the picture cuts the outline or misses it, the outline's rectangle is larger than that of the tiles it
       // touches.
       bool missed = true;
       bool cut = false;
@@ -323,7 +324,7 @@ TEST(TileLightMasksHard, of_narrow_spots_find_fewer_tiles_with_each_bound) {
   EXPECT_LT(static_cast<double>(cones), 0.9 * static_cast<double>(rows));
 }
 
-/// A light node of any matrix lights along its −Z, and its bound holds what it lights.
+/// For any node matrix, a light shines along the node's −Z and its bound holds what it lights.
 TEST(TileLightMasksHard, of_lights_on_flat_mirrored_and_sheared_nodes_miss_nothing) {
   const RenderView view = view_with({});
   SceneRandom random(23);

@@ -19,7 +19,7 @@ std::vector<VectorWidth> widths() {
   return all;
 }
 
-/// Words of which many are 0, and all behind `word_count` of a column.
+/// Random words, many of them 0, and all 0 from `word_count` on in each column.
 std::vector<std::uint32_t> random_words(std::size_t columns, std::size_t word_count, std::mt19937& random) {
   std::vector<std::uint32_t> words(columns * kTileMaskWords, 0);
   for (std::size_t i = 0; i < words.size(); ++i)

@@ -18,7 +18,8 @@ struct Edges {
   double low, high;
 };
 
-/// Tiles that [low, high] of normalised device coordinates touches, an eighth of a pixel narrower and wider.
+/// The tiles that [low, high] in normalised device coordinates touches, if it is narrowed or widened by an eighth of a
+/// pixel.
 struct Bracket {
   std::int32_t inner_begin, inner_end, outer_begin, outer_end;
 };
@@ -30,7 +31,7 @@ Bracket bracket(Edges ndc, std::uint32_t pixels, std::int32_t tiles) {
   return {tile(ndc.low, 0.125), tile(ndc.high, -0.125) + 1, tile(ndc.low, -0.125), tile(ndc.high, 0.125) + 1};
 }
 
-/// Against the careful rectangle of one sphere at a time, which has an oracle of its own.
+/// Compares with the careful rectangle of a single sphere, which has its own oracle.
 TEST(TileOutlinesProperties, rectangles_are_those_of_the_screen_bounds_of_random_spheres) {
   test::check_property(10000, [] {
     const auto seed = static_cast<std::uint32_t>(test::draw_index(1 << 30));
@@ -45,13 +46,13 @@ TEST(TileOutlinesProperties, rectangles_are_those_of_the_screen_bounds_of_random
     const TileProjection p = tile_projection(view);
     find_outlines(std::span(&light, 1), view, p, OutlineDetail::rectangles, {0, 1, 0}, outlines);
     const PerspectiveScale scale{vec2(view.clip_from_view[0][0], view.clip_from_view[1][1]), view.near_m};
-    // Grown as the outlines are, so that both mean one sphere.
+    // Widened like the outlines, so that both describe the same sphere.
     const vec3 center(static_cast<float>(outlines.x[0]), static_cast<float>(outlines.y[0]),
                       static_cast<float>(-outlines.depth[0]));
     const NdcRect rect = screen_bounds(Sphere{center, static_cast<float>(outlines.radius[0])}, scale);
     const bool empty =
         outlines.column_begin[0] == outlines.column_end[0] || outlines.row_begin[0] == outlines.row_end[0];
-    if (rect.empty) return;  // both round differently where a sphere just touches the screen
+    if (rect.empty) return;  // the two round differently where a sphere only just touches the screen
     const Bracket x = bracket({rect.min.x, rect.max.x}, view.width, static_cast<std::int32_t>(p.columns));
     const Bracket y = bracket({-rect.max.y, -rect.min.y}, view.height, static_cast<std::int32_t>(p.rows));
     const bool sliver = rect.max.x <= -1.0f + 1e-5f || rect.min.x >= 1.0f - 1e-5f || rect.max.y <= -1.0f + 1e-5f ||

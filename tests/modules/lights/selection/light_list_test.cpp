@@ -24,7 +24,7 @@ Light spot_light(float inner, float outer) {
   return light;
 }
 
-/// What a ramp makes of the angle (radians) between the light's axis and the point.
+/// The factor of a spot's ramp at an angle (radians) between the light's axis and the point.
 double strength_at(const Light& light, double angle) {
   const vec2 ramp = spot_ramp(light);
   const double s = std::clamp(std::cos(angle) * static_cast<double>(ramp.x) + static_cast<double>(ramp.y), 0.0, 1.0);
@@ -62,7 +62,7 @@ TEST(EffectiveRange, is_a_positive_number_whose_square_is_a_float_for_any_light)
 }
 
 TEST(PlaceLight, shines_along_the_nodes_minus_z_whatever_its_scale) {
-  const dmat4 turned = glm::rotate(dmat4(1.0), glm::radians(-90.0), dvec3(1.0, 0.0, 0.0));  // −Z to −Y
+  const dmat4 turned = glm::rotate(dmat4(1.0), glm::radians(-90.0), dvec3(1.0, 0.0, 0.0));  // rotates −Z to −Y
   for (const dvec3 scale : {dvec3(1.0), dvec3(7.0), dvec3(1e-4), dvec3(-2.0, 1.0, 1.0), dvec3(1.0, 1.0, 5.0)}) {
     const dmat4 node = glm::translate(dmat4(1.0), dvec3(1.0, 2.0, 3.0)) * turned * glm::scale(dmat4(1.0), scale);
     const PlacedLight placed = place_light(Entity{3, 1}, spot_light(0.1f, 0.5f), node);
@@ -107,7 +107,7 @@ TEST(LightBounds, of_a_spot_holds_every_lit_point_and_is_no_larger_than_the_poin
     const dvec3 side = glm::normalize(glm::cross(axis, dvec3(1.0, 0.0, 0.0)));
     const dvec3 up = glm::cross(side, axis);
     for (int i = 0; i < 2000; ++i) {
-      // Half of the points on the rim of the cap, where bounds that are too small would show.
+      // Half of the points are on the rim of the cap, where a bound that is too small would fail.
       const double angle = i % 2 == 0 ? outer : outer * unit(random);
       const double distance = i % 4 < 2 ? 10.0 : 10.0 * unit(random);
       const double turn = 2.0 * 3.14159265358979 * unit(random);
@@ -135,7 +135,7 @@ TEST(SpotRamp, is_full_inside_the_inner_cone_and_dark_outside_the_outer_one) {
     EXPECT_NEAR(strength_at(light, 0.0), 1.0, 1e-5);
     EXPECT_NEAR(strength_at(light, static_cast<double>(inner) * 0.999), 1.0, 1e-5);
     EXPECT_NEAR(strength_at(light, static_cast<double>(outer) * 1.001), 0.0, 1e-9);
-    // KHR_lights_punctual: the square of a ramp linear in the cosine.
+    // KHR_lights_punctual: the square of a ramp that is linear in the cosine.
     const double middle =
         std::acos(0.5 * (std::cos(static_cast<double>(inner)) + std::cos(static_cast<double>(outer))));
     EXPECT_NEAR(strength_at(light, middle), 0.25, 1e-4);

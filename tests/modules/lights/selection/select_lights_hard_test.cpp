@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// Choosing and ranking lights against a plain version in double precision, and the same bits from every executor.
+// Selection and ranking of lights against a simple version in double precision, and bit-identical results from every
+// executor.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,11 +50,11 @@ struct CrowdedScene {
       placed.light.intensity = static_cast<float>(std::exp2(5.0 * unit(random)));
       placed.light.color = vec3(dvec3(1.0 + unit(random), 1.0 + unit(random), 1.0 + unit(random)) * 0.5 + 0.01);
       placed.light.outer_angle = static_cast<float>(0.8 + 0.7 * unit(random));
-      // Mostly before the camera, some behind it and beside it.
+      // Mostly in front of the camera, some behind or beside it.
       const dvec3 seen(25.0 * unit(random), 18.0 * unit(random), -30.0 + 40.0 * unit(random));
       placed.position = dvec3(camera * dvec4(seen, 1.0));
       placed.direction = vec3(direction());
-      // Some stand in the same place and shine the same.
+      // Some have the same position and intensity.
       if (i % 7 == 6) {
         const Entity entity = placed.entity;
         placed = lights.back();
@@ -64,9 +65,9 @@ struct CrowdedScene {
   }
 };
 
-/// What matters of a light, in double precision.
+/// The values that decide about a light, in double precision.
 struct Facts {
-  double inside = kInfinity;  ///< metres that its bound reaches over the frustum's worst plane
+  double inside = kInfinity;  ///< metres by which its bound reaches inside the frustum's worst plane
   double importance = 0.0;
   double nearest = 0.0;
 };
@@ -88,7 +89,7 @@ Facts facts_of(const PlacedLight& placed, const RenderView& view) {
   for (const dvec4& plane :
        {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2], rows[2]}) {
     const double length = glm::length(dvec3(plane));
-    if (length < 1e-9) continue;  // a far plane that is infinitely far away
+    if (length < 1e-9) continue;  // an infinitely far plane
     facts.inside = std::min(facts.inside, (glm::dot(dvec3(plane), center) + plane.w) / length + radius);
   }
   const double distance = std::max(glm::length(center), radius);
@@ -116,7 +117,7 @@ std::unique_ptr<Selected> select(const CrowdedScene& scene, JobExecutor& executo
 }
 
 void expect_best_lights(const CrowdedScene& scene, const VisibleLights& visible) {
-  constexpr double kUnsure = 1e-3;  // metres: what floats may decide either way
+  constexpr double kUnsure = 1e-3;  // metres: within this, rounding may decide either way
   std::map<std::uint32_t, Facts> chosen;
   double least_kept = kInfinity;
   for (const Entity entity : visible.local_entities) {

@@ -44,7 +44,7 @@ std::unique_ptr<VisibleLights> select(const std::vector<PlacedLight>& lights, co
   return visible;
 }
 
-/// Random lights of all kinds around a camera somewhere, turned somehow.
+/// Random lights of all kinds around a random camera.
 struct RandomScene {
   RenderView view;
   std::vector<PlacedLight> lights;
@@ -122,10 +122,10 @@ TEST(SelectLights, agrees_with_the_planes_in_double_precision) {
                             rows[3] - rows[1], rows[3] - rows[2], rows[2]};
     for (const PlacedLight& light : scene.lights) {
       const Sphere bounds = light_bounds(light, scene.view.position);
-      double least = std::numeric_limits<double>::infinity();  // how far the bounds reach over the worst plane
+      double least = std::numeric_limits<double>::infinity();  // least reach of the bounds inside the worst plane
       for (const dvec4& plane : planes) {
         const double length = glm::length(dvec3(plane));
-        if (length < 1e-9) continue;  // an infinite far plane
+        if (length < 1e-9) continue;  // an infinitely far plane
         least = std::min(least, (glm::dot(dvec3(plane), dvec3(bounds.center)) + plane.w) / length +
                                     static_cast<double>(bounds.radius));
       }
@@ -276,7 +276,7 @@ TEST(SelectLights, leaves_out_lights_that_give_nothing) {
   EXPECT_EQ(visible->dropped, 0u);
 }
 
-/// Every number that reaches the GPU.
+/// Checks every number that reaches the GPU.
 void expect_finite(const VisibleLights& visible) {
   const auto check = [](const vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
   for (std::uint32_t i = 0; i < visible.block.local_count; ++i) {
@@ -335,7 +335,7 @@ TEST(SelectLights, lets_no_nan_and_no_infinity_reach_the_gpu) {
   const auto visible = select(lights, looking_along_minus_z());
   expect_finite(*visible);
   EXPECT_GE(visible->block.local_count, 2u) << "good lights stay";
-  // Many of them: a comparison that NaN breaks would now leave the bounds of the arrays it sorts.
+  // Many of them: if NaN broke the comparison of a sort, it would now leave the bounds of the array.
   std::vector<PlacedLight> many;
   for (std::uint32_t i = 0; i < 3000; ++i) {
     many.push_back(lights[i % lights.size()]);
@@ -355,9 +355,9 @@ TEST(SelectLights, clips_negative_channels_to_black) {
 
 TEST(SelectLights, finds_lights_around_the_camera_behind_it_and_across_the_near_plane) {
   std::vector<PlacedLight> lights = {
-      point_at(0, dvec3(0.0, 0.0, 0.0)),                 // the camera inside
-      point_at(1, dvec3(0.0, 0.0, 2.0)),                 // behind, but reaching over
-      point_at(2, dvec3(0.0, 0.0, 6.0)),                 // behind
+      point_at(0, dvec3(0.0, 0.0, 0.0)),                 // around the camera
+      point_at(1, dvec3(0.0, 0.0, 2.0)),                 // behind the camera, but reaching in front of it
+      point_at(2, dvec3(0.0, 0.0, 6.0)),                 // behind the camera
       point_at(3, dvec3(0.0, 0.0, -0.1), 0.01f),         // straddles the near plane
       point_at(4, dvec3(0.0, 0.0, -5000.0), 1.0f, 1e3f)  // far
   };

@@ -14,7 +14,7 @@
 namespace gloam {
 namespace {
 
-/// A lamp's six faces at the origin and casters on its axes, 3 m away.
+/// The six faces of a lamp at the origin, and casters on its axes, 3 m away.
 class ShadowCacheTest : public ::testing::Test {
  protected:
   ShadowCacheTest() {
@@ -48,7 +48,7 @@ class ShadowCacheTest : public ::testing::Test {
   [[nodiscard]] std::vector<FaceContent> contents(std::uint64_t salt = 1) const {
     return face_contents(faces, caster_states(casters, {}, *executor), salt, *executor);
   }
-  /// Faces whose map is not there.
+  /// The faces whose map the cache does not hold.
   [[nodiscard]] std::vector<std::uint32_t> dirty() const {
     const auto now = contents();
     std::vector<std::uint32_t> found;
@@ -83,7 +83,7 @@ TEST_F(ShadowCacheTest, a_caster_that_moves_touches_the_faces_that_see_it) {
   move(casters[2], dvec3(0.0, 3.1, 0.0));
   EXPECT_EQ(dirty(), Faces{2});
   draw_all();
-  move(casters[2], dvec3(3.1, 0.0, 0.2));  // from the face above to that at the right
+  move(casters[2], dvec3(3.1, 0.0, 0.2));  // from the upper face to the right one
   EXPECT_EQ(dirty(), (Faces{0, 2}));
 }
 
@@ -116,12 +116,12 @@ TEST_F(ShadowCacheTest, a_light_that_moves_touches_all_its_faces) {
 
 TEST_F(ShadowCacheTest, a_face_that_gets_another_square_is_drawn_again_and_so_is_what_lay_there) {
   draw_all();
-  faces[0].square = {uvec2(128, 0), 128};  // over those of faces 2 and 3
+  faces[0].square = {uvec2(128, 0), 128};  // overlaps the squares of faces 2 and 3
   EXPECT_EQ(dirty(), Faces{0});
   const auto now = contents();
   cache.set_drawn(faces[0], now[0]);
   EXPECT_EQ(dirty(), (Faces{2, 3}));
-  faces[2].square = {uvec2(192, 64), 32};  // in that of face 0
+  faces[2].square = {uvec2(192, 64), 32};  // inside the square of face 0
   const auto then = contents();
   cache.set_drawn(faces[2], then[2]);
   EXPECT_EQ(dirty(), (Faces{0, 3}));
@@ -152,7 +152,8 @@ TEST_F(ShadowCacheTest, squares_that_only_touch_do_not_disturb_each_other) {
   }
 }
 
-/// Casters all round many lights: what a face's content counts is what may_see finds, whatever was passed over before.
+/// Casters around many lights: face_contents() counts exactly the casters that may_see() finds, although it skips
+/// casters out of range.
 TEST_F(ShadowCacheTest, a_faces_content_has_all_casters_that_it_may_see) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> spread(-15.0, 15.0), shift(-1e6, 1e6);

@@ -37,7 +37,7 @@ TEST(CasterHistory, tells_what_came_went_and_changed) {
   EXPECT_EQ(history.frame(), 5u);
 }
 
-/// The same of entities, as maps of one light have it.
+/// A state of a certain entity, for changed(light).
 CasterState state_of(std::uint32_t entity, std::uint64_t hash, bool unsteady = false) {
   CasterState made = state(hash, unsteady);
   made.entity = {entity, 1};

@@ -104,7 +104,7 @@ TEST(FaceCasters, draws_are_runs_of_clusters_that_may_be_seen_and_cut_outs_come_
     Cluster cluster;
     cluster.first_index = 10 * i;
     cluster.index_count = 10;
-    const float x = i == 2 ? -5.0f : 5.0f;  // the third lies behind the face
+    const float x = i == 2 ? -5.0f : 5.0f;  // the third is behind the face
     cluster.bounds.grow(vec3(x, 0.0f, 0.0f));
     cluster.bounds.grow(vec3(x, 0.1f, 0.1f));
     primitive.clusters.push_back(cluster);

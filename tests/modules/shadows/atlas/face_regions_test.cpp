@@ -24,7 +24,7 @@ ShadowFace face_at(const dvec3& origin, bool perspective) {
   return face;
 }
 
-/// Where a point of the world lies in the face, in texels; nothing when it is nearer than its near side.
+/// The texel of a world position in the face; false when it is nearer than the near plane.
 bool place_in(const ShadowFace& face, const dvec3& point, glm::dvec2& place) {
   const vec4 clip = clip_from_mesh(face, dmat4(1.0)) * vec4(vec3(point), 1.0f);
   if (face.tan_half > 0.0f && clip.w < face.near_m) return false;

@@ -9,12 +9,12 @@
 namespace gloam {
 namespace {
 
-/// Maps from frame to frame, and with every setting.
+/// Maps that are kept from frame to frame, with all settings.
 class ShadowKept : public test::HardShadows {
  protected:
   [[nodiscard]] double drawn_faces() const { return counter("shadows.faces_drawn") + counter("shadows.faces_skipped"); }
 
-  /// The same moment as a renderer draws it that has drawn nothing before.
+  /// The same scene, drawn by a renderer without earlier frames.
   [[nodiscard]] std::vector<float> fresh(const dmat4& where) {
     World own;
     RendererOptions options;
@@ -36,7 +36,7 @@ TEST_F(ShadowKept, while_a_caster_moves_and_returns_pictures_are_those_of_a_fres
   const Entity mover = fill(world);
   set("shadows.visibility_bits", "8");
   const auto where = [](int frame) {
-    const double along = frame < 12 ? frame : 20 - frame;  // there in twelve frames, back in eight
+    const double along = frame < 12 ? frame : 20 - frame;  // forward for twelve frames, back in eight
     return at(0.5 + 0.07 * along, 0.5 + 0.02 * along, -0.05 * along);
   };
   std::vector<float> first;
@@ -99,13 +99,13 @@ TEST_F(ShadowKept, a_light_that_moves_redraws_only_its_own_faces) {
   EXPECT_EQ(counter("shadows.faces_cached"), 7.0);
   draw();
   EXPECT_EQ(drawn_faces(), 0.0);
-  // Brighter or wider is not moved: maps stay good.
+  // A change of brightness or width is no movement: maps stay valid.
   world.get<Light>(mover).intensity = 33.0f;
   draw();
   EXPECT_EQ(drawn_faces(), 0.0);
 }
 
-/// With a renderer that has warned of nothing yet.
+/// A full atlas, with a renderer that has not logged a warning yet.
 class FullAtlas : public ShadowKept {
  protected:
   [[nodiscard]] test::SharedRenderer& shared() override {
@@ -172,7 +172,7 @@ TEST_F(ShadowKept, glass_is_in_the_shadow_that_an_opaque_pane_is_in) {
   settings = test::look_at(dvec3(0.9, 0.7, 1.2), dvec3(0.0), 96, 54);
   for (const Entity lit : lamps) {
     for (const Entity lamp : lamps) world.get<Light>(lamp).intensity = lamp == lit ? 10.0f : 0.0f;
-    std::vector<float> shares[2];  // of light that shadows leave
+    std::vector<float> shares[2];  // share of the light that shadows leave
     for (const bool blended : {true, false}) {
       place(pane, at(0.0, 0.0, blended ? 0.0 : -90.0));
       place(opaque, at(0.0, 0.0, blended ? -90.0 : 0.0));

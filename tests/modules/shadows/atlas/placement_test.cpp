@@ -19,7 +19,7 @@ FaceRequest face(std::uint32_t light, std::uint32_t index, std::uint32_t size, f
   return {{Entity{light, 1}, index}, size, importance};
 }
 
-/// Aligned, inside, none over another, none without need smaller.
+/// Expects squares that are aligned, inside the atlas and not overlapping, and that no face is smaller than necessary.
 void expect_sound(std::uint32_t atlas_size, std::span<const FaceRequest> requests, const FacePlaces& places) {
   ASSERT_EQ(places.squares.size(), requests.size());
   const std::uint32_t cells = atlas_size / GLOAM_SHADOW_SMALLEST_FACE;
@@ -175,7 +175,7 @@ TEST(ShadowAtlas, makes_room_for_a_large_face_where_the_fewest_have_to_move) {
   std::vector<FaceRequest> small;
   for (std::uint32_t i = 0; i < 64; ++i) small.push_back(face(i, 0, 128));
   const FacePlaces full = atlas.place(1024, small);
-  // One stays in three of the four quarters, two in the fourth.
+  // Keep one face in three of the four quarters, and two in the fourth.
   std::vector<FaceRequest> requests;
   std::array<int, 4> left{1, 2, 1, 1};
   std::vector<AtlasSquare> before;

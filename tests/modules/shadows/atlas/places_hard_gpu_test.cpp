@@ -9,7 +9,7 @@
 namespace gloam {
 namespace {
 
-/// Lights, cameras, receivers and casters in awkward places.
+/// Lights, cameras, receivers and casters in difficult positions.
 class ShadowPlaces : public test::HardShadows {};
 
 TEST_F(ShadowPlaces, cones_of_0_119_121_and_180_degrees_cast_right_shadows) {
@@ -65,7 +65,8 @@ TEST_F(ShadowPlaces, what_is_nearer_to_a_light_than_its_near_plane_is_lit) {
             const dvec3 point = r.origin - r.direction * (r.origin.y / r.direction.y);
             const float v = seen[y * settings.width + x];
             bad += std::isfinite(v) && v <= 1.0f ? 0 : 1;
-            // Lit from above only, and by no more than rounding of the height.
+            // Check points that the light certainly reaches from above: not those where only rounding of its height
+            // decides.
             if (height < 1e-3 || glm::distance(point, dvec3(0.0, height, 0.0)) > 0.049 || v < 0.0f) continue;
             dark += v < 0.99f ? 1 : 0;
             ++checked;
@@ -167,7 +168,7 @@ TEST_F(ShadowPlaces, a_scene_at_100_km_from_the_origin_has_the_shadows_it_has_th
     }
     std::printf("%s at 100 km: mean %.5f, %zu of %zu off by more than 0.1\n", name_of(lamps[i]).c_str(),
                 sum / static_cast<double>(there.size()), far_off, there.size());
-    // Cascades lie on another grid of texels there.
+    // There, cascades have another texel grid.
     const bool cascades = i == 2;
     EXPECT_LE(sum, (cascades ? 0.005 : 0.0005) * static_cast<double>(there.size()));
     EXPECT_LE(static_cast<double>(far_off), (cascades ? 0.01 : 0.001) * static_cast<double>(there.size()));

@@ -11,8 +11,7 @@
 #include "tests/modules/shadows/support/shadowed_scene.h"
 #include "tests/render/draws/small_scene.h"
 
-// Parts of maps that are drawn again where casters move: the maps must be what they would be drawn whole, to the last
-// bit.
+// Regions of maps that are redrawn where casters move: the maps must be bit-identical to maps that are drawn whole.
 
 namespace gloam {
 namespace {
@@ -37,7 +36,7 @@ class ShadowRegions : public test::ShadowedScene {
     outline = scene.mesh(test::quad(0.2f, holes()));
   }
 
-  /// A material with a hole in every other texel.
+  /// A cut-out material with a hole in every other texel.
   std::uint32_t holes() {
     Material material = exact_material(180, 170, 160, 255, 0);
     material.alpha_mode = AlphaMode::mask;
@@ -46,7 +45,7 @@ class ShadowRegions : public test::ShadowedScene {
     return scene.material(material);
   }
 
-  /// Shapes that the cases below move.
+  /// Adds the casters that the tests move.
   void add_movers() {
     for (int i = 0; i < 3; ++i) movers.push_back(world.create(WorldTransform{place(i)}, MeshInstance{mesh}));
     movers.push_back(world.create(WorldTransform{place(3)}, MeshInstance{outline}));
@@ -65,8 +64,8 @@ class ShadowRegions : public test::ShadowedScene {
            glm::rotate(dmat4(1.0), t, dvec3(0.3, 1.0, 0.2)) * glm::scale(dmat4(1.0), dvec3(0.1));
   }
 
-  /// One step of a random walk: small moves, jumps, leaps to behind everything; boxes that come and go; joints that
-  /// turn or rest.
+  /// One step of a random walk: small moves, jumps, jumps to behind all other casters; boxes that appear and disappear;
+  /// joints that turn or rest.
   void step(std::mt19937& random) {
     std::uniform_real_distribution<double> anywhere(-1.5, 1.5), nudge(-0.02, 0.02);
     for (Entity& mover : movers) {
@@ -94,23 +93,24 @@ class ShadowRegions : public test::ShadowedScene {
         world.get<WorldTransform>(joints[i]).matrix = bar_at(t + 0.3 * static_cast<double>(i));
   }
 
-  /// What the view's faces hold.
+  /// The contents of the view's faces.
   [[nodiscard]] WalkedFrame held() {
     WalkedFrame frame;
-    frame.texels = counter("shadows.texels_drawn");  // reading images draws frames
+    frame.texels = counter("shadows.texels_drawn");  // first, because reading images draws frames
     frame.faces = test::held_faces(*renderer, world, kAtlas);
     return frame;
   }
 
-  /// Frames of a walk; every one drawn from nothing when `anew`.
+  /// One step of a walk.
   using Step = std::function<void(std::mt19937& random, int frame)>;
-  /// Most rest most of the time, long enough to count as resting, while one moves on in front of them.
+  /// Most casters rest long enough to count as resting, while one moves in front of them.
   void resting_step(std::mt19937& random, int frame) {
     if (frame % 12 == 11) return step(random);
     std::uniform_real_distribution<double> nudge(-0.05, 0.05);
     world.get<WorldTransform>(movers[0]).matrix[3] += dvec4(nudge(random), nudge(random), nudge(random), 0.0);
   }
 
+  /// The frames of a walk. anew: no map is reused, each frame draws all maps whole.
   [[nodiscard]] std::vector<WalkedFrame> walk(std::uint32_t seed, int frames, bool anew, const Step& one_step) {
     for (const Entity guest : guests) world.destroy(guest);
     guests.clear();
@@ -122,7 +122,7 @@ class ShadowRegions : public test::ShadowedScene {
     for (int i = 0; i < frames && !HasFatalFailure(); ++i) {
       one_step(random, i);
       if (anew) {
-        set("shadows.casters", "simplified");  // nothing here has fewer triangles; maps count as others all the same
+        set("shadows.casters", "simplified");  // no mesh here has simplified triangles, but maps count as different
         draw();
         set("shadows.casters", "full");
       }
@@ -175,7 +175,7 @@ TEST_F(ShadowRegions, parts_of_a_lamps_six_maps_equal_the_whole) {
 
 TEST_F(ShadowRegions, parts_of_a_suns_maps_equal_the_whole) {
   world.get<ShadowCaster>(lamp("sun", LightKind::directional, dvec3(0.0), dvec3(0.3, -0.5, -1.0))).resolution = 256;
-  // Far boxes keep the bounds of all casters, and so the cascades, where they are.
+  // Distant boxes keep the casters' bounds, and with them the cascades, constant.
   for (const double side : {-1.0, 1.0}) box(dvec3(3.0 * side, 3.0 * side, 1.5 + 1.5 * side), dvec3(0.1));
   expect_equal_walks(7, 24, 0.8);
 }

@@ -18,12 +18,12 @@
 #include "tests/modules/shadows/support/held_faces.h"
 #include "tests/render/draws/small_scene.h"
 
-// Casters that a later module withholds from maps: the maps must be what they would be without them, to the last bit.
+// Casters that a later module withholds from maps: the maps must be bit-identical to maps of a scene without them.
 
 namespace gloam {
 namespace {
 
-/// Withholds what a test says.
+/// Withholds the casters that a test sets.
 class Withholder final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "withholder"; }
@@ -39,12 +39,12 @@ class Withholder final : public Module {
   }
 
   WithheldCasters withheld;
-  bool has_lists = false;  ///< in the last frame
+  bool has_lists = false;  ///< the last frame had final lists
 };
 
 using Faces = std::vector<test::FaceTexels>;
 
-/// A wall and boxes that rest, shapes that cases move, and a spot, a lamp or a sun before them.
+/// A wall, resting boxes, casters that the tests move, and a spot, a point light or a directional light.
 class ShadowWithheld : public test::HardShadows {
  protected:
   static constexpr std::uint32_t kAtlas = 1024;
@@ -60,7 +60,7 @@ class ShadowWithheld : public test::HardShadows {
     thing(test::quad(4.0f, stone));
     for (int i = 0; i < 12; ++i)
       box(dvec3(-1.8 + 0.33 * i, 0.9 - 0.17 * i, 0.3 + 0.1 * (i % 3)), dvec3(0.12, 0.2, 0.05));
-    // Far boxes keep the bounds of all casters, and so a sun's cascades, where they are.
+    // Distant boxes keep the casters' bounds, and with them the cascades, constant.
     for (const double side : {-1.0, 1.0}) box(dvec3(3.0 * side, 3.0 * side, 1.5 + 1.5 * side), dvec3(0.1));
     add_movers();
   }
@@ -130,7 +130,7 @@ class ShadowWithheld : public test::HardShadows {
   }
 
   void draw_anew() {
-    set("shadows.casters", "simplified");  // nothing here has fewer triangles; maps count as others all the same
+    set("shadows.casters", "simplified");  // no mesh here has simplified triangles, but maps count as different
     draw();
     set("shadows.casters", "full");
     draw();
@@ -148,8 +148,7 @@ class ShadowWithheld : public test::HardShadows {
     for (std::size_t f = 0; f < a.size(); ++f) EXPECT_TRUE(a[f] == b[f]) << what << ", face " << f;
   }
 
-  /// One mover moves on in front of others that rest most of the time; who is withheld from which light changes now and
-  /// then.
+  /// One caster moves in front of others that mostly rest. The withheld casters of each light change now and then.
   void step(std::mt19937& random, int frame) {
     std::uniform_real_distribution<double> small(-0.05, 0.05), anywhere(-1.2, 1.2);
     nudge(movers[0], dvec3(small(random), small(random), small(random)));

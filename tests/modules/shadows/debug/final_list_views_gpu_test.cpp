@@ -43,7 +43,7 @@ class FinalListViews : public test::FinalListScene {
     static_cast<void>(lists(view));
     return picture();
   }
-  /// Whether a pixel shows a linear colour that hides `opacity` of black; along the grid of tiles it is darker.
+  /// Whether a pixel shows a linear colour, drawn with this opacity over black. Pixels on the grid of tiles are darker.
   [[nodiscard]] static bool shows(const Picture& p, std::uint32_t x, std::uint32_t y, const dvec3& color,
                                   double opacity) {
     const std::uint8_t* t = &p.rgba[4 * (std::size_t{y} * p.width + x)];
@@ -60,15 +60,15 @@ class FinalListViews : public test::FinalListScene {
     for (std::uint32_t y = 0; y < settings.height; ++y)
       for (std::uint32_t x = 0; x < settings.width; ++x) function(x, y);
   }
-  /// The linear colour and opacity of a tile in one of the count views; `stored` of its `count` lights have a slot.
+  /// Whether a pixel shows what a count visualizer draws for a tile with `count` lights, of which `stored` have a slot.
   [[nodiscard]] static bool shows_counts(const Picture& p, std::uint32_t x, std::uint32_t y, bool slots, int count,
                                          int stored) {
     if (!slots) return shows(p, x, y, heat(count / 31.0), 1.0);
     if (stored > 0) return shows(p, x, y, heat(stored / 10.0), 0.75);
     return is_black(p, x, y) || (count == 0 && shows(p, x, y, 0.25 * kBlue, 0.75));
   }
-  /// Compares both count views with the lists of the same frame; the counts of slots that were met, -1 for tiles
-  /// without a list.
+  /// Compares both count visualizers with the lists of the same frame. Returns the numbers of slots that occurred, −1
+  /// for tiles without a list.
   std::set<int> expect_counts_of_lists() {
     std::set<int> met;
     for (const bool slots : {false, true}) {
@@ -94,7 +94,8 @@ class FinalListViews : public test::FinalListScene {
     return met;
   }
   enum class State { dark, lit, slot, left_out, fallback };
-  /// Compares view light_list with the final lists and with the same view of early ones; the states that were met.
+  /// Compares visualizer light_list with the final lists, and with the same visualizer of early lists. Returns the
+  /// states that occurred.
   std::set<State> expect_states_of_lists(const std::string& name) {
     set("shadows.mode", "monolithic");
     const Picture early = name == "sun" ? Picture{} : drawn_view("light_list:" + name);
@@ -105,7 +106,7 @@ class FinalListViews : public test::FinalListScene {
     int wrong = 0;
     for_pixels([&](std::uint32_t x, std::uint32_t y) {
       const std::uint32_t tile = tile_of(x, y);
-      // Where there are no early lists of it, a light in its final list must have been there.
+      // Without early lists of the light, an entry in the final list proves that it was a candidate.
       const auto entry = entry_of(read, tile, name);
       const bool held = early.width > 0 ? !is_black(early, x, y) : entry.has_value() || !is_black(p, x, y);
       State state = State::dark;
@@ -122,7 +123,7 @@ class FinalListViews : public test::FinalListScene {
     EXPECT_EQ(wrong, 0) << name;
     return met;
   }
-  /// Compares view "shadow:NAME" with shadow maps where the light gives something.
+  /// Compares visualizer "shadow:NAME" with shadow maps, where the light illuminates the surface.
   void expect_visibility_of_maps(const std::string& name) {
     set("shadows.mode", "monolithic");
     const std::vector<float> maps = visibility(name);
@@ -137,7 +138,7 @@ class FinalListViews : public test::FinalListScene {
     EXPECT_EQ(wrong, 0) << name;
     EXPECT_EQ(unreached, 0) << name;
   }
-  /// Compares it with the final lists.
+  /// Compares visualizer "shadow:NAME" with the final lists.
   void expect_visibility_of_lists(const std::string& name) {
     const test::ReadFinalLists read = lists();
     const std::vector<float> shown = visibility(name);

@@ -21,7 +21,7 @@ TEST(ShadowMeasures, classifying_counts_the_pairs_whose_pixels_are_still_asked) 
   EXPECT_EQ(measure.fault(on), "");
 }
 
-/// The ledger sets what a measure names: it must exist, and no knob is judged twice.
+/// The ledger sets the knobs that a measure names: they must exist, and no knob may have two measures.
 TEST(ShadowMeasures, name_knobs_and_values_that_exist) {
   const auto module = make_shadows_module();
   KnobRegistry knobs;

@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 
 class ShadowPick : public test::FinalListScene {
  protected:
-  /// Lines about final lists: from the first of them to the last line.
+  /// The lines about final lists, which are the last lines of a pick.
   [[nodiscard]] std::vector<std::string> pick(uvec2 pixel) {
     draw();
     std::vector<std::string> lines = test::value_of(renderer->pick(world, ViewId{0}, pixel.x, pixel.y));
@@ -35,7 +35,8 @@ class ShadowPick : public test::FinalListScene {
     bool listed = true;
     bool stored = true;
   };
-  /// A pixel of a tile in whose list the light is so, with neither no nor all of its light when it has a slot.
+  /// A pixel of a tile whose list holds the light as wanted. If the light must have a slot, it is partly visible at the
+  /// pixel.
   [[nodiscard]] std::optional<uvec2> find_pixel(const std::string& name, Wanted wanted,
                                                 const std::vector<float>& seen) {
     const test::ReadFinalLists read = lists();

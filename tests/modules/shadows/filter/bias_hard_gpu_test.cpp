@@ -48,7 +48,7 @@ TEST_F(ShadowBias, oriented_has_neither_acne_nor_leaks_and_beats_constant_units)
   EXPECT_LE(normal.leak, test::kMostWrong);
   const auto less = [](const Shares& a, const Shares& b) { return a.wrong < b.wrong; };
   EXPECT_LE(std::ranges::min_element(oriented, less)->wrong, 0.8 * std::ranges::min_element(hardware, less)->wrong);
-  // At equal acne, but for three pixels.
+  // At equal acne, with a tolerance of three pixels.
   for (const Shares& h : hardware) {
     double leak = 1.0;
     for (const Shares& o : oriented)
@@ -78,7 +78,7 @@ TEST_F(ShadowBias, a_wall_that_light_grazes_is_lit_and_dark_behind_a_roof) {
   const Entity day = lamp(sun(), dvec3(0.0)), bulb = lamp(point(), dvec3(0.0));
   const std::vector<Entity> lamps = {day, bulb};
   for (const double degrees : {0.1, 0.5, 3.0}) {
-    // Where no more than 1/255 of the light falls on the wall, what leaks is not seen.
+    // Where at most 1/255 of the light falls on the wall, leaks are invisible.
     const bool seen = std::sin(glm::radians(degrees)) > 1.0 / 255.0;
     const double slope = std::tan(glm::radians(degrees));
     place(day, test::turn_towards(dvec3(0.0, -1.0, -slope)));
@@ -103,9 +103,9 @@ TEST_F(ShadowBias, a_wall_that_light_grazes_is_lit_and_dark_behind_a_roof) {
 
 TEST_F(ShadowBias, a_flat_floor_in_grazing_light_has_no_acne_with_any_filter) {
   floor(12.0f);
-  box(dvec3(0.0, 0.5, -11.0), dvec3(0.5));  // away from all that is looked at
+  box(dvec3(0.0, 0.5, -11.0), dvec3(0.5));  // outside the picture
   settings = test::look_at(dvec3(7.5, 1.2, 2.0), dvec3(7.0, 0.0, 0.0), 96, 54);
-  // 0.1 degrees above the floor; nothing of the emitters is below it.
+  // Lights 0.1 degrees above the floor; no part of an emitter is below it.
   const double slope = std::tan(glm::radians(0.1));
   const std::vector<Entity> lamps = {lamp(point(0.01f), dvec3(0.0, 7.0 * slope, 0.0)),
                                      lamp(spot(20.0, 0.01f), dvec3(0.0, 7.0 * slope, 0.0), dvec3(1.0, -slope, 0.0)),
@@ -140,7 +140,7 @@ TEST_F(ShadowBias, a_flat_floor_in_grazing_light_has_no_acne_with_any_filter) {
   }
 }
 
-/// A sheet without thickness 3 mm above a floor, at 1.8 mm a pixel.
+/// A sheet without thickness, 3 mm above a floor, at 1.8 mm per pixel.
 class ThinSheet : public ShadowBias {
  protected:
   void SetUp() override {
@@ -167,7 +167,7 @@ class ThinSheet : public ShadowBias {
     std::uint32_t material;
     dmat4 matrix;
   };
-  /// The pixels at a sheet's own border, beside the sky, may show either side of it: they are left out.
+  /// Excludes the pixels at the sheet's border with the sky, which may show either.
   [[nodiscard]] static TracedVisibility without_border(const TracedVisibility& traced) {
     TracedVisibility inner = traced;
     for (std::uint32_t layer = 0; layer < traced.lights.size(); ++layer)
@@ -189,8 +189,8 @@ class ThinSheet : public ShadowBias {
 };
 
 TEST_F(ThinSheet, shadows_the_floor_beside_it_in_slanting_light_whichever_side_it_shows) {
-  // 6 degrees above the floor the shadow reaches 28 mm beyond the sheet's edge at z = −0.2; the edge at z = 0.2 has
-  // none.
+  // From 6 degrees above the floor, the shadow reaches 28 mm beyond the sheet's edge at z = −0.2; the edge at z = 0.2
+  // casts none.
   const double slope = std::tan(glm::radians(6.0));
   const Entity slanting = lamp(spot(6.0), dvec3(0.0, 3.0 * slope, 2.8), dvec3(0.0, -slope, -1.0), 2048);
   for (const Variant& variant : variants) {
@@ -213,7 +213,7 @@ TEST_F(ThinSheet, shadows_the_floor_beside_it_in_slanting_light_whichever_side_i
 }
 
 TEST_F(ThinSheet, leaks_no_light_into_the_gap_below_it) {
-  // The camera is in the gap and looks at the floor towards the sheet's edge, under a light straight above.
+  // The camera is inside the gap and looks at the floor near the sheet's edge, under a light straight above.
   const Entity above = lamp(spot(10.0), dvec3(0.0, 2.0, 0.0), dvec3(0.0, -1.0, 0.0), 2048);
   const Entity slanting = lamp(spot(10.0), dvec3(0.9, 1.8, -0.3), dvec3(-0.9, -1.8, 0.3), 2048);
   settings = test::look_at(dvec3(0.0, 0.0015, -0.15), dvec3(0.0, 0.0009, -0.17), 96, 54);
@@ -240,7 +240,7 @@ TEST_F(ThinSheet, leaks_no_light_into_the_gap_below_it) {
 }
 
 TEST_F(ThinSheet, has_a_dark_side_however_the_light_slants) {
-  // A square of 0.4 m upright at the origin, lamps 1.5 m from it behind it: 0 is straight behind.
+  // An upright square of 0.4 m, and lamps 1.5 m behind it; at 0 degrees straight behind.
   Material both = exact_material(180, 170, 160, 255, 0);
   both.double_sided = true;
   thing(test::quad(0.2f, scene.material(both)), at(0.0, 1.0, 0.0));
@@ -268,7 +268,7 @@ TEST_F(ThinSheet, in_the_air_is_lit_on_one_side_and_dark_on_the_other) {
       settings.world_from_camera =
           test::look_at(dvec3(0.1, 1.0 + 0.5 * side, 0.5), dvec3(0.0, 1.0, 0.0), 96, 54).world_from_camera;
       const TracedVisibility traced = trace(1);
-      if (!traced.layer_of(above)) continue;  // single-sided, from behind
+      if (!traced.layer_of(above)) continue;  // a single-sided sheet, lit from behind
       const std::string what = std::string(variant.name) + (side > 0.0 ? " from above" : " from below");
       const ShadowError e = error(above, without_border(traced));
       print(what, e);
@@ -280,13 +280,13 @@ TEST_F(ThinSheet, in_the_air_is_lit_on_one_side_and_dark_on_the_other) {
 
 TEST_F(ShadowBias, a_wall_in_line_with_the_sun_is_lit_as_without_shadows) {
   const Entity wall = thing(test::quad(1.5f, stone));
-  box(dvec3(-3.0, 0.0, 0.3), dvec3(0.2));  // the casters have some depth
+  box(dvec3(-3.0, 0.0, 0.3), dvec3(0.2));  // gives the casters' bounds some depth
   settings = test::look_at(dvec3(0.2, 0.3, 2.5), dvec3(0.0), 96, 54);
   lamp(sun(), dvec3(0.0), dvec3(0.0, -0.3, -1.0));
   const double full = test::LitSceneTest::pixel(drawn(), 48, 27).x;
   ASSERT_GT(full, 0.1);
   for (const double tilt : {-1e-3, -1e-4, -1e-5, 0.0, 1e-5, 1e-4, 1e-3}) {
-    // The wall turns until the sun's rays run along it.
+    // Turns the wall until it is parallel to the sun's rays.
     place(wall, glm::rotate(dmat4(1.0), std::atan2(1.0, 0.3) - glm::radians(180.0) + tilt, dvec3(1, 0, 0)));
     settings = test::look_at(dvec3(0.2, 2.5, 0.4), dvec3(0.0), 96, 54);
     set("shadows.mode", "monolithic");

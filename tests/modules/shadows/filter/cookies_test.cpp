@@ -37,7 +37,7 @@ TEST(ShadowCookies, smaller_texels_are_averaged_in_linear_light) {
     image.rgba.insert(image.rgba.end(), {value, value, value, 255});
   }
   const auto texels = resampled_cookie(image);
-  // Half of the light is 188 of 255 in sRGB.
+  // Half of the linear light is 188 of 255 in sRGB.
   for (std::size_t x = 4; x < kCookieSide - 4; ++x) EXPECT_NEAR(texels[4 * x], 188, 1);
 }
 
@@ -56,7 +56,7 @@ TEST(ShadowCookies, a_file_that_is_no_picture_is_an_input_error_that_names_it) {
   EXPECT_EQ(status.error().kind, ErrorKind::input);
   EXPECT_THAT(status.error().message, HasSubstr("cookie.png"));
   EXPECT_THAT(status.error().message, HasSubstr("gloam.light.cookie"));
-  EXPECT_TRUE(load_cookies(world).ok());  // told once; it is white
+  EXPECT_TRUE(load_cookies(world).ok());  // reported once; the cookie is white
   const Cookies& cookies = world.resource<Cookies>();
   ASSERT_EQ(cookies.texels.size(), 1u);
   EXPECT_EQ(cookies.texels[0][0], 255);

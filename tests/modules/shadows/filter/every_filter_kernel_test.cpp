@@ -11,7 +11,7 @@ using shaders::ShadowProbe;
 
 class EveryShadowFilter : public ShadowKernelTest {};
 
-// Nothing is half a texel off: on the line between lit and blocked texels, half the light arrives.
+// No filter is half a texel off: on the line between lit and blocked texels, half of the light arrives.
 TEST_F(EveryShadowFilter, the_middle_of_an_edge_is_half_lit) {
   SpotRig rig;
   for (const bool upright : {false, true}) {
@@ -39,7 +39,7 @@ TEST_F(EveryShadowFilter, no_blocker_is_lit_and_all_blocked_is_dark_with_every_f
   std::vector<ShadowProbe> probes;
   for (int i = 0; i < 256; ++i) probes.push_back(rig.at(floor_at(rig, 15.0 + (i % 16) * 15.0, 15.0 + (i / 16) * 15.0)));
   for (ProbeSettings settings : every_filter()) {
-    // Every setting is a pipeline to compile; only one filter can be told to leave nothing out.
+    // Each setting is a pipeline to compile. Only filter 3 has early-outs to switch off.
     for (std::uint32_t full = 0; full <= (settings.filter == 3 ? 1u : 0u); ++full) {
       settings.full_penumbra = full;
       for (const auto& result : rig.look(device(), open, probes, settings))

@@ -11,8 +11,8 @@ using shaders::ShadowProbe;
 
 class ShadowFilter : public ShadowKernelTest {};
 
-// Bars as wide as one texel of the mip under test, and a penumbra that this mip alone filters: half the kernel wide in
-// its texels.
+// Bars one texel of the tested mip wide, and a penumbra that only this mip filters: in its texels, half as wide as the
+// kernel.
 TEST_F(ShadowFilter, bars_of_one_texel_give_half_the_light_at_every_mip) {
   for (const ProbeSettings settings :
        {ProbeSettings{}, ProbeSettings{.shape = 1}, ProbeSettings{.kernel = 12}, ProbeSettings{.kernel = 16}}) {
@@ -57,7 +57,7 @@ TEST_F(ShadowFilter, finest_bars_give_half_the_light_at_every_mip_that_knows_its
 
 TEST_F(ShadowFilter, wide_shadows_do_not_grow_where_mips_know_their_coverage) {
   double nearest = 0.0, covered = 0.0;
-  for (const double edge : {256.0, 257.0, 259.0, 263.0, 270.0}) {  // wherever it lies in a mip's texel
+  for (const double edge : {256.0, 257.0, 259.0, 263.0, 270.0}) {  // at any position in a mip's texel
     SpotRig rig;
     rig.size = 512;
     rig.width_m = rig.width_for(90.0, 4.0, 2.0);
@@ -72,7 +72,7 @@ TEST_F(ShadowFilter, wide_shadows_do_not_grow_where_mips_know_their_coverage) {
   EXPECT_LT(nearest, 0.45) << "what coverage is there for";
 }
 
-/// Texels of a row or column whose middles are this near to a receiver, of the N round it.
+/// Number of texels of a row or column, of the N around a receiver, whose middles are within this reach of it.
 int texels_in_cone(double at, int kernel, double reach) {
   const double first = std::floor(at - 0.5) - (kernel / 2 - 1);
   int count = 0;
@@ -116,8 +116,8 @@ TEST_F(ShadowFilter, the_mean_blocker_is_a_mean_of_distances) {
   for (std::uint32_t y = 0; y < rig.size; ++y)
     for (std::uint32_t x = 0; x < 128; ++x) depths[y * rig.size + x] = 0.05f / 1.0f;
   const std::vector<ShadowProbe> probes = {rig.at(floor_at(rig, 128.0, 128.0))};
-  // At mip 0 and on the border of two texels, the half with blockers at 1 m is as wide as that with blockers at 2 m:
-  // all in the light's cone.
+  // At mip 0, on the border of two texels, the halves with blockers at 1 m and at 2 m are equally wide, and all of
+  // their texels are in the cone.
   EXPECT_NEAR(rig.look(device(), depths, probes, {.mips = 0})[0].blocker_depth, 0.05 / 1.5, 1e-5);
 }
 
@@ -136,8 +136,7 @@ TEST_F(ShadowFilter, filters_of_both_shapes_are_symmetric) {
     const auto b = rig.look(device(), upper, down, {.mips = 0, .shape = shape});
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_NEAR(a[i].visibility, b[i].visibility, 2e-3);
-      // At the ends of the penumbra, an edge that the search misses by half a texel is an edge that the filter would
-      // have seen.
+      // At the ends of the penumbra, the search may miss an edge by half a texel that the filter would find.
       const bool end = std::min(a[i].visibility, 1.0f - a[i].visibility) < 0.02f;
       EXPECT_NEAR(a[i].visibility, 1.0f - a[a.size() - 1 - i].visibility, end ? 0.02 : 4e-3);
     }
@@ -211,9 +210,9 @@ TEST_F(ShadowFilter, a_cookie_lies_upright_in_the_cone_and_ends_in_its_border) {
     probes.push_back(rig.at(p));
   probes.push_back(rig.at(dvec3(0.8, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), 1));
   const auto results = maps.probe(probes, {with, row}, shadow_block(maps));
-  EXPECT_NEAR(results[0].cookie.x, 1.0f, 0.01f);  // red grows along the right axis
+  EXPECT_NEAR(results[0].cookie.x, 1.0f, 0.01f);  // red increases along the right axis
   EXPECT_NEAR(results[1].cookie.x, 0.0f, 0.01f);
-  EXPECT_NEAR(results[2].cookie.y, 1.0f, 0.01f);  // green against the up axis
+  EXPECT_NEAR(results[2].cookie.y, 1.0f, 0.01f);  // green increases against the up axis
   EXPECT_NEAR(results[3].cookie.y, 0.0f, 0.01f);
   EXPECT_NEAR(results[4].cookie.x, 1.0f, 0.01f);
   EXPECT_EQ(results[5].cookie, vec2(1.0f));

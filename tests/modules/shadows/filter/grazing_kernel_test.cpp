@@ -14,8 +14,8 @@ using shaders::ShadowProbe;
 
 class ShadowGrazing : public ShadowKernelTest {};
 
-// Light comes in at up to 89.9 degrees. A slab above the lamp's level makes the filters work at all mips; what it hides
-// is the same with and without the floor in the map, so what more is hidden is the floor's own doing.
+// Light arrives at up to 89.9 degrees. A pole makes the filters use all mips. It hides the same with and without the
+// floor in the map, so any further darkening comes from the floor shadowing itself.
 TEST_F(ShadowGrazing, a_floor_in_grazing_light_never_shadows_itself) {
   for (const double tilt : {1.2, 1.5}) {
     SpotRig rig = tilted(0.02, tilt, 0.8);
@@ -27,7 +27,7 @@ TEST_F(ShadowGrazing, a_floor_in_grazing_light_never_shadows_itself) {
     const auto only_floor = draw_face(rig.pose, rig.size, floor_plane());
     std::vector<ShadowProbe> probes;
     for (int i = 0; i < 1024; ++i) {
-      const double z = -0.5 * std::pow(22.9, (i / 32) / 31.0);  // to 89.9 degrees
+      const double z = -0.5 * std::pow(22.9, (i / 32) / 31.0);  // up to 89.9 degrees
       probes.push_back(rig.at(dvec3((i % 32 - 15.5) / 15.5 * 0.6 * z, 0.0, z)));
     }
     for (const bool average : {false, true}) {
@@ -37,8 +37,8 @@ TEST_F(ShadowGrazing, a_floor_in_grazing_light_never_shadows_itself) {
           ASSERT_GE(result.visibility, 0.999f) << name_of(settings) << " average " << average;
         const auto a = rig.look(device(), with_floor, probes, settings);
         const auto b = rig.look(device(), without, probes, settings);
-        // The floor widens the search, which a few texels, or single fetches, answer less exactly, and it is part of
-        // mean depths.
+        // The floor widens the search region, in which small kernels and single fetches are less exact; and it
+        // contributes to mean depths.
         const float slack = settings.filter == 2 || settings.kernel == 4 || average ? 0.25f : 0.05f;
         for (std::size_t i = 0; i < probes.size(); ++i)
           ASSERT_GE(a[i].visibility, b[i].visibility - slack)

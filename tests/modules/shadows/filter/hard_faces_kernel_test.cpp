@@ -27,7 +27,7 @@ TEST_F(ShadowHardFaces, kernels_at_the_border_of_a_spots_face_see_only_that_face
   const auto open = draw_face(rig.pose, rig.size, floor_plane());
   for (const bool blocked : {false, true}) {
     ShadowMaps maps(device(), 1024);
-    const std::vector<float> other = blocked ? open : closed;  // what a kernel would find if it left its face
+    const std::vector<float> other = blocked ? open : closed;  // neighbours in the atlas, with the opposite result
     for (std::uint32_t i = 0; i < 16; ++i)
       maps.add_face(i == 5 ? (blocked ? closed : open) : other, uvec2(i % 4 * 256, i / 4 * 256), 256);
     const std::vector<shaders::ShadowRow> rows = {spot_row(rig.pose, rig.tan_inner, rig.width_m, uvec2(256, 256), 256)};
@@ -53,7 +53,7 @@ TEST_F(ShadowHardFaces, a_mirrored_spot_casts_the_same_shadow) {
   EXPECT_EQ(plain.back().visibility, 1.0f);
 }
 
-/// A cube and a wide spot face with texels of the same size, at one place.
+/// A cube and one wide spot face at the same position, with texels of the same size.
 struct CubeScene {
   static constexpr std::uint32_t kCube = 128, kWide = 1024;
   static constexpr double kCubeTan = 1.125;
@@ -75,8 +75,8 @@ struct CubeScene {
   }
 };
 
-// A kernel that leaves its face sees what one large face would have shown it. Face +X, its border with −Z and its
-// corner with +Y and −Z. All in the cube's axes.
+// A kernel that leaves its cube face gives the result of one large face: in face +X, at its border with −Z, and at its
+// corner with +Y and −Z, in the cube's axes.
 TEST_F(ShadowHardFaces, penumbrae_across_two_and_three_faces_of_a_cube_are_those_of_one_large_face) {
   const glm::dmat3 cube = cube_axes();
   const dvec3 blocker_normal = cube * normalize(dvec3(1.0, 0.2, -0.3));
@@ -115,7 +115,7 @@ TEST_F(ShadowHardFaces, penumbrae_across_two_and_three_faces_of_a_cube_are_those
 }
 
 TEST_F(ShadowHardFaces, a_cubes_faces_look_where_they_should) {
-  // A small plate in each direction: its shadow is where a ray says.
+  // A small plate in each direction: its shadow must be where rays hit it.
   std::vector<RayScene> plates;
   for (int face = 0; face < 6; ++face) {
     const FacePose pose = cube_face(face, dvec3(0.0), 1.0);
@@ -138,7 +138,7 @@ TEST_F(ShadowHardFaces, a_cubes_faces_look_where_they_should) {
   const auto results = maps.probe(probes, {CubeScene::cube_row(0.0)}, shadow_block(maps), {.filter = 0});
   int wrong = 0;
   for (std::size_t i = 0; i < probes.size(); ++i) wrong += (results[i].visibility < 0.5f) != dark[i];
-  EXPECT_LE(wrong, 6);  // rays that pass an edge within a texel
+  EXPECT_LE(wrong, 6);  // rays within a texel of an edge
 }
 
 TEST_F(ShadowHardFaces, the_suns_penumbra_is_as_wide_as_its_disc_makes_it) {

@@ -12,7 +12,7 @@ namespace {
 
 using test::turn_towards;
 
-/// Penumbrae of whole frames against rays, with the filters that make them.
+/// Penumbrae of whole frames compared with traced ones, with the filters that have penumbrae.
 class ShadowPenumbrae : public test::HardShadows, public ::testing::WithParamInterface<const char*> {
  protected:
   void SetUp() override {
@@ -44,7 +44,7 @@ TEST_P(ShadowPenumbrae, across_two_and_three_faces_of_a_cube_are_as_right_as_ins
   const Entity wall = thing(test::quad(2.5f, stone)), bar = thing(test::box(vec3(0.25f, 0.25f, 0.03f), stone));
   const Entity bulb = lamp(point(0.2f), dvec3(0.0), dvec3(0.0, 0.0, -1.0));
   const dmat4 camera = test::look_at(dvec3(0.9, 0.7, 0.4), dvec3(0.0, 0.0, -3.0), 96, 54).world_from_camera;
-  double inside = 0.0;  // the worst within a face: that depends on how edges lie on texels
+  double inside = 0.0;  // worst error inside one face, which depends on how edges lie on texels
   for (const auto& [name, direction] : {std::pair{"one face", dvec3(0.0, 0.0, -1.0)},
                                         {"one face above", dvec3(0.2, 0.3, -1.0)},
                                         {"one face below", dvec3(-0.3, -0.1, -1.0)},
@@ -52,7 +52,7 @@ TEST_P(ShadowPenumbrae, across_two_and_three_faces_of_a_cube_are_as_right_as_ins
                                         {"two faces below", dvec3(0.0, -1.0, -1.0)},
                                         {"three faces", dvec3(1.0, 1.0, -1.0)},
                                         {"three faces behind", dvec3(-1.0, -1.0, 1.0)}}) {
-    const dmat4 turn = turn_towards(mat3(GLOAM_CUBE_X, GLOAM_CUBE_Y, GLOAM_CUBE_Z) * vec3(direction));  // of the cube
+    const dmat4 turn = turn_towards(mat3(GLOAM_CUBE_X, GLOAM_CUBE_Y, GLOAM_CUBE_Z) * vec3(direction));  // cube axes
     place(wall, turn * at(0.0, 0.0, -3.0));
     place(bar, turn * at(0.05, -0.03, -1.4));
     settings.world_from_camera = turn * camera;
@@ -86,7 +86,7 @@ TEST_P(ShadowPenumbrae, of_a_blocker_nearer_than_the_emitter_is_wide_are_right) 
   settings = test::look_at(dvec3(1.2, 0.5, 1.2), dvec3(0.0, 0.0, -2.0), 96, 54);
   const ShadowError e = error(bulb, trace());
   print("blocker at 0.3 m, emitter 0.4 m", e);
-  EXPECT_GE(e.penumbra_pairs, 2000u);  // nearly all of the wall: its mean is the penumbra's
+  EXPECT_GE(e.penumbra_pairs, 2000u);  // nearly the whole wall is penumbra
   EXPECT_LE(e.penumbra_mean(), test::kMostPenumbraMean);
   EXPECT_EQ(e.wrong, 0u);
   expect_finite("blocker nearer than the emitter is wide");

@@ -13,15 +13,15 @@ namespace {
 
 using shaders::ShadowProbe;
 
-/// A spot light that shines down on a floor at y = 0, under a half plane whose straight edge casts a shadow.
+/// A spot light that shines down on a floor at y = 0, and a half plane above it whose straight edge casts a shadow.
 struct EdgeScene {
   double height_m = 12.0;
-  double gap_m = 1.0;  // of the half plane above the floor
+  double gap_m = 1.0;  // height of the half plane above the floor
   double width_m = 0.4;
   double tan_half = 0.6;
   std::uint32_t size = 1024;
-  double angle = 0.3;   // of the edge
-  double offset = 0.0;  // of the shadow's edge on the floor from the middle, m
+  double angle = 0.3;   // angle of the edge, radians
+  double offset = 0.0;  // distance of the shadow's edge on the floor from the middle, m
   bool average = false;
   [[nodiscard]] double penumbra() const { return gap_m * width_m / (height_m - gap_m); }
   [[nodiscard]] double texel() const { return 2.0 * tan_half / size * height_m; }
@@ -31,7 +31,7 @@ struct Curve {
   std::vector<double> x;
   std::vector<double> visibility;
   [[nodiscard]] double width() const { return last_below(0.9) - last_below(0.1); }
-  // Where the curve crosses a level, by interpolation.
+  // Position at which the curve rises above a level, by interpolation.
   [[nodiscard]] double last_below(double level) const {
     for (std::size_t i = 0; i + 1 < x.size(); ++i)
       if (visibility[i] < level && visibility[i + 1] >= level)
@@ -71,8 +71,8 @@ class ShadowPenumbra : public ShadowKernelTest {
     for (const auto& result : results) curve.visibility.push_back(result.visibility);
     return curve;
   }
-  /// Mean width over several places of the edge between texels, as a whole penumbra: of 0.1 … 0.9 and the disc's own
-  /// share between those.
+  /// Mean penumbra width over several positions of the edge between texels. It is measured from visibility 0.1 to 0.9
+  /// and divided by the share of the disc between those.
   static double width_of(EdgeScene s, const ProbeSettings& settings = {}) {
     const double share = -crossing([](double c) { return disc_beyond(-c); }, 0.1, -1.0, 1.0);
     double sum = 0.0;
@@ -86,7 +86,7 @@ class ShadowPenumbra : public ShadowKernelTest {
   }
 };
 
-// 0.1 to 10 m between blocker and floor, maps of two sizes and two fields of view.
+// Distances of 0.1 to 10 m between blocker and floor, maps of two sizes and two fields of view.
 TEST_F(ShadowPenumbra, is_as_wide_as_the_disc_makes_it_whatever_the_map) {
   struct Map {
     std::uint32_t size;
@@ -109,8 +109,8 @@ TEST_F(ShadowPenumbra, is_as_wide_as_the_disc_makes_it_whatever_the_map) {
   }
 }
 
-// Mips hold the nearest of a block: shadows grow by up to half a texel of the mip that filters them, an eighth of the
-// penumbra.
+// Mips hold the nearest depth of a block, so shadows grow by up to half a texel of the mip that filters them, which is
+// an eighth of the penumbra.
 TEST_F(ShadowPenumbra, follows_the_disc_within_the_texel_of_its_mip) {
   EdgeScene s;
   s.size = 512;

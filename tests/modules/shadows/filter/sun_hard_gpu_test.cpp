@@ -13,7 +13,7 @@ namespace {
 /// Cascades of directional lights.
 class ShadowSun : public test::HardShadows {
  protected:
-  /// Greatest mean difference of a row of pixels.
+  /// Greatest mean difference over a row of pixels.
   [[nodiscard]] double worst_row(Entity lamp, const TracedVisibility& traced) {
     const std::vector<float> seen = visibility(lamp);
     double worst = 0.0;
@@ -47,7 +47,7 @@ TEST_F(ShadowSun, cascades_have_no_seams_along_a_shadow_that_runs_through_all_of
       set("shadows.filter", filter);
       const ShadowError e = error(low, traced);
       expect_right(std::string("sun of ") + std::to_string(angle) + " rad, " + filter, e, 5000);
-      // A row crosses three edges, each within a pixel.
+      // A row crosses three edges, each with an error of up to a pixel.
       const double row = worst_row(low, traced);
       std::printf("worst row: %.4f\n", row);
       EXPECT_LE(row, angle > 0.0f ? test::kMostPenumbraMean : 3.5 / traced.width) << filter;
@@ -99,7 +99,7 @@ TEST_F(ShadowSun, along_the_axes_casts_right_shadows) {
     place(day, test::turn_towards(direction));
     expect_right("sun along an axis", day);
   }
-  // Along the floor, which is neither lit nor dark then, from below, and along nothing.
+  // Directions parallel to the floor, from below, and undefined.
   for (const dmat4& turn : {test::turn_towards(dvec3(1.0, 0.0, 0.0)), test::turn_towards(dvec3(0.0, 1.0, 0.0)),
                             glm::scale(dmat4(1.0), dvec3(0.0)), dmat4(std::numeric_limits<double>::quiet_NaN())}) {
     place(day, turn);

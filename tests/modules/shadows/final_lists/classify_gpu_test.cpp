@@ -4,7 +4,7 @@
 
 #include "tests/modules/shadows/support/final_lists_classify.h"
 
-// Classification may leave a light and a tile open, but what it says must be what the filter says of every pixel.
+// Classification may leave a tile and a light unknown, but any verdict must be what the filter finds for every pixel.
 
 namespace gloam {
 namespace {
@@ -31,7 +31,7 @@ TEST_F(ClassifyShadows, an_empty_room_is_lit_at_once_and_the_floor_below_a_table
   settings = test::look_at(dvec3(0.0, 1.4, 2.5), dvec3(0.0, 0.6, -1.0), 64, 48);
   ASSERT_NO_FATAL_FAILURE(expect_no_contradiction("room"));
   EXPECT_GT(lit * 2, candidates) << "nothing stands in most of the light";
-  // A table over the whole floor.
+  // A table above the whole floor.
   lit = unlit = candidates = 0;
   settings = test::look_at(dvec3(0.0, 0.7, 2.5), dvec3(0.0, 0.0, -0.5), 64, 48);
   put(shapes_[0], glm::scale(at(0.2, 1.1, 0.5), dvec3(2.5, 0.02, 2.5)));

@@ -4,7 +4,7 @@
 
 #include "tests/modules/shadows/support/final_lists_classify.h"
 
-// The same where things lie close to what they may shade, to edges of maps and of light.
+// Classification where casters are close to receivers, to borders of maps and to borders of light.
 
 namespace gloam {
 namespace {

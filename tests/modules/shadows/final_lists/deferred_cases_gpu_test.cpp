@@ -4,7 +4,7 @@
 
 #include "tests/modules/shadows/support/deferred_scene.h"
 
-// shadows.mode = deferred draws what monolithic draws: pictures of all sizes, lights of all kinds and numbers.
+// shadows.mode=deferred draws the same picture as monolithic: all picture sizes, kinds and numbers of lights.
 
 namespace gloam {
 namespace {

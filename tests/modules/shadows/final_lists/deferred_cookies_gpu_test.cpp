@@ -5,7 +5,7 @@
 #include "modules/fog/components.h"
 #include "tests/modules/shadows/support/deferred_scene.h"
 
-// The same with cookies, which are pipelines of their own.
+// shadows.mode=deferred draws the same picture as monolithic: with cookies, which need their own pipelines.
 
 namespace gloam {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "tests/modules/shadows/support/deferred_scene.h"
 
-// shadows.mode = deferred draws what monolithic draws.
+// shadows.mode=deferred draws the same picture as monolithic.
 
 namespace gloam {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "tests/modules/shadows/support/deferred_scene.h"
 
-// Buffers of deferred shadows that grow with what frames ask for.
+// Buffers of deferred shadows grow with what frames ask for.
 
 namespace gloam {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 using test::Dice;
 using DeferredShadowsGrowth = test::DeferredShadowsTest;
 
-// More (tile, light) than fit at once, so that room is made for what frames ask for.
+// More tile lights than kBytesThatFitAll allows, so that capacities follow what frames ask for.
 TEST_F(DeferredShadowsGrowth, whose_buffers_are_too_small_are_the_same_and_soon_fit) {
   put_pillars();
   Dice dice(30);
@@ -42,13 +42,13 @@ TEST_F(DeferredShadowsGrowth, whose_buffers_are_too_small_are_the_same_and_soon_
   EXPECT_GE(counter("shadows.slot_capacity"), counter("shadows.slots"));
   EXPECT_LE(counter("shadows.slot_capacity"), 1.5 * counter("shadows.slots") + 2000.0);
   EXPECT_EQ(counter("shadows.visibility_bytes"), 64.0 * counter("shadows.slot_capacity"));
-  // Another need.
+  // A view with a different need.
   settings = test::look_at(dvec3(0.0, 2.6, 0.4), dvec3(0.0, 0.0, -0.2), 320, 200);
   const Drawn from_above = frame("monolithic");
   for (int i = 0; i < 6 && !HasFailure(); ++i) expect_same(frame("deferred"), from_above, "from above");
   EXPECT_EQ(counter("shadows.fallback_tiles"), 0.0);
   EXPECT_GE(counter("shadows.slot_capacity"), counter("shadows.slots"));
-  // Frames that are not waited for.
+  // Frames that are submitted without waiting for their counters.
   set("shadows.mode", "deferred");
   const ViewRequest request{settings, {}};
   for (int i = 0; i < 4; ++i) ASSERT_TRUE(renderer->render(world, std::span(&request, 1)).ok());

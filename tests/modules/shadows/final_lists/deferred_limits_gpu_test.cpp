@@ -4,7 +4,7 @@
 
 #include "tests/modules/shadows/support/deferred_scene.h"
 
-// shadows.mode = deferred draws what monolithic draws, however little room there is.
+// shadows.mode=deferred draws the same picture as monolithic, however small the buffers are.
 
 namespace gloam {
 namespace {
@@ -13,7 +13,7 @@ using test::Dice;
 using test::ReadFinalLists;
 using DeferredShadows = test::DeferredShadowsTest;
 
-/// Room for a share of what a frame without limits asks for.
+/// Buffers for a share of what a frame without limits asks for.
 class DeferredShadowsLimits : public DeferredShadows, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(DeferredShadowsLimits, change_no_picture_at_any_share_of_the_need) {

@@ -5,8 +5,7 @@
 #include "tests/modules/shadows/support/deferred_scene.h"
 #include "tests/render/draws/small_scene.h"
 
-// A recorded path: a camera on a closed curve through a scene whose casters and lights move, each frame against
-// monolithic.
+// A camera on a closed curve through a scene of moving casters and lights: each frame is compared with monolithic.
 
 namespace gloam {
 namespace {
@@ -43,7 +42,7 @@ class DeferredShadowsPath : public test::DeferredShadowsTest {
         settings.world_from_camera * glm::rotate(dmat4(1.0), 0.3 * std::sin(2.0 * t), dvec3(0.0, 0.0, 1.0));
     for (std::size_t i = 0; i < movers_.size(); ++i) {
       const double u = t * static_cast<double>(1 + i) + static_cast<double>(i);
-      // Some rest for a while, so that maps are kept.
+      // One caster rests at times, so that maps are kept.
       const double v = i == 3 ? std::floor(u * 3.0) : u;
       move(movers_[i], glm::scale(glm::rotate(at(1.2 * std::cos(v), 0.6 + 0.4 * std::sin(1.7 * v), 0.8 * std::sin(v)),
                                               v, dvec3(0.3, 1.0, 0.1)),

@@ -4,7 +4,7 @@
 
 #include "tests/modules/shadows/support/final_lists_classify.h"
 
-// The same for filters that are not the standard one, each of which is pipelines to make.
+// Classification with filters other than the standard one, each of which needs its own pipelines.
 
 namespace gloam {
 namespace {

@@ -21,7 +21,7 @@
 #include "tests/modules/shadows/support/final_lists_kernels.h"
 #include "tests/modules/shadows/support/maps.h"
 
-// generate_shadows.comp over a made-up picture, against visibilities that shadow_probe.comp finds at each pixel's
+// The shaders of generate.glsl on a synthetic picture, compared with visibilities that probe.comp finds at each pixel's
 // point.
 
 namespace gloam {
@@ -32,7 +32,7 @@ using test::kGuard;
 
 constexpr std::uint32_t kFace = 256;
 
-/// A room from inside: a floor 1.5 m below the camera, a wall 5 m before it, sky above the wall and in holes.
+/// A room seen from inside: a floor 1.5 m below the camera, a wall 5 m in front of it, sky above the wall and in holes.
 struct Room {
   RenderView view;
   std::vector<float> depth;
@@ -67,13 +67,13 @@ Room make_room(std::uint32_t width, std::uint32_t height) {
       room.points.push_back(ray * t);
       room.depth.push_back(sky ? 0.0f : static_cast<float>(0.1 / t));
       room.normals.emplace_back(normal, normal);
-      room.base_color.push_back(0x00808080u);  // no subsurface
+      room.base_color.push_back(0x00808080u);  // not subsurface
     }
   return room;
 }
 
-/// Lights of the room: two spots with maps, one that casts nothing, two directional ones without maps, of which one
-/// shines upward.
+/// The lights of the room: two spots with maps, one that casts no shadow, and two directional lights without maps, one
+/// of which shines upward.
 struct RoomLights {
   shaders::LightBlock block{};
   std::vector<vec4> texels;
@@ -131,7 +131,7 @@ RoomLights make_lights() {
   return lights;
 }
 
-/// 1: the light gives the point something for certain, 0: certainly nothing, −1: it may be either after rounding.
+/// 1: the light certainly illuminates the point, 0: it certainly does not, −1: rounding decides.
 int gives(const shaders::LightBlock& block, bool directional, std::uint32_t light, const dvec3& point,
           const dvec3& normal) {
   const auto sign = [](double value, double margin) { return value > margin ? 1 : value < -margin ? 0 : -1; };
@@ -153,7 +153,7 @@ struct Settings {
   test::ProbeSettings filter;
   std::uint32_t bits = 8;
   std::uint32_t threads = 64;
-  std::uint32_t slots_before = 0;  ///< that other workgroups took
+  std::uint32_t slots_before = 0;  ///< slots that other workgroups have taken
   std::uint32_t slot_capacity = 1u << 20;
   std::uint32_t pair_capacity = 1u << 20;
 };
@@ -165,7 +165,7 @@ gpu::ShaderCode generate_code(std::uint32_t kind, bool standard) {
   return standard ? generate_crossing_standard_comp : generate_crossing_comp;
 }
 
-/// Entries as classification leaves them, and what becomes of them.
+/// The entries after classification, and the output of the shaders.
 struct Generated {
   std::vector<std::uint32_t> entries_before, entries, pairs;
   std::array<std::vector<std::uint32_t>, 2> words;
@@ -199,7 +199,7 @@ class GenerateShadows : public test::ShadowKernelTest {
     grid.pair_capacity = s.pair_capacity;
     grid.slot_capacity = s.slot_capacity;
 
-    // All lie in one face; the shader of those that cross faces must give the same.
+    // All pairs are in-face pairs; the shader for crossing pairs must give the same results.
     const std::uint32_t local_kind = s.threads == 16 ? GLOAM_PAIRS_CROSSING : GLOAM_PAIRS_IN_FACE;
     shaders::ShadowListCommands commands{};
     for (uvec4& kind : commands.pairs) kind = {GLOAM_PAIRS_ROW, 0, 1, 0};
@@ -252,7 +252,7 @@ class GenerateShadows : public test::ShadowKernelTest {
     return g;
   }
 
-  /// What each pixel sees of each light, in steps; sky and beyond the picture: nothing.
+  /// Expected visibility of each local light at each pixel, in steps.
   static std::vector<std::uint32_t> truth(const Room& room, const RoomLights& lights, test::ShadowMaps& maps,
                                           const Settings& s) {
     std::vector<shaders::ShadowProbe> probes;
@@ -304,7 +304,7 @@ class GenerateShadows : public test::ShadowKernelTest {
       EXPECT_EQ(*tally.taken.begin(), s.slots_before);
       EXPECT_EQ(*tally.taken.rbegin(), s.slots_before + tally.slots - 1) << "slots are given one after the other";
     }
-    // Steps of rounding in positions: few, and small (see check_entry).
+    // Differences by rounding of positions must be rare, and small (see check_entry).
     EXPECT_LE(tally.off * 50, tally.pixels);
     return tally;
   }
@@ -435,7 +435,7 @@ TEST_F(GenerateShadows, of_pairs_beyond_the_buffer_are_left_alone) {
   EXPECT_EQ(c.lit_by_filter + c.unlit_by_filter + c.slots, 20u);
 }
 
-// A slot past the first buffer's 128 MiB lies in the second.
+// A slot beyond the 128 MiB of the first buffer is in the second one.
 TEST_F(GenerateShadows, go_on_in_the_second_buffer_where_the_first_ends) {
   const RoomLights lights = make_lights();
   test::ShadowMaps maps(device(), 2 * kFace);

@@ -11,14 +11,14 @@
 #include "tests/support/kernel.h"
 #include "tests/support/scale.h"
 
-// finish_lists.comp against a list of lists.
+// Compares finish.comp with lists that the CPU finishes.
 
 namespace gloam {
 namespace {
 
 using test::kGuard;
 
-/// A tile's list before it is finished.
+/// A tile's unfinished list.
 struct OpenList {
   bool has_list = true;
   std::vector<std::uint32_t> directional, local;  ///< entries
@@ -51,7 +51,8 @@ class FinishLists : public test::KernelTest {
     KernelTest::TearDown();
   }
 
-  /// Runs of directional entries lie tile by tile, local ones wherever there is room, with holes.
+  /// Runs finish.comp. The runs of directional entries are in tile order; those of local entries are in random order,
+  /// with gaps.
   Finished finish(const OpenLists& lists, std::mt19937& random) const {
     Finished f;
     const std::size_t count = lists.tiles.size();
@@ -120,7 +121,7 @@ class FinishLists : public test::KernelTest {
       EXPECT_EQ(part(f.entries, t.x, directional.size()), directional) << "tile " << i;
       EXPECT_EQ(part(f.entries, t.y, local.size()), local) << "tile " << i;
     }
-    // What belongs to no tile stays.
+    // Entries that belong to no tile are unchanged.
     for (std::size_t e = 0; e < f.entries.size(); ++e)
       EXPECT_TRUE(f.entries_before[e] != kGuard || f.entries[e] == kGuard) << "entry " << e;
     ASSERT_EQ(f.commands[0].fallback_draw, uvec4(6, incomplete.size(), 0, 0));

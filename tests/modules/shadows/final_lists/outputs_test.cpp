@@ -44,7 +44,7 @@ TEST(DecodeVisibility, gives_what_was_stored_at_each_pixel_of_each_slot) {
     std::vector<std::uint32_t> steps(kSlots * 64), words(kSlots * 2 * bits);
     for (std::uint32_t i = 0; i < steps.size(); ++i) {
       steps[i] = static_cast<std::uint32_t>(random() % (most + 1));
-      // Bits one after the other, the lowest first.
+      // Writes the bits one by one, the lowest first.
       for (std::uint32_t bit = 0; bit < bits; ++bit)
         words[(i * bits + bit) / 32] |= (steps[i] >> bit & 1u) << (i * bits + bit) % 32;
     }

@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-/// A lamp among boxes, with maps of a set size, from frame to frame.
+/// A lamp among boxes, with maps of a fixed size, over several frames.
 class ShadowFrames : public test::ShadowedScene {
  protected:
   void SetUp() override {
@@ -32,7 +32,7 @@ class ShadowFrames : public test::ShadowedScene {
       if (memory.module == "shadows") return memory.bytes;
     return 0;
   }
-  /// A spot in view that projects a picture.
+  /// Adds a spot with a cookie in view.
   Entity projector() {
     const Entity spot = lamp("spot", LightKind::spot, dvec3(0.3, 0.2, 2.0));
     world.get<ShadowCaster>(spot).resolution = 128;
@@ -45,7 +45,7 @@ class ShadowFrames : public test::ShadowedScene {
     world.set_resource(std::move(cookies));
     return spot;
   }
-  /// Every pixel half in the lamp's shadow.
+  /// Traced visibility 0.5 of the lamp at every pixel.
   [[nodiscard]] TracedVisibility half_shadow() const {
     TracedVisibility traced;
     traced.width = settings.width;
@@ -85,7 +85,7 @@ TEST_F(ShadowFrames, kept_maps_equal_maps_drawn_anew) {
   move(left, dvec3(-0.35, 0.2, 0.8));
   const LinearPicture kept = drawn();
   EXPECT_EQ(drawn_faces(), 1.0);
-  // An atlas of another size and back: everything is new.
+  // Changing the atlas' size and back discards all maps.
   static_cast<void>(drawn("shadows.atlas", "2048"));
   const LinearPicture anew = drawn("shadows.atlas", "4096");
   EXPECT_EQ(drawn_faces(), 6.0);
@@ -177,7 +177,7 @@ TEST_F(ShadowFrames, memory_goes_back_when_nothing_casts_shadows_for_long) {
 }
 
 TEST_F(ShadowFrames, counters_of_frames_without_maps_are_zero) {
-  projector();  // calls for the module whatever the knobs say
+  projector();  // demands the module with any knobs
   draw();
   EXPECT_EQ(drawn_faces(), 7.0);
   set("shadows.mode", "off");
@@ -261,13 +261,14 @@ TEST_F(ShadowFrames, the_atlas_view_shows_every_face) {
   set("shadows.atlas", "1024");
   draw();
   const Picture p = picture();
-  // Six faces of 128 texels in 1024 fill an eighth of the picture's height each; orange borders, drawn in this frame.
+  // Six faces of 128 texels in an atlas of 1024: each is an eighth of the picture's height. Orange borders: drawn in
+  // this frame.
   int orange = 0;
   for (std::size_t i = 0; i < p.rgba.size(); i += 4)
     orange += p.rgba[i] > 200 && p.rgba[i + 1] < 160 && p.rgba[i + 2] < 50 ? 1 : 0;
   EXPECT_GT(orange, 6 * 4 * 4);
   draw();
-  EXPECT_NE(picture().rgba, p.rgba);  // now they are kept ones
+  EXPECT_NE(picture().rgba, p.rgba);  // now the faces are cached
 }
 
 TEST_F(ShadowFrames, a_view_of_a_light_that_is_not_in_view_shows_the_picture_as_it_is) {

@@ -15,14 +15,14 @@ using ::testing::HasSubstr;
 
 class ShadowPictures : public test::ShadowedScene {
  protected:
-  /// Where the ray through a pixel meets the wall, if nothing stands before it there.
+  /// The point of the wall under a pixel; none when a box is in front of it.
   [[nodiscard]] std::optional<dvec3> wall_point(std::uint32_t x, std::uint32_t y) const {
     const Ray r = ray(x, y);
     const dvec3 point = r.origin - r.direction * (r.origin.z / r.direction.z);
     if (std::max(std::abs(point.x), std::abs(point.y)) > 3.9 || blocked(point, r.origin)) return std::nullopt;
     return point;
   }
-  /// 1 lit, 0 in shadow, nothing too close to a border.
+  /// 1: lit, 0: in shadow, none: too close to a shadow's edge.
   [[nodiscard]] std::optional<float> true_visibility(const dvec3& point, const dvec3& to_light) const {
     const bool middle = blocked(point, to_light);
     for (const dvec3 offset :
@@ -30,8 +30,8 @@ class ShadowPictures : public test::ShadowedScene {
       if (blocked(point + offset, to_light) != middle) return std::nullopt;
     return middle ? 0.0f : 1.0f;
   }
-  /// Compares what view "shadow" shows with geometry. `position`: of the light, or where a directional light comes
-  /// from.
+  /// Compares visualizer "shadow" with geometry. position: of the light, or a point in the direction that a directional
+  /// light comes from.
   void expect_true_shadows(const std::string& name, const dvec3& position) {
     const std::vector<float> seen = visibility(name);
     ASSERT_EQ(seen.size(), std::size_t{settings.width} * settings.height);
@@ -110,7 +110,7 @@ TEST_F(ShadowPictures, tiles_and_all_lights_give_the_same_shadows) {
 }
 
 TEST_F(ShadowPictures, glass_is_in_shadow_at_its_own_depth) {
-  // The box's shadow falls on the pane and not on the wall behind it, which no light reaches.
+  // The box's shadow falls on the pane, not on the wall behind it, which no light reaches.
   Material glass = exact_material(200, 200, 200, 255, 0);
   glass.alpha_mode = AlphaMode::blend;
   glass.base_color.a = 0.5f;
@@ -168,7 +168,7 @@ TEST_F(ShadowPictures, cut_outs_cast_the_shadow_of_what_is_there) {
   EXPECT_GT(closed, 30);
 }
 
-/// The wall in the light of one spot that projects a picture: red, green, blue and white quarters from the upper left.
+/// The wall under a spot with a cookie: red, green, blue and white quarters, from the upper left.
 class CookiePictures : public ShadowPictures {
  protected:
   void SetUp() override {
@@ -184,7 +184,7 @@ class CookiePictures : public ShadowPictures {
     world.set_resource(std::move(cookies));
     settings = test::look_at(dvec3(0.0, 0.0, 3.0), dvec3(0.0), 95, 63);
   }
-  /// Colours in the middle of the quarters, against the same without the picture.
+  /// Compares colours in the quarters with the picture without a cookie.
   void expect_quarters(const LinearPicture& with, const LinearPicture& without) {
     const dvec3 colors[] = {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1), dvec3(1)};
     int looked = 0;
@@ -205,15 +205,14 @@ class CookiePictures : public ShadowPictures {
 
 TEST_F(CookiePictures, a_spot_projects_its_cookie_upright_with_and_without_shadows) {
   const LinearPicture with = drawn(), off = drawn("shadows.mode", "off");
-  EXPECT_EQ(with.rgba, off.rgba);  // nothing stands in the light
+  EXPECT_EQ(with.rgba, off.rgba);  // nothing blocks the light
   world.get<Light>(spot).cookie = 0;
   const LinearPicture plain = drawn();
   expect_quarters(with, plain);
   EXPECT_EQ(plain.rgba, drawn("shadows.mode", "monolithic").rgba);
 }
 
-// Up to four cookies are looked up before a surface's lights are added up, more of them light by light: the same
-// picture.
+// Up to four cookies are read once per surface, more of them once per light: the picture must be the same.
 TEST_F(CookiePictures, any_number_of_lights_project_with_and_without_shadows_and_out_of_view) {
   const LinearPicture one = drawn();
   const std::uint32_t cookie = world.get<Light>(spot).cookie;
@@ -226,7 +225,7 @@ TEST_F(CookiePictures, any_number_of_lights_project_with_and_without_shadows_and
     EXPECT_EQ(drawn("shadows.mode", "off").rgba, one.rgba) << i;
     set("shadows.mode", "monolithic");
   }
-  // Six of a sixth of its brightness, in its place and looking its way.
+  // Six lights with a sixth of its brightness each, with the same position and direction.
   for (const Entity entity : behind) world.get<WorldTransform>(entity) = world.get<WorldTransform>(spot);
   for (const Entity entity : behind) world.get<Light>(entity).intensity = world.get<Light>(spot).intensity / 6.0f;
   world.get<Light>(spot).intensity /= 6.0f;

@@ -84,7 +84,7 @@ TEST_F(ShadowReference, what_was_traced_once_is_taken_from_the_store) {
   ASSERT_TRUE(second.ok());
   EXPECT_EQ(store.loads, 1);
   EXPECT_EQ(second->visibility, first->visibility);
-  // Damage is noticed, and what was damaged is traced again.
+  // Damaged bytes are detected and traced again.
   store.kept.begin()->second.resize(100);
   const auto third = find_visibility(what);
   ASSERT_TRUE(third.ok());
@@ -141,7 +141,7 @@ TEST_F(ShadowReference, without_triangles_or_redraw_there_is_an_error_and_no_cra
 TEST_F(ShadowReference, every_knob_that_changes_the_model_is_judged_by_tracing) {
   make_shadows_module()->knobs(knobs_);
   std::vector<std::string> known, judged;
-  // Of the others frames of the same model tell what is right, or no value is.
+  // The other knobs have an exact value or a measure, or no right value.
   const std::set<std::string> others = {"shadows.mode", "shadows.classify", "shadows.visibility_bits",
                                         "shadows.slot_limit", "shadows.pair_limit"};
   for (const Knob& knob : knobs_.knobs())

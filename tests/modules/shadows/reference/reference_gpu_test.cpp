@@ -18,7 +18,7 @@ namespace {
 
 using test::value_of;
 
-/// A floor with a box on it under a wide lamp, seen from above; some sky.
+/// A floor with a box under a wide lamp, seen from above, with some sky.
 class ShadowReferenceFrames : public test::LitSceneTest {
  protected:
   [[nodiscard]] bool with_shadows() const override { return true; }
@@ -42,7 +42,7 @@ class ShadowReferenceFrames : public test::LitSceneTest {
     return trace_visibility(
         {.world = world, .geometry = geometry, .tracer = *tracer, .executor = *executor, .samples = samples});
   }
-  /// An image of one channel that a view leaves.
+  /// The one-channel image that a visualizer writes.
   [[nodiscard]] std::vector<float> shown(const std::string& view, std::string_view image) {
     settings.visualizer = view;
     draw();
@@ -65,7 +65,7 @@ TEST_F(ShadowReferenceFrames, the_view_of_a_light_shows_what_was_traced) {
   ASSERT_EQ(seen.size(), traced.pixels());
   std::size_t judged = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    // At the very border of the light's reach, floats decide otherwise than doubles.
+    // At the border of the light's reach, floats and doubles may decide differently.
     if (!traced.is_judged(i) || seen[i] < 0.0f) continue;
     EXPECT_NEAR(seen[i], traced.visibility[i] / 255.0f, 1e-3f);
     ++judged;

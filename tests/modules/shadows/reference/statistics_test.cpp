@@ -58,7 +58,7 @@ TEST(ShadowStatistics, means_are_over_pairs_that_the_light_reaches) {
 }
 
 TEST(ShadowStatistics, the_pixels_at_a_silhouette_may_show_either_side) {
-  // The silhouette is between columns 3 and 4; drawn one pixel to the left, then two.
+  // The traced silhouette is between columns 3 and 4. The drawn one is one pixel to the left, then two.
   const TracedVisibility traced = traced_from({"....####", "....####", "....####"});
   const ShadowError one = compare_visibility(traced, 0, drawn_from({"...#####", "...#####", "...#####"}));
   EXPECT_EQ(one.wrong, 0u);

@@ -13,7 +13,7 @@ namespace {
 
 using test::VisibilityScene;
 
-/// Share of a disc of radius 1 on the far side of a chord at distance k from its centre; k < 0: the chord is beyond the
+/// Share of a disc of radius 1 beyond a chord at signed distance k from its centre; k < 0: the share contains the
 /// centre.
 double segment_share(double k) {
   if (k >= 1.0) return 0.0;
@@ -21,11 +21,11 @@ double segment_share(double k) {
   return (std::acos(k) - k * std::sqrt(1.0 - k * k)) / 3.14159265358979323846;
 }
 
-/// How much of a disc around `middle` (radius, seen from p, across `toward`) is not behind the half plane x > 0 at
-/// height h.
+/// Share of a disc around `middle`, perpendicular to the view from p, that the half plane x > 0 at height h does not
+/// hide.
 double half_plane_visibility(const dvec3& p, const dvec3& middle, double radius, double h) {
   const dvec3 toward = glm::normalize(middle - p);
-  // Plane through the point and the half plane's edge; its normal looks to where x < 0.
+  // Plane through p and the half plane's edge; its normal points toward x < 0.
   dvec3 normal = glm::normalize(glm::cross(dvec3(0.0, h, p.z) - p, dvec3(0.0, 0.0, 1.0)));
   if (normal.x > 0.0) normal = -normal;
   const double across = std::sqrt(1.0 - std::pow(glm::dot(normal, toward), 2));
@@ -102,7 +102,7 @@ TEST(VisibilityTracing, more_samples_come_nearer) {
   EXPECT_LT(scene.trace(256).noise, scene.trace(16).noise);
 }
 
-/// A ball of unit radius as triangles, a little inside the true one.
+/// A triangulated ball of radius 1, slightly inside the true sphere.
 Primitive ball() {
   constexpr std::uint32_t kAround = 96, kUp = 48;
   Primitive p;
@@ -132,7 +132,7 @@ TEST(VisibilityTracing, a_ball_hides_the_lamp_in_its_umbra_and_nothing_beyond_it
   int hidden = 0, free = 0, partly = 0;
   for (std::uint32_t y = 0; y < traced.height; ++y)
     for (std::uint32_t x = 0; x < traced.width; ++x) {
-      // Angles between ball and lamp as the point sees them; the lamp's disc is atan(radius / distance) in half angle.
+      // Angles of ball and lamp as seen from p. The half angle of the lamp's disc is atan(radius / distance).
       const dvec3 p = scene.point(x, y);
       const double apart = std::acos(glm::dot(glm::normalize(lamp - p), glm::normalize(middle - p)));
       const double ball_angle = std::asin(kBall / glm::length(middle - p));

@@ -19,7 +19,7 @@
 
 namespace gloam::test {
 
-/// Numbers drawn at random.
+/// Random numbers.
 struct Dice {
   explicit Dice(std::uint32_t seed) : random(seed) {}
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
@@ -38,7 +38,8 @@ struct Dice {
   std::mt19937 random;
 };
 
-/// Frames drawn with shadows.mode = deferred and monolithic, which must be the same picture, and what final lists hold.
+/// Compares frames drawn with shadows.mode=deferred and monolithic, which must give the same picture. Also reads final
+/// lists.
 class DeferredShadowsTest : public HardShadows {
  protected:
   void SetUp() override {
@@ -71,7 +72,7 @@ class DeferredShadowsTest : public HardShadows {
     return made;
   }
 
-  // Shapes, all about a metre in size.
+  // Meshes of about one metre.
   void make_shapes() {
     Material leaf = exact_material(170, 180, 160, 255, 0), skin = leaf, grid = leaf, glass = leaf;
     leaf.double_sided = grid.double_sided = true;
@@ -111,12 +112,12 @@ class DeferredShadowsTest : public HardShadows {
     things.clear();
     lamps.clear();
   }
-  /// Floor and wall.
+  /// Adds a floor and a wall.
   void put_room() {
     put(plane_, flat(0.0) * glm::scale(dmat4(1.0), dvec3(3.0)));
     put(plane_, at(0.0, 1.0, -2.0) * glm::scale(dmat4(1.0), dvec3(3.0)));
   }
-  /// Spots in a row above the room that project a picture.
+  /// Adds a row of spots with a cookie above the room.
   void put_cookies(int count) {
     Cookies cookies;
     cookies.texels.push_back(resampled_cookie(
@@ -142,7 +143,7 @@ class DeferredShadowsTest : public HardShadows {
     put(pane_, glm::scale(at(0.2, 0.7, 1.0), dvec3(1.6, 1.0, 1.0)));
     put(pane_, glm::rotate(at(-0.7, 0.5, 0.4), 0.7, dvec3(0.0, 1.0, 0.0)));
   }
-  /// A lamp of each kind.
+  /// Adds a light of each kind.
   void put_three_lights() {
     put_light(point(0.08f), dvec3(0.5, 1.4, 0.9), dvec3(0.0, -1.0, 0.0), 128);
     put_light(spot(40.0, 0.1f), dvec3(-0.9, 1.8, 0.8), dvec3(0.4, -1.0, -0.6), 128);
@@ -192,7 +193,7 @@ class DeferredShadowsTest : public HardShadows {
       settings.world_from_camera =
           settings.world_from_camera * glm::rotate(dmat4(1.0), dice.between(-3.1, 3.1), dvec3(0.0, 0.0, 1.0));
   }
-  /// A room, things, lamps and maybe a sun, seen from somewhere.
+  /// A room, casters, lights and maybe directional lights, from a random camera.
   void random_scene(std::uint32_t seed, std::uint32_t width = 64, std::uint32_t height = 48) {
     clear_scene();
     Dice dice(seed);
@@ -207,7 +208,7 @@ class DeferredShadowsTest : public HardShadows {
     random_camera(dice, width, height);
   }
 
-  /// What one frame gives.
+  /// The pictures of one frame.
   struct Drawn {
     LinearPicture light;
     Picture picture;
@@ -219,7 +220,7 @@ class DeferredShadowsTest : public HardShadows {
     Drawn drawn{linear(settings.id.value), picture(settings.id.value)};
     return drawn;
   }
-  /// Final lists of one more frame.
+  /// Draws one more frame and reads its final lists.
   [[nodiscard]] ReadFinalLists lists() {
     reader->wanted = true;
     draw();
@@ -231,8 +232,8 @@ class DeferredShadowsTest : public HardShadows {
     for (const float channel : drawn.light.rgba) bad += std::isfinite(channel) && channel >= 0.0f ? 0 : 1;
     EXPECT_EQ(bad, 0u) << what;
   }
-  /// At most 1/255 a channel, and as much in the light before the tone curve, where nothing is too dark or too bright
-  /// to show.
+  /// Expects that channels differ by at most 1/255. The same limit holds for linear light before the tone curve,
+  /// relative to its value, unless it is too dark or too bright to show.
   static void expect_same(const Drawn& a, const Drawn& b, const std::string& what) {
     ASSERT_EQ(a.picture.rgba.size(), b.picture.rgba.size()) << what;
     ASSERT_EQ(a.light.rgba.size(), b.light.rgba.size()) << what;
@@ -250,7 +251,7 @@ class DeferredShadowsTest : public HardShadows {
                        << first / 4 % a.light.width << ',' << first / 4 / a.light.width << ": " << a.light.rgba[first]
                        << " and " << b.light.rgba[first];
   }
-  /// Draws both; what deferred gave.
+  /// Draws both modes and compares them. Returns the deferred frame.
   Drawn expect_deferred_is_monolithic(const std::string& what) {
     const Drawn monolithic = frame("monolithic");
     reader->wanted = true;
@@ -263,7 +264,8 @@ class DeferredShadowsTest : public HardShadows {
     expect_same(deferred, monolithic, what);
     return deferred;
   }
-  /// Entries ascend by light, each slot is one entry's, and nothing is left that only unfinished lists hold.
+  /// Expects that entries ascend by light, that no two entries share a slot, and that no values of unfinished lists are
+  /// left.
   static void expect_ordered(const ReadFinalLists& lists, const std::string& what) {
     std::vector<bool> taken(lists.slot_capacity, false);
     std::size_t slots = 0, wrong = 0, incomplete = 0;
@@ -295,7 +297,7 @@ class DeferredShadowsTest : public HardShadows {
   }
 
   FinalListReader* reader = nullptr;
-  dvec3 origin = dvec3(0.0);  ///< where scenes stand
+  dvec3 origin = dvec3(0.0);  ///< world position of the scene's origin
   std::vector<Entity> lamps;
   std::unordered_map<Entity, std::string> names_;
   std::vector<std::uint32_t> shapes_;

@@ -16,8 +16,9 @@
 
 namespace gloam::test {
 
-/// A wall with boxes before it, sky at its side, and four lights whose tiles are lit as a whole, partly or not at all;
-/// what the frame's final lists hold. Too dark for the picture, so that views stand before black.
+/// A wall with boxes in front of it, sky beside it, and four lights: there are tiles that a light lights as a whole,
+/// partly and not at all. Also reads the frame's final lists. The picture is so dark that visualizers are drawn over
+/// black.
 class FinalListScene : public HardShadows {
  protected:
   void SetUp() override {
@@ -63,7 +64,7 @@ class FinalListScene : public HardShadows {
     boxes_.push_back({center, half});
   }
 
-  /// Draws a view of the frame, and reads the frame's final lists.
+  /// Draws the frame with a visualizer, and reads its final lists.
   [[nodiscard]] ReadFinalLists lists(const std::string& view = "none") {
     settings.visualizer = view;
     reader_->wanted = true;
@@ -72,7 +73,7 @@ class FinalListScene : public HardShadows {
     settings.visualizer = "none";
     return reader_->read();
   }
-  /// The image that view "shadow:NAME" leaves.
+  /// The image that visualizer "shadow:NAME" writes.
   [[nodiscard]] std::vector<float> visibility(const std::string& name) {
     settings.visualizer = "shadow:" + name;
     draw();
@@ -96,7 +97,7 @@ class FinalListScene : public HardShadows {
   [[nodiscard]] std::uint32_t tile_of(std::uint32_t x, std::uint32_t y) const {
     return y / 8 * ((settings.width + 7) / 8) + x / 8;
   }
-  /// Whether a pixel shows the wall, in front of which every light stands.
+  /// Whether a pixel shows the wall. All lights are in front of it.
   [[nodiscard]] bool shows_wall(std::uint32_t x, std::uint32_t y) const {
     const Ray r = ray(x, y);
     const dvec3 point = r.origin - r.direction * (r.origin.z / r.direction.z);

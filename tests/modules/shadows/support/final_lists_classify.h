@@ -12,12 +12,12 @@
 
 namespace gloam::test {
 
-inline constexpr std::uint32_t kTilePixels = GLOAM_SHADOW_TILE;  // of a side
+inline constexpr std::uint32_t kTilePixels = GLOAM_SHADOW_TILE;  // pixels of a tile's side
 
-/// Final lists with and without classification, and what a view of a light shows, pixel by pixel.
+/// Compares final lists with and without classification, and with visualizer "shadow" at each pixel.
 class ClassifyShadowsTest : public DeferredShadowsTest {
  protected:
-  /// Pixels of a tile that the light gives something for certain, whatever is between them.
+  /// Pixels of a tile that the light certainly illuminates, shadows apart.
   [[nodiscard]] std::vector<std::size_t> certain_pixels(const ReadFinalLists& lists, const GeometryPicture& geometry,
                                                         const TileLight& of) const {
     std::vector<std::size_t> found;
@@ -45,7 +45,7 @@ class ClassifyShadowsTest : public DeferredShadowsTest {
     return glm::dot(normal, to_light) > 1e-2;
   }
 
-  /// The lists of this view with and without classification must say the same.
+  /// Expects that the view's lists with and without classification do not contradict each other.
   void expect_no_contradiction(const std::string& what) {
     set("shadows.classify", "off");
     const ReadFinalLists off = lists();
@@ -64,7 +64,7 @@ class ClassifyShadowsTest : public DeferredShadowsTest {
     for (const auto& [place, visibility] : classified) {
       const auto other = filtered.find(place);
       if (other == filtered.end()) {
-        // Where the light gives no pixel anything, the filter drops it and classification may not know.
+        // When the light illuminates no pixel, the filter drops it, but classification may keep it.
         if (!visibility.all_lit || !certain_pixels(on, geometry, place).empty())
           tell(wrong, place, "not in");
         else
@@ -85,7 +85,7 @@ class ClassifyShadowsTest : public DeferredShadowsTest {
     out << (place.directional ? "sun " : "lamp ") << place.light << " of tile " << place.tile << ' ' << how
         << " what the filter finds\n";
   }
-  /// Every candidate ends as exactly one thing.
+  /// Expects that every tile light has exactly one result.
   static void expect_sums(const ReadFinalLists& lists, const std::string& what) {
     const auto& c = lists.counters;
     EXPECT_EQ(c.candidates, c.unshadowed + c.lit_at_once + c.unlit_at_once + c.pairs) << what;
@@ -100,7 +100,7 @@ class ClassifyShadowsTest : public DeferredShadowsTest {
     EXPECT_EQ(listed, c.unshadowed + c.lit_at_once + c.lit_by_filter + c.slots) << what;
     EXPECT_EQ(slots, c.slots) << what;
   }
-  /// What is in a list, or not, is what a fragment shader sees pixel by pixel.
+  /// Expects that the lists agree with what a fragment shader finds at each pixel.
   void expect_same_as_view(const std::string& what) {
     set("shadows.mode", "deferred");
     set("shadows.classify", "on");
@@ -147,7 +147,7 @@ class ClassifyShadowsTest : public DeferredShadowsTest {
     }
     EXPECT_EQ(off, 0u) << what << (place.directional ? ", sun " : ", lamp ") << place.light << " at " << first;
   }
-  /// Scenes in which classification is right or wrong by little.
+  /// Builds a scene in which small differences decide whether classification is right.
   void close_scene(std::uint32_t seed, uvec2 size) {
     clear_scene();
     Dice dice(seed);
@@ -161,30 +161,30 @@ class ClassifyShadowsTest : public DeferredShadowsTest {
       const dvec3 on_floor(dice.between(-1.2, 1.2), 0.0, dice.between(-1.2, 1.2));
       const double large = dice.between(0.1, 0.5), small = dice.between(0.02, 0.1);
       const dvec3 up(0.0, 1.0, 0.0);
-      // Millimetres above the floor.
+      // Sheets and boxes millimetres above the floor.
       if (kind == 0)
         thing(dice.one_in(2) ? 3 : 6, on_floor + up * dice.between(0.001, 0.012), dvec3(large), 1.5707963,
               dvec3(1, 0, 0));
-      // Little things in wide light.
+      // Small casters under wide lights.
       if (kind == 1)
         thing(dice.random() % 2, on_floor + up * dice.between(0.1, 1.5),
               dvec3(small, dice.one_in(3) ? 0.6 : small, small), 0.5, up);
-      // Plates over each other, slanted, some so large that nothing else is near.
+      // Slanted plates above each other, some of them much larger than everything near them.
       if (kind == 2 && i < 4) {
         const double turn = dice.between(0.8, 2.3), apart = dice.between(0.003, 0.05), wide = i == 0 ? 1.5 : large;
         const dvec3 axis = glm::normalize(dvec3(1.0, 0.4 * dice.between(-1.0, 1.0), 0.0));
         thing(3, on_floor + up * 0.3, dvec3(wide), turn, axis);
         thing(3, on_floor + up * (0.3 + apart), dvec3(wide * 1.3), turn + dice.between(-0.02, 0.02), axis);
       }
-      // All round low lamps.
+      // Casters all around low lamps.
       if (kind == 3)
         thing(dice.random() % 2, on_floor + up * dice.between(0.0, 0.8), dvec3(large * 0.5), 0.7 * i,
               dvec3(0.6, 0.8, 0.0));
-      // A plain with blocks near and far.
+      // A plain with boxes near and far.
       if (kind == 4)
         thing(0, on_floor * dice.between(1.0, 12.0) + up * large,
               dvec3(large, 6.0 * large, large) * dice.between(0.5, 4.0), 0.4 * i, up);
-      // Subsurface things against others.
+      // Subsurface casters next to opaque ones.
       if (kind == 5) thing(i % 3 == 0 ? 4 : i % 3 == 1 ? 7 : 1, on_floor * 0.5 + up * 0.15, dvec3(0.3), 0.3 * i, up);
     }
     if (kind == 4 && dice.one_in(2)) put(plane_, flat(4.0) * glm::scale(dmat4(1.0), dvec3(half)));
@@ -215,13 +215,13 @@ class ClassifyShadowsTest : public DeferredShadowsTest {
   std::uint64_t lit = 0, unlit = 0, open = 0, candidates = 0, harmless = 0, compared = 0;
 };
 
-/// Knobs that differ from the defaults; those that make other pipelines take longer than all their scenes.
+/// A test parameter: knobs that differ from the defaults. Making other pipelines takes longer than drawing all scenes.
 struct ClassifyWay {
   const char* name;
   std::vector<std::pair<const char*, const char*>> knobs;
   int scenes = 20;
   uvec2 size = uvec2(64, 48);
-  bool close = false;  ///< close_scene
+  bool close = false;  ///< scenes of close_scene() instead of random_scene()
 };
 inline std::string name_of_way(const ::testing::TestParamInfo<ClassifyWay>& way) { return way.param.name; }
 

@@ -16,11 +16,10 @@
 
 namespace gloam::test {
 
-/// What words that no kernel may write begin as.
+/// Initial value of words that no kernel may write.
 inline constexpr std::uint32_t kGuard = 0xA5A5A5A5u;
 
-/// One dispatch whose buffers and images hold something before it and are read back after it. Any error is a failure of
-/// the test.
+/// One dispatch with given contents of buffers and images, which are read back after it. Any error fails the test.
 class ListDispatch {
  public:
   explicit ListDispatch(gpu::Device& device) : device_(device), uploader_(device) {
@@ -40,7 +39,7 @@ class ListDispatch {
     buffers_.push_back(make_upload(device_, items));
     bindings_.push_back({binding, gpu::Binding::BufferRange{buffers_.back()}});
   }
-  /// `items` is what the buffer holds, before and after.
+  /// items: the buffer's content before the dispatch, and after run() its content after the dispatch.
   template <class T>
   void in_out(std::uint32_t binding, std::vector<T>& items) {
     const std::size_t bytes = items.size() * sizeof(T);
@@ -58,7 +57,7 @@ class ListDispatch {
     const gpu::ImageHandle made = image(format, size, texels, gpu::Access::compute_read, shape);
     bindings_.push_back({binding, gpu::Binding::Sampled{{.image = made}, sampler_}});
   }
-  /// An image of others that is ready for compute_read.
+  /// Binds an image that the caller owns, in state compute_read.
   void sampled(std::uint32_t binding, gpu::ImageHandle made) {
     bindings_.push_back({binding, gpu::Binding::Sampled{{.image = made}, sampler_}});
   }

@@ -21,7 +21,7 @@
 
 namespace gloam::test {
 
-/// What the pixels of a tile see of a light, in steps of its visibility; row by row.
+/// Visibility of a light at the pixels of a tile, in steps, row by row.
 struct TileVisibility {
   bool all_lit = false;
   std::array<std::uint8_t, GLOAM_SLOT_PIXELS> steps{};
@@ -36,9 +36,9 @@ struct TileLight {
   auto operator<=>(const TileLight&) const = default;
 };
 
-/// What a frame's final lists hold. Words are taken apart here by what final_lists_shared.h says.
+/// A frame's final lists. Words are decoded here as final_lists_shared.h documents them, independently of the module.
 struct ReadFinalLists {
-  std::uint32_t frames = 0;  ///< 0: the frame had none
+  std::uint32_t frames = 0;  ///< 0: the frame had no final lists
   uvec2 tiles = uvec2(0);
   std::vector<uvec4> texels;
   std::vector<std::uint32_t> entries;
@@ -50,8 +50,8 @@ struct ReadFinalLists {
   std::uint32_t slot_capacity = 0;
   std::uint32_t pair_capacity = 0;
   bool always_complete = false;
-  std::vector<Entity> local;        ///< by entry
-  std::vector<Entity> directional;  ///< likewise
+  std::vector<Entity> local;        ///< by an entry's light index
+  std::vector<Entity> directional;  ///< the same
 
   [[nodiscard]] bool complete(std::uint32_t tile) const { return texels[tile].y != GLOAM_NO_FINAL_LIST; }
   [[nodiscard]] std::uint32_t most() const { return (1u << bits) - 1; }
@@ -74,7 +74,7 @@ struct ReadFinalLists {
     }
     return found;
   }
-  /// Everything that is in a list.
+  /// All entries of all tiles.
   [[nodiscard]] std::map<TileLight, TileVisibility> all() const {
     std::map<TileLight, TileVisibility> found;
     for (std::uint32_t tile = 0; tile < texels.size(); ++tile)
@@ -85,7 +85,7 @@ struct ReadFinalLists {
   }
 };
 
-/// Takes the final lists out of frames; comes after the other modules.
+/// Reads the final lists of frames. Must come after the other modules.
 class FinalListReader final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "final_list_reader"; }
@@ -113,7 +113,7 @@ class FinalListReader final : public Module {
   }
   void release() override { copies_.reset(); }
 
-  /// Of the last frame, which has ended.
+  /// The lists of the last frame, which must have ended.
   [[nodiscard]] const ReadFinalLists& read() {
     if (copies_ == nullptr) return read_;
     copies_->finish();

@@ -18,14 +18,14 @@
 
 namespace gloam::test {
 
-/// What drawn visibility may be off from traced visibility, over pixels that the light reaches.
+/// Largest mean difference between drawn and traced visibility, over pixels that the light reaches.
 inline constexpr double kMostMean = 0.02;
 inline constexpr double kMostPenumbraMean = 0.08;           ///< where traced visibility is 0.05…0.95
-inline constexpr std::uint64_t kFewestPenumbraPairs = 100;  ///< fewer say nothing about penumbrae
-/// Share of pixels more than a pixel away from traced silhouettes that are off by more than half.
+inline constexpr std::uint64_t kFewestPenumbraPairs = 100;  ///< with fewer, the penumbra mean is not checked
+/// Largest share of pixels, more than a pixel away from traced silhouettes, that differ by more than 0.5.
 inline constexpr double kMostWrong = 0.001;
 
-/// A turn that takes −Z to `direction`.
+/// A rotation that takes −Z to `direction`.
 [[nodiscard]] inline dmat4 turn_towards(const dvec3& direction) {
   const dvec3 z = -glm::normalize(direction);
   const dvec3 x = glm::normalize(glm::cross(std::abs(z.y) < 0.9 ? dvec3(0.0, 1.0, 0.0) : dvec3(1.0, 0.0, 0.0), z));
@@ -57,7 +57,7 @@ inline constexpr double kMostWrong = 0.001;
   return finished(std::move(p));
 }
 
-/// One renderer for all tests of this program: making its pipelines takes longer than all frames together.
+/// One renderer for all tests of this program, because making its pipelines takes longer than drawing all frames.
 struct SharedRenderer {
   explicit SharedRenderer(ModuleList modules) {
     RendererOptions options;
@@ -72,13 +72,13 @@ struct SharedRenderer {
     if (level >= LogLevel::warning && warnings != nullptr) warnings->emplace_back(line);
   }};
   std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
-  std::unique_ptr<Renderer> renderer;  ///< the running test has it
+  std::unique_ptr<Renderer> renderer;  ///< null while a test uses it
 };
 
-/// Whole frames whose shadows are held against rays.
+/// Whole frames whose shadows are compared with traced visibility.
 class HardShadows : public LitSceneTest {
  protected:
-  /// A small scene whose second box may move; returns it.
+  /// Fills a world with a small scene. Returns its second box, which tests move.
   static Entity fill(World& into) {
     test::SceneMaker maker(into);
     into.resource<SceneEnvironment>().has_exposure = true;
@@ -127,7 +127,7 @@ class HardShadows : public LitSceneTest {
   }
 
   [[nodiscard]] static dmat4 at(double x, double y, double z) { return glm::translate(dmat4(1.0), dvec3(x, y, z)); }
-  /// Where a quad lies flat and faces up.
+  /// The transform that lays a quad flat, facing up.
   [[nodiscard]] static dmat4 flat(double height) {
     return glm::rotate(at(0.0, height, 0.0), glm::radians(-90.0), dvec3(1.0, 0.0, 0.0));
   }
@@ -186,7 +186,7 @@ class HardShadows : public LitSceneTest {
     return HasFatalFailure() ? LinearPicture{} : linear();
   }
 
-  /// Visibility of a light at each pixel as its maps give it; below 0 where it does not reach.
+  /// Drawn visibility of a light at each pixel; negative where it does not reach.
   [[nodiscard]] std::vector<float> visibility(Entity lamp) {
     settings.visualizer = "shadow:" + name_of(lamp);
     draw();
@@ -196,7 +196,7 @@ class HardShadows : public LitSceneTest {
     std::memcpy(values.data(), image.bytes.data(), image.bytes.size());
     return values;
   }
-  /// Visibility of all lights as rays give it.
+  /// Traced visibility of all lights.
   [[nodiscard]] TracedVisibility trace(std::uint32_t samples = 64) {
     draw();
     const GeometryPicture geometry = value_of(renderer->read_geometry(world, settings.id));
@@ -233,7 +233,7 @@ class HardShadows : public LitSceneTest {
     }
     EXPECT_LE(e.wrong_share(), kMostWrong) << what;
   }
-  /// Draws and traces the view as it is.
+  /// Draws and traces the view in its present state.
   void expect_right(const std::string& what, Entity lamp, std::uint64_t least_pairs = 500) {
     expect_right(what, error(lamp, trace()), least_pairs);
   }
@@ -245,7 +245,7 @@ class HardShadows : public LitSceneTest {
   }
 
   std::uint32_t stone = 0;
-  std::vector<Entity> things;  ///< everything that has a place
+  std::vector<Entity> things;  ///< all entities of the scene
 };
 
 }  // namespace gloam::test

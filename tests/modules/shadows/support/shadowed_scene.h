@@ -11,7 +11,7 @@
 
 namespace gloam::test {
 
-/// A wall in the plane z = 0 that the camera looks at, and boxes before it, all without light of their own.
+/// A wall in the plane z = 0, seen by the camera, with boxes in front of it. There is no light until a test adds one.
 class ShadowedScene : public LitSceneTest {
  protected:
   struct Box {
@@ -34,7 +34,7 @@ class ShadowedScene : public LitSceneTest {
     boxes.push_back({center, half});
     return scene.draw(scene.mesh(test::box(vec3(half), stone)), glm::translate(dmat4(1.0), center));
   }
-  /// A light of 8 cd (or lux) under a name, in front of the wall.
+  /// Adds a named light of 8 cd (or lux) in front of the wall.
   Entity lamp(const std::string& name, LightKind kind, const dvec3& position,
               const dvec3& direction = dvec3(0.0, 0.0, -1.0)) {
     Light made;
@@ -61,7 +61,7 @@ class ShadowedScene : public LitSceneTest {
     set(knob, value);
     return drawn();
   }
-  /// The image that view "shadow:NAME" leaves.
+  /// The image that visualizer "shadow:NAME" writes.
   [[nodiscard]] std::vector<float> visibility(const std::string& name) {
     settings.visualizer = "shadow:" + name;
     draw();

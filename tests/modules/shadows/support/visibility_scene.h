@@ -19,7 +19,7 @@
 /// A floor that a camera looks at, for tests of traced visibility.
 namespace gloam::test {
 
-/// The geometry buffer of an endless plane: the camera sees the side that looks towards it.
+/// The geometry buffer of an infinite plane, of which the camera sees the side that faces it.
 [[nodiscard]] inline GeometryPicture plane_picture(const RenderView& view, const dvec3& through, const dvec3& normal,
                                                    bool subsurface = false) {
   GeometryPicture picture;
@@ -45,7 +45,7 @@ namespace gloam::test {
   return picture;
 }
 
-/// A world, a view of the plane y = 0 (shifted by `place`) and what is traced from them.
+/// A world, a view of the plane y = 0 (shifted by `place`), and the objects that tracing needs.
 class VisibilityScene {
  public:
   explicit VisibilityScene(const dvec3& place = dvec3(0.0)) : place_(place) {
@@ -65,7 +65,7 @@ class VisibilityScene {
     matrix[3] = dvec4(place_ + at, 1.0);
     return world.create(WorldTransform{matrix}, light);
   }
-  /// A flat quad with corners in the plane y = height.
+  /// Adds a horizontal quad between two corners in the plane y = height.
   void sheet(double height, const dvec3& from, const dvec3& to) {
     const dvec3 half = (to - from) * 0.5, middle = (to + from) * 0.5;
     dmat4 matrix(1.0);
@@ -83,7 +83,7 @@ class VisibilityScene {
   [[nodiscard]] VisibilityInput input(std::uint32_t samples) {
     return {.world = world, .geometry = geometry, .tracer = *tracer, .executor = *executor, .samples = samples};
   }
-  /// Relative to the scene's place.
+  /// The surface point under a pixel, relative to `place`.
   [[nodiscard]] dvec3 point(std::uint32_t x, std::uint32_t y) const {
     return geometry.position(x, y) + (view.position - place_);
   }

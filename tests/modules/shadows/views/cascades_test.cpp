@@ -35,13 +35,13 @@ CasterBounds box(const dvec3& center, const dvec3& half) {
 
 FaceAxes sun() { return node_axes(glm::rotate(glm::rotate(dmat4(1.0), 0.4, dvec3(0, 1, 0)), -0.9, dvec3(1, 0, 0))); }
 
-/// A world position seen at a place of the picture (−1…1) and depth, by the matrix that draws it.
+/// The world position at a point of the picture (−1 … 1) and a view depth, from the matrix that draws it.
 dvec3 seen_at(const RenderView& view, double x, double y, double depth_m) {
   const dmat4 clip_from_relative(view.clip_from_relative);
   const double w = view.camera.orthographic ? 1.0 : depth_m;
   const dvec3 forward =
       -dvec3(view.view_from_relative[0][2], view.view_from_relative[1][2], view.view_from_relative[2][2]);
-  // Three planes: two of the picture, one of depth.
+  // Intersection of three planes: two of the picture, one of depth.
   glm::dmat3 rows;
   dvec3 right;
   for (int axis = 0; axis < 3; ++axis) {
@@ -128,7 +128,7 @@ TEST(CascadeSpheres, end_with_the_casters_own_one) {
 }
 
 TEST(CascadeSpheres, leave_out_slices_without_a_caster) {
-  // A wide world behind the camera's back: what it sees, no caster touches.
+  // Wide casters behind the camera: they touch none of the slices in front of it.
   const auto behind = cascade_spheres(view_of(camera_at({0, 0, -500})), box({0, 0, 0}, dvec3(200.0)), 4);
   for (const CascadeSphere& sphere : behind)
     EXPECT_LE(glm::length(sphere.center), sphere.radius_m + 200.0 * 1.8 * 1.125);

@@ -122,7 +122,7 @@ TEST(ShadowFaces, a_cube_is_turned_so_that_no_axis_of_the_world_runs_along_texel
     const FaceAxes axes = cube_axes(f);
     for (int world = 0; world < 3; ++world) {
       const glm::dvec2 seen(axes.right[world], axes.up[world]);
-      if (glm::length(seen) < 0.5) continue;  // foreshortened to little
+      if (glm::length(seen) < 0.5) continue;  // strongly foreshortened
       EXPECT_GT(std::min(std::abs(seen.x), std::abs(seen.y)) / glm::length(seen), std::sin(glm::radians(8.0)));
     }
   }

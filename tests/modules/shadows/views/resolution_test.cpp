@@ -86,7 +86,7 @@ TEST(ShadowResolution, sizes_hold_on_near_a_limit_and_follow_beyond_it) {
   EXPECT_EQ(wanted_size(2000.0f, 16), 2048u);
 }
 
-/// Of maps that take this many texels at a density of 1.
+/// Texels by density, for maps that take this many at density 1.
 auto maps_of(double texels) {
   return [texels](float density) { return texels * static_cast<double>(density) * static_cast<double>(density); };
 }

@@ -5,7 +5,8 @@
 #include "shaders/render/view_api.glsl"
 #include "shaders/veil/veil_shared.h"
 
-// Light is dimmed by exp(-density · distance) and replaced by the veil's; blending (premultiplied) keeps the rest.
+// Attenuates light by exp(-density · distance) and adds the veil's radiance for the lost share. Premultiplied blending
+// keeps the rest of the target.
 
 layout(push_constant, scalar) uniform Veil { VeilConstants veil; };
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
