@@ -6,7 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cstring>
-#include <ranges>
+#include <span>
 #include <utility>
 
 #include "engine/core/assert.h"
@@ -14,17 +14,18 @@
 namespace gloam {
 namespace {
 
-/// The rests of columns begin on pages of their own. Were they to begin at the same place of each page, their first
-/// rows would fight for the same few cache sets; so column c of archetype a starts this many lines into its page.
+/// The rest of each column begins on its own page. If all began at the same offset within a page, their first rows
+/// would compete for the same few cache sets. So the offsets are spread over kColours cache lines, by archetype and
+/// column.
 constexpr std::uint32_t kColours = 32;
 std::size_t colour_offset(std::uint32_t archetype, std::size_t column) {
   return (archetype * 11 + column * 7) % kColours * kColumnAlignment;
 }
 
-/// A component id is an index into the tables of each archetype, which grow by so many.
+/// Component ids index the tables of each archetype; the tables grow by this many ids at a time.
 constexpr std::size_t kIdStep = 64;
 
-/// Two copies of `Part` bytes that overlap where size < 2 · Part.
+/// Copies the first and the last `Part` bytes; these overlap if size < 2 · Part. Part ≤ size ≤ 2 · Part.
 template <std::size_t Part>
 void copy_both_ends(std::byte* to, const std::byte* from, std::size_t size) {
   std::array<std::byte, Part> head;
@@ -35,7 +36,7 @@ void copy_both_ends(std::byte* to, const std::byte* from, std::size_t size) {
   std::memcpy(to + size - Part, tail.data(), Part);
 }
 
-/// The usual sizes without a call. The two do not overlap.
+/// Copies the usual sizes without a call of memcpy. The two places must not overlap.
 inline void copy_value(std::byte* to, const std::byte* from, std::size_t size) {
   if (size >= 8 && size <= 16) return copy_both_ends<8>(to, from, size);
   if (size >= 4 && size < 8) return copy_both_ends<4>(to, from, size);
@@ -46,7 +47,7 @@ inline void copy_value(std::byte* to, const std::byte* from, std::size_t size) {
 }  // namespace
 
 Archetype::Archetype(std::uint32_t index, std::vector<ComponentId> components, std::span<const ComponentInfo> infos,
-                     std::uint32_t max_rows, PackedMemory& fronts)
+                     std::uint32_t max_rows, FrontMemory& fronts)
     : index_(index), components_(std::move(components)), max_rows_(max_rows) {
   columns_.push_back({.bases = {}, .size = sizeof(Entity), .id = kNoComponent, .stretch = {}, .ticks = {}});
   std::size_t row_bytes = sizeof(Entity);
@@ -57,19 +58,25 @@ Archetype::Archetype(std::uint32_t index, std::vector<ComponentId> components, s
   }
   front_room_ = std::min({kFrontRows, static_cast<std::uint32_t>(kFrontBytes / row_bytes), max_rows_});
 
-  // One line more: where fronts are as long as a way of the cache, their first rows would fight for the same sets.
+  // One extra cache line: if the fronts were as long as a way of the cache, their first rows would compete for the same
+  // cache sets.
+  const auto front_bytes = [this](const Column& c) {
+    return round_up(std::size_t{c.size} * front_room_, kColumnAlignment);
+  };
+  columns_[0].bases[0] = fronts.entities.take(front_bytes(columns_[0]) + kColumnAlignment);
+  const auto components_with_bytes = std::span(columns_).subspan(1);
   std::size_t bytes = kColumnAlignment;
-  for (const Column& column : columns_) bytes += round_up(std::size_t{column.size} * front_room_, kColumnAlignment);
-  std::byte* front = fronts.take(bytes);
-  for (Column& column : columns_) {
+  for (const Column& column : components_with_bytes) bytes += front_bytes(column);
+  std::byte* front = fronts.components.take(bytes);
+  for (Column& column : components_with_bytes) {
     column.bases[0] = front;
-    front += round_up(std::size_t{column.size} * front_room_, kColumnAlignment);
+    front += front_bytes(column);
   }
 
   cover_ids(infos.size());
   for (const Range range : ranges_) {
     range.table_[Range::kOwner] = reinterpret_cast<std::byte*>(this);
-    for (const ComponentId id : components_) range.table_[Range::kFirstId + id] = columns_[0].bases[0];  // tags keep it
+    for (const ComponentId id : components_) range.table_[Range::kFirstId + id] = columns_[0].bases[0];  // for tags
   }
   set_bases();
 }
@@ -91,7 +98,7 @@ bool Archetype::cover_ids(std::size_t component_count) {
 
 void Archetype::set_bases() {
   entity_bases_ = columns_[0].bases;
-  for (const Column& column : columns_ | std::views::drop(1)) {
+  for (const Column& column : std::span(columns_).subspan(1)) {
     for (std::size_t i = 0; i < ranges_.size(); ++i) ranges_[i].table_[Range::kFirstId + column.id] = column.bases[i];
   }
 }
@@ -109,7 +116,7 @@ void Archetype::grow(std::uint32_t more_rows) {
 }
 
 void Archetype::reserve_rest() {
-  // The rests have room for the rows in front of them too, so that both are indexed alike.
+  // The rest also has address space for the rows of the front, so that both ranges are indexed by the same row numbers.
   std::size_t end = 0;
   for (Column& column : columns_) {
     const std::size_t bytes =

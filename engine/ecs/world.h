@@ -32,7 +32,7 @@ namespace gloam {
 template <class... Args>
 class View;
 
-/// Address space to reserve; only what is used takes memory.
+/// Sizes of the address space to reserve; only the part in use takes memory. Exceeding a limit asserts.
 struct WorldLimits {
   std::uint32_t max_rows_per_archetype = 1u << 23;
   std::uint32_t max_entities = 1u << 26;
@@ -41,17 +41,16 @@ struct WorldLimits {
 /// Entities, their components, and resources. Two worlds share nothing.
 ///
 /// Rules:
-/// - A component type is registered before it is named anywhere else; ids follow the order of registration.
-/// - A *structural change* is create, destroy, add or remove. While a view iterates it asserts: record it in a
-/// CommandBuffer.
-///   No other thread may touch the world during one.
-/// - References to components, and spans, stay valid while entities come: rows stay in place. They end when their
-/// entity is
-///   destroyed or gains or loses a component, and when another entity of the same set of components does (its row is
-///   filled with the last one).
+/// - A component type must be registered before any other use. Ids follow the order of registration.
+/// - A *structural change* is create, destroy, add or remove. It must not happen while a view iterates (asserted):
+///   record it in a CommandBuffer instead. During a structural change no other thread may use the world.
+/// - References and spans to components stay valid while entities are created, because rows keep their place. They
+///   become invalid when their entity is destroyed or gains or loses a component, and also when this happens to another
+/// entity with the same set of components (the last row moves into the freed row).
 /// - References to resources stay valid until the resource is removed; setting it again assigns in place.
-/// - Between structural changes any number of threads may read, take and iterate views, and write different values.
-/// - Rows have no order that may be relied on, but the same calls give the same order.
+/// - Between structural changes any number of threads may read, construct and iterate views, and write different
+///   values.
+/// - The order of rows is unspecified, but the same calls give the same order.
 class World {
  public:
   explicit World(const WorldLimits& limits = {});
@@ -59,8 +58,8 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Idempotent: a type keeps its first id and name. T: trivially copyable, alignment ≤ 64; an empty struct is a tag
-  /// and takes no bytes. Names are unique.
+  /// Registers T and returns its id. A type that is already registered keeps its id and name. T: trivially copyable,
+  /// alignment ≤ 64; an empty struct is a tag and takes no bytes. A name of another type asserts.
   template <class T>
   ComponentId register_component(std::string_view name = type_name<T>()) {
     require_component<T>();
@@ -76,10 +75,10 @@ class World {
     const auto search = [this] { return std::uint32_t{find_id(type_key<T>(), type_name<T>())}; };
     return static_cast<ComponentId>(fast_ids_.find_or<T>(search));
   }
-  /// Every registered component, by id.
+  /// All registered components, indexed by id.
   [[nodiscard]] std::span<const ComponentInfo> components() const { return infos_; }
 
-  /// One entity with these components. Each type once.
+  /// Creates an entity with these components, each type at most once.
   template <class... Ts>
   Entity create(const Ts&... values) {
     begin_structural_change();
@@ -88,7 +87,7 @@ class World {
     fill_rows(bundle, rows.first, rows.first + 1, std::index_sequence_for<Ts...>{}, values...);
     return rows.entity;
   }
-  /// out.size() entities with the same values, as one contiguous range of rows in the order of `out`.
+  /// Creates out.size() entities with the same values, as one contiguous range of rows in the order of `out`.
   template <class... Ts>
   void create_bulk(std::span<Entity> out, const Ts&... values) {
     begin_structural_change();
@@ -109,14 +108,14 @@ class World {
   }
   [[nodiscard]] std::size_t entity_count() const { return alive_count_; }
 
-  /// Overwrites the value if `e` has one already. `e` must be alive.
+  /// Adds a component. If `e` already has one, overwrites its value and marks it as changed. `e` must be alive.
   template <class T>
   T& add(Entity e, T value = T{}) {
     T* cell = reinterpret_cast<T*>(add_cell(e, component_id<T>(), kComponentSize<T>));
     if constexpr (!std::is_empty_v<T>) ::new (static_cast<void*>(cell)) T(value);
     return *cell;
   }
-  /// Whether there was one to remove. `e` must be alive.
+  /// Returns whether `e` had a T to remove. `e` must be alive.
   template <class T>
   bool remove(Entity e) {
     return remove_component(e, component_id<T>());
@@ -126,7 +125,7 @@ class World {
   [[nodiscard]] bool has(Entity e) const {
     return living(e).range.base(component_id<T>()) != nullptr;
   }
-  /// `e` must be alive and have a T. Writing does not stamp a change: mark_changed does.
+  /// `e` must be alive and have a T. Writing through the reference does not mark a change; mark_changed does.
   template <class T>
   [[nodiscard]] T& get(Entity e) {
     return *get_cell<T>(e, true);
@@ -145,7 +144,7 @@ class World {
     return try_cell<T>(e, false);
   }
 
-  /// See view.h, which the caller includes. A const world gives views that only read.
+  /// The view with these terms. The caller must include view.h. A const world gives views that only read.
   template <class... Args>
   [[nodiscard]] View<Args...> view() {
     return View<Args...>(*this);
@@ -156,13 +155,13 @@ class World {
     return View<Args...>(*this);
   }
 
-  /// R is any movable type. The first set of a type must have the world to itself.
+  /// R is any movable type. No other thread may use the world during the first set of a type.
   template <class R>
   R& set_resource(R value) {
     check_resource<R>(true);
     return resources_.set<R>(std::move(value));
   }
-  /// The resource must be there.
+  /// The resource must exist.
   template <class R>
   [[nodiscard]] R& resource() {
     return require_resource<R>(resources_.find<R>(), true);
@@ -182,14 +181,14 @@ class World {
     check_resource<R>(false);
     return resources_.find<R>();
   }
-  /// Nothing happens when it is absent.
+  /// Does nothing when it is absent.
   template <class R>
   void remove_resource() {
     check_resource<R>(true);
     resources_.remove<R>();
   }
 
-  /// As the functions on resources, one value a view and type.
+  /// The same functions for resources of a view: one value per view and type.
   template <class R>
   R& set_view_resource(ViewId view, R value) {
     check_resource<R>(true);
@@ -213,18 +212,18 @@ class World {
     check_resource<R>(false);
     return find_view_resource<R>(view);
   }
-  /// Drops all resources of a view.
+  /// Removes all resources of a view.
   void remove_view(ViewId view) { view_resources_.erase(view.value); }
 
-  /// Changes with every structural change, and with nothing else.
+  /// Changes with every structural change, and only then.
   [[nodiscard]] std::uint64_t structure_version() const { return structure_version_; }
 
-  /// Changes are stamped with this.
+  /// The current tick; changes are stamped with it.
   [[nodiscard]] Tick tick() const { return tick_.load(std::memory_order_relaxed); }
-  /// Returns the tick that ended: what changed so far is stamped with it or an earlier one, what changes later is not.
-  /// Safe from many threads.
+  /// Ends the current tick and returns it. Changes made so far are stamped with it or an earlier tick, later changes
+  /// with a later one. Safe from many threads.
   Tick advance_tick() const { return tick_.fetch_add(1, std::memory_order_relaxed); }
-  /// Stamps the block that holds the T of `e`, which must be alive and have one.
+  /// Marks the T of `e` as changed: stamps the block that holds it. `e` must be alive and have a T.
   template <class T>
   void mark_changed(Entity e) {
     const ComponentId id = component_id<T>();
@@ -232,23 +231,24 @@ class World {
     records_[e.index].range.archetype().mark_changed(id, records_[e.index].row, 1, tick());
   }
 
-  /// Null: no checks. The checker must outlive its time here. Not while another thread uses the world.
+  /// Sets the checker of all accesses; null: no checks. It must outlive its use here. No other thread may use the world
+  /// during the call.
   void set_access_checker(AccessChecker* checker) {
     checker_ = checker;
-    fast_ids_.set_on(checker == nullptr);  // so that access to single entities passes the checker
+    fast_ids_.set_on(checker == nullptr);  // when off, access to single entities goes through the checker
   }
 
-  /// For statistics.
+  /// All archetypes in order of creation, for statistics.
   [[nodiscard]] std::span<const std::unique_ptr<Archetype>> archetypes() const { return archetypes_; }
 
  private:
   template <class... Args>
   friend class View;
 
-  /// Where an entity lives. In a free slot: no range, and `row` is the next free slot. From one cache line a lookup
-  /// learns whether the entity is alive and where to find its column.
+  /// Location of an entity. In a free slot `range` is null and `row` is the index of the next free slot. A lookup reads
+  /// one cache line to learn whether the entity is alive and where its columns are.
   struct Record {
-    Archetype::Range range;  ///< that holds the row
+    Archetype::Range range;  ///< the range that holds the row
     std::uint32_t row = 0;
     std::uint32_t generation = 1;
   };
@@ -288,7 +288,7 @@ class World {
   Entity take_entity(Archetype::Range range, std::uint32_t row);
   NewRows create_one(Archetype& archetype);
   std::uint32_t create_many(Archetype& archetype, std::span<Entity> out);
-  /// The entity of `record` lives where that of `place` did.
+  /// Sets the location in `record` to that in `place`; the generation stays.
   static void set_place(Record& record, const Record& place) {
     record.range = place.range;
     record.row = place.row;
@@ -310,7 +310,7 @@ class World {
       return base == nullptr ? nullptr : reinterpret_cast<T*>(base) + record.row;
     }
   }
-  /// The id of a component that is about to be read or written.
+  /// Id of a component that is about to be read or written; tells the checker, if there is one.
   template <class T>
   [[nodiscard]] std::uint32_t accessed_id(bool write) const {
     require_component<T>();
@@ -343,7 +343,7 @@ class World {
       std::uninitialized_fill(reinterpret_cast<T*>(base) + first, reinterpret_cast<T*>(base) + end, value);
     }
   }
-  /// Rows of one range.
+  /// Fills rows [first, end), which lie in one range.
   template <std::size_t... I, class... Ts>
   static void fill_rows(const Bundle& bundle, std::uint32_t first, [[maybe_unused]] std::uint32_t end,
                         std::index_sequence<I...>, const Ts&... values) {
@@ -370,7 +370,7 @@ class World {
     if (checker_ != nullptr) checker_->resource(type_name<R>(), write);
   }
 
-  /// For views; safe from many threads between structural changes.
+  /// Used by views. Safe from many threads between structural changes.
   [[nodiscard]] Query* find_query(const void* key) const;
   [[nodiscard]] Query* add_query(const void* key, QueryTerms terms) const;
   void refresh(Query& query) const;
@@ -381,13 +381,13 @@ class World {
   std::size_t alive_count_ = 0;
   std::uint64_t structure_version_ = 0;
   mutable std::atomic<Tick> tick_ = 1;
-  mutable std::atomic<int> iterations_ = 0;  ///< views at work
+  mutable std::atomic<int> iterations_ = 0;  ///< views that iterate now
   AccessChecker* checker_ = nullptr;
 
   TypeTable types_;
   TypeCache fast_ids_;  ///< off while there is a checker
   std::vector<ComponentInfo> infos_;
-  PackedMemory fronts_;
+  FrontMemory fronts_;
   std::vector<std::unique_ptr<Archetype>> archetypes_;
   std::unordered_map<std::vector<ComponentId>, Archetype*, ComponentsHash> archetype_by_components_;
   TypeTable bundle_table_;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::chrono::microseconds kSpinTime{25};
 constexpr int kPausesBeforeYield = 128;
 
-thread_local std::uint32_t t_depth = 0;  // a property of the thread's stack, whichever executors its frames belong to
+thread_local std::uint32_t t_depth = 0;  // depth of the innermost region on the thread's stack, across all executors
 
 void pause_core() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -28,8 +28,9 @@ void pause_core() {
 #endif
 }
 
-/// oneTBB has one worker less than cores unless asked for more, and of several wishes it grants the smallest. So the
-/// process holds one wish, the largest of all crews that have more threads than cores: its setting is process-wide too.
+/// Raises oneTBB's thread limit for a crew that has more threads than cores. By default oneTBB has one worker fewer
+/// than cores. Limits are process-wide and oneTBB applies the smallest, so the process keeps only one limit: the
+/// largest that any of these crews asks for.
 class ThreadLimit {
  public:
   explicit ThreadLimit(std::uint32_t threads) : threads_(threads) {
@@ -80,14 +81,14 @@ void CrewState::release() {
 }
 
 void CrewState::announce() {
-  // Sequentially consistent with the sleeper's order (count yourself, then wait for the epoch to move): either we see
-  // the sleeper, or the sleeper sees the new epoch.
+  // Sequentially consistent, because a sleeper increments `sleepers` and then waits for the epoch to change: either
+  // this thread sees the sleeper, or the sleeper sees the new epoch.
   epoch.fetch_add(1, std::memory_order_seq_cst);
   if (sleepers.load(std::memory_order_seq_cst) > 0) epoch.notify_all();
 }
 
 bool CrewState::help_deeper_than(std::uint32_t depth, bool was_idle) {
-  // Whoever has seen the epoch of an offer sees its region here.
+  // A thread that has seen the epoch of an offer sees the offered region here.
   if (first.load(std::memory_order_acquire) == nullptr) return false;
   Region* region = nullptr;
   {
@@ -103,7 +104,7 @@ bool CrewState::help_deeper_than(std::uint32_t depth, bool was_idle) {
     region->help();
   }
   if (was_idle) idle.fetch_add(1, std::memory_order_relaxed);
-  region->helpers_.fetch_sub(1, std::memory_order_release);  // the region may end from here on
+  region->helpers_.fetch_sub(1, std::memory_order_release);  // the region may be destroyed from here on
   announce();
   return true;
 }
@@ -125,7 +126,7 @@ void CrewState::visit() {
   while (!closing.load(std::memory_order_relaxed)) {
     const std::uint32_t seen = epoch.load(std::memory_order_seq_cst);
     if (help_deeper_than(0, true) || spin(seen)) continue;
-    // An offer that still counted on this helper has moved the epoch before it read `idle`.
+    // An offer that still counted this helper as idle had advanced the epoch before it read `idle`.
     idle.fetch_sub(1, std::memory_order_seq_cst);
     if (epoch.load(std::memory_order_seq_cst) == seen) return;
     idle.fetch_add(1, std::memory_order_relaxed);
@@ -136,16 +137,17 @@ void CrewState::visit() {
 namespace {
 
 void run_visit(CrewState* state) {
-  (void)state->holders.load(std::memory_order_acquire);  // pairs with the increment of the call for helpers
+  (void)state->holders.load(std::memory_order_acquire);  // pairs with the increment in call_helpers
   state->visit();
   state->release();
 }
 
-/// One call for help, run by a worker of oneTBB. ThreadSanitizer does not see oneTBB, which is not instrumented, hand
-/// the object over: reading the pointer out of it is left unwatched, everything behind it is not.
+/// One visit of a helper, run by a oneTBB worker. oneTBB is not instrumented, so ThreadSanitizer does not see the
+/// hand-over of this object to the worker. Only the read of the pointer is excluded from the checks; everything in
+/// run_visit is checked.
 struct Visit {
   CrewState* state;
-  [[gnu::no_sanitize("thread")]] void operator()() const { run_visit(state); }
+  __attribute__((no_sanitize("thread"))) void operator()() const { run_visit(state); }
 };
 
 }  // namespace
@@ -154,7 +156,7 @@ struct Crew::Workers {
   explicit Workers(std::uint32_t threads) : limit(threads), arena(static_cast<int>(threads), 1) {}
   ThreadLimit limit;
   tbb::task_arena arena;
-  tbb::task_group visits;  ///< every enqueued visit, so that the end can wait for those that nobody has begun
+  tbb::task_group visits;  ///< every enqueued visit, so that the destructor can wait for visits that have not begun
 };
 
 std::uint32_t Crew::core_count() { return static_cast<std::uint32_t>(tbb::info::default_concurrency()); }
@@ -167,7 +169,8 @@ Crew::Crew(std::uint32_t threads)
 Crew::~Crew() {
   state_->closing.store(true, std::memory_order_relaxed);
   state_->announce();
-  // Runs what is still enqueued, which leaves at once: a visit that is never run would hold the state for ever.
+  // Runs the visits that are still enqueued; they leave at once. A visit that never runs would keep the state alive
+  // forever.
   if (workers_ != nullptr) workers_->arena.execute([this] { workers_->visits.wait(); });
   workers_.reset();
   state_->release();

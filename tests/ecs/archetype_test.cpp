@@ -24,9 +24,9 @@ std::vector<ComponentInfo> infos() {
   return result;
 }
 
-/// Archetypes of one world.
+/// Makes archetypes that share the memory of their fronts, as in one world.
 struct ArchetypeTest : testing::Test {
-  PackedMemory fronts;
+  FrontMemory fronts;
 
   Archetype make(std::uint32_t index, std::vector<ComponentId> components, std::uint32_t max_rows = 1u << 20) {
     return Archetype(index, std::move(components), infos(), max_rows, fronts);

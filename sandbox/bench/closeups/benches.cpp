@@ -7,40 +7,45 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "sandbox/bench/closeups/case.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
+#include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
 #include "sandbox/bench/shadows/case.h"
 #include "sandbox/bench/shadows/phases.h"
 #include "sandbox/bench/shadows/variant.h"
 
-// How far shadows of close-up subjects are off traced ones, against standard maps with as many texels.
+// Error of close-up subjects' shadows against traced shadows, compared with standard maps that have as many texels.
 //
-// Equal texels: standard maps alone get more texels a pixel, in steps of 2^⅛, until they have no less than the standard
-// maps and the close-up maps of the other side together. Where faces of powers of two make that more than 5 % too much,
-// standard maps beside close-ups get fewer instead, until both have no more than standard maps alone; the nearer of the
-// two is taken. What is then still missing to as many texels as the standard maps alone have goes to the close-up maps,
-// if that is enough for twice as many along a side.
+// Equal texels: one side has standard maps alone, the other has standard maps and close-up maps. First, the density of
+// standard maps alone rises in steps of 2^⅛ until they have at least as many texels as the other side. Face sizes are
+// powers of two, so this may be more than 5 % too many. Then the density of the standard maps beside close-ups falls
+// instead, until that side has at most as many texels as standard maps alone. The closer of the two results is used. If
+// the texels still missing on the side with close-ups are enough for a higher closeups.texels_per_pixel, the close-up
+// maps get them.
 
 namespace gloam {
 namespace {
 
 constexpr const char* kMostPairs = "16";
 constexpr std::uint32_t kSamples = 256;  // as ShadowCase::traced
-constexpr double kSeen = 0.02;           // change of visibility that a subject must make at a pixel
-constexpr double kPenumbra = 0.02;       // traced visibility in one: 0.02 … 0.98
+constexpr double kSeen = 0.02;           // a pixel counts if a subject changes its visibility by more
+constexpr double kPenumbra = 0.02;       // a pixel is in a penumbra if its traced visibility is 0.02 … 0.98
 
-/// Over pixels and lights.
+/// Sums over pixels and lights.
 struct MeanError {
   double difference = 0.0;
   double penumbra_difference = 0.0;
   std::uint64_t pixels = 0;
   std::uint64_t penumbra_pixels = 0;
+  std::uint64_t hash = 0;  ///< of the visibilities, drawn and traced
   [[nodiscard]] double mean() const { return difference / static_cast<double>(std::max<std::uint64_t>(pixels, 1)); }
   [[nodiscard]] double penumbra_mean() const {
     return penumbra_difference / static_cast<double>(std::max<std::uint64_t>(penumbra_pixels, 1));
@@ -53,15 +58,16 @@ struct CloseupErrors {
   double texels = 0.0;
   double texels_standard = 0.0;
   double pairs = 0.0;
+  [[nodiscard]] std::uint64_t hash() const { return hash_of_both(with.hash, standard.hash); }
 };
 
-/// Pixels of a light from which subjects keep some of it.
+/// The pixels at which close-up subjects change a light's visibility.
 struct LitBySubject {
   std::uint32_t layer = 0;
   std::vector<std::uint8_t> seen;
 };
 
-/// A subject with the lights that it is drawn with.
+/// A close-up subject and the lights of its pairs.
 struct DrawnSubject {
   std::uint32_t index = 0;
   std::vector<Entity> lights;
@@ -77,7 +83,7 @@ std::vector<DrawnSubject> drawn_subjects(const CloseupViews& views) {
   return subjects;
 }
 
-/// facing: pixels that the light gives anything.
+/// Marks the pixels whose visibility changes without the subject. facing: pixels to which the light can give anything.
 void mark_changes(const TracedVisibility& all, const TracedVisibility& without, std::uint32_t layer,
                   const std::vector<std::uint8_t>& facing, LitBySubject& light) {
   const std::size_t first = layer * without.pixels(), from = light.layer * all.pixels();
@@ -88,7 +94,8 @@ void mark_changes(const TracedVisibility& all, const TracedVisibility& without, 
   }
 }
 
-/// By light of the pairs. The surfaces are those of the frame, with the subjects.
+/// Finds these pixels for each light of the pairs, by tracing without each subject. The receivers are the surfaces of
+/// the frame, subjects included.
 Result<std::vector<LitBySubject>> find_pixels(Session& session, const GeometryPicture& geometry,
                                               const std::vector<DrawnSubject>& subjects, const TracedVisibility& all) {
   std::vector<LitBySubject> lights;
@@ -109,15 +116,17 @@ Result<std::vector<LitBySubject>> find_pixels(Session& session, const GeometryPi
   return lights;
 }
 
-/// With the knobs as they are, after frames until every tile has its lights.
+/// Measures with the current knobs, in a frame without fallback tiles.
 Result<MeanError> measure_error(ShadowCase& shadows, const ShadowVariant& variant, const TracedVisibility& all,
                                 const std::vector<LitBySubject>& lights) {
   if (auto frame = draw_settled(shadows, variant); !frame) return frame.error();
   MeanError error;
+  Hasher hasher;
   for (const LitBySubject& light : lights) {
     const auto drawn = shadows.drawn(all.lights[light.layer]);
     if (!drawn) return drawn.error();
     const auto traced = all.layer(light.layer);
+    hasher.bytes(std::as_bytes(std::span(*drawn))).bytes(std::as_bytes(traced));
     for (std::size_t pixel = 0; pixel < traced.size(); ++pixel) {
       if (light.seen[pixel] == 0 || (*drawn)[pixel] < 0.0f) continue;
       const double right = traced[pixel] / 255.0;
@@ -129,10 +138,11 @@ Result<MeanError> measure_error(ShadowCase& shadows, const ShadowVariant& varian
       ++error.penumbra_pixels;
     }
   }
+  error.hash = hasher.digest();
   return error;
 }
 
-/// Gives close-up maps the texels that are missing to equal.
+/// Raises closeups.texels_per_pixel as far as the total does not exceed the texels of standard maps alone.
 Status spend_the_rest(ShadowCase& shadows, EqualTexels& texels) {
   for (const char* density : {"4", "2"}) {
     GLOAM_TRY(shadows.set("closeups.texels_per_pixel", density));
@@ -192,7 +202,7 @@ double over(double a, double b) { return b > 0.0 ? a / b : 0.0; }
 void add_closeup_benches(BenchRegistry& registry) {
   const auto shared = std::make_shared<Once<CloseupErrors>>();
   const auto add = [&](const char* id, const char* unit, std::optional<double> bar,
-                       std::function<double(const CloseupErrors&)> value) {
+                       std::function<BenchValue(const CloseupErrors&)> value) {
     BenchRow row;
     row.id = std::string("closeups.") + id;
     row.unit = unit;
@@ -204,23 +214,26 @@ void add_closeup_benches(BenchRegistry& registry) {
         return measure_errors(*opened->session, context.options());
       });
       if (!errors) return errors.error();
-      BenchValue result;
-      result.value = value(**errors);
+      BenchValue result = value(**errors);
       result.scene = context.scene_or(kCloseupScene);
       return result;
     };
     registry.add(std::move(row));
   };
   using E = CloseupErrors;
-  add("error_over_standard", "ratio", 0.5, [](const E& e) { return over(e.with.mean(), e.standard.mean()); });
+  add("error_over_standard", "ratio", 0.5,
+      [](const E& e) { return single_value(over(e.with.mean(), e.standard.mean()), e.hash()); });
   add("error_penumbra_over_standard", "ratio", std::nullopt,
-      [](const E& e) { return over(e.with.penumbra_mean(), e.standard.penumbra_mean()); });
-  add("error", "visibility", std::nullopt, [](const E& e) { return e.with.mean(); });
-  add("error_standard", "visibility", std::nullopt, [](const E& e) { return e.standard.mean(); });
-  add("error_pixels", "pixels and lights", std::nullopt, [](const E& e) { return static_cast<double>(e.with.pixels); });
-  add("error_pairs", "pairs", std::nullopt, [](const E& e) { return e.pairs; });
-  add("texels", "texels", std::nullopt, [](const E& e) { return e.texels; });
-  add("texels_standard", "texels", std::nullopt, [](const E& e) { return e.texels_standard; });
+      [](const E& e) { return single_value(over(e.with.penumbra_mean(), e.standard.penumbra_mean()), e.hash()); });
+  add("error", "visibility", std::nullopt, [](const E& e) { return single_value(e.with.mean(), e.with.hash); });
+  add("error_standard", "visibility", std::nullopt,
+      [](const E& e) { return single_value(e.standard.mean(), e.standard.hash); });
+  add("error_pixels", "pixels and lights", std::nullopt,
+      [](const E& e) { return single_value(static_cast<double>(e.with.pixels), e.with.hash); });
+  add("error_pairs", "pairs", std::nullopt, [](const E& e) { return single_value(e.pairs, e.with.hash); });
+  add("texels", "texels", std::nullopt, [](const E& e) { return single_value(e.texels, e.with.hash); });
+  add("texels_standard", "texels", std::nullopt,
+      [](const E& e) { return single_value(e.texels_standard, e.standard.hash); });
 }
 
 }  // namespace gloam

@@ -23,7 +23,8 @@
 #include "sandbox/scenes/scene_builder.h"
 #include "sandbox/scenes/shapes.h"
 
-// What close-ups cost: memory by number of pairs (FF §3), time by step (FF figure 14), and what shares a map.
+// Cost of close-ups: memory by number of pairs (FF §3), time by step (FF figure 14), and time by number of pairs in a
+// batch.
 
 namespace gloam {
 namespace {
@@ -31,7 +32,8 @@ namespace {
 constexpr int kRounds = 11;
 constexpr int kWarmUp = 2;
 constexpr double kNsPerMs = 1e6;
-/// Of the built-in scene: copies of maps need as much room again, and pairs without copies have no maps of their own.
+/// For the built-in scene: copies of standard maps need as much room again, and a pair whose copies find no room is not
+/// drawn.
 constexpr const char* kDensity = "1";
 constexpr const char* kAtlas = "8192";
 
@@ -39,7 +41,7 @@ enum Step : std::size_t { kDraw, kResolve, kCompose, kTransfer };
 constexpr std::size_t kSteps = 4;
 constexpr std::array<const char*, kSteps> kStepNames = {"draw", "resolve", "compose", "transfer"};
 
-/// What forward-lit things need counts as transfer, copies of faces with it.
+/// Passes for forward-lit surfaces count as transfer, copies of faces included.
 std::optional<Step> step_of(const PassTime& pass) {
   if (pass.name == "shadow_map_closeup") return kDraw;
   if (pass.name == "shadow_map_closeup_mips") return kResolve;
@@ -67,11 +69,12 @@ constexpr std::array<WayKnobs, 4> kWays = {{{"1", "transfer"}, {"2", "transfer"}
 struct WayCost {
   std::vector<double> total_ns;
   std::array<std::vector<double>, kSteps> step_ns;
-  double pairs = 0.0;  ///< in the last frame
+  double pairs = 0.0;      ///< pairs drawn in the last frame
+  std::uint64_t hash = 0;  ///< of the picture of the last frame
 };
 using WayCosts = std::array<WayCost, kWays.size()>;
 
-/// A window pane in front of the camera's scene: a forward-lit thing, for which standard maps must hold the subjects.
+/// Adds a window pane in front of the scene: a forward-lit surface, for which standard maps must hold the subjects.
 void add_pane(Session& session) {
   SceneBuilder builder(session.world, session.info);
   const std::uint32_t glass = builder.add_material({.name = "pane",
@@ -93,7 +96,7 @@ Result<FrameSample> draw_way(ShadowCase& shadows, const WayKnobs& way) {
   return draw_settled(shadows, kWithCloseups);
 }
 
-/// All ways turn about, from one camera at rest.
+/// Measures all ways alternately, with one camera at rest.
 Result<WayCosts> measure_ways(Session& session, const Options& options) {
   ShadowCase shadows(session, options.width, options.height);
   if (options.scene_is_default) GLOAM_TRY(leave_room_for_copies(shadows));
@@ -107,6 +110,10 @@ Result<WayCosts> measure_ways(Session& session, const Options& options) {
       for (std::size_t step = 0; step < kSteps; ++step) costs[way].step_ns[step].push_back(ns[step]);
       costs[way].total_ns.push_back(std::accumulate(ns.begin(), ns.end(), 0.0));
       costs[way].pairs = counter_of(sample->report, "closeups.pairs");
+      if (round + 1 < kRounds) continue;
+      const auto hash = shadows.picture_hash();
+      if (!hash) return hash.error();
+      costs[way].hash = *hash;
     }
   }
   return costs;
@@ -131,7 +138,6 @@ void add_way_row(BenchRegistry& registry, const SharedWays& shared, const std::s
     const auto costs = shared->get([&] { return measure_ways(context); });
     if (!costs) return costs.error();
     BenchValue result = value(**costs);
-    result.hash.reset();
     result.scene = context.scene_or(kCloseupScene);
     return result;
   };
@@ -141,23 +147,22 @@ void add_way_row(BenchRegistry& registry, const SharedWays& shared, const std::s
 void add_time_rows(BenchRegistry& registry) {
   const auto shared = std::make_shared<Once<WayCosts>>();
   for (std::size_t i = 0; i < kSteps; ++i)
-    add_way_row(registry, shared, std::string("figure14.") + kStepNames[i], "share of a pair",
-                [i](const WayCosts& c) { return ratio_of(c[kBatch1].step_ns[i], c[kBatch1].total_ns, 0); });
+    add_way_row(registry, shared, std::string("figure14.") + kStepNames[i], "share of a pair", [i](const WayCosts& c) {
+      return ratio_of(c[kBatch1].step_ns[i], c[kBatch1].total_ns, c[kBatch1].hash);
+    });
   add_way_row(registry, shared, "pair_ms", "ms a pair", [](const WayCosts& c) {
-    return per_item(c[kBatch1].total_ns, kNsPerMs * std::max(1.0, c[kBatch1].pairs), 0);
+    return per_item(c[kBatch1].total_ns, kNsPerMs * std::max(1.0, c[kBatch1].pairs), c[kBatch1].hash);
   });
-  add_way_row(registry, shared, "drawn_pairs", "pairs", [](const WayCosts& c) {
-    BenchValue value;
-    value.value = c[kBatch1].pairs;
-    return value;
-  });
+  add_way_row(registry, shared, "drawn_pairs", "pairs",
+              [](const WayCosts& c) { return single_value(c[kBatch1].pairs, c[kBatch1].hash); });
   const auto add_way = [&](const std::string& id, Way way) {
     add_way_row(registry, shared, id, "ms",
-                [way](const WayCosts& c) { return per_item(c[way].total_ns, kNsPerMs, 0); });
+                [way](const WayCosts& c) { return per_item(c[way].total_ns, kNsPerMs, c[way].hash); });
   };
   const auto add_ratio = [&](const std::string& id, Way way) {
-    add_way_row(registry, shared, id, "ratio",
-                [way](const WayCosts& c) { return ratio_of(c[way].total_ns, c[kBatch1].total_ns, 0); });
+    add_way_row(registry, shared, id, "ratio", [way](const WayCosts& c) {
+      return ratio_of(c[way].total_ns, c[kBatch1].total_ns, hash_of_both(c[way].hash, c[kBatch1].hash));
+    });
   };
   add_way("batch.1", kBatch1);
   add_way("batch.2", kBatch2);
@@ -170,15 +175,15 @@ void add_time_rows(BenchRegistry& registry) {
 }
 
 struct Memory {
-  double bytes = 0.0;             ///< of module closeups
-  double visibility_bytes = 0.0;  ///< of slots, which lights' shadows take, whoever casts them
-  double pairs = 0.0;             ///< that were drawn
+  double bytes = 0.0;             ///< GPU memory of module closeups
+  double visibility_bytes = 0.0;  ///< memory of visibility slots, of all shadows
+  double pairs = 0.0;             ///< pairs drawn
+  std::uint64_t hash = 0;         ///< of the picture
 };
 constexpr std::array<const char*, 3> kMemoryPairs = {"1", "8", "64"};
 using Memories = std::array<Memory, kMemoryPairs.size()>;
 
-/// Of frames of the built-in scene without forward-lit things, when lists have room and what earlier frames left is
-/// given back.
+/// Measures settled frames of the built-in scene without forward-lit surfaces, after idle memory has been freed.
 Result<Memory> measure_memory(BenchContext& context, const char* pairs) {
   auto session = context.open_builtin(kCloseupScene);
   if (!session) return session.error();
@@ -194,6 +199,9 @@ Result<Memory> measure_memory(BenchContext& context, const char* pairs) {
     if (module.name == "closeups") memory.bytes = static_cast<double>(module.gpu_bytes);
   memory.visibility_bytes = counter_of(frame->report, "shadows.visibility_bytes");
   memory.pairs = counter_of(frame->report, "closeups.pairs");
+  const auto hash = shadows.picture_hash();
+  if (!hash) return hash.error();
+  memory.hash = *hash;
   return memory;
 }
 
@@ -212,7 +220,7 @@ void add_memory_rows(BenchRegistry& registry) {
   constexpr double kEqual = 1.001;
   const auto shared = std::make_shared<Once<Memories>>();
   const auto add = [&](const std::string& id, const char* unit, std::optional<double> bar,
-                       std::function<double(const Memories&)> value) {
+                       std::function<BenchValue(const Memories&)> value) {
     BenchRow row;
     row.id = "closeups." + id;
     row.unit = unit;
@@ -220,21 +228,27 @@ void add_memory_rows(BenchRegistry& registry) {
     row.run = [shared, value = std::move(value)](BenchContext& context) -> Result<BenchValue> {
       const auto memories = shared->get([&] { return measure_memories(context); });
       if (!memories) return memories.error();
-      BenchValue result;
-      result.value = value(**memories);
+      BenchValue result = value(**memories);
       result.scene = kCloseupScene;
       return result;
     };
     registry.add(std::move(row));
   };
-  add("memory_64_over_1", "ratio", kEqual, [](const Memories& m) { return m[2].bytes / std::max(m[0].bytes, 1.0); });
-  add("memory_8_over_1", "ratio", kEqual, [](const Memories& m) { return m[1].bytes / std::max(m[0].bytes, 1.0); });
+  const auto add_ratio = [&](const std::string& id, std::size_t i) {
+    add(id, "ratio", kEqual, [i](const Memories& m) {
+      return single_value(m[i].bytes / std::max(m[0].bytes, 1.0), hash_of_both(m[i].hash, m[0].hash));
+    });
+  };
+  add_ratio("memory_64_over_1", 2);
+  add_ratio("memory_8_over_1", 1);
   for (std::size_t i = 0; i < kMemoryPairs.size(); ++i) {
     const std::string pairs = kMemoryPairs[i];
-    add("memory_mib." + pairs, "MiB", std::nullopt, [i](const Memories& m) { return m[i].bytes / kMiB; });
+    add("memory_mib." + pairs, "MiB", std::nullopt,
+        [i](const Memories& m) { return single_value(m[i].bytes / kMiB, m[i].hash); });
     add("memory_visibility_mib." + pairs, "MiB", std::nullopt,
-        [i](const Memories& m) { return m[i].visibility_bytes / kMiB; });
-    add("memory_pairs." + pairs, "pairs", std::nullopt, [i](const Memories& m) { return m[i].pairs; });
+        [i](const Memories& m) { return single_value(m[i].visibility_bytes / kMiB, m[i].hash); });
+    add("memory_pairs." + pairs, "pairs", std::nullopt,
+        [i](const Memories& m) { return single_value(m[i].pairs, m[i].hash); });
   }
 }
 

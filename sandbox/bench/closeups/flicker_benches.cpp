@@ -6,23 +6,26 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/scene/resources.h"
 #include "modules/closeups/components.h"
 #include "sandbox/bench/closeups/case.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
+#include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
 #include "sandbox/bench/shadows/case.h"
 #include "sandbox/bench/shadows/phases.h"
 #include "sandbox/bench/shadows/variant.h"
 #include "sandbox/scenes/closeups.h"
 
-// How far changes of visibility from frame to frame are off traced ones while a subject walks with swinging arms:
-// close-ups against standard maps with as many texels (closeup_benches.cpp), under one lamp.
+// Error of the changes of visibility from frame to frame, against traced changes, while a subject walks with swinging
+// arms under one lamp: close-ups compared with standard maps that have as many texels (see benches.cpp).
 
 namespace gloam {
 namespace {
@@ -30,7 +33,7 @@ namespace {
 constexpr std::uint32_t kWidth = 320, kHeight = 180;
 constexpr std::size_t kFrames = 120;
 constexpr double kFrame_s = 1.0 / 60.0;
-constexpr double kSpeed = 1.2;  // metres a second
+constexpr double kSpeed = 1.2;  // metres per second
 constexpr std::uint32_t kSamples = 64;
 constexpr const char* kMostPairs = "8";
 constexpr int kMostDraws = 6;
@@ -40,17 +43,17 @@ dquat turned_by(double angle, const dvec3& axis) { return {std::cos(0.5 * angle)
 /// A figure of the built-in scene and its parts at rest.
 struct Walker {
   Entity root;
-  std::vector<std::pair<Entity, LocalTransform>> arms;  ///< with fingers
+  std::vector<std::pair<Entity, LocalTransform>> arms;  ///< arms and fingers
 };
 
 Result<Walker> find_walker(World& world) {
   Walker walker;
-  // The only subject that is left.
+  // Only one subject is enabled.
   world.view<const CloseupSubject>().each([&](Entity entity, const CloseupSubject& subject) {
     if (subject.enabled) walker.root = entity;
   });
   if (!world.alive(walker.root)) return Error{ErrorKind::failed, "the scene has no close-up subject"};
-  constexpr double kShoulder = 0.2;  // metres from the middle; what is farther out is of an arm
+  constexpr double kShoulder = 0.2;  // metres from the figure's axis; parts farther out belong to an arm
   world.view<const Parent, const LocalTransform>().each(
       [&](Entity entity, const Parent& parent, const LocalTransform& local) {
         if (parent.entity == walker.root && std::abs(local.translation.x) > kShoulder)
@@ -75,7 +78,7 @@ void pose(World& world, const Walker& walker, std::size_t frame) {
   }
 }
 
-/// Shadows of one lamp, frame by frame.
+/// Visibilities of one lamp, per frame and pixel.
 struct Walk {
   std::vector<std::vector<float>> with;  ///< below 0 where the lamp does not reach
   std::vector<std::vector<float>> standard;
@@ -84,13 +87,23 @@ struct Walk {
 };
 
 struct Flicker {
-  double with = 0.0;  ///< mean over changing pixels
+  double with = 0.0;  ///< mean error over changing pixels
   double standard = 0.0;
   double texels = 0.0;
   double texels_standard = 0.0;
+  std::uint64_t with_hash = 0;  ///< of all frames' visibilities, drawn and traced
+  std::uint64_t standard_hash = 0;
+  [[nodiscard]] std::uint64_t hash() const { return hash_of_both(with_hash, standard_hash); }
 };
 
-/// The frame until every tile has its lights.
+std::uint64_t hash_of_walk(const std::vector<std::vector<float>>& drawn, const std::vector<TracedVisibility>& traced) {
+  Hasher hasher;
+  for (const std::vector<float>& frame : drawn) hasher.bytes(std::as_bytes(std::span(frame)));
+  for (const TracedVisibility& frame : traced) hasher.bytes(std::as_bytes(std::span(frame.visibility)));
+  return hasher.digest();
+}
+
+/// Draws the frame again until it has no fallback tiles.
 Status draw_with_room(ShadowCase& shadows) {
   for (int i = 0; i < kMostDraws; ++i) {
     const auto sample = shadows.draw();
@@ -123,7 +136,8 @@ Status trace_frame(Session& session, Entity lamp, Walk& walk) {
   return {};
 }
 
-/// With the knobs as they are; traces as well where `traced` is given. most: greatest texels of all maps.
+/// Draws the walk with the current knobs, and traces it too unless `traced` is null. most: raised to the largest number
+/// of texels of all maps in a frame.
 Status draw_walk(ShadowCase& shadows, const Walker& walker, Entity lamp, std::vector<std::vector<float>>& drawn,
                  Walk* traced, double& most) {
   Session& session = shadows.session();
@@ -189,6 +203,8 @@ Result<Flicker> measure(BenchContext& context) {
   Flicker flicker = flicker_of(both);
   flicker.texels = texels_with;
   flicker.texels_standard = texels_standard;
+  flicker.with_hash = hash_of_walk(both.with, both.traced);
+  flicker.standard_hash = hash_of_walk(both.standard, both.traced);
   return flicker;
 }
 
@@ -197,7 +213,7 @@ Result<Flicker> measure(BenchContext& context) {
 void add_closeup_flicker_benches(BenchRegistry& registry) {
   const auto shared = std::make_shared<Once<Flicker>>();
   const auto add = [&](const char* id, const char* unit, std::optional<double> bar,
-                       std::function<double(const Flicker&)> value) {
+                       std::function<BenchValue(const Flicker&)> value) {
     BenchRow row;
     row.id = std::string("closeups.") + id;
     row.unit = unit;
@@ -205,19 +221,21 @@ void add_closeup_flicker_benches(BenchRegistry& registry) {
     row.run = [shared, value = std::move(value)](BenchContext& context) -> Result<BenchValue> {
       const auto flicker = shared->get([&] { return measure(context); });
       if (!flicker) return flicker.error();
-      BenchValue result;
-      result.value = value(**flicker);
+      BenchValue result = value(**flicker);
       result.scene = kCloseupScene;
       return result;
     };
     registry.add(std::move(row));
   };
+  using F = Flicker;
   add("flicker_over_standard", "ratio", 1.0,
-      [](const Flicker& f) { return f.standard > 0.0 ? f.with / f.standard : 0.0; });
-  add("flicker", "visibility a frame", std::nullopt, [](const Flicker& f) { return f.with; });
-  add("flicker_standard", "visibility a frame", std::nullopt, [](const Flicker& f) { return f.standard; });
-  add("flicker_texels", "texels", std::nullopt, [](const Flicker& f) { return f.texels; });
-  add("flicker_texels_standard", "texels", std::nullopt, [](const Flicker& f) { return f.texels_standard; });
+      [](const F& f) { return single_value(f.standard > 0.0 ? f.with / f.standard : 0.0, f.hash()); });
+  add("flicker", "visibility a frame", std::nullopt, [](const F& f) { return single_value(f.with, f.with_hash); });
+  add("flicker_standard", "visibility a frame", std::nullopt,
+      [](const F& f) { return single_value(f.standard, f.standard_hash); });
+  add("flicker_texels", "texels", std::nullopt, [](const F& f) { return single_value(f.texels, f.with_hash); });
+  add("flicker_texels_standard", "texels", std::nullopt,
+      [](const F& f) { return single_value(f.texels_standard, f.standard_hash); });
 }
 
 }  // namespace gloam

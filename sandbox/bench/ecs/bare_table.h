@@ -23,9 +23,9 @@ struct Mass {
   float kg = 2.0f;
 };
 
-/// What a program without an ECS would write: plain columns, the row of each thing, swap-remove. A thing with a mass
-/// lives in a second set of columns, as an archetype would hold it. Things are named by index and generation, which
-/// only `position` checks.
+/// Storage as a program without an ECS would write it: plain columns, a record with the row of each thing, and removal
+/// by moving the last row. Things with a mass are in a second set of columns, as in an archetype. A handle holds index
+/// and generation, which only `position` checks.
 struct BareTable {
   struct Handle {
     std::uint32_t index = 0;
@@ -35,7 +35,7 @@ struct BareTable {
     std::vector<std::uint32_t> things;
     std::vector<Position> positions;
     std::vector<Velocity> velocities;
-    std::vector<Mass> masses;  ///< empty in the set without
+    std::vector<Mass> masses;  ///< empty in `plain`
 
     void clear() {
       things.clear();
@@ -58,7 +58,7 @@ struct BareTable {
   Columns heavy;
   std::vector<Record> records;
 
-  /// Keeps the memory.
+  /// Removes all things and keeps the memory.
   void clear() {
     plain.clear();
     heavy.clear();
@@ -103,7 +103,8 @@ struct BareTable {
     plain.push(thing, heavy.positions[from.row], heavy.velocities[from.row]);
     take_row(from);
   }
-  /// With the checks of World::get: the thing exists, is the one that was meant, is alive, and its set has positions.
+  /// With the checks of World::get: the index exists, the generation matches, the thing is alive, and its columns have
+  /// positions.
   [[nodiscard]] Position& position(Handle handle) {
     if (handle.index >= records.size()) std::terminate();
     const Record& record = records[handle.index];
@@ -112,9 +113,14 @@ struct BareTable {
     if (column == nullptr) std::terminate();
     return column[record.row];
   }
+  /// Without any check: the thing must exist, be alive and have a position.
+  [[nodiscard]] Position& unchecked_position(Handle handle) {
+    const Record& record = records[handle.index];
+    return record.columns->positions.data()[record.row];
+  }
 
  private:
-  /// Fills a row with the last one.
+  /// Removes a row by moving the last row into it.
   void take_row(Record record) {
     Columns& c = *record.columns;
     const std::uint32_t moved = c.things.back();

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "sandbox/bench/ecs/case.h"
@@ -20,58 +22,66 @@ struct Comparison {
   std::uint64_t bare_hash = 0;
 };
 
-/// A case and its comparison once it was made: its two rows share it.
-class MeasuredCase {
- public:
-  explicit MeasuredCase(EcsCase ecs_case) : case_(std::move(ecs_case)) {}
+using MakeSide = std::function<std::unique_ptr<Contender>()>;
 
-  [[nodiscard]] const EcsCase& ecs_case() const { return case_; }
-  [[nodiscard]] const Comparison& comparison() {
-    if (!comparison_) comparison_ = compare();
+Comparison compare(const MakeSide& make_world, const MakeSide& make_bare) {
+  const auto world = make_world();
+  const auto bare = make_bare();
+  const auto side_of = [](Contender& contender) {
+    return TimedCall{.prepare = [&] { contender.prepare(); }, .run = [&] { contender.run(); }};
+  };
+  Comparison comparison;
+  comparison.times = time_pair_ns(kRepetitions, side_of(*world), side_of(*bare));
+  comparison.world_hash = world->hash();
+  comparison.bare_hash = bare->hash();
+  return comparison;
+}
+
+/// A comparison that several rows share. It is made at the first use.
+class SharedComparison {
+ public:
+  SharedComparison(MakeSide world, MakeSide bare) : world_(std::move(world)), bare_(std::move(bare)) {}
+  [[nodiscard]] const Comparison& get() {
+    if (!comparison_) comparison_ = compare(world_, bare_);
     return *comparison_;
   }
 
  private:
-  [[nodiscard]] Comparison compare() const {
-    const auto world = case_.world();
-    const auto bare = case_.bare();
-    Comparison comparison;
-    comparison.times = time_pair_ns(kRepetitions, side_of(*world), side_of(*bare));
-    comparison.world_hash = world->hash();
-    comparison.bare_hash = bare->hash();
-    return comparison;
-  }
-  static TimedSide side_of(Contender& contender) {
-    return {.prepare = [&] { contender.prepare(); }, .run = [&] { contender.run(); }};
-  }
-
-  EcsCase case_;
+  MakeSide world_;
+  MakeSide bare_;
   std::optional<Comparison> comparison_;
 };
 
-}  // namespace
-
-void add_case(BenchRegistry& registry, EcsCase ecs_case) {
-  const std::string id = ecs_case.id;
-  const auto measured = std::make_shared<MeasuredCase>(std::move(ecs_case));
+void add_ratio(BenchRegistry& registry, const std::string& id, std::optional<double> bar,
+               const std::shared_ptr<SharedComparison>& shared) {
   registry.add({.id = id,
-                .unit = "ns/entity",
-                .bar = measured->ecs_case().bar_ns,
-                .better = Better::lower,
-                .run = [measured](BenchContext&) -> Result<BenchValue> {
-                  const Comparison& c = measured->comparison();
-                  return per_item(c.times.a_ns, measured->ecs_case().entities, c.world_hash);
-                }});
-  registry.add({.id = id + "_over_bare",
                 .unit = "ratio",
-                .bar = measured->ecs_case().bar_ratio,
+                .bar = bar,
                 .better = Better::lower,
-                .run = [measured, id](BenchContext&) -> Result<BenchValue> {
-                  const Comparison& c = measured->comparison();
+                .run = [shared, id](BenchContext&) -> Result<BenchValue> {
+                  const Comparison& c = shared->get();
                   if (c.world_hash != c.bare_hash)
                     return Error{ErrorKind::failed, id + ": the world and plain arrays computed different things"};
                   return ratio_of(c.times.a_ns, c.times.b_ns, c.world_hash);
                 }});
+}
+
+}  // namespace
+
+void add_case(BenchRegistry& registry, EcsCase ecs_case) {
+  const auto shared = std::make_shared<SharedComparison>(ecs_case.world, ecs_case.bare);
+  registry.add({.id = ecs_case.id,
+                .unit = "ns/entity",
+                .bar = ecs_case.bar_ns,
+                .better = Better::lower,
+                .run = [shared, entities = ecs_case.entities](BenchContext&) -> Result<BenchValue> {
+                  const Comparison& c = shared->get();
+                  return per_item(c.times.a_ns, entities, c.world_hash);
+                }});
+  add_ratio(registry, ecs_case.id + "_over_bare", ecs_case.bar_ratio, shared);
+  if (!ecs_case.unchecked_bare) return;
+  add_ratio(registry, ecs_case.id + "_over_unchecked_bare", {},
+            std::make_shared<SharedComparison>(ecs_case.world, ecs_case.unchecked_bare));
 }
 
 }  // namespace bench

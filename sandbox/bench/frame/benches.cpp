@@ -13,7 +13,7 @@
 namespace gloam {
 namespace {
 
-using SharedFrames = std::shared_ptr<Once<FrameTimes>>;
+using SharedFrames = std::shared_ptr<Once<MeasuredFrames>>;
 
 template <class Value>
 BenchRow frame_row(std::string id, std::string unit, SharedFrames frames, Value value) {
@@ -21,7 +21,7 @@ BenchRow frame_row(std::string id, std::string unit, SharedFrames frames, Value 
   row.id = std::move(id);
   row.unit = std::move(unit);
   row.run = [frames = std::move(frames), value](BenchContext& context) -> Result<BenchValue> {
-    const auto times = frames->get([&]() -> Result<FrameTimes> {
+    const auto times = frames->get([&]() -> Result<MeasuredFrames> {
       auto session = context.session();
       if (!session) return session.error();
       return measure_frames(**session, context.options());
@@ -35,13 +35,14 @@ BenchRow frame_row(std::string id, std::string unit, SharedFrames frames, Value 
 }  // namespace
 
 void add_frame_benches(BenchRegistry& registry) {
-  auto frames = std::make_shared<Once<FrameTimes>>();
+  auto frames = std::make_shared<Once<MeasuredFrames>>();
   registry.add(frame_row("frame.scene", "ms", frames,
-                         [](const FrameTimes& t) { return per_item(t.scene_ns, 1e6, t.scene_hash); }));
+                         [](const MeasuredFrames& t) { return per_item(t.scene_ns, 1e6, t.scene_hash); }));
   registry.add(frame_row("frame.gather48", "ms", frames,
-                         [](const FrameTimes& t) { return per_item(t.gather_ns, 1e6, t.gather_hash); }));
-  BenchRow ratio = frame_row("frame.scene_over_gather48", "ratio", frames,
-                             [](const FrameTimes& t) { return ratio_of(t.scene_ns, t.gather_ns, t.scene_hash); });
+                         [](const MeasuredFrames& t) { return per_item(t.gather_ns, 1e6, t.gather_hash); }));
+  BenchRow ratio = frame_row("frame.scene_over_gather48", "ratio", frames, [](const MeasuredFrames& t) {
+    return ratio_of(t.scene_ns, t.gather_ns, hash_of_both(t.scene_hash, t.gather_hash));
+  });
   ratio.bar = 1.5;
   registry.add(std::move(ratio));
 }

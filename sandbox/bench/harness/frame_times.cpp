@@ -29,7 +29,7 @@ WithoutShadows::WithoutShadows(Session& session)
 
 WithoutShadows::~WithoutShadows() { static_cast<void>(knobs_.set("shadows.mode", users_)); }
 
-Result<FrameTimes> measure_frames(Session& session, const Options& options) {
+Result<MeasuredFrames> measure_frames(Session& session, const Options& options) {
   const WithoutShadows off(session);
   auto yardstick = GatherYardstick::create(*session.device, options.width, options.height);
   if (!yardstick.ok()) return yardstick.error();
@@ -39,7 +39,7 @@ Result<FrameTimes> measure_frames(Session& session, const Options& options) {
     return session.renderer->wait();
   };
   const auto draw_gathers = [&]() -> Status { return (*yardstick)->draw(); };
-  FrameTimes times;
+  MeasuredFrames times;
   for (int i = -2; i < kRepetitions; ++i) {  // two rounds warm up
     auto scene = timed_ns(draw_scene);
     if (!scene.ok()) return scene.error();

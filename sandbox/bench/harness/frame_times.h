@@ -13,16 +13,16 @@
 
 namespace gloam {
 
-/// Whole frames of a scene and the yardstick (one full-screen pass of 48 gathers a pixel), alternating: times in
-/// nanoseconds, pair by pair.
-struct FrameTimes {
+/// Times of whole frames of a scene and of the gather pass (48 gathers per pixel), measured alternately, in
+/// nanoseconds. Item i of both vectors is a pair.
+struct MeasuredFrames {
   std::vector<double> scene_ns;
   std::vector<double> gather_ns;
   std::uint64_t scene_hash = 0;
   std::uint64_t gather_hash = 0;
 };
 
-/// Draws without shadows while it lives: what is held against bars of frames and of light lists has none.
+/// Turns shadows off during its lifetime: the bars of frames and light lists are for frames without shadows.
 class WithoutShadows {
  public:
   explicit WithoutShadows(Session& session);
@@ -35,7 +35,7 @@ class WithoutShadows {
   std::string users_;
 };
 
-/// Of the session's camera at the size of the options, without shadows.
-[[nodiscard]] Result<FrameTimes> measure_frames(Session& session, const Options& options);
+/// Measures frames of the session's camera at the size of the options, without shadows.
+[[nodiscard]] Result<MeasuredFrames> measure_frames(Session& session, const Options& options);
 
 }  // namespace gloam

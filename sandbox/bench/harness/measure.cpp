@@ -5,9 +5,11 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 #include "engine/core/assert.h"
+#include "engine/core/hash.h"
 #include "sandbox/session/summary.h"
 
 namespace gloam {
@@ -18,7 +20,7 @@ BenchValue value_of(std::vector<double> values, std::uint64_t hash) {
   return {.value = summary.median, .p10 = summary.p10, .p90 = summary.p90, .hash = hash_text(hash)};
 }
 
-double time_once(const TimedSide& side) {
+double time_once(const TimedCall& side) {
   if (side.prepare) side.prepare();
   const auto begin = std::chrono::steady_clock::now();
   side.run();
@@ -34,7 +36,7 @@ void keep(std::uint64_t value) {
 }
 
 std::vector<double> time_ns(int repetitions, const std::function<void()>& prepare, const std::function<void()>& run) {
-  const TimedSide side{.prepare = prepare, .run = run};
+  const TimedCall side{.prepare = prepare, .run = run};
   std::vector<double> times;
   for (int i = 0; i <= repetitions; ++i) {
     const double time = time_once(side);
@@ -43,7 +45,7 @@ std::vector<double> time_ns(int repetitions, const std::function<void()>& prepar
   return times;
 }
 
-PairTimes time_pair_ns(int repetitions, const TimedSide& a, const TimedSide& b) {
+PairTimes time_pair_ns(int repetitions, const TimedCall& a, const TimedCall& b) {
   PairTimes times;
   for (int i = 0; i <= repetitions; ++i) {
     const double a_ns = time_once(a);
@@ -74,6 +76,14 @@ BenchValue excess_of(const std::vector<double>& a_ns, const std::vector<double>&
   for (std::size_t i = 0; i < a_ns.size(); ++i) excess.push_back((a_ns[i] - b_ns[i]) / count);
   return value_of(std::move(excess), hash);
 }
+
+BenchValue single_value(double value, std::uint64_t hash) {
+  return {.value = value, .p10 = {}, .p90 = {}, .hash = hash_text(hash)};
+}
+
+std::uint64_t hash_of_both(std::uint64_t a, std::uint64_t b) { return Hasher().value(a).value(b).digest(); }
+
+std::uint64_t hash_of_number(double value) { return Hasher().value(std::bit_cast<std::uint64_t>(value)).digest(); }
 
 std::string hash_text(std::uint64_t hash) {
   static constexpr char kHex[] = "0123456789abcdef";

@@ -11,16 +11,16 @@
 
 namespace gloam {
 
-/// Makes the compiler believe that somebody reads the value, and that anybody may have touched memory.
+/// Makes the compiler assume that the value is read and that all memory may have changed, so that it removes no work.
 void keep(std::uint64_t value);
 
-/// Nanoseconds of each of `repetitions` calls of `run`; `prepare` (may be empty) runs untimed before each. One further
+/// Nanoseconds of each of `repetitions` calls of `run`; `prepare` (may be empty) runs untimed before each. An extra
 /// call first warms up.
 [[nodiscard]] std::vector<double> time_ns(int repetitions, const std::function<void()>& prepare,
                                           const std::function<void()>& run);
 
 /// One of two ways to do the same work; `prepare` (may be empty) runs untimed before each `run`.
-struct TimedSide {
+struct TimedCall {
   std::function<void()> prepare;
   std::function<void()> run;
 };
@@ -29,19 +29,28 @@ struct PairTimes {
   std::vector<double> a_ns;
   std::vector<double> b_ns;
 };
-/// Times two sides turn about (a b a b …), so that a change of clock speed or load meets both and each finds the caches
-/// as the other left them. One further turn first warms up.
-[[nodiscard]] PairTimes time_pair_ns(int repetitions, const TimedSide& a, const TimedSide& b);
+/// Times two sides alternately (a b a b …), so that a change of clock speed or load affects both, and each side finds
+/// the caches as the other left them. An extra round first warms up.
+[[nodiscard]] PairTimes time_pair_ns(int repetitions, const TimedCall& a, const TimedCall& b);
 
 /// Median and spread of times, each divided by `count`.
 [[nodiscard]] BenchValue per_item(std::vector<double> times_ns, double count, std::uint64_t hash);
 
-/// a over b, repetition by repetition as they were measured.
+/// Median and spread of a / b, which is computed for each repetition. a_ns and b_ns: equally many times.
 [[nodiscard]] BenchValue ratio_of(const std::vector<double>& a_ns, const std::vector<double>& b_ns, std::uint64_t hash);
 
-/// a minus b, repetition by repetition as they were measured, each divided by `count`.
+/// Median and spread of (a − b) / count, which is computed for each repetition. a_ns and b_ns: equally many times.
 [[nodiscard]] BenchValue excess_of(const std::vector<double>& a_ns, const std::vector<double>& b_ns, double count,
                                    std::uint64_t hash);
+
+/// One value without a spread, with the hash of its input.
+[[nodiscard]] BenchValue single_value(double value, std::uint64_t hash);
+
+/// One hash for the results of two sides: it changes if either hash changes.
+[[nodiscard]] std::uint64_t hash_of_both(std::uint64_t a, std::uint64_t b);
+
+/// Hash of the bits of a number.
+[[nodiscard]] std::uint64_t hash_of_number(double value);
 
 /// 16 hexadecimal digits.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/assert.h"
+#include "engine/core/nearest_name.h"
 #include "sandbox/bench/harness/benches.h"
 
 namespace gloam {
@@ -13,6 +14,17 @@ namespace {
 
 bool is_chosen(std::string_view id, std::string_view name) {
   return id.starts_with(name) && (id.size() == name.size() || id[name.size()] == '.');
+}
+
+/// All names that `choose` takes: the ids, and each part of an id that ends before a dot.
+std::vector<std::string> all_names(std::span<const BenchRow> rows) {
+  std::vector<std::string> names;
+  for (const BenchRow& row : rows) {
+    for (std::size_t dot = row.id.find('.'); dot != std::string::npos; dot = row.id.find('.', dot + 1))
+      names.push_back(row.id.substr(0, dot));
+    names.push_back(row.id);
+  }
+  return names;
 }
 
 }  // namespace
@@ -26,7 +38,8 @@ void BenchRegistry::add(BenchRow row) {
 Result<std::vector<const BenchRow*>> BenchRegistry::choose(std::span<const std::string> names) const {
   for (const std::string& name : names) {
     if (std::ranges::none_of(rows_, [&](const BenchRow& row) { return is_chosen(row.id, name); }))
-      return Error{ErrorKind::usage, "there is no bench '" + name + "'; gloam bench --list names them"};
+      return Error{ErrorKind::usage, "there is no bench '" + name + "'; " + did_you_mean(name, all_names(rows_)) +
+                                         "gloam bench --list names them"};
   }
   std::vector<const BenchRow*> chosen;
   for (const BenchRow& row : rows_) {
@@ -45,6 +58,7 @@ BenchRegistry make_bench_registry() {
   BenchRegistry registry;
   add_ecs_benches(registry);
   add_job_benches(registry);
+  add_frame_declaration_benches(registry);
   add_frame_benches(registry);
   add_light_cpu_benches(registry);
   add_light_gpu_benches(registry);

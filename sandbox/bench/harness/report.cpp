@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/bench/harness/report.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "sandbox/output/json_text.h"
 
 namespace gloam {
 namespace {
@@ -11,6 +15,21 @@ std::string short_number(double value) {
   char text[40];
   std::snprintf(text, sizeof(text), "%.4g", value);
   return text;
+}
+
+/// scene: the scene of the run. The row names its scene only if it is a different one.
+Json row_json(const MeasuredRow& measured, const std::string& scene) {
+  const BenchRow& row = *measured.row;
+  const BenchValue& value = measured.value;
+  Json json = {{"id", row.id}, {"value", value.value}, {"unit", row.unit}};
+  json["p10"] = value.p10.value_or(value.value);
+  json["p90"] = value.p90.value_or(value.value);
+  if (row.bar) json["bar"] = *row.bar;
+  json["better"] = row.better == Better::lower ? "lower" : "higher";
+  json["holds"] = holds(row, value.value);
+  json["hash"] = value.hash ? Json(*value.hash) : Json(nullptr);
+  if (value.scene && *value.scene != scene) json["scene"] = *value.scene;
+  return json;
 }
 
 }  // namespace
@@ -31,32 +50,11 @@ std::string bench_line(const MeasuredRow& measured) {
 }
 
 std::string bench_json(const RunDescription& run, std::span<const MeasuredRow> rows) {
-  JsonWriter json;
-  json.begin_object().key("version").integer(1);
-  write_device(json, run.device);
-  json.key("size").begin_array().integer(run.width).integer(run.height).end_array();
-  json.key("scene").text(run.scene).key("rows").begin_array();
-  for (const MeasuredRow& measured : rows) {
-    const BenchRow& row = *measured.row;
-    const BenchValue& value = measured.value;
-    json.begin_object().key("id").text(row.id).key("value").number(value.value).key("unit").text(row.unit);
-    json.key("p10").number(value.p10.value_or(value.value)).key("p90").number(value.p90.value_or(value.value));
-    if (row.bar) json.key("bar").number(*row.bar);
-    json.key("better")
-        .text(row.better == Better::lower ? "lower" : "higher")
-        .key("holds")
-        .boolean(holds(row, value.value));
-    json.key("hash");
-    if (value.hash) {
-      json.text(*value.hash);
-    } else {
-      json.null();
-    }
-    if (value.scene && *value.scene != run.scene) json.key("scene").text(*value.scene);
-    json.end_object();
-  }
-  json.end_array().end_object();
-  return json.finish();
+  Json json = {{"version", 1}, {"device", device_json(run.device)}, {"size", {run.width, run.height}}};
+  json["scene"] = run.scene;
+  json["rows"] = Json::array();
+  for (const MeasuredRow& measured : rows) json["rows"].push_back(row_json(measured, run.scene));
+  return json_text(json);
 }
 
 }  // namespace gloam

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -11,6 +12,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/jobs/executor.h"
+#include "engine/jobs/job_list.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
@@ -22,7 +24,7 @@ constexpr int kRepetitions = 15;
 
 std::uint64_t hash_of(std::span<const std::uint32_t> values) { return hash_bytes(std::as_bytes(values)); }
 
-/// A batch of 100,000 jobs that count their calls, each in a cell of its own.
+/// One batch of 100,000 jobs, created before the clock starts. Each counts its calls in its own cell.
 class EmptyJobs {
  public:
   EmptyJobs() : cells_(kJobs) {
@@ -39,13 +41,13 @@ class EmptyJobs {
   std::vector<std::function<void()>> jobs_;
 };
 
-BenchValue run_empty_jobs(JobExecutor& executor) {
+Result<BenchValue> run_empty_jobs(JobExecutor& executor) {
   const EmptyJobs jobs;
   auto times = time_ns(kRepetitions, {}, [&] { jobs.run(executor); });
   return per_item(std::move(times), EmptyJobs::kJobs, jobs.hash());
 }
 
-BenchValue compare_empty_jobs(JobExecutor& executor) {
+Result<BenchValue> compare_empty_jobs(JobExecutor& executor) {
   const EmptyJobs jobs;
   const auto one = make_pool_executor(1);
   const PairTimes times = time_pair_ns(kRepetitions, {.prepare = {}, .run = [&] { jobs.run(executor); }},
@@ -53,31 +55,87 @@ BenchValue compare_empty_jobs(JobExecutor& executor) {
   return ratio_of(times.a_ns, times.b_ns, jobs.hash());
 }
 
-/// Integer work that no compiler shortens: about 1.6 ns a round.
+/// 100,000 separate jobs: each is created, run and destroyed while the clock runs. They are of two types with different
+/// state. Each adds its own amount to its own cell.
+class SpawnedJobs {
+ public:
+  static constexpr std::size_t kJobs = 100000;
+
+  void run(JobExecutor& executor) {
+    for (std::size_t i = 0; i < kJobs; ++i) add(i);
+    list_.run(executor);
+    ++rounds_;
+  }
+  /// Whether every job of every round ran exactly once.
+  [[nodiscard]] bool all_ran() const {
+    for (std::size_t i = 0; i < kJobs; ++i)
+      if (cells_[i] != rounds_ * amount(i)) return false;
+    return true;
+  }
+  [[nodiscard]] std::uint64_t hash() const { return hash_of(cells_); }
+
+ private:
+  static std::uint32_t amount(std::size_t i) { return static_cast<std::uint32_t>(i % 1000 + 1); }
+  void add(std::size_t i) {
+    std::uint32_t& cell = cells_[i];
+    if (i % 2 == 0) {
+      list_.add([&cell, amount = amount(i)] { cell += amount; });
+    } else {
+      const std::array<std::uint32_t, 4> parts = {1, 2, 3, amount(i) - 6u};
+      list_.add([&cell, parts] {
+        for (const std::uint32_t part : parts) cell += part;
+      });
+    }
+  }
+
+  std::vector<std::uint32_t> cells_ = std::vector<std::uint32_t>(kJobs);
+  std::uint32_t rounds_ = 0;
+  JobList list_;
+};
+
+Result<BenchValue> run_spawned_jobs(BenchContext&) {
+  const auto two_workers = make_pool_executor(2);
+  SpawnedJobs jobs;
+  auto times = time_ns(kRepetitions, {}, [&] { jobs.run(*two_workers); });
+  if (!jobs.all_ran()) return Error{ErrorKind::failed, "jobs.spawn: a job did not run exactly once a round"};
+  return per_item(std::move(times), SpawnedJobs::kJobs, jobs.hash());
+}
+
+/// Integer work that no compiler shortens: about 1.6 ns per round.
 std::uint32_t grind(std::uint32_t value, int rounds) {
   for (int round = 0; round < rounds; ++round) value = (value ^ (value >> 15)) * 0x2c1b3c6du + 1u;
   return value;
 }
 
-/// How much of the workers' time a parallel_for uses whose 8,100 items take about a microsecond each:
-/// serial time / (parallel time · workers).
-BenchValue run_parallel_for(JobExecutor& pool) {
-  constexpr std::size_t kItems = 8100;
+/// One item of about a microsecond for each result.
+void grind_all(JobExecutor& executor, std::span<std::uint32_t> results) {
   constexpr int kRounds = 640;
-  std::vector<std::uint32_t> results(kItems);
-  const auto body = [&](JobRange range) {
+  executor.parallel_for(results.size(), 1, [results](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) results[i] = grind(static_cast<std::uint32_t>(i), kRounds);
-  };
-  const auto serial = make_serial_executor();
-  PairTimes times = time_pair_ns(kRepetitions, {.prepare = {}, .run = [&] { serial->parallel_for(kItems, 1, body); }},
-                                 {.prepare = {}, .run = [&] { pool.parallel_for(kItems, 1, body); }});
-  for (double& time : times.b_ns) time *= pool.worker_count();
-  return ratio_of(times.a_ns, times.b_ns, hash_of(results));
+  });
 }
 
-/// 50 levels of 20 nodes. Each node waits for two of the level above, in the first two of these levels for three: 1000
-/// nodes, 2000 edges.
-BenchValue run_graph_nodes(JobExecutor& executor) {
+/// How much of the workers' time a parallel_for uses whose 8,100 items take about a microsecond each:
+/// serial time / (parallel time · workers).
+Result<BenchValue> run_parallel_for(JobExecutor& pool) {
+  constexpr std::size_t kItems = 8100;
+  std::vector<std::uint32_t> serial_results(kItems);
+  std::vector<std::uint32_t> pool_results(kItems);
+  const auto serial = make_serial_executor();
+  // Cleared before each run: a repetition cannot pass with the results of the one before.
+  const auto side = [](JobExecutor& executor, std::vector<std::uint32_t>& results) {
+    return TimedCall{.prepare = [&] { std::ranges::fill(results, 0u); }, .run = [&] { grind_all(executor, results); }};
+  };
+  PairTimes times = time_pair_ns(kRepetitions, side(*serial, serial_results), side(pool, pool_results));
+  if (serial_results != pool_results)
+    return Error{ErrorKind::failed, "jobs.parallel_for_efficiency: the pool's results differ from the serial ones"};
+  for (double& time : times.b_ns) time *= pool.worker_count();
+  return ratio_of(times.a_ns, times.b_ns, hash_of(pool_results));
+}
+
+/// 50 levels of 20 nodes: 1000 nodes, 2000 edges. Each node waits for two nodes of the level above; nodes of the second
+/// and third level wait for three.
+Result<BenchValue> run_graph_nodes(JobExecutor& executor) {
   constexpr std::uint32_t kLevels = 50;
   constexpr std::uint32_t kWidth = 20;
   std::vector<std::uint32_t> cells(std::size_t{kLevels} * kWidth);
@@ -99,12 +157,11 @@ BenchValue run_graph_nodes(JobExecutor& executor) {
   return per_item(std::move(times), 10.0 * static_cast<double>(nodes.size()), hash_of(cells));
 }
 
-/// Two jobs that meet: neither begins its work before the other has started, so that both cores are engaged, and they
-/// have to be engaged soon. A job that waits in vain goes on after a while.
+/// Two jobs that meet: neither begins its work before the other has started, so both cores must take part, and soon. A
+/// job that has waited for kPatience goes on alone.
 class Meeting {
  public:
-  static constexpr int kRounds =
-      2000;  ///< about 3 µs of work: of less the executor may think that it does not pay a second core
+  static constexpr int kRounds = 2000;  ///< about 3 µs of work: for less the executor may not engage a second core
 
   Meeting() {
     jobs_.emplace_back([this] { attend(0); });
@@ -117,12 +174,12 @@ class Meeting {
     started_.store(0, std::memory_order_relaxed);
     executor.run(jobs_);
   }
-  /// What one of the jobs does once both are there.
+  /// The work of one job after the meeting.
   void work(std::size_t job) { results_[job * kApart] = grind(results_[job * kApart], kRounds); }
   [[nodiscard]] std::uint64_t hash() const { return hash_of(results_); }
 
  private:
-  static constexpr std::size_t kApart = 16;  // on lines of their own
+  static constexpr std::size_t kApart = 16;  // on separate cache lines
 
   void attend(std::size_t job) {
     constexpr std::chrono::microseconds kPatience{100};
@@ -141,9 +198,9 @@ class Meeting {
   std::vector<std::function<void()>> jobs_;
 };
 
-/// What engaging both cores adds to two jobs: the time of a batch of two that meet, less the time of one's work alone.
-/// A meeting that is missed costs the patience of the job that waited.
-BenchValue run_fork_join(JobExecutor& executor) {
+/// Time to engage both cores: the time of a batch of two jobs that meet, less the time of one job's work alone. A
+/// missed meeting adds kPatience.
+Result<BenchValue> run_fork_join(JobExecutor& executor) {
   constexpr int kForks = 500;
   Meeting meeting;
   const auto fork = [&] {
@@ -152,7 +209,7 @@ BenchValue run_fork_join(JobExecutor& executor) {
   const auto alone = [&] {
     for (int i = 0; i < kForks; ++i) meeting.work(0);
   };
-  // Hot: while one works alone the other core has gone to sleep.
+  // Wakes the second core, which sleeps while the other side runs alone.
   const auto warm_up = [&] {
     for (int i = 0; i < 100; ++i) meeting.run(executor);
   };
@@ -165,7 +222,7 @@ struct JobRow {
   const char* unit;
   double bar;
   Better better;
-  BenchValue (*run)(JobExecutor&);
+  Result<BenchValue> (*run)(JobExecutor&);
 };
 
 }  // namespace
@@ -188,6 +245,7 @@ void add_job_benches(BenchRegistry& registry) {
                     return run(*executor);
                   }});
   }
+  registry.add({.id = "jobs.spawn", .unit = "ns/job", .bar = 120.0, .better = Better::lower, .run = &run_spawned_jobs});
   registry.add({.id = "jobs.empty.one_thread",
                 .unit = "ns/job",
                 .bar = {},

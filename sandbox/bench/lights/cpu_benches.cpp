@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/jobs/executor.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/measure.h"
@@ -55,27 +56,23 @@ BenchValue run_ms(const Setup& setup) {
   return per_item(std::move(times), kNsPerMs, lights->hash());
 }
 
-/// The systems, and a memset of as many bytes as they write, turn about.
-PairTimes against_memset(LightCpuCase& lights) {
-  const auto executor = make_serial_executor();
-  lights.move();
-  lights.run(*executor);
-  std::vector<std::byte> bytes(lights.bytes_written());
-  int value = 0;
-  return time_pair_ns(kRepetitions, {[&] { lights.move(); }, [&] { lights.run(*executor); }},
-                      {{}, [&] {
-                         std::memset(bytes.data(), ++value, bytes.size());
-                         keep(static_cast<std::uint64_t>(bytes[0]));
-                       }});
-}
-
+/// Times the systems and a memset of as many bytes as they write, alternately.
 BenchValue run_over_memset(const Setup& setup) {
   const auto lights = make_case(setup);
-  const PairTimes times = against_memset(*lights);
-  return ratio_of(times.a_ns, times.b_ns, lights->hash());
+  const auto executor = make_serial_executor();
+  lights->move();
+  lights->run(*executor);
+  std::vector<std::byte> bytes(lights->bytes_written());
+  int value = 0;
+  const PairTimes times = time_pair_ns(kRepetitions, {[&] { lights->move(); }, [&] { lights->run(*executor); }},
+                                       {{}, [&] {
+                                          std::memset(bytes.data(), ++value, bytes.size());
+                                          keep(static_cast<std::uint64_t>(bytes[0]));
+                                        }});
+  return ratio_of(times.a_ns, times.b_ns, hash_of_both(lights->hash(), hash_bytes(bytes)));
 }
 
-/// Bytes written a second, as a share of what a copy of as many bytes achieves (which reads them too).
+/// Bytes written per second, as a share of the rate of a copy of as many bytes (which also reads them).
 BenchValue run_bandwidth(const Setup& setup) {
   const auto lights = make_case(setup);
   const auto executor = make_serial_executor();
@@ -88,11 +85,11 @@ BenchValue run_bandwidth(const Setup& setup) {
                                           std::memcpy(to.data(), from.data(), to.size());
                                           keep(static_cast<std::uint64_t>(to[0]));
                                         }});
-  return ratio_of(times.b_ns, times.a_ns, lights->hash());
+  return ratio_of(times.b_ns, times.a_ns, hash_of_both(lights->hash(), hash_bytes(to)));
 }
 
-/// Something for both threads to do, as the systems before these have in a frame: a helper that sleeps takes longer to
-/// wake than all of the lists take to build.
+/// Gives both threads work, as the earlier systems of a frame do: a sleeping helper takes longer to wake than all lists
+/// take to build.
 void wake(JobExecutor& pool) {
   pool.parallel_for(64, 1, [](JobRange) {
     const auto begin = std::chrono::steady_clock::now();
@@ -101,7 +98,7 @@ void wake(JobExecutor& pool) {
   });
 }
 
-/// One thread's time over that of two.
+/// The time of one thread over the time of two.
 Result<BenchValue> run_two_workers(const Setup& setup) {
   const auto alone = make_case(setup);
   const auto shared = make_case(setup);
@@ -146,7 +143,7 @@ void add_ratios(BenchRegistry& registry) {
       [sparse] { return run_bandwidth(sparse); });
 }
 
-/// A row for the lights a tile that a bound leaves, beside its time.
+/// Adds two rows per bound: its time, and the number of lights per tile that it leaves.
 void add_bounds(BenchRegistry& registry) {
   for (const char* bound : {"rect", "row_interval", "cone"}) {
     for (const bool sparse : {false, true}) {
@@ -157,7 +154,7 @@ void add_bounds(BenchRegistry& registry) {
         const auto lights = make_case(setup);
         lights->move();
         lights->run(*make_serial_executor());
-        return BenchValue{.value = lights->lights_per_tile(), .p10 = {}, .p90 = {}, .hash = hash_text(lights->hash())};
+        return single_value(lights->lights_per_tile(), lights->hash());
       });
     }
   }

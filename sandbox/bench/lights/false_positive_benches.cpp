@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <cstring>
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -11,8 +12,8 @@
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
 
-// How many lights a tile each phase keeps that reach none of its pixels, for the scene's camera at the size that was
-// chosen.
+// False positives: number of lights per tile that each phase keeps although they reach none of its pixels. For the
+// scene's camera at the chosen size.
 
 namespace gloam {
 namespace {
@@ -20,11 +21,16 @@ namespace {
 constexpr const char* kScene = "builtin:many_lights";  // unless the user names one
 constexpr int kSettlingFrames = 3;
 
-/// Knobs by name, and what they are set to while frames are counted.
+/// Values of knobs while frames are counted, by knob name.
 using Settings = std::map<std::string, std::string>;
 using Counters = std::map<std::string, double>;
 
-Result<Counters> count_frame(Session& session, const Options& options, const Settings& settings) {
+struct CountedFrame {
+  Counters counters;
+  std::uint64_t picture_hash = 0;
+};
+
+Result<CountedFrame> count_frame(Session& session, const Options& options, const Settings& settings) {
   KnobRegistry& knobs = session.renderer->knobs();
   Settings before;
   for (const auto& [name, value] : settings) {
@@ -32,20 +38,27 @@ Result<Counters> count_frame(Session& session, const Options& options, const Set
     GLOAM_TRY(knobs.set(name, value));
   }
   const ViewRequest request{session.view_settings(options.width, options.height, "none"), {}};
-  Counters counters;
+  CountedFrame frame;
   for (int i = 0; i < kSettlingFrames; ++i) {
     const auto sample = session.render_frame(request);
     if (!sample) return sample.error();
-    counters = sample->report.counters;
+    frame.counters = sample->report.counters;
   }
+  const auto picture = session.renderer->read_picture(request.settings.id);
+  if (!picture) return picture.error();
+  frame.picture_hash = hash_bytes(std::as_bytes(std::span(picture->rgba)));
   for (const auto& [name, value] : before) GLOAM_TRY(knobs.set(name, value));
-  return counters;
+  return frame;
 }
 
-/// Frames that were counted, so that rows of the same settings share one.
+/// Counted frames. Rows with the same settings share one.
 class CountedFrames {
  public:
-  [[nodiscard]] Result<double> counter(BenchContext& context, const Settings& settings, const std::string& name) {
+  struct Counter {
+    double value = 0.0;
+    std::uint64_t picture_hash = 0;  ///< of the frame it was counted in
+  };
+  [[nodiscard]] Result<Counter> counter(BenchContext& context, const Settings& settings, const std::string& name) {
     if (!frames_.contains(settings)) {
       auto session = context.session_or(kScene);
       if (!session) return session.error();
@@ -53,24 +66,21 @@ class CountedFrames {
       if (!counted) return counted.error();
       frames_[settings] = std::move(counted).value();
     }
-    const Counters& frame = frames_[settings];
-    const auto found = frame.find(name);
-    if (found == frame.end()) return Error{ErrorKind::failed, "a frame of this scene does not count " + name};
-    return found->second;
+    const CountedFrame& frame = frames_[settings];
+    const auto found = frame.counters.find(name);
+    if (found == frame.counters.end()) return Error{ErrorKind::failed, "a frame of this scene does not count " + name};
+    return Counter{found->second, frame.picture_hash};
   }
 
  private:
-  std::map<Settings, Counters> frames_;
+  std::map<Settings, CountedFrame> frames_;
 };
 
-BenchValue value_of(const BenchContext& context, double value) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return {.value = value,
-          .p10 = {},
-          .p90 = {},
-          .hash = hash_text(Hasher().value(bits).digest()),
-          .scene = context.scene_or(kScene)};
+/// The value, with a hash of the number and of the picture of the counted frame.
+BenchValue value_of(const BenchContext& context, double value, std::uint64_t picture_hash) {
+  BenchValue result = single_value(value, hash_of_both(hash_of_number(value), picture_hash));
+  result.scene = context.scene_or(kScene);
+  return result;
 }
 
 BenchRow counter_row(std::string id, std::string unit, std::shared_ptr<CountedFrames> frames, Settings settings,
@@ -80,12 +90,12 @@ BenchRow counter_row(std::string id, std::string unit, std::shared_ptr<CountedFr
   row.unit = std::move(unit);
   row.run = [frames = std::move(frames), settings = std::move(settings), counter = std::move(counter),
              less = std::move(less)](BenchContext& context) -> Result<BenchValue> {
-    const auto value = frames->counter(context, settings, counter);
-    if (!value) return value.error();
-    if (less.empty()) return value_of(context, *value);
+    const auto counted = frames->counter(context, settings, counter);
+    if (!counted) return counted.error();
+    if (less.empty()) return value_of(context, counted->value, counted->picture_hash);
     const auto right = frames->counter(context, settings, less);
     if (!right) return right.error();
-    return value_of(context, *value - *right);
+    return value_of(context, counted->value - right->value, counted->picture_hash);
   };
   return row;
 }

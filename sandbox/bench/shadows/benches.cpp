@@ -17,14 +17,15 @@ namespace gloam {
 namespace {
 
 constexpr const char* kScene = "builtin:shadows";  // unless the user names one
-// Rays for every light and pixel: pictures of this size, whatever the size that frames are timed at.
+// Size of the pictures that are compared with rays for every light and pixel. It does not depend on the size of timed
+// frames.
 constexpr std::uint32_t kErrorWidth = 320;
 constexpr std::uint32_t kErrorHeight = 180;
 constexpr int kPairs = 9;
 constexpr int kWarmUp = 2;
 constexpr double kNsPerMs = 1e6;
 
-/// A way to look maps up, and the knobs that choose it.
+/// A shadow filter and its knobs.
 struct Lookup {
   const char* name;
   const char* filter;
@@ -37,10 +38,11 @@ constexpr std::array<Lookup, 5> kLookups = {{{"hard", "hard", "on"},
                                              {"chs_without_mips", "chs", "off"}}};
 
 struct LookupCost {
-  std::vector<double> shadows_ns;  ///< what shading takes more than without shadows
+  std::vector<double> shadows_ns;  ///< shading time beyond that without shadows
   std::vector<double> shading_ns;
-  ShadowError error;
-  std::uint64_t hash = 0;
+  JudgedShadows error;
+  std::uint64_t hash = 0;          ///< of the picture with shadows
+  std::uint64_t without_hash = 0;  ///< of the picture without
 };
 using LookupCosts = std::array<LookupCost, kLookups.size()>;
 
@@ -50,7 +52,7 @@ Result<double> shading_ns(ShadowCase& shadows) {
   return pass_ms(*sample, "deferred") * kNsPerMs;
 }
 
-/// Frames by one way of looking up and without shadows, turn about.
+/// Times frames with one filter and without shadows, alternately.
 Status time_lookup(ShadowCase& shadows, LookupCost& cost) {
   for (int i = -kWarmUp; i < kPairs; ++i) {
     GLOAM_TRY(shadows.set("shadows.mode", "monolithic"));
@@ -62,6 +64,9 @@ Status time_lookup(ShadowCase& shadows, LookupCost& cost) {
     GLOAM_TRY(shadows.set("shadows.mode", "off"));
     const auto without = shading_ns(shadows);
     if (!without) return without.error();
+    const auto without_hash = shadows.picture_hash();
+    if (!without_hash) return without_hash.error();
+    cost.without_hash = *without_hash;
     if (i < 0) continue;
     cost.shadows_ns.push_back(*with - *without);
     cost.shading_ns.push_back(*with);
@@ -88,21 +93,15 @@ Result<LookupCosts> measure_lookups(Session& session, const Options& options) {
   return costs;
 }
 
-Result<ShadowError> measure_default(Session& session) {
+Result<JudgedShadows> measure_default(Session& session) {
   ShadowCase judged(session, kErrorWidth, kErrorHeight);
   return judged.error();
 }
 
 struct Shared {
   Once<LookupCosts> lookups;
-  Once<ShadowError> standard;
+  Once<JudgedShadows> standard;
 };
-
-BenchValue plain(double value) {
-  BenchValue result;
-  result.value = value;
-  return result;
-}
 
 template <class T, class Measure, class Value>
 BenchRow row_of(std::string id, std::string unit, Measure measure, Value value) {
@@ -121,24 +120,25 @@ BenchRow row_of(std::string id, std::string unit, Measure measure, Value value) 
 
 void add_error_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shared) {
   const auto measure = [shared](BenchContext& context) {
-    return shared->standard.get([&]() -> Result<ShadowError> {
+    return shared->standard.get([&]() -> Result<JudgedShadows> {
       auto session = context.session_or(kScene);
       if (!session) return session.error();
       return measure_default(**session);
     });
   };
-  BenchRow mean = row_of<ShadowError>("error_traced_mean", "visibility", measure,
-                                      [](const ShadowError& e) { return plain(e.mean()); });
+  BenchRow mean = row_of<JudgedShadows>("error_traced_mean", "visibility", measure,
+                                        [](const JudgedShadows& e) { return single_value(e.mean(), e.hash); });
   mean.bar = 0.02;
   registry.add(std::move(mean));
-  BenchRow penumbra = row_of<ShadowError>("error_traced_penumbra_mean", "visibility", measure,
-                                          [](const ShadowError& e) { return plain(e.penumbra_mean()); });
+  BenchRow penumbra =
+      row_of<JudgedShadows>("error_traced_penumbra_mean", "visibility", measure,
+                            [](const JudgedShadows& e) { return single_value(e.penumbra_mean(), e.hash); });
   penumbra.bar = 0.08;
   registry.add(std::move(penumbra));
-  registry.add(row_of<ShadowError>("acne", "share of pairs", measure,
-                                   [](const ShadowError& e) { return plain(e.acne_share()); }));
-  registry.add(row_of<ShadowError>("leaks", "share of pairs", measure,
-                                   [](const ShadowError& e) { return plain(e.leak_share()); }));
+  registry.add(row_of<JudgedShadows>("acne", "share of pairs", measure,
+                                     [](const JudgedShadows& e) { return single_value(e.acne_share(), e.hash); }));
+  registry.add(row_of<JudgedShadows>("leaks", "share of pairs", measure,
+                                     [](const JudgedShadows& e) { return single_value(e.leak_share(), e.hash); }));
 }
 
 void add_lookup_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shared) {
@@ -152,16 +152,18 @@ void add_lookup_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& sha
   for (std::size_t i = 0; i < kLookups.size(); ++i) {
     const std::string id = std::string("filter.") + kLookups[i].name;
     registry.add(row_of<LookupCosts>(id + ".ms", "ms", measure, [i](const LookupCosts& costs) {
-      return per_item(costs[i].shadows_ns, kNsPerMs, costs[i].hash);
+      return per_item(costs[i].shadows_ns, kNsPerMs, hash_of_both(costs[i].hash, costs[i].without_hash));
     }));
-    registry.add(row_of<LookupCosts>(id + ".error", "visibility", measure,
-                                     [i](const LookupCosts& costs) { return plain(costs[i].error.mean()); }));
-    registry.add(row_of<LookupCosts>(id + ".error_penumbra", "visibility", measure,
-                                     [i](const LookupCosts& costs) { return plain(costs[i].error.penumbra_mean()); }));
+    registry.add(row_of<LookupCosts>(id + ".error", "visibility", measure, [i](const LookupCosts& costs) {
+      return single_value(costs[i].error.mean(), costs[i].error.hash);
+    }));
+    registry.add(row_of<LookupCosts>(id + ".error_penumbra", "visibility", measure, [i](const LookupCosts& costs) {
+      return single_value(costs[i].error.penumbra_mean(), costs[i].error.hash);
+    }));
   }
   // 48 gathers from mips against 128 single fetches without (Thief §1.3.3).
   registry.add(row_of<LookupCosts>("filter.chs_over_pcss", "ratio", measure, [](const LookupCosts& costs) {
-    return ratio_of(costs[3].shadows_ns, costs[2].shadows_ns, costs[3].hash);
+    return ratio_of(costs[3].shadows_ns, costs[2].shadows_ns, hash_of_both(costs[3].hash, costs[2].hash));
   }));
 }
 

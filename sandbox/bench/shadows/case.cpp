@@ -19,7 +19,7 @@ constexpr std::uint32_t kSamples = 256;
 
 ShadowCase::ShadowCase(Session& session, std::uint32_t width, std::uint32_t height)
     : session_(session), settings_(session.view_settings(width, height, "none")) {
-  static_cast<void>(set("shadows.mode", "monolithic"));  // the knob is there, and has the value
+  static_cast<void>(set("shadows.mode", "monolithic"));  // cannot fail: the knob and the value exist
 }
 
 ShadowCase::~ShadowCase() {
@@ -74,15 +74,19 @@ Result<std::vector<float>> ShadowCase::drawn(Entity light) {
   return visibility;
 }
 
-Result<ShadowError> ShadowCase::error() {
+Result<JudgedShadows> ShadowCase::error() {
   const auto truth = traced();
   if (!truth) return truth.error();
-  ShadowError sum;
+  JudgedShadows sum;
+  Hasher hasher;
+  hasher.bytes(std::as_bytes(std::span((*truth)->visibility)));
   for (std::uint32_t layer = 0; layer < (*truth)->lights.size(); ++layer) {
     const auto visibility = drawn((*truth)->lights[layer]);
     if (!visibility) return visibility.error();
     sum += compare_visibility(**truth, layer, *visibility);
+    hasher.bytes(std::as_bytes(std::span(*visibility)));
   }
+  sum.hash = hasher.digest();
   return sum;
 }
 
@@ -90,6 +94,12 @@ Result<std::uint64_t> ShadowCase::picture_hash() {
   const auto picture = session_.renderer->read_picture(settings_.id);
   if (!picture) return picture.error();
   return hash_bytes(std::as_bytes(std::span(picture->rgba)));
+}
+
+Result<std::uint64_t> ShadowCase::image_hash(std::string_view name) {
+  const auto image = session_.renderer->read_image(session_.world, settings_.id, name);
+  if (!image) return image.error();
+  return hash_bytes(image->bytes);
 }
 
 Result<Picture> ShadowCase::picture() { return session_.renderer->read_picture(settings_.id); }

@@ -19,9 +19,13 @@
 
 namespace gloam {
 
-/// Frames of a session from one camera, and what of each light they show held against rays. Knobs that it sets it sets
-/// back. Shadow maps are looked up where light is added up until shadows.mode is set otherwise: filters are what most
-/// benches time and judge.
+/// Error of drawn shadows against traced shadows, with a hash of both visibilities.
+struct JudgedShadows : ShadowError {
+  std::uint64_t hash = 0;
+};
+
+/// Draws frames of a session from one camera and compares each light's visibility with rays. The destructor restores
+/// the knobs that `set` changed. Starts with shadows.mode=monolithic, because most benches time and judge filters.
 class ShadowCase {
  public:
   ShadowCase(Session& session, std::uint32_t width, std::uint32_t height);
@@ -30,36 +34,38 @@ class ShadowCase {
   ShadowCase& operator=(const ShadowCase&) = delete;
 
   [[nodiscard]] Session& session() { return session_; }
-  /// "shadows.filter", "hard".
+  /// Sets a knob, for example "shadows.filter" to "hard".
   [[nodiscard]] Status set(const std::string& knob, const std::string& value);
-  /// As the user had it.
+  /// Restores the user's value of a knob.
   void set_back(const std::string& knob);
   [[nodiscard]] Result<FrameSample> draw(const std::string& visualizer = "none");
-  /// Of the camera's pixels, once.
+  /// Traced visibility at the camera's pixels. Traced by the first call only.
   [[nodiscard]] Result<const TracedVisibility*> traced();
-  /// Visibility of a light at each pixel as shadow maps give it with the knobs as they are; below 0 where it does not
-  /// reach.
+  /// Draws the visibility of a light at each pixel with the current knobs. Negative where the light does not reach.
   [[nodiscard]] Result<std::vector<float>> drawn(Entity light);
-  /// All lights that were traced, with the knobs as they are.
-  [[nodiscard]] Result<ShadowError> error();
+  /// Error over all traced lights, with the current knobs.
+  [[nodiscard]] Result<JudgedShadows> error();
   /// Hash of the last picture that `draw` drew.
   [[nodiscard]] Result<std::uint64_t> picture_hash();
+  /// Hash of an image that passes of the last frame exposed; draws that frame once more.
+  [[nodiscard]] Result<std::uint64_t> image_hash(std::string_view name);
   /// The last picture that `draw` drew.
   [[nodiscard]] Result<Picture> picture();
-  /// From here on frames are drawn from a pose (world_from_camera, rigid) instead of the camera's, with its lens.
+  /// Draws all later frames from a pose (world_from_camera, rigid) instead of the camera's pose, with the camera's
+  /// lens.
   void look_from(const dmat4& pose);
 
  private:
-  /// A name of the light that no other has.
+  /// A unique name of the light, which is added if it is missing.
   [[nodiscard]] std::string name_of(Entity light);
 
   Session& session_;
   ViewSettings settings_;
-  std::map<std::string, std::string> users_;  ///< knobs as they were
+  std::map<std::string, std::string> users_;  ///< values of the changed knobs before the change
   std::optional<TracedVisibility> traced_;
 };
 
-/// Milliseconds of all passes of a frame with a name.
+/// Sum of the milliseconds of all passes with this name in a frame.
 [[nodiscard]] double pass_ms(const FrameSample& sample, std::string_view name);
 
 }  // namespace gloam

@@ -23,9 +23,9 @@ namespace {
 constexpr const char* kScene = "builtin:shadow_grid";
 constexpr int kFrames = 5;
 constexpr double kNsPerMs = 1e6;
-constexpr double kLightsAPoint = 24.0;  // with all lights; fewer lights reach as far
+constexpr double kLightsAPoint = 24.0;  // with all lights; fewer lights have the same range
 constexpr std::array<std::uint32_t, 6> kCounts = {8, 16, 32, 64, 128, 256};
-constexpr std::uint32_t kWidth = 640;  // of the curve of counts
+constexpr std::uint32_t kWidth = 640;  // size for the curve over light counts
 constexpr std::uint32_t kHeight = 360;
 
 struct Size {
@@ -46,10 +46,11 @@ struct Point {
   std::vector<double> generate_ns;
   std::vector<double> finish_ns;
   std::vector<double> lighting_ns;
-  std::vector<double> deferred_ns;    ///< all of them
+  std::vector<double> deferred_ns;    ///< all phases
   std::vector<double> monolithic_ns;  ///< lists and lighting
   double lights_a_tile = 0.0;
-  std::uint64_t hash = 0;
+  std::uint64_t deferred_hash = 0;  ///< of the pictures
+  std::uint64_t monolithic_hash = 0;
 };
 
 void add_deferred(Point& point, const FrameReport& report) {
@@ -71,19 +72,22 @@ Result<Point> measure_point(Session& session, std::uint32_t width, std::uint32_t
     const auto deferred = draw_settled(shadows, kClassified);
     if (!deferred) return deferred.error();
     add_deferred(point, deferred->report);
-    const auto hash = shadows.picture_hash();
-    if (!hash) return hash.error();
-    point.hash = *hash;
+    const auto deferred_hash = shadows.picture_hash();
+    if (!deferred_hash) return deferred_hash.error();
+    point.deferred_hash = *deferred_hash;
     const auto monolithic = draw_settled(shadows, kMonolithic);
     if (!monolithic) return monolithic.error();
     point.monolithic_ns.push_back(phase_times(monolithic->report).total() * kNsPerMs);
+    const auto monolithic_hash = shadows.picture_hash();
+    if (!monolithic_hash) return monolithic_hash.error();
+    point.monolithic_hash = *monolithic_hash;
   }
   return point;
 }
 
 using CountPoints = std::array<Point, kCounts.size()>;
 
-/// From many lights to few: those that are gone do not come back.
+/// Measures from many lights to few, because removed lights do not come back.
 Result<CountPoints> measure_counts(BenchContext& context) {
   auto session = context.open_builtin(kScene);
   if (!session) return session.error();
@@ -116,29 +120,35 @@ BenchRow point_row(std::string id, std::string unit, GetPoint get, PointValue va
   return row;
 }
 
-/// One line of the table: a point's columns. `scene`: empty where the user may choose.
+/// Adds the rows of one point, one per column. scene: the measured scene; empty if the user may choose it.
 void add_point(BenchRegistry& registry, const std::string& curve, const std::string& name, const GetPoint& get,
                const std::string& scene) {
-  constexpr std::pair<const char*, std::vector<double> Point::*> kColumns[] = {
-      {"lists", &Point::lists_ns},          {"classify", &Point::classify_ns}, {"generate", &Point::generate_ns},
-      {"finish", &Point::finish_ns},        {"lighting", &Point::lighting_ns}, {"deferred", &Point::deferred_ns},
-      {"monolithic", &Point::monolithic_ns}};
+  struct Column {
+    const char* name;
+    std::vector<double> Point::*times_ns;
+    std::uint64_t Point::*hash = &Point::deferred_hash;
+  };
+  constexpr Column kColumns[] = {{"lists", &Point::lists_ns},
+                                 {"classify", &Point::classify_ns},
+                                 {"generate", &Point::generate_ns},
+                                 {"finish", &Point::finish_ns},
+                                 {"lighting", &Point::lighting_ns},
+                                 {"deferred", &Point::deferred_ns},
+                                 {"monolithic", &Point::monolithic_ns, &Point::monolithic_hash}};
   const std::string prefix = curve + "." + name + ".";
-  for (const auto& [column, times] : kColumns)
+  for (const Column& column : kColumns)
     registry.add(point_row(
-        prefix + column, "ms", get, [times = times](const Point& p) { return per_item(p.*times, kNsPerMs, p.hash); },
-        scene));
+        prefix + column.name, "ms", get,
+        [column](const Point& p) { return per_item(p.*column.times_ns, kNsPerMs, p.*column.hash); }, scene));
   registry.add(point_row(
       prefix + "deferred_over_monolithic", "ratio", get,
-      [](const Point& p) { return ratio_of(p.deferred_ns, p.monolithic_ns, p.hash); }, scene));
-  registry.add(point_row(
-      prefix + "lights_a_tile", "lights", get,
       [](const Point& p) {
-        BenchValue value;
-        value.value = p.lights_a_tile;
-        return value;
+        return ratio_of(p.deferred_ns, p.monolithic_ns, hash_of_both(p.deferred_hash, p.monolithic_hash));
       },
       scene));
+  registry.add(point_row(
+      prefix + "lights_a_tile", "lights", get,
+      [](const Point& p) { return single_value(p.lights_a_tile, p.deferred_hash); }, scene));
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ Status add_frame(ShadowCase& shadows, const ShadowVariant& way, bool counts, Way
   return {};
 }
 
-/// All ways turn about, from one camera at rest: maps are made once, before anything counts.
+/// Measures all ways alternately, with one camera at rest: shadow maps are drawn once, before the first counted frame.
 Result<WayCosts> measure_ways(Session& session, const Options& options) {
   WayCosts costs;
   ShadowCase shadows(session, options.width, options.height);
@@ -67,7 +67,7 @@ Result<WayCosts> measure_ways(Session& session, const Options& options) {
   return costs;
 }
 
-/// In steps of 1/255, over all channels.
+/// Largest difference over all channels, in steps of 1/255.
 double largest_difference(const Picture& a, const Picture& b) {
   int largest = 0;
   for (std::size_t i = 0; i < a.rgba.size(); ++i) largest = std::max(largest, std::abs(a.rgba[i] - b.rgba[i]));
@@ -103,26 +103,30 @@ BenchRow way_row(std::string id, std::string unit, Shared shared, Value value) {
   return row;
 }
 
-BenchValue plain(double value) {
-  BenchValue result;
-  result.value = value;
-  return result;
+/// Hash of the pictures of a way and of the monolithic one.
+std::uint64_t hash_beside_monolithic(const WayCosts& costs, Way way) {
+  return hash_of_both(costs[way].hash, costs[kMono].hash);
 }
 
 void add_ratio(BenchRegistry& registry, const Shared& shared, const char* id, Way way, std::optional<double> bar) {
   BenchRow row = way_row(std::string("table1.") + id, "ratio", shared, [way](const WayCosts& c) {
-    return ratio_of(c[way].total_ns, c[kMono].total_ns, c[way].hash);
+    return ratio_of(c[way].total_ns, c[kMono].total_ns, hash_beside_monolithic(c, way));
   });
   row.bar = bar;
   registry.add(std::move(row));
 }
 
-/// What the paper gives, on a console: beside ours, to be compared as ratios only.
+/// Adds a figure of the paper, measured on a console: only its ratios can be compared with ours. Nothing is computed,
+/// so there is no hash.
 void add_paper_row(BenchRegistry& registry, const char* id, const char* unit, double value) {
   BenchRow row;
   row.id = std::string("shadows.table1.paper.") + id;
   row.unit = unit;
-  row.run = [value](BenchContext&) -> Result<BenchValue> { return plain(value); };
+  row.run = [value](BenchContext&) -> Result<BenchValue> {
+    BenchValue constant;
+    constant.value = value;
+    return constant;
+  };
   registry.add(std::move(row));
 }
 
@@ -142,18 +146,21 @@ void add_table(BenchRegistry& registry, const Shared& shared) {
   constexpr std::pair<const char*, Way> kHeld[] = {{"deferred_unclassified", kPlain}, {"deferred", kTiles}};
   for (const auto& [name, way] : kHeld) {
     BenchRow difference =
-        way_row(std::string("table1.") + name + "_difference", "1/255", shared,
-                [way = way](const WayCosts& c) { return plain(largest_difference(c[kMono].picture, c[way].picture)); });
+        way_row(std::string("table1.") + name + "_difference", "1/255", shared, [way = way](const WayCosts& c) {
+          return single_value(largest_difference(c[kMono].picture, c[way].picture), hash_beside_monolithic(c, way));
+        });
     difference.bar = 1.0;
     registry.add(std::move(difference));
-    registry.add(
-        way_row(std::string("table1.") + name + "_equal_pixels", "share of pixels", shared,
-                [way = way](const WayCosts& c) { return plain(equal_share(c[kMono].picture, c[way].picture)); }));
+    registry.add(way_row(
+        std::string("table1.") + name + "_equal_pixels", "share of pixels", shared, [way = way](const WayCosts& c) {
+          return single_value(equal_share(c[kMono].picture, c[way].picture), hash_beside_monolithic(c, way));
+        }));
   }
-  registry.add(way_row("table1.closeup_pairs", "pairs", shared,
-                       [](const WayCosts& c) { return plain(counter_of(c[kPairs].report, "closeups.pairs")); }));
+  registry.add(way_row("table1.closeup_pairs", "pairs", shared, [](const WayCosts& c) {
+    return single_value(counter_of(c[kPairs].report, "closeups.pairs"), c[kPairs].hash);
+  }));
   registry.add(way_row("table1.lights_a_tile", "lights", shared, [](const WayCosts& c) {
-    return plain(counter_of(c[kTiles].report, "lights.per_tile_accurate_mean"));
+    return single_value(counter_of(c[kTiles].report, "lights.per_tile_accurate_mean"), c[kTiles].hash);
   }));
 }
 
@@ -170,11 +177,11 @@ void add_shares(BenchRegistry& registry, const Shared& shared) {
        {"filtered_unlit", "shadows.tile_lights_filtered_unlit"},
        {"slot", "shadows.slots"}}};
   for (const auto& [name, counter] : kCounters)
-    registry.add(way_row(std::string("tile_lights.") + name, "share of tiles' lights", shared,
-                         [counter = counter](const WayCosts& c) {
-                           const double all = counter_of(c[kTiles].report, "shadows.tile_lights");
-                           return plain(counter_of(c[kTiles].report, counter) / std::max(all, 1.0));
-                         }));
+    registry.add(way_row(
+        std::string("tile_lights.") + name, "share of tiles' lights", shared, [counter = counter](const WayCosts& c) {
+          const double all = counter_of(c[kTiles].report, "shadows.tile_lights");
+          return single_value(counter_of(c[kTiles].report, counter) / std::max(all, 1.0), c[kTiles].hash);
+        }));
 }
 
 }  // namespace

@@ -22,14 +22,14 @@ namespace gloam {
 namespace {
 
 constexpr const char* kScene = "builtin:shadow_grid";  // unless the user names one
-constexpr std::size_t kLights = 20;                    // left of the built-in scene's
+constexpr std::size_t kLights = 20;                    // number of lights that are kept of the built-in scene
 constexpr double kLightsAPoint = 4.0;
 constexpr int kBlocks = 15;
 constexpr int kWarmUpBlocks = 2;
 constexpr int kBlockFrames = 5;
 constexpr double kNsPerMs = 1e6;
 
-/// Where the time of a frame goes.
+/// Parts of a frame's time.
 enum FramePart : std::size_t { kMaps, kLists, kShadows, kLighting, kRest, kOutside };
 constexpr std::size_t kFrameParts = 6;
 constexpr std::array<const char*, kFrameParts> kPartNames = {"maps", "lists", "shadows", "lighting", "rest", "outside"};
@@ -59,9 +59,10 @@ struct ShadowFrames {
   std::vector<double> gpu_ns;
   std::vector<double> gather_ns;
   std::array<std::vector<double>, kFrameParts> part_ns;
-  std::uint64_t hash = 0;  ///< of the last picture
-  double lights = 0.0;     ///< that cast shadows, in the last frame
-  double room = 1.0;       ///< share of frames in which every tile had room
+  std::uint64_t hash = 0;         ///< of the last picture
+  std::uint64_t gather_hash = 0;  ///< of the yardstick's picture
+  double lights = 0.0;            ///< lights that cast shadows in the last frame
+  double room = 1.0;              ///< share of frames in which every tile had room
 };
 
 void add_frame(ShadowFrames& frames, const FrameSample& sample) {
@@ -85,7 +86,7 @@ Result<double> draw_gathers(GatherYardstick& yardstick) {
   return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Blocks of frames, time going on from each to the next, and of yardsticks, turn about.
+/// Measures blocks of frames and blocks of gather passes alternately. Simulated time advances with each frame.
 Result<ShadowFrames> measure(Session& session, const Options& options) {
   auto yardstick = GatherYardstick::create(*session.device, options.width, options.height);
   if (!yardstick) return yardstick.error();
@@ -113,13 +114,16 @@ Result<ShadowFrames> measure(Session& session, const Options& options) {
   const auto hash = shadows.picture_hash();
   if (!hash) return hash.error();
   frames.hash = *hash;
+  const auto gather_hash = (*yardstick)->picture_hash();
+  if (!gather_hash) return gather_hash.error();
+  frames.gather_hash = *gather_hash;
   frames.room /= kBlocks * kBlockFrames;
   session.set_clock(options.time_s, options.dt_s);
   return frames;
 }
 
-/// A scene that the user named, animated as it is; else the built-in one with few lights and boards that turn, in a
-/// session of its own.
+/// Measures the scene that the user named with its animation, or else a separate session of the built-in scene with few
+/// lights and turning boards.
 Result<ShadowFrames> measure_chosen(BenchContext& context) {
   if (!context.options().scene_is_default) {
     auto session = context.session();
@@ -151,12 +155,6 @@ void add_row(BenchRegistry& registry, const Shared& shared, const std::string& i
   registry.add(std::move(row));
 }
 
-BenchValue plain(double value) {
-  BenchValue result;
-  result.value = value;
-  return result;
-}
-
 }  // namespace
 
 void add_shadow_frame_benches(BenchRegistry& registry) {
@@ -167,9 +165,10 @@ void add_shadow_frame_benches(BenchRegistry& registry) {
   };
   times("whole_ms", &ShadowFrames::frame_ns);
   times("gpu_ms", &ShadowFrames::gpu_ns);
-  times("gather48_ms", &ShadowFrames::gather_ns);
+  add_row(registry, shared, "gather48_ms", "ms", std::nullopt,
+          [](const ShadowFrames& f) { return per_item(f.gather_ns, kNsPerMs, f.gather_hash); });
   add_row(registry, shared, "over_gather48", "ratio", 3.7,
-          [](const ShadowFrames& f) { return ratio_of(f.frame_ns, f.gather_ns, f.hash); });
+          [](const ShadowFrames& f) { return ratio_of(f.frame_ns, f.gather_ns, hash_of_both(f.hash, f.gather_hash)); });
   for (std::size_t i = 0; i < kFrameParts; ++i) {
     const std::string name = kPartNames[i];
     add_row(registry, shared, name + "_ms", "ms", std::nullopt,
@@ -178,9 +177,9 @@ void add_shadow_frame_benches(BenchRegistry& registry) {
             [i](const ShadowFrames& f) { return ratio_of(f.part_ns[i], f.frame_ns, f.hash); });
   }
   add_row(registry, shared, "casting_lights", "lights", std::nullopt,
-          [](const ShadowFrames& f) { return plain(f.lights); });
+          [](const ShadowFrames& f) { return single_value(f.lights, f.hash); });
   add_row(registry, shared, "with_room", "share of frames", std::nullopt,
-          [](const ShadowFrames& f) { return plain(f.room); });
+          [](const ShadowFrames& f) { return single_value(f.room, f.hash); });
 }
 
 }  // namespace gloam

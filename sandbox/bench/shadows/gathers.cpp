@@ -96,6 +96,7 @@ Status add_gathers_pass(FrameBuilder& frame, const Footprints& footprints, const
   for (const ImageRef image : {footprints.search_and_fine, footprints.coarse, shadows.atlas})
     pass.read(image, gpu::Access::fragment_read);
   sum = pass.write(sum, gpu::Access::color_target);
+  frame.expose(sum);  // benches hash it
   pass.keep();
   pass.execute([&frame, footprints, sum, shadows, pipeline = *pipeline](PassContext& context) {
     const auto sampled = [&](ImageRef ref) {

@@ -11,6 +11,7 @@
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/camera_path.h"
 #include "sandbox/bench/harness/context.h"
+#include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
 #include "sandbox/bench/shadows/case.h"
 #include "sandbox/bench/shadows/phases.h"
@@ -24,9 +25,9 @@ constexpr const char* kScene = "builtin:shadow_grid";
 constexpr std::size_t kPathFrames = 300;
 constexpr int kMostDraws = 6;
 
-/// A size, and every how many frames of the path are drawn: a software device takes seconds for some. From one of them
-/// to the next a camera jumps where several are left out, so that buffers have to grow at once; such a frame is drawn
-/// until every tile has room.
+/// A picture size and the step between drawn frames of the path, because a software device takes seconds for large
+/// frames. With a stride above 1 the camera jumps and buffers must grow at once, so each frame is drawn until every
+/// tile has room.
 struct PathCase {
   const char* name;
   std::uint32_t width;
@@ -34,8 +35,8 @@ struct PathCase {
   std::size_t stride;
 };
 struct LightCase {
-  const char* prefix;     ///< of its ids
-  double lights_a_point;  ///< spheres that hold a point of the ground; of spots, cones leave fewer to a tile
+  const char* prefix;     ///< of the row ids
+  double lights_a_point;  ///< ranges that reach a point on the ground; a tile has fewer lights (cones)
   std::array<PathCase, 2> sizes;
 };
 constexpr std::array<LightCase, 2> kLights = {
@@ -46,14 +47,15 @@ struct Memory {
   double list_bytes = 0.0;  ///< allocated after the last frame
   double visibility_bytes = 0.0;
   double lights_a_tile = 0.0;        ///< mean over the path
-  std::size_t last_overflow = 0;     ///< frame of the path after which every tile had room: 0 … 300
-  double slots_of_small_kernel = 1;  ///< over those of the default kernel, at the path's first pose
+  std::size_t last_overflow = 0;     ///< number of frames until the last overflow: 0 (none) … 300
+  double slots_of_small_kernel = 1;  ///< relative to the slots of the default kernel, at the path's first pose
+  std::uint64_t hash = 0;            ///< of the picture after the path's last frame
 };
 
-/// What is known when a frame of the path has been drawn.
+/// A drawn frame of the path.
 struct PoseSample {
   FrameSample sample;
-  bool overflowed = false;  ///< when it was drawn first
+  bool overflowed = false;  ///< in the first draw of the frame
 };
 
 Result<PoseSample> draw_pose(ShadowCase& shadows, const std::vector<PathKey>& path, std::size_t frame,
@@ -69,7 +71,8 @@ Result<PoseSample> draw_pose(ShadowCase& shadows, const std::vector<PathKey>& pa
   return PoseSample{std::move(*sample), overflowed};
 }
 
-/// How far the slots depend on the number of gathers in kernels that are equally wide.
+/// Visibility slots with the 4-texel kernel over those with the user's kernel, which is equally wide but has more
+/// gathers.
 Result<double> slots_of_small_kernel(ShadowCase& shadows) {
   const auto small = draw_settled(shadows, kClassified);
   if (!small) return small.error();
@@ -79,8 +82,8 @@ Result<double> slots_of_small_kernel(ShadowCase& shadows) {
   return counter_of(small->report, "shadows.slots") / std::max(1.0, counter_of(full->report, "shadows.slots"));
 }
 
-/// Along the path through the scene's cameras. Buffers are as large as frames ask for, by numbers of tiles and lights:
-/// kernels of four texels, as wide as larger ones, ask for the same with a quarter of the gathers.
+/// Measures along the path through the scene's cameras. Buffer sizes depend on the numbers of tiles and lights. So the
+/// 4-texel kernel is used: it is as wide as larger kernels and takes a quarter of the gathers.
 Result<Memory> measure_memory(BenchContext& context, const LightCase& lights, const PathCase& size) {
   auto session = context.open_builtin(kScene);
   if (!session) return session.error();
@@ -91,7 +94,7 @@ Result<Memory> measure_memory(BenchContext& context, const LightCase& lights, co
   GLOAM_TRY(shadows.set("shadows.classify", kClassified.classify));
   GLOAM_TRY(shadows.set("shadows.kernel", "4"));
   if (size.stride > 1) {
-    // Tiles without room cost most: buffers grow while lookups cost little, to less than what penumbrae ask for.
+    // Fallback tiles cost the most time. So buffers first grow with the cheap hard filter, to less than penumbrae need.
     GLOAM_TRY(shadows.set("shadows.filter", "hard"));
     const auto grown = draw_pose(shadows, path, 0, true);
     if (!grown) return grown.error();
@@ -110,6 +113,9 @@ Result<Memory> measure_memory(BenchContext& context, const LightCase& lights, co
     frames += 1.0;
   }
   memory.lights_a_tile /= frames;
+  const auto hash = shadows.picture_hash();
+  if (!hash) return hash.error();
+  memory.hash = *hash;
   if (size.stride > 1) return memory;
   shadows.look_from(path_pose(path, 0, kPathFrames));
   const auto kernels = slots_of_small_kernel(shadows);
@@ -130,8 +136,8 @@ void add_case(BenchRegistry& registry, const LightCase& lights, const PathCase& 
     row.run = [shared, &lights, &size, value = std::move(value)](BenchContext& context) -> Result<BenchValue> {
       const auto memory = shared->get([&] { return measure_memory(context, lights, size); });
       if (!memory) return memory.error();
-      BenchValue result;
-      result.value = value(**memory);
+      // The hash is of the last frame's picture: it shows that lights and visibilities had room.
+      BenchValue result = single_value(value(**memory), (*memory)->hash);
       result.scene = kScene;
       return result;
     };
@@ -143,11 +149,11 @@ void add_case(BenchRegistry& registry, const LightCase& lights, const PathCase& 
   add("visibility_over_fixed", "ratio", 0.25, [=](const Memory& m) { return m.visibility_bytes / fixed_visibility; });
   add("list_mib", "MiB", std::nullopt, [](const Memory& m) { return m.list_bytes / 1048576.0; });
   add("visibility_mib", "MiB", std::nullopt, [](const Memory& m) { return m.visibility_bytes / 1048576.0; });
-  // Of the last tenth none overflows, where no frame is left out.
+  // Bar if every frame is drawn: none of the last tenth may overflow.
   const std::optional<double> quiet = size.stride == 1 ? std::optional(0.9 * kPathFrames) : std::nullopt;
   add("last_overflow", "frames from the start", quiet,
       [](const Memory& m) { return static_cast<double>(m.last_overflow); });
-  // So that nobody takes a part of the path for all of it.
+  // Shows how much of the path was drawn.
   add("frames", "of 300 frames drawn", std::nullopt,
       [&size](const Memory&) { return static_cast<double>((kPathFrames + size.stride - 1) / size.stride); });
   add("lights_a_tile", "lights", std::nullopt, [](const Memory& m) { return m.lights_a_tile; });

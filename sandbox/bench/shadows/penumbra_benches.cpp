@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/atlas/view_faces.h"
@@ -17,10 +18,11 @@
 #include "modules/shadows/knobs.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
+#include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
 #include "sandbox/scenes/penumbra.h"
 
-// Width of the penumbra of a disc light and a straight edge, as drawn, against the analytic one: by height of the edge,
+// Drawn width of the penumbra of a disc light and a straight edge against the analytic width: by height of the edge,
 // resolution of the map and field of view of the light.
 
 namespace gloam {
@@ -36,13 +38,13 @@ constexpr std::uint32_t kRows = 8;
 constexpr double kEnoughTexels = 8.0;
 constexpr double kLow = 0.1, kHigh = 0.9;
 
-/// Share of a disc of radius 1 on one side of a line at distance u from its middle.
+/// Share of a disc of radius 1 on one side of a line at signed distance u from its centre.
 double disc_share(double u) {
   u = std::clamp(u, -1.0, 1.0);
   return 0.5 + (std::asin(u) + u * std::sqrt(1.0 - u * u)) / std::numbers::pi;
 }
 
-/// Widths of a disc's penumbra between the shares kLow and kHigh, as a share of the whole.
+/// Width of a disc's penumbra between the visibilities kLow and kHigh, as a share of its full width.
 double measured_share_of_disc() {
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 60; ++i) {
@@ -52,7 +54,7 @@ double measured_share_of_disc() {
   return low;  // from -low to low, of a width of 2
 }
 
-/// Where a rising row of visibilities first reaches a share, in columns.
+/// The column (interpolated) at which a rising row of visibilities first reaches `share`; NaN if it never does.
 double crossing(const std::vector<double>& row, double share) {
   for (std::size_t i = 1; i < row.size(); ++i)
     if (row[i - 1] < share && row[i] >= share)
@@ -69,16 +71,18 @@ struct Setting {
 struct Penumbra {
   double analytic_m = 0.0;
   double drawn_m = 0.0;
-  double texel_m = 0.0;  ///< of mip 0, at the floor
+  double texel_m = 0.0;    ///< width of a texel of mip 0 at the floor
+  std::uint64_t hash = 0;  ///< of the drawn visibilities
   [[nodiscard]] bool fine() const { return analytic_m >= kEnoughTexels * texel_m; }
-  /// Of the analytic width where that is wide enough, else texels that stand for as much: 2 texels are one bar.
+  /// Relative to the analytic width if that is at least kEnoughTexels wide. Otherwise in texels: 2 texels count 0.1,
+  /// the bar.
   [[nodiscard]] double deviation() const {
     const double off = std::abs(drawn_m - analytic_m);
     return fine() ? off / analytic_m : 0.1 * off / (2.0 * texel_m);
   }
 };
 
-/// Straight down onto the edge's shadow, from below the sheet.
+/// Looks straight down onto the edge's shadow, from below the sheet.
 ViewSettings view_below(const Setting& setting, double half_width_m) {
   ViewSettings settings;
   settings.width = kColumns;
@@ -118,6 +122,7 @@ Result<Penumbra> measure(Session& session, const Setting& setting) {
   if (!image) return image.error();
   std::vector<float> visibility(std::size_t{kColumns} * kRows);
   std::memcpy(visibility.data(), image->bytes.data(), visibility.size() * sizeof(float));
+  penumbra.hash = hash_bytes(image->bytes);
   std::vector<double> row(kColumns, 0.0);
   for (std::size_t i = 0; i < visibility.size(); ++i) row[i % kColumns] += static_cast<double>(visibility[i]) / kRows;
   const double columns = crossing(row, kHigh) - crossing(row, kLow);
@@ -128,7 +133,8 @@ Result<Penumbra> measure(Session& session, const Setting& setting) {
 struct Widths {
   std::array<Penumbra, kHeights_m.size()> standard;  ///< 1024 texels, the narrower light
   double worst = 0.0;
-  double spread = 1.0;  ///< widest over narrowest by resolution and field of view, of edges that are fine in all
+  double spread = 1.0;     ///< widest over narrowest by resolution and field of view, of edges that are fine in all
+  std::uint64_t hash = 0;  ///< of all drawn visibilities
 };
 
 Result<Widths> measure_all(BenchContext& context) {
@@ -145,6 +151,7 @@ Result<Widths> measure_all(BenchContext& context) {
       for (const float angle : kOuterAngles) {
         const auto penumbra = measure(**session, {kHeights_m[h], resolution, angle});
         if (!penumbra) return penumbra.error();
+        widths.hash = hash_of_both(widths.hash, penumbra->hash);
         if (resolution == 1024 && angle == kOuterAngles[0]) widths.standard[h] = *penumbra;
         widths.worst = std::isfinite(penumbra->drawn_m) ? std::max(widths.worst, penumbra->deviation()) : 1e9;
         narrowest = std::min(narrowest, penumbra->drawn_m);
@@ -165,8 +172,7 @@ BenchRow width_row(std::string id, std::string unit, std::shared_ptr<Once<Widths
   row.run = [shared = std::move(shared), value](BenchContext& context) -> Result<BenchValue> {
     const auto widths = shared->get([&] { return measure_all(context); });
     if (!widths) return widths.error();
-    BenchValue result;
-    result.value = value(**widths);
+    BenchValue result = value(**widths);
     result.scene = kScene;
     return result;
   };
@@ -179,13 +185,18 @@ void add_shadow_penumbra_benches(BenchRegistry& registry) {
   const auto shared = std::make_shared<Once<Widths>>();
   for (std::size_t h = 0; h < kHeights_m.size(); ++h) {
     const std::string id = std::string("width.") + kHeightNames[h];
-    registry.add(width_row(id + ".drawn", "m", shared, [h](const Widths& w) { return w.standard[h].drawn_m; }));
-    registry.add(width_row(id + ".analytic", "m", shared, [h](const Widths& w) { return w.standard[h].analytic_m; }));
+    registry.add(width_row(id + ".drawn", "m", shared,
+                           [h](const Widths& w) { return single_value(w.standard[h].drawn_m, w.standard[h].hash); }));
+    registry.add(width_row(id + ".analytic", "m", shared, [h](const Widths& w) {
+      return single_value(w.standard[h].analytic_m, hash_of_number(w.standard[h].analytic_m));
+    }));
   }
-  BenchRow worst = width_row("worst_deviation", "share of width", shared, [](const Widths& w) { return w.worst; });
+  BenchRow worst = width_row("worst_deviation", "share of width", shared,
+                             [](const Widths& w) { return single_value(w.worst, w.hash); });
   worst.bar = 0.1;
   registry.add(std::move(worst));
-  BenchRow spread = width_row("widest_over_narrowest", "ratio", shared, [](const Widths& w) { return w.spread; });
+  BenchRow spread = width_row("widest_over_narrowest", "ratio", shared,
+                              [](const Widths& w) { return single_value(w.spread, w.hash); });
   spread.bar = 1.1;
   registry.add(std::move(spread));
 }

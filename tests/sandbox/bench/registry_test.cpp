@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/log.h"
+#include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/report.h"
 #include "tests/support/expect_assert.h"
 
@@ -49,6 +51,11 @@ TEST(BenchRegistry, an_unknown_name_is_wrong_usage) {
     ASSERT_FALSE(rows.ok()) << name;
     EXPECT_EQ(rows.error().kind, ErrorKind::usage);
   }
+  const auto fault = [&](const char* name) { return registry.choose(std::vector<std::string>{name}).error().message; };
+  EXPECT_EQ(fault("jbos"), "there is no bench 'jbos'; did you mean jobs? gloam bench --list names them");
+  EXPECT_EQ(fault("jobs.fork_jion"),
+            "there is no bench 'jobs.fork_jion'; did you mean jobs.fork_join? gloam bench --list names them");
+  EXPECT_EQ(fault("water"), "there is no bench 'water'; gloam bench --list names them");
 }
 
 TEST(BenchRegistry, ids_are_unique) {
@@ -76,10 +83,32 @@ TEST(BenchRegistry, the_programs_own_benches_have_the_documented_ids) {
     EXPECT_TRUE(ids.contains("ecs." + std::string(id))) << id;
     EXPECT_TRUE(ids.contains("ecs." + std::string(id) + "_over_bare")) << id;
   }
-  for (const char* id : {"empty", "empty.one_thread", "parallel_for_efficiency", "graph_node", "fork_join"})
+  for (const char* id : {"empty", "empty.one_thread", "spawn", "parallel_for_efficiency", "graph_node", "fork_join"})
     EXPECT_TRUE(ids.contains("jobs." + std::string(id))) << id;
-  for (const char* id : {"scene", "gather48", "scene_over_gather48"})
+  for (const char* id : {"declare_100_passes", "scene", "gather48", "scene_over_gather48"})
     EXPECT_TRUE(ids.contains("frame." + std::string(id))) << id;
+  EXPECT_TRUE(ids.contains("ecs.random_get_over_unchecked_bare"));
+}
+
+TEST(BenchRegistry, cpu_rows_run_without_a_device_and_repeat_their_hash) {
+  const BenchRegistry registry = make_bench_registry();
+  const std::vector<std::string> names = {"jobs.spawn", "frame.declare_100_passes"};
+  const auto rows = registry.choose(names);
+  ASSERT_TRUE(rows.ok());
+  const Options options;
+  for (const BenchRow* row : *rows) {
+    ASSERT_TRUE(row->bar.has_value()) << row->id;
+    std::set<std::string> hashes;
+    for (int run = 0; run < 2; ++run) {
+      BenchContext context(options, null_log());
+      const auto value = row->run(context);
+      ASSERT_TRUE(value.ok()) << row->id << ": " << value.error().message;
+      EXPECT_GT(value->value, 0.0) << row->id;
+      hashes.insert(value->hash.value_or(""));
+    }
+    EXPECT_EQ(hashes.size(), 1u) << row->id;
+    EXPECT_FALSE(hashes.contains("")) << row->id;
+  }
 }
 
 TEST(BenchRegistry, has_the_rows_of_lights_on_the_gpu) {
