@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# Every package this project uses; all come from the distribution.
+# Finds every package that this project uses. All are packages of the distribution.
 find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED)
@@ -11,7 +11,8 @@ find_package(OpenEXR REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(embree 3 REQUIRED)
-find_library(GLOAM_LIBDEFLATE deflate REQUIRED)  # brings no CMake package: targets link it by name
+find_library(GLOAM_LIBDEFLATE deflate REQUIRED)  # has no CMake package: targets link it by name
+find_path(GLOAM_XXHASH_HEADERS xxhash.h REQUIRED)  # header only, has no CMake package
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 if(GLOAM_SANDBOX)
   find_package(glfw3 REQUIRED)
@@ -20,7 +21,7 @@ if(GLOAM_SANDBOX)
   find_package(benchmark REQUIRED)
   find_package(ZLIB REQUIRED)
   find_package(PkgConfig REQUIRED)
-  pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)  # brings no CMake package
+  pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)  # has no CMake package
 endif()
 if(GLOAM_TESTS)
   find_package(GTest REQUIRED)

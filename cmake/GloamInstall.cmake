@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# The umbrella target gloam::gloam, and the package that find_package(gloam) finds. Everything is in the install component
-# "gloam", so that `cmake --install <build> --component gloam` needs the libraries only.
+# Defines the umbrella target gloam::gloam, and the package that find_package(gloam) finds. Everything is in the install
+# component "gloam", so that `cmake --install <build> --component gloam` needs only the libraries to be built.
 include(CMakePackageConfigHelpers)
 
 get_property(gloam_layers GLOBAL PROPERTY GLOAM_LAYERS)
@@ -13,7 +13,8 @@ set_target_properties(gloam_gloam PROPERTIES EXPORT_NAME gloam)
 target_link_libraries(gloam_gloam INTERFACE ${gloam_layers})
 set_target_properties(gloam_options PROPERTIES EXPORT_NAME options)
 
-# Packages that the layers' targets name, for gloamConfig.cmake: a pattern of target names and the package each.
+# Packages that gloamConfig.cmake must find, as pairs: a pattern of target names that the layers link, and the package
+# of those targets.
 set(gloam_packages
   "^Threads::" Threads "^glm::" glm "^TBB::" TBB "^Vulkan::" Vulkan "^TinyGLTF::" TinyGLTF "^OpenMesh" OpenMesh
   "^(OpenEXR|Imath)::" OpenEXR "^meshoptimizer::" meshoptimizer "^nlohmann_json::" nlohmann_json "^embree" embree)
@@ -44,8 +45,9 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/gloamConfig.cmake ${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/GloamShaders.cmake DESTINATION ${gloam_package_dir} COMPONENT gloam)
 
-# Headers keep their paths from the root, below include/gloam: targets add that folder, so that `#include "engine/…"` works and nothing
-# else in include/ is shadowed. Of modules only the public headers; Vulkan stays behind engine/gpu.
+# Headers keep their paths relative to the root, below include/gloam. Targets add that folder to the include path, so
+# that `#include "engine/…"` works and nothing else in include/ is shadowed. Of modules only the public headers are
+# installed; engine/gpu/vulkan is not.
 set(gloam_include_dir include/gloam)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING PATTERN "*.h" PATTERN "engine/gpu/vulkan" EXCLUDE)

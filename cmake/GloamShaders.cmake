@@ -1,17 +1,18 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# gloam_add_shaders, for this project and for modules that are built against the installed package.
+# Defines gloam_add_shaders, for this project and for modules that are built against the installed package.
 
-# The root that gloam's own shaders are included from; gloamConfig.cmake sets it to the installed headers.
+# Include root of gloam's own shaders; gloamConfig.cmake sets it to the installed headers.
 if(NOT DEFINED GLOAM_SHADER_ROOT)
   set(GLOAM_SHADER_ROOT ${PROJECT_SOURCE_DIR})
 endif()
 set_property(GLOBAL PROPERTY GLOAM_SHADER_ROOT "${GLOAM_SHADER_ROOT}")
 
 # gloam_add_shaders(<folder> <file.comp.glsl>…)
-# Compiles shaders/<folder>/<file> and embeds the words: library gloam_shaders_<folder>, header shaders/<folder>/shaders.h in the build
-# tree, which declares gloam::shaders::<folder>::<file with _ for ., without .glsl>: blur.frag.glsl is blur_frag. Names stay in the words:
-# reflection finds structures by them. Sources include by full path from the root of their project, or from gloam's.
+# Compiles shaders/<folder>/<file> to SPIR-V and embeds it in the library gloam_shaders_<folder>. The header
+# shaders/<folder>/shaders.h in the build tree declares each shader as gloam::shaders::<folder>::<symbol>: the file name
+# without .glsl and with _ for ., so blur.frag.glsl is blur_frag. The SPIR-V keeps names, because reflection finds
+# structures by name. Shaders include files by full path from the root of their project or of gloam.
 function(gloam_add_shaders folder)
   if(NOT GLSLANG_VALIDATOR)
     find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)

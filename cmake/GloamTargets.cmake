@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# Functions that make this project's targets: one library a layer, one test program a suite; GloamShaders: one shader library a folder.
+# Functions that define this project's targets: one library per layer, one test program per suite. GloamShaders defines
+# one shader library per folder.
 
 include(GloamShaders)
 add_library(gloam_options INTERFACE)
@@ -10,24 +11,27 @@ target_compile_options(gloam_options INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wno-missing-field-initializers>
   $<BUILD_INTERFACE:$<$<BOOL:${GLOAM_WARNINGS_AS_ERRORS}>:-Werror>>)
 target_compile_definitions(gloam_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE)
-# No contraction: a CPU twin and the same code in another translation unit must agree bit for bit.
+# No contraction to fused multiply-add: a CPU clone of a shader and the same code in another translation unit must agree
+# bit for bit.
 target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
 if(GLOAM_SANITIZE)
   target_compile_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE})
 endif()
 
-# gloam_compile_together(<target> [source…]): several sources of a target a compiler run, which halves the time, for most of it goes
-# into the same headers again and again. The sources named here stay alone, as those must that share a file-local name with another one.
+# gloam_compile_together(<target> [source…])
+# Compiles several sources of a target in one compiler run. That halves the time, most of which goes into headers that
+# the sources share. The sources named here are compiled alone; sources that share a file-local name with another one
+# must be.
 function(gloam_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # gloam_add_layer(<name> [APART] SOURCES … [ALONE sources…] [PUBLIC targets…] [PRIVATE targets…])
-# Static library gloam_<name>, exported as gloam::<name>. Included by full path from the root. Only sanitized layers are compiled
-# together unless GLOAM_LAYERS_TOGETHER asks for all, so that the usual release build proves that each source includes what it uses.
-# ALONE: not these; APART: none.
+# Static library gloam_<name>, exported as gloam::<name>. Its headers are included by full path from the root. Sources
+# are compiled together only in sanitized builds or with GLOAM_LAYERS_TOGETHER, so that the usual release build proves
+# that each source includes what it uses. ALONE: sources that are never compiled together; APART: no source is.
 function(gloam_add_layer name)
   cmake_parse_arguments(ARG "APART" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
   add_library(gloam_${name} STATIC ${ARG_SOURCES})
@@ -43,8 +47,8 @@ function(gloam_add_layer name)
   set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_${name})
 endfunction()
 
-# What every target of test code has. It is compiled once and run once: optimising it fully takes longer than it saves. Properties run
-# their code very often.
+# Settings of all test targets. Test code is compiled once and run once, so full optimisation would take longer than it
+# saves. Property tests are fully optimised, because they run their code very often.
 function(gloam_set_up_test_code target)
   target_link_libraries(${target} PRIVATE ${ARGN} gloam_options GTest::gmock)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
@@ -55,15 +59,15 @@ function(gloam_set_up_test_code target)
   endif()
 endfunction()
 
-# gloam_add_test_support(<name> SOURCES … [LIBRARIES …]): what several test programs link, compiled once.
+# gloam_add_test_support(<name> SOURCES … [LIBRARIES …]): a library that several test programs link, compiled once.
 function(gloam_add_test_support name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   gloam_set_up_test_code(${name} ${ARG_LIBRARIES})
 endfunction()
 
-# gloam_add_test_program(<program> SOURCES … [ALONE …] [LIBRARIES …]): a GoogleTest program, of which CTest knows nothing yet. Its
-# sources are compiled together, without those in ALONE.
+# gloam_add_test_program(<program> SOURCES … [ALONE …] [LIBRARIES …]): a GoogleTest program without CTest entries. Its
+# sources are compiled together, except those in ALONE.
 function(gloam_add_test_program program)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LIBRARIES" ${ARGN})
   add_executable(${program} ${ARG_SOURCES})
@@ -76,10 +80,11 @@ function(gloam_add_test_program program)
 endfunction()
 
 # gloam_add_entries(<suite> COMMAND program [arguments…] [LABELS …] [WIDTHS …] [ENVIRONMENT …])
-# One CTest entry, or one a subgroup width (in bits of a lavapipe vector) when WIDTHS are given.
+# Adds one CTest entry, or one per subgroup width if WIDTHS are given (in bits of a lavapipe vector).
 function(gloam_add_entries suite)
   cmake_parse_arguments(ARG "" "" "COMMAND;LABELS;WIDTHS;ENVIRONMENT" ${ARGN})
   set(entries "")
+  list(APPEND ARG_ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/shader_cache")  # shared by all entries
   if(NOT ARG_WIDTHS)
     list(APPEND entries ${suite})
     add_test(NAME ${suite} COMMAND ${ARG_COMMAND})
@@ -91,18 +96,18 @@ function(gloam_add_entries suite)
     add_test(NAME ${suite}.width${lanes} COMMAND ${ARG_COMMAND})
     set_tests_properties(${suite}.width${lanes} PROPERTIES ENVIRONMENT "${ARG_ENVIRONMENT};LP_NATIVE_VECTOR_WIDTH=${bits}")
   endforeach()
-  # A filter that fits no test would be a success otherwise.
+  # Without this, a filter that matches no test would pass.
   set_tests_properties(${entries} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${GLOAM_TEST_TIMEOUT}
     FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
 # gloam_add_test(<suite> SOURCES … [ALONE …] [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])
-# GoogleTest program <suite> with CTest entries of its own: see gloam_add_test_program and gloam_add_entries.
+# A GoogleTest program <suite> with its CTest entries: see gloam_add_test_program and gloam_add_entries.
 function(gloam_add_test suite)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LIBRARIES;LABELS;WIDTHS;ENVIRONMENT" ${ARGN})
   gloam_add_test_program(${suite} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE} LIBRARIES ${ARG_LIBRARIES})
   if("sanitize" IN_LIST ARG_LABELS)
-    # Builds what the sanitizer presets run, and nothing else.
+    # This target builds only the programs that the sanitizer presets run.
     if(NOT TARGET gloam_sanitize_tests)
       add_custom_target(gloam_sanitize_tests)
     endif()
@@ -111,8 +116,9 @@ function(gloam_add_test suite)
   gloam_add_entries(${suite} COMMAND ${suite} LABELS ${ARG_LABELS} WIDTHS ${ARG_WIDTHS} ENVIRONMENT ${ARG_ENVIRONMENT})
 endfunction()
 
-# gloam_find_tests(<filter> <program> <source>…): sets <filter> to the GoogleTest filter of the tests of these sources, which must be
-# the only ones of the program with suites of their names.
+# gloam_find_tests(<filter> <program> <source>…)
+# Sets <filter> to the GoogleTest filter of the tests in these sources. No other source of the program may have suites
+# of the same names.
 function(gloam_find_tests filter program)
   set(patterns "")
   foreach(source IN LISTS ARGN)
@@ -150,8 +156,9 @@ function(gloam_find_tests filter program)
 endfunction()
 
 # gloam_add_suites(<program> KIND <kind> SUITES … [ALONE …] [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])
-# Several suites in one GoogleTest program, which costs much less than a program each, and the same CTest entries: <suite>_tests runs
-# the tests of <suite>_<kind>_test.cpp, and `suite=a,b` those of a_<kind>_test.cpp and of b_<kind>_test.cpp.
+# Several suites in one GoogleTest program, which costs much less than one program per suite. The CTest entries are the
+# same: <suite>_tests runs the tests of <suite>_<kind>_test.cpp, and `suite=a,b` runs those of a_<kind>_test.cpp and
+# b_<kind>_test.cpp.
 function(gloam_add_suites program)
   cmake_parse_arguments(ARG "" "KIND" "SUITES;ALONE;LIBRARIES;LABELS;WIDTHS" ${ARGN})
   set(sources "")

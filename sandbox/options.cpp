@@ -6,13 +6,16 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "engine/core/env.h"
+#include "engine/core/nearest_name.h"
 
 namespace gloam {
 namespace {
 
-/// Two unsigned numbers with `separator` between them and nothing else; false otherwise.
+/// Parses exactly two unsigned numbers with `separator` between them. Returns false for any other text.
 bool parse_pair(const std::string& text, char separator, std::uint32_t& first, std::uint32_t& second) {
   const char* const end = text.data() + text.size();
   const auto left = std::from_chars(text.data(), end, first);
@@ -24,6 +27,8 @@ bool parse_pair(const std::string& text, char separator, std::uint32_t& first, s
 struct RawTexts {
   std::string size;
   std::string pick;
+  std::optional<std::string> budget;
+  std::optional<std::string> ledger;
   bool version = false;
 };
 
@@ -35,31 +40,37 @@ void add_frame_options(CLI::App& app, Options& options, RawTexts& raw) {
       ->type_name("N");
   app.add_option("--time", options.time_s, "Simulated time of the first frame (default 0)")->type_name("SECONDS");
   app.add_option("--dt", options.dt_s, "Simulated time from frame to frame (default 1/60)")->type_name("SECONDS");
-  app.add_option("--seed", options.seed, "Seed of everything random (default 1)")->type_name("N");
-  app.add_option("--set", options.assignments, "Set a knob; may be repeated")
+  app.add_option("--seed", options.seed,
+                 "Seed of random effects (default 1); this version has none, and pictures do not depend on it")
+      ->type_name("N");
+  app.add_option("--set", options.assignments, "Set a knob; may be given several times")
       ->type_name("KNOB=VALUE")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--config", options.config, "Knobs from a JSON object; --set comes after it")->type_name("FILE");
+  app.add_option("--config", options.config, "Set knobs from a JSON object {\"KNOB\": VALUE}; --set overrides it")
+      ->type_name("FILE");
   app.add_option("--view", options.view, "Visualizer to show instead of the lit picture")->type_name("VISUALIZER");
-  app.add_option("--pick", raw.pick, "Print what the modules know about a pixel")->type_name("X,Y");
-  app.add_option("--animation", options.animation, "Clip to play where several move the same thing")->type_name("NAME");
+  app.add_option("--pick", raw.pick, "Print details about a pixel: depth, lights, lists, shadows")->type_name("X,Y");
+  app.add_option("--animation", options.animation, "Clip to play if several clips animate the same property")
+      ->type_name("NAME");
 }
 
-void add_machine_options(CLI::App& app, Options& options) {
-  app.add_option("--out", options.out, "Picture to write: .png, or .exr for linear light (default out/<scene>.png)")
+void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
+  app.add_option(
+         "--out", options.out,
+         "Picture to write: .png, or .exr for linear light (default out/<scene>.png); cost: folder of the ledger")
       ->type_name("FILE");
   app.add_option("--stats", options.stats, "Write times, memory and counters as JSON")->type_name("FILE");
   app.add_option("--trace", options.trace, "Write a Chrome trace of systems and passes")->type_name("FILE");
-  app.add_option("--device", options.device, "auto, cpu, gpu, or part of a device's name")->type_name("DEVICE");
-  app.add_option("--threads", options.threads, "Threads that run jobs (default 0: one a core)")->type_name("N");
-  app.add_option("--budget", options.budget, "Time budget that the knobs are chosen for; needs --ledger")
-      ->type_name("BUDGET");
-  app.add_option("--ledger", options.ledger, "Cost ledger to choose knobs from")->type_name("FILE");
-  app.add_option("--cache-dir", options.cache_dir, "Where compiled pipelines are kept between runs")->type_name("DIR");
+  app.add_option("--device", options.device, "Vulkan device: auto, cpu, gpu, or part of its name")->type_name("DEVICE");
+  app.add_option("--threads", options.threads, "Number of job threads (default 0: one per core)")->type_name("N");
+  app.add_option("--budget", raw.budget, "Not built yet: choose knobs for a time budget")->type_name("BUDGET");
+  app.add_option("--ledger", raw.ledger, "Not built yet: the cost ledger to choose knobs from")->type_name("FILE");
+  app.add_option("--cache-dir", options.cache_dir, "Directory for compiled pipelines, kept between runs")
+      ->type_name("DIR");
   app.add_flag("--validate", options.validate,
-               "Vulkan validation with synchronization checks; any message is a failure");
-  app.add_flag("--quiet", options.quiet, "Print nothing but errors and what was asked for");
+               "Turn on Vulkan validation with synchronization checks; any message makes the run fail");
+  app.add_flag("--quiet", options.quiet, "Print only errors and requested output");
 }
 
 struct CommandApp {
@@ -72,7 +83,7 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   const auto add = [&](Command command, const char* name, const char* what) {
     CLI::App* app = root.add_subcommand(name, what);
     add_frame_options(*app, options, raw);
-    add_machine_options(*app, options);
+    add_machine_options(*app, options, raw);
     commands.push_back({command, app});
     return app;
   };
@@ -81,29 +92,35 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   play->add_option("SCENE", options.scene, scene_text);
   CLI::App* render = add(Command::render, "render", "Render without a window");
   render->add_option("SCENE", options.scene, scene_text)->required();
-  CLI::App* inspect = add(Command::inspect, "inspect", "What is in a scene, which effects it calls for and why");
+  CLI::App* inspect = add(Command::inspect, "inspect", "Print a scene's contents, the effects it needs, and why");
   inspect->add_option("SCENE", options.scene, scene_text)->required();
-  inspect->add_flag("--json", options.json, "As JSON");
-  CLI::App* bake = add(Command::bake, "bake", "Capture proxies and probes");
+  inspect->add_flag("--json", options.json, "Print JSON");
+  CLI::App* bake = add(Command::bake, "bake", "Not built yet: capture reflection proxies and probes");
   bake->add_option("SCENE", options.scene, scene_text)->required();
-  bake->add_option("--fit-proxies", options.fit_proxies, "Fit this many proxies to the scene")->type_name("N");
-  CLI::App* cost = add(Command::cost, "cost", "Measure what each knob costs and saves");
+  bake->add_option("--fit-proxies", options.fit_proxies, "Number of proxies to fit to the scene")->type_name("N");
+  CLI::App* cost = add(Command::cost, "cost", "Measure error and time of each knob's values");
   cost->add_option("SCENE", options.scene, scene_text)->required();
-  cost->add_option("--knobs", options.knobs, "Only these knobs, separated by commas")->type_name("A,B");
+  cost->add_option("--knobs", options.knobs, "Measure only these knobs, comma-separated")->type_name("A,B");
   cost->add_flag("--quick", options.quick, "Fewer repetitions");
-  CLI::App* bench = add(Command::bench, "bench", "Measure the papers' tables and the CPU systems, by name");
-  bench->add_option("NAME", options.names, "Runs the ids that start with NAME and a dot, or are NAME");
+  CLI::App* bench = add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems");
+  bench->add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");
   bench->add_option("--scene", options.scene, scene_text)->type_name("SCENE");
   bench->add_option("--json", options.json_file, "Write the rows as JSON")->type_name("FILE");
   bench->add_flag("--list", options.list, "List the ids");
-  bench->add_flag("--strict", options.strict, "A missed bar is a failure");
-  add(Command::scenes, "scenes", "List the built-in scenes with what they show");
+  bench->add_flag("--strict", options.strict, "Fail if a figure misses its bar");
+  bench->footer(
+      "jobs.empty is one batch: 100,000 jobs that exist already, in one call. jobs.spawn creates, runs and destroys\n"
+      "100,000 separate jobs on two workers. Every row carries a hash of its result, except rows that quote a figure\n"
+      "from a paper. If a row fails, the rows before it are still written.");
+  add(Command::scenes, "scenes", "List the built-in scenes and the effect each shows");
   return commands;
 }
 
 Error usage(std::string message) { return {ErrorKind::usage, std::move(message)}; }
 
 Status check_texts(Options& options, const RawTexts& raw) {
+  for (const auto& [name, text] : {std::pair("--budget", &raw.budget), std::pair("--ledger", &raw.ledger)})
+    if (text->has_value()) return usage(std::string(name) + " is not built yet; set knobs with --set or --config");
   if (!raw.size.empty()) {
     const bool read = parse_pair(raw.size, 'x', options.width, options.height);
     if (!read || options.width < 1 || options.height < 1 || options.width > kMaxSize || options.height > kMaxSize)
@@ -138,8 +155,6 @@ Status check_values(const Options& options) {
   if (options.command == Command::cost && options.out.empty()) return usage("cost needs --out DIR");
   if (options.command == Command::bench && options.names.empty() && !options.list)
     return usage("bench needs a NAME, or --list");
-  if (!options.budget.empty() && options.ledger.empty())
-    return usage("--budget needs --ledger FILE to choose knobs from");
   return {};
 }
 
@@ -154,6 +169,20 @@ std::unique_ptr<CLI::App> make_app(Options& options, RawTexts& raw, std::vector<
   app->add_flag("--version", raw.version, "Print the version");
   commands = add_commands(*app, options, raw);
   return app;
+}
+
+/// Returns ErrorKind::usage if the first argument is neither an option nor a command.
+Status check_command(std::span<const std::string> arguments, const std::vector<CommandApp>& commands) {
+  if (arguments.empty() || arguments.front().starts_with('-')) return {};
+  const std::string& wanted = arguments.front();
+  std::vector<std::string> names;
+  std::string list;
+  for (const CommandApp& command : commands) {
+    if (command.app->get_name() == wanted) return {};
+    names.push_back(command.app->get_name());
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  return usage("unknown command '" + wanted + "'; " + did_you_mean(wanted, names) + "there are " + list);
 }
 
 }  // namespace
@@ -172,6 +201,7 @@ Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::
   RawTexts raw;
   std::vector<CommandApp> commands;
   const std::unique_ptr<CLI::App> app = make_app(options, raw, commands);
+  GLOAM_TRY(check_command(arguments, commands));
   try {
     app->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {

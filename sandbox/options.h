@@ -20,19 +20,19 @@ struct PixelPosition {
   std::uint32_t y = 0;
 };
 
-/// What a user asked for; every number is in its documented range.
+/// The parsed command line. Every number is in its documented range.
 struct Options {
   Command command = Command::render;
   std::string scene;              ///< path or "builtin:NAME"
-  bool scene_is_default = false;  ///< the user named none
+  bool scene_is_default = false;  ///< the command line names no scene
 
   std::uint32_t width = 1280;  ///< pixels, 1…kMaxSize
   std::uint32_t height = 720;
-  std::string camera;        ///< empty: the first, else one fitted to the scene
+  std::string camera;        ///< empty: the scene's first camera; if it has none, one fitted to the scene
   std::uint32_t frames = 1;  ///< play: 0 runs until the window is closed
   double time_s = 0.0;
   double dt_s = 1.0 / 60.0;
-  bool fixed_step = true;  ///< play without --dt: false, time passes as on the wall
+  bool fixed_step = true;  ///< false for play without --dt: the scene follows the wall clock
   std::uint64_t seed = 1;
   std::vector<std::string> assignments;  ///< "KNOB=VALUE", in order
   std::string view = "none";
@@ -40,12 +40,10 @@ struct Options {
   std::string stats;
   std::string trace;
   std::string device = "auto";
-  std::uint32_t threads = 0;  ///< 0: one a core
-  std::string budget;
+  std::uint32_t threads = 0;  ///< 0: one per core
   std::string animation;
   std::string config;
-  std::string cache_dir;  ///< empty: nothing is kept between runs
-  std::string ledger;
+  std::string cache_dir;  ///< empty: compiled pipelines are not kept between runs
   bool validate = false;
   std::optional<PixelPosition> pick;
   bool quiet = false;
@@ -62,17 +60,17 @@ struct Options {
 
 inline constexpr std::uint32_t kMaxSize = 16384;
 
-/// Help or a version, asked for: to be printed instead of doing anything.
+/// Text of --help or --version: the program prints it and exits.
 struct PrintAndLeave {
   std::string text;
 };
 
-/// `arguments` as of main, without the program's name. `version` is what --version prints. Errors are of
+/// Parses the arguments of main, without the program's name. version: the text that --version prints. All errors are
 /// ErrorKind::usage.
 [[nodiscard]] Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::string> arguments,
                                                                          const std::string& version);
 
-/// What `gloam` alone prints.
+/// The text that `gloam` prints if it is run without arguments.
 [[nodiscard]] std::string help_text();
 
 }  // namespace gloam

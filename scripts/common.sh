@@ -1,16 +1,16 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# Shared by run.sh and test.sh: sourced, with the root as working directory and `set -euo pipefail`.
+# Functions shared by run.sh and test.sh. Sourced with the root as working directory and under `set -euo pipefail`.
 
-# configure PRESET FOLDER: once; after that the build itself notices when it must be done again. It is done again, too, when the
-# folder was moved here from another place.
+# configure PRESET FOLDER: configures the build in FOLDER once; after that the build reconfigures itself when needed.
+# Also configures again if FOLDER was moved here from another place.
 configure() {
   local preset=$1 folder=$2 options=() home=""
   [ -f "$folder/CMakeCache.txt" ] && home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$folder/CMakeCache.txt")
   [ -f "$folder/build.ninja" ] && [ "$home" = "$PWD" ] && return 0
   [ -z "$home" ] || [ "$home" = "$PWD" ] || rm -f "$folder/CMakeCache.txt"
   command -v ccache >/dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=)
-  # Where every build is a clean one, its time counts most.
+  # In CI every build is a clean one, so build time counts most.
   [ -z "${CI:-}" ] || options+=(-DGLOAM_LAYERS_TOGETHER=ON)
   mkdir -p "$folder"
   echo "configuring $folder" >&2
@@ -21,7 +21,7 @@ configure() {
   fi
 }
 
-# build FOLDER TARGET…: quiet unless it fails.
+# build FOLDER TARGET…: builds the targets; prints nothing unless the build fails.
 build() {
   local folder=$1
   shift

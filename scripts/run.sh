@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 # Builds the program and runs it. usage: scripts/run.sh [arguments of gloam]
-# Without arguments: a window with the lanterns where there is a display, else a picture of them in out/lanterns.png.
+# Without arguments: shows builtin:lanterns in a window if there is a display, otherwise renders it to out/lanterns.png.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 started_in=$PWD

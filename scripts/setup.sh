@@ -10,7 +10,7 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   exit 0
 fi
 
-# Every package's name and state in one call; a package dpkg never heard of is missing too.
+# Asks for all packages in one call. A package that dpkg does not know counts as missing.
 mapfile -t wanted <scripts/packages.txt
 installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${wanted[@]}" 2>/dev/null || true)
 missing=()
@@ -30,7 +30,7 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 export DEBIAN_FRONTEND=noninteractive
 install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}")
-# Lists may be old or absent: fetch them once when the first try fails.
+# The package lists may be old or absent: update them once if the first try fails.
 if ! "${install[@]}" </dev/null >/dev/null 2>&1; then
   "${as_root[@]}" apt-get update -q </dev/null >&2 || true
   "${install[@]}" </dev/null >&2 || {

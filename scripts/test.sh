@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# Builds and runs all tests: first everything in the release build, then the suites labelled `sanitize` under ASan and UBSan.
-# The long form of the second half, with the suites labelled `sanitize_long`, by hand: cmake --build --preset asan; ctest --preset asan-long.
+# Builds and runs all tests: first all tests in the release build, then the suites labelled `sanitize` under ASan and UBSan.
+# To run the suites labelled `sanitize_long` under sanitizers too: cmake --build --preset asan; ctest --preset asan-long
 # usage: scripts/test.sh [arguments of ctest, e.g. -R ecs]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -12,13 +12,13 @@ scripts/setup.sh
 jobs=${CTEST_PARALLEL_LEVEL:-$(nproc)}
 reports=()
 
-# run_tests PRESET FOLDER NAME [ctest arguments]: leaves FOLDER/junit.xml and the log; the report judges them.
+# run_tests PRESET FOLDER NAME [ctest arguments]: runs the tests and leaves FOLDER/junit.xml and the log for the report.
 run_tests() {
   local preset=$1 folder=$2 name=$3
   shift 3
   echo "testing: $name" >&2
   rm -f "$folder/junit.xml" "$folder/Testing/Temporary/LastTest.log"
-  # A failing test is counted by the report.
+  # Ignores the exit status of ctest: the report counts failing tests.
   ctest --preset "$preset" -j "$jobs" --output-junit "$PWD/$folder/junit.xml" "$@" >"$folder/ctest.log" 2>&1 </dev/null || true
   if grep -q 'No tests were found' "$folder/ctest.log"; then
     echo "no test of the $name run was asked for" >&2

@@ -10,18 +10,17 @@
 
 namespace gloam {
 
-/// 64-bit FNV-1a over bytes, word by word mixed: stable over runs, builds and machines of one byte order.
+/// XXH3 (64 bits) of the bytes. The digest is stable across runs, builds and machines.
+[[nodiscard]] std::uint64_t hash_bytes(std::span<const std::byte> data);
+
+/// 64-bit hash of a sequence of items: each call adds one mixed word to the state. Digests are stable across runs,
+/// builds and machines of the same byte order.
 class Hasher {
  public:
-  Hasher& bytes(std::span<const std::byte> data) {
-    for (std::byte b : data) state_ = (state_ ^ static_cast<std::uint64_t>(b)) * kPrime;
-    return *this;
-  }
-  Hasher& text(std::string_view s) {
-    value(s.size());
-    return bytes(std::as_bytes(std::span(s.data(), s.size())));
-  }
-  /// Integers and enumerations only: structs may carry padding.
+  /// Adds hash_bytes(data) as one item: bytes(a).bytes(b) differs from bytes() of a and b joined.
+  Hasher& bytes(std::span<const std::byte> data) { return value(hash_bytes(data)); }
+  Hasher& text(std::string_view s) { return bytes(std::as_bytes(std::span(s.data(), s.size()))); }
+  /// Integers and enumerations only: structs may contain padding.
   template <class T>
   requires(std::is_integral_v<T> || std::is_enum_v<T>) Hasher& value(T v) {
     auto x = static_cast<std::uint64_t>(v);
@@ -35,7 +34,5 @@ class Hasher {
   static constexpr std::uint64_t kPrime = 0x100000001b3ull;
   std::uint64_t state_ = 0xcbf29ce484222325ull;
 };
-
-[[nodiscard]] inline std::uint64_t hash_bytes(std::span<const std::byte> data) { return Hasher().bytes(data).digest(); }
 
 }  // namespace gloam

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -15,33 +16,38 @@
 namespace gloam::gpu {
 
 struct VulkanOptions {
-  /// "auto" (discrete, integrated, then cpu), "cpu", "gpu", or part of a device's name (any case).
+  /// "auto" (prefers discrete, then integrated, then other devices, then cpu), "cpu", "gpu" (any type but cpu), or part
+  /// of a device's name in any case.
   std::string device = "auto";
-  bool validate = false;        ///< validation layer with synchronization checks; every message is logged and counted
-  std::string cache_directory;  ///< where compiled pipelines are kept between runs; empty: nowhere
-  LogSink* log = nullptr;       ///< must outlive the device
-  /// Instance extensions a window system asks for; empty: no window.
+  bool validate = false;        ///< enables validation with synchronization checks; messages are logged and counted
+  std::string cache_directory;  ///< directory of the pipeline cache file; empty: pipelines are not kept between runs
+  /// How many compiled pipelines the device keeps after their destruction (the newest ones). A pipeline that is created
+  /// again with the same code, constants and state is then not compiled again. 0: none.
+  std::size_t retained_pipelines = 0;
+  LogSink* log = nullptr;  ///< must outlive the device; null: nothing is logged
+  /// The instance extensions that the window system requires; empty: no window.
   std::vector<std::string> window_extensions;
 };
 
-/// Fails with ErrorKind::no_device when no device fits, naming what there is.
+/// Fails with ErrorKind::no_device if no device fits; the error lists the devices found.
 [[nodiscard]] Result<std::unique_ptr<Device>> create_vulkan_device(const VulkanOptions& options);
 
-/// Pictures of a window, shown one after another.
+/// The images of a window, which are shown in turn.
 class Swapchain {
  public:
   virtual ~Swapchain() = default;
-  /// Fits the size in pixels; 0×0 (minimised) keeps nothing and makes `acquire` give no image.
+  /// Recreates the images for this size in pixels. Call it between frames. At 0×0 (minimised) there are no images, and
+  /// `acquire` returns none.
   [[nodiscard]] virtual Status resize(std::uint32_t width, std::uint32_t height) = 0;
-  /// Between begin_frame and submit_frame: the image to fill (it must end in Access::present), or none when the window
-  /// is minimised or has changed size (call resize, then try again next frame).
+  /// Call it between begin_frame and submit_frame. Returns the image to fill, which must end in Access::present.
+  /// Returns none if the window is minimised or has changed size; then call resize and try again in the next frame.
   [[nodiscard]] virtual Result<ImageHandle> acquire() = 0;
-  /// After submit_frame.
+  /// Shows the acquired image. Call it after submit_frame.
   [[nodiscard]] virtual Status present() = 0;
 };
 
-/// `create_surface` receives the VkInstance and returns a VkSurfaceKHR as an integer, or 0. The device must have been
-/// made with the window's extensions and must outlive the swapchain.
+/// `create_surface` receives the VkInstance and returns a VkSurfaceKHR as an integer, or 0 on failure; the swapchain
+/// owns the surface. The device must have been created with the window's extensions and must outlive the swapchain.
 [[nodiscard]] Result<std::unique_ptr<Swapchain>> create_swapchain(
     Device& device, const std::function<std::uint64_t(void* instance)>& create_surface);
 

@@ -17,7 +17,7 @@ const std::string& module_of(const AnyDesc& desc) {
   return std::visit([](const auto& d) -> const std::string& { return d.module; }, desc);
 }
 
-/// Shaders live as long as the device uses them: their address stands for their words.
+/// Hashes the address of the shader's words, not the words: shaders live as long as the device uses them.
 void add_shader(Hasher& hash, const gpu::ShaderCode& shader) {
   hash.text(shader.name).value(reinterpret_cast<std::uintptr_t>(shader.words.data())).value(shader.words.size());
 }
@@ -55,7 +55,7 @@ std::uint64_t hash_of(const gpu::GraphicsPipelineDesc& desc) {
 }  // namespace
 
 Pipelines::~Pipelines() {
-  worker_ = std::jthread();  // stops it and waits
+  worker_ = std::jthread();  // stops the worker and waits for it
   for (auto& [name, entry] : entries_) device_.destroy(entry.pipeline);
 }
 
@@ -101,7 +101,7 @@ bool Pipelines::request(const PipelineList& list, LogSink& log) {
     if (begun_.insert(name).second) queue_.push_back(desc);
   }
   if (!ready && !worker_.joinable())
-    worker_ = std::jthread([this, &log](std::stop_token stop) { run_worker(std::move(stop), log); });
+    worker_ = std::jthread([this, &log](const std::stop_token& stop) { run_worker(stop, log); });
   wake_.notify_one();
   return ready;
 }
@@ -111,7 +111,7 @@ std::size_t Pipelines::pending() const {
   return begun_.size();
 }
 
-void Pipelines::run_worker(std::stop_token stop, LogSink& log) {
+void Pipelines::run_worker(const std::stop_token& stop, LogSink& log) {
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [&] { return !queue_.empty(); }) && !stop.stop_requested()) {
     const AnyDesc desc = std::move(queue_.front());

@@ -22,11 +22,11 @@
 
 namespace gloam {
 
-/// Descriptions of the pipelines a module will ask for.
+/// Descriptions of the pipelines that a module needs.
 using PipelineList = std::vector<std::variant<gpu::ComputePipelineDesc, gpu::GraphicsPipelineDesc>>;
 
-/// Pipelines by name, made on first use. A name stands for one description: it holds whatever varies (constants,
-/// formats, states). Safe from many threads.
+/// Pipelines by name, compiled on first use. A name stands for one description, so it must hold everything that varies
+/// (constants, formats, states). Thread-safe.
 class Pipelines {
  public:
   explicit Pipelines(gpu::Device& device) : device_(device) {}
@@ -34,19 +34,19 @@ class Pipelines {
   Pipelines(const Pipelines&) = delete;
   Pipelines& operator=(const Pipelines&) = delete;
 
-  /// Asserts that a pipeline of that name was made from the same description.
+  /// The pipeline of that name, compiled if needed. Asserts that an existing one has the same description.
   [[nodiscard]] Result<gpu::PipelineHandle> get(const gpu::ComputePipelineDesc& desc) { return find_or_make(desc); }
   [[nodiscard]] Result<gpu::PipelineHandle> get(const gpu::GraphicsPipelineDesc& desc) { return find_or_make(desc); }
-  /// The pipeline of a name that was made before, or none.
+  /// The existing pipeline of that name, or a null handle.
   [[nodiscard]] gpu::PipelineHandle find(std::string_view name) const;
 
-  /// Whether all pipelines of a list are made. Those that are not are begun in the background, each once; one that
-  /// fails there is told to the log and counts as ready, so that `get` meets the error.
+  /// Whether all pipelines of a list are compiled. Missing ones are compiled in the background, each once. If one fails
+  /// there, the error is logged and the pipeline counts as ready, so that `get` returns the error.
   [[nodiscard]] bool request(const PipelineList& list, LogSink& log);
-  /// Pipelines that are made in the background, or wait for their turn there.
+  /// Number of pipelines that are queued or compiled in the background.
   [[nodiscard]] std::size_t pending() const;
-  /// Destroys all pipelines of a module, drops those that wait for their turn in the background and forgets failures.
-  /// One that is being compiled in the background stays.
+  /// Destroys all pipelines of a module, removes its queued ones and forgets its failures. A pipeline that is being
+  /// compiled in the background stays.
   void release(std::string_view module);
 
  private:
@@ -56,18 +56,18 @@ class Pipelines {
   struct Entry {
     std::string module;
     gpu::PipelineHandle pipeline;
-    std::uint64_t description = 0;  ///< hash of all that it was made from
+    std::uint64_t description = 0;  ///< hash of the description
   };
-  void run_worker(std::stop_token stop, LogSink& log);
+  void run_worker(const std::stop_token& stop, LogSink& log);
 
   gpu::Device& device_;
   mutable std::mutex mutex_;
   std::map<std::string, Entry, std::less<>> entries_;
-  std::set<std::string, std::less<>> begun_;                ///< names handed to the worker
-  std::map<std::string, std::string, std::less<>> failed_;  ///< in the background; modules by name
+  std::set<std::string, std::less<>> begun_;                ///< names that are queued or being compiled
+  std::map<std::string, std::string, std::less<>> failed_;  ///< failed in the background: module by name
   PipelineList queue_;
   std::condition_variable_any wake_;
-  std::jthread worker_;  ///< started with the first request; ends before the members above
+  std::jthread worker_;  ///< started by the first request; destroyed before the members above
 };
 
 }  // namespace gloam

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/renderer.h"
 
+#include "engine/core/nearest_name.h"
 #include "engine/ecs/view.h"
 #include "engine/render/passes/passes.h"
 #include "engine/render/renderer_state.h"
@@ -12,10 +13,10 @@
 namespace gloam {
 namespace {
 
-/// The renderer's own pictures of its geometry buffer; position + 1 is the code of debug_view.frag.
+/// The renderer's own visualizers of the geometry buffer; index + 1 is the code in debug_view.frag.
 constexpr const char* kEngineVisualizers[] = {"albedo", "normal", "depth"};
 
-/// `choices`: one, or some with '|' between.
+/// Whether the knob is at one of the choices, which are separated by '|'.
 bool is_one_of(const KnobRegistry& knobs, std::string_view knob, std::string_view choices) {
   for (std::size_t end = 0; !choices.empty(); choices.remove_prefix(std::min(end + 1, choices.size()))) {
     end = std::min(choices.find('|'), choices.size());
@@ -35,7 +36,7 @@ bool is_picture(gpu::Format format) {
   return format == rgba8_unorm || format == rgba8_srgb || format == bgra8_unorm || format == bgra8_srgb;
 }
 
-/// Resolves a target that exists only while a frame is recorded.
+/// Acquires a target that exists only while a frame is recorded. The view takes its size.
 Status acquire_target(const gpu::Device& device, ViewRequest& request) {
   if (!request.target.acquire) return {};
   const auto image = request.target.acquire();
@@ -77,10 +78,7 @@ Renderer::State::State(RendererOptions given)
 Renderer::State::~State() {
   static_cast<void>(options.device->wait_idle());
   for (const auto& module : options.modules) module->release();
-  for (auto& [id, view] : images) {
-    if (view.lit) options.device->destroy(view.lit);
-    if (view.picture) options.device->destroy(view.picture);
-  }
+  for (auto& [id, view] : images) destroy_images(view);
 }
 
 FrameServices Renderer::State::services() {
@@ -97,17 +95,46 @@ GpuScene& Renderer::State::scene_of(const World& world) {
   return *scene;
 }
 
-Status Renderer::State::prepare_images(const ViewRequest& request) {
+void Renderer::State::destroy_images(ViewImages& view) {
+  for (gpu::ImageHandle* image : {&view.lit, &view.picture}) {
+    if (*image) options.device->destroy(*image);
+    *image = {};
+  }
+}
+
+void Renderer::State::release_images(const std::function<bool(std::uint32_t id, const ViewImages&)>& unwanted) {
+  for (auto at = images.begin(); at != images.end();) {
+    const std::uint32_t id = at->first;
+    if (!unwanted(id, at->second)) {
+      ++at;
+      continue;
+    }
+    destroy_images(at->second);
+    std::erase_if(last_requests, [&](const ViewRequest& request) { return request.settings.id.value == id; });
+    at = images.erase(at);
+  }
+}
+
+void Renderer::State::release_idle_views() {
+  if (copy_request) return;  // drawing one view of the last frame again does not age the others
+  for (auto& [id, view] : images) ++view.idle_frames;
+  for (const ViewRequest& request : last_requests) images.at(request.settings.id.value).idle_frames = 0;
+  release_images([](std::uint32_t, const ViewImages& view) { return view.idle_frames >= kFramesUntilRelease; });
+}
+
+Status Renderer::State::prepare_images(const World& world, const ViewRequest& request) {
   const ViewSettings& settings = request.settings;
   ViewImages& view = images[settings.id.value];
   gpu::Device& device = *options.device;
+  view.world = world.resource<RenderSlot>().value;
   if (view.width != settings.width || view.height != settings.height) {
-    for (gpu::ImageHandle* image : {&view.lit, &view.picture}) {
-      if (*image) device.destroy(*image);
-      *image = {};
-    }
+    destroy_images(view);
     view.width = settings.width;
     view.height = settings.height;
+  }
+  if (request.target.image && view.picture) {
+    device.destroy(view.picture);
+    view.picture = {};
   }
   const auto make = [&](gpu::ImageHandle& image, const char* name, gpu::Format format) -> Status {
     if (image) return {};
@@ -195,7 +222,7 @@ void Renderer::State::release_idle_modules() {
       options.modules[i]->release();
       results.forget_module(options.modules[i]->name());
     }
-    // Time and again: one that was being compiled may have come since.
+    // Repeated, because a pipeline that was being compiled may have been added since.
     if (runtime.absent_frames != 0 && runtime.absent_frames % kFramesUntilRelease == 0)
       pipelines.release(options.modules[i]->name());
   }
@@ -260,7 +287,7 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
     ViewSettings& settings = request.settings;
     check_target(*options.device, request);
     follow_camera(world, settings);
-    GLOAM_TRY(prepare_images(request));
+    GLOAM_TRY(prepare_images(world, request));
     views.push_back(std::make_unique<RenderView>(make_view(settings, frame)));
     world.set_view_resource(settings.id, *views.back());
     for (std::size_t i = 0; i < options.modules.size(); ++i)
@@ -281,6 +308,7 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
   last_requests.assign(requests.begin(), requests.end());
   collect_counters(world);
   release_idle_modules();
+  release_idle_views();
   return {};
 }
 
@@ -309,8 +337,10 @@ std::vector<VisualizerInfo> Renderer::visualizers() const {
 
 Status Renderer::check_visualizer(const World& world, std::string_view name) const {
   const std::string_view stem = name.substr(0, name.find(':'));
+  std::vector<std::string> names;
   std::string list;
   for (const VisualizerInfo& info : visualizers()) {
+    names.push_back(info.name);
     list += (list.empty() ? "" : ", ") + info.name + (info.argument.empty() ? "" : ":" + info.argument);
     if (info.name != stem) continue;
     if (!info.built) return Error{ErrorKind::usage, "view " + info.name + " is not built yet"};
@@ -325,7 +355,8 @@ Status Renderer::check_visualizer(const World& world, std::string_view name) con
     }
     return {};
   }
-  return Error{ErrorKind::usage, "unknown view " + std::string(name) + "; there are " + list};
+  return Error{ErrorKind::usage,
+               "unknown view " + std::string(name) + "; " + did_you_mean(stem, names) + "there are " + list};
 }
 
 void Renderer::prepare_world(World& world) const {
@@ -339,6 +370,11 @@ void Renderer::release_world(const World& world) {
   if (slot == nullptr) return;
   state_->scenes.erase(slot->value);
   state_->results.forget_world(slot->value);
+  state_->release_images([&](std::uint32_t, const ViewImages& view) { return view.world == slot->value; });
+}
+
+void Renderer::release_view(ViewId view) {
+  state_->release_images([&](std::uint32_t id, const ViewImages&) { return id == view.value; });
 }
 
 Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
@@ -354,8 +390,7 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   auto commands = s.options.device->begin_frame();
   if (!commands.ok()) return commands.error();
   const Status recorded = s.record_frame(world, requests, **commands);
-  // A frame that could not be declared ends all the same, with nothing in it: the next one can begin, and whoever waits
-  // for its semaphores goes on.
+  // Submit even if recording failed: the empty frame signals its semaphores, and the next frame can begin.
   const Status submitted = s.options.device->submit_frame();
   s.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return recorded.ok() ? submitted : recorded;

@@ -23,10 +23,10 @@
 
 namespace gloam {
 
-/// What happens while a demanded module's pipelines are not made yet.
+/// Handling of a demanded module whose pipelines are not compiled yet.
 enum class Readiness {
-  wait,        ///< the frame waits: every demanded effect is in the first frame
-  background,  ///< the module is left out until another thread has made them
+  wait,        ///< the frame waits for them: every demanded effect is in the first frame
+  background,  ///< the module is left out until another thread has compiled them
 };
 
 struct RendererOptions {
@@ -38,20 +38,20 @@ struct RendererOptions {
   Readiness readiness = Readiness::wait;
 };
 
-/// Where a view's picture goes. An image of the caller (swapchain, host) must be rgba8 or bgra8, UNORM (written
-/// sRGB-encoded by the shader) or sRGB (by the hardware), of the view's size, made as a color_target; it is taken with
-/// contents thrown away and left ready for `after`, an access that its usage allows. No image: the renderer keeps one,
-/// see read_picture.
+/// Destination of a view's picture. `image`, if set, belongs to the caller (swapchain, host): rgba8 or bgra8, UNORM
+/// (the shader encodes sRGB) or sRGB (the hardware does), of the view's size, created as a color_target. Its content is
+/// discarded; after the frame it is ready for `after`, an access that its usage must allow. Without an image, the
+/// renderer draws into its own picture, see read_picture.
 struct ViewTarget {
   gpu::ImageHandle image;
   gpu::Access after = gpu::Access::color_target;
-  /// Instead of `image`, for pictures that exist only while a frame is recorded (gpu::Swapchain::acquire): called when
-  /// the frame has begun. The view takes the size of the image it gives; when it gives none, the renderer's own picture
-  /// is drawn.
+  /// Alternative to `image`, for images that exist only while a frame is recorded (gpu::Swapchain::acquire): called
+  /// after the frame has begun. The view takes the size of the returned image. If it returns none, the renderer draws
+  /// into its own picture.
   std::function<Result<gpu::ImageHandle>()> acquire;
-  /// Draws over the finished picture: called while the frame is declared, when all modules have added their passes.
-  /// Adds passes that write `picture`, which it leaves at its newest version. What they use must live until the frame
-  /// is submitted.
+  /// Draws over the finished picture. Called while the frame is declared, after all modules have added their passes.
+  /// Adds passes that write `picture`, and leaves `picture` at its newest version. Resources of the passes must live
+  /// until the frame is submitted.
   std::function<Status(FrameGraph& graph, ImageRef& picture)> overlay;
 };
 
@@ -67,21 +67,22 @@ struct ModuleState {
   std::string reason;
   std::uint32_t pipelines = 0;
   std::uint64_t gpu_bytes = 0;
-  std::uint64_t cpu_bytes = 0;
 };
 
-/// What the last call of `render` cost; GPU figures are of the newest completed frame (after `wait`: of the last one).
+/// Cost of the last call of `render`. GPU figures are of the newest completed frame (after `wait`: of the last frame).
 struct FrameReport {
   double cpu_ms = 0.0;  ///< systems, declaration and recording
   double gpu_ms = 0.0;
   std::vector<PassTime> passes;
-  std::vector<ModuleState> modules;        ///< "engine" first, then the list's order
-  std::map<std::string, double> counters;  ///< of the last view; those the GPU counts are GPU figures
-  std::uint64_t plans_compiled = 0;        ///< FrameGraph::plans_compiled, since the renderer was made
-  std::size_t pipelines_pending = 0;  ///< made in the background; frames stand in for them with less or slower passes
+  std::vector<ModuleState> modules;  ///< "engine" first, then in list order
+  /// Counters of the last view; counters from the GPU are of the newest completed frame.
+  std::map<std::string, double> counters;
+  std::uint64_t plans_compiled = 0;  ///< FrameGraph::plans_compiled, since the renderer was made
+  /// Pipelines being compiled in the background; until then, frames leave passes out or use slower ones.
+  std::size_t pipelines_pending = 0;
 };
 
-/// Draws worlds. Owns modules, knobs, the schedule and all GPU state; one thread at a time.
+/// Draws worlds. Owns modules, knobs, the schedule and all GPU state. Use it from one thread at a time.
 class Renderer {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(RendererOptions options);
@@ -92,47 +93,54 @@ class Renderer {
   [[nodiscard]] KnobRegistry& knobs();
   [[nodiscard]] const ModuleList& modules() const;
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const;
-  /// Usage error listing what is valid; checks the argument too where the module can.
+  /// Whether a visualizer can be shown: its name, its argument and the knob that it needs. Usage error if not; for an
+  /// unknown name it lists the valid ones.
   [[nodiscard]] Status check_visualizer(const World& world, std::string_view name) const;
 
-  /// Registers every module's components and resources; once a world, before it is filled.
+  /// Registers the components and resources of the scene and of every module. Call it once per world, before the world
+  /// is filled.
   void prepare_world(World& world) const;
-  /// Gives back what the renderer keeps for a world on the GPU, before the world goes; drawing it again uploads it
-  /// anew.
+  /// Frees the GPU data of a world and the images of the views that it drew last. Call it before the world is
+  /// destroyed. If the world is drawn again, its data is uploaded again.
   void release_world(const World& world);
+  /// Frees the images that the renderer keeps for a view, its picture included. Drawing the view again creates them
+  /// again. The images of a view that is not drawn for a while are freed without this call.
+  void release_view(ViewId view);
 
-  /// One frame: world systems, then for every view its systems and passes, then submission. Does not wait for the GPU.
+  /// Draws one frame: runs the world systems, then the systems and passes of each view, and submits. Does not wait for
+  /// the GPU.
   [[nodiscard]] Status render(World& world, std::span<const ViewRequest> views);
-  /// Until everything submitted has ended on the GPU.
+  /// Waits until the GPU has finished everything submitted.
   [[nodiscard]] Status wait();
 
   [[nodiscard]] FrameReport report();
-  /// Gives back memory of frames that were put together otherwise than the last one; it would be kept for a while,
-  /// should they return.
+  /// Frees the memory of cached plans except the last frame's (FrameGraph::free_idle_memory). Without this call, memory
+  /// of unused plans is kept for a while, in case frames with the same passes return.
   void free_idle_memory();
-  /// The picture of a view that had no target image, from its last frame; waits.
+  /// Reads the picture of a view's last frame. The view must have had no target image. Waits for the GPU.
   [[nodiscard]] Result<Picture> read_picture(ViewId view);
-  /// The same frame's linear light.
+  /// Reads the linear light of the view's last frame. Waits for the GPU.
   [[nodiscard]] Result<LinearPicture> read_linear(ViewId view);
-  /// An image that passes of the view's last frame exposed (FrameBuilder::expose), from that frame drawn once more;
-  /// waits. Engine: "base_color", "normals", "material", "depth". Usage error listing what there is when there is none
-  /// of that name.
+  /// Reads an image that passes of the view's last frame exposed (FrameBuilder::expose). Draws that frame again and
+  /// waits for the GPU. The engine exposes "base_color", "normals", "material" and "depth". For an unknown name, a
+  /// usage error lists the exposed images.
   [[nodiscard]] Result<ImageBytes> read_image(World& world, ViewId view, std::string_view name);
-  /// Several of one frame, in the order of the names, which differ.
+  /// Reads several images of the same frame, in the order of the names. The names must differ.
   [[nodiscard]] Result<std::vector<ImageBytes>> read_images(World& world, ViewId view,
                                                             std::span<const std::string_view> names);
-  /// The geometry buffer of the view's last frame, likewise.
+  /// Reads the geometry buffer of the view's last frame. Draws that frame again and waits for the GPU.
   [[nodiscard]] Result<GeometryPicture> read_geometry(World& world, ViewId view);
-  /// Lines of text: what the engine and the modules know about a pixel of the last frame.
+  /// Facts that the engine and the modules know about a pixel of the last frame, as lines of text. Draws that frame
+  /// again and waits for the GPU. Usage error if the pixel lies outside the picture.
   [[nodiscard]] Result<std::vector<std::string>> pick(World& world, ViewId view, std::uint32_t x, std::uint32_t y);
-  /// Systems and passes as text, for people and for tests.
+  /// Lists systems and passes as text, for users and tests.
   [[nodiscard]] std::string describe() const;
 
  private:
   struct State;
   explicit Renderer(std::unique_ptr<State> state);
-  /// Draws a view of the last frame once more, into a picture of the renderer's own; `add_copies` declares what to copy
-  /// into State::copies, which are finished when this returns without error.
+  /// Draws a view of the last frame again, into the renderer's own picture. `add_copies` declares copies into
+  /// State::copies. The copies are finished when this returns without error.
   [[nodiscard]] Status draw_again(World& world, ViewId view, std::function<Status(FrameBuilder&)> add_copies);
   std::unique_ptr<State> state_;
 };

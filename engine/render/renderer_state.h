@@ -19,36 +19,40 @@
 
 namespace gloam {
 
-/// Which of a renderer's GPU scenes belongs to a world, and its frames; a resource of the world.
+/// A world's number among a renderer's GPU scenes, and its frame count. A resource of the world.
 struct RenderSlot {
   std::uint64_t value = 0;
-  std::uint64_t frames = 0;  ///< drawn so far, so that a world's pictures do not depend on its neighbours
+  /// Frames drawn so far. Counted per world, so that pictures of one world do not depend on others.
+  std::uint64_t frames = 0;
 };
 
 /// Images a renderer keeps for one view between frames.
 struct ViewImages {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  gpu::ImageHandle lit;      ///< rgba16f, cd/m²
-  gpu::ImageHandle picture;  ///< rgba8 sRGB; none while the caller brings a target
+  gpu::ImageHandle lit;           ///< rgba16f, cd/m²
+  gpu::ImageHandle picture;       ///< rgba8 sRGB; null if the caller provides a target
+  std::uint64_t world = 0;        ///< RenderSlot of the world that drew the view last
+  std::uint32_t idle_frames = 0;  ///< since a frame drew the view
 };
 
-/// What the next frame's passes of a view leave shall be copied out: called when they have all been declared.
+/// Request to copy results of a view's passes in the next frame. add_copies: called after all passes of the view are
+/// declared.
 struct CopyRequest {
   ViewId view;
   std::function<Status(FrameBuilder&)> add_copies;
 };
 
-/// A module without demand keeps its memory for this many frames.
+/// Number of frames for which a module without demand, or a view that is not drawn, keeps its memory.
 inline constexpr std::uint32_t kFramesUntilRelease = 120;
 
-/// What the renderer knows of one module.
+/// The renderer's state of one module.
 struct ModuleRuntime {
   Demand demand;                    ///< of the world
-  bool in_view = false;             ///< demanded by a view of the frame in the making
-  bool in_last_view = false;        ///< took part in the last view that was declared
-  std::uint32_t idle_frames = 0;    ///< since a view demanded it last
-  std::uint32_t absent_frames = 0;  ///< since a world called for it last
+  bool in_view = false;             ///< demanded by a view of the current frame
+  bool in_last_view = false;        ///< took part in the last declared view
+  std::uint32_t idle_frames = 0;    ///< since a view demanded it
+  std::uint32_t absent_frames = 0;  ///< since a world demanded it
 };
 
 struct Renderer::State {
@@ -57,10 +61,16 @@ struct Renderer::State {
 
   [[nodiscard]] FrameServices services();
   [[nodiscard]] GpuScene& scene_of(const World& world);
-  /// Makes the view's images when missing or of another size.
-  [[nodiscard]] Status prepare_images(const ViewRequest& request);
+  /// Creates the view's images if they are missing or of another size. Frees its picture if the caller provides a
+  /// target.
+  [[nodiscard]] Status prepare_images(const World& world, const ViewRequest& request);
+  void destroy_images(ViewImages& view);
+  /// Frees the images of views for which `unwanted` is true.
+  void release_images(const std::function<bool(std::uint32_t id, const ViewImages&)>& unwanted);
+  /// After a frame: frees the images of views that were not drawn for kFramesUntilRelease frames.
+  void release_idle_views();
   void update_demand(const World& world);
-  /// Whether a demanded module says yes to a question (Module::needs_casters).
+  /// Whether `question` (e.g. &Module::needs_casters) is true for any demanded module.
   [[nodiscard]] bool any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const,
                                const World& world) const;
   /// Everything between Device::begin_frame and submit_frame.
@@ -68,22 +78,23 @@ struct Renderer::State {
   /// Declares one view's passes.
   [[nodiscard]] Status add_view(World& world, const ViewRequest& request, const RenderView& view);
   [[nodiscard]] Status add_module_passes(FrameBuilder& builder);
-  /// Copies what a picked pixel's texels and modules' facts are read from.
+  /// Declares the copies that picked_lines reads: texels of the geometry buffer and data of the modules.
   [[nodiscard]] Status add_pick_copies(FrameBuilder& builder);
-  /// What engine and modules know about the pixel of the request, from copies of a frame that has ended.
+  /// Facts of the engine and the modules about a pixel, from the copies of a completed frame.
   [[nodiscard]] std::vector<std::string> picked_lines(std::uint32_t x, std::uint32_t y);
-  /// Whether a module takes part in a view: built, demanded, and its pipelines made where they are not waited for.
+  /// Whether a module takes part in a view: built, demanded, and with its pipelines ready unless the frame waits for
+  /// them.
   [[nodiscard]] bool takes_part(std::size_t module, const FrameBuilder& builder);
-  /// Hands a view's settled results to the modules that the world demands.
+  /// Passes a view's settled results to the modules that the world demands.
   void hand_out_results(World& world, ViewId view);
-  /// Says once that a view is asked for whose module has nothing to do, so that the picture is shown as it is.
+  /// Warns once if the view's visualizer belongs to a module that is not demanded: the picture is then shown as it is.
   void warn_of_idle_visualizer(const FrameBuilder& builder);
-  /// After a frame: memory of modules that nobody has demanded for long goes back; pipelines too when the world has no
-  /// call for them.
+  /// After a frame: frees the memory of modules that no view has demanded for kFramesUntilRelease frames, and the
+  /// pipelines of modules that no world has demanded for as long.
   void release_idle_modules();
-  /// Of the frame's last view and the modules that took part in it.
+  /// Collects the counters of the frame's last view, from the modules that took part in it.
   void collect_counters(const World& world);
-  /// From results of the last view, of the newest frame that has ended.
+  /// Adds counters from the last view's results in the newest completed frame.
   void add_result_counters(std::map<std::string, double>& all) const;
 
   RendererOptions options;
@@ -97,15 +108,15 @@ struct Renderer::State {
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
   std::uint64_t next_slot = 1;
   std::map<std::uint32_t, ViewImages> images;
-  std::vector<std::unique_ptr<FrameBuilder>> builders;  ///< of the frame in the making; pass functions refer to them
+  std::vector<std::unique_ptr<FrameBuilder>> builders;  ///< of the current frame; pass functions refer to them
   std::vector<std::unique_ptr<RenderView>> views;
   std::vector<ModuleRuntime> runtimes;  ///< by module
-  std::set<std::string> told;           ///< warnings that are said once
+  std::set<std::string> told;           ///< warnings that were given; each is given once
   std::vector<ViewRequest> last_requests;
   std::map<std::string, double> counters;
   std::vector<ResultKey> counted_results;  ///< of the last view
   std::optional<CopyRequest> copy_request;
-  std::unique_ptr<Captures> copies;  ///< of a frame that was drawn once more (Renderer::draw_again)
+  std::unique_ptr<Captures> copies;  ///< of a frame that Renderer::draw_again has drawn
   double cpu_ms = 0.0;
 };
 

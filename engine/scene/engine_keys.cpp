@@ -36,7 +36,7 @@ SceneKey exposure_key() {
   key.max = 100.0;
   key.unit = "EV100";
   key.default_text = "automatic";
-  key.meaning = "exposure; automatic: from each camera's own first frame, then fixed";
+  key.meaning = "exposure; automatic: metered in each camera's first frame, then fixed";
   key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
     auto& environment = target.world.resource<SceneEnvironment>();
     environment.has_exposure = true;
@@ -57,7 +57,7 @@ SceneKey reflectivity_key() {
   key.min = 0.0;
   key.max = 1.0;
   key.default_text = "from metallic and roughness";
-  key.meaning = "how much of a sharp mirror the surface is";
+  key.meaning = "share of mirror reflection, from 0 (none) to 1 (sharp mirror)";
   key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
     material_of(target).reflectivity = static_cast<float>(std::get<double>(value));
     return {};
@@ -85,7 +85,7 @@ SceneKey subsurface_key() {
 void add_engine_keys(KeyRegistry& registry) {
   registry.add(sky_key("gloam.sky.zenith", "radiance of the sky overhead", &SceneEnvironment::sky_zenith));
   registry.add(sky_key("gloam.sky.horizon", "radiance of the sky at the horizon", &SceneEnvironment::sky_horizon));
-  registry.add(sky_key("gloam.sky.ground", "radiance from below", &SceneEnvironment::sky_ground));
+  registry.add(sky_key("gloam.sky.ground", "radiance from below the horizon", &SceneEnvironment::sky_ground));
   registry.add(exposure_key());
   registry.add(reflectivity_key());
   registry.add(subsurface_key());

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "engine/core/assert.h"
+#include "engine/core/nearest_name.h"
 #include "engine/scene/plain_text.h"
 
 namespace gloam {
@@ -25,7 +26,7 @@ std::string number_text(double value) {
   return text.data();
 }
 
-/// "≥ 0 m", "in 0…1", "" (anything).
+/// Text of the key's range: " ≥ 0 m", " in 0…1", "" (any value).
 std::string range_text(const SceneKey& key) {
   std::string text;
   if (key.min != kNoMin && key.max != kNoMax)
@@ -102,24 +103,6 @@ bool all_in_range(const SceneKey& key, const SceneValue& value, std::size_t coun
   });
 }
 
-/// Edits (insert, delete, change, swap of neighbours) between two spellings.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1);
-  std::vector<std::size_t> last(b.size() + 1);
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before.swap(last);
-    last.swap(row);
-  }
-  return last[b.size()];
-}
-
 }  // namespace
 
 void KeyRegistry::add(SceneKey key) {
@@ -190,16 +173,9 @@ Result<KeyValue> KeyRegistry::convert(const SceneKey& key, const SceneValue& val
 }
 
 std::string KeyRegistry::nearest(std::string_view name) const {
-  if (name.size() > 100) return {};
-  std::size_t best = 2 + name.size() / 8;
-  const SceneKey* nearest_key = nullptr;
-  for (const SceneKey& key : keys_) {
-    const std::size_t distance = edit_distance(name, key.name);
-    if (distance > best || (nearest_key != nullptr && distance == best)) continue;
-    best = distance;
-    nearest_key = &key;
-  }
-  return nearest_key != nullptr ? nearest_key->name : std::string();
+  std::vector<std::string> names;
+  for (const SceneKey& key : keys_) names.push_back(key.name);
+  return std::string(nearest_name(name, names));
 }
 
 }  // namespace gloam

@@ -3,6 +3,7 @@
 #include "engine/scene/resources.h"
 
 #include "engine/core/assert.h"
+#include "engine/core/nearest_name.h"
 #include "engine/scene/plain_text.h"
 
 namespace gloam {
@@ -26,9 +27,14 @@ Result<Entity> SceneNames::find(std::string_view kind, std::string_view name) co
     return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + ", there is none"};
   const auto named = found->second.by_name.find(std::string(name));
   if (named == found->second.by_name.end()) {
+    std::vector<std::string> names;
     std::string list;
-    for (const std::string& known : found->second.order) list += (list.empty() ? "" : ", ") + one_line(known);
-    return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + ", there are: " + list};
+    for (const std::string& known : found->second.order) {
+      names.push_back(one_line(known));
+      list += (list.empty() ? "" : ", ") + names.back();
+    }
+    return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + ", " + did_you_mean(name, names) +
+                                       "there are: " + list};
   }
   if (named->second.count > 1)
     return Error{ErrorKind::input, "the name " + in_quotes(name) + " is used by " +

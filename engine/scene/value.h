@@ -4,10 +4,11 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace gloam {
+
+struct SceneMember;
 
 /// A JSON-like value as found in a scene file's extras and extensions.
 struct SceneValue {
@@ -18,14 +19,22 @@ struct SceneValue {
   bool integral = false;  ///< the number was written without fraction or exponent
   std::string text;
   std::vector<SceneValue> items;
-  std::vector<std::pair<std::string, SceneValue>> members;  ///< in file order
+  std::vector<SceneMember> members;  ///< in file order
 
   /// The member of an object, or null when absent.
-  [[nodiscard]] const SceneValue* find(std::string_view name) const {
-    for (const auto& [key, value] : members)
-      if (key == name) return &value;
-    return nullptr;
-  }
+  [[nodiscard]] const SceneValue* find(std::string_view name) const;
 };
+
+/// One named value of an object.
+struct SceneMember {
+  std::string name;
+  SceneValue value;
+};
+
+inline const SceneValue* SceneValue::find(std::string_view name) const {
+  for (const SceneMember& member : members)
+    if (member.name == name) return &member.value;
+  return nullptr;
+}
 
 }  // namespace gloam

@@ -21,18 +21,18 @@ Knob closeup_knob(std::string name, std::string meaning, std::vector<std::string
 
 void add_closeup_knobs(KnobRegistry& registry) {
   Knob pairs = closeup_knob("max_pairs",
-                            "most pairs of a close-up subject and a light that have a shadow map of their own; the "
-                            "others are drawn into the light's standard map",
+                            "most pairs of a close-up subject and a light that get a separate shadow map; the subjects "
+                            "of all other pairs are drawn into the light's standard maps",
                             {}, 8.0);
   pairs.type = Knob::Type::integer;
   pairs.max = 256.0;
   pairs.ledger_values = {0.0, 1.0, 2.0, 4.0, 8.0, 16.0};
   registry.add(pairs);
-  Knob density =
-      closeup_knob("texels_per_pixel",
-                   "texels of a close-up map to a side of a pixel of the tiles that its shadow may touch; the map is "
-                   "a power of two of texels wide, 2048 at most",
-                   {}, 1.0);
+  Knob density = closeup_knob(
+      "texels_per_pixel",
+      "close-up map texels along a pixel's side, in the tiles that the shadow may touch; the map's side is "
+      "rounded to a power of two, at most 2048",
+      {}, 1.0);
   density.type = Knob::Type::number;
   density.unit = "texels a pixel";
   density.min = 0.25;
@@ -41,13 +41,14 @@ void add_closeup_knobs(KnobRegistry& registry) {
   registry.add(density);
   registry.add(closeup_knob(
       "filter",
-      "how close-up maps are looked up when shadows.filter=chs: like standard maps, or by single fetches, which "
-      "are more exact in the wide penumbrae of small things",
+      "filter of close-up maps when shadows.filter=chs: the same as for standard maps (chs), or single fetches "
+      "(pcss), which are more exact in wide penumbrae of small subjects",
       {"chs", "pcss"}, 1.0));
-  registry.add(closeup_knob("batch", "pairs that share the close-up map at a time", {"1", "2", "4"}, 0.0));
+  registry.add(
+      closeup_knob("batch", "close-up pairs that are drawn into the close-up map together", {"1", "2", "4"}, 0.0));
   registry.add(closeup_knob("standard",
-                            "how forward-lit things see close-up subjects: their close-up maps are transferred into "
-                            "the light's standard map, or they are drawn into it",
+                            "how close-up subjects shadow forward-lit surfaces: their close-up maps are copied into "
+                            "the light's standard maps (transfer), or they are drawn into these as well (draw)",
                             {"transfer", "draw"}, 0.0));
 }
 

@@ -31,7 +31,7 @@ Status check_light_names(World& world) {
   return status;
 }
 
-/// Number of a world among those that a closeups module has prepared; a resource of the world.
+/// The module's number for this world, part of the key of its per-view state; a resource of the world.
 struct CloseupWorld {
   std::uint64_t number = 0;
 };
@@ -56,18 +56,19 @@ class CloseupsModule final : public Module {
   void add_systems(Schedule& schedule) override { add_closeup_systems(schedule); }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return closeup_visualizers(); }
   void scene_keys(KeyRegistry& registry) const override {
-    registry.add(boolean_key(
-        key_line("closeups", KeyElement::node, "gloam.closeup", "false", "", "this subtree is a close-up subject"),
-        &CloseupSubject::enabled));
+    registry.add(boolean_key(key_line("closeups", KeyElement::node, "gloam.closeup", "false", "",
+                                      "whether the meshes of this subtree are a close-up subject"),
+                             &CloseupSubject::enabled));
     registry.add(text_key(key_line("closeups", KeyElement::node, "gloam.closeup.lights", "", "",
-                                   "comma-separated light node names; default: every shadowed light that reaches it"),
+                                   "names of the light nodes that form close-up pairs with the subject, "
+                                   "comma-separated; default: every shadowed light that reaches it"),
                           &CloseupSubject::lights));
-    registry.add(number_key(
-        key_line("closeups", KeyElement::node, "gloam.closeup.priority", "1", "", "order when the budget is short"),
-        -1e6, 1e6, &CloseupSubject::priority));
+    registry.add(number_key(key_line("closeups", KeyElement::node, "gloam.closeup.priority", "1", "",
+                                     "pairs of subjects with higher priority get close-up maps first"),
+                            -1e6, 1e6, &CloseupSubject::priority));
     registry.add_finish("closeups", &check_light_names);
   }
-  /// Of a view: whether pairs touch it, be it that none of them gets a map (counter closeups.skipped).
+  /// For a view: needed if a pair touches it, even if no pair gets a map (counter closeups.skipped).
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t subjects = 0;
     world.view<const CloseupSubject>().each([&](const CloseupSubject& s) { subjects += s.enabled ? 1 : 0; });
@@ -75,8 +76,8 @@ class CloseupsModule final : public Module {
     if (view == nullptr)
       return {true, std::to_string(subjects) + (subjects == 1 ? " close-up subject" : " close-up subjects")};
     const CloseupViews& views = world.view_resource<CloseupViews>(view->id);
-    return {views.in_view > 0, std::to_string(views.in_view) + " closeup pairs in view, " +
-                                   std::to_string(views.pairs.size()) + " with maps of their own"};
+    return {views.in_view > 0, std::to_string(views.in_view) + " close-up pairs in view, " +
+                                   std::to_string(views.pairs.size()) + " with close-up maps"};
   }
 
   [[nodiscard]] bool needs_casters(const World&, const KnobRegistry& knobs) const override {
@@ -91,7 +92,7 @@ class CloseupsModule final : public Module {
 
   [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::announce) {
-      // Casters are left out of other maps only when what draws them instead is there.
+      // Casters are withheld from standard maps only when the pipelines that draw them instead are ready.
       if (frame.services().wait_for_pipelines || ready_)
         announce(frame);
       else
@@ -122,7 +123,7 @@ class CloseupsModule final : public Module {
   }
 
  private:
-  /// What a view's last frame had.
+  /// State of a view's last frame.
   struct LastFrame {
     std::optional<bool> complete;  ///< FinalLists::always_complete
     std::uint32_t pairs = 0;
@@ -157,7 +158,7 @@ class CloseupsModule final : public Module {
   std::map<Key, LastFrame> last_;
   CloseupViewPasses views_;
   mutable std::atomic<std::uint64_t> worlds_ = 0;
-  bool ready_ = false;  ///< the pipelines of an earlier frame were
+  bool ready_ = false;  ///< the last request found all pipelines ready
 };
 
 }  // namespace

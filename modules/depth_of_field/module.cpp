@@ -18,10 +18,11 @@ class DepthOfFieldModule final : public Module {
       return key_line("depth_of_field", KeyElement::camera_node, std::move(key), std::move(fallback), std::move(unit),
                       std::move(meaning));
     };
-    registry.add(number_key(line("gloam.dof.focus", "", "m", "depth of field is on for this camera"), 1e-3, 1e6,
-                            &DepthOfField::focus_m));
-    registry.add(number_key(line("gloam.dof.f_number", "2.8", "", "focal length over aperture"), 0.1, 1000,
-                            &DepthOfField::f_number));
+    registry.add(number_key(line("gloam.dof.focus", "", "m", "focus distance; if set, the camera has depth of field"),
+                            1e-3, 1e6, &DepthOfField::focus_m));
+    registry.add(
+        number_key(line("gloam.dof.f_number", "2.8", "", "focal length divided by the diameter of the aperture"), 0.1,
+                   1000, &DepthOfField::f_number));
     registry.add(choice_key(line("gloam.dof.bokeh", "round", "", "shape of the aperture"), {"round", "hexagonal"},
                             Bokeh::round, &DepthOfField::bokeh));
   }

@@ -10,7 +10,7 @@
 namespace gloam {
 namespace {
 
-/// The scene's fog; none when no node has one or its density is 0.
+/// The scene's fog; density 0 if it has none.
 Fog find_fog(const World& world) {
   Fog found;
   world.view<const Fog>().each([&](const Fog& fog) {
@@ -31,8 +31,10 @@ class FogModule final : public Module {
                       std::move(meaning));
     };
     registry.add(
-        number_key(line("gloam.fog.density", "0", "1/m", "homogeneous fog, one a scene"), 0, 1e3, &Fog::density));
-    registry.add(vec3_key(line("gloam.fog.color", "[0, 0, 0]", "cd/m²", "in-scattered radiance"), 0, 1e6, &Fog::color));
+        number_key(line("gloam.fog.density", "0", "1/m", "density of homogeneous fog; at most one node per scene"), 0,
+                   1e3, &Fog::density));
+    registry.add(vec3_key(line("gloam.fog.color", "[0, 0, 0]", "cd/m²", "in-scattered radiance of the fog"), 0, 1e6,
+                          &Fog::color));
     registry.add_finish("fog", [](World& world) { return at_most_one(world.view<const Fog>().size(), "gloam.fog"); });
   }
 
@@ -40,7 +42,7 @@ class FogModule final : public Module {
     Knob resolution;
     resolution.name = "fog.resolution";
     resolution.module = "fog";
-    resolution.meaning = "size of the image in which the fog's glow is blurred";
+    resolution.meaning = "size of the image in which the fog's glow is blurred, relative to the picture";
     resolution.choices = {"full", "half", "quarter"};
     resolution.default_number = 2;
     resolution.exact = "full";
@@ -48,7 +50,7 @@ class FogModule final : public Module {
     Knob radius;
     radius.name = "fog.radius";
     radius.module = "fog";
-    radius.meaning = "where the glow's Gaussian is cut";
+    radius.meaning = "radius at which the Gaussian blur of the fog's glow is cut off";
     radius.type = Knob::Type::number;
     radius.min = 0.5;
     radius.max = 6.0;

@@ -21,13 +21,13 @@ class LightingModule final : public Module {
     Knob curve;
     curve.name = "lighting.tone_map";
     curve.module = "lighting";
-    curve.meaning = "curve from exposed linear light to the picture";
+    curve.meaning = "tone curve that maps exposed linear light to the picture";
     curve.choices = {"filmic", "reinhard", "linear"};
     registry.add(curve);
     Knob table;
     table.name = "lighting.tone_map_table";
     table.module = "lighting";
-    table.meaning = "steps of the tone curve's table; exact: computed for every pixel";
+    table.meaning = "entries of the tone curve's lookup table; exact: no table, computed for every pixel";
     table.choices = {"exact", "1024", "256", "64"};
     registry.add(table);
   }

@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kHalfPi = 1.5707963267948966;
 
-/// Definitions of the file's root, looked up by its nodes; a resource while a file is read.
+/// Light definitions of the file's root, which its nodes refer to by index; a resource while the file is read.
 struct LightDefinitions {
   std::vector<Light> lights;
 };
 
-/// The fault alone: whoever reads the file knows the place.
+/// The message only: the reader of the file adds the location.
 Error fault(std::string message) { return {ErrorKind::input, std::move(message)}; }
 
-/// `range`: what [min, max] is in words.
+/// `range`: [min, max] in words, for the message.
 Status read_number(const SceneValue& object, const char* name, double min, double max, const char* range,
                    float& target) {
   const SceneValue* value = object.find(name);
@@ -52,7 +52,7 @@ Status read_spot(const SceneValue& object, Light& light) {
   if (spot == nullptr) return {};
   if (spot->kind != SceneValue::Kind::object) return fault("spot must be an object");
   constexpr const char* kAngles = "in 0…π/2 (half of a cone of at most 180°)";
-  // A half angle over π/2 is a cone over 180°, which is refused; files round π/2 either way.
+  // A half angle over π/2 is a cone over 180° and is refused. The tolerance accepts files that rounded π/2 up.
   GLOAM_TRY(read_number(*spot, "innerConeAngle", 0.0, kHalfPi + 1e-6, kAngles, light.inner_angle));
   GLOAM_TRY(read_number(*spot, "outerConeAngle", 0.0, kHalfPi + 1e-6, kAngles, light.outer_angle));
   if (light.outer_angle <= 0.0f) return fault("outerConeAngle must be above 0");
@@ -111,7 +111,7 @@ Status read_node(KeyTarget& target, const SceneValue& node) {
 
 SceneKey angle_key() {
   SceneKey key = key_line("lights", KeyElement::light_node, "gloam.light.angle", "0.53", "degrees",
-                          "directional only: apparent diameter (penumbra)");
+                          "apparent diameter of a directional light, which sets the width of penumbrae");
   key.type = KeyType::number;
   key.min = 0.0;
   key.max = 90.0;
@@ -126,7 +126,7 @@ SceneKey angle_key() {
 
 SceneKey cookie_key() {
   SceneKey key =
-      key_line("lights", KeyElement::light_node, "gloam.light.cookie", "", "", "image file, projected texture (spot)");
+      key_line("lights", KeyElement::light_node, "gloam.light.cookie", "", "", "image file that a spot light projects");
   key.type = KeyType::text;
   key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
     Light& light = target.world.get<Light>(target.entity);
@@ -145,7 +145,7 @@ void add_light_keys(KeyRegistry& registry) {
   registry.add_extension({"lights", "KHR_lights_punctual", &begin_file, &read_node});
   registry.set_light_test([](const World& world, Entity entity) { return world.try_get<Light>(entity) != nullptr; });
   registry.add(number_key(key_line("lights", KeyElement::light_node, "gloam.light.width", "0", "m",
-                                   "diameter of the emitter; 0 = hard shadows"),
+                                   "diameter of the emitter of a point or spot light; 0: hard shadows"),
                           0, 1e4, &Light::width_m));
   registry.add(angle_key());
   registry.add(cookie_key());

@@ -19,7 +19,7 @@
 namespace gloam {
 namespace {
 
-/// The first choice of lights.z_bins; each has twice as many as the one before.
+/// Bins of the first choice of lights.z_bins; each further choice doubles the number.
 constexpr std::uint32_t kFewestZBins = 256;
 
 class LightsModule final : public Module {
@@ -37,7 +37,7 @@ class LightsModule final : public Module {
     Knob culling;
     culling.name = "lights.culling";
     culling.module = "lights";
-    culling.meaning = "lights a pixel looks at: those of its tile, or all of them";
+    culling.meaning = "lights evaluated at a pixel: all lights (brute), or the lights in the list of its tile (tiled)";
     culling.choices = {"brute", "tiled"};
     culling.default_number = 1;
     culling.exact = "brute";
@@ -45,7 +45,7 @@ class LightsModule final : public Module {
     Knob bound;
     bound.name = "lights.tile_bound";
     bound.module = "lights";
-    bound.meaning = "how closely the CPU's masks of 32x32 pixels bound a light";
+    bound.meaning = "shape that bounds a light in the CPU's masks of 32x32-pixel tiles";
     bound.choices = {"rect", "row_interval", "cone"};
     bound.default_number = static_cast<double>(TileBound::cone);
     bound.exact = "cone";
@@ -53,7 +53,7 @@ class LightsModule final : public Module {
     Knob bins;
     bins.name = "lights.z_bins";
     bins.module = "lights";
-    bins.meaning = "ranges of view depth that lights are sorted into";
+    bins.meaning = "number of depth ranges (zBins) that lights are sorted into";
     bins.choices = {"256", "512", "1024", "2048", "4096"};
     bins.default_number = 2;
     bins.unit = "bins";
@@ -62,7 +62,8 @@ class LightsModule final : public Module {
     Knob fixed;
     fixed.name = "lights.fixed_slots";
     fixed.module = "lights";
-    fixed.meaning = "list entries every shadow tile gets, so that addresses are known; 0: as many as it needs";
+    fixed.meaning =
+        "list entries reserved for every shadow tile, which gives lists fixed addresses; 0: as many as a tile needs";
     fixed.type = Knob::Type::integer;
     fixed.max = GLOAM_MAX_LOCAL_LIGHTS;
     registry.add(fixed);
@@ -70,7 +71,7 @@ class LightsModule final : public Module {
     check.name = "lights.check";
     check.module = "lights";
     check.meaning =
-        "ask every pixel about every light, and count what the light lists leave out (lights.culling_errors)";
+        "test every light at every pixel, and count lights that are missing in light lists (lights.culling_errors)";
     check.choices = {"off", "on"};
     registry.add(check);
   }

@@ -33,20 +33,26 @@ class ReflectionsModule final : public Module {
       return key_line("reflections", KeyElement::node, std::move(key), std::move(fallback), std::move(unit),
                       std::move(meaning));
     };
-    registry.add(
-        vec2_key(line("gloam.ibr_proxy.size", "", "m", "a reflection proxy in the local XY plane, facing +Z, centred"),
-                 1e-6, 1e6, &IbrProxy::size_m));
-    registry.add(choice_key(line("gloam.ibr_proxy.kind", "scene", "", "captured from the scene, or emissive image"),
+    registry.add(vec2_key(line("gloam.ibr_proxy.size", "", "m",
+                               "width and height of a reflection proxy, centred in the local XY plane and facing +Z"),
+                          1e-6, 1e6, &IbrProxy::size_m));
+    registry.add(choice_key(line("gloam.ibr_proxy.kind", "scene", "",
+                                 "content of the proxy: captured from the scene, or an emissive image"),
                             {"scene", "fire"}, IbrProxyKind::scene, &IbrProxy::kind));
-    registry.add(file_key(line("gloam.ibr_proxy.texture", "", "", "image instead of a capture"), &IbrProxy::texture));
+    registry.add(file_key(line("gloam.ibr_proxy.texture", "", "", "image file to use instead of a capture"),
+                          &IbrProxy::texture));
     registry.add(
-        text_key(line("gloam.ibr_proxy.lights", "", "", "comma-separated lights that dim it"), &IbrProxy::lights));
-    registry.add(vec3_key(line("gloam.ibr_room.size", "", "m", "box around the node"), 1e-6, 1e6, &IbrRoom::size_m));
-    registry.add(vec3_key(line("gloam.cube_probe.size", "", "m", "influence box around the node"), 1e-6, 1e6,
-                          &CubeProbe::size_m));
-    registry.add(integer_key(line("gloam.cube_probe.resolution", "128", "texels", "face size"), 1, 4096,
+        text_key(line("gloam.ibr_proxy.lights", "", "", "names of the light nodes that dim the proxy, comma-separated"),
+                 &IbrProxy::lights));
+    registry.add(vec3_key(line("gloam.ibr_room.size", "", "m", "size of the box of an IBR room, centred on the node"),
+                          1e-6, 1e6, &IbrRoom::size_m));
+    registry.add(
+        vec3_key(line("gloam.cube_probe.size", "", "m", "size of the probe's influence box, centred on the node"), 1e-6,
+                 1e6, &CubeProbe::size_m));
+    registry.add(integer_key(line("gloam.cube_probe.resolution", "128", "texels", "side of each cube face"), 1, 4096,
                              &CubeProbe::resolution));
-    registry.add(boolean_key(line("gloam.cube_probe.global", "false", "", "the global probe"), &CubeProbe::global));
+    registry.add(boolean_key(line("gloam.cube_probe.global", "false", "", "whether this is the global probe"),
+                             &CubeProbe::global));
     registry.add_finish("reflections", &check_light_names);
   }
   [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {

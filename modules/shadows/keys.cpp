@@ -51,13 +51,14 @@ std::string words_of(const LightCounts& counts) {
 }  // namespace
 
 void add_shadow_keys(KeyRegistry& registry) {
-  registry.add(
-      boolean_key(key_line("shadows", KeyElement::light_node, "gloam.light.shadow", "true", "", "casts shadows"),
-                  &ShadowCaster::enabled));
-  registry.add(
-      integer_key(key_line("shadows", KeyElement::light_node, "gloam.light.shadow_resolution", "0", "texels",
-                           "of one face, taken as the next power of two, at least 16; 0 = from screen coverage"),
-                  0, kMostFace, &ShadowCaster::resolution));
+  registry.add(boolean_key(
+      key_line("shadows", KeyElement::light_node, "gloam.light.shadow", "true", "", "whether the light casts shadows"),
+      &ShadowCaster::enabled));
+  registry.add(integer_key(
+      key_line(
+          "shadows", KeyElement::light_node, "gloam.light.shadow_resolution", "0", "texels",
+          "side of each shadow map face, rounded up to a power of two, at least 16; 0: chosen from screen coverage"),
+      0, kMostFace, &ShadowCaster::resolution));
   registry.add_finish("shadows", &load_cookies);
 }
 

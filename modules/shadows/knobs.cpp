@@ -7,7 +7,7 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kSmallestAtlas = 1024;  // the first choice; each has twice the side of the one before
+constexpr std::uint32_t kSmallestAtlas = 1024;  // the first choice; each further choice doubles the side
 constexpr std::uint32_t kSmallestKernel = 4;
 
 Knob choice_knob(std::string name, std::string meaning, std::vector<std::string> choices, std::uint32_t fallback) {
@@ -34,70 +34,76 @@ Knob number_knob(std::string name, std::string meaning, std::string unit, double
 void add_shadow_knobs(KnobRegistry& registry) {
   Knob mode = choice_knob(
       "mode",
-      "shadows of lights: none, looked up in shadow maps where light is added up, or before that, a light and tile "
-      "at a time and only where a tile is neither lit nor unlit as a whole",
+      "when shadows are computed: never; during shading, for each pixel and light (monolithic); or before shading, for "
+      "each pair of an 8x8 tile and a light that is neither wholly lit nor wholly unlit (deferred)",
       {"off", "monolithic", "deferred"}, 2);
   mode.exact = "monolithic";
   registry.add(mode);
   registry.add(choice_knob("classify",
-                           "whether shadow maps are asked about whole tiles before pixels (shadows.mode=deferred)",
+                           "test whole tiles against shadow maps first, and filter only the pixels of undecided tiles "
+                           "(shadows.mode=deferred)",
                            {"off", "on"}, 1));
-  registry.add(
-      choice_knob("filter",
-                  "how shadow maps are looked up: one texel, a fixed kernel, penumbrae by single fetches, penumbrae by "
-                  "gathers from mips",
-                  {"hard", "pcf", "pcss", "chs"}, 3));
-  Knob kernel = choice_knob("kernel", "side of a filter's kernel", {"4", "8", "12", "16"}, 1);
+  registry.add(choice_knob(
+      "filter",
+      "shadow filter: one texel (hard), a kernel of fixed width (pcf), penumbrae from single fetches (pcss), "
+      "or penumbrae from gathers in two mips (chs, contact hardening)",
+      {"hard", "pcf", "pcss", "chs"}, 3));
+  Knob kernel = choice_knob("kernel", "width of the filter kernel", {"4", "8", "12", "16"}, 1);
   kernel.unit = "texels";
   registry.add(kernel);
-  registry.add(choice_knob("mips", "whether wide penumbrae are looked up in mips of the maps", {"off", "on"}, 1));
-  registry.add(choice_knob("mip_operator",
-                           "what a texel of a mip is: the nearest depth of its four, their mean, or the mean of the "
-                           "nearest surface with the share of the texel that it covers",
-                           {"nearest", "average", "coverage"}, GLOAM_SHADOW_MIPS_COVERAGE));
-  registry.add(choice_knob("kernel_shape", "shape of the widest kernel", {"disc", "square"}, 0));
-  registry.add(choice_knob("receiver_plane",
-                           "compare with the depth of the lit surface's plane, not of the lit point alone",
-                           {"off", "on"}, 1));
-  registry.add(choice_knob("depth", "how shadow maps hold depth", {"d32", "d16"}, 0));
+  registry.add(choice_knob("mips", "filter wide penumbrae in mips of the shadow maps", {"off", "on"}, 1));
   registry.add(
-      choice_knob("bias",
-                  "what keeps a surface from shadowing itself: an offset along the light by the side that it shows, "
-                  "or the rasteriser's constant bias",
-                  {"hardware", "oriented"}, 1));
-  Knob millimetres = number_knob("bias_mm", "offset of bias=oriented", "mm", 20.0, 2.0);
+      choice_knob("mip_operator",
+                  "how four texels become one texel of the next mip: their nearest depth, their mean depth, or "
+                  "the mean depth of the nearest surface with the share of the texel that it covers",
+                  {"nearest", "average", "coverage"}, GLOAM_SHADOW_MIPS_COVERAGE));
+  registry.add(choice_knob("kernel_shape", "shape of the kernel for the widest penumbrae", {"disc", "square"}, 0));
+  registry.add(choice_knob("receiver_plane",
+                           "compare each texel of the kernel with the plane of the receiving surface, not with the "
+                           "receiver's depth",
+                           {"off", "on"}, 1));
+  registry.add(choice_knob("depth", "depth format of shadow maps: 32-bit float, or 16-bit integer", {"d32", "d16"}, 0));
+  registry.add(choice_knob(
+      "bias",
+      "depth bias against self-shadowing: the rasteriser's constant bias (hardware), or an offset toward or "
+      "away from the light, depending on which side of the surface faces it (oriented)",
+      {"hardware", "oriented"}, 1));
+  Knob millimetres = number_knob("bias_mm", "depth offset of shadows.bias=oriented", "mm", 20.0, 2.0);
   millimetres.ledger_values = {0.5, 1.0, 2.0, 5.0, 10.0};
   registry.add(millimetres);
-  // One unit is 2^-23 of a depth's power of two: between 0.06 and 0.12 µm a metre of distance.
-  Knob units = number_knob("bias_units", "constant bias of bias=hardware", "units of depth", 1e6, 2000.0);
+  // One unit is 2^-23 of the depth's power of two: 0.06 to 0.12 µm per metre of distance.
+  Knob units = number_knob("bias_units", "constant depth bias of shadows.bias=hardware", "units of depth", 1e6, 2000.0);
   units.ledger_values = {200.0, 1000.0, 2000.0, 10000.0, 50000.0};
   registry.add(units);
-  Knob bits = choice_knob("visibility_bits", "steps that a light's visibility at a pixel is rounded to",
-                          {"4", "8", "exact"}, 1);
+  Knob bits =
+      choice_knob("visibility_bits", "bits of a stored visibility, for each pixel and light; exact: not rounded",
+                  {"4", "8", "exact"}, 1);
   bits.exact = "exact";
   registry.add(bits);
-  Knob atlas = choice_knob("atlas", "side of the image that all shadow maps of a view share",
+  Knob atlas = choice_knob("atlas", "side of the atlas, the image that holds all shadow maps of a view",
                            {"1024", "2048", "4096", "8192"}, 2);
   atlas.unit = "texels";
   registry.add(atlas);
-  Knob density =
-      number_knob("texels_per_pixel", "texels of shadow maps to a pixel's side, as far as the atlas has room",
-                  "texels a pixel", 8.0, 3.0);
+  Knob density = number_knob("texels_per_pixel", "shadow-map texels along a pixel's side; fewer if the atlas is full",
+                             "texels a pixel", 8.0, 3.0);
   density.min = 0.25;
   density.ledger_values = {0.5, 1.0, 2.0, 3.0, 4.0};
   registry.add(density);
-  registry.add(choice_knob("casters",
-                           "meshes that are drawn into shadow maps: as the camera sees them, or with fewer triangles",
+  registry.add(choice_knob("casters", "triangles drawn into shadow maps: all of them, or a simplified mesh with fewer",
                            {"full", "simplified"}, 0));
   for (const auto& [name, meaning] :
-       {std::pair("slot_limit",
-                  "slots of visibility that a view may have; tiles that find none are shaded as by monolithic"),
-        std::pair("pair_limit", "pairs of a tile and a light whose pixels are asked; likewise")}) {
+       {std::pair(
+            "slot_limit",
+            "most visibility slots of a view; tiles without a free slot are shaded as with shadows.mode=monolithic"),
+        std::pair("pair_limit",
+                  "most tile-light pairs of a view; tiles whose pairs do not fit are shaded as with "
+                  "shadows.mode=monolithic")}) {
     Knob limit = number_knob(name, meaning, "", 4194301.0, 4194301.0);
     limit.type = Knob::Type::integer;
     registry.add(limit);
   }
-  registry.add(choice_knob("early_outs", "whether a filter ends early where it knows the answer; off: for measuring it",
+  registry.add(choice_knob("early_outs",
+                           "stop filtering as soon as the result is known; off: only to measure the whole filter",
                            {"off", "on"}, 1));
 }
 
@@ -112,7 +118,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.square = registry.is("shadows.kernel_shape", "square");
   knobs.receiver_plane = registry.is("shadows.receiver_plane", "on");
   knobs.d16 = registry.is("shadows.depth", "d16");
-  // 16 bits have no room for what a texel leaves free.
+  // 16-bit depths have no spare bits for coverage.
   if (knobs.d16 && knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) knobs.mip_operator = GLOAM_SHADOW_MIPS_NEAREST;
   knobs.oriented = registry.is("shadows.bias", "oriented");
   knobs.bias_m = knobs.oriented ? static_cast<float>(registry.number("shadows.bias_mm") * 1e-3) : 0.0f;

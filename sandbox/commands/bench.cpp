@@ -1,17 +1,28 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <span>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/registry.h"
 #include "sandbox/bench/harness/report.h"
+#include "sandbox/bench/harness/run_rows.h"
 #include "sandbox/commands/commands.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/session/scene_loading.h"
 
 namespace gloam {
+namespace {
+
+Status write_rows(const Options& options, const gpu::DeviceInfo& device, std::span<const MeasuredRow> rows) {
+  if (options.json_file.empty()) return {};
+  const RunDescription run = {
+      .scene = options.scene, .device = device, .width = options.width, .height = options.height};
+  GLOAM_TRY(make_folder_of(options.json_file));
+  return write_file(options.json_file, bench_json(run, rows));
+}
+
+}  // namespace
 
 Status run_bench(const CommandContext& context) {
   const Options& options = context.options;
@@ -25,21 +36,16 @@ Status run_bench(const CommandContext& context) {
   GLOAM_TRY(check_scene_exists(options.scene));
 
   BenchContext bench(options, context.log);
-  std::vector<MeasuredRow> measured;
   std::string missed;
-  for (const BenchRow* row : *chosen) {
-    auto value = row->run(bench);
-    if (!value) return value.error();
-    measured.push_back({.row = row, .value = std::move(value).value()});
-    if (!holds(*row, measured.back().value.value)) missed += (missed.empty() ? "" : ", ") + row->id;
-    if (!options.quiet) context.console.print(bench_line(measured.back()));
-  }
-  if (!options.json_file.empty()) {
-    const RunDescription run = {
-        .scene = options.scene, .device = bench.device_info(), .width = options.width, .height = options.height};
-    GLOAM_TRY(make_folder_of(options.json_file));
-    GLOAM_TRY(write_file(options.json_file, bench_json(run, measured)));
-  }
+  const RowsRun run = run_rows(*chosen, bench, [&](const MeasuredRow& measured) {
+    if (!holds(*measured.row, measured.value.value)) missed += (missed.empty() ? "" : ", ") + measured.row->id;
+    if (!options.quiet) context.console.print(bench_line(measured));
+  });
+  // Write the file even if a row failed, because the rows before it are finished. The failure then decides the exit
+  // code.
+  const Status written = write_rows(options, bench.device_info(), run.rows);
+  GLOAM_TRY(run.status);
+  GLOAM_TRY(written);
   if (options.strict && !missed.empty()) return Error{ErrorKind::failed, "bars missed: " + missed};
   return {};
 }

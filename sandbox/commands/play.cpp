@@ -20,9 +20,9 @@ namespace {
 
 constexpr double kRadiansPerPixel = 0.003;
 constexpr double kFastFactor = 5.0;
-constexpr double kLongestStep = 0.1;  // seconds: after a pause nothing leaps
+constexpr double kLongestStep = 0.1;  // seconds: limits the time step after a pause
 
-/// A scene in a window, frame by frame.
+/// Shows a scene in a window, frame by frame.
 class Player {
  public:
   Player(const Options& options, Window& window, Session& session, gpu::Swapchain& swapchain, LogSink& log)
@@ -57,7 +57,7 @@ class Player {
   [[nodiscard]] const std::vector<FrameSample>& samples() const { return samples_; }
 
  private:
-  /// A knob may take away what a view shows: the lit picture comes back, and the program goes on.
+  /// A changed knob may make the visualizer unavailable. Then warn, return to the lit picture and go on.
   void drop_view_without_its_knob() {
     if (settings_.visualizer == "none") return;
     Status shows = session_.renderer->check_visualizer(session_.world, settings_.visualizer);
@@ -83,7 +83,7 @@ class Player {
     flight_.advance(session_.world, flight, step_s_, settings_);
   }
 
-  /// Whether a frame was drawn: not while the window is minimised or changes its size.
+  /// Draws a frame. Returns false if none was shown, because the window is minimised or changes its size.
   [[nodiscard]] Result<bool> draw() {
     const std::uint32_t width = window_.width();
     const std::uint32_t height = window_.height();
@@ -109,7 +109,7 @@ class Player {
     return true;
   }
 
-  /// Waits for every frame only where its times are wanted.
+  /// Waits for the frame only if its times are needed (--stats, --trace).
   [[nodiscard]] Status render(const ViewRequest& request) {
     if (options_.stats.empty() && options_.trace.empty()) {
       static_cast<void>(session_.zones.take());
@@ -132,12 +132,13 @@ class Player {
   std::vector<FrameSample> samples_;
   double time_s_ = 0.0;
   double frame_s_ = 0.0;  ///< since the last frame
-  double step_s_ = 0.0;   ///< the same, or kLongestStep
+  double step_s_ = 0.0;   ///< frame_s_, at most kLongestStep
   std::uint64_t last_ns_ = 0;
   bool fits_ = false;
 };
 
-/// What the options ask for beyond the window: of one more frame, drawn into the renderer's own image.
+/// Writes the picture and reports that the options ask for, from one more frame that is drawn into the renderer's own
+/// image.
 Status leave_results(const CommandContext& context, Session& session, const Player& player) {
   const Options& options = context.options;
   const bool wants_reports = !options.stats.empty() || !options.trace.empty() || options.pick;
@@ -160,6 +161,7 @@ Status run_play(const CommandContext& context) {
   if (!window) return window.error();
   const auto session = open_session(options, context.log, window.value()->vulkan_extensions());
   if (!session) return session.error();
+  warn_of_missing_effects(*session.value(), context.log);
   GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));
   const auto swapchain = gpu::create_swapchain(*session.value()->device, window.value()->surface_maker());
   if (!swapchain) return swapchain.error();

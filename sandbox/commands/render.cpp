@@ -13,7 +13,7 @@
 namespace gloam {
 namespace {
 
-/// The last frame once more, with the view that was asked for and what had to be traced to show it.
+/// Traces the data that the visualizer needs and draws the last frame again with it. last: replaced by that frame.
 Status show_traced_view(Session& session, const CommandContext& context, const VisualizerInfo& info,
                         const ViewSettings& view, FrameSample& last) {
   GLOAM_TRY(trace_for_view(session, info, view.id, context.console, context.options.quiet));
@@ -41,6 +41,7 @@ Status run_render(const CommandContext& context) {
   const Options& options = context.options;
   auto session = open_session(options, context.log);
   if (!session) return session.error();
+  warn_of_missing_effects(*session.value(), context.log);
   const ViewSettings view = session.value()->view_settings(options.width, options.height, options.view);
   const auto traced = traced_view(*session.value()->renderer, options.view);
   ViewSettings drawn = view;

@@ -2,56 +2,44 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/output/trace.h"
 
+#include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
-#include "sandbox/output/json_writer.h"
+#include "sandbox/output/json_text.h"
 
 namespace gloam {
 namespace {
 
 constexpr int kProcess = 1;
-constexpr int kGpuRow = 1000;  // above any thread number
+constexpr std::uint32_t kGpuRow = 1000;  // above any thread number
 
-void begin_event(JsonWriter& json, std::string_view name, std::string_view category, double begin_us,
-                 double duration_us, std::int64_t row) {
-  json.begin_object().key("name").text(name).key("cat").text(category).key("ph").text("X");
-  json.key("ts").number(begin_us).key("dur").number(duration_us).key("pid").integer(kProcess).key("tid").integer(row);
+Json event_json(const std::string& name, const std::string& category, double begin_us, double duration_us,
+                std::uint32_t row) {
+  Json event = {{"name", name}, {"cat", category}, {"ph", "X"}, {"ts", begin_us}, {"dur", duration_us}};
+  event["pid"] = kProcess;
+  event["tid"] = row;
+  return event;
 }
 
-void write_row_name(JsonWriter& json, std::int64_t row, const std::string& name) {
-  json.begin_object()
-      .key("name")
-      .text("thread_name")
-      .key("ph")
-      .text("M")
-      .key("pid")
-      .integer(kProcess)
-      .key("tid")
-      .integer(row);
-  json.key("args").begin_object().key("name").text(name).end_object().end_object();
+Json row_name_json(std::uint32_t row, const std::string& name) {
+  return {{"name", "thread_name"}, {"ph", "M"}, {"pid", kProcess}, {"tid", row}, {"args", {{"name", name}}}};
 }
 
-void write_zones(JsonWriter& json, const FrameSample& sample) {
+void add_zones(Json& events, const FrameSample& sample) {
   for (const Zone& zone : sample.zones) {
     const auto begin_us = static_cast<double>(zone.begin_ns) * 1e-3;
     const auto duration_us = static_cast<double>(zone.end_ns - zone.begin_ns) * 1e-3;
-    begin_event(json, zone.name, zone.module, begin_us, duration_us, zone.thread);
-    json.end_object();
+    events.push_back(event_json(zone.name, zone.module, begin_us, duration_us, zone.thread));
   }
 }
 
-void write_passes(JsonWriter& json, const FrameSample& sample) {
+void add_passes(Json& events, const FrameSample& sample) {
   double begin_us = static_cast<double>(sample.begin_ns) * 1e-3;
   for (const PassTime& pass : sample.report.passes) {
-    begin_event(json, pass.name, pass.module, begin_us, pass.ms * 1e3, kGpuRow);
-    json.key("args")
-        .begin_object()
-        .key("dispatches")
-        .integer(pass.dispatches)
-        .key("draws")
-        .integer(pass.draws)
-        .end_object();
-    json.end_object();
+    Json event = event_json(pass.name, pass.module, begin_us, pass.ms * 1e3, kGpuRow);
+    event["args"] = {{"dispatches", pass.dispatches}, {"draws", pass.draws}};
+    events.push_back(std::move(event));
     begin_us += pass.ms * 1e3;
   }
 }
@@ -59,20 +47,18 @@ void write_passes(JsonWriter& json, const FrameSample& sample) {
 }  // namespace
 
 std::string chrome_trace(std::span<const FrameSample> samples) {
-  JsonWriter json;
-  json.begin_object().key("displayTimeUnit").text("ms").key("traceEvents").begin_array();
   std::set<std::uint32_t> threads;
   for (const FrameSample& sample : samples) {
     for (const Zone& zone : sample.zones) threads.insert(zone.thread);
   }
-  for (const std::uint32_t thread : threads) write_row_name(json, thread, "CPU " + std::to_string(thread));
-  write_row_name(json, kGpuRow, "GPU");
+  Json events = Json::array();
+  for (const std::uint32_t thread : threads) events.push_back(row_name_json(thread, "CPU " + std::to_string(thread)));
+  events.push_back(row_name_json(kGpuRow, "GPU"));
   for (const FrameSample& sample : samples) {
-    write_zones(json, sample);
-    write_passes(json, sample);
+    add_zones(events, sample);
+    add_passes(events, sample);
   }
-  json.end_array().end_object();
-  return json.finish();
+  return json_text({{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}});
 }
 
 }  // namespace gloam

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/scenes/builtin.h"
 
+#include <string>
+#include <vector>
+
+#include "engine/core/nearest_name.h"
 #include "sandbox/scenes/closeups.h"
 #include "sandbox/scenes/lanterns.h"
 #include "sandbox/scenes/many_lights.h"
@@ -30,12 +34,15 @@ constexpr BuiltinScene kScenes[] = {
 std::span<const BuiltinScene> builtin_scenes() { return kScenes; }
 
 Result<const BuiltinScene*> find_builtin_scene(std::string_view name) {
-  std::string names;
+  std::vector<std::string> names;
+  std::string list;
   for (const BuiltinScene& scene : kScenes) {
     if (scene.name == name) return &scene;
-    names += (names.empty() ? "" : ", ") + std::string(scene.name);
+    names.emplace_back(scene.name);
+    list += (list.empty() ? "" : ", ") + names.back();
   }
-  return Error{ErrorKind::usage, "there is no built-in scene '" + std::string(name) + "'; there are: " + names};
+  return Error{ErrorKind::usage, "there is no built-in scene '" + std::string(name) + "'; " +
+                                     did_you_mean(name, names) + "there are: " + list};
 }
 
 }  // namespace gloam

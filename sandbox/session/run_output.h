@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "sandbox/console.h"
 #include "sandbox/options.h"
@@ -13,18 +14,22 @@
 
 namespace gloam {
 
-/// What a command that drew leaves behind, as the options ask: picture, stats, trace, what lies under a pixel. view:
-/// the one that was drawn, into the renderer's own image. samples: its frames, at least one.
+/// A finished run, whose picture, stats, trace and pick lines can be written. view: settings of the last frame, which
+/// was drawn into the renderer's own image. samples: all frames of the run, at least one.
 struct DrawnRun {
   Session& session;
   const ViewSettings& view;
   std::span<const FrameSample> samples;
 };
 
-/// Writes the picture to `path` (.png: as shown, .exr: linear light), making its folder.
+/// Logs one warning that names the effects that the scene demands but this version does not draw, if there are any.
+void warn_of_missing_effects(const Session& session, LogSink& log);
+
+/// Writes the picture to `path` (.exr: linear light; otherwise a PNG as shown, with the visualizer's legend) and
+/// creates its folder.
 [[nodiscard]] Status write_picture(const DrawnRun& run, const std::string& path);
 
-/// --stats, --trace and --pick.
+/// Writes the results of --stats, --trace and --pick.
 [[nodiscard]] Status write_reports(const DrawnRun& run, const Options& options, Console& console);
 
 }  // namespace gloam

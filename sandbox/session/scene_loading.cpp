@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
+#include "engine/core/nearest_name.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/resources.h"
 #include "sandbox/output/file_io.h"
@@ -17,14 +19,25 @@ constexpr std::string_view kBuiltinPrefix = "builtin:";
 
 bool is_builtin(std::string_view scene) { return scene.starts_with(kBuiltinPrefix); }
 
+/// "; did you mean builtin:NAME?" if `scene` is close to a built-in scene's name whose prefix is missing or misspelt;
+/// otherwise empty.
+std::string meant_builtin(std::string_view scene) {
+  std::vector<std::string> names;
+  for (const BuiltinScene& builtin : builtin_scenes()) names.emplace_back(builtin.name);
+  const std::string_view nearest = nearest_name(scene.substr(scene.rfind(':') + 1), names);
+  return nearest.empty() ? "" : "; did you mean " + std::string(kBuiltinPrefix) + std::string(nearest) + "?";
+}
+
 Status check_animation(const World& world, const std::string& name) {
   if (name.empty()) return {};
-  std::string names;
+  std::vector<std::string> names;
+  std::string list;
   for (const AnimationClip& clip : world.resource<SceneAssets>().clips) {
     if (clip.name == name) return {};
-    names += (names.empty() ? "" : ", ") + clip.name;
+    names.push_back(clip.name);
+    list += (list.empty() ? "" : ", ") + clip.name;
   }
-  const std::string rest = names.empty() ? "the scene has none" : "there are: " + names;
+  const std::string rest = names.empty() ? "the scene has none" : did_you_mean(name, names) + "there are: " + list;
   return Error{ErrorKind::usage, "there is no animation '" + name + "'; " + rest};
 }
 
@@ -38,7 +51,7 @@ Status check_scene_exists(const std::string& scene) {
   std::error_code fault;
   if (std::filesystem::is_regular_file(scene, fault)) return {};
   if (std::filesystem::exists(scene, fault)) return Error{ErrorKind::input, scene + ": is not a file"};
-  return Error{ErrorKind::input, scene + ": there is no such file"};
+  return Error{ErrorKind::input, scene + ": there is no such file" + meant_builtin(scene)};
 }
 
 std::string scene_stem(const std::string& scene) {

@@ -3,13 +3,14 @@
 #include "sandbox/session/scene_summary.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "engine/ecs/view.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
-#include "sandbox/output/json_writer.h"
+#include "sandbox/output/json_text.h"
 
 namespace gloam {
 namespace {
@@ -20,7 +21,7 @@ std::uint64_t triangles_of(const Mesh& mesh) {
   return count;
 }
 
-/// The counts with their names, in the order in which they are told.
+/// The counts with their names, in the order of the output.
 std::vector<std::pair<const char*, std::uint64_t>> counts_of(const SceneSummary& summary) {
   return {{"nodes", summary.nodes},
           {"meshes", summary.meshes},
@@ -48,12 +49,6 @@ std::string padded(std::string text, std::size_t width) {
 std::string verdict(const SceneSummary::ModuleDemand& module) {
   if (!module.needed) return "not called for";
   return module.built ? "called for" : "called for, not built yet";
-}
-
-void write_names(JsonWriter& json, std::string_view key, const std::vector<std::string>& names) {
-  json.key(key).begin_array();
-  for (const std::string& name : names) json.text(name);
-  json.end_array();
 }
 
 }  // namespace
@@ -91,6 +86,17 @@ SceneSummary summarize_scene(const std::string& scene, const World& world, const
   return out;
 }
 
+std::string missing_effects(const World& world, const ModuleList& modules) {
+  std::string missing;
+  for (const auto& module : modules) {
+    if (module->built()) continue;
+    const Demand demand = module->demand(world, nullptr);
+    if (!demand.needed) continue;
+    missing += (missing.empty() ? "" : ", ") + std::string(module->name()) + " (" + demand.reason + ")";
+  }
+  return missing.empty() ? missing : "the scene calls for effects that are not built yet: " + missing;
+}
+
 std::string summary_text(const SceneSummary& summary) {
   constexpr std::size_t kColumn = 18;
   std::string text = padded("scene", kColumn) + summary.scene + "\n";
@@ -106,18 +112,16 @@ std::string summary_text(const SceneSummary& summary) {
 }
 
 std::string summary_json(const SceneSummary& summary) {
-  JsonWriter json;
-  json.begin_object().key("version").integer(1).key("scene").text(summary.scene).key("name").text(summary.name);
-  for (const auto& [name, count] : counts_of(summary)) json.key(name).integer(static_cast<std::int64_t>(count));
-  write_names(json, "cameras", summary.cameras);
-  write_names(json, "animations", summary.animations);
-  json.key("modules").begin_array();
+  Json json = {{"version", 1}, {"scene", summary.scene}, {"name", summary.name}};
+  for (const auto& [name, count] : counts_of(summary)) json[name] = count;
+  json["cameras"] = summary.cameras;
+  json["animations"] = summary.animations;
+  json["modules"] = Json::array();
   for (const SceneSummary::ModuleDemand& module : summary.modules) {
-    json.begin_object().key("name").text(module.name).key("built").boolean(module.built);
-    json.key("demanded").boolean(module.needed).key("reason").text(module.reason).end_object();
+    json["modules"].push_back(
+        {{"name", module.name}, {"built", module.built}, {"demanded", module.needed}, {"reason", module.reason}});
   }
-  json.end_array().end_object();
-  return json.finish();
+  return json_text(json);
 }
 
 }  // namespace gloam

@@ -13,15 +13,15 @@
 
 namespace gloam {
 
-/// What `inspect` tells of a scene.
+/// The facts that `inspect` prints about a scene.
 struct SceneSummary {
   std::string scene;
   std::string name;
   std::uint64_t nodes = 0;
   std::uint64_t meshes = 0;
-  std::uint64_t triangles = 0;  ///< as stored, every mesh once
+  std::uint64_t triangles = 0;  ///< each mesh counted once
   std::uint64_t instances = 0;
-  std::uint64_t drawn_triangles = 0;  ///< over all instances
+  std::uint64_t drawn_triangles = 0;  ///< sum over all instances
   std::uint64_t materials = 0;
   std::uint64_t textures = 0;
   std::uint64_t images = 0;
@@ -42,10 +42,14 @@ struct SceneSummary {
 [[nodiscard]] SceneSummary summarize_scene(const std::string& scene, const World& world, const SceneInfo& info,
                                            const KeyRegistry& registry, const ModuleList& modules);
 
-/// As lines for people.
+/// One sentence that names the effects that the world demands but this version does not draw, each with its reason.
+/// Empty if there are none.
+[[nodiscard]] std::string missing_effects(const World& world, const ModuleList& modules);
+
+/// The summary as readable text.
 [[nodiscard]] std::string summary_text(const SceneSummary& summary);
-/// {"version": 1, "scene", counts…, "cameras": […], "animations": […], "modules": [{"name", "built", "demanded",
-/// "reason"}]}
+/// The summary as JSON: {"version": 1, "scene", counts…, "cameras": […], "animations": […], "modules": [{"name",
+/// "built", "demanded", "reason"}]}
 [[nodiscard]] std::string summary_json(const SceneSummary& summary);
 
 }  // namespace gloam

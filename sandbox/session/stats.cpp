@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -13,18 +14,18 @@
 namespace gloam {
 namespace {
 
-/// Times of one name of one module over the frames.
+/// Times of one system or pass, identified by module and name, over all frames.
 struct TimedRow {
   std::string name;
   std::string module;
-  std::vector<double> frame_ms;  ///< one a frame in which it ran
+  std::vector<double> frame_ms;  ///< one per frame in which it ran
   std::size_t last_frame = 0;
-  std::uint64_t calls = 0;  ///< in the last frame in which it ran, as the next two
+  std::uint64_t calls = 0;  ///< in the last frame in which it ran; so are dispatches and draws
   std::uint64_t dispatches = 0;
   std::uint64_t draws = 0;
 };
 
-/// Rows in order of first appearance.
+/// All rows, in the order of their first appearance.
 class RowTable {
  public:
   void add(std::size_t frame, const std::string& name, const std::string& module, double ms, std::uint32_t dispatches,
@@ -49,13 +50,11 @@ class RowTable {
   std::map<std::pair<std::string, std::string>, std::size_t> index_;
 };
 
-void write_summary(JsonWriter& json, std::string_view name, const Summary& summary) {
-  json.key(name).begin_object();
-  json.key("median").number(summary.median).key("p10").number(summary.p10).key("p90").number(summary.p90);
-  json.end_object();
+Json summary_json(const Summary& summary) {
+  return {{"median", summary.median}, {"p10", summary.p10}, {"p90", summary.p90}};
 }
 
-void write_frame_times(JsonWriter& json, std::span<const FrameSample> measured) {
+Json frame_times_json(std::span<const FrameSample> measured) {
   std::vector<double> cpu;
   std::vector<double> gpu;
   std::vector<double> wall;
@@ -64,83 +63,79 @@ void write_frame_times(JsonWriter& json, std::span<const FrameSample> measured) 
     gpu.push_back(sample.report.gpu_ms);
     wall.push_back(sample.wall_ms());
   }
-  json.key("frame_ms").begin_object();
-  write_summary(json, "cpu", summarize(std::move(cpu)));
-  write_summary(json, "gpu", summarize(std::move(gpu)));
-  write_summary(json, "wall", summarize(std::move(wall)));
-  json.end_object();
+  return {{"cpu", summary_json(summarize(std::move(cpu)))},
+          {"gpu", summary_json(summarize(std::move(gpu)))},
+          {"wall", summary_json(summarize(std::move(wall)))}};
 }
 
-void begin_row(JsonWriter& json, const TimedRow& row) {
+Json row_json(const TimedRow& row) {
   const Summary summary = summarize(row.frame_ms);
-  json.begin_object().key("name").text(row.name).key("module").text(row.module);
-  json.key("median_ms").number(summary.median).key("p90_ms").number(summary.p90);
+  return {{"name", row.name}, {"module", row.module}, {"median_ms", summary.median}, {"p90_ms", summary.p90}};
 }
 
-void write_systems(JsonWriter& json, std::span<const FrameSample> measured) {
+Json systems_json(std::span<const FrameSample> measured) {
   RowTable table;
   for (std::size_t frame = 0; frame < measured.size(); ++frame) {
     for (const Zone& zone : measured[frame].zones)
       table.add(frame, zone.name, zone.module, static_cast<double>(zone.end_ns - zone.begin_ns) * 1e-6, 0, 0);
   }
-  json.key("systems").begin_array();
+  Json systems = Json::array();
   for (const TimedRow& row : table.rows()) {
-    begin_row(json, row);
-    json.key("calls").integer(static_cast<std::int64_t>(row.calls)).end_object();
+    systems.push_back(row_json(row));
+    systems.back()["calls"] = row.calls;
   }
-  json.end_array();
+  return systems;
 }
 
-void write_passes(JsonWriter& json, std::span<const FrameSample> measured) {
+Json passes_json(std::span<const FrameSample> measured) {
   RowTable table;
   for (std::size_t frame = 0; frame < measured.size(); ++frame) {
     for (const PassTime& pass : measured[frame].report.passes)
       table.add(frame, pass.name, pass.module, pass.ms, pass.dispatches, pass.draws);
   }
-  json.key("passes").begin_array();
+  Json passes = Json::array();
   for (const TimedRow& row : table.rows()) {
-    begin_row(json, row);
-    json.key("dispatches").integer(static_cast<std::int64_t>(row.dispatches));
-    json.key("draws").integer(static_cast<std::int64_t>(row.draws)).end_object();
+    passes.push_back(row_json(row));
+    passes.back()["dispatches"] = row.dispatches;
+    passes.back()["draws"] = row.draws;
   }
-  json.end_array();
+  return passes;
 }
 
-void write_modules(JsonWriter& json, const FrameReport& last) {
-  json.key("memory").begin_array();
-  for (const ModuleState& module : last.modules) {
-    json.begin_object().key("module").text(module.name);
-    json.key("gpu_bytes").integer(static_cast<std::int64_t>(module.gpu_bytes));
-    json.key("cpu_bytes").integer(static_cast<std::int64_t>(module.cpu_bytes)).end_object();
-  }
-  json.end_array().key("modules").begin_array();
-  for (const ModuleState& module : last.modules) {
-    json.begin_object().key("name").text(module.name).key("demanded").boolean(module.demanded);
-    json.key("reason").text(module.reason).key("pipelines").integer(module.pipelines).end_object();
-  }
-  json.end_array();
+Json memory_json(const FrameReport& last) {
+  Json memory = Json::array();
+  for (const ModuleState& module : last.modules)
+    memory.push_back({{"module", module.name}, {"gpu_bytes", module.gpu_bytes}});
+  return memory;
 }
 
-void write_knobs(JsonWriter& json, const KnobRegistry& knobs) {
-  json.key("knobs").begin_object();
-  for (const Knob& knob : knobs.knobs()) {
-    json.key(knob.name);
-    if (knob.type == Knob::Type::choice) {
-      json.text(knobs.text(knob.name));
-    } else {
-      json.number(knobs.number(knob.name));
-    }
+Json modules_json(const FrameReport& last) {
+  Json modules = Json::array();
+  for (const ModuleState& module : last.modules) {
+    modules.push_back({{"name", module.name},
+                       {"demanded", module.demanded},
+                       {"reason", module.reason},
+                       {"pipelines", module.pipelines}});
   }
-  json.end_object();
+  return modules;
+}
+
+Json knobs_json(const KnobRegistry& registry) {
+  Json knobs = Json::object();
+  for (const Knob& knob : registry.knobs()) {
+    const bool choice = knob.type == Knob::Type::choice;
+    knobs[knob.name] = choice ? Json(registry.text(knob.name)) : Json(registry.number(knob.name));
+  }
+  return knobs;
 }
 
 }  // namespace
 
-void write_device(JsonWriter& json, const gpu::DeviceInfo& device) {
-  json.key("device").begin_object();
-  json.key("name").text(device.name).key("driver").text(device.driver);
-  json.key("type").text(device.name.empty() ? std::string_view("none") : gpu::name_of(device.type));
-  json.key("subgroup_size").integer(device.subgroup_size).end_object();
+Json device_json(const gpu::DeviceInfo& device) {
+  return {{"name", device.name},
+          {"driver", device.driver},
+          {"type", device.name.empty() ? std::string_view("none") : gpu::name_of(device.type)},
+          {"subgroup_size", device.subgroup_size}};
 }
 
 std::string stats_json(const RunDescription& run, std::span<const FrameSample> samples,
@@ -148,25 +143,20 @@ std::string stats_json(const RunDescription& run, std::span<const FrameSample> s
   GLOAM_ASSERT(!samples.empty(), "stats are of at least one frame");
   const std::span<const FrameSample> measured = samples.size() > 1 ? samples.subspan(1) : samples;
   const FrameReport& last = samples.back().report;
-
-  JsonWriter json;
-  json.begin_object().key("version").integer(1).key("scene").text(run.scene);
-  write_device(json, run.device);
-  json.key("size").begin_array().integer(run.width).integer(run.height).end_array();
-  json.key("frames").integer(static_cast<std::int64_t>(samples.size()));
-  write_frame_times(json, measured);
-  write_systems(json, measured);
-  write_passes(json, measured);
-  write_modules(json, last);
-
   std::map<std::string, double> counters = last.counters;
   counters.insert(extra_counters.begin(), extra_counters.end());
-  json.key("counters").begin_object();
-  for (const auto& [name, value] : counters) json.key(name).number(value);
-  json.end_object();
-  write_knobs(json, knobs);
-  json.end_object();
-  return json.finish();
+
+  Json json = {{"version", 1}, {"scene", run.scene}, {"device", device_json(run.device)}};
+  json["size"] = {run.width, run.height};
+  json["frames"] = samples.size();
+  json["frame_ms"] = frame_times_json(measured);
+  json["systems"] = systems_json(measured);
+  json["passes"] = passes_json(measured);
+  json["memory"] = memory_json(last);
+  json["modules"] = modules_json(last);
+  json["counters"] = counters;
+  json["knobs"] = knobs_json(knobs);
+  return json_text(json);
 }
 
 std::uint64_t count_nan_pixels(std::span<const float> rgba) {

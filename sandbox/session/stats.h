@@ -10,11 +10,11 @@
 #include "engine/gpu/types.h"
 #include "engine/render/knobs/knobs.h"
 #include "sandbox/output/frame_sample.h"
-#include "sandbox/output/json_writer.h"
+#include "sandbox/output/json_text.h"
 
 namespace gloam {
 
-/// What a run was, for the head of its stats.
+/// Scene, device and picture size (in pixels) of a run, for the head of its stats.
 struct RunDescription {
   std::string scene;
   gpu::DeviceInfo device;
@@ -22,17 +22,17 @@ struct RunDescription {
   std::uint32_t height = 0;
 };
 
-/// The `--stats` text (schema version 1). samples: every frame of the run, in order, at least one. Of several frames
-/// the first is left out of the times. A system or pass that did not run in every frame is judged by the frames in
-/// which it ran; several calls of one name in a frame add up. Counters and memory are of the last frame;
-/// `extra_counters` join them.
+/// The JSON text of `--stats` (schema version 1). samples: all frames of the run, in order, at least one. If there are
+/// several, the times leave out the first. Times of a system or pass are over the frames in which it ran; several calls
+/// of one name in a frame are added up. Counters and memory are those of the last frame, together with
+/// `extra_counters`.
 [[nodiscard]] std::string stats_json(const RunDescription& run, std::span<const FrameSample> samples,
                                      const std::map<std::string, double>& extra_counters, const KnobRegistry& knobs);
 
-/// {"name", "driver", "type", "subgroup_size"}; a run that used no device has type "none".
-void write_device(JsonWriter& json, const gpu::DeviceInfo& device);
+/// Returns {"name", "driver", "type", "subgroup_size"} of the device. The type is "none" if the run used no device.
+[[nodiscard]] Json device_json(const gpu::DeviceInfo& device);
 
-/// The number of pixels with a component that is not a number. rgba: four floats a pixel.
+/// The number of pixels with a component that is not a number. rgba: four floats per pixel.
 [[nodiscard]] std::uint64_t count_nan_pixels(std::span<const float> rgba);
 
 }  // namespace gloam

@@ -7,13 +7,12 @@
 
 #define GLOAM_MAX_LOCAL_LIGHTS 1024
 #define GLOAM_MAX_DIRECTIONAL_LIGHTS 16
-#define GLOAM_LIGHT_GROUPS 32  // words of 32 lights in a tile's mask; one more layer tells which words are not empty
-#define GLOAM_MASK_WORDS 33  // of a light mask in a buffer: first which of the 32 words are not empty, then those words
-#define GLOAM_LIGHT_TILE 32  // pixels along one side of a tile of the CPU's light masks
-#define GLOAM_SHADOW_TILE 8  // pixels along one side of a shadow tile, which has a light list
-#define GLOAM_TILE_GROUP \
-  8  // shadow tiles along one side of a tile group, which shares a mask of the approximate search
-#define GLOAM_NO_SLOT 0xFFFFFFFFu  // a shadow tile whose list found no room: its lights are those of its group's mask
+#define GLOAM_LIGHT_GROUPS 32          // words of 32 lights in a mask, without the group word
+#define GLOAM_MASK_WORDS 33            // words of a light mask: group word (which of the 32 words are not 0), 32 words
+#define GLOAM_LIGHT_TILE 32            // side of a tile with a tile mask, in pixels
+#define GLOAM_SHADOW_TILE 8            // side of a shadow tile, which has one light list, in pixels
+#define GLOAM_TILE_GROUP 8             // side of a tile group in shadow tiles; a group has one group mask
+#define GLOAM_NO_SLOT 0xFFFFFFFFu      // slot of a shadow tile whose list did not fit: it uses its group mask
 #define GLOAM_EMPTY_Z_BIN 0x0000FFFFu  // begin 0xFFFF, end 0: no light
 
 GLOAM_SHARED_BEGIN
@@ -21,21 +20,21 @@ GLOAM_SHARED_BEGIN
 /// A point or spot light, camera-relative.
 struct LocalLight {
   vec3 position;
-  float inverse_range_squared;
-  vec3 color;        // candela, linear
-  float spot_scale;  // strength = clamp(cos * scale + offset)²; a point light has 0 and 1
-  vec3 direction;    // where it shines, unit
+  float inverse_range_squared;  // 1 / m²
+  vec3 color;                   // candela, linear
+  float spot_scale;  // intensity factor = clamp(cos * scale + offset, 0, 1)²; a point light has scale 0 and offset 1
+  vec3 direction;    // direction in which it shines, unit length
   float spot_offset;
 };
 
 struct DirectionalLight {
   vec3 color;            // lux, linear
   float apparent_angle;  // radians
-  vec3 direction;        // where it shines, unit
+  vec3 direction;        // direction in which it shines, unit length
   float reserved;
 };
 
-/// Lights that may touch the view: local ones ordered by nearest view depth of their bounds.
+/// Lights that may touch the view. Local lights are sorted by the nearest view depth of their bounds.
 struct LightBlock {
   uint local_count;
   uint directional_count;
@@ -45,35 +44,35 @@ struct LightBlock {
   LocalLight local[GLOAM_MAX_LOCAL_LIGHTS];
 };
 
-/// How the view's light lists lie in their buffers. zBins: words [0, z_bin_count) are the standard set, the next
-/// z_bin_count the ranged one; a word is begin | end << 16 of the sorted local lights. The bin of view depth d is (d -
-/// z_near) · z_scale, clamped.
+/// Layout of the view's light lists in their buffers. zBins: words [0, z_bin_count) are the standard set, the next
+/// z_bin_count words the ranged set; a word is begin | end << 16, a range of sorted local lights. The bin of view depth
+/// d is floor((d - z_near) · z_scale), clamped to the valid bins.
 struct LightGrid {
-  uvec2 tiles;       // shadow tiles
-  uvec2 groups;      // tile groups
-  uvec2 mask_tiles;  // tiles of the CPU's masks, each GLOAM_MASK_WORDS words
+  uvec2 tiles;       // number of shadow tiles
+  uvec2 groups;      // number of tile groups
+  uvec2 mask_tiles;  // number of tile masks, GLOAM_MASK_WORDS each
   uint local_count;
   uint z_bin_count;
   float z_near;        // metres
-  float z_scale;       // bins a metre
-  uint slot_capacity;  // list entries that fit, a multiple of 3
-  uint fixed_slots;    // entries a tile gets whatever it needs, a multiple of 3; 0: as many as it needs
+  float z_scale;       // bins per metre
+  uint slot_capacity;  // capacity in list entries, a multiple of 3
+  uint fixed_slots;    // fixed list entries per tile, a multiple of 3; 0: as many as the tile needs
 };
 
-/// What the searches count in one view, added up by the GPU. Tiles of nothing but sky are not counted.
+/// Counters of the searches of one view, summed on the GPU. Tiles that show only sky are not counted.
 struct LightCounters {
-  uint slots;             // list entries asked for, rounded up to 3 a tile: more than slot_capacity when lists overflow
+  uint slots;             // list entries requested, rounded up to 3 per tile; more than slot_capacity if lists overflow
   uint overflow_tiles;    // tiles without a list
-  uint violations;        // lights that the accurate search found beyond a tile's entries: must be 0
+  uint violations;        // lights of the accurate search that exceed a tile's entries: must be 0
   uint tiles;             // shadow tiles with a surface
-  uint mask_lights;       // lights of their parent tile's mask, summed over tiles
-  uint candidate_lights;  // of those, in the zBins of the tile's depths
-  uint approx_lights;     // of those, touching the tile's froxel
-  uint group_lights;      // in the mask of the tile's group
-  uint accurate_lights;   // with a pixel of the tile in their volume
-  uint farthest_depth;    // bits of the least depth value of a surface (reversed Z); 0x3F800000 without one
-  uint culling_errors;  // with lights.check: (pixel, light) pairs in range whose light is not in the tile's list; must
-                        // be 0
+  uint mask_lights;       // sum over tiles: lights in the tile mask of the parent 32×32 tile
+  uint candidate_lights;  // lights of mask_lights within the zBins of the tile's depths
+  uint approx_lights;     // lights of candidate_lights that touch the tile's froxel
+  uint group_lights;      // sum over tiles: lights in the group mask
+  uint accurate_lights;   // sum over tiles: lights whose volume contains a pixel of the tile
+  uint farthest_depth;    // bits of the least depth value of a surface (reversed Z); 0x3F800000 if there is none
+  uint culling_errors;    // with lights.check: (pixel, light) pairs where the light reaches the pixel but is not in the
+                          // tile's list; must be 0
   uint reserved;
 };
 

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 OURS = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]((?:engine|modules|shaders)/[^">]+)[">]', re.MULTILINE)
-INTEROP = "engine/gpu/vulkan_interop.h"  # for hosts that have Vulkan of their own
+INTEROP = "engine/gpu/vulkan_interop.h"  # for hosts that create their own Vulkan device
 PRIVATE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*[\"<](?:vulkan/|volk|GLFW/|imgui|tiny_gltf|OpenMesh/|nlohmann/)", re.MULTILINE)
 
 
@@ -18,7 +18,7 @@ def run(*command):
 
 
 def header_faults(include):
-    """Headers that name project headers which were not installed, or private libraries."""
+    """Lists headers that include project headers which are not installed, or headers of private libraries."""
     faults = []
     headers = sorted(include.rglob("*.h"))
     for header in headers:
@@ -32,7 +32,7 @@ def header_faults(include):
 
 
 def guide_faults(host):
-    """docs/adding-a-module.md shows the host's module word by word."""
+    """Checks that docs/adding-a-module.md quotes the class in veil_module.cpp verbatim."""
     text = (host / "veil_module.cpp").read_text(encoding="utf-8")
     shown = text[text.index("class VeilModule"):text.index("}  // namespace\n")].strip()
     guide = (host.parents[2] / "docs/adding-a-module.md").read_text(encoding="utf-8")

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Fails on a header that does not compile alone. usage: headers_alone.py ROOT BUILD [FOLDER]
 
-FOLDER, a name or a pattern of names, checks the headers below it alone.
+FOLDER, a name or a pattern of names, limits the check to the headers below it.
 
-A header that some built source includes first has been compiled alone already. The others are compiled here, twice in one file
-(so that a missing guard shows), with the flags of the nearest source in BUILD/compile_commands.json and with the standard
-library, GLM and GoogleTest precompiled, for speed. Precompiling hides an absent standard include, so a header that uses a name
-from the table below without naming its header is compiled without. Headers that passed with the same text, includes and flags
-before are not compiled again (BUILD/hygiene/headers_alone.json)."""
+A header that a built source includes first has been compiled alone already. Each other header is compiled here, included twice
+in one file (so that a missing guard shows), with the flags of the nearest source in BUILD/compile_commands.json and with the
+standard library, GLM and GoogleTest precompiled, for speed. Precompiling hides an absent standard include, so a header that uses
+a name from the table below without including its standard header is compiled without it. Headers that passed before with the
+same text, includes and flags are not compiled again (BUILD/hygiene/headers_alone.json)."""
 import collections
 import concurrent.futures
 import fnmatch
@@ -24,7 +24,7 @@ import include_arrows
 import source_text
 
 PARALLEL = 2
-STANDARD = {  # names and the headers that promise them
+STANDARD = {  # standard header: names that it provides
     "algorithm": r"sort|stable_sort|clamp|min|max|fill|copy|find|find_if|lower_bound|upper_bound|count|count_if|all_of|any_of",
     "array": r"array", "atomic": r"atomic(?:_\w+)?", "bit": r"bit_cast|popcount|countr_zero|countl_zero|bit_ceil|bit_width",
     "chrono": r"chrono", "cmath": r"sqrt|sin|cos|tan|atan2|acos|asin|pow|exp|exp2|log|log2|floor|ceil|round|fabs|isfinite|isnan",
@@ -39,13 +39,13 @@ STANDARD = {  # names and the headers that promise them
 }
 IMPLIED = {"string": {"string_view"}, "unordered_map": {"type_traits"}, "functional": {"type_traits"}, "memory": {"type_traits"},
            "variant": {"type_traits"}, "tuple": {"type_traits"}, "utility": {"type_traits"}, "atomic": {"type_traits"}}
-# Left out, so that one precompiled header fits all targets and nothing is optimised.
+# Flags that are left out, so that one precompiled header fits all targets and nothing is optimised.
 _DROPPED = re.compile(r"-c|-MD|-MMD|-f(no-)?(pic|PIC|pie|PIE)|-O.|-O|-g.?")
 _DROPPED_WITH_VALUE = ("-o", "-MF", "-MT", "-MQ")
 
 
 class Build:
-    """The sources of a build tree and how they are compiled."""
+    """The sources of a build tree and their compile flags."""
 
     def __init__(self, root, build):
         self.root, self.build = Path(root), Path(build)
@@ -76,7 +76,7 @@ class Build:
         return flags
 
     def flags_near(self, header):
-        """Compiler and flags of the source that shares the longest part of the path; engine's before others'."""
+        """Compiler and flags of the source whose path shares the most leading folders; of equals, the one with the shorter path."""
         def likeness(name):
             common = 0
             for a, b in zip(name.split("/"), header.split("/")):
@@ -87,7 +87,7 @@ class Build:
         return self.commands[max(self.commands, key=likeness)]
 
     def first_includes(self):
-        """Headers that a compiled source includes before anything else."""
+        """Headers that are the first include of an up-to-date compiled source."""
         found = set()
         for name, output in self.outputs.items():
             if output.is_file():
@@ -100,7 +100,7 @@ class Build:
         return max((p.stat().st_mtime for p in self.closure(header)), default=0.0)
 
     def closure(self, header):
-        """Project files that a header includes, itself first."""
+        """The header and all project files that it includes, directly or not; itself first."""
         seen, todo = {}, [header]
         while todo:
             name = todo.pop()
@@ -118,7 +118,7 @@ class Build:
         return digest.hexdigest()
 
     def lacks_standard(self, header):
-        """Whether a name of the table is used whose header neither this one nor what it includes names."""
+        """Whether the header uses a name of the table without including its standard header, directly or through project files."""
         includes = {i[1] for path in self.closure(header) for i in include_arrows.includes(path.read_text(encoding="utf-8"))}
         for name in list(includes):
             includes |= IMPLIED.get(name, set())
@@ -129,8 +129,8 @@ class Build:
         return False
 
     def precompile(self, headers):
-        """Makes BUILD/hygiene/system.h(.gch) of GLM and the standard headers that many of these include; loading what few want
-        would cost more than it saves."""
+        """Precompiles BUILD/hygiene/system.h(.gch) from GLM and the standard headers that many of these headers include. Loading
+        rarely used ones would cost more than it saves. Returns the compiler arguments that use it."""
         users = collections.Counter()
         for header in headers:
             for _, include, quoted in include_arrows.includes(source_text.read(self.root, header)):

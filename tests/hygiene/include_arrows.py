@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""Fails on an include against the arrows of the architecture. usage: include_arrows.py ROOT
+"""Fails on an include that the architecture does not allow. usage: include_arrows.py ROOT
 
 An owner is a layer (engine/ecs), a module (modules/lights), the sandbox or the tests; shaders/<name> belongs to the layer or
 module of that name."""
@@ -10,7 +10,7 @@ from pathlib import Path
 
 import source_text
 
-# Layer: what it may include directly; closed transitively below.
+# The layers and modules that each one may include directly; closed transitively below.
 LAYERS = {
     "core": (), "math": ("core",), "jobs": ("core",), "ecs": ("core", "jobs"), "schedule": ("ecs", "jobs"),
     "gpu": ("core", "math", "jobs"), "frame": ("gpu",), "scene": ("ecs", "schedule", "math"),
@@ -22,12 +22,13 @@ MODULES = {
     "depth_of_field": ("fog", "reflections", "grass", "particles"),
     "visualizers": ("depth_of_field",), "accuracy": ("depth_of_field",),
 }
-HOST = "tests/embedding/host/"  # a project of its own, which sees our headers as installed and its own by their names
-MODULE_LIST = "module_list"  # names every module; no module stands on it
+HOST = "tests/embedding/host/"  # a separate project, which sees our headers as installed and its own headers by their names
+MODULE_LIST = "module_list"  # knows every module; no module may include it
 MODULE_PUBLIC = ("components.h", "module.h", "outputs.h")
 
-# A folder with rooms: its rooms in the order of the data's way, and the headers of the folder itself that rooms may include. A room
-# includes itself and earlier rooms; other files of the folder itself stand above all rooms and include any.
+# Folders with rooms: the rooms in the order in which data flows through them, and the headers directly in the folder
+# that rooms may include. A room may include itself and earlier rooms. Other files directly in the folder may include
+# any room.
 ROOMS = {
     "modules/lights": (("bins", "masks", "selection", "lists", "debug"), ("components", "outputs", "cpu_clones")),
     "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
@@ -40,7 +41,7 @@ ROOMS = {
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
 }
 
-# Third-party headers: where they may stand at all, and whether a header of ours may carry them.
+# Third-party headers: the folders that may include them, and those that a public header may not include.
 HEAVY = (
     (re.compile(r"^(vulkan/|volk\.h$|vk_mem_alloc\.h$)"), ("engine/gpu/", "tests/gpu/", "tests/embedding/"), "Vulkan's headers"),
     (re.compile(r"^(GLFW/|imgui|CLI/|spdlog/)"), ("sandbox/", "tests/"), "the sandbox's libraries"),
@@ -70,7 +71,7 @@ MODULE_REACH = closure(MODULES)
 
 
 def includes(text):
-    """(line, path, quoted) of each include."""
+    """(line, path, quoted) for each include."""
     clean = source_text.without_comments(text)
     return [(clean.count("\n", 0, m.start()) + 1, m.group(1) or m.group(2), m.group(1) is not None)
             for m in INCLUDE.finditer(clean)]
@@ -84,7 +85,7 @@ def is_public_header(name):
 
 
 def cpp_arrow(parts, target):
-    """Why C++ code of an owner may not include a project path, or None."""
+    """The reason why a C++ file may not include a project path, or None."""
     kind = parts[0]
     own = parts[1] if len(parts) > 2 else ""
     if kind == "tests" or (kind == "sandbox" and own == "bench"):
@@ -116,9 +117,9 @@ def cpp_arrow(parts, target):
 
 
 def shader_arrow(parts, target):
-    """Why a file below shaders/ may not include a project path, or None."""
+    """The reason why a file below shaders/ may not include a project path, or None."""
     if parts[1] == "common" and parts[-1].endswith(".h") and target == ["engine", "math", "types.h"]:
-        return None  # the prelude names the C++ side's vectors
+        return None  # the prelude includes the vector types of C++
     if target[0] != "shaders" or len(target) < 3:
         return "shaders include shaders only"
     own, to_own, leaf = parts[1], target[1], target[-1]
@@ -146,7 +147,8 @@ def third_party_fault(name, include):
         if pattern.search(include) and not name.startswith(places):
             return f"<{include}>: {what} stay in {', '.join(p.rstrip('/') for p in places)}"
     if is_public_header(name) and NOT_IN_PUBLIC_HEADERS.search(include):
-        # engine/gpu has headers of its own with Vulkan in them, which are not installed, and one for hosts with a VkDevice.
+        # Exceptions: headers of engine/gpu that include Vulkan and are not installed, and the header for hosts with a
+        # VkDevice.
         if not re.fullmatch(r"engine/gpu/vulkan/.*|engine/gpu/vulkan_interop\.h|engine/gpu/.*_internal\.h|engine/gpu/vk_.*\.h", name):
             return f"<{include}>: public headers carry no such header"
     return None
@@ -164,7 +166,7 @@ def owner_fault(parts):
 
 
 def room_of(folder, parts):
-    """The room of a path inside a folder with rooms, "" for a file of the folder itself, None for a path elsewhere."""
+    """The room of a path inside a folder with rooms; "" for a file directly in the folder, None for a path elsewhere."""
     depth = folder.count("/") + 1
     if "/".join(parts[:depth]) != folder:
         return None
@@ -172,7 +174,7 @@ def room_of(folder, parts):
 
 
 def room_fault(parts, target):
-    """Why a file of one room may not include a file of the same folder, or None."""
+    """The reason why a file in one room may not include another file of the same folder, or None."""
     for folder, (rooms, base) in ROOMS.items():
         room, to_room = room_of(folder, parts), room_of(folder, target)
         if not room or to_room is None:

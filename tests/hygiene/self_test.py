@@ -1,19 +1,27 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""The checkers against samples, good and bad: a checker that cannot fail is a defect. usage: self_test.py"""
+"""Tests the checkers with good and bad samples: a checker that cannot fail is a defect. usage: self_test.py"""
+import contextlib
+import io
 import json
 import os
 import shutil
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+import formatting
 import headers_alone
 import include_arrows
 import licences
+import one_definition
 import packages
 import sizes
 import source_text
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
+import test_report  # noqa: E402
 
 
 class Tree(unittest.TestCase):
@@ -48,6 +56,62 @@ class SourceText(unittest.TestCase):
     def test_a_run_over_nothing_is_a_fault(self):
         self.assertEqual(source_text.report("silent", [], 0), 1)
         self.assertEqual(source_text.report("silent", [], 1), 0)
+
+
+class TestReport(Tree):
+    def report(self, status, seconds):
+        self.write("build/junit.xml", f'<testsuite><testcase name="some" time="{seconds}" status="{status}"/></testsuite>')
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            code = test_report.main([f"release={self.root / 'build'}"])
+        return code, printed.getvalue()
+
+    def test_time_alone_fails_nothing_but_is_marked(self):
+        code, printed = self.report("run", 299.0)
+        self.assertEqual(code, 0)
+        self.assertIn("release: some  (slow)", printed)
+        self.assertIn("1 passed, 0 failed, 0 skipped", printed)
+
+    def test_a_failure_fails(self):
+        self.assertEqual(self.report("fail", 0.1)[0], 1)
+
+
+class OneDefinition(Tree):
+    def faults_of(self, first, second):
+        self.write("engine/a.h", first)
+        self.write("sandbox/b.cpp", second)
+        faults, checked = one_definition.check(self.root)
+        self.assertEqual(checked, 2)
+        return faults
+
+    def test_two_types_of_one_name_are_a_fault(self):
+        for first, second in (("struct A { int x; };", "class A final : public B<int> { };"),
+                              ("enum class A : int { x };", "enum A { y };"),
+                              ("template <class T>\nstruct A { T x; };", "union A { int x; };")):
+            faults = self.faults_of(f"namespace gloam {{\n{first}\n}}", f"namespace gloam {{\n\n{second}\n}}")
+            self.assert_faults(faults, "gloam::A is also defined at engine/a.h:")
+            self.assertTrue(faults[0].startswith("sandbox/b.cpp:3:"), faults)
+
+    def test_nested_namespaces_have_one_name_however_they_are_opened(self):
+        faults = self.faults_of("namespace gloam::gpu { struct A { }; }", "namespace gloam { namespace gpu { struct A { }; } }")
+        self.assert_faults(faults, "gloam::gpu::A")
+
+    def test_types_that_cannot_meet_are_no_fault(self):
+        for second in ("namespace gloam { namespace { struct A { }; } }", "namespace gloam::test { struct A { }; }",
+                       "namespace gloam { struct B { struct A { }; }; }", "namespace gloam { void f() { struct A { }; } }",
+                       "namespace gloam { struct A; class B { A f() { } }; }", "namespace gloam { struct A::B { }; }",
+                       "namespace gloam { // struct A { };\n}", "namespace gloam { struct A f() { } }"):
+            self.assertEqual(self.faults_of("namespace gloam { struct A { }; }", second), [], second)
+
+
+class Formatting(Tree):
+    def test_what_the_formatter_would_change_is_a_fault(self):
+        self.write(".clang-format", "BasedOnStyle: Google\nColumnLimit: 40\n")
+        self.write("engine/core/good.h", "int f(int a);\n")
+        self.write("engine/core/bad.h", "int g();\nint  f(int a );\n")
+        self.write("shaders/core/long.glsl", "// a comment that does not fit into so few columns\n")
+        faults, checked = formatting.check(self.root)
+        self.assertEqual(checked, 3)
+        self.assert_faults(sorted(faults), "engine/core/bad.h:2", "shaders/core/long.glsl:1")
 
 
 class IncludeArrows(Tree):
@@ -165,7 +229,7 @@ class Sizes(unittest.TestCase):
         return sizes.check_text(name, text)
 
     def check_body(self, head, tail="}\n", limit=80, lines=None):
-        """`head` opens a body of two lines more than what stands in it."""
+        """Checks that a body at the limit passes and one line more fails. `head` and `tail` count as two lines of the body."""
         inner = limit - 2 - head.count("\n") if lines is None else lines
         self.assertEqual(self.faults(head + "\n" + statements(inner) + tail), [], head)
         faults = self.faults(head + "\n" + statements(inner + 1) + tail)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Fails on long files, functions and tables. usage: sizes.py ROOT
 
-Counted are lines of code: blank lines and comments are not. A function's own lines stop at 80, with the data tables in it at
-150; test bodies and tables stop at 150; files at 500."""
+Lines of code are counted, without blank lines and comments. Limits: a function 80 lines without its data tables and 150 with
+them; a test body or a table 150; a file 500."""
 import re
 import sys
 from pathlib import Path
@@ -14,7 +14,7 @@ FILE_LIMIT = 500
 FUNCTION_LIMIT = 80
 TABLE_LIMIT = 150
 
-# What may stand between a function's parameters and its body.
+# Text that is allowed between a function's parameters and its body.
 _AFTER_PARAMETERS = re.compile(
     r"\s*(?:(?:const|volatile|noexcept(?:\([^()]*\))?|override|final|mutable|try|&&?)\s*)*"
     r"(?:->[^={;]*|requires\b[^{;]*|:(?!:).*)?\s*", re.DOTALL)
@@ -28,13 +28,13 @@ class Block:
         self.kind = kind  # "scope", "function", "table", "body" (a block within a function)
         self.first_line = first_line
         self.head = head
-        self.tables = []  # (first, last) lines of the outermost tables inside a function
+        self.tables = []  # (first, last) line of each outermost table inside a function
 
 
 def structure_text(text):
-    """Code alone: no comments, strings or preprocessor lines; of alternatives (#else, #elif) only the first."""
+    """The text without comments, strings and preprocessor lines. Of alternatives (#else, #elif) only the first stays."""
     lines = source_text.without_comments(text, blank_strings=True).split("\n")
-    skipped = []  # one entry an open #if: whether its current branch is left out
+    skipped = []  # one entry per open #if: whether its current branch is skipped
     continued = False
     for i, line in enumerate(lines):
         directive = _CONDITIONAL.match(line)
@@ -55,7 +55,7 @@ def structure_text(text):
 
 
 def without_parentheses(head):
-    """The head with the insides of balanced parentheses gone, and whether one stays open."""
+    """The head without the text inside parentheses, and whether a parenthesis stays open."""
     out, depth = [], 0
     for c in head:
         if c == ")":
@@ -68,7 +68,7 @@ def without_parentheses(head):
 
 
 def kind_of(head, parent):
-    """What an opening brace begins, from the text before it and the block around it."""
+    """The kind of block that an opening brace begins, from the text before the brace and the enclosing block."""
     stripped = head.strip()
     if parent.kind == "table" and not stripped.endswith((")", "mutable", "noexcept")):
         return "table"
@@ -101,7 +101,7 @@ def kind_of(head, parent):
 
 
 def blocks(text):
-    """Closed functions and outermost tables as (kind, head, first line, last line, tables inside)."""
+    """All functions and outermost tables as (kind, head, first line, last line, tables inside)."""
     stack = [Block("scope", 0)]
     found = []
     head, head_line, line = "", 0, 1
@@ -121,7 +121,7 @@ def blocks(text):
             enclosing = next((b for b in reversed(stack) if b.kind == "function"), None)
             if block.kind == "table" and parent.kind != "table" and enclosing is not None:
                 enclosing.tables.append((block.first_line, line))
-            # Behind an initialiser the declaration goes on: constructor lists, several declarators.
+            # After an initialiser the declaration continues: constructor lists, several declarators.
             head = block.head + "{}" if block.kind == "table" else ""
             head_line = block.first_line
         elif c == ";":
@@ -134,14 +134,14 @@ def blocks(text):
 
 
 def check_text(name, text):
-    """Faults of one file."""
+    """The faults of one file."""
     code = [bool(line.strip()) for line in source_text.without_comments(text).split("\n")]
     faults = []
     if sum(code) > FILE_LIMIT:
         faults.append(f"{name}: {sum(code)} lines of code, at most {FILE_LIMIT}")
     for kind, head, first, last, tables in blocks(text):
         total = sum(code[first - 1:last])
-        in_tables = {i for begin, end in tables for i in range(begin, end - 1)}  # their first and last line count
+        in_tables = {i for begin, end in tables for i in range(begin, end - 1)}  # a table's first and last line stay
         own = sum(code[i] for i in range(first - 1, last) if i not in in_tables)
         is_test = _TEST.match(head) is not None
         title = " ".join(head.split())[:60]

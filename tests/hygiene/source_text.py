@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""What the checkers share: finding source files and seeing their text without comments."""
+"""Functions that the checkers share: finding source files and removing comments from their text."""
 import re
 import sys
 from pathlib import Path
@@ -12,7 +12,7 @@ _TOKEN = re.compile(
     r'|/\*.*?(?:\*/|\Z)'  # block comment
     r'|R"(?P<tag>[^()\s\\]{0,16})\(.*?\)(?P=tag)"'  # raw string
     r'|"(?:\\.|[^"\\\n])*"'
-    r"|(?<![0-9A-Za-z_])'(?:\\.|[^'\\\n])*'",  # not the separator of 1'000
+    r"|(?<![0-9A-Za-z_])'(?:\\.|[^'\\\n])*'",  # not the digit separator of 1'000
     re.DOTALL)
 
 
@@ -21,7 +21,7 @@ def _keep_lines(text):
 
 
 def without_comments(text, blank_strings=False):
-    """The text with comments (and, if wanted, the insides of strings) as spaces; every line keeps its number."""
+    """The text with comments (and, if wanted, the insides of strings) replaced by spaces; every line keeps its number."""
     def replace(match):
         token = match.group(0)
         if token.startswith(("//", "/*")):

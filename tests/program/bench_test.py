@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""`bench` from the outside: ids, rows as JSON, bars."""
-from program_case import ProgramCase, main
+"""Tests `bench`: ids, rows as JSON, bars."""
+from program_case import NO_DEVICE, ProgramCase, main
 
 FIELDS = {"id", "value", "unit", "p10", "p90", "better", "holds", "hash"}
 
@@ -46,6 +46,17 @@ class Bench(ProgramCase):
         self.assertGreaterEqual(phases[-1], 0)
         self.expect(0, "bench", names[0], "--size", "96x54", "--scene", "builtin:lanterns", "--json", "rows.json")
         self.assertNotIn("scene", self.read_json("rows.json")["rows"][0])
+
+    def test_a_failing_row_leaves_the_rows_before_it(self):
+        run = self.expect(NO_DEVICE, "bench", "jobs.fork_join", "frame.scene", "--json", "rows.json",
+                          env={"VK_ICD_FILENAMES": "/nonexistent", "VK_DRIVER_FILES": "/nonexistent"})
+        self.assertIn("jobs.fork_join", run.stdout)
+        self.assertEqual([row["id"] for row in self.read_json("rows.json")["rows"]], ["jobs.fork_join"])
+
+    def test_rows_of_changed_entities_have_hashes_that_tell_them_apart(self):
+        self.expect(0, "bench", "ecs.create", "ecs.add", "ecs.remove", "ecs.destroy", "--quiet", "--json", "rows.json")
+        hashes = [row["hash"] for row in self.read_json("rows.json")["rows"]]
+        self.assertEqual(len(set(hashes)), 4, hashes)
 
     def test_quiet_prints_nothing(self):
         self.assertEqual(self.expect(0, "bench", "jobs.fork_join", "--quiet").stdout, "")

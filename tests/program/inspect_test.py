@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""What `inspect` tells of built-in scenes and of a file."""
+"""Tests the output of `inspect` for built-in scenes and for a file."""
 import json
 
 from program_case import ProgramCase, main

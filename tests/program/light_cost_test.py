@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""`cost` of the knobs of light culling: their error is counted. Needs a Vulkan device."""
+"""Tests `cost` for the knobs of light culling, whose error is a measure (a count). Needs a Vulkan device."""
 import csv
 
 from program_case import ProgramCase, main

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""What the tests of the program share: running it, and what holds for every run."""
+"""Base of the program's tests: runs the program and checks what holds for every run."""
 import json
 import os
 import subprocess
@@ -11,7 +11,7 @@ from pathlib import Path
 
 NO_DEVICE = 4
 SKIPPED = 77
-# Of all runs of a file, so that each pipeline is compiled once.
+# Shared by all runs of a test file, so that each pipeline is compiled once.
 CACHE = tempfile.TemporaryDirectory(prefix="gloam-test-cache-")
 
 
@@ -24,8 +24,8 @@ class ProgramCase(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def run_program(self, *arguments, env=None, prefix=(), stdin=subprocess.DEVNULL, timeout=100):
-        """Runs the program in an empty folder; every failure must tell itself in exactly one line."""
+    def run_program(self, *arguments, env=None, prefix=(), stdin=subprocess.DEVNULL, timeout=280):
+        """Runs the program in the test's folder, which starts empty. A failure must print exactly one error line."""
         environment = dict(os.environ, XDG_CACHE_HOME=CACHE.name, **(env or {}))
         environment.pop("GLOAM_LOG", None)
         run = subprocess.run([*prefix, self.program, *map(str, arguments)], cwd=self.folder, env=environment, stdin=stdin,
@@ -49,7 +49,7 @@ class ProgramCase(unittest.TestCase):
             return json.load(file)
 
     def require_device(self):
-        """Skips where no Vulkan device is usable."""
+        """Skips the test if no Vulkan device is usable."""
         run = self.run_program("render", "builtin:plain", "--size", "16x16", "--out", "probe.png")
         if run.returncode == NO_DEVICE:
             self.skipTest(run.stderr.strip())

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""`cost` of the knobs of deferred shadows: all values draw one picture, or what they round off. Needs a Vulkan device."""
+"""Tests `cost` for knobs of deferred shadows whose values draw the same picture, up to rounding. Needs Vulkan."""
 from program_case import ProgramCase, main
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""`render` with views of shadows. Needs a Vulkan device."""
+"""Tests `render` with the shadow visualizers. Needs a Vulkan device."""
 from program_case import ProgramCase, main
 
 

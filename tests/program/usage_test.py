@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""Exit codes and error lines of everything that needs no device."""
+"""Tests exit codes and error lines of all commands that need no device."""
 import os
 import subprocess
 
@@ -28,12 +28,23 @@ class Usage(ProgramCase):
                           ["render", "builtin:plain", "--size", "0x0"], ["render", "builtin:plain", "--frames", "0"],
                           ["render", "builtin:plain", "--out", "a.txt"], ["render", "builtin:plain", "--set", "x"],
                           ["render", "builtin:plain", "--pick", "1280,0"], ["bench"], ["bench", "nothing"],
-                          ["render", "builtin:plain", "--budget", "8"], ["cost", "builtin:plain"]):
+                          ["cost", "builtin:plain"]):
             self.expect(2, *arguments)
 
     def test_an_unknown_knob_lists_the_valid_ones(self):
         run = self.expect(2, "cost", "builtin:plain", "--out", "ledger", "--knobs", "lights.culling,nope", env=NO_VULKAN)
         self.assertRegex(run.stderr, "unknown knob 'nope'; there are .*lights.culling")
+
+    def test_a_misspelt_name_is_answered_with_the_nearest_one(self):
+        for status, meant, arguments in (
+                (2, "render", ["rendr", "builtin:plain"]),
+                (2, "plain", ["inspect", "builtin:plian"]),
+                (2, "lights.culling", ["cost", "builtin:plain", "--out", "ledger", "--knobs", "light.culling"]),
+                (2, "ecs", ["bench", "esc"]),
+                (3, "builtin:lanterns", ["inspect", "lanterns"]),
+                (3, "builtin:lanterns", ["inspect", "bultin:lantern"])):
+            run = self.expect(status, *arguments, env=NO_VULKAN)
+            self.assertIn(f"did you mean {meant}?", run.stderr)
 
     def test_a_bad_scene_is_3(self):
         (self.folder / "broken.gltf").write_text("{ this is no scene")
@@ -44,6 +55,8 @@ class Usage(ProgramCase):
 
     def test_what_is_not_built_says_so(self):
         self.expect(1, "bake", "builtin:plain", says="not built yet")
+        for option in ("--budget", "--ledger"):
+            self.expect(2, "render", "builtin:plain", option, "8", says=option + " is not built yet", env=NO_VULKAN)
 
     def test_without_vulkan_only_drawing_fails(self):
         self.expect(NO_DEVICE, "render", "builtin:plain", env=NO_VULKAN)

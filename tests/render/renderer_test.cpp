@@ -23,9 +23,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::uint32_t kFramesForRelease = 125;  // a module without demand keeps its memory for 120
+constexpr std::uint32_t kFramesForRelease =
+    125;  // more than the 120 frames for which a module without demand keeps its memory
 
-/// A renderer with all modules on a device that only writes down what it is told; any fault it finds fails the test.
+/// A renderer with all modules on a recording device. Any fault that the device finds fails the test.
 class RendererTest : public ::testing::Test {
  protected:
   RendererTest() {
@@ -95,7 +96,7 @@ TEST_F(RendererTest, five_frames_of_a_small_scene_break_no_rule) {
     EXPECT_TRUE(passes.contains(name)) << name;
 }
 
-/// Puts another image where everybody expects the view's light or picture.
+/// Replaces the image of LitOutput or TargetOutput, which modules must not do.
 class ReplacingModule final : public Module {
  public:
   explicit ReplacingModule(bool lit) : lit_(lit) {}
@@ -215,8 +216,7 @@ TEST_F(RendererTest, two_views_have_pictures_of_their_own) {
   away.settings = test::look_at(dvec3(0.0, 0.0, 50.0), dvec3(0.0, 0.0, 90.0), 33, 21);
   away.settings.id = ViewId{7};
   render_frames({request(), away}, 3);
-  EXPECT_EQ(renderer_->report().counters.at("engine.draws"), 1.0)
-      << "counters are of the last view: it looks away, and only the morphed quad's bounds are unknown";
+  EXPECT_EQ(renderer_->report().counters.at("engine.draws"), 0.0) << "counters are of the last view, which looks away";
   const auto first = renderer_->read_picture(ViewId{0});
   const auto second = renderer_->read_picture(ViewId{7});
   ASSERT_TRUE(first.ok() && second.ok());
@@ -258,7 +258,10 @@ TEST_F(RendererTest, unknown_views_are_refused_with_a_list) {
     const Status status = renderer_->check_visualizer(world_, name);
     return status.ok() ? std::string("(no error)") : status.error().message;
   };
-  EXPECT_THAT(fault("albino"), HasSubstr("unknown view albino; there are none, albedo, normal, depth"));
+  EXPECT_THAT(fault("albino"),
+              HasSubstr("unknown view albino; did you mean albedo? there are none, albedo, normal, depth"));
+  EXPECT_THAT(fault("dept:lamp"), HasSubstr("unknown view dept:lamp; did you mean depth? there are none, albedo"));
+  EXPECT_THAT(fault("heat"), HasSubstr("unknown view heat; there are none, albedo"));
   EXPECT_EQ(fault("albedo:3"), "view albedo takes no argument");
   EXPECT_EQ(fault("none"), "(no error)");
 }
@@ -313,6 +316,82 @@ TEST_F(RendererTest, two_worlds_share_a_renderer) {
     EXPECT_EQ(renderer_->report().counters.at("engine.draws"), 1.0);
     EXPECT_GT(many, 1.0);
   }
+}
+
+/// Checks the bytes of images and buffers that the engine keeps between frames.
+class ReleasedViews : public RendererTest {
+ protected:
+  ReleasedViews() { test::fill_small_scene(world_); }
+  [[nodiscard]] std::uint64_t kept_bytes() {
+    renderer_->free_idle_memory();
+    return state_of("engine").gpu_bytes;
+  }
+  /// Per pixel 8 bytes of linear light and 4 bytes of picture.
+  static std::uint64_t image_bytes(std::uint32_t width, std::uint32_t height) {
+    return std::uint64_t{12} * width * height;
+  }
+};
+
+TEST_F(ReleasedViews, views_that_are_drawn_no_more_lose_their_images_after_a_while) {
+  render_frames({request()}, 3);
+  const std::uint64_t one_view = kept_bytes();
+  for (std::uint32_t id = 1; id <= 5; ++id) render_frames({request(), request(id, 128, 128)});
+  render_frames({request()}, 3);
+  EXPECT_GE(kept_bytes(), one_view + 5 * image_bytes(128, 128)) << "a view may miss a few frames";
+  EXPECT_TRUE(renderer_->read_picture(ViewId{5}).ok());
+  render_frames({request()}, kFramesForRelease);
+  EXPECT_EQ(kept_bytes(), one_view);
+  EXPECT_TRUE(renderer_->read_picture(ViewId{0}).ok());
+  EXPECT_ASSERT((void)renderer_->read_picture(ViewId{5}), "rendered without a target");
+  render_frames({request(5, 128, 128)});
+  EXPECT_TRUE(renderer_->read_picture(ViewId{5}).ok()) << "and get others when they are drawn again";
+}
+
+TEST_F(ReleasedViews, a_released_view_loses_its_images_at_once) {
+  render_frames({request()}, 3);
+  const std::uint64_t one_view = kept_bytes();
+  render_frames({request(), request(4, 200, 100)});
+  renderer_->release_view(ViewId{4});
+  renderer_->release_view(ViewId{4});
+  renderer_->release_view(ViewId{77});
+  render_frames({request()}, 3);
+  EXPECT_EQ(kept_bytes(), one_view);
+  EXPECT_ASSERT((void)renderer_->read_linear(ViewId{4}), "rendered");
+  render_frames({request(), request(4, 200, 100)});
+  EXPECT_EQ(renderer_->read_picture(ViewId{4})->width, 200u);
+  renderer_->release_view(ViewId{4});
+  EXPECT_ASSERT((void)renderer_->pick(world_, ViewId{4}, 0, 0), "view of the last frame");
+}
+
+TEST_F(ReleasedViews, the_views_of_a_released_world_lose_their_images) {
+  render_frames({request()}, 3);
+  const std::uint64_t one_world = kept_bytes();
+  {
+    World other;
+    renderer_->prepare_world(other);
+    test::SceneMaker scene(other);
+    scene.draw(scene.mesh(test::box(vec3(0.5f))));
+    const std::vector<ViewRequest> views = {request(2, 128, 128), request(3, 64, 64)};
+    ASSERT_TRUE(renderer_->render(other, views).ok());
+    renderer_->release_world(other);
+  }
+  render_frames({request()}, 3);
+  EXPECT_EQ(kept_bytes(), one_world);
+}
+
+TEST_F(ReleasedViews, a_view_that_got_a_target_loses_its_own_picture) {
+  gpu::ImageDesc desc{.name = "host", .module = "host", .format = gpu::Format::rgba8_srgb, .width = 64, .height = 40};
+  desc.usage = gpu::ImageUsage::color_target;
+  const auto image = device_->create_image(desc);
+  ASSERT_TRUE(image.ok());
+  ViewRequest shown = request();
+  shown.target.image = *image;
+  render_frames({shown}, 3);
+  const std::uint64_t with_target = kept_bytes();
+  render_frames({request()}, 3);
+  EXPECT_EQ(kept_bytes(), with_target + std::uint64_t{4} * 64 * 40);
+  render_frames({shown}, 3);
+  EXPECT_EQ(kept_bytes(), with_target);
 }
 
 TEST_F(RendererTest, a_refused_upload_reaches_the_caller_and_is_tried_again) {

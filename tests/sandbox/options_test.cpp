@@ -50,12 +50,11 @@ TEST(Options, defaults_are_the_documented_ones) {
 }
 
 TEST(Options, every_common_option_is_read) {
-  const Options options =
-      parsed({"render",    "a.glb",  "--size",      "320x180", "--camera",   "court",  "--frames",    "7",
-              "--time",    "-1.5",   "--dt",        "0.25",    "--seed",     "42",     "--view",      "depth",
-              "--out",     "x.exr",  "--stats",     "s.json",  "--trace",    "t.json", "--device",    "cpu",
-              "--threads", "3",      "--animation", "walk",    "--config",   "c.json", "--cache-dir", "cache",
-              "--ledger",  "l.json", "--budget",    "8ms",     "--validate", "--pick", "5,6",         "--quiet"});
+  const Options options = parsed(
+      {"render",  "a.glb",    "--size",  "320x180",     "--camera", "court",      "--frames",  "7",     "--time",
+       "-1.5",    "--dt",     "0.25",    "--seed",      "42",       "--view",     "depth",     "--out", "x.exr",
+       "--stats", "s.json",   "--trace", "t.json",      "--device", "cpu",        "--threads", "3",     "--animation",
+       "walk",    "--config", "c.json",  "--cache-dir", "cache",    "--validate", "--pick",    "5,6",   "--quiet"});
   EXPECT_EQ(options.width, 320u);
   EXPECT_EQ(options.height, 180u);
   EXPECT_EQ(options.camera, "court");
@@ -72,8 +71,6 @@ TEST(Options, every_common_option_is_read) {
   EXPECT_EQ(options.animation, "walk");
   EXPECT_EQ(options.config, "c.json");
   EXPECT_EQ(options.cache_dir, "cache");
-  EXPECT_EQ(options.ledger, "l.json");
-  EXPECT_EQ(options.budget, "8ms");
   EXPECT_TRUE(options.validate);
   ASSERT_TRUE(options.pick.has_value());
   EXPECT_EQ(options.pick->x, 5u);
@@ -134,9 +131,36 @@ TEST(Options, wrong_usage_is_refused) {
   fault({"render", "a.gltf", "--seed", "x"});
   fault({"render", "a.gltf", "--out", "picture.jpg"});
   fault({"render", "a.gltf", "--set", "no_equals_sign"});
-  fault({"render", "a.gltf", "--budget", "8ms"});
   fault({"cost", "a.gltf"});
   fault({"bench"});
+}
+
+TEST(Options, an_unknown_command_is_answered_with_the_nearest_one_before_the_list) {
+  const std::string list = "there are play, render, inspect, bake, cost, bench, scenes";
+  EXPECT_EQ(fault({"rendr", "a.gltf", "--size", "0x0"}), "unknown command 'rendr'; did you mean render? " + list);
+  EXPECT_EQ(fault({"Inspect", "a.gltf"}), "unknown command 'Inspect'; did you mean inspect? " + list);
+  EXPECT_EQ(fault({"dance"}), "unknown command 'dance'; " + list);
+}
+
+TEST(Options, options_that_do_nothing_yet_are_refused) {
+  const std::string reason = " is not built yet; set knobs with --set or --config";
+  for (const char* command : {"render", "play", "inspect", "cost", "bake", "bench"}) {
+    EXPECT_EQ(fault({command, "--ledger", "l.json", "a.gltf"}), "--ledger" + reason) << command;
+    EXPECT_EQ(fault({command, "--budget", "8ms", "a.gltf"}), "--budget" + reason) << command;
+  }
+  EXPECT_EQ(fault({"render", "a.gltf", "--budget", "8ms", "--ledger", "l.json"}), "--budget" + reason);
+}
+
+TEST(Options, the_help_says_that_the_seed_seeds_nothing_yet) {
+  const std::string help = std::get<PrintAndLeave>(*parse({"render", "--help"})).text;
+  EXPECT_NE(help.find("--seed"), std::string::npos);
+  EXPECT_NE(help.find("pictures do not depend on it"), std::string::npos) << help;
+}
+
+TEST(Options, the_help_of_bench_tells_one_batch_from_separate_jobs) {
+  const std::string help = std::get<PrintAndLeave>(*parse({"bench", "--help"})).text;
+  EXPECT_NE(help.find("jobs.empty is one batch"), std::string::npos) << help;
+  EXPECT_NE(help.find("jobs.spawn creates, runs and destroys"), std::string::npos) << help;
 }
 
 TEST(Options, sizes_are_two_numbers_in_range) {

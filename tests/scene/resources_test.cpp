@@ -31,6 +31,17 @@ TEST(SceneNames, an_absent_name_is_a_usage_error_that_lists_the_valid_ones) {
   EXPECT_EQ(names.find("light", "roof").error().message, "no light is named \"roof\", there is none");
 }
 
+TEST(SceneNames, a_misspelt_name_is_answered_with_the_nearest_one_before_the_list) {
+  SceneNames names;
+  names.add("camera", "court", {1, 1});
+  names.add("camera", "lawn", {2, 1});
+  names.add("light", "long", {3, 1});
+  EXPECT_EQ(names.find("camera", "Cuort").error().message,
+            "no camera is named \"Cuort\", did you mean court? there are: court, lawn");
+  EXPECT_EQ(names.find("camera", "lon").error().message, "no camera is named \"lon\", there are: court, lawn")
+      << "names of another kind are no answer";
+}
+
 TEST(SceneNames, a_name_that_two_share_is_an_error_only_when_used) {
   SceneNames names;
   names.add("light", "torch", {1, 1});

@@ -18,7 +18,7 @@
 
 namespace gloam::test {
 
-/// Prints warnings and errors, so that a validation message shows beside the test it belongs to.
+/// Prints warnings and errors, so that a validation message appears beside the test that caused it.
 inline LogSink& gpu_log() {
   static FunctionLog log([](LogLevel level, std::string_view line) {
     if (level >= LogLevel::warning) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
@@ -26,13 +26,14 @@ inline LogSink& gpu_log() {
   return log;
 }
 
-/// A Vulkan device for a test, or null when the machine has none. GLOAM_TEST_DEVICE chooses as VulkanOptions::device
-/// does. Without the validation layer the device comes unvalidated.
+/// A Vulkan device for a test, or null if the machine has none. The environment variable GLOAM_TEST_DEVICE selects it
+/// as VulkanOptions::device does. If the validation layer is absent, the device is not validated.
 [[nodiscard]] inline std::unique_ptr<gpu::Device> make_test_device(bool validate = true) {
   gpu::VulkanOptions options;
   options.device = environment_text("GLOAM_TEST_DEVICE").value_or("auto");
   options.validate = validate;
   options.log = &gpu_log();
+  options.retained_pipelines = 1000;  // tests create the same pipelines again and again
   auto device = gpu::create_vulkan_device(options);
   if (!device && validate && device.error().kind != ErrorKind::no_device) {
     options.validate = false;
@@ -43,11 +44,11 @@ inline LogSink& gpu_log() {
   return nullptr;
 }
 
-/// Skips the running test, saying why, when `device` is null.
+/// Skips the running test with a message if `device` is null.
 #define GLOAM_REQUIRE_GPU(device) \
   if ((device) == nullptr) GTEST_SKIP() << "there is no usable Vulkan device on this machine"
 
-/// Records one frame with record(CommandList&), submits it and waits for its end. Any error is a failure of the test.
+/// Records one frame with record(CommandList&), submits it and waits for its end. Any error fails the test.
 template <class Record>
 void run_frame(gpu::Device& device, Record&& record) {
   auto commands = device.begin_frame();
@@ -59,14 +60,14 @@ void run_frame(gpu::Device& device, Record&& record) {
   ASSERT_TRUE(idle.ok()) << idle.error().message;
 }
 
-/// The value, or a failure of the test and a default-made value.
+/// Returns the value; on an error, fails the test and returns a default-constructed value.
 template <class T>
 [[nodiscard]] T value_of(Result<T> result) {
   EXPECT_TRUE(result.ok()) << result.error().message;
   return result ? std::move(*result) : T();
 }
 
-/// An upload buffer with these items in it.
+/// An upload buffer that contains these items.
 template <class T>
 [[nodiscard]] gpu::BufferHandle make_upload(gpu::Device& device, std::span<const T> items) {
   using enum gpu::BufferUsage;
@@ -102,7 +103,7 @@ template <class T>
                                         .memory = gpu::MemoryKind::readback}));
 }
 
-/// The mapped bytes of a buffer as items; the frames that write it must have ended.
+/// The mapped bytes of a buffer as items. The frames that write the buffer must have ended.
 template <class T>
 [[nodiscard]] std::vector<T> items_of(gpu::Device& device, gpu::BufferHandle buffer) {
   const std::span<std::byte> bytes = device.mapped(buffer);

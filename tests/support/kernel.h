@@ -18,8 +18,8 @@
 
 namespace gloam::test {
 
-/// One compute pipeline with its resources of set 0: give inputs and outputs, run it, read the outputs. Outputs begin
-/// as words of kUntouched, so that what a kernel leaves alone shows. Any error is a failure of the test.
+/// One compute pipeline with its resources of set 0: add inputs and outputs, run it, read the outputs. Outputs are
+/// filled with words of kUntouched, so that a test sees which words the kernel did not write. Any error fails the test.
 class Kernel {
  public:
   static constexpr std::uint32_t kUntouched = 0xA5A5A5A5u;
@@ -51,7 +51,7 @@ class Kernel {
     bindings_.push_back({binding, gpu::Binding::BufferRange{buffer}});
     results_[binding] = buffer;
   }
-  /// An image, without mips, that the kernel fetches texels of.
+  /// An image without mips whose texels the kernel fetches.
   template <class T>
   void sampled_image(std::uint32_t binding, gpu::Format format, std::uint32_t width, std::uint32_t height,
                      const std::vector<T>& texels) {
@@ -64,7 +64,7 @@ class Kernel {
     EXPECT_TRUE(uploaded.ok()) << (uploaded.ok() ? "" : uploaded.error().message);
     sampled_image(binding, image);
   }
-  /// One that others own, ready for compute_read.
+  /// An image that the caller owns, ready for compute_read.
   void sampled_image(std::uint32_t binding, gpu::ImageHandle image) {
     gpu::SamplerDesc nearest;
     nearest.address_u = nearest.address_v = gpu::AddressMode::clamp_to_edge;
@@ -113,7 +113,7 @@ class Kernel {
       }
     });
   }
-  /// What the kernel wrote, after run().
+  /// The contents of an output after run().
   template <class T>
   [[nodiscard]] std::vector<T> read(std::uint32_t binding) {
     return items_of<T>(device_, results_.at(binding));
@@ -145,11 +145,9 @@ class Kernel {
   std::vector<std::byte> constants_;
 };
 
-/// A validated device for all tests of a suite; a validation message fails the test it came in.
+/// One validated device for all tests of the program. A validation message fails the test during which it appears.
 class KernelTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { shared_device() = make_test_device(); }
-  static void TearDownTestSuite() { shared_device().reset(); }
   void SetUp() override {
     GLOAM_REQUIRE_GPU(shared_device());
     messages_ = shared_device()->validation_messages();
@@ -163,7 +161,7 @@ class KernelTest : public ::testing::Test {
 
  private:
   static std::unique_ptr<gpu::Device>& shared_device() {
-    static std::unique_ptr<gpu::Device> device;
+    static std::unique_ptr<gpu::Device> device = make_test_device();
     return device;
   }
   std::uint64_t messages_ = 0;

@@ -49,7 +49,7 @@ void VulkanCommandList::begin_rendering(const RenderingDesc& desc) {
     if (!depth) return;
     GLOAM_ASSERT(!desc.depth.read_only || desc.depth.load == LoadOp::load, "read-only depth is loaded, never cleared");
     depth->loadOp = to_vulkan(desc.depth.load);
-    // Storing counts as writing, and somebody may sample the image at the same time.
+    // A store counts as a write, and fragments may sample the image at the same time.
     depth->storeOp = desc.depth.read_only ? VK_ATTACHMENT_STORE_OP_NONE : VK_ATTACHMENT_STORE_OP_STORE;
     depth->clearValue.depthStencil = {desc.depth.clear, 0};
   }
@@ -90,7 +90,7 @@ const Pipeline& VulkanCommandList::bound_pipeline() const {
 void VulkanCommandList::bind_pipeline(PipelineHandle handle) {
   const Pipeline& pipeline = pipelines_.get(handle);
   pipeline_ = handle;
-  context_.vk.vkCmdBindPipeline(commands_, pipeline.bind_point, pipeline.pipeline);
+  context_.vk.vkCmdBindPipeline(commands_, pipeline.bind_point, pipeline.object->get());
 }
 
 void VulkanCommandList::bind(std::span<const Binding> bindings) {
@@ -114,7 +114,8 @@ void VulkanCommandList::bind_set(std::uint32_t set, ResourceSetHandle resources)
 void VulkanCommandList::push_constants(std::span<const std::byte> bytes) {
   const Pipeline& pipeline = bound_pipeline();
   const std::uint32_t size = pipeline.shader.push_constant_bytes;
-  // C++ may pad the end of a structure; the shader must get all of its bytes and no more.
+  // C++ may pad the end of a structure, so `bytes` may be longer; exactly the bytes that the shader declares are
+  // pushed.
   GLOAM_ASSERT(bytes.size() >= size, "pipeline \"" + pipeline.name + "\" wants " + std::to_string(size) +
                                          " bytes of push constants, and was given " + std::to_string(bytes.size()));
   if (size == 0) return;

@@ -10,14 +10,14 @@ namespace gloam::gpu {
 namespace vulkan {
 
 VulkanDevice::VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,
-                           const std::string& cache_directory)
+                           const std::string& cache_directory, std::size_t retained_pipelines)
     : instance_(std::move(instance)),
       context_(std::move(context)),
       memory_(*context_),
       buffers_(*context_, memory_, graveyard_),
       images_(*context_, memory_, graveyard_),
       samplers_(*context_),
-      pipelines_(*context_, graveyard_, cache_directory),
+      pipelines_(*context_, graveyard_, cache_directory, retained_pipelines),
       writer_(*context_, buffers_, images_, samplers_),
       sets_(*context_, graveyard_, writer_) {}
 
@@ -29,7 +29,7 @@ Result<std::unique_ptr<Device>> VulkanDevice::create(const VulkanOptions& option
   if (!physical) return physical.error();
   Result<std::unique_ptr<Context>> context = Context::create(**instance, *physical);
   if (!context) return context.error();
-  return assemble(std::move(*instance), std::move(*context), options.cache_directory);
+  return assemble(std::move(*instance), std::move(*context), options.cache_directory, options.retained_pipelines);
 }
 
 Result<std::unique_ptr<Device>> VulkanDevice::create_on(const HostDevice& host) {
@@ -46,13 +46,15 @@ Result<std::unique_ptr<Device>> VulkanDevice::create_on(const HostDevice& host) 
   if (!physical) return physical.error();
   Result<std::unique_ptr<Context>> context = Context::adopt(**instance, *physical, host);
   if (!context) return context.error();
-  return assemble(std::move(*instance), std::move(*context), host.cache_directory);
+  return assemble(std::move(*instance), std::move(*context), host.cache_directory, host.retained_pipelines);
 }
 
 Result<std::unique_ptr<Device>> VulkanDevice::assemble(std::unique_ptr<Instance> instance,
                                                        std::unique_ptr<Context> context,
-                                                       const std::string& cache_directory) {
-  std::unique_ptr<VulkanDevice> device(new VulkanDevice(std::move(instance), std::move(context), cache_directory));
+                                                       const std::string& cache_directory,
+                                                       std::size_t retained_pipelines) {
+  std::unique_ptr<VulkanDevice> device(
+      new VulkanDevice(std::move(instance), std::move(context), cache_directory, retained_pipelines));
   Result<std::unique_ptr<Frames>> frames = Frames::create(*device->context_, device->graveyard_);
   if (!frames) return frames.error();
   device->frames_ = std::move(*frames);
@@ -66,7 +68,7 @@ VulkanDevice::~VulkanDevice() {
   if (context_->owns_device()) {
     context_->vk.vkDeviceWaitIdle(context_->device);
   } else if (frames_) {
-    // The host may be using other queues, or this one, at this moment; our own work is all that matters.
+    // Only gloam's own work must have finished; the host may be using this queue or others at the same time.
     static_cast<void>(frames_->wait_idle());
   }
   graveyard_.collect_all();

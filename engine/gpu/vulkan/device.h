@@ -22,7 +22,7 @@
 
 namespace gloam::gpu::vulkan {
 
-/// Device on Vulkan: owns the parts and hands each call to the part that does the work.
+/// The Vulkan implementation of Device. It owns the parts of this layer and forwards each call to the responsible part.
 class VulkanDevice final : public Device {
  public:
   static Result<std::unique_ptr<Device>> create(const VulkanOptions& options);
@@ -70,18 +70,18 @@ class VulkanDevice final : public Device {
   }
   [[nodiscard]] std::uint64_t validation_messages() const override { return instance_->messages(); }
 
-  // For the swapchain and hosts.
+  // For the swapchain and vulkan_interop.h.
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] Images& images() { return images_; }
   [[nodiscard]] Frames& frames() { return *frames_; }
 
  private:
-  VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,
-               const std::string& cache_directory);
+  VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context, const std::string& cache_directory,
+               std::size_t retained_pipelines);
   static Result<std::unique_ptr<Device>> assemble(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,
-                                                  const std::string& cache_directory);
+                                                  const std::string& cache_directory, std::size_t retained_pipelines);
 
-  // In the order in which they need each other; destroyed the other way round.
+  // In dependency order; destroyed in reverse order.
   std::unique_ptr<Instance> instance_;
   std::unique_ptr<Context> context_;
   Graveyard graveyard_;

@@ -82,7 +82,7 @@ Status Frames::wait_for_frames(std::uint64_t completed) {
 
 std::uint64_t Frames::completed() const {
   std::uint64_t value = 0;
-  // A lost device completes nothing more; its value is then whatever it was.
+  // The result is not checked: a lost device completes no further frames.
   context_.vk.vkGetSemaphoreCounterValue(context_.device, timeline_, &value);
   return value;
 }
@@ -193,15 +193,13 @@ void Frames::read_timestamps(Slot& slot) {
   const auto last = std::find(slot.written.rbegin(), slot.written.rend(), true);
   const auto count = static_cast<std::uint32_t>(slot.written.rend() - last);
   std::vector<std::uint64_t> times(count, 0);
-  const PhysicalDevice& device = context_.physical;
-  const std::uint64_t mask = device.timestamp_bits >= 64 ? ~0ull : (1ull << device.timestamp_bits) - 1;
   for (std::uint32_t i = 0; i < count; ++i) {
     std::uint64_t ticks = 0;
     if (!slot.written[i]) continue;
     const VkResult result = context_.vk.vkGetQueryPoolResults(context_.device, slot.queries, i, 1, sizeof ticks, &ticks,
                                                               sizeof ticks, VK_QUERY_RESULT_64_BIT);
     if (result != VK_SUCCESS) continue;
-    times[i] = static_cast<std::uint64_t>(static_cast<double>(ticks & mask) * device.limits.timestampPeriod);
+    times[i] = clock_.nanoseconds(ticks);
   }
   timestamps_[slot.frame] = std::move(times);
   while (timestamps_.size() > kRememberedFrames) timestamps_.erase(timestamps_.begin());

@@ -14,11 +14,13 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/vulkan/context.h"
 #include "engine/gpu/vulkan/graveyard.h"
+#include "engine/gpu/vulkan/tick_clock.h"
 
 namespace gloam::gpu::vulkan {
 
-/// Frames in flight: command buffers, timestamps and one timeline semaphore, whose value is the number of frames that
-/// have ended. Frames are begun and submitted on one thread; numbers, timestamps and waiting are for any thread.
+/// The frames in flight: command buffers, timestamps and one timeline semaphore, whose value is the number of finished
+/// frames. Frames are begun and submitted on one thread; number, completed, timestamps and wait_idle may be called on
+/// any thread.
 class Frames {
  public:
   static Result<std::unique_ptr<Frames>> create(Context& context, Graveyard& graveyard);
@@ -27,7 +29,7 @@ class Frames {
   Frames& operator=(const Frames&) = delete;
 
   [[nodiscard]] Result<VkCommandBuffer> begin();
-  /// `discard`: the recorded commands are dropped; the frame still ends, in its turn.
+  /// `discard`: drops the recorded commands; the frame is still submitted and completes in order.
   [[nodiscard]] Status submit(bool discard = false);
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] std::uint64_t number() const { return number_.load(); }
@@ -37,10 +39,11 @@ class Frames {
   void write_timestamp(std::uint32_t index);
   [[nodiscard]] std::vector<std::uint64_t> timestamps(std::uint64_t frame);
 
-  /// Semaphores of a window's picture or of a host, for the frame being recorded. `value`: of a timeline semaphore.
+  /// Add a semaphore (of a swapchain image or a host) that the frame being recorded waits for or signals. `value`: of a
+  /// timeline semaphore; ignored for a binary semaphore.
   void wait_for(VkSemaphore semaphore, std::uint64_t value = 0);
   void signal(VkSemaphore semaphore, std::uint64_t value = 0);
-  /// Its value is the number of frames that have ended.
+  /// The timeline semaphore; its value is the number of finished frames.
   [[nodiscard]] VkSemaphore timeline() const { return timeline_; }
 
  private:
@@ -51,18 +54,21 @@ class Frames {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkQueryPool queries = VK_NULL_HANDLE;
     std::uint64_t frame = 0;
-    std::vector<bool> written;    ///< timestamps of this frame
+    std::vector<bool> written;    ///< by timestamp index: written in this frame
     bool has_timestamps = false;  ///< submitted and not yet read back
   };
 
-  Frames(Context& context, Graveyard& graveyard) : context_(context), graveyard_(graveyard) {}
+  Frames(Context& context, Graveyard& graveyard)
+      : context_(context),
+        graveyard_(graveyard),
+        clock_(context.physical.timestamp_bits, static_cast<double>(context.physical.limits.timestampPeriod)) {}
   Status make();
   Status make_slot(Slot& slot, std::uint32_t index);
   [[nodiscard]] Slot& current() { return slots_[number() % Device::kFramesInFlight]; }
   [[nodiscard]] Status wait_for_frames(std::uint64_t completed);
   [[nodiscard]] Status begin_commands(Slot& slot);
   [[nodiscard]] VkResult submit_commands(const Slot& slot, bool discard);
-  /// Reads timestamps of ended frames and lets go of what waited for them.
+  /// Reads the timestamps of finished frames and destroys the objects that waited for these frames.
   void settle();
   void read_timestamps(Slot& slot);
 
@@ -75,7 +81,8 @@ class Frames {
   std::atomic<bool> lost_ = false;
   std::vector<VkSemaphoreSubmitInfo> waits_;
   std::vector<VkSemaphoreSubmitInfo> signals_;
-  std::mutex timestamps_mutex_;  ///< guards Slot::has_timestamps and what follows
+  std::mutex timestamps_mutex_;  ///< guards Slot::has_timestamps, clock_ and timestamps_
+  TickClock clock_;
   std::map<std::uint64_t, std::vector<std::uint64_t>> timestamps_;
 };
 

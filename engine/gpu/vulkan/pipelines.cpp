@@ -11,9 +11,7 @@
 
 namespace gloam::gpu::vulkan {
 
-Pipelines::~Pipelines() {
-  for (const Pipeline& p : table_.remove_all()) context_.vk.vkDestroyPipeline(context_.device, p.pipeline, nullptr);
-}
+Pipelines::~Pipelines() { static_cast<void>(table_.remove_all()); }
 
 Result<Pipeline> Pipelines::prepare(std::string_view name, std::string_view module, std::span<const ShaderCode> shaders,
                                     std::span<const ShaderStage> stages) {
@@ -34,9 +32,17 @@ Result<Pipeline> Pipelines::prepare(std::string_view name, std::string_view modu
       .name = std::string(name), .module = std::string(module), .layout = *layout, .shader = std::move(*shader)};
 }
 
-Result<PipelineHandle> Pipelines::finish(Pipeline pipeline, VkResult result) {
-  if (result != VK_SUCCESS) return failure("Pipeline \"" + pipeline.name + "\" could not be compiled", result);
-  context_.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline.pipeline, pipeline.name);
+template <class Compile>
+Result<PipelineHandle> Pipelines::finish(Pipeline pipeline, std::uint64_t content, const Compile& compile) {
+  if (retained_.enabled()) pipeline.object = retained_.find(content);
+  if (pipeline.object == nullptr) {
+    VkPipeline compiled = VK_NULL_HANDLE;
+    const VkResult result = compile(compiled);
+    if (result != VK_SUCCESS) return failure("Pipeline \"" + pipeline.name + "\" could not be compiled", result);
+    context_.set_name(VK_OBJECT_TYPE_PIPELINE, compiled, pipeline.name);
+    pipeline.object = std::make_shared<const PipelineObject>(context_, compiled);
+    retained_.keep(content, pipeline.object);
+  }
   return table_.insert(std::move(pipeline));
 }
 
@@ -49,9 +55,9 @@ Result<PipelineHandle> Pipelines::create(const ComputePipelineDesc& desc) {
   const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                             .stage = stages.infos().front(),
                                             .layout = pipeline->layout->layout};
-  const VkResult result =
-      context_.vk.vkCreateComputePipelines(context_.device, cache_.handle(), 1, &info, nullptr, &pipeline->pipeline);
-  return finish(std::move(*pipeline), result);
+  return finish(std::move(*pipeline), retained_.enabled() ? content_hash(desc) : 0, [&](VkPipeline& compiled) {
+    return context_.vk.vkCreateComputePipelines(context_.device, cache_.handle(), 1, &info, nullptr, &compiled);
+  });
 }
 
 Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
@@ -69,15 +75,13 @@ Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
   info.stageCount = static_cast<std::uint32_t>(stages.infos().size());
   info.pStages = stages.infos().data();
   info.layout = pipeline->layout->layout;
-  const VkResult result =
-      context_.vk.vkCreateGraphicsPipelines(context_.device, cache_.handle(), 1, &info, nullptr, &pipeline->pipeline);
-  return finish(std::move(*pipeline), result);
+  return finish(std::move(*pipeline), retained_.enabled() ? content_hash(desc) : 0, [&](VkPipeline& compiled) {
+    return context_.vk.vkCreateGraphicsPipelines(context_.device, cache_.handle(), 1, &info, nullptr, &compiled);
+  });
 }
 
 void Pipelines::destroy(PipelineHandle handle) {
-  graveyard_.bury([this, pipeline = table_.remove(handle).pipeline] {
-    context_.vk.vkDestroyPipeline(context_.device, pipeline, nullptr);
-  });
+  graveyard_.bury([object = table_.remove(handle).object]() mutable { object.reset(); });
 }
 
 std::uint32_t Pipelines::count(std::string_view module) const {

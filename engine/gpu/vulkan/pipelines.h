@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -13,23 +15,29 @@
 #include "engine/gpu/vulkan/graveyard.h"
 #include "engine/gpu/vulkan/pipeline_cache.h"
 #include "engine/gpu/vulkan/pipeline_layouts.h"
+#include "engine/gpu/vulkan/retained_pipelines.h"
 
 namespace gloam::gpu::vulkan {
 
 struct Pipeline {
   std::string name;
   std::string module;
-  VkPipeline pipeline = VK_NULL_HANDLE;
+  std::shared_ptr<const PipelineObject> object;
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
   const PipelineLayout* layout = nullptr;
   ShaderInterface shader;
 };
 
-/// Compiles on the calling thread; thread-safe.
+/// Creates, stores and destroys pipelines. Compiles on the calling thread. Thread-safe.
 class Pipelines {
  public:
-  Pipelines(Context& context, Graveyard& graveyard, const std::string& cache_directory)
-      : context_(context), graveyard_(graveyard), cache_(context, cache_directory), layouts_(context) {}
+  /// retained: number of compiled pipelines to keep after their destruction, see VulkanOptions::retained_pipelines.
+  Pipelines(Context& context, Graveyard& graveyard, const std::string& cache_directory, std::size_t retained)
+      : context_(context),
+        graveyard_(graveyard),
+        cache_(context, cache_directory),
+        layouts_(context),
+        retained_(retained) {}
   ~Pipelines();
 
   [[nodiscard]] Result<PipelineHandle> create(const ComputePipelineDesc& desc);
@@ -39,15 +47,18 @@ class Pipelines {
   [[nodiscard]] std::uint32_t count(std::string_view module) const;
 
  private:
-  /// Reflects the stages and finds the layout; the VkPipeline is still missing.
+  /// Reflects the stages and finds the layout. The result has no VkPipeline yet.
   [[nodiscard]] Result<Pipeline> prepare(std::string_view name, std::string_view module,
                                          std::span<const ShaderCode> shaders, std::span<const ShaderStage> stages);
-  [[nodiscard]] Result<PipelineHandle> finish(Pipeline pipeline, VkResult result);
+  /// Uses the retained pipeline with this content hash. If there is none, compile(VkPipeline&) creates it.
+  template <class Compile>
+  [[nodiscard]] Result<PipelineHandle> finish(Pipeline pipeline, std::uint64_t content, const Compile& compile);
 
   Context& context_;
   Graveyard& graveyard_;
   PipelineCache cache_;
   PipelineLayouts layouts_;
+  RetainedPipelines retained_;
   HandleTable<Pipeline, PipelineHandle> table_;
 };
 

@@ -50,15 +50,9 @@ float nearest_depth(const RenderView& view, const Aabb& relative) {
   return glm::dot(forward, relative.center()) - glm::dot(glm::abs(forward), relative.half_extent());
 }
 
-/// Bounds of the posed surface relative to the skin's origin: a convex mix of points lies in the union of their boxes.
-Aabb posed_bounds(const GpuPrimitive& primitive, const JointMatrices& joints, const JointMatrices::Range& range) {
-  Aabb bounds;
-  for (const auto& [joint, box] : primitive.joint_bounds)
-    if (joint < range.count) bounds.grow(transformed(box, joints.matrices[range.first + joint]));
-  return bounds;
-}
+Aabb relative_to(const WorldBox& box, const dvec3& origin) { return {vec3(box.min - origin), vec3(box.max - origin)}; }
 
-/// Everything one instance draws.
+/// Adds the draws, deform jobs and casters of one instance to the lists.
 class InstanceDrawer {
  public:
   InstanceDrawer(const World& world, const RenderView& view, const GpuScene& scene, bool with_casters)
@@ -102,7 +96,8 @@ class InstanceDrawer {
     lists.casters.casters.push_back(caster);
   }
 
-  /// `world_from_mesh`: of its moved vertices.
+  /// Bounds of the deformed vertices; unknown if a joint or a weight is missing or not finite. `world_from_mesh`: the
+  /// matrix of vertices that are morphed but not skinned.
   [[nodiscard]] WorldBox deformed_box(const Instance& instance, const GpuPrimitive& primitive, bool skinned,
                                       bool morphed, const dmat4& world_from_mesh) const {
     Aabb reach;
@@ -162,29 +157,24 @@ class InstanceDrawer {
     dmat4 matrix = instance.matrix;
     bool flipped = false;
     if (skinned) {
-      // Skinned vertices come out in the world's axes, relative to the range's origin.
+      // Skinned vertices are in the world's axes, relative to the range's origin.
       matrix = dmat4(1.0);
       matrix[3] = dvec4(instance.joints->origin, 1.0);
       flipped = instance.joints->mirrored;
     }
     const shaders::DrawConstants constants = draw_constants(matrix, view_.position);
     if (!skinned) flipped = (constants.flags & GLOAM_DRAW_MIRRORED) != 0;
-    Aabb bounds;
-    bool visible = true;
-    if (skinned && !morphed) {
-      bounds = transformed(posed_bounds(primitive, joints_, *instance.joints), affine(constants));
-      visible = may_intersect(view_.frustum, bounds);
-    } else {
-      bounds = transformed(primitive.bounds, affine(constants));  // only orders the draws: morphed bounds are not known
-    }
+    const WorldBox box = deformed_box(instance, primitive, skinned, morphed, matrix);
+    // Without a known box the primitive is drawn; the box of its rest pose then only orders the draws.
+    const Aabb bounds =
+        box.known() ? relative_to(box, view_.position) : transformed(primitive.bounds, affine(constants));
+    const bool visible = !box.known() || may_intersect(view_.frustum, bounds);
     if (!visible) ++lists.culled_instances;
     const bool casts_too = casts(primitive);
     if (!visible && !casts_too) return;
     const auto deform = static_cast<std::uint32_t>(lists.deforms.size());
     lists.deforms.push_back(deform_job(instance, primitive, skinned, morphed));
-    if (casts_too)
-      cast(instance.entity, primitive, matrix, flipped, deformed_box(instance, primitive, skinned, morphed, matrix),
-           deform, lists);
+    if (casts_too) cast(instance.entity, primitive, matrix, flipped, box, deform, lists);
     if (!visible) return;
     Draw draw = start(primitive, constants, flipped);
     draw.first_index = primitive.first_index;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/core/assert.h"
+#include "engine/core/nearest_name.h"
 
 namespace gloam {
 namespace {
@@ -30,7 +31,7 @@ std::string valid_values(const Knob& knob) {
   return list;
 }
 
-/// The number a text sets a knob to, if it is one of its values.
+/// The number that a text stands for; nullopt if it is not a value of the knob.
 std::optional<double> parse_value(const Knob& knob, std::string_view value) {
   if (knob.type == Knob::Type::choice) {
     const auto found = std::find(knob.choices.begin(), knob.choices.end(), value);
@@ -67,10 +68,14 @@ void KnobRegistry::add(Knob knob) {
 Status KnobRegistry::set(std::string_view name, std::string_view value) {
   const Knob* knob = find(name);
   if (knob == nullptr) {
+    std::vector<std::string> names;
     std::string list;
-    for (const Knob& k : knobs_) list += (list.empty() ? "" : ", ") + k.name;
-    return Error{ErrorKind::usage,
-                 "unknown knob " + std::string(name) + "; there are " + (list.empty() ? "none" : list)};
+    for (const Knob& k : knobs_) {
+      names.push_back(k.name);
+      list += (list.empty() ? "" : ", ") + k.name;
+    }
+    return Error{ErrorKind::usage, "unknown knob " + std::string(name) + "; " + did_you_mean(name, names) +
+                                       "there are " + (list.empty() ? "none" : list)};
   }
   const std::optional<double> parsed = parse_value(*knob, value);
   if (!parsed)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/core/nearest_name.h"
 #include "engine/render/renderer_state.h"
 
 namespace gloam {
@@ -14,9 +15,14 @@ const FrameBuilder::Exposed* find_exposed(const FrameBuilder& frame, std::string
 }
 
 Error unknown_image(const FrameBuilder& frame, std::string_view name) {
+  std::vector<std::string> names;
   std::string list;
-  for (const FrameBuilder::Exposed& exposed : frame.exposed()) list += (list.empty() ? "" : ", ") + exposed.name;
-  return {ErrorKind::usage, "the last frame has no image " + std::string(name) + "; there are " + list};
+  for (const FrameBuilder::Exposed& exposed : frame.exposed()) {
+    names.emplace_back(exposed.name);
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  return {ErrorKind::usage,
+          "the last frame has no image " + std::string(name) + "; " + did_you_mean(name, names) + "there are " + list};
 }
 
 template <class T>
@@ -34,7 +40,7 @@ Status Renderer::draw_again(World& world, ViewId view, std::function<Status(Fram
   const auto last = std::ranges::find(all, view, [](const ViewRequest& request) { return request.settings.id; });
   GLOAM_ASSERT(last != all.end(), "what is read back must be of a view of the last frame");
   ViewRequest again = *last;
-  again.target = {};  // a window's picture is gone
+  again.target = {};  // the image of a window may be gone
   again.settings.width = s.images.at(view.value).width;
   again.settings.height = s.images.at(view.value).height;
   s.copies = std::make_unique<Captures>(*s.options.device);

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/nearest_name.h"
 #include "engine/scene/gltf/accessor_read.h"
 #include "engine/scene/gltf/place.h"
 
@@ -58,12 +59,12 @@ Status read_keys(const Document& document, const AnimationSource::Sampler& sampl
   return read_floats(document, sampler.output, channel.values);
 }
 
-/// Empty when nothing moves: the node is kept as it is by another rule.
+/// Imports one channel; empty if an extension defines its path.
 Result<std::optional<AnimationChannel>> import_channel(const Document& document, const AnimationSource& animation,
                                                        const AnimationSource::Channel& source) {
   AnimationChannel channel;
   const std::optional<AnimationPath> path = path_of(source.path);
-  if (!path) return std::optional<AnimationChannel>();  // an extension's; those that are required were refused
+  if (!path) return std::optional<AnimationChannel>();  // check_extensions has refused required ones
   channel.node = source.node;
   channel.path = *path;
   channel.width = *path == AnimationPath::rotation  ? 4
@@ -77,20 +78,23 @@ Result<std::optional<AnimationChannel>> import_channel(const Document& document,
   return std::optional<AnimationChannel>(std::move(channel));
 }
 
-/// Places in the order in which clips claim what they move.
+/// Clip indices in the order in which clips claim the properties that they animate.
 Result<std::vector<std::size_t>> claim_order(const Document& document, std::string_view preferred) {
   std::vector<std::size_t> order;
-  std::string names;
+  std::vector<std::string> names;
+  std::string list;
   for (std::size_t i = 0; i < document.animations.size(); ++i) {
     order.push_back(i);
-    names += (names.empty() ? "" : ", ") + one_line(document.animations[i].name);
+    names.push_back(one_line(document.animations[i].name));
+    list += (list.empty() ? "" : ", ") + names.back();
   }
   if (preferred.empty()) return order;
   const auto found =
       std::find_if(order.begin(), order.end(), [&](std::size_t i) { return document.animations[i].name == preferred; });
   if (found == order.end())
-    return Error{ErrorKind::usage, "no animation is named " + in_quotes(preferred) +
-                                       (names.empty() ? ", there is none" : ", there are: " + names)};
+    return Error{ErrorKind::usage,
+                 "no animation is named " + in_quotes(preferred) + ", " +
+                     (names.empty() ? "there is none" : did_you_mean(preferred, names) + "there are: " + list)};
   std::rotate(order.begin(), found, found + 1);
   return order;
 }

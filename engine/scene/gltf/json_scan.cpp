@@ -15,23 +15,23 @@ namespace {
 
 using Kind = SceneValue::Kind;
 
-// Later readers of extras and extensions recurse.
+// Limited because later readers of extras and extensions recurse.
 constexpr std::size_t kMaxDepth = 96;
 constexpr double kMaxIndex = 2147483647.0;
 
-/// An object or array that is open.
+/// An open object or array.
 struct Frame {
   bool is_array = false;
-  Form form = Form::any;         ///< of the frame itself
-  std::string_view type;         ///< object: which; array of objects: of its items
-  std::span<const Rule> rules;   ///< object: of its type
-  std::uint64_t seen = 0;        ///< object: a bit a rule
-  const Rule* rule = nullptr;    ///< object: of the open member
-  const Rule* origin = nullptr;  ///< array, index map: of the member whose value it is (a part of)
-  std::string member;            ///< object: the open member
-  std::uint64_t items = 0;       ///< array: begun so far
-  bool stray_extras = false;     ///< object: extras of something that takes no keys
-  SceneValue* keep = nullptr;    ///< where the frame is copied to, or null
+  Form form = Form::any;         ///< form of this object or array
+  std::string_view type;         ///< object: its type; array of objects: type of its items
+  std::span<const Rule> rules;   ///< object: rules of its type
+  std::uint64_t seen = 0;        ///< object: one bit per rule whose member was seen
+  const Rule* rule = nullptr;    ///< object: rule of the open member; null if it has none
+  const Rule* origin = nullptr;  ///< array, index map: rule of the member that holds it
+  std::string member;            ///< object: name of the open member
+  std::uint64_t items = 0;       ///< array: items begun so far
+  bool stray_extras = false;     ///< object: extras of an element that takes no keys
+  SceneValue* keep = nullptr;    ///< where the value is copied to, or null
 };
 
 std::string_view form_text(Form form) {
@@ -142,7 +142,7 @@ class Scanner {
     return false;
   }
 
-  /// After the whole text was read: compares indices with the arrays they count off.
+  /// Compares indices with the sizes of the arrays that they refer to. Call it after the whole text was read.
   void check_references();
 
   std::string error_;
@@ -169,16 +169,16 @@ class Scanner {
   void take(const SceneValue& value);
   void take_reference(const SceneValue& value);
 
-  /// The largest index that stands under one rule, and where.
+  /// The largest index found under one rule, and its place.
   struct Reference {
     double index = -1.0;
     std::string place;
   };
 
   std::unordered_map<const Rule*, Reference> references_;
-  std::unordered_map<std::string_view, std::uint64_t> counts_;  ///< items of the root's arrays
+  std::unordered_map<std::string_view, std::uint64_t> counts_;  ///< sizes of the root's arrays
   std::vector<Frame> frames_;
-  std::uint64_t exact_ = 0;  ///< the last unsigned number, which a double may round
+  std::uint64_t exact_ = 0;  ///< last unsigned number; a double may round it
 };
 
 Scanner::Expected Scanner::expected() const {
@@ -190,7 +190,7 @@ Scanner::Expected Scanner::expected() const {
   return {top.rule->form, top.rule->item};
 }
 
-/// Where the scan is: "node 12: ", "mesh 3, primitive 0: ", "accessor 7, sparse: "; empty at the root.
+/// Current place of the scan: "node 12: ", "mesh 3, primitive 0: ", "accessor 7, sparse: "; empty at the root.
 std::string Scanner::here() const {
   std::string text;
   for (std::size_t i = 1; i < frames_.size(); ++i) {
@@ -232,7 +232,7 @@ bool Scanner::key(string_t& name) {
   return true;
 }
 
-/// The value that the extras or extensions of this object go to, or null when they are not kept.
+/// Where the open member is kept, if it is the extras or extensions of a type that keeps them; else null.
 SceneValue* Scanner::attachment_place(const Frame& frame) {
   const bool extras = frame.member == "extras";
   if (!extras && frame.member != "extensions") return nullptr;
@@ -249,7 +249,7 @@ SceneValue* Scanner::attachment_place(const Frame& frame) {
   return &value;
 }
 
-/// Puts a value into the tree that is being kept; null when none is.
+/// Adds a value to the tree that is being kept and returns it there; null if it is not kept.
 SceneValue* Scanner::kept_place(SceneValue value) {
   if (frames_.empty()) return nullptr;
   Frame& top = frames_.back();
@@ -259,10 +259,10 @@ SceneValue* Scanner::kept_place(SceneValue value) {
     return place;
   }
   if (top.is_array) return &top.keep->items.emplace_back(std::move(value));
-  return &top.keep->members.emplace_back(top.member, std::move(value)).second;
+  return &top.keep->members.emplace_back(SceneMember{top.member, std::move(value)}).value;
 }
 
-/// Members that are needed before the document is read.
+/// Stores the members that are needed before the document is read.
 void Scanner::take(const SceneValue& value) {
   const Frame& top = frames_.back();
   if (top.is_array) {

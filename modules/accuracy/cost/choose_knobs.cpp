@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "engine/core/nearest_name.h"
 #include "modules/accuracy/module.h"
 
 namespace gloam {
@@ -19,7 +20,8 @@ Result<std::vector<std::string>> choose_knobs(const KnobRegistry& knobs, std::st
     const std::size_t comma = std::min(list.find(','), list.size());
     const std::string name(list.substr(0, comma));
     if (knobs.find(name) == nullptr)
-      return Error{ErrorKind::usage, "unknown knob '" + name + "'; there are " + (all.empty() ? "none" : all)};
+      return Error{ErrorKind::usage, "unknown knob '" + name + "'; " + did_you_mean(name, names) + "there are " +
+                                         (all.empty() ? "none" : all)};
     if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) chosen.push_back(name);
     if (comma == list.size()) return chosen;
     list.remove_prefix(comma + 1);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
+#include "engine/render/passes/visualizer_pass.h"
 #include "modules/closeups/compose/frame.h"
 #include "modules/closeups/debug/lines.h"
 #include "shaders/closeups/closeup_views_shared.h"
@@ -17,20 +19,19 @@ namespace {
 constexpr const char* kFrusta = "closeup_frusta";
 constexpr const char* kTexels = "closeup_texels";
 
-/// What a view pass records with.
+/// Inputs for recording a visualizer pass.
 struct ViewDraw {
   bool texels = false;
-  std::uint32_t count = 0;  ///< of pairs
+  std::uint32_t count = 0;  ///< number of pairs
   gpu::PipelineHandle pipeline;
   gpu::SamplerHandle sampler;
   gpu::Binding::BufferRange closeups;
   gpu::Binding::BufferRange lines;
   GeometryOutputs geometry;
-  ImageRef picture;
-  ImageRef named;
+  VisualizerTargets targets;
 };
 
-/// Pairs and the lines of their frusta.
+/// Pairs and the lines of their frusta, as the shaders read them.
 struct Shown {
   std::vector<shaders::ShownCloseup> closeups;
   std::vector<shaders::CloseupLine> lines;
@@ -71,7 +72,7 @@ Shown shown_closeups(std::span<const CloseupView> pairs, const RenderView& view)
     shown.lines.insert(shown.lines.end(), lines.begin(), lines.end());
     shown.closeups.push_back(closeup);
   }
-  // A buffer has at least one item.
+  // A buffer needs at least one item.
   if (shown.lines.empty()) shown.lines.emplace_back();
   return shown;
 }
@@ -91,19 +92,11 @@ void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& dra
   const auto sampled = [&](ImageRef image) {
     return gpu::Binding::Sampled{{.image = context.image(image)}, draw.sampler};
   };
-  gpu::CommandList& commands = context.commands();
-  gpu::RenderingDesc rendering;
-  rendering.colors.push_back({.view = {.image = context.image(draw.picture)}, .load = gpu::LoadOp::load});
-  rendering.colors.push_back({.view = {.image = context.image(draw.named)}, .load = gpu::LoadOp::clear});
-  begin_view_rendering(commands, frame.view(), std::move(rendering));
-  commands.bind_pipeline(draw.pipeline);
   std::vector<gpu::Binding> bindings = {
       frame.view_binding(), {1, draw.closeups}, {2, sampled(draw.geometry.depth)}, {3, draw.lines}};
   if (draw.texels) bindings.back() = {3, sampled(draw.geometry.normals)};
-  commands.bind(bindings);
-  commands.push(draw.count);
-  commands.draw(3, 1, 0, 0);
-  commands.end_rendering();
+  record_visualizer(context, frame.view(), draw.targets, draw.pipeline, bindings,
+                    std::as_bytes(std::span(&draw.count, 1)));
 }
 
 Status add_view(FrameBuilder& frame, std::span<const CloseupView> pairs, bool texels) {
@@ -125,14 +118,12 @@ Status add_view(FrameBuilder& frame, std::span<const CloseupView> pairs, bool te
   draw.lines = *lines;
   draw.geometry = frame.get<GeometryOutputs>();
   const std::string name = texels ? kTexels : kFrusta;
-  const ImageRef image =
-      create_view_image(frame, name, "closeups", texels ? gpu::Format::rgba16_float : gpu::Format::rgba8_unorm);
   PassBuilder pass = frame.graph().add_pass(name + "_view", "closeups");
   pass.read(draw.geometry.depth, gpu::Access::fragment_read);
   if (texels) pass.read(draw.geometry.normals, gpu::Access::fragment_read);
-  draw.named = pass.write(image, gpu::Access::color_target);
-  target.color = draw.picture = pass.write(target.color, gpu::Access::color_target);
-  frame.expose(draw.named);
+  draw.targets = write_visualizer_targets(frame, pass, name, "closeups",
+                                          texels ? gpu::Format::rgba16_float : gpu::Format::rgba8_unorm);
+  frame.expose(draw.targets.values);
   pass.execute([&frame, draw](PassContext& context) { record(frame, context, draw); });
   return {};
 }
@@ -151,7 +142,7 @@ std::span<const CloseupView> drawn_closeups(const FrameBuilder& frame) {
 }
 
 vec3 closeup_color(Entity pair) {
-  // Steps of the golden ratio keep hues of neighbours far apart.
+  // Golden-ratio steps keep the hues of consecutive indices far apart.
   const double hue = 6.0 * std::fmod(0.618033988749895 * pair.index, 1.0);
   const auto channel = [&](double at) {
     const double away = std::abs(std::remainder(hue - at, 6.0));
@@ -164,13 +155,13 @@ std::vector<VisualizerInfo> closeup_visualizers() {
   const std::string most = std::to_string(kMostShownCloseups);
   std::vector<VisualizerInfo> views = {
       {kFrusta, "closeups", "",
-       "each pair of a close-up subject and a light in its own colour: the edges of what its map sees, dim behind "
-       "surfaces, and the tiles its shadow may touch, tinted and framed; the first " +
-           most + " pairs, skipped ones are not shown"},
+       "close-up pairs, each in a different colour: edges of the map's frustum (dim behind surfaces), and the tiles "
+       "that the shadow may touch (tinted and framed); only the first " +
+           most + " pairs, no skipped ones"},
       {kTexels, "closeups", "",
-       "texels of the close-up map along a pixel's side, of the finest map where pairs overlap: blue 1/8, cyan 1/2, 1 "
-       "between cyan and green, green 2, yellow 8, red 32, white more; darkened: in no pair's frustum and tiles; the "
-       "first " +
+       "close-up map texels along a pixel's side; where pairs overlap, of the finest map: blue 1/8, cyan 1/2, between "
+       "cyan and green 1, green 2, yellow 8, red 32, white more; darkened: outside the frustum or tiles of every pair; "
+       "only the first " +
            most + " pairs"}};
   for (VisualizerInfo& view : views) {
     view.knob = "shadows.mode";

@@ -31,7 +31,7 @@ std::vector<std::uint32_t> words_of(const Captures& copies, std::string_view nam
   return words;
 }
 
-/// Whether a light gives anything at a camera-relative point, as local_illuminance of lights_api.glsl.
+/// Whether a light contributes at a camera-relative point. Mirrors local_illuminance in lights_api.glsl.
 bool reaches(const shaders::LocalLight& light, const dvec3& point) {
   const dvec3 offset = dvec3(light.position) - point;
   const double d2 = std::max(glm::dot(offset, offset), 1e-6);
@@ -58,7 +58,7 @@ class PickLines {
       add_cpu_lists();
       add_gpu_lists();
     } else {
-      say("no light lists: every pixel looks at all " + std::to_string(visible_.block.local_count) + " local lights");
+      say("no light lists: every pixel evaluates all " + std::to_string(visible_.block.local_count) + " local lights");
     }
     if (pixel_.depth > 0.0f) add_reaching();
     if (!visible_.directional_entities.empty()) {
@@ -73,7 +73,7 @@ class PickLines {
  private:
   void say(std::string line) { lines_.push_back(std::move(line)); }
 
-  /// "2 lights: 3 lamp, 7" – places among the sorted lights, with names where the scene has them.
+  /// "2 lights: 3 lamp, 7": indices into the sorted lights, followed by the name if the scene has one.
   [[nodiscard]] std::string list_text(const Indices& lights) const {
     std::string text = std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights");
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -140,7 +140,8 @@ class PickLines {
           list_text(decode_light_list(words_of(copies_, "lights.early_lists"), list.slot, list.count)));
       say("slot " + std::to_string(list.slot));
     } else {
-      say("accurate search: " + std::to_string(list.count) + " lights; slot: none was left, the group's mask is used");
+      say("accurate search: " + std::to_string(list.count) +
+          " lights; no slot was left: the tile uses its group's mask");
     }
   }
 
@@ -151,7 +152,7 @@ class PickLines {
     Indices lights;
     for (std::uint32_t i = 0; i < visible_.block.local_count; ++i)
       if (reaches(visible_.block.local[i], dvec3(at) / at.w)) lights.push_back(i);
-    say("in whose range the pixel is: " + list_text(lights));
+    say("local lights in range of the pixel: " + list_text(lights));
   }
 
   const PickedPixel& pixel_;
@@ -163,7 +164,7 @@ class PickLines {
   const ZBins* bins_;
   uvec2 tile_;
   std::size_t tile_at_ = 0;
-  std::optional<ZBin> range_;  ///< sorted lights at the tile's depths; none when there is only sky
+  std::optional<ZBin> range_;  ///< sorted lights at the tile's depths; none if the tile shows only sky
   std::vector<std::string> lines_;
 };
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "engine/render/passes/visualizer_pass.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
 #include "modules/lights/selection/light_list.h"
@@ -15,7 +17,8 @@
 namespace gloam {
 namespace {
 
-/// The first four in the order of kCount of light_count_view.frag. `nothing` stands in where there is no list to show.
+/// The first four values match kCount in light_count_view.frag. `nothing` stands in for a visualizer without a list to
+/// show.
 enum class LightView : std::uint32_t {
   mask_counts,
   approx_counts,
@@ -63,17 +66,16 @@ gpu::GraphicsPipelineDesc view_pipeline(LightView view, gpu::Format format) {
   return desc;
 }
 
-/// What a view pass records with.
+/// Inputs for recording a visualizer pass.
 struct ViewDraw {
   LightView view = LightView::nothing;
   gpu::PipelineHandle pipeline;
   gpu::SamplerHandle sampler;
   LightsOutputs lights;
   GeometryOutputs geometry;
-  std::uint32_t light = 0;  ///< that is shown, of the sorted ones
-  float opacity = 1.0f;     ///< of nothing over the picture
-  ImageRef picture;
-  ImageRef named;
+  std::uint32_t light = 0;  ///< index of the shown light in the sorted local lights
+  float opacity = 1.0f;     ///< LightView::nothing: opacity of black over the picture
+  VisualizerTargets targets;
 };
 
 void declare_reads(PassBuilder& pass, const ViewDraw& draw) {
@@ -111,17 +113,10 @@ std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassConte
 }
 
 void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& draw) {
-  gpu::CommandList& commands = context.commands();
-  gpu::RenderingDesc rendering;
-  rendering.colors.push_back({.view = {.image = context.image(draw.picture)}, .load = gpu::LoadOp::load});
-  rendering.colors.push_back({.view = {.image = context.image(draw.named)}, .load = gpu::LoadOp::clear});
-  begin_view_rendering(commands, frame.view(), std::move(rendering));
-  commands.bind_pipeline(draw.pipeline);
-  commands.bind(bindings_of(frame, context, draw));
-  if (shows_one_light(draw.view)) commands.push(draw.light);
-  if (draw.view == LightView::nothing) commands.push(draw.opacity);
-  commands.draw(3, 1, 0, 0);
-  commands.end_rendering();
+  std::span<const std::byte> constants;
+  if (shows_one_light(draw.view)) constants = std::as_bytes(std::span(&draw.light, 1));
+  if (draw.view == LightView::nothing) constants = std::as_bytes(std::span(&draw.opacity, 1));
+  record_visualizer(context, frame.view(), draw.targets, draw.pipeline, bindings_of(frame, context, draw), constants);
 }
 
 }  // namespace
@@ -129,19 +124,19 @@ void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& dra
 std::vector<VisualizerInfo> light_visualizers() {
   const std::string heat = ": black 0, blue 6, cyan 12, green 19, yellow 25, red 31, white 32 and more";
   std::vector<VisualizerInfo> views = {
-      {"tile_masks", "lights", "", "lights that the CPU finds for each 32x32 tile" + heat},
+      {"tile_masks", "lights", "", "number of lights in the CPU's mask of each 32x32 tile" + heat},
       {"light_culling", "lights", "LIGHT",
-       "tiles where the light passed the CPU's tile mask (grey), the zBins too (blue), the tile group's mask too "
-       "(orange), and is in the "
-       "tile's list (green); red: it is not, though it reaches a pixel of the tile"},
+       "last culling test that the light passes in each tile: the CPU's tile mask (grey), the zBins (blue), the "
+       "mask of the tile group (orange), the tile's list (green); red: the light is not in the list but reaches a "
+       "pixel of the tile"},
       {"light_list", "lights", "LIGHT",
-       "pixels whose tile's list holds the light: blue, those that it reaches yellow; red: reached, but not in the "
-       "list. With shadows.mode=deferred: yellow lit as a whole, green a slot, bright where it is seen, blue left out "
-       "as "
-       "unlit, magenta shaded from shadow maps"},
-      {"lights_approx", "lights", "", "lights of each 8x8 tile after the approximate search" + heat},
-      {"lights_accurate", "lights", "", "lights of each 8x8 tile after the accurate search" + heat},
-      {"lights_difference", "lights", "", "lights of each 8x8 tile that only the approximate search finds" + heat}};
+       "tiles whose list holds the light: blue, yellow at pixels that it reaches; red: reached by the light, but "
+       "not in the list. With shadows.mode=deferred: yellow lit in the whole tile, green a visibility slot (brighter "
+       "where more visible), blue unlit in the whole tile, magenta shaded from shadow maps"},
+      {"lights_approx", "lights", "", "number of lights in each 8x8 tile after the approximate search" + heat},
+      {"lights_accurate", "lights", "", "number of lights in each 8x8 tile after the accurate search" + heat},
+      {"lights_difference", "lights", "",
+       "number of lights that only the approximate search finds in each 8x8 tile" + heat}};
   for (VisualizerInfo& view : views) {
     view.knob = "lights.culling";
     view.value = "tiled";
@@ -151,7 +146,7 @@ std::vector<VisualizerInfo> light_visualizers() {
 
 namespace {
 
-/// Whether a later module shows the view of this light.
+/// Whether a later module draws this visualizer for this light (LightListViewTaken).
 bool is_taken(const FrameBuilder& frame, LightView view, std::string_view light) {
   if (view != LightView::list || frame.find<LightListViewTaken>() == nullptr) return false;
   const auto entity = frame.world().resource<SceneNames>().find("light", light);
@@ -208,11 +203,9 @@ Status LightViews::add_pass(FrameBuilder& frame) {
   draw.pipeline = *pipeline;
   draw.sampler = *sampler;
 
-  const ImageRef image = create_view_image(frame, stem, "lights", gpu::Format::rgba8_unorm);
   PassBuilder pass = frame.graph().add_pass(stem + "_view", "lights");
   declare_reads(pass, draw);
-  draw.named = pass.write(image, gpu::Access::color_target);
-  target.color = draw.picture = pass.write(target.color, gpu::Access::color_target);
+  draw.targets = write_visualizer_targets(frame, pass, stem, "lights", gpu::Format::rgba8_unorm);
   pass.execute([&frame, draw](PassContext& context) { record(frame, context, draw); });
   return {};
 }

@@ -3,8 +3,10 @@
 #include "modules/shadows/debug/final_list_views.h"
 
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "engine/render/passes/visualizer_pass.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/debug/shown_light.h"
 #include "modules/shadows/outputs.h"
@@ -13,8 +15,8 @@
 namespace gloam {
 namespace {
 
-/// Of four bindings; GLOAM_FINAL_LISTS_BINDING of final_list_views.glsl.
-constexpr std::uint32_t kFirstFinalListBinding = 9;
+/// First of four bindings: GLOAM_FINAL_LISTS_BINDING of final_list_views.glsl.
+constexpr std::uint32_t kViewedListBinding = 9;
 
 enum class FinalView : std::uint8_t { counts, slots, light };
 
@@ -25,17 +27,16 @@ std::optional<FinalView> view_of(std::string_view stem) {
   return std::nullopt;
 }
 
-/// What a view pass records with.
+/// The inputs of a visualizer's pass.
 struct ViewDraw {
   FinalView view = FinalView::counts;
-  shaders::ShownLightConstants light{};  ///< of FinalView::light
+  shaders::ShownLightConstants light{};  ///< for FinalView::light
   gpu::PipelineHandle pipeline;
   GeometryOutputs geometry;
   LightsOutputs lights;
   FinalLists lists;
   gpu::SamplerHandle sampler;
-  ImageRef picture;
-  ImageRef named;
+  VisualizerTargets targets;
 };
 
 gpu::GraphicsPipelineDesc view_pipeline(const ViewDraw& draw, gpu::Format format) {
@@ -66,7 +67,7 @@ void declare_reads(PassBuilder& pass, const ViewDraw& draw) {
   pass.read(draw.lights.group_masks, gpu::Access::fragment_read);
 }
 
-/// Without local lights shaders look at no early list, but every binding must be given.
+/// Without local lights shaders read no early list, but every binding must be set.
 std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context, const ViewDraw& draw) {
   const auto sampled = [&](ImageRef image) {
     return gpu::Binding::Sampled{{.image = context.image(image)}, draw.sampler};
@@ -82,24 +83,14 @@ std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassConte
                                         {5, sampled(early ? lights.tile_lists : draw.geometry.normals)},
                                         {6, whole(early ? lights.early_lists : draw.lists.entries)},
                                         {7, sampled(draw.geometry.depth_bounds)}};
-  append_final_list_bindings(bindings, kFirstFinalListBinding, context, draw.lists, draw.sampler);
+  append_final_list_bindings(bindings, kViewedListBinding, context, draw.lists, draw.sampler);
   return bindings;
 }
 
 void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& draw) {
-  gpu::CommandList& commands = context.commands();
-  gpu::RenderingDesc rendering;
-  rendering.colors.push_back({.view = {.image = context.image(draw.picture)}, .load = gpu::LoadOp::load});
-  rendering.colors.push_back({.view = {.image = context.image(draw.named)}, .load = gpu::LoadOp::clear});
-  begin_view_rendering(commands, frame.view(), std::move(rendering));
-  commands.bind_pipeline(draw.pipeline);
-  commands.bind(bindings_of(frame, context, draw));
-  if (draw.view == FinalView::light)
-    commands.push(draw.light);
-  else
-    commands.push(draw.lights.directional_count);
-  commands.draw(3, 1, 0, 0);
-  commands.end_rendering();
+  const auto constants = draw.view == FinalView::light ? std::as_bytes(std::span(&draw.light, 1))
+                                                       : std::as_bytes(std::span(&draw.lights.directional_count, 1));
+  record_visualizer(context, frame.view(), draw.targets, draw.pipeline, bindings_of(frame, context, draw), constants);
 }
 
 /// Why a frame with shadows has no final lists.
@@ -110,7 +101,7 @@ std::string reason_without_lists(const FrameBuilder& frame) {
   if (knobs.is("shadows.visibility_bits", "exact"))
     return "there are no final lists with shadows.visibility_bits=exact";
   if (knobs.is("lights.culling", "brute")) return "there are no final lists with lights.culling=brute";
-  return "no light in view looks at a shadow map";
+  return "no light in view has a shadow map";
 }
 
 Status add_pass(FrameBuilder& frame, ViewDraw draw, const std::string& stem) {
@@ -123,11 +114,9 @@ Status add_pass(FrameBuilder& frame, ViewDraw draw, const std::string& stem) {
   auto pipeline = frame.services().pipelines.get(view_pipeline(draw, target.format));
   if (!pipeline.ok()) return pipeline.error();
   draw.pipeline = *pipeline;
-  const ImageRef image = create_view_image(frame, stem, "shadows", gpu::Format::rgba8_unorm);
   PassBuilder pass = frame.graph().add_pass(stem + "_view", "shadows");
   declare_reads(pass, draw);
-  draw.named = pass.write(image, gpu::Access::color_target);
-  target.color = draw.picture = pass.write(target.color, gpu::Access::color_target);
+  draw.targets = write_visualizer_targets(frame, pass, stem, "shadows", gpu::Format::rgba8_unorm);
   pass.execute([&frame, draw](PassContext& context) { record(frame, context, draw); });
   return {};
 }
@@ -142,12 +131,12 @@ bool has_final_lists(const FrameBuilder& frame) {
 std::vector<VisualizerInfo> final_list_visualizers() {
   std::vector<VisualizerInfo> views = {
       {"visibility_slots", "shadows", "",
-       "slots of visibility that each 8x8 tile holds: blue 2, cyan 4, green 6, yellow 8, red 10, white more; darkened: "
-       "none, its lights are lit as a whole; dark blue: none, all its lights are left out; magenta: a buffer was full, "
-       "the tile is shaded from shadow maps; black: no light"},
+       "number of visibility slots of each 8x8 tile: blue 2, cyan 4, green 6, yellow 8, red 10, white more; no slots: "
+       "darkened if lights are fully visible in the whole tile, dark blue if all lights are unlit in it, black if no "
+       "light reaches it; magenta: a buffer was full, the tile is shaded from shadow maps"},
       {"lights_final", "shadows", "",
-       "lights of each 8x8 tile in its final list: black 0, blue 6, cyan 12, green 19, yellow 25, red 31, white 32 and "
-       "more; magenta: a buffer was full, the tile has none"}};
+       "number of lights in the final list of each 8x8 tile: black 0, blue 6, cyan 12, green 19, yellow 25, red 31, "
+       "white 32 and more; magenta: a buffer was full, the tile has no final list"}};
   for (VisualizerInfo& view : views) {
     view.knob = "shadows.mode";
     view.value = "deferred";

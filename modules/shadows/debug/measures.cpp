@@ -8,7 +8,7 @@
 namespace gloam {
 namespace {
 
-/// None without final lists, or without a light.
+/// The share of tile lights that are filtered; none without final lists or without lights.
 std::optional<double> filtered_share(const FrameCounters& frame, const FrameCounters&) {
   const auto all = frame.find("shadows.tile_lights"), filtered = frame.find("shadows.tile_lights_filtered");
   if (all == frame.end() || filtered == frame.end() || all->second <= 0.0) return std::nullopt;
@@ -23,7 +23,7 @@ std::vector<MeasureInfo> shadow_measures() {
   MeasureInfo info;
   info.knob = "shadows.classify";
   info.kind = "brute force";
-  info.name = "every pixel asked: shadows.classify=off";
+  info.name = "all tile-light pairs filtered: shadows.classify=off";
   info.unit = "share of tile-light pairs asked pixel by pixel";
   info.judged_with = {"shadows.mode=deferred"};
   info.picture = {"shadows.mode=deferred", "shadows.classify=off"};

@@ -3,9 +3,11 @@
 #include "modules/shadows/debug/reference_visualizers.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
+#include "engine/render/passes/visualizer_pass.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/debug/shown_light.h"
 #include "modules/shadows/filter/uploads.h"
@@ -18,21 +20,20 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kFirstShadowBinding = 6;
+constexpr std::uint32_t kComparedShadowBinding = 6;
 
-/// What one of the views draws with.
+/// The inputs of a visualizer's pass.
 struct ReferenceView {
-  std::string name;  ///< of shader and pass
+  std::string name;  ///< name of the pass, and begin of the pipeline's name
   std::string image;
   gpu::ShaderCode fragment;
   ShadowsOutputs shadows;
-  std::optional<shaders::ShownLightConstants> light;  ///< pushed when there is one
+  std::optional<shaders::ShownLightConstants> light;  ///< push constants, if any
   GeometryOutputs geometry;
   LightsOutputs lights;
   gpu::PipelineHandle pipeline;
   gpu::SamplerHandle sampler;
-  ImageRef picture;
-  ImageRef named;
+  VisualizerTargets targets;
 };
 
 gpu::GraphicsPipelineDesc view_pipeline(const ReferenceView& view, gpu::Format format) {
@@ -53,17 +54,10 @@ void record(const FrameBuilder& frame, PassContext& context, const ReferenceView
                                         {3, sampled(view.geometry.normals)},
                                         {4, sampled(view.geometry.base_color)},
                                         {5, sampled(view.lights.texels)}};
-  append_shadow_bindings(bindings, kFirstShadowBinding, context, view.shadows);
-  gpu::RenderingDesc rendering;
-  rendering.colors.push_back({.view = {.image = context.image(view.picture)}, .load = gpu::LoadOp::clear});
-  rendering.colors.push_back({.view = {.image = context.image(view.named)}, .load = gpu::LoadOp::clear});
-  gpu::CommandList& commands = context.commands();
-  begin_view_rendering(commands, frame.view(), std::move(rendering));
-  commands.bind_pipeline(view.pipeline);
-  commands.bind(bindings);
-  if (view.light) commands.push(*view.light);
-  commands.draw(3, 1, 0, 0);
-  commands.end_rendering();
+  append_shadow_bindings(bindings, kComparedShadowBinding, context, view.shadows);
+  std::span<const std::byte> constants;
+  if (view.light) constants = std::as_bytes(std::span(&*view.light, 1));
+  record_visualizer(context, frame.view(), view.targets, view.pipeline, bindings, constants);
 }
 
 Status add_pass(FrameBuilder& frame, ReferenceView view) {
@@ -76,17 +70,16 @@ Status add_pass(FrameBuilder& frame, ReferenceView view) {
   view.sampler = *sampler;
   view.geometry = frame.get<GeometryOutputs>();
   view.lights = frame.get<LightsOutputs>();
-  if (!view.lights.texels) view.lights.texels = view.geometry.base_color;  // nobody looks at it then
-  const ImageRef image = create_view_image(frame, view.image, "shadows", gpu::Format::r32_float);
+  if (!view.lights.texels) view.lights.texels = view.geometry.base_color;  // not read without local lights
   PassBuilder pass = frame.graph().add_pass(view.name, "shadows");
   for (const ImageRef read : {view.geometry.depth, view.geometry.normals, view.geometry.base_color})
     pass.read(read, gpu::Access::fragment_read);
   if (view.lights.local_count > 0) pass.read(view.lights.texels, gpu::Access::fragment_read);
   declare_shadow_reads(pass, view.shadows, gpu::Access::fragment_read);
-  view.named = pass.write(image, gpu::Access::color_target);
-  target.color = view.picture = pass.write(target.color, gpu::Access::color_target);
+  view.targets = write_visualizer_targets(frame, pass, view.image, "shadows", gpu::Format::r32_float);
+  view.targets.load_picture = gpu::LoadOp::clear;
   pass.execute([&frame, view](PassContext& context) { record(frame, context, view); });
-  frame.expose(view.named);
+  frame.expose(view.targets.values);
   return {};
 }
 
@@ -95,11 +88,10 @@ Status add_pass(FrameBuilder& frame, ReferenceView view) {
 std::vector<VisualizerInfo> shadow_reference_visualizers() {
   std::vector<VisualizerInfo> views = {
       {"shadow_reference", "shadows", "LIGHT",
-       "how much of the light each surface sees, traced: black nothing, white all of it; blue: beyond its reach"},
+       "traced visibility of the light at each pixel: black unlit, white fully lit, blue out of the light's reach"},
       {"error", "shadows", "",
-       "how far drawn visibilities of lights are from traced ones, mean of those that reach a pixel: black 0, blue "
-       "0.1, cyan 0.2, "
-       "green 0.3, yellow 0.4, red 0.5, white more"}};
+       "difference between drawn and traced visibility, mean over the lights that reach the pixel: black 0, blue 0.1, "
+       "cyan 0.2, green 0.3, yellow 0.4, red 0.5, white more"}};
   for (VisualizerInfo& view : views) {
     view.knob = "shadows.mode";
     view.value = "monolithic|deferred";
@@ -116,7 +108,7 @@ Status add_shadow_reference_view_pass(FrameBuilder& frame) {
   if (shadows == nullptr) return {};
   if (traced_visibility_of(frame.world(), frame.view()) == nullptr)
     return Error{ErrorKind::usage,
-                 "view " + std::string(stem) + " shows what is traced first: `gloam render` does that"};
+                 "view " + std::string(stem) + " needs traced visibility, which only `gloam render` computes"};
   ReferenceView view;
   view.shadows = *shadows;
   if (stem == "error") {
@@ -131,7 +123,7 @@ Status add_shadow_reference_view_pass(FrameBuilder& frame) {
                                  " shows the picture as it is: the light reaches nothing in view");
     return {};
   }
-  // The same shader as view "shadow", told to look at what was traced.
+  // The shader of visualizer "shadow", with the constants for traced visibility.
   view.name = "shadow_reference_view";
   view.image = "shadow_reference";
   view.fragment = shaders::shadows::visibility_view_frag;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
+#include "engine/render/passes/visualizer_pass.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/debug/shown_light.h"
@@ -20,7 +22,7 @@ namespace {
 constexpr std::uint32_t kFirstShadowBinding = 6;
 constexpr std::uint32_t kFirstFinalListBinding = 12;
 
-/// GLOAM_SHADOWS_…: what the shader may leave out of account.
+/// The light's kind (GLOAM_SHADOWS_SPOTS, …), so that the shader can be compiled for it alone.
 std::uint32_t kind_of(const FrameBuilder& frame, const shaders::ShownLightConstants& light) {
   if (light.directional != 0) return GLOAM_SHADOWS_SUNS;
   const auto& rows = frame.world().view_resource<ShadowViews>(frame.view().id).rows;
@@ -47,22 +49,6 @@ gpu::GraphicsPipelineDesc visibility_pipeline(const ShadowsOutputs& shadows, gpu
   return desc;
 }
 
-/// What a view pass draws over.
-struct ViewTargets {
-  ImageRef picture;
-  ImageRef named;  ///< none: the picture alone
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-};
-
-void begin(gpu::CommandList& commands, PassContext& context, const RenderView& view, const ViewTargets& targets) {
-  gpu::RenderingDesc rendering;
-  rendering.colors.push_back({.view = {.image = context.image(targets.picture)}, .load = gpu::LoadOp::clear});
-  if (targets.named)
-    rendering.colors.push_back({.view = {.image = context.image(targets.named)}, .load = gpu::LoadOp::clear});
-  begin_view_rendering(commands, view, std::move(rendering));
-}
-
 Status add_visibility_view(FrameBuilder& frame, const shaders::ShownLightConstants& light,
                            const ShadowsOutputs& shadows) {
   TargetOutput& target = frame.get<TargetOutput>();
@@ -72,19 +58,16 @@ Status add_visibility_view(FrameBuilder& frame, const shaders::ShownLightConstan
   if (!sampler.ok()) return sampler.error();
   const GeometryOutputs geometry = frame.get<GeometryOutputs>();
   const LightsOutputs lights = frame.get<LightsOutputs>();
-  const ImageRef texels = lights.texels ? lights.texels : geometry.base_color;  // not looked at for directional lights
-  ViewTargets targets{{},
-                      create_view_image(frame, "shadow_visibility", "shadows", gpu::Format::r32_float),
-                      frame.view().width,
-                      frame.view().height};
+  const ImageRef texels = lights.texels ? lights.texels : geometry.base_color;  // not read for directional lights
   PassBuilder pass = frame.graph().add_pass("shadow_view", "shadows");
   for (const ImageRef image : {geometry.depth, geometry.normals, geometry.base_color, texels})
     pass.read(image, gpu::Access::fragment_read);
   declare_shadow_reads(pass, shadows, gpu::Access::fragment_read);
   if (shadows.final_lists) declare_final_list_reads(pass, *shadows.final_lists, gpu::Access::fragment_read);
-  targets.named = pass.write(targets.named, gpu::Access::color_target);
-  target.color = targets.picture = pass.write(target.color, gpu::Access::color_target);
-  frame.expose(targets.named);
+  VisualizerTargets targets =
+      write_visualizer_targets(frame, pass, "shadow_visibility", "shadows", gpu::Format::r32_float);
+  targets.load_picture = gpu::LoadOp::clear;
+  frame.expose(targets.values);
   pass.execute([&frame, geometry, lights, texels, targets, light, shadows, pipeline = *pipeline,
                 sampler = *sampler](PassContext& context) {
     const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, sampler}; };
@@ -97,22 +80,16 @@ Status add_visibility_view(FrameBuilder& frame, const shaders::ShownLightConstan
     append_shadow_bindings(bindings, kFirstShadowBinding, context, shadows);
     if (shadows.final_lists)
       append_final_list_bindings(bindings, kFirstFinalListBinding, context, *shadows.final_lists, sampler);
-    gpu::CommandList& commands = context.commands();
-    begin(commands, context, frame.view(), targets);
-    commands.bind_pipeline(pipeline);
-    commands.bind(bindings);
-    commands.push(light);
-    commands.draw(3, 1, 0, 0);
-    commands.end_rendering();
+    record_visualizer(context, frame.view(), targets, pipeline, bindings, std::as_bytes(std::span(&light, 1)));
   });
   return {};
 }
 
-/// Each face where it lies in the atlas, which fills the picture's height or width.
-std::vector<shaders::AtlasFaceConstants> atlas_squares(const ShadowViews& views, const ViewTargets& targets,
+/// The square of each placed face in the picture; the atlas fills the picture's shorter side.
+std::vector<shaders::AtlasFaceConstants> atlas_squares(const ShadowViews& views, const RenderView& view,
                                                        const ViewShadows& kept) {
   std::vector<shaders::AtlasFaceConstants> squares;
-  const auto side = static_cast<float>(std::min(targets.width, targets.height));
+  const auto side = static_cast<float>(std::min(view.width, view.height));
   const float scale = side / static_cast<float>(std::max(views.atlas.size(), 1u));
   for (const ShadowFace& face : views.faces) {
     if (face.square.size == 0) continue;
@@ -137,14 +114,14 @@ Status add_atlas_view(FrameBuilder& frame, const ShadowsOutputs& shadows, const 
   desc.constants = {{0, gpu::encodes_srgb(target.format) ? 0u : 1u}};
   auto pipeline = frame.services().pipelines.get(desc);
   if (!pipeline.ok()) return pipeline.error();
-  ViewTargets targets{{}, {}, frame.view().width, frame.view().height};
-  auto squares = atlas_squares(frame.world().view_resource<ShadowViews>(frame.view().id), targets, kept);
+  auto squares = atlas_squares(frame.world().view_resource<ShadowViews>(frame.view().id), frame.view(), kept);
   PassBuilder pass = frame.graph().add_pass("shadow_atlas_view", "shadows");
   pass.read(shadows.atlas, gpu::Access::fragment_read);
-  target.color = targets.picture = pass.write(target.color, gpu::Access::color_target);
+  target.color = pass.write(target.color, gpu::Access::color_target);
+  const VisualizerTargets targets{target.color, {}, gpu::LoadOp::clear};
   pass.execute([&frame, targets, shadows, squares = std::move(squares), pipeline = *pipeline](PassContext& context) {
+    begin_visualizer(context, frame.view(), targets);
     gpu::CommandList& commands = context.commands();
-    begin(commands, context, frame.view(), targets);
     commands.bind_pipeline(pipeline);
     const gpu::Binding bindings[] = {
         {0, gpu::Binding::Sampled{{.image = context.image(shadows.atlas)}, shadows.nearest}}};
@@ -166,13 +143,12 @@ Status add_atlas_view(FrameBuilder& frame, const ShadowsOutputs& shadows, const 
 std::vector<VisualizerInfo> shadow_visualizers() {
   std::vector<VisualizerInfo> views = {
       {"shadow", "shadows", "LIGHT",
-       "how much of the light each surface sees: black nothing, white all of it; blue: beyond its reach. With "
-       "shadows.mode=deferred as its tile's list says: black too where the light comes from behind, unless the tile is "
-       "lit as a whole"},
+       "visibility of the light at each pixel: black unlit, white fully lit, blue out of the light's reach. With "
+       "shadows.mode=deferred, read from the tile's final list: surfaces that face away from the light are black too, "
+       "unless the whole tile is lit"},
       {"shadow_atlas", "shadows", "",
-       "the view's shadow maps where they lie: white near the light, dark far from it, blue nothing; orange border: "
-       "drawn in this frame, "
-       "green: kept from an earlier one"}};
+       "the shadow maps at their places in the atlas: white near the light, dark far from it, blue no caster; border: "
+       "orange drawn in this frame, green kept from an earlier frame"}};
   for (VisualizerInfo& view : views) {
     view.knob = "shadows.mode";
     view.value = "monolithic|deferred";

@@ -10,9 +10,11 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{4} * GLOAM_BUFFER_WORDS;   // of one buffer
-constexpr std::uint32_t kMostSlots = GLOAM_NO_ROOM;                           // numbers 0 … GLOAM_NO_ROOM - 1
-constexpr std::uint32_t kMostPairs = kMostBytes / sizeof(std::uint32_t) / 2;  // and as many directional ones
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} * GLOAM_BUFFER_WORDS;  // bytes of one buffer
+constexpr std::uint32_t kMostSlots = GLOAM_NO_ROOM;  // slot numbers are 0 … GLOAM_NO_ROOM − 1
+constexpr std::uint32_t kMostRows = 65535;           // the least maxComputeWorkGroupCount that Vulkan allows
+constexpr std::uint32_t kMostPairs = kMostRows * GLOAM_PAIRS_ROW;
+static_assert(2 * sizeof(std::uint32_t) * kMostPairs <= kMostBytes, "local and directional pairs share one buffer");
 
 std::uint32_t slot_bytes(std::uint32_t bits) { return GLOAM_SLOT_PIXELS * bits / 8; }
 std::uint32_t slots_per_buffer(std::uint32_t bits) { return static_cast<std::uint32_t>(kMostBytes / slot_bytes(bits)); }
@@ -29,7 +31,7 @@ BufferRef create(FrameGraph& graph, const char* name, std::uint64_t bytes) {
   return graph.create_buffer(desc);
 }
 
-/// Local lights in few steps: buffers do not change with every light that comes into view.
+/// The number of local lights in coarse steps, so that buffers keep their size while single lights come and go.
 std::uint32_t rounded_lights(std::uint32_t count) { return (count + 23) / 24 * 24; }
 
 struct Capacities {
@@ -81,14 +83,14 @@ FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counter
                                       const FinalListFeedback* last) {
   FinalListFeedback feedback;
   feedback.pairs_asked = counters.pairs;
-  // Tiles whose pairs found no room asked for no slots: as many more as the others needed.
+  // Pairs that did not fit took no slots: assume that they need as many slots per pair as the pairs that fit.
   const bool pairs_full = counters.pairs > note.pair_capacity;
   const std::uint64_t share =
       pairs_full ? std::uint64_t{counters.slots} * counters.pairs / std::max(note.pair_capacity, 1u) : counters.slots;
   feedback.slots_asked = at_most(std::max<std::uint64_t>(share, counters.slots), kMostSlots);
   const std::uint32_t least = at_most(std::uint64_t{note.tiles} * kFirstSlotsPerTile, kMostSlots);
   const std::uint32_t least_pairs = at_most(std::uint64_t{note.tiles} * kLeastPairsPerTile, kMostPairs);
-  // What a view begins with was a guess.
+  // The first pair capacity was a guess and is not kept.
   feedback.pair_capacity =
       kept_capacity(last == nullptr ? 0 : last->pair_capacity, feedback.pairs_asked, least_pairs, kMostPairs);
   feedback.slot_capacity = kept_capacity(last == nullptr ? note.slot_capacity : last->slot_capacity,

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "modules/shadows/atlas/mip_places.h"
 #include "modules/shadows/maps/recording.h"
 #include "modules/shadows/maps/tools.h"
 #include "modules/shadows/outputs.h"
@@ -14,10 +15,10 @@
 namespace gloam {
 namespace {
 
-/// Outlives the declaration, as pass functions run later.
+/// Outlives the declaration, because pass functions run later.
 struct ExtraWork {
-  std::vector<Caster> casters;  ///< that draws point to
-  FacePlan backgrounds;         ///< none
+  std::vector<Caster> casters;  ///< draws point to these
+  FacePlan backgrounds;         ///< always empty: an extra map has no cached background
   FacePlan faces;
   MapRecording map;
   ShadowMipWork mips;
@@ -32,7 +33,7 @@ DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, bool 
   return drawn;
 }
 
-/// Casters of these entities.
+/// The casters whose entity is in `entities` (ascending by Entity::index).
 std::vector<Caster> casters_of(const FrameBuilder& frame, std::span<const Entity> entities) {
   std::vector<Caster> found;
   for (const Caster& caster : frame.casters().casters) {
@@ -54,7 +55,7 @@ void add_passes(FrameBuilder& frame, const std::string& name, const char* module
                 const std::shared_ptr<const ExtraWork>& work, ExtraAtlas& into) {
   PassBuilder draw = frame.graph().add_pass(name, module);
   frame.read_vertices(draw);
-  draw.keep();  // what it writes, the graph does not know
+  draw.keep();  // writes images the graph does not track: never cull
   draw.execute([&frame, work](PassContext& context) { record_draws(frame, context, work->map, work->faces, 0); });
   PassBuilder mips = frame.graph().add_pass(name + "_mips", module);
   into.atlas = mips.write(into.atlas, gpu::Access::compute_write);
@@ -79,8 +80,8 @@ shaders::ShadowCascade orthographic_constants(const ShadowFace& face, const dvec
 }
 
 std::uint32_t threads_a_tile(const gpu::DeviceInfo& device) {
-  // A device that is a CPU swaps the state of all threads of a workgroup at every barrier: few threads, of many pixels
-  // each.
+  // A device that is a CPU swaps the state of all threads of a workgroup at each barrier: few threads with many pixels
+  // each are faster.
   return device.type == gpu::DeviceType::cpu ? 8 : 64;
 }
 
@@ -89,16 +90,16 @@ ExtraAtlas ShadowMapDrawer::create(FrameGraph& graph, const char* module, std::u
   desc.module = module;
   desc.name = std::string(module) + "_atlas";
   desc.format = tools_->knobs.d16 ? gpu::Format::r16_unorm : gpu::Format::r32_float;
-  desc.width = size + size / 2;
-  desc.height = size;
+  desc.width = size_with_mips(size).x;
+  desc.height = size_with_mips(size).y;
   ExtraAtlas made;
   made.size = size;
   made.atlas = graph.create_image(desc);
   desc.name = std::string(module) + "_pyramid";
   desc.format = gpu::Format::r32_float;
   const std::uint32_t side = size >> GLOAM_SHADOW_PYRAMID_MIP;
-  desc.width = side + side / 2;
-  desc.height = 2 * side;
+  desc.width = size_with_mips(side).x;
+  desc.height = 2 * size_with_mips(side).y;  // nearest depths above farthest ones
   made.pyramid = graph.create_image(desc);
   return made;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/maps/state.h"
 
+#include "modules/shadows/atlas/mip_places.h"
 #include "shaders/shadows/maps/planes_shared.h"
 #include "shaders/shadows/shadows_shared.h"
 
@@ -15,8 +16,8 @@ gpu::ImageDesc kept_image(const char* name, gpu::Format format, std::uint32_t si
   desc.name = name;
   desc.module = "shadows";
   desc.format = format;
-  desc.width = side + side / 2;  // mips lie beside the map
-  desc.height = side;
+  desc.width = size_with_mips(side).x;
+  desc.height = size_with_mips(side).y;
   desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::storage | gpu::ImageUsage::transfer_source;
   return desc;
 }
@@ -99,7 +100,7 @@ Status ShadowStates::reserve_backgrounds(ViewShadows& view) {
   if (view.backgrounds.image) return {};
   gpu::ImageDesc desc = kept_image("shadow_backgrounds", gpu::Format::r32_float, view.atlas_size);
   desc.width = view.atlas_size;
-  desc.shape = gpu::ImageShape::array;  // as the scratch map is, which stands in for it where nobody looks at it
+  desc.shape = gpu::ImageShape::array;  // like the scratch image, which is bound in place of a missing one
   auto backgrounds = make(desc);
   if (!backgrounds.ok()) return backgrounds.error();
   view.backgrounds.image = *backgrounds;

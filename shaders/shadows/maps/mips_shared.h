@@ -5,48 +5,47 @@
 
 #include "shaders/common/prelude.h"
 
-#define GLOAM_SHADOW_MIP_BLOCK 8  // texels of the source, along a side, that a thread of shadow_mips.comp takes
-#define GLOAM_SHADOW_MIP_GROUP 8  // threads of a side of its workgroups
-#define GLOAM_SHADOW_MIP_RUN 3    // mips that a dispatch makes
+#define GLOAM_SHADOW_MIP_BLOCK 8  // a thread of mips.comp processes this many source texels squared
+#define GLOAM_SHADOW_MIP_GROUP 8  // workgroups of mips.comp have this many threads squared
+#define GLOAM_SHADOW_MIP_RUN 3    // mips that one dispatch makes
 
-#define GLOAM_SHADOW_FREE_BITS \
-  63u  // of a depth: what its surface leaves free of a texel, in 64ths (GLOAM_SHADOW_MIPS_COVERAGE); 0 in mip 0
+// Low bits of a depth in coverage mips: how many 64ths of the texel its surface leaves free; 0 in mip 0.
+#define GLOAM_SHADOW_FREE_BITS 63u
 
 GLOAM_SHARED_BEGIN
 
-/// One dispatch of shadow_mips.comp, shadow_mips_in_place.comp or shadow_backgrounds.comp: a run of mips of parts of
-/// any number of faces.
+/// One dispatch of mips.comp, mips_in_place.comp or backgrounds.comp: a run of mips for parts of any number of faces.
 struct ShadowMipConstants {
-  uint first;         // 0: from the scratch map, or in place from mip 0; else the mip that is there already
+  uint first;         // source mip; 0: the scratch image, or mip 0 in place
   uint mip_operator;  // GLOAM_SHADOW_MIPS_…
   uint atlas_size;
-  uint first_group;  // of the dispatch's workgroups, in the buffer of groups
+  uint first_group;  // index of the dispatch's first workgroup in the buffer of groups
 };
 
 /// One workgroup's part of a face.
 struct ShadowMipGroup {
-  uvec2 origin;        // of the face in the atlas, texels of mip 0
-  uvec2 begin;         // corner of what is made anew in the face, in blocks of the source
-  uvec2 end;           // the corner across from it, before which it ends
-  uint size;           // of the face, texels of mip 0
-  uint layer;          // of the scratch map
-  uint orthographic;   // depth is linear already
-  uint on_background;  // run 0: what the image of backgrounds holds there is drawn too
-  float gap;           // coverage: how far a surface recedes over a texel of mip 0 at most, as a share of its distance
-                       // (orthographic: depth)
+  uvec2 origin;        // corner of the face in the atlas, texels of mip 0
+  uvec2 begin;         // first block of the part in the face, in blocks of the source
+  uvec2 end;           // one past its last block
+  uint size;           // side of the face, texels of mip 0
+  uint layer;          // layer of the scratch image
+  uint orthographic;   // 1: depth is linear
+  uint on_background;  // 1: the first run merges the image of backgrounds
+  float gap;           // coverage: greatest depth step of one surface per texel of mip 0, as a share of its distance
+                       // (orthographic: a depth)
 };
 
-/// One dispatch of shadow_overlay_copy.comp: parts of any number of faces.
+/// One dispatch of overlay_copy.comp: parts of any number of faces.
 struct ShadowCopyConstants {
-  uint first_group;  // of the dispatch's workgroups, in the buffer of groups
+  uint first_group;  // index of the dispatch's first workgroup in the buffer of groups
 };
 
 /// One workgroup's part of a face.
 struct ShadowCopyGroup {
-  uvec2 origin;  // of the face in the atlas, texels of mip 0
-  uvec2 copy;    // the same of its copy
-  uvec2 begin;   // corner of the part in the face, in blocks of texels
-  uvec2 end;     // the corner across from it, before which it ends
+  uvec2 origin;  // corner of the face in the atlas, texels of mip 0
+  uvec2 copy;    // corner of its copy
+  uvec2 begin;   // first block of the part in the face
+  uvec2 end;     // one past its last block
 };
 
 GLOAM_SHARED_END

@@ -16,14 +16,15 @@
 namespace gloam::gpu {
 namespace {
 
-/// A window on whatever display the machine has; skipped where there is none.
+/// A window on the display of the environment.
 class WindowTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (glfwInit() != GLFW_TRUE || glfwVulkanSupported() != GLFW_TRUE) GTEST_SKIP() << "there is no display";
+    ASSERT_EQ(glfwInit(), GLFW_TRUE) << "there is no display: run under xvfb-run";
+    if (glfwVulkanSupported() != GLFW_TRUE) GTEST_SKIP() << "there is no usable Vulkan device on this machine";
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     window_ = glfwCreateWindow(200, 100, "test", nullptr, nullptr);
-    if (window_ == nullptr) GTEST_SKIP() << "there is no window to be had";
+    ASSERT_NE(window_, nullptr);
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     auto made =
@@ -48,7 +49,7 @@ class WindowTest : public ::testing::Test {
     glfwTerminate();
   }
 
-  /// Shows one frame of one colour; gives back the image it went to.
+  /// Shows one frame of one colour; returns its image, or none if there is nothing to draw to.
   ImageHandle show() {
     const auto commands = device_->begin_frame();
     EXPECT_TRUE(commands.ok()) << commands.error().message;
@@ -82,7 +83,7 @@ TEST_F(WindowTest, shows_frame_after_frame_in_pictures_of_its_size) {
 }
 
 TEST_F(WindowTest, follows_a_new_size_and_gives_nothing_while_minimised) {
-  EXPECT_FALSE(show());  // never sized
+  EXPECT_FALSE(show());  // resize was never called
   ASSERT_TRUE(swapchain_->resize(200, 100).ok());
   EXPECT_TRUE(show());
   ASSERT_TRUE(swapchain_->resize(0, 0).ok());

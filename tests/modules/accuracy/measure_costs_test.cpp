@@ -14,14 +14,15 @@
 namespace gloam {
 namespace {
 
-using test::TemporaryFolder;
+using test::TestFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr std::uint32_t kSide = 4;
 
-/// A renderer on paper: "samples" makes the picture brighter by 1/samples and takes that many milliseconds; "look" is a
-/// matter of taste.
+/// A fake renderer: "samples" makes the picture brighter by 1/samples and costs that many milliseconds; no value of
+/// "look" is more right than another.
 class FakeSubject final : public CostSubject {
  public:
   FakeSubject() {
@@ -61,7 +62,7 @@ class FakeSubject final : public CostSubject {
 
   [[nodiscard]] double brightness() const {
     const double error = 1.0 / knobs_.number("fake.samples");
-    // The exact value stands still; others flicker.
+    // The exact value does not flicker; the others do.
     return 0.25 + (knobs_.text("fake.samples") == "64" ? 0.0 : error * (index_ % 2 == 0 ? 0.5 : 0.25));
   }
   static FramePictures pictures(double brightness) {
@@ -110,7 +111,7 @@ class MeasureCosts : public ::testing::Test {
   }
   void judge_by(ReferenceInfo reference) { subject_.references_ = {std::move(reference)}; }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
   CostRequest request_;
   FakeSubject subject_;
   Progress progress_;
@@ -236,7 +237,7 @@ TEST_F(MeasureCosts, a_modules_reference_serves_all_values_and_tells_its_noise) 
   EXPECT_NEAR(*ledger.rows[0].rmse, 0.5 - 1.0 / 64.0, 1e-6);
   EXPECT_FALSE(ledger.rows[0].below_noise);
   EXPECT_NEAR(*ledger.rows[3].rmse, 1.0 / 64.0, 1e-6);
-  request_.header.frames = 6;  // rows are measured again …
+  request_.header.frames = 6;  // another identity: rows are measured again …
   static_cast<void>(measure());
   EXPECT_EQ(subject_.references_drawn, 2) << "… the reference is not computed again";
 }
@@ -278,7 +279,7 @@ TEST_F(MeasureCosts, a_reference_that_fails_names_the_row) {
   EXPECT_EQ(ledger.error().message, "fake.samples=1: out of memory");
 }
 
-/// How much more work than the default; wrong when it is 16.
+/// Counts the work beyond that of the default. The value 16 is wrong.
 MeasureInfo work_measure() {
   MeasureInfo info = {.knob = "fake.samples", .kind = "brute force", .name = "the least work", .unit = "steps"};
   info.judged_with = {"fake.count=on"};
@@ -354,7 +355,10 @@ TEST_F(MeasureCosts, knobs_are_chosen_by_name) {
     ASSERT_FALSE(chosen.ok()) << list;
     EXPECT_EQ(chosen.error().kind, ErrorKind::usage);
     EXPECT_THAT(chosen.error().message, HasSubstr("there are fake.samples, fake.look"));
+    EXPECT_THAT(chosen.error().message, Not(HasSubstr("did you mean")));
   }
+  EXPECT_THAT(choose_knobs(knobs, "fake.lok").error().message,
+              HasSubstr("unknown knob 'fake.lok'; did you mean fake.look? there are fake.samples, fake.look"));
 }
 
 }  // namespace

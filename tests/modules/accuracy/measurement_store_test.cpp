@@ -19,7 +19,7 @@ namespace gloam {
 namespace {
 
 using test::full_row;
-using test::TemporaryFolder;
+using test::TestFolder;
 using ::testing::HasSubstr;
 
 std::string bytes_of(const std::string& path) {
@@ -30,7 +30,7 @@ std::string bytes_of(const std::string& path) {
 void put(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 TEST(measurement_store, finds_what_was_saved_under_the_same_identity_alone) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const MeasurementStore store(folder.path() + "/made/on/demand");
   EXPECT_FALSE(store.load("a"));
   ASSERT_TRUE(store.save("a", full_row(1)).ok());
@@ -43,7 +43,7 @@ TEST(measurement_store, finds_what_was_saved_under_the_same_identity_alone) {
 }
 
 TEST(measurement_store, does_not_take_a_file_for_one_of_another_identity) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const MeasurementStore store(folder.path());
   ASSERT_TRUE(store.save("a", full_row()).ok());
   std::filesystem::copy_file(store.path_of("a"), store.path_of("b"));
@@ -51,7 +51,7 @@ TEST(measurement_store, does_not_take_a_file_for_one_of_another_identity) {
 }
 
 TEST(measurement_store, ignores_damaged_files_and_replaces_them) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const MeasurementStore store(folder.path());
   ASSERT_TRUE(store.save("what it is of", full_row()).ok());
   const std::string path = store.path_of("what it is of");
@@ -71,7 +71,7 @@ TEST(measurement_store, ignores_damaged_files_and_replaces_them) {
 }
 
 TEST(measurement_store, ignores_what_a_killed_writer_left) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const MeasurementStore store(folder.path());
   put(store.path_of("a") + ".partial", "half a r");
   EXPECT_FALSE(store.load("a"));
@@ -81,7 +81,7 @@ TEST(measurement_store, ignores_what_a_killed_writer_left) {
 }
 
 TEST(measurement_store, says_where_it_cannot_write) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   put(folder.path() + "/file", "");
   const Status status = MeasurementStore(folder.path() + "/file").save("a", full_row());
   ASSERT_FALSE(status.ok());
@@ -90,7 +90,7 @@ TEST(measurement_store, says_where_it_cannot_write) {
 }
 
 TEST(sealed_file, keeps_any_bytes) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string path = folder.path() + "/sealed";
   for (const std::string& payload : {std::string(), std::string("\n\0\r\n\xff", 5), std::string(100000, 'x')}) {
     ASSERT_TRUE(write_sealed(path, "id", payload).ok());
@@ -108,7 +108,7 @@ JudgedReference reference_of(std::uint32_t width, std::uint32_t height, bool lin
 }
 
 TEST(reference_cache, gives_back_pictures_and_noise) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ReferenceCache cache(folder.path());
   EXPECT_FALSE(cache.load("id"));
   for (const bool linear : {false, true}) {
@@ -127,7 +127,7 @@ TEST(reference_cache, gives_back_pictures_and_noise) {
 }
 
 TEST(reference_cache, ignores_damaged_and_impossible_files) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ReferenceCache cache(folder.path());
   ASSERT_TRUE(cache.save("id", reference_of(4, 4, true, true)).ok());
   const std::string whole = bytes_of(cache.path_of("id"));
@@ -135,7 +135,7 @@ TEST(reference_cache, ignores_damaged_and_impossible_files) {
     put(cache.path_of("id"), whole.substr(0, size));
     EXPECT_FALSE(cache.load("id")) << size;
   }
-  // Rightly sealed, but a size that the bytes do not bear out.
+  // The seal is valid, but the payload is shorter than its picture size says.
   std::string huge(sizeof(double), '\0');
   huge += std::string(8, '\xff');
   ASSERT_TRUE(write_sealed(cache.path_of("id"), "id", huge).ok());

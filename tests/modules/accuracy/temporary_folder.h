@@ -9,22 +9,22 @@
 
 namespace gloam::test {
 
-/// A folder of the running test, empty at first and gone at the end.
-class TemporaryFolder {
+/// A folder for the running test: empty at first, deleted at the end.
+class TestFolder {
  public:
-  TemporaryFolder() {
+  TestFolder() {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     path_ = std::filesystem::path(::testing::TempDir()) /
             ("gloam_" + std::string(info->test_suite_name()) + "_" + info->name());
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
-  ~TemporaryFolder() {
+  ~TestFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
 
   [[nodiscard]] std::string path() const { return path_.string(); }
 

@@ -29,7 +29,7 @@ struct LitFile {
     for (const std::string& light : lights) list += (list.empty() ? "" : ", ") + light;
     read(R"({"KHR_lights_punctual": {"lights": [)" + list + "]}}", nodes);
   }
-  /// The root's extensions as a text; none when null.
+  /// The root's extensions as text; null: none.
   LitFile(const char* extensions, const std::vector<std::string>& nodes, int) {
     read(extensions != nullptr ? extensions : "", nodes);
   }
@@ -57,7 +57,7 @@ std::string node_with(int light, const std::string& more = {}) {
   return R"({"name": "lamp", "extensions": {"KHR_lights_punctual": {"light": )" + std::to_string(light) + "}}" + more +
          "}";
 }
-/// The fault of a file with one light, on one node.
+/// The error for a file with one light on one node.
 std::string fault_of(const std::string& light) {
   const LitFile file({light}, {node_with(0)});
   EXPECT_FALSE(file.import.ok()) << light;
@@ -72,8 +72,8 @@ std::string fault_of(const std::string& light) {
 
 using Kind = SceneValue::Kind;
 
-/// What the extension says of a file's root with this light, and the light a node gets. Faults that the JSON reader
-/// finds before the extension can are reached so.
+/// Calls the extension directly: its error for a file's root with this light, or the light a node gets. Reaches errors
+/// that the JSON reader would report first.
 struct DirectRead {
   World world;
   Status status;
@@ -97,9 +97,7 @@ struct DirectRead {
   [[nodiscard]] std::string fault() const { return status.ok() ? "" : status.error().message; }
 };
 SceneValue text(const char* value) { return {.kind = Kind::text, .text = value}; }
-SceneValue object(std::vector<std::pair<std::string, SceneValue>> members) {
-  return {.kind = Kind::object, .members = std::move(members)};
-}
+SceneValue object(std::vector<SceneMember> members) { return {.kind = Kind::object, .members = std::move(members)}; }
 
 TEST(LightImport, fills_the_defaults_of_the_extension) {
   const LitFile file({R"({"type": "point"})", R"({"type": "spot", "spot": {}})", R"({"type": "directional"})"},
@@ -280,7 +278,7 @@ TEST(LightKeys, angle_is_refused_on_lights_that_have_a_place) {
   }
 }
 
-/// A cookie on a light of this type in a folder that holds cookie.png.
+/// The error for a cookie on a light of this type, in a folder that holds cookie.png.
 std::string cookie_fault(const char* type, const char* name, std::string* stored = nullptr) {
   World world;
   prepare_scene_world(world);

@@ -17,11 +17,15 @@
 #include "engine/gpu/recording_device.h"
 #include "engine/scene/gltf_import.h"
 #include "tests/jobs/executors.h"
+#include "tests/render/draws/visible_points.h"
 #include "tests/support/render_scene.h"
 #include "tests/support/scale.h"
 
 namespace gloam {
 namespace {
+
+using test::surely_visible;
+using test::view_depth;
 
 class Random {
  public:
@@ -43,7 +47,7 @@ dmat4 placed(const dvec3& at, const dvec3& axis, double angle, const dvec3& scal
   return glm::translate(dmat4(1.0), at) * glm::rotate(dmat4(1.0), angle, axis) * glm::scale(dmat4(1.0), scale);
 }
 
-/// A flat grid of 2·side² triangles in XZ, side·side metres: many clusters.
+/// A flat grid of 2·side² triangles in XZ, side × side metres. It has many clusters.
 Primitive grid(std::uint32_t side) {
   Primitive p;
   for (std::uint32_t z = 0; z <= side; ++z)
@@ -60,7 +64,7 @@ Primitive grid(std::uint32_t side) {
   return test::finished(std::move(p));
 }
 
-/// Triangles anywhere within a reach.
+/// Random triangles: each is around a point within `reach`.
 Primitive soup(Random& random, std::uint32_t triangles, double reach, double size) {
   Primitive p;
   for (std::uint32_t t = 0; t < triangles; ++t) {
@@ -77,7 +81,7 @@ Primitive skinned(Primitive p, Random& random, std::uint32_t joints) {
     for (std::uint16_t& joint : own) joint = static_cast<std::uint16_t>(random.below(joints));
     vec4 weights(random.in(0, 1), random.in(0, 1), random.in(0, 1), random.in(0, 1));
     if (v % 4 == 1) weights = vec4(1.0f, 0.0f, 0.0f, 0.0f);
-    if (v % 16 == 2) weights = vec4(0.0f);  // degenerate: the first joint has all
+    if (v % 16 == 2) weights = vec4(0.0f);  // degenerate: the first joint gets all the weight
     const float sum = weights.x + weights.y + weights.z + weights.w;
     p.joints.push_back(own);
     p.weights.push_back(sum > 0.0f ? weights / sum : weights);
@@ -85,7 +89,7 @@ Primitive skinned(Primitive p, Random& random, std::uint32_t joints) {
   return p;
 }
 
-/// World, scene on a recording device, and lists of one view of it.
+/// A world, its scene on a recording device, and draw lists of a view of it.
 class DrawListsTest : public ::testing::Test {
  protected:
   DrawListsTest() { prepare_scene_world(world_); }
@@ -104,7 +108,7 @@ class DrawListsTest : public ::testing::Test {
     drawn_.clear();
     world_.resource<JointMatrices>() = {};
   }
-  /// A skinned instance with these joint matrices, relative to `origin`.
+  /// Draws a skinned instance with these joint matrices, relative to `origin`.
   Entity draw_skinned(std::uint32_t mesh, const dvec3& origin, const std::vector<mat4>& matrices,
                       bool mirrored = false) {
     const Entity entity = draw(mesh, placed(dvec3(1e3), dvec3(1, 0, 0), 0.0, dvec3(1.0)), 0);
@@ -137,18 +141,6 @@ RenderView random_view(Random& random, const dvec3& around) {
   return make_view(settings, 0);
 }
 
-/// Certainly inside the picture: by more than float arithmetic may be wrong.
-bool surely_visible(const RenderView& view, const dvec3& relative) {
-  const dvec4 clip = dmat4(view.clip_from_relative) * dvec4(relative, 1.0);
-  const double margin = 1e-4 * (1.0 + glm::length(relative));
-  return clip.w > 0.0 && std::abs(clip.x) < clip.w - margin && std::abs(clip.y) < clip.w - margin &&
-         clip.z < clip.w - margin && (clip.z > margin || !view.camera.orthographic);
-}
-
-double view_depth(const RenderView& view, const dvec3& relative) {
-  return -glm::dot(dvec3(glm::transpose(dmat4(view.view_from_relative))[2]), relative);
-}
-
 using Constants = std::array<float, 12>;
 
 Constants expected_rows(const dmat4& world_from_mesh, const RenderView& view) {
@@ -179,14 +171,14 @@ bool covers(const std::vector<const Draw*>& draws, std::uint32_t index) {
                      [&](const Draw* d) { return d->first_index <= index && index < d->first_index + d->index_count; });
 }
 
-/// Triangles of a primitive in the order of the GPU's indices.
+/// Indices of a primitive's triangles in the GPU's order.
 std::vector<std::uint32_t> drawn_order(const Primitive& primitive) {
   std::vector<std::uint32_t> indices;
   (void)build_clusters(primitive, indices);
   return indices;
 }
 
-/// Draws of one instance: whole clusters, apart, and what lies between two of them was culled.
+/// Checks the draws of one instance: each is a run of whole clusters, and a culled cluster lies between any two runs.
 void expect_maximal_cluster_runs(std::vector<const Draw*> draws, const GpuPrimitive& primitive) {
   std::ranges::sort(draws, {}, [](const Draw* d) { return d->first_index; });
   std::set<std::uint32_t> borders = {primitive.first_index + primitive.index_count};
@@ -435,7 +427,7 @@ TEST_F(DrawListsTest, a_morphed_mesh_is_drawn_even_where_its_rest_bounds_are_out
   world_.add<MorphInstance>(cloth, {0, 1});
   const RenderView view = make_view(test::look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0);
   EXPECT_EQ(lists_of(view).solid.size(), 1u);
-  world_.get<MorphInstance>(cloth).count = 0;  // no weights yet: drawn as it rests
+  world_.get<MorphInstance>(cloth).count = 0;  // no weights: its rest pose is drawn
   EXPECT_EQ(lists_of(view).solid.size(), 0u);
 }
 
@@ -449,7 +441,7 @@ TEST_F(DrawListsTest, what_cannot_be_drawn_is_left_out) {
   draw(77, ahead);  // no such mesh
   const RenderView view = make_view(test::look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0);
   EXPECT_TRUE(lists_of(view).solid.empty());
-  draw(bar, ahead, 0);  // skinned, but nobody has posed it: it rests
+  draw(bar, ahead, 0);  // skinned, but without joint matrices: its rest pose is drawn
   const DrawLists lists = lists_of(view);
   ASSERT_EQ(lists.solid.size(), 1u);
   EXPECT_EQ(lists.solid[0].deform, kNone);

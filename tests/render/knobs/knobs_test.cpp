@@ -90,7 +90,10 @@ TEST_F(Knobs, count_every_change_and_no_refusal) {
 
 TEST_F(Knobs, an_unknown_name_lists_all_names) {
   EXPECT_EQ(fault_of("lights.cooling", "tiled"),
-            "unknown knob lights.cooling; there are lights.culling, shadows.maps, grass.reach");
+            "unknown knob lights.cooling; did you mean lights.culling? there are lights.culling, shadows.maps, "
+            "grass.reach");
+  EXPECT_EQ(fault_of("fog.height", "1"),
+            "unknown knob fog.height; there are lights.culling, shadows.maps, grass.reach");
   KnobRegistry none;
   EXPECT_EQ(message(none.set("a", "b")), "unknown knob a; there are none");
 }

@@ -14,8 +14,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// A wall 5 m away that fills the left half of a picture of 130×70 pixels; one lamp right before it, one in the air at
-/// its side.
+/// A wall 5 m away that fills the left half of a picture of 130×70 pixels. One lamp is just in front of it, one beside
+/// it in the air.
 class LightPickTest : public test::LitSceneTest {
  protected:
   void SetUp() override {
@@ -60,7 +60,7 @@ TEST_F(LightPickTest, tells_the_tiles_bins_and_lists_of_a_pixel) {
   EXPECT_THAT(lines, Contains("approximate search, tile: 1"));
   EXPECT_THAT(lines, Contains("accurate search: 1 light: 1 lamp"));
   EXPECT_THAT(lines, Contains(StartsWith("slot ")));
-  EXPECT_THAT(lines, Contains("in whose range the pixel is: 1 light: 1 lamp"));
+  EXPECT_THAT(lines, Contains("local lights in range of the pixel: 1 light: 1 lamp"));
   EXPECT_THAT(lines, Contains("directional lights: sun"));
 }
 
@@ -68,7 +68,7 @@ TEST_F(LightPickTest, tells_of_a_tile_without_lights) {
   const uvec2 p = pixel_of(dvec3(-0.6, -1.8, -5.0));
   const std::vector<std::string> lines = pick(p.x, p.y);
   EXPECT_THAT(lines, Contains("accurate search: 0 lights"));
-  EXPECT_THAT(lines, Contains("in whose range the pixel is: 0 lights"));
+  EXPECT_THAT(lines, Contains("local lights in range of the pixel: 0 lights"));
 }
 
 TEST_F(LightPickTest, tells_of_sky) {
@@ -85,15 +85,15 @@ TEST_F(LightPickTest, names_the_fallback_of_a_tile_whose_list_found_no_room) {
   for (int i = 0; i < 8; ++i) light(more, dvec3(-2.5, 0.5, -4.5));
   ASSERT_TRUE(renderer->knobs().set("lights.fixed_slots", "3").ok());
   const uvec2 p = pixel_of(dvec3(-2.5, 0.5, -5.0));
-  EXPECT_THAT(pick(p.x, p.y), Contains("accurate search: 9 lights; slot: none was left, the group's mask is used"));
+  EXPECT_THAT(pick(p.x, p.y), Contains("accurate search: 9 lights; no slot was left: the tile uses its group's mask"));
 }
 
 TEST_F(LightPickTest, without_lists_says_so) {
   const uvec2 p = pixel_of(dvec3(-2.5, 0.5, -5.0));
   ASSERT_TRUE(renderer->knobs().set("lights.culling", "brute").ok());
   const std::vector<std::string> lines = pick(p.x, p.y);
-  EXPECT_THAT(lines, Contains("no light lists: every pixel looks at all 2 local lights"));
-  EXPECT_THAT(lines, Contains("in whose range the pixel is: 1 light: 1 lamp"));
+  EXPECT_THAT(lines, Contains("no light lists: every pixel evaluates all 2 local lights"));
+  EXPECT_THAT(lines, Contains("local lights in range of the pixel: 1 light: 1 lamp"));
 }
 
 }  // namespace

@@ -14,14 +14,14 @@ namespace gloam::test {
 namespace {
 
 struct Figures {
-  std::uint64_t pairs = 0;    ///< tiles that are not sky × lights
-  std::uint64_t certain = 0;  ///< of those, lights that certainly light a pixel
+  std::uint64_t pairs = 0;    ///< tiles with a surface, times lights
+  std::uint64_t certain = 0;  ///< of those, lights that certainly reach a pixel
   std::uint64_t doubtful = 0;
 };
 
-/// Every list is what brute force over the tile's pixels finds, ascending, of the group's mask, and within what the
-/// approximate search made room for.
-Figures expect_brute_force(const LightScene& scene, const FoundLights& found) {
+/// Every list must be what brute force over the tile's pixels finds: ascending, a subset of the group mask, and within
+/// the entries that the approximate search reserved.
+Figures expect_brute_force(const SearchedScene& scene, const FoundLights& found) {
   Figures figures;
   std::uint32_t sum = 0;
   for (std::uint32_t tile = 0; tile < scene.tile_count(); ++tile) {
@@ -55,17 +55,17 @@ Figures expect_brute_force(const LightScene& scene, const FoundLights& found) {
 
 class FindLightsAccurate : public KernelTest {
  protected:
-  Figures run_and_expect(FindLights& kernels, const LightScene& scene) {
+  Figures run_and_expect(FindLights& kernels, const SearchedScene& scene) {
     return expect_brute_force(scene, kernels.all(scene));
   }
 };
 
-/// Depth of every pixel.
-void fill_depth(LightScene& scene, double metres) {
+/// Sets the depth of every pixel.
+void fill_depth(SearchedScene& scene, double metres) {
   std::fill(scene.depth.begin(), scene.depth.end(), scene.depth_of(metres));
 }
 
-dvec3 point_at(const LightScene& scene, double x, double y, double metres) {
+dvec3 point_at(const SearchedScene& scene, double x, double y, double metres) {
   return scene.position_at(x * scene.view.width, y * scene.view.height, static_cast<double>(scene.depth_of(metres)));
 }
 
@@ -76,7 +76,7 @@ TEST_F(FindLightsAccurate, lists_are_those_of_brute_force_over_pixels) {
   for (const uvec2 size : {uvec2(203, 117), uvec2(64, 64), uvec2(33, 31), uvec2(7, 5), uvec2(1, 1), uvec2(321, 9)}) {
     for (const bool orthographic : {false, true}) {
       SCOPED_TRACE(++seed);
-      const LightScene scene = random_scene(
+      const SearchedScene scene = random_scene(
           {.width = size.x, .height = size.y, .orthographic = orthographic, .roll = 0.4 * seed}, 700, seed);
       const Figures figures = run_and_expect(kernels, scene);
       sum.certain += figures.certain;
@@ -88,7 +88,7 @@ TEST_F(FindLightsAccurate, lists_are_those_of_brute_force_over_pixels) {
 }
 
 TEST_F(FindLightsAccurate, lists_do_not_depend_on_how_many_pixels_a_thread_has) {
-  const LightScene scene = random_scene({.width = 150, .height = 90}, 900, 5);
+  const SearchedScene scene = random_scene({.width = 150, .height = 90}, 900, 5);
   FoundLights first = FindLights(device()).all(scene);
   for (const std::uint32_t rows : {1u, 2u, 4u, 8u}) {
     const FoundLights found = FindLights(device(), rows).all(scene);
@@ -111,8 +111,8 @@ TEST_F(FindLightsAccurate, lists_are_complete_in_many_small_random_scenes) {
                          .near_m = random() % 3 == 0 ? 0.01f : 0.1f,
                          .origin = random() % 3 == 0 ? dvec3(1e5, -1e5, 1e5) : dvec3(0.0)};
     const std::uint32_t bins = 1u << random() % 11;
-    const LightScene scene = random_scene(size, static_cast<std::uint32_t>(random() % 200),
-                                          static_cast<std::uint32_t>(random()), {.z_bin_count = bins});
+    const SearchedScene scene = random_scene(size, static_cast<std::uint32_t>(random() % 200),
+                                             static_cast<std::uint32_t>(random()), {.z_bin_count = bins});
     const Figures figures = run_and_expect(kernels, scene);
     sum.certain += figures.certain;
     if (HasFailure()) return;
@@ -126,9 +126,9 @@ TEST_F(FindLightsAccurate, lists_hold_any_number_of_lights_in_one_place) {
     for (const std::uint32_t count : {0u, 1u, 31u, 32u, 33u, 1023u, 1024u}) {
       SCOPED_TRACE(count);
       std::mt19937 random(7);
-      LightScene scene = empty_scene({.width = 20, .height = 12});
+      SearchedScene scene = empty_scene({.width = 20, .height = 12});
       draw_random_depth(scene, random);
-      finish_scene(scene, std::vector<TestLight>(count, TestLight{.range_m = 1000.0}));  // at the eye
+      finish_scene(scene, std::vector<TestLight>(count, TestLight{.range_m = 1000.0}));  // at the camera
       const FoundLights found = kernels.all(scene);
       expect_brute_force(scene, found);
       for (std::uint32_t tile = 0; tile < scene.tile_count(); ++tile)
@@ -139,7 +139,7 @@ TEST_F(FindLightsAccurate, lists_hold_any_number_of_lights_in_one_place) {
 
 TEST_F(FindLightsAccurate, lists_hold_any_number_of_lights_that_reach_the_last_pixel_alone) {
   FindLights kernels(device());
-  LightScene scene = empty_scene({.width = 8, .height = 8});
+  SearchedScene scene = empty_scene({.width = 8, .height = 8});
   for (float& depth : scene.depth) depth = scene.depth_of(3.0);
   const dvec3 last = scene.position_at(7.5, 7.5, static_cast<double>(scene.depth[63]));
   finish_scene(scene, std::vector<TestLight>(1024, TestLight{.position = last, .range_m = 0.003}));
@@ -151,7 +151,7 @@ TEST_F(FindLightsAccurate, lists_hold_any_number_of_lights_that_reach_the_last_p
 TEST_F(FindLightsAccurate, lists_know_one_pixel_beside_the_sky_and_lights_behind_it) {
   FindLights kernels(device());
   for (const std::uint32_t pixel : {0u, 7u, 27u, 36u, 56u, 63u}) {
-    LightScene scene = empty_scene({.width = 8, .height = 8});
+    SearchedScene scene = empty_scene({.width = 8, .height = 8});
     scene.depth[pixel] = scene.depth_of(3.0);
     const dvec3 point = scene.position_at(pixel % 8 + 0.5, pixel / 8 + 0.5, static_cast<double>(scene.depth[pixel]));
     finish_scene(scene, {{.position = point * 1.1, .range_m = 0.35},
@@ -167,7 +167,7 @@ TEST_F(FindLightsAccurate, lists_reach_from_a_centimetre_to_a_hundred_kilometres
   FindLights kernels(device());
   for (const double metres : {0.011, 1.0, 300.0, 1e5}) {
     SCOPED_TRACE(metres);
-    LightScene scene = empty_scene({.width = 64, .height = 40, .near_m = 0.01f});
+    SearchedScene scene = empty_scene({.width = 64, .height = 40, .near_m = 0.01f});
     std::mt19937 random(21);
     draw_random_depth(scene, random, 0.011, 1e5);
     for (std::uint32_t y = 0; y < 16; ++y)
@@ -191,7 +191,7 @@ TEST_F(FindLightsAccurate, lists_of_narrow_and_wide_cones_are_those_of_brute_for
   for (const double half_angle : {0.0, 1e-3, 0.5235988, 1.0471975, 1.0471977, 1.5, kHalfPiRadians}) {
     for (const bool hard : {false, true}) {
       SCOPED_TRACE(half_angle);
-      LightScene scene = empty_scene({.width = 64, .height = 64});
+      SearchedScene scene = empty_scene({.width = 64, .height = 64});
       std::mt19937 random(9);
       std::uniform_real_distribution<double> unit(-1.0, 1.0);
       fill_depth(scene, 4.0);
@@ -216,7 +216,7 @@ TEST_F(FindLightsAccurate, lists_of_far_narrow_spots_keep_pixels_at_the_cones_ed
   FindLights kernels(device());
   for (const double away : {100.0, 1000.0, 5000.0}) {
     SCOPED_TRACE(away);
-    LightScene scene = empty_scene({.width = 64, .height = 64});
+    SearchedScene scene = empty_scene({.width = 64, .height = 64});
     fill_depth(scene, 0.2);
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -241,7 +241,7 @@ TEST_F(FindLightsAccurate, tiles_without_a_slot_have_a_count_and_no_list) {
   FindLights kernels(device());
   const SceneSize size{.width = 120, .height = 80};
   const FoundLights all = kernels.all(random_scene(size, 500, 31));
-  const LightScene scene = random_scene(size, 500, 31, {.slot_capacity = all.counters.slots / 2});
+  const SearchedScene scene = random_scene(size, 500, 31, {.slot_capacity = all.counters.slots / 2});
   const FoundLights found = kernels.all(scene);
   ASSERT_GT(found.counters.overflow_tiles, 0u);
   expect_brute_force(scene, found);
@@ -252,12 +252,12 @@ TEST_F(FindLightsAccurate, tiles_without_a_slot_have_a_count_and_no_list) {
 
 TEST_F(FindLightsAccurate, more_lights_than_entries_are_clamped_and_counted) {
   FindLights kernels(device());
-  LightScene scene = empty_scene({.width = 16, .height = 8});
+  SearchedScene scene = empty_scene({.width = 16, .height = 8});
   fill_depth(scene, 2.0);
   finish_scene(scene, std::vector<TestLight>(20, TestLight{.range_m = 1000.0}));
   FoundLights found = kernels.approximate(scene);
   ASSERT_EQ(found.approx_count(0), 20u);
-  found.tile_lists[0] = {30, 7u << 16};  // 9 entries, words 10 to 12
+  found.tile_lists[0] = {30, 7u << 16};  // 9 entries: words 10 to 12
   found.tile_lists[1] = {60, 20u << 16};
   kernels.accurate(scene, found);
   EXPECT_EQ(found.accurate_count(0), 9u);
@@ -270,7 +270,7 @@ TEST_F(FindLightsAccurate, more_lights_than_entries_are_clamped_and_counted) {
 
 TEST_F(FindLightsAccurate, a_light_taken_out_of_a_list_is_found_missing) {
   FindLights kernels(device());
-  const LightScene scene = random_scene({.width = 96, .height = 64}, 400, 41);
+  const SearchedScene scene = random_scene({.width = 96, .height = 64}, 400, 41);
   const FoundLights complete = kernels.all(scene);
   ASSERT_EQ(complete.counters.culling_errors, 0u);
   int taken = 0;
@@ -293,7 +293,7 @@ TEST_F(FindLightsAccurate, a_light_taken_out_of_a_list_is_found_missing) {
     EXPECT_GE(found.counters.culling_errors, certain);
     EXPECT_LE(found.counters.culling_errors, certain + doubtful);
 
-    // Without a list the group's mask counts.
+    // Without a list the group mask counts.
     found = complete;
     found.tile_lists[tile].x = GLOAM_NO_SLOT;
     kernels.check(scene, found);

@@ -16,11 +16,11 @@ namespace {
 
 std::uint32_t rounded(std::uint32_t count) { return (count + 2) / 3 * 3; }
 
-/// The froxel's tests as shadows.md §2 and froxel_api.glsl state them, in double precision and in the world's axes;
-/// `slack` moves every bound by that share, so that the kernel's rounding lies between a negative and a positive one.
+/// The froxel tests of shadows.md §2 and froxel_api.glsl, in double precision. `slack` moves every bound by that share,
+/// so that the kernel's result lies between those of a negative and a positive slack.
 class FroxelTwin {
  public:
-  FroxelTwin(const LightScene& scene, uvec2 first, uvec2 last, vec2 bounds, double epsilon, double slack)
+  FroxelTwin(const SearchedScene& scene, uvec2 first, uvec2 last, vec2 bounds, double epsilon, double slack)
       : epsilon_(epsilon + slack), share_(slack) {
     const dmat4 to_view(scene.view.view_from_relative);
     dvec3 low(1e300), high(-1e300);
@@ -63,7 +63,7 @@ class FroxelTwin {
         along < -radius_ - rounding)
       return false;
     if (exact < 0.5) return true;
-    // Four sides of a square pyramid whose axes the kernel fixes to the view's; and the plane through its apex.
+    // The four sides of a square pyramid, with axes chosen as in the kernel, and the plane through its apex.
     const dvec3 side = glm::normalize(std::abs(direction.y) < 0.7 ? dvec3(direction.z, 0.0, -direction.x)
                                                                   : dvec3(0.0, -direction.z, direction.y));
     const dvec3 up = glm::cross(direction, side);
@@ -87,8 +87,8 @@ class FroxelTwin {
   dmat4 view_from_relative_ = dmat4(1.0);
 };
 
-/// Sorted lights between two view depths, straight from the zBins' definition.
-uvec2 range_of(const LightScene& scene, double nearest_m, double farthest_m) {
+/// Sorted lights between two view depths, from the definition of zBins.
+uvec2 range_of(const SearchedScene& scene, double nearest_m, double farthest_m) {
   const auto bin_of = [&](double depth_m) {
     const double bin = (depth_m - static_cast<double>(scene.grid.z_near)) * static_cast<double>(scene.grid.z_scale);
     return static_cast<std::uint32_t>(std::clamp(bin, 0.0, scene.grid.z_bin_count - 1.0));
@@ -101,12 +101,12 @@ uvec2 range_of(const LightScene& scene, double nearest_m, double farthest_m) {
 }
 
 struct Band {
-  std::vector<bool> least, most;  ///< a light; the kernel's set lies between
+  std::vector<bool> least, most;  ///< by light; the kernel's set lies between the two
 };
 
-/// Lights of the parent's mask, and of those the ones in the zBins of the tile's depths. A depth beside a bin's border
-/// may fall on either side of it.
-std::vector<bool> masked_lights(const LightScene& scene, uvec2 tile) {
+/// The lights of the parent's tile mask, and of those the candidates in the zBins of the tile's depths. A depth near a
+/// bin's edge may fall on either side.
+std::vector<bool> masked_lights(const SearchedScene& scene, uvec2 tile) {
   const uvec2 parent = tile / 4u;
   const std::uint32_t* words =
       &scene.mask_tiles[(std::size_t{parent.y} * scene.grid.mask_tiles.x + parent.x) * GLOAM_MASK_WORDS];
@@ -115,7 +115,7 @@ std::vector<bool> masked_lights(const LightScene& scene, uvec2 tile) {
     lights[i] = (words[0] >> i / 32 & 1u) != 0 && (words[1 + i / 32] >> i % 32 & 1u) != 0;
   return lights;
 }
-Band candidates(const LightScene& scene, std::uint32_t tile) {
+Band candidates(const SearchedScene& scene, std::uint32_t tile) {
   const std::vector<bool> masked = masked_lights(scene, scene.tile_at(tile));
   const auto metres = [&](float depth) {
     return -(dmat4(scene.view.view_from_relative) * dvec4(scene.position_at(0.0, 0.0, static_cast<double>(depth)), 0.0))
@@ -136,8 +136,8 @@ Band candidates(const LightScene& scene, std::uint32_t tile) {
   return band;
 }
 
-/// Farthest and nearest depth of a tile group's surfaces.
-vec2 group_bounds(const LightScene& scene, uvec2 group) {
+/// Farthest and nearest depth of the surfaces in a tile group.
+vec2 group_bounds(const SearchedScene& scene, uvec2 group) {
   vec2 bounds(1.0f, 0.0f);
   for (std::uint32_t tile = 0; tile < scene.tile_count(); ++tile)
     if (scene.tile_at(tile) / 8u == group && !scene.is_sky(tile))
@@ -145,8 +145,8 @@ vec2 group_bounds(const LightScene& scene, uvec2 group) {
   return bounds;
 }
 
-/// Lights that the kernel lists for a tile.
-Band expected_lights(const LightScene& scene, std::uint32_t tile) {
+/// The lights that the kernel must and may list for a tile.
+Band expected_lights(const SearchedScene& scene, std::uint32_t tile) {
   Band band = candidates(scene, tile);
   const uvec2 at = scene.tile_at(tile);
   const uvec2 group = at / 8u;
@@ -165,7 +165,7 @@ std::uint32_t count_of(const std::vector<bool>& lights) {
   return static_cast<std::uint32_t>(std::count(lights.begin(), lights.end(), true));
 }
 
-void expect_twin(const LightScene& scene, const FoundLights& found) {
+void expect_twin(const SearchedScene& scene, const FoundLights& found) {
   std::vector<std::set<std::uint32_t>> least(scene.group_count()), most(scene.group_count());
   std::uint64_t masked = 0, fewest_candidates = 0, most_candidates = 0, approx = 0;
   for (std::uint32_t tile = 0; tile < scene.tile_count(); ++tile) {
@@ -201,9 +201,9 @@ void expect_twin(const LightScene& scene, const FoundLights& found) {
   EXPECT_EQ(found.counters.approx_lights, approx);
 }
 
-/// What must hold whatever order workgroups run in: slots are a disjoint packing, counters are the sums of what was
-/// written.
-void expect_consistent(const LightScene& scene, const FoundLights& found) {
+/// Invariants for any order of workgroups: slots do not overlap and leave no gaps, and the counters are the sums of
+/// what was written.
+void expect_consistent(const SearchedScene& scene, const FoundLights& found) {
   std::vector<uvec2> spans;
   std::uint32_t asked = 0, tiles = 0, overflow = 0, group_lights = 0;
   float farthest = 1.0f;
@@ -242,7 +242,7 @@ void expect_consistent(const LightScene& scene, const FoundLights& found) {
 
 class FindLightsApprox : public KernelTest {
  protected:
-  FoundLights run(const LightScene& scene) {
+  FoundLights run(const SearchedScene& scene) {
     FoundLights found = FindLights(device()).approximate(scene);
     expect_consistent(scene, found);
     return found;
@@ -254,7 +254,7 @@ TEST_F(FindLightsApprox, lists_what_the_twin_lists_but_for_rounding_at_the_bound
   for (const uvec2 size : {uvec2(203, 117), uvec2(33, 31), uvec2(7, 5), uvec2(1, 1), uvec2(321, 9)})
     for (const bool orthographic : {false, true}) {
       SCOPED_TRACE(seed);
-      const LightScene scene = random_scene(
+      const SearchedScene scene = random_scene(
           {.width = size.x, .height = size.y, .orthographic = orthographic, .roll = 0.3 * seed}, 700, seed);
       expect_twin(scene, run(scene));
       ++seed;
@@ -265,9 +265,9 @@ TEST_F(FindLightsApprox, holds_any_number_of_lights_in_one_place) {
   for (const std::uint32_t count : {0u, 1u, 31u, 32u, 33u, 1023u, 1024u}) {
     SCOPED_TRACE(count);
     std::mt19937 random(7);
-    LightScene scene = empty_scene({.width = 100, .height = 40});
+    SearchedScene scene = empty_scene({.width = 100, .height = 40});
     draw_random_depth(scene, random);
-    finish_scene(scene, std::vector<TestLight>(count, TestLight{.range_m = 1000.0}));  // at the eye
+    finish_scene(scene, std::vector<TestLight>(count, TestLight{.range_m = 1000.0}));  // at the camera
     const FoundLights found = run(scene);
     for (std::uint32_t tile = 0; tile < scene.tile_count(); ++tile)
       EXPECT_EQ(found.approx_count(tile), scene.is_sky(tile) ? 0u : count);
@@ -277,7 +277,7 @@ TEST_F(FindLightsApprox, holds_any_number_of_lights_in_one_place) {
 }
 
 TEST_F(FindLightsApprox, of_a_picture_of_sky_is_empty) {
-  LightScene scene = empty_scene({.width = 100, .height = 70});
+  SearchedScene scene = empty_scene({.width = 100, .height = 70});
   std::mt19937 random(3);
   finish_scene(scene, random_lights(scene, 300, random));
   const FoundLights found = run(scene);
@@ -287,7 +287,7 @@ TEST_F(FindLightsApprox, of_a_picture_of_sky_is_empty) {
 }
 
 TEST_F(FindLightsApprox, does_not_let_the_sky_beside_a_surface_widen_its_depths) {
-  LightScene scene = empty_scene({.width = 8, .height = 8});
+  SearchedScene scene = empty_scene({.width = 8, .height = 8});
   for (std::uint32_t i = 0; i < 32; ++i) scene.depth[i] = scene.depth_of(2.0);
   const auto at = [&](double metres) {
     return scene.position_at(4.0, 4.0, static_cast<double>(scene.depth_of(metres)));
@@ -296,14 +296,14 @@ TEST_F(FindLightsApprox, does_not_let_the_sky_beside_a_surface_widen_its_depths)
   EXPECT_EQ(run(scene).approx_count(0), 1u);
 }
 
-/// Five lights and a surface at two depths, as figure 3 of the paper has them: the first and last of the standard bins
-/// of [3, 11] know lights 0 and 1 but not 2, those of [0, 13] know none.
+/// Five lights and surfaces at two depths, as in the paper's figure 3. The first and last standard bins of [3, 11] hold
+/// lights 0 and 1 but not 2; those of [0, 13] hold none.
 TEST_F(FindLightsApprox, finds_what_the_first_and_last_bin_do_not_know) {
   const double pairs[][2] = {{3.5, 11.5}, {0.5, 13.5}};
   for (const auto& [nearest, farthest] : pairs) {
-    LightScene scene = empty_scene({.width = 8, .height = 8, .near_m = 0.01f});
+    SearchedScene scene = empty_scene({.width = 8, .height = 8, .near_m = 0.01f});
     for (std::uint32_t i = 0; i < 64; ++i) scene.depth[i] = scene.depth_of(i < 32 ? nearest : farthest);
-    scene.depth[63] = scene.depth_of(19.99);  // so that a bin is a metre
+    scene.depth[63] = scene.depth_of(19.99);  // makes a bin one metre wide
     const auto light = [&](double from_m, double to_m) {
       return TestLight{
           .position = scene.position_at(4.0, 4.0, static_cast<double>(scene.depth_of(0.5 * (from_m + to_m)))),
@@ -311,7 +311,7 @@ TEST_F(FindLightsApprox, finds_what_the_first_and_last_bin_do_not_know) {
     };
     finish_scene(scene, {light(2.2, 8.8), light(4.2, 12.8), light(6.2, 7.8), light(14.2, 16.0), light(15.2, 18.0)},
                  {.z_bin_count = 20});
-    // Without the far texel, which only made the bins.
+    // Removes the far texel, which only defined the bins.
     scene.depth[63] = scene.depth[62];
     scene.bounds[0].x = scene.depth[62];
     ASSERT_EQ(scene.lights->local_count, 5u);
@@ -327,12 +327,12 @@ TEST_F(FindLightsApprox, finds_what_the_first_and_last_bin_do_not_know) {
 
 TEST_F(FindLightsApprox, that_finds_no_room_marks_and_counts_tiles_and_keeps_the_groups_masks) {
   const SceneSize size{.width = 200, .height = 130};
-  const LightScene roomy = random_scene(size, 600, 11);
+  const SearchedScene roomy = random_scene(size, 600, 11);
   const FoundLights all = run(roomy);
   ASSERT_EQ(all.counters.overflow_tiles, 0u);
   for (const std::uint32_t capacity : {3u, 300u, all.counters.slots / 2, all.counters.slots - 3, all.counters.slots}) {
     SCOPED_TRACE(capacity);
-    const LightScene scene = random_scene(size, 600, 11, {.slot_capacity = capacity});
+    const SearchedScene scene = random_scene(size, 600, 11, {.slot_capacity = capacity});
     const FoundLights found = run(scene);
     EXPECT_EQ(found.group_masks, all.group_masks);
     EXPECT_EQ(found.counters.slots, all.counters.slots) << "says how much would have been enough";
@@ -345,7 +345,7 @@ TEST_F(FindLightsApprox, that_finds_no_room_marks_and_counts_tiles_and_keeps_the
 TEST_F(FindLightsApprox, with_fixed_slots_puts_lists_where_they_can_be_looked_up) {
   const SceneSize size{.width = 200, .height = 130};
   for (const std::uint32_t slots : {3u, 12u, 1023u}) {
-    const LightScene scene = random_scene(size, 600, 12, {.slot_capacity = 25 * 17 * slots, .fixed_slots = slots});
+    const SearchedScene scene = random_scene(size, 600, 12, {.slot_capacity = 25 * 17 * slots, .fixed_slots = slots});
     const FoundLights found = run(scene);
     std::uint32_t without = 0;
     for (std::uint32_t tile = 0; tile < scene.tile_count(); ++tile) {

@@ -14,7 +14,7 @@ namespace {
 
 using gpu::Access;
 
-/// One dispatch with its resources, which end with it.
+/// One dispatch. It owns its resources.
 class Dispatch {
  public:
   Dispatch(gpu::Device& device, gpu::SamplerHandle sampler) : device_(device), sampler_(sampler), uploader_(device) {}
@@ -98,8 +98,8 @@ class Dispatch {
   gpu::BufferHandle image_back_;
 };
 
-/// Bindings 0 to 2, and the lights' texels as light_texels.comp writes them.
-void bind_view(Dispatch& dispatch, const LightScene& scene) {
+/// Sets bindings 0 to 2, and the light texels in the layout of light_texels.comp.
+void bind_view(Dispatch& dispatch, const SearchedScene& scene) {
   const shaders::ViewConstants view = view_constants(scene.view);
   dispatch.input(0, std::span<const shaders::ViewConstants>(&view, 1));
   dispatch.input(1, std::span<const shaders::LightBlock>(scene.lights.get(), 1));
@@ -111,7 +111,7 @@ void bind_view(Dispatch& dispatch, const LightScene& scene) {
     texels.emplace_back(light.color, light.spot_scale);
     texels.emplace_back(light.direction, light.spot_offset);
   }
-  if (texels.empty()) texels.resize(3);  // an image has a texel
+  if (texels.empty()) texels.resize(3);  // an image needs at least one texel
   dispatch.sampled(4, gpu::Format::rgba32_float, {3, static_cast<std::uint32_t>(texels.size() / 3)},
                    std::span<const vec4>(texels));
 }
@@ -141,7 +141,7 @@ FindLights::~FindLights() {
   for (const gpu::PipelineHandle pipeline : {approx_, accurate_, accurate_tiles_, check_}) device_.destroy(pipeline);
 }
 
-FoundLights FindLights::approximate(const LightScene& scene) {
+FoundLights FindLights::approximate(const SearchedScene& scene) {
   FoundLights found;
   found.group_masks.assign(std::size_t{scene.group_count()} * GLOAM_MASK_WORDS, FoundLights::kUntouched);
   found.tile_lists.assign(scene.tile_count(), uvec2(FoundLights::kUntouched));
@@ -162,7 +162,7 @@ FoundLights FindLights::approximate(const LightScene& scene) {
   return found;
 }
 
-void FindLights::accurate(const LightScene& scene, FoundLights& found) {
+void FindLights::accurate(const SearchedScene& scene, FoundLights& found) {
   FoundLights by_tiles = found;
   run_accurate(accurate_, scene.grid.tiles, scene, found);
   run_accurate(accurate_tiles_, scene.grid.groups, scene, by_tiles);
@@ -172,7 +172,7 @@ void FindLights::accurate(const LightScene& scene, FoundLights& found) {
     EXPECT_TRUE(!found.has_list(tile) || by_tiles.list(tile) == found.list(tile)) << "tile " << tile;
 }
 
-void FindLights::run_accurate(gpu::PipelineHandle pipeline, uvec2 workgroups, const LightScene& scene,
+void FindLights::run_accurate(gpu::PipelineHandle pipeline, uvec2 workgroups, const SearchedScene& scene,
                               FoundLights& found) {
   Dispatch dispatch(device_, sampler_);
   bind_view(dispatch, scene);
@@ -188,7 +188,7 @@ void FindLights::run_accurate(gpu::PipelineHandle pipeline, uvec2 workgroups, co
   found.counters = items_of<shaders::LightCounters>(device_, counters).front();
 }
 
-void FindLights::check(const LightScene& scene, FoundLights& found) {
+void FindLights::check(const SearchedScene& scene, FoundLights& found) {
   Dispatch dispatch(device_, sampler_);
   bind_view(dispatch, scene);
   dispatch.sampled(3, gpu::Format::r32_float, scene.size(), std::span<const float>(scene.depth));

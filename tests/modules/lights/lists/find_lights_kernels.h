@@ -13,7 +13,8 @@
 
 namespace gloam::test {
 
-/// What the kernels leave for a view, and what each finds of the one before. Buffers begin as kUntouched words.
+/// Results of the kernels for a view; each kernel reads those of the one before. Buffers are initialised with
+/// kUntouched.
 struct FoundLights {
   static constexpr std::uint32_t kUntouched = 0xA5A5A5A5u;
   std::vector<std::uint32_t> group_masks;
@@ -24,7 +25,7 @@ struct FoundLights {
   [[nodiscard]] std::uint32_t approx_count(std::uint32_t tile) const { return tile_lists[tile].y >> 16; }
   [[nodiscard]] std::uint32_t accurate_count(std::uint32_t tile) const { return tile_lists[tile].y & 0xFFFFu; }
   [[nodiscard]] bool has_list(std::uint32_t tile) const { return tile_lists[tile].x != GLOAM_NO_SLOT; }
-  /// The lights of a tile's list, as they stand there.
+  /// The lights of a tile's list, in the stored order.
   [[nodiscard]] std::vector<std::uint32_t> list(std::uint32_t tile) const {
     std::vector<std::uint32_t> lights;
     for (std::uint32_t i = 0; i < accurate_count(tile); ++i) {
@@ -33,7 +34,7 @@ struct FoundLights {
     }
     return lights;
   }
-  /// The lights of a group's mask.
+  /// The lights of a group mask.
   [[nodiscard]] std::vector<std::uint32_t> group(std::uint32_t index) const {
     const std::uint32_t* words = &group_masks[std::size_t{index} * GLOAM_MASK_WORDS];
     std::vector<std::uint32_t> lights;
@@ -43,21 +44,21 @@ struct FoundLights {
   }
 };
 
-/// The kernels of shaders/lights that find lights. Any error is a failure of the test.
+/// Runs the kernels of shaders/lights that find lights. Any error fails the test.
 class FindLights {
  public:
-  /// `rows` of 8 threads a workgroup of the accurate search; 0: as many as the shader says.
+  /// `rows`: rows of 8 threads per workgroup of the accurate search; 0: the shader's default.
   explicit FindLights(gpu::Device& device, std::uint32_t rows = 0);
   ~FindLights();
   FindLights(const FindLights&) = delete;
   FindLights& operator=(const FindLights&) = delete;
 
-  [[nodiscard]] FoundLights approximate(const LightScene& scene);
-  /// By both shaders, which must agree: one thread a pixel or a few of them, and one thread a tile.
-  void accurate(const LightScene& scene, FoundLights& found);
+  [[nodiscard]] FoundLights approximate(const SearchedScene& scene);
+  /// Runs both shaders, which must agree: one thread per pixel or per few pixels, and one thread per tile.
+  void accurate(const SearchedScene& scene, FoundLights& found);
   /// Fills counters.culling_errors.
-  void check(const LightScene& scene, FoundLights& found);
-  [[nodiscard]] FoundLights all(const LightScene& scene) {
+  void check(const SearchedScene& scene, FoundLights& found);
+  [[nodiscard]] FoundLights all(const SearchedScene& scene) {
     FoundLights found = approximate(scene);
     accurate(scene, found);
     check(scene, found);
@@ -65,7 +66,7 @@ class FindLights {
   }
 
  private:
-  void run_accurate(gpu::PipelineHandle pipeline, uvec2 workgroups, const LightScene& scene, FoundLights& found);
+  void run_accurate(gpu::PipelineHandle pipeline, uvec2 workgroups, const SearchedScene& scene, FoundLights& found);
 
   gpu::Device& device_;
   gpu::PipelineHandle approx_;

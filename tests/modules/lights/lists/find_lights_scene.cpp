@@ -17,7 +17,7 @@ constexpr std::uint32_t kMaskTile = GLOAM_LIGHT_TILE;
 
 std::uint32_t divided_up(std::uint32_t value, std::uint32_t by) { return (value + by - 1) / by; }
 
-double view_depth(const LightScene& scene, const dvec3& relative) {
+double view_depth(const SearchedScene& scene, const dvec3& relative) {
   return -(dmat4(scene.view.view_from_relative) * dvec4(relative, 0.0)).z;
 }
 
@@ -40,14 +40,14 @@ struct Interval {
   double nearest, farthest;
 };
 
-/// View depths of a light's range, from the numbers that the GPU reads.
-Interval depths_of(const LightScene& scene, const shaders::LocalLight& light) {
+/// View depths of a light's range, computed from the numbers that the GPU reads.
+Interval depths_of(const SearchedScene& scene, const shaders::LocalLight& light) {
   const double depth = view_depth(scene, dvec3(light.position));
   const double range = 1.00002 / std::sqrt(static_cast<double>(light.inverse_range_squared));
   return {std::max(depth - range, static_cast<double>(scene.view.near_m)), depth + range};
 }
 
-void build_bounds(LightScene& scene) {
+void build_bounds(SearchedScene& scene) {
   scene.bounds.assign(scene.tile_count(), vec2(1.0f, 0.0f));
   for (std::uint32_t tile = 0; tile < scene.tile_count(); ++tile) {
     vec2& found = scene.bounds[tile];
@@ -57,8 +57,8 @@ void build_bounds(LightScene& scene) {
   }
 }
 
-/// Farthest surface, so that bins mean something.
-double farthest_surface(const LightScene& scene) {
+/// The farthest surface, which bounds the zBins.
+double farthest_surface(const SearchedScene& scene) {
   float least = 1.0f;
   for (const float d : scene.depth)
     if (d > 0.0f) least = std::min(least, d);
@@ -66,7 +66,7 @@ double farthest_surface(const LightScene& scene) {
   return std::max(far_m, static_cast<double>(scene.view.near_m) * 1.5);
 }
 
-void build_z_bins(LightScene& scene, std::uint32_t count) {
+void build_z_bins(SearchedScene& scene, std::uint32_t count) {
   const double near_m = static_cast<double>(scene.view.near_m);
   const double bin_m = (farthest_surface(scene) - near_m) / count;
   scene.grid.z_bin_count = count;
@@ -97,8 +97,8 @@ struct Plane {
   double offset;
 };
 
-/// The four sides of a pixel rectangle's beam, outward.
-std::array<Plane, 4> beam_of(const LightScene& scene, uvec2 first, uvec2 last) {
+/// The four side planes of a pixel rectangle's beam, pointing outward.
+std::array<Plane, 4> beam_of(const SearchedScene& scene, uvec2 first, uvec2 last) {
   const dvec2 corners[] = {dvec2(first), dvec2(last.x, first.y), dvec2(last), dvec2(first.x, last.y)};
   const dvec3 inside = scene.position_at(0.5 * (first.x + last.x), 0.5 * (first.y + last.y), 0.5);
   std::array<Plane, 4> planes{};
@@ -113,7 +113,7 @@ std::array<Plane, 4> beam_of(const LightScene& scene, uvec2 first, uvec2 last) {
   return planes;
 }
 
-void build_mask_tiles(LightScene& scene) {
+void build_mask_tiles(SearchedScene& scene) {
   const uvec2 tiles = scene.grid.mask_tiles;
   scene.mask_tiles.assign(std::size_t{tiles.x} * tiles.y * GLOAM_MASK_WORDS, 0);
   for (std::uint32_t tile = 0; tile < tiles.x * tiles.y; ++tile) {
@@ -130,7 +130,7 @@ void build_mask_tiles(LightScene& scene) {
       words[0] |= 1u << i / 32;
       words[1 + i / 32] |= 1u << i % 32;
     }
-    // What a word without its group bit holds means nothing.
+    // A word whose group bit is 0 is undefined.
     for (std::uint32_t word = 0; word < GLOAM_LIGHT_GROUPS; ++word)
       if ((words[0] >> word & 1u) == 0) words[1 + word] = 0xDEADBEEFu;
   }
@@ -138,17 +138,17 @@ void build_mask_tiles(LightScene& scene) {
 
 }  // namespace
 
-dvec3 LightScene::position_at(double x, double y, double depth_value) const {
+dvec3 SearchedScene::position_at(double x, double y, double depth_value) const {
   const dvec4 p = relative_from_clip * dvec4(2.0 * x / view.width - 1.0, 1.0 - 2.0 * y / view.height, depth_value, 1.0);
   return dvec3(p) / p.w;
 }
 
-float LightScene::depth_of(double metres) const {
+float SearchedScene::depth_of(double metres) const {
   const dvec4 p = dmat4(view.clip_from_view) * dvec4(0.0, 0.0, -metres, 1.0);
   return static_cast<float>(p.z / p.w);
 }
 
-LightScene empty_scene(const SceneSize& size) {
+SearchedScene empty_scene(const SceneSize& size) {
   ViewSettings settings;
   settings.width = size.width;
   settings.height = size.height;
@@ -158,7 +158,7 @@ LightScene empty_scene(const SceneSize& size) {
   settings.world_from_camera =
       glm::rotate(glm::rotate(glm::translate(dmat4(1.0), size.origin), 0.7, glm::normalize(dvec3(0.3, 1.0, 0.2))),
                   size.roll, dvec3(0.0, 0.0, 1.0));
-  LightScene scene;
+  SearchedScene scene;
   scene.view = make_view(settings, 0);
   scene.relative_from_clip = glm::inverse(dmat4(scene.view.clip_from_view) * dmat4(scene.view.view_from_relative));
   scene.depth.assign(std::size_t{size.width} * size.height, 0.0f);
@@ -169,7 +169,7 @@ LightScene empty_scene(const SceneSize& size) {
   return scene;
 }
 
-void draw_random_depth(LightScene& scene, std::mt19937& random, double nearest_m, double farthest_m) {
+void draw_random_depth(SearchedScene& scene, std::mt19937& random, double nearest_m, double farthest_m) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (std::uint32_t tile = 0; tile < scene.tile_count(); ++tile) {
     const double near = nearest_m * std::pow(farthest_m / nearest_m, unit(random));
@@ -184,7 +184,7 @@ void draw_random_depth(LightScene& scene, std::mt19937& random, double nearest_m
   }
 }
 
-std::vector<TestLight> random_lights(const LightScene& scene, std::uint32_t count, std::mt19937& random) {
+std::vector<TestLight> random_lights(const SearchedScene& scene, std::uint32_t count, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::vector<TestLight> lights(count);
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -210,7 +210,7 @@ std::vector<TestLight> random_lights(const LightScene& scene, std::uint32_t coun
   return lights;
 }
 
-void finish_scene(LightScene& scene, std::vector<TestLight> lights, const GridOptions& options) {
+void finish_scene(SearchedScene& scene, std::vector<TestLight> lights, const GridOptions& options) {
   build_bounds(scene);
   const auto depths = [&](const TestLight& light) { return depths_of(scene, packed(light)); };
   const double near_m = static_cast<double>(scene.view.near_m);
@@ -226,9 +226,10 @@ void finish_scene(LightScene& scene, std::vector<TestLight> lights, const GridOp
   build_mask_tiles(scene);
 }
 
-LightScene random_scene(const SceneSize& size, std::uint32_t lights, std::uint32_t seed, const GridOptions& options) {
+SearchedScene random_scene(const SceneSize& size, std::uint32_t lights, std::uint32_t seed,
+                           const GridOptions& options) {
   std::mt19937 random(seed);
-  LightScene scene = empty_scene(size);
+  SearchedScene scene = empty_scene(size);
   draw_random_depth(scene, random);
   finish_scene(scene, random_lights(scene, lights, random), options);
   return scene;
@@ -241,7 +242,7 @@ Reach reach_of(const shaders::LocalLight& light, const dvec3& point) {
   const double range = 1.0 / std::sqrt(static_cast<double>(light.inverse_range_squared));
   double margin = (range * (1.0 - distance / range)) / (band_m + 4e-6 * range);
   if (light.spot_scale > 0.0f) {
-    // Within 1 mm of the lamp shading divides by 1 mm, and angles mean little.
+    // Within 1 mm of the lamp, shading clamps the distance to 1 mm, so angles are unreliable.
     const double cosine = glm::dot(offset, dvec3(light.direction)) / std::max(distance, 1e-3);
     const double cos_outer = -static_cast<double>(light.spot_offset) / static_cast<double>(light.spot_scale);
     margin = std::min(margin, (cosine - cos_outer) / (3e-6 + 2.0 * band_m / std::max(distance, 1e-3)));
@@ -249,7 +250,7 @@ Reach reach_of(const shaders::LocalLight& light, const dvec3& point) {
   return margin > 1.0 ? Reach::certain : margin > -1.0 ? Reach::doubtful : Reach::none;
 }
 
-std::vector<Reach> reach_of_tile(const LightScene& scene, uvec2 tile) {
+std::vector<Reach> reach_of_tile(const SearchedScene& scene, uvec2 tile) {
   std::vector<Reach> reach(scene.lights->local_count, Reach::none);
   scene.for_pixels(tile, [&](std::uint32_t x, std::uint32_t y, float depth) {
     if (depth <= 0.0f) return;

@@ -29,8 +29,7 @@ TEST_F(ShadowHard, a_sheet_3_mm_above_a_floor_shadows_it_without_leaks_and_is_li
           dvec3(middle.x + (i % 20 - 9.5) / 10.0 * reach * 0.8, 0.0, middle.z + (i / 20 - 9.5) / 10.0 * reach * 0.8);
       below.push_back(rig.at(at));
       above.push_back(rig.at(at + dvec3(0.0, 0.003, 0.0)));
-      behind.push_back(
-          rig.at(at + dvec3(0.0, 0.003, 0.0), -kUp));  // seen from below: its normal is that of the visible side
+      behind.push_back(rig.at(at + dvec3(0.0, 0.003, 0.0), -kUp));  // seen from below: the normal of the visible side
     }
     for (const double width : {0.0, 0.1}) {
       rig.width_m = width;
@@ -79,16 +78,27 @@ TEST_F(ShadowHard, nothing_is_in_shadow_at_the_light_or_nearer_than_the_near_pla
 TEST_F(ShadowHard, a_blocker_nearer_than_the_emitter_is_wide_hides_what_it_hides_of_a_disc) {
   SpotRig rig;
   rig.width_m = 1.0;
-  // A hole of 0.6 m radius in a plane 0.5 m below the lamp: from a point 3.5 m further down, the whole disc shows
-  // through it; and a plate of 0.1 m hides a hundredth of it at most.
-  const RayScene hole = plane(dvec3(0.0, 3.5, 0.0), kUp, [](const dvec3& p) { return p.x * p.x + p.z * p.z > 0.36; });
-  const RayScene plate =
-      plane(dvec3(0.0, 3.5, 0.0), kUp, [](const dvec3& p) { return p.x * p.x + p.z * p.z < 0.0025; });
-  const RayScene closed = plane(dvec3(0.0, 3.5, 0.0), kUp);
-  for (const auto& [scene, expected, slack] :
-       {std::tuple(hole, 1.0, 0.1), std::tuple(plate, 0.987, 0.12), std::tuple(closed, 0.0, 1e-3)}) {
+  rig.pose.tan_half = 1.0;  // the face sees all blockers between the emitter and the point
+  rig.tan_inner = 0.9;
+  // Blockers 0.5 m below the emitter. From a point 3.5 m below them the emitter covers a disc of this radius there.
+  const double disc = 0.5 * rig.width_m * 3.5 / 4.0;
+  const auto plate = [](double radius) {
+    return plane(dvec3(0.0, 3.5, 0.0), kUp, [=](const dvec3& p) { return p.x * p.x + p.z * p.z < radius * radius; });
+  };
+  const auto visibility = [&](const RayScene& scene, const ProbeSettings& settings) {
     const auto depths = draw_face(rig.pose, rig.size, nearest_of({scene, floor_plane()}));
-    EXPECT_NEAR(rig.look(device(), depths, {rig.at(dvec3(0.0))})[0].visibility, expected, slack);
+    return rig.look(device(), depths, {rig.at(dvec3(0.0))}, settings)[0].visibility;
+  };
+  // No tolerance reaches 1: a filter that ignores the plate fails at each radius.
+  const ProbeSettings fine = {.kernel = 16, .shape = 1};
+  for (const double radius : {0.2, 0.25, 0.3, 0.35})
+    EXPECT_NEAR(visibility(plate(radius), fine), 1.0 - radius * radius / (disc * disc), 0.05) << radius;
+  EXPECT_NEAR(visibility(plate(0.25), {}), 1.0 - 0.0625 / (disc * disc), 0.15);
+  const RayScene hole = plane(dvec3(0.0, 3.5, 0.0), kUp, [](const dvec3& p) { return p.x * p.x + p.z * p.z > 0.36; });
+  const RayScene closed = plane(dvec3(0.0, 3.5, 0.0), kUp);
+  for (const ProbeSettings& settings : {ProbeSettings{}, fine}) {
+    EXPECT_NEAR(visibility(hole, settings), 1.0, 0.1) << "the whole disc shows through the hole";
+    EXPECT_NEAR(visibility(closed, settings), 0.0, 1e-3);
   }
 }
 

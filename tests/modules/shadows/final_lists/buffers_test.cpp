@@ -16,7 +16,7 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kMost = 4194301;  // slots that 22 bits can name beside the three special ones
+constexpr std::uint32_t kMost = 4194301;  // slots that 22 bits can number beside the three special values
 
 TEST(KeptCapacity, has_room_for_what_is_asked_and_a_quarter_more) {
   EXPECT_EQ(kept_capacity(0, 1000, 0, kMost), 1250u);
@@ -49,7 +49,7 @@ TEST(KeptCapacity, of_any_numbers_is_enough_within_bounds_and_settles_at_once) {
     EXPECT_GE(kept, least);
     EXPECT_GE(kept, std::min(asked, most));
     EXPECT_EQ(kept_capacity(kept, asked, least, most), kept) << there << ' ' << asked << ' ' << least << ' ' << most;
-    // A need that sways by a tenth does not make buffers anew each time.
+    // A need that varies by a tenth does not change the capacity.
     if (asked < 1000 || asked > most / 2) continue;
     const std::uint32_t made = kept_capacity(0, asked, least, most);
     EXPECT_EQ(kept_capacity(made, asked + asked / 10, least, most), made) << asked << ' ' << least << ' ' << most;
@@ -92,7 +92,26 @@ TEST(FinalListFeedback, of_no_room_at_all_is_a_number) {
   EXPECT_LE(most.slots_asked, kMost);
 }
 
-/// Frames whose counters come back two frames late, until none overflows.
+TEST(FinalListFeedback, asks_for_no_more_rows_of_pairs_than_every_device_can_dispatch) {
+  constexpr std::uint64_t kMostRows = 65535;  // every Vulkan device has at least this maxComputeWorkGroupCount
+  constexpr std::uint64_t kRow = GLOAM_PAIRS_ROW;
+  const FinalListNote note{.tiles = 1000, .slot_capacity = 1000, .pair_capacity = 1u << 23};
+  const auto capacity = [&](std::uint64_t pairs) {
+    return final_list_feedback(counters_of(static_cast<std::uint32_t>(pairs), 0), note, nullptr).pair_capacity;
+  };
+  const std::uint64_t full = kMostRows * kRow * 4 / 5;  // with 25 % more they fill the last row
+  EXPECT_EQ(capacity(full - 4), kMostRows * kRow - 5) << "below the limit there is room for all and a quarter more";
+  EXPECT_EQ(capacity(full), kMostRows * kRow);
+  for (const std::uint64_t pairs :
+       {full + 1, full + kRow, kMostRows * kRow, (kMostRows + 1) * kRow, std::uint64_t{~0u}})
+    EXPECT_EQ(capacity(pairs), kMostRows * kRow) << pairs;
+  const FinalListNote largest{.tiles = 2048 * 2048, .slot_capacity = 0, .pair_capacity = (1u << 24)};
+  const FinalListFeedback there{.pair_capacity = 1u << 24};
+  const FinalListFeedback kept = final_list_feedback(counters_of(1u << 24, 0), largest, &there);
+  EXPECT_LE((kept.pair_capacity + kRow - 1) / kRow, kMostRows) << "nor when more was there before";
+}
+
+/// Simulates frames whose counters are read back two frames later, until no buffer overflows.
 TEST(FinalListFeedback, makes_room_for_any_need_in_a_few_frames_and_then_changes_nothing) {
   std::mt19937 random(11);
   for (int i = 0; i < 500; ++i) {
@@ -122,7 +141,7 @@ TEST(FinalListFeedback, makes_room_for_any_need_in_a_few_frames_and_then_changes
       results.emplace_back(counters_of(pairs, asked), note);
     }
     const std::uint32_t last_slots = results.back().second.slot_capacity;
-    // Enough, and not more than the need calls for by far.
+    // The capacity is at most five times the need.
     EXPECT_LE(last_slots, std::max(tiles * kFirstSlotsPerTile, need * 5u)) << tiles << ' ' << pairs << ' ' << share;
   }
 }

@@ -4,10 +4,11 @@
 
 #include <limits>
 
+#include "modules/shadows/atlas/mip_places.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "tests/modules/shadows/support/deferred_scene.h"
 
-// Awkward lights, cameras and places: lists and slots give what monolithic gives, and nothing that is not a number.
+// Difficult lights, cameras and positions: deferred gives the same picture as monolithic, without NaN or infinity.
 
 namespace gloam {
 namespace {
@@ -29,7 +30,7 @@ class DeferredShadowsHard : public test::DeferredShadowsTest {
     put(shapes_[3], glm::scale(at(-1.1, 0.003, 0.8) * flat(0.0), dvec3(0.4)));
   }
   Entity put_lamp(const dvec3& position) { return put_light(point(0.08f), position, dvec3(0.0, -1.0, 0.0), 64); }
-  /// Compares, and looks at every image of numbers.
+  /// Compares both modes, and checks that all float images are finite.
   ReadFinalLists expect_sound(const std::string& what) {
     const Drawn drawn = expect_deferred_is_monolithic(what);
     for (const float channel : drawn.light.rgba) {
@@ -43,7 +44,7 @@ class DeferredShadowsHard : public test::DeferredShadowsTest {
     if (found.counters.pairs > 0) expect_finite_maps(what);
     return found;
   }
-  /// All mips of all faces; what lies between them in the images is nobody's.
+  /// Checks all mips of all faces. Texels between faces are undefined.
   void expect_finite_maps(const std::string& what) {
     const auto images =
         renderer->read_images(world, settings.id, std::vector<std::string_view>{"shadow_atlas", "shadow_pyramid"});
@@ -58,8 +59,7 @@ class DeferredShadowsHard : public test::DeferredShadowsTest {
       for (const ShadowFace& face : world.view_resource<ShadowViews>(settings.id).faces)
         for (std::uint32_t mip = first; face.square.size >> mip != 0; ++mip) {
           const std::uint32_t level = mip - first, side = face.square.size >> mip;
-          const uvec2 corner =
-              (level == 0 ? uvec2(0) : uvec2(size, size - (2 * size >> level))) + (face.square.origin >> mip);
+          const uvec2 corner = mip_corner(size, level) + (face.square.origin >> mip);
           for (std::uint32_t i = 0; i < side * side; ++i)
             for (std::uint32_t half = 0; half < halves; ++half) {
               const std::size_t row = std::size_t{half * size + corner.y + i / side};
@@ -83,7 +83,7 @@ TEST_F(DeferredShadowsHard, a_camera_inside_a_light_and_lights_about_the_near_pl
     place(bulb, glm::translate(dmat4(1.0), eye + metres * ahead));
     EXPECT_GT(expect_sound("lamp " + std::to_string(metres) + " m ahead").counters.candidates, 0u);
   }
-  // Its reach ends about the near plane.
+  // Its range ends near the camera's near plane.
   world.get<Light>(bulb).range_m = 0.2f;
   for (const double metres : {-0.15, -0.05, 0.0}) {
     place(bulb, glm::translate(dmat4(1.0), eye + metres * ahead));
@@ -162,7 +162,7 @@ TEST_F(DeferredShadowsHard, nothing_but_sky_and_sky_beside_near_things) {
   EXPECT_EQ(empty.counters.tiles, 0u);
   EXPECT_EQ(empty.counters.candidates + empty.counters.slots + empty.counters.fallback_tiles, 0u);
   EXPECT_TRUE(empty.all().empty());
-  // A thin sheet and a pole before the sky: tiles of near geometry, far geometry and sky.
+  // A thin sheet and a pole in front of the sky: tiles with near geometry, far geometry and sky.
   put(shapes_[0], glm::scale(at(0.02, 0.5, 1.5), dvec3(0.01, 2.0, 0.01)));
   put(shapes_[3], glm::rotate(at(0.1, 0.9, -1.0), 0.5, dvec3(0.2, 1.0, 0.0)));
   put(shapes_[0], glm::scale(at(0.0, 300.0, -400.0), dvec3(200.0, 100.0, 1.0)));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "modules/shadows/atlas/mip_places.h"
 #include "tests/modules/shadows/support/maps.h"
 #include "tests/support/kernel.h"
 
@@ -18,7 +19,7 @@ struct Level {
   std::vector<vec2> bounds;
 };
 
-/// What a mip must hold, from the face's own texels.
+/// Expected mip: nearest depths of the blocks of the face's texels.
 Level expected_nearest(const std::vector<float>& depths, std::uint32_t size, std::uint32_t mip) {
   const std::uint32_t side = size >> mip, block = 1u << mip;
   Level level;
@@ -34,7 +35,7 @@ Level expected_nearest(const std::vector<float>& depths, std::uint32_t size, std
   return level;
 }
 
-/// The next mip by the mean of distances (or of depths), empty texels left out.
+/// Expected next mip: mean of distances (orthographic: of depths), without empty texels.
 std::vector<double> expected_average(const std::vector<double>& finer, std::uint32_t finer_side, bool orthographic) {
   const std::uint32_t side = finer_side / 2;
   std::vector<double> coarse;
@@ -65,14 +66,14 @@ class ShadowMips : public KernelTest {
                           uvec2 origin, std::uint32_t size) {
     for (std::uint32_t mip = 0; size >> mip != 0; ++mip) {
       const Level level = expected_nearest(depths, size, mip);
-      const uvec2 corner = ShadowMaps::mip_corner(kAtlas, mip) + origin / (1u << mip);
+      const uvec2 corner = mip_corner(kAtlas, mip) + origin / (1u << mip);
       const std::uint32_t side = size >> mip;
       int wrong = 0;
       for (std::uint32_t i = 0; i < side * side; ++i)
         wrong += atlas[(corner.y + i / side) * kAtlas * 3 / 2 + corner.x + i % side] != level.depth[i];
       EXPECT_EQ(wrong, 0) << "mip " << mip << " of a face of " << size;
       if (mip < GLOAM_SHADOW_PYRAMID_MIP) continue;
-      const uvec2 low = ShadowMaps::mip_corner(kAtlas / 4, mip - GLOAM_SHADOW_PYRAMID_MIP) + origin / (1u << mip);
+      const uvec2 low = mip_corner(kAtlas / 4, mip - GLOAM_SHADOW_PYRAMID_MIP) + origin / (1u << mip);
       for (std::uint32_t i = 0; i < side * side; ++i)
         wrong += pyramid[(low.y + i / side) * kAtlas * 3 / 8 + low.x + i % side] != level.bounds[i];
       EXPECT_EQ(wrong, 0) << "pyramid of mip " << mip << " of a face of " << size;
@@ -115,14 +116,14 @@ TEST_F(ShadowMips, other_faces_stay_as_they_were) {
 TEST_F(ShadowMips, coverage_is_the_share_of_the_nearest_surface) {
   constexpr std::uint32_t kSize = 128;
   constexpr float kNear = 0.5f, kFar = 0.1f;
-  // Near texels here and there, empty ones among the far ones.
+  // A mix of near, far and empty texels.
   std::vector<float> depths = random_depths(kSize, 11, 0);
   for (float& d : depths) d = d < 0.3f ? kNear : d < 0.9f ? kFar : 0.0f;
   ShadowMaps maps(device(), kAtlas);
   maps.add_face(depths, {128, 256}, kSize, false, GLOAM_SHADOW_MIPS_COVERAGE, 0.01f);
   const auto atlas = maps.atlas();
   for (std::uint32_t mip = 1; mip <= 5; ++mip) {
-    const uvec2 corner = ShadowMaps::mip_corner(kAtlas, mip) + uvec2(128, 256) / (1u << mip);
+    const uvec2 corner = mip_corner(kAtlas, mip) + uvec2(128, 256) / (1u << mip);
     const std::uint32_t side = kSize >> mip, block = 1u << mip;
     for (std::uint32_t at = 0; at < side * side; ++at) {
       double near = 0.0, far = 0.0;
@@ -147,14 +148,14 @@ TEST_F(ShadowMips, coverage_is_the_share_of_the_nearest_surface) {
 TEST_F(ShadowMips, a_surface_that_recedes_covers_its_texels_at_the_depth_of_their_middles) {
   constexpr std::uint32_t kSize = 64;
   constexpr float kTexel = 0.02f;  // tangent
-  std::vector<float> depths;       // at two metres a metre across: half of what counts as steep
+  std::vector<float> depths;       // a plane that recedes 0.75 m per metre across
   const auto plane_at = [](float column) { return 0.05f / 3.0f * (1.0f - 0.75f * kTexel * (column - 32.0f)); };
   for (std::uint32_t i = 0; i < kSize * kSize; ++i) depths.push_back(plane_at(static_cast<float>(i % kSize)));
   ShadowMaps maps(device(), kAtlas);
   maps.add_face(depths, {0, 0}, kSize, false, GLOAM_SHADOW_MIPS_COVERAGE, 3.0f * kTexel);
   const auto atlas = maps.atlas();
   for (std::uint32_t mip = 1; mip <= 4; ++mip) {
-    const uvec2 corner = ShadowMaps::mip_corner(kAtlas, mip);
+    const uvec2 corner = mip_corner(kAtlas, mip);
     for (std::uint32_t x = 0; x < kSize >> mip; ++x) {
       const float held = atlas[corner.y * kAtlas * 3 / 2 + corner.x + x];
       EXPECT_EQ(std::bit_cast<std::uint32_t>(held) & 63u, 0u) << "mip " << mip << " column " << x;
@@ -172,12 +173,12 @@ TEST_F(ShadowMips, sixteen_bits_hold_rounded_depths_in_all_mips) {
   expect_face(maps.atlas(), maps.pyramid(), depths, {128, 256}, 128);
 }
 
-/// Texels of all mips (or levels of the pyramid) of a face in an image as wide as one and a half of `side`.
+/// The texels of all mips (or pyramid levels) of a face, from an image that is 1.5 times as wide as `side`.
 template <class Texel>
 std::vector<Texel> all_mips(const std::vector<Texel>& image, std::uint32_t side, uvec2 origin, std::uint32_t size) {
   std::vector<Texel> found;
   for (std::uint32_t mip = 0; size >> mip != 0; ++mip) {
-    const uvec2 corner = ShadowMaps::mip_corner(side, mip) + origin / (1u << mip);
+    const uvec2 corner = mip_corner(side, mip) + origin / (1u << mip);
     for (std::uint32_t i = 0; i < (size >> mip) * (size >> mip); ++i) {
       const uvec2 at = corner + uvec2(i % (size >> mip), i / (size >> mip));
       found.push_back(image[std::size_t{at.y} * side * 3 / 2 + at.x]);
@@ -219,7 +220,7 @@ TEST_F(ShadowMips, means_are_of_distances_and_leave_empty_texels_out) {
     std::vector<double> level(depths.begin(), depths.end());
     for (std::uint32_t mip = 1; size >> mip != 0; ++mip) {
       level = expected_average(level, size >> (mip - 1), orthographic);
-      const uvec2 corner = ShadowMaps::mip_corner(kAtlas, mip) + origin / (1u << mip);
+      const uvec2 corner = mip_corner(kAtlas, mip) + origin / (1u << mip);
       const std::uint32_t side = size >> mip;
       for (std::uint32_t i = 0; i < side * side; ++i) {
         const float got = atlas[(corner.y + i / side) * kAtlas * 3 / 2 + corner.x + i % side];
@@ -228,7 +229,7 @@ TEST_F(ShadowMips, means_are_of_distances_and_leave_empty_texels_out) {
     }
     const auto pyramid = maps.pyramid();
     const Level bounds = expected_nearest(depths, size, 4);
-    const uvec2 low = ShadowMaps::mip_corner(kAtlas / 4, 2) + origin / 16u;
+    const uvec2 low = mip_corner(kAtlas / 4, 2) + origin / 16u;
     for (std::uint32_t i = 0; i < 16; ++i)
       EXPECT_EQ(pyramid[(low.y + i / 4) * kAtlas * 3 / 8 + low.x + i % 4], bounds.bounds[i]);
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/render/renderer.h"
+#include "modules/shadows/atlas/mip_places.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "tests/support/gpu_device.h"
 
@@ -19,7 +20,7 @@ using FaceTexels = std::vector<std::byte>;
 inline void append_texels(FaceTexels& texels, std::span<const std::byte> image, std::uint32_t size, std::uint32_t level,
                           std::uint32_t mip, const AtlasSquare& square) {
   const std::size_t width = size * 3 / 2, texel = image.size() / (width * size);
-  const uvec2 corner = (level == 0 ? uvec2(0) : uvec2(size, size - (2 * size >> level))) + (square.origin >> mip);
+  const uvec2 corner = mip_corner(size, level) + (square.origin >> mip);
   const std::uint32_t side = square.size >> mip;
   for (std::uint32_t y = 0; y < side; ++y) {
     const auto row = image.subspan(((corner.y + y) * width + corner.x) * texel, side * texel);
@@ -27,7 +28,8 @@ inline void append_texels(FaceTexels& texels, std::span<const std::byte> image, 
   }
 }
 
-/// What the first view's faces hold, in the order of its ShadowViews; `size`: of the atlas. Draws the view once more.
+/// The contents of the first view's faces, in the order of its ShadowViews. size: texels of the atlas' side. Draws the
+/// view once more.
 [[nodiscard]] inline std::vector<FaceTexels> held_faces(Renderer& renderer, World& world, std::uint32_t size) {
   constexpr std::string_view kNames[] = {"shadow_atlas", "shadow_pyramid"};
   const std::vector<ImageBytes> images = value_of(renderer.read_images(world, ViewId{0}, kNames));

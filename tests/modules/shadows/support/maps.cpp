@@ -47,7 +47,7 @@ gpu::PipelineHandle probe_pipeline(gpu::Device& device, const ProbeSettings& set
   return pipeline;
 }
 
-/// Workgroups that make all mips of a face, a range a run.
+/// The workgroups that make all mips of a face, and their range for each run.
 struct MipRuns {
   std::vector<shaders::ShadowMipGroup> groups;
   std::vector<GroupRange> runs;
@@ -170,10 +170,6 @@ ShadowMaps::~ShadowMaps() {
   device_.destroy(atlas_);
   device_.destroy(pyramid_);
   device_.destroy(mips_);
-}
-
-uvec2 ShadowMaps::mip_corner(std::uint32_t size, std::uint32_t mip) {
-  return mip == 0 ? uvec2(0) : uvec2(size, size - (2 * size >> mip));
 }
 
 void ShadowMaps::add_face(const std::vector<float>& depths, uvec2 origin, std::uint32_t size, bool orthographic,
