@@ -29,9 +29,9 @@ class JobList {
 
   /// Adds a job that owns `callable`, which may be move-only. Its index is the number of jobs added before it.
   template <class Callable>
-  requires std::invocable < std::decay_t<Callable>
-  & > void add(Callable&& callable) {
+  void add(Callable&& callable) {
     using State = std::decay_t<Callable>;
+    static_assert(std::invocable<State&>, "a job is called without arguments");
     assert_not_running();
     auto* const state = reinterpret_cast<State*>(states_.allocate_bytes(sizeof(State), alignof(State)));
     std::construct_at(state, std::forward<Callable>(callable));
