@@ -113,7 +113,7 @@ void declare_reads(PassBuilder& pass, const Deferred& d) {
   const LightsOutputs& lights = d.inputs.outputs;
   if (lights.texels) pass.read(lights.texels, gpu::Access::fragment_read);
   if (d.shadows != nullptr) declare_arriving_reads(pass, *d.shadows, gpu::Access::fragment_read);
-  if (d.source == LocalLights::final_lists) {
+  if (d.source == LocalLights::final_lists && d.shadows != nullptr) {
     const FinalLists& lists_of_tiles = *d.shadows->final_lists;
     declare_final_list_reads(pass, lists_of_tiles, gpu::Access::fragment_read);
     pass.read(lists_of_tiles.fallback_tiles, gpu::Access::vertex_read);

@@ -41,9 +41,10 @@ ExposureSlots::Slot ExposureSlots::slot_of(LightingWorld world, const RenderView
       slots_.try_emplace({world.number, view.id.value, camera.index, camera.generation}, next_ % kCapacity);
   if (!fresh) return {found->second, false};
   const std::uint32_t index = found->second;
+  const auto* const kept = &found->first;
   ++next_;
   if (next_ > kCapacity)
-    std::erase_if(slots_, [&](const auto& entry) { return entry.second == index && &entry.first != &found->first; });
+    std::erase_if(slots_, [&](const auto& entry) { return entry.second == index && &entry.first != kept; });
   return {index, true};
 }
 

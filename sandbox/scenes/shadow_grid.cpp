@@ -70,9 +70,9 @@ void add_pergola(SceneBuilder& builder, const Materials& m) {
   const vec2 outline[] = {{0.0f, 0.0f},   {0.36f, 0.0f}, {0.36f, 0.24f}, {0.24f, 0.34f},
                           {0.22f, 2.95f}, {0.34f, 3.0f}, {0.34f, 3.2f},  {0.0f, 3.2f}};
   const std::uint32_t pillar = builder.add_mesh("pillar", turned_shape(outline, 16), m.stone);
-  for (int i = 0; i < kPillars * kPillars; ++i)
-    builder.add_instance("pillar", pillar,
-                         {(i % kPillars) * kPillarStep - kSide / 2, 0.0, (i / kPillars) * kPillarStep - kSide / 2});
+  for (int row = 0; row < kPillars; ++row)
+    for (int column = 0; column < kPillars; ++column)
+      builder.add_instance("pillar", pillar, {column * kPillarStep - kSide / 2, 0.0, row * kPillarStep - kSide / 2});
   const std::uint32_t beam = builder.add_mesh("beam", box_shape({side + 1.0f, 0.16f, 0.14f}), m.wood);
   for (int i = 0; i < kBeams; ++i) builder.add_instance("beam", beam, {0.0, kBeamHeight, i * kBeamStep - kSide / 2});
 }

@@ -57,7 +57,7 @@ Status trace_for_view(Session& session, const VisualizerInfo& info, ViewId view,
                                 .tracer = frame->tracer.get(),
                                 .geometry = &frame->geometry,
                                 .progress = quiet ? std::function<void(std::size_t, std::size_t)>() : show};
-  const Status traced = info.trace(session.world, input);
+  Status traced = info.trace(session.world, input);
   console.show_progress("");
   return traced;
 }

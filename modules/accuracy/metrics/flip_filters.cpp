@@ -93,8 +93,8 @@ Plane filter_columns(const Plane& plane, const Kernel& kernel) {
     const std::span<double> out(result.values.data() + static_cast<std::size_t>(y) * width, width);
     for (int offset = -kernel.radius; offset <= kernel.radius; ++offset) {
       const auto from = static_cast<std::size_t>(std::clamp(y + offset, 0, last));
-      add_scaled(out, plane.values.data() + from * width,
-                 kernel.weights[static_cast<std::size_t>(offset + kernel.radius)]);
+      const int tap = offset + kernel.radius;
+      add_scaled(out, plane.values.data() + from * width, kernel.weights[static_cast<std::size_t>(tap)]);
     }
   }
   return result;
