@@ -77,7 +77,7 @@ Status run(std::span<const std::string> arguments, gloam::Console& console) {
   const std::string log_file = gloam::environment_text("GLOAM_LOG").value_or("");
   const auto log = gloam::make_program_log(console, {.quiet = options.quiet, .file = log_file});
   if (!log) return log.error();
-  const Status status = run_command({.options = options, .console = console, .log = **log});
+  Status status = run_command({.options = options, .console = console, .log = **log});
   if (const std::string captured = console.captured(); !captured.empty())
     (*log)->debug("libraries printed: " + captured);
   return status;
