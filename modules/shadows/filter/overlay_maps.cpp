@@ -157,7 +157,7 @@ Result<OverlayCopies> OverlayMaps::start(FrameBuilder& frame, std::span<const Ov
   ImageRef& atlas = frame.get<ShadowsOutputs>().atlas;
   PassBuilder pass = frame.graph().add_pass("shadow_overlay_copy", "shadows");
   atlas = pass.write(atlas, gpu::Access::compute_write);
-  pass.execute([work = std::move(*work), faces = copies.faces, &kept, atlas](PassContext& context) {
+  pass.execute([work = *work, faces = copies.faces, &kept, atlas](PassContext& context) {
     forget_what_lay_there(kept.cache, faces);
     record_copies(context, work, atlas);
   });
