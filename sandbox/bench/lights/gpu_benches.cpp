@@ -179,7 +179,7 @@ BenchRow row_of(std::string id, std::string unit, std::function<Result<BenchValu
 }
 
 template <class Value>
-BenchRow culling_row(std::string id, std::string unit, std::shared_ptr<Shared> shared, Value value) {
+BenchRow culling_row(std::string id, std::string unit, const std::shared_ptr<Shared>& shared, Value value) {
   return row_of(std::move(id), std::move(unit), [shared, value](BenchContext& context) -> Result<BenchValue> {
     const auto culling = shared->culling.get([&]() -> Result<Culling> {
       auto session = context.session_or(kScene);

@@ -60,7 +60,7 @@ Result<const TracedVisibility*> ShadowCase::traced() {
 
 std::string ShadowCase::name_of(Entity light) {
   auto& names = session_.world.resource<SceneNames>();
-  const std::string alias = "#" + std::to_string(light.index);
+  std::string alias = "#" + std::to_string(light.index);
   if (!names.find("light", alias).ok()) names.add("light", alias, light);
   return alias;
 }
