@@ -68,7 +68,7 @@ void add_ratio(BenchRegistry& registry, const std::string& id, std::optional<dou
 
 }  // namespace
 
-void add_case(BenchRegistry& registry, EcsCase ecs_case) {
+void add_case(BenchRegistry& registry, const EcsCase& ecs_case) {
   const auto shared = std::make_shared<SharedComparison>(ecs_case.world, ecs_case.bare);
   registry.add({.id = ecs_case.id,
                 .unit = "ns/entity",

@@ -40,7 +40,7 @@ struct EcsCase {
 
 /// Adds two rows: `id` in ns/entity and `id_over_bare` as a ratio; with unchecked_bare also `id_over_unchecked_bare`. A
 /// row fails if the sides computed different results.
-void add_case(BenchRegistry& registry, EcsCase ecs_case);
+void add_case(BenchRegistry& registry, const EcsCase& ecs_case);
 
 void add_iteration_cases(BenchRegistry& registry);
 void add_change_cases(BenchRegistry& registry);
