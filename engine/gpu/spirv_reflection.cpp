@@ -39,7 +39,27 @@ bool is_type(const Module& module, std::uint32_t id) {
   return id != 0 && id < module.ids.size() && module.ids[id].type.kind != TypeKind::none;
 }
 
-void describe_image(const Type& image, ReflectedBinding& binding) {
+/// A block without a variable name is known by its only member: `uniform Block { Type name; };`.
+std::string name_of_block(const Id& structure) {
+  if (structure.type.members.size() != 1) return structure.name;
+  const auto member = structure.members.find(0);
+  const bool named = member != structure.members.end() && !member->second.name.empty();
+  return named ? member->second.name : structure.name;
+}
+
+/// A buffer is read-only if each member of its block is.
+bool is_read_only(const Id& structure) {
+  for (std::uint32_t i = 0; i < structure.type.members.size(); ++i) {
+    const auto member = structure.members.find(i);
+    if (member == structure.members.end() || !member->second.non_writable) return false;
+  }
+  return true;
+}
+
+void describe_image(const Module& module, const Type& image, ReflectedBinding& binding) {
+  const Type& texel = module.ids[image.element].type;
+  if (texel.kind == TypeKind::scalar && !texel.is_float)
+    binding.texels = texel.is_signed ? TexelKind::signed_integers : TexelKind::unsigned_integers;
   binding.arrayed = image.image_arrayed;
   binding.dimension = image.image_dimension == kDim2d     ? ImageDimension::plane
                       : image.image_dimension == kDimCube ? ImageDimension::cube
@@ -61,18 +81,20 @@ ReflectedBinding reflect_binding(const Module& module, const Id& variable) {
       continue;
     }
     if (type.kind == TypeKind::structure) {
-      if (binding.name.empty()) binding.name = module.ids[id].name;
+      if (binding.name.empty()) binding.name = name_of_block(module.ids[id]);
       const bool storage = variable.storage_class == kStorageStorageBuffer ||
                            (variable.storage_class == kStorageUniform && module.ids[id].buffer_block);
       binding.kind = storage                                     ? ResourceKind::storage_buffer
                      : variable.storage_class == kStorageUniform ? ResourceKind::uniform_buffer
                                                                  : ResourceKind::other;
+      binding.writable = storage && !variable.non_writable && !is_read_only(module.ids[id]);
     } else if (type.kind == TypeKind::sampled_image) {
       binding.kind = ResourceKind::sampled_image;
-      describe_image(module.ids[type.element].type, binding);
+      describe_image(module, module.ids[type.element].type, binding);
     } else if (type.kind == TypeKind::image && type.image_sampled == 2) {
       binding.kind = ResourceKind::storage_image;
-      describe_image(type, binding);
+      binding.writable = !variable.non_writable;
+      describe_image(module, type, binding);
     }
     break;
   }
@@ -99,6 +121,14 @@ std::optional<ReflectedStruct> reflect_struct(const Module& module, std::uint32_
     result.members.push_back(std::move(member));
   }
   return result;
+}
+
+void reflect_local_size(const Module& module, SpirvReflection& reflection) {
+  reflection.local_size = module.local_size;
+  for (std::size_t i = 0; i < module.local_size_ids.size(); ++i) {
+    const Id& part = module.ids[module.local_size_ids[i]];
+    if (module.local_size_ids[i] != 0 && part.has_spec_id) reflection.local_size_constants[i] = part.spec_id;
+  }
 }
 
 }  // namespace
@@ -140,7 +170,7 @@ Result<SpirvReflection> reflect_spirv(const ShaderCode& code) {
   const std::optional<ShaderStage> stage = module.has_entry ? stage_of(module.execution_model) : std::nullopt;
   if (!stage) return Error{ErrorKind::input, who + " has no entry point \"main\" for vertices, fragments or compute"};
   reflection.stage = *stage;
-  if (*stage == ShaderStage::compute) reflection.local_size = module.local_size;
+  if (*stage == ShaderStage::compute) reflect_local_size(module, reflection);
 
   for (const std::uint32_t id : module.variables) {
     const Id& variable = module.ids[id];

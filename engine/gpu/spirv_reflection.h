@@ -19,6 +19,8 @@ namespace gloam::gpu {
 enum class ShaderStage : std::uint8_t { vertex, fragment, compute };
 enum class ResourceKind : std::uint8_t { uniform_buffer, storage_buffer, sampled_image, storage_image, other };
 enum class ImageDimension : std::uint8_t { none, plane, cube, other };
+/// What a shader gets from a texel of an image.
+enum class TexelKind : std::uint8_t { floats, unsigned_integers, signed_integers };
 [[nodiscard]] std::string_view name_of(ResourceKind kind);
 
 struct ReflectedBinding {
@@ -27,9 +29,13 @@ struct ReflectedBinding {
   ResourceKind kind = ResourceKind::other;
   std::uint32_t count = 1;  ///< array elements; 0: unsized array
   ImageDimension dimension = ImageDimension::none;
-  bool arrayed = false;  ///< the image is declared as an array
-  bool used = false;     ///< some function of the shader reads or writes it
-  std::string name;      ///< of the variable, or of the block if the variable has none
+  bool arrayed = false;                  ///< the image is declared as an array
+  TexelKind texels = TexelKind::floats;  ///< images only
+  bool writable = false;                 ///< storage buffers and images that are not declared readonly
+  bool used = false;                     ///< some function of the shader reads or writes it
+  /// The name that shader code uses: of the variable; if it has none, of the block's only member; otherwise of the
+  /// block.
+  std::string name;
 };
 
 struct ReflectedMember {
@@ -47,8 +53,11 @@ struct ReflectedStruct {
 };
 
 struct SpirvReflection {
+  static constexpr std::uint32_t kNoConstant = ~0u;
   ShaderStage stage = ShaderStage::compute;
   std::array<std::uint32_t, 3> local_size = {0, 0, 0};  ///< compute shaders only, with default specialisation constants
+  /// Specialisation constants that replace parts of local_size; kNoConstant where there is none.
+  std::array<std::uint32_t, 3> local_size_constants = {kNoConstant, kNoConstant, kNoConstant};
   std::uint32_t push_constant_bytes = 0;
   std::vector<ReflectedBinding> bindings;  ///< ordered by set, then binding
   std::vector<ReflectedStruct> structs;

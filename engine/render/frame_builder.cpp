@@ -4,17 +4,13 @@
 
 #include "engine/render/renderer_state.h"
 #include "engine/render/view_constants.h"
-#include "shaders/render/shaders.h"
 
 namespace gloam {
 
-Status FrameBuilder::upload_view_constants(std::uint32_t visualizer_code) {
+void FrameBuilder::upload_view_constants(std::uint32_t visualizer_code) {
   shaders::ViewConstants constants = view_constants(view_);
   constants.visualizer = visualizer_code;
-  auto range = services_.uniforms.write_value(constants);
-  if (!range.ok()) return range.error();
-  view_range_ = *range;
-  return {};
+  if (const auto range = services_.uniforms.write_value(constants); check(range)) view_range_ = *range;
 }
 
 Status FrameBuilder::prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass) {
@@ -38,7 +34,7 @@ bool FrameBuilder::has_surfaces(std::span<const Draw> draws, const SurfacePass& 
   const SurfaceVariant* last = nullptr;
   for (const Draw& draw : draws) {
     const bool known = last != nullptr && *last == draw.variant;
-    if (!known && !services_.pipelines.find(surface_pipeline_desc(pass, draw.variant).name)) return false;
+    if (!known && !services_.pipelines.find(surface_pipeline_desc(pass, draw.variant))) return false;
     last = &draw.variant;
   }
   return true;
@@ -113,64 +109,22 @@ void FrameBuilder::keep_result(std::string module, std::string name, BufferRef b
   services_.results.keep(std::move(key), buffer, 0, graph_.desc(buffer).size, std::move(note));
 }
 
-Result<gpu::SamplerHandle> FrameBuilder::nearest_sampler() const {
+gpu::SamplerHandle FrameBuilder::sampler(Sampling sampling) {
   gpu::SamplerDesc desc;
-  desc.min_filter = desc.mag_filter = desc.mip_filter = gpu::Filter::nearest;
+  if (sampling == Sampling::nearest) desc.min_filter = desc.mag_filter = desc.mip_filter = gpu::Filter::nearest;
   desc.address_u = desc.address_v = gpu::AddressMode::clamp_to_edge;
-  return services_.device.create_sampler(desc);
+  const auto made = services_.device.create_sampler(desc);
+  return check(made) ? *made : gpu::SamplerHandle{};
 }
 
-Result<gpu::SamplerHandle> FrameBuilder::linear_sampler() const {
-  gpu::SamplerDesc desc;
-  desc.address_u = desc.address_v = gpu::AddressMode::clamp_to_edge;
-  return services_.device.create_sampler(desc);
-}
-
-ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string module, gpu::Format format,
-                           std::uint32_t divisor) {
+ImageRef create_view_image(FrameBuilder& frame, std::string name, gpu::Format format, std::uint32_t divisor) {
   gpu::ImageDesc desc;
   desc.name = std::move(name);
-  desc.module = std::move(module);
+  desc.module = frame.module();
   desc.format = format;
   desc.width = (frame.view().width + divisor - 1) / divisor;
   desc.height = (frame.view().height + divisor - 1) / divisor;
   return frame.graph().create_image(std::move(desc));
-}
-
-void begin_view_rendering(gpu::CommandList& commands, const RenderView& view, gpu::RenderingDesc rendering) {
-  rendering.width = view.width;
-  rendering.height = view.height;
-  commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(view.width), static_cast<float>(view.height));
-  commands.set_scissor(0, 0, view.width, view.height);
-}
-
-void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass) {
-  gpu::RenderingDesc rendering;
-  rendering.colors.push_back({.view = {.image = pass.target}, .load = pass.load});
-  rendering.width = pass.width;
-  rendering.height = pass.height;
-  commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(pass.width), static_cast<float>(pass.height));
-  commands.set_scissor(0, 0, pass.width, pass.height);
-  commands.bind_pipeline(pass.pipeline);
-  commands.bind(pass.bindings);
-  if (!pass.constants.empty()) commands.push_constants(pass.constants);
-  commands.draw(3, 1, 0, 0);
-  commands.end_rendering();
-}
-
-gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module, gpu::ShaderCode fragment,
-                                              gpu::Format format) {
-  gpu::GraphicsPipelineDesc desc;
-  desc.name = std::move(name);
-  desc.module = std::move(module);
-  desc.vertex = shaders::render::fullscreen_vert;
-  desc.fragment = fragment;
-  desc.color_formats = {format};
-  desc.cull = gpu::CullMode::none;
-  desc.depth_write = false;
-  return desc;
 }
 
 }  // namespace gloam

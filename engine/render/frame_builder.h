@@ -24,6 +24,13 @@
 
 namespace gloam {
 
+namespace declare {
+struct State;
+}  // namespace declare
+
+/// How a pass samples an image: clamped to the edge, mips by the same filter.
+enum class Sampling : std::uint8_t { nearest, linear };
+
 /// Services of the renderer for passes. They live as long as the renderer.
 struct FrameServices {
   gpu::Device& device;
@@ -34,6 +41,7 @@ struct FrameServices {
   UploadRing& uniforms;
   UploadRing& storage;
   FrameResults& results;
+  declare::State& declared;        ///< of passes that bind by name
   bool wait_for_pipelines = true;  ///< false: prefer ready pipelines where there is a choice (Pipelines::request)
 };
 
@@ -61,6 +69,27 @@ class FrameBuilder {
   [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
   void set_visualizer(std::string_view name) { visualizer_ = name; }
 
+  /// The module that is adding passes: passes, images and pipelines made by name belong to it. "engine" outside of
+  /// Module::add_passes.
+  [[nodiscard]] std::string_view module() const { return module_; }
+  void set_module(std::string_view name) { module_ = name; }
+
+  /// Gives the frame up: it is not submitted, and Renderer::render returns the first error that was passed.
+  void fail(Error error) {
+    if (status_.ok()) status_ = std::move(error);
+  }
+  /// Whether the result holds a value; if not, fail() gets its error.
+  template <class T>
+  [[nodiscard]] bool check(const Result<T>& result) {
+    if (!result.ok()) fail(result.error());
+    return result.ok();
+  }
+  [[nodiscard]] bool check(const Status& status) {
+    if (!status.ok()) fail(status.error());
+    return status.ok();
+  }
+  [[nodiscard]] const Status& status() const { return status_; }
+
   /// Puts an output on the board for later passes: GeometryOutputs, LitOutput, and each module's outputs. The board
   /// holds one output per type; a second one replaces the first.
   template <class T>
@@ -87,7 +116,7 @@ class FrameBuilder {
 
   /// The view's constants (ViewConstants) as binding 0 of set 0.
   [[nodiscard]] gpu::Binding view_binding() const { return {0, view_range_}; }
-  [[nodiscard]] Status upload_view_constants(std::uint32_t visualizer_code);
+  void upload_view_constants(std::uint32_t visualizer_code);
 
   /// Draws a list with one surface pass, inside a pass that is rendering. `bindings`: those of set 0.
   [[nodiscard]] Status draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
@@ -119,9 +148,20 @@ class FrameBuilder {
   };
   [[nodiscard]] std::span<const Exposed> exposed() const { return exposed_; }
 
-  /// Nearest and linear clamped samplers for full-screen passes.
-  [[nodiscard]] Result<gpu::SamplerHandle> nearest_sampler() const;
-  [[nodiscard]] Result<gpu::SamplerHandle> linear_sampler() const;
+  /// Uploads a value as a uniform, or items as storage, for this frame. A null range, and the frame is given up, if
+  /// there is no memory.
+  template <class T>
+  [[nodiscard]] gpu::Binding::BufferRange upload_uniform(const T& value) {
+    const auto range = services_.uniforms.write_value(value);
+    return check(range) ? *range : gpu::Binding::BufferRange{};
+  }
+  template <class T>
+  [[nodiscard]] gpu::Binding::BufferRange upload_items(std::span<const T> items) {
+    const auto range = services_.storage.write(std::as_bytes(items));
+    return check(range) ? *range : gpu::Binding::BufferRange{};
+  }
+  /// A null handle, and the frame is given up, if the device cannot create it.
+  [[nodiscard]] gpu::SamplerHandle sampler(Sampling sampling);
 
   /// Deformed vertex streams of this view; set by the deform pass.
   struct Deformed {
@@ -137,31 +177,16 @@ class FrameBuilder {
   const GpuScene& scene_;
   DrawLists draws_;
   std::string_view visualizer_ = "none";
+  std::string_view module_ = "engine";
+  Status status_;
   gpu::Binding::BufferRange view_range_;
   std::unordered_map<std::type_index, std::any> board_;
   std::vector<Exposed> exposed_;
 };
 
-/// Creates a transient image of the view's size, divided by `divisor` and rounded up.
-[[nodiscard]] ImageRef create_view_image(FrameBuilder& frame, std::string name, std::string module, gpu::Format format,
+/// Creates a transient image of the view's size, divided by `divisor` and rounded up. It is accounted to the module
+/// that adds passes.
+[[nodiscard]] ImageRef create_view_image(FrameBuilder& frame, std::string name, gpu::Format format,
                                          std::uint32_t divisor = 1);
-
-/// Begins rendering into images of the view's size. Sets viewport and scissor to the whole view.
-void begin_view_rendering(gpu::CommandList& commands, const RenderView& view, gpu::RenderingDesc rendering);
-
-/// Parameters of record_fullscreen: one full-screen triangle into `target`, with a pipeline of `fullscreen.vert`.
-/// `bindings`: those of set 0.
-struct FullscreenPass {
-  gpu::PipelineHandle pipeline;
-  std::vector<gpu::Binding> bindings;
-  gpu::ImageHandle target;
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  gpu::LoadOp load = gpu::LoadOp::discard;  ///< load: keeps the target's content or blends over it
-  std::span<const std::byte> constants;     ///< push constants; may be empty
-};
-void record_fullscreen(gpu::CommandList& commands, const FullscreenPass& pass);
-[[nodiscard]] gpu::GraphicsPipelineDesc fullscreen_pipeline(std::string name, std::string module,
-                                                            gpu::ShaderCode fragment, gpu::Format format);
 
 }  // namespace gloam

@@ -131,11 +131,10 @@ class Module {
     static_cast<void>(list);
   }
   /// Adds the passes of one phase. Called once per phase for each view, if world and view demand the module. Pipelines
-  /// are compiled on first use.
-  [[nodiscard]] virtual Status add_passes(FrameBuilder& frame, PassPhase phase) {
+  /// are compiled on first use. Errors go to FrameBuilder::fail, which gives the frame up.
+  virtual void add_passes(FrameBuilder& frame, PassPhase phase) {
     static_cast<void>(frame);
     static_cast<void>(phase);
-    return {};
   }
   /// Reports counters that are known on the CPU. Called once per frame for its last view, if the module took part in
   /// that view (demanded by world and view, pipelines ready), after its passes were recorded and before they are

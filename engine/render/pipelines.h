@@ -5,13 +5,13 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <mutex>
-#include <set>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -25,8 +25,8 @@ namespace gloam {
 /// Descriptions of the pipelines that a module needs.
 using PipelineList = std::vector<std::variant<gpu::ComputePipelineDesc, gpu::GraphicsPipelineDesc>>;
 
-/// Pipelines by name, compiled on first use. A name stands for one description, so it must hold everything that varies
-/// (constants, formats, states). Thread-safe.
+/// Pipelines by module and description (gpu::description_hash), compiled on first use. A description without a name
+/// gets the name of its shader and its constants. Thread-safe.
 class Pipelines {
  public:
   explicit Pipelines(gpu::Device& device) : device_(device) {}
@@ -34,11 +34,12 @@ class Pipelines {
   Pipelines(const Pipelines&) = delete;
   Pipelines& operator=(const Pipelines&) = delete;
 
-  /// The pipeline of that name, compiled if needed. Asserts that an existing one has the same description.
+  /// The pipeline of this description, compiled if needed.
   [[nodiscard]] Result<gpu::PipelineHandle> get(const gpu::ComputePipelineDesc& desc) { return find_or_make(desc); }
   [[nodiscard]] Result<gpu::PipelineHandle> get(const gpu::GraphicsPipelineDesc& desc) { return find_or_make(desc); }
-  /// The existing pipeline of that name, or a null handle.
-  [[nodiscard]] gpu::PipelineHandle find(std::string_view name) const;
+  /// The existing pipeline of this description, or a null handle.
+  [[nodiscard]] gpu::PipelineHandle find(const gpu::ComputePipelineDesc& desc) const;
+  [[nodiscard]] gpu::PipelineHandle find(const gpu::GraphicsPipelineDesc& desc) const;
 
   /// Whether all pipelines of a list are compiled. Missing ones are compiled in the background, each once. If one fails
   /// there, the error is logged and the pipeline counts as ready, so that `get` returns the error.
@@ -52,19 +53,20 @@ class Pipelines {
  private:
   template <class Desc>
   [[nodiscard]] Result<gpu::PipelineHandle> find_or_make(const Desc& desc);
+  template <class Desc>
+  [[nodiscard]] gpu::PipelineHandle find_existing(const Desc& desc) const;
 
   struct Entry {
     std::string module;
     gpu::PipelineHandle pipeline;
-    std::uint64_t description = 0;  ///< hash of the description
   };
   void run_worker(const std::stop_token& stop, LogSink& log);
 
   gpu::Device& device_;
   mutable std::mutex mutex_;
-  std::map<std::string, Entry, std::less<>> entries_;
-  std::set<std::string, std::less<>> begun_;                ///< names that are queued or being compiled
-  std::map<std::string, std::string, std::less<>> failed_;  ///< failed in the background: module by name
+  std::unordered_map<std::uint64_t, Entry> entries_;       ///< by hash of module and description, as the members below
+  std::unordered_set<std::uint64_t> begun_;                ///< queued or being compiled
+  std::unordered_map<std::uint64_t, std::string> failed_;  ///< failed in the background: module
   PipelineList queue_;
   std::condition_variable_any wake_;
   std::jthread worker_;  ///< started by the first request; destroyed before the members above

@@ -66,6 +66,7 @@ Renderer::State::State(RendererOptions given)
       uniforms(*options.device, "engine", gpu::BufferUsage::uniform),
       storage(*options.device, "engine", gpu::BufferUsage::storage),
       results(*options.device),
+      declared(*options.device),
       graph(*options.device),
       runtimes(options.modules.size()) {
   add_scene_systems(schedule);
@@ -82,9 +83,8 @@ Renderer::State::~State() {
 }
 
 FrameServices Renderer::State::services() {
-  return {*options.device, *options.executor, *options.log,
-          knobs,           pipelines,         uniforms,
-          storage,         results,           options.readiness == Readiness::wait};
+  return {*options.device, *options.executor, *options.log, knobs,    pipelines,
+          uniforms,        storage,           results,      declared, options.readiness == Readiness::wait};
 }
 
 GpuScene& Renderer::State::scene_of(const World& world) {
@@ -194,7 +194,12 @@ Status Renderer::State::add_module_passes(FrameBuilder& builder) {
     if (runtimes[i].in_last_view = takes_part(i, builder); runtimes[i].in_last_view)
       taking_part.push_back(options.modules[i].get());
   for (const PassPhase phase : kAllPhases)
-    for (Module* module : taking_part) GLOAM_TRY(module->add_passes(builder, phase));
+    for (Module* module : taking_part) {
+      builder.set_module(module->name());
+      module->add_passes(builder, phase);
+      if (!builder.status().ok()) return builder.status();
+    }
+  builder.set_module("engine");
   return {};
 }
 
@@ -237,10 +242,11 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   FrameBuilder& frame = *builders.back();
   frame.set_visualizer(request.settings.visualizer);
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
-  GLOAM_TRY(frame.upload_view_constants(code));
-  GLOAM_TRY(add_deform_pass(frame));
-  GLOAM_TRY(add_geometry_pass(frame));
-  GLOAM_TRY(add_depth_bounds_pass(frame));
+  frame.upload_view_constants(code);
+  add_deform_pass(frame);
+  add_geometry_pass(frame);
+  add_depth_bounds_pass(frame);
+  GLOAM_TRY(frame.status());
   const GeometryOutputs& geometry = frame.get<GeometryOutputs>();
   for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth})
     frame.expose(image);
@@ -258,7 +264,8 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
                "LitOutput is written in place: a module has put another image there");
   GLOAM_ASSERT(frame.get<TargetOutput>().color.resource == target.resource,
                "TargetOutput is written in place: a module has put another image there");
-  if (code != 0) GLOAM_TRY(add_debug_view_pass(frame, code));
+  if (code != 0) add_debug_view_pass(frame, code);
+  GLOAM_TRY(frame.status());
   if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
   if (copy_request && copy_request->view == view.id) GLOAM_TRY(copy_request->add_copies(frame));
   return {};
@@ -278,6 +285,7 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
   storage.begin_frame();
   results.begin_frame();
   graph.begin();
+  declared.recordings.begin_frame();
   builders.clear();
   views.clear();
   const std::uint64_t frame = world.resource<RenderSlot>().frames++;

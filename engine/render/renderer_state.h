@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/frame/upload.h"
+#include "engine/render/declare/recording.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/readback/capture.h"
 #include "engine/render/renderer.h"
@@ -104,6 +105,7 @@ struct Renderer::State {
   UploadRing uniforms;
   UploadRing storage;
   FrameResults results;
+  declare::State declared;
   FrameGraph graph;
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
   std::uint64_t next_slot = 1;

@@ -90,23 +90,21 @@ class CloseupsModule final : public Module {
         closeup_settings(closeup_knobs(knobs), knobs.is("shadows.mode", "deferred"));
   }
 
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::announce) {
       // Casters are withheld from standard maps only when the pipelines that draw them instead are ready.
       if (frame.services().wait_for_pipelines || ready_)
         announce(frame);
       else
         last_.erase(key_of(frame.world(), frame.view()));
-      return {};
     }
-    if (phase == PassPhase::visualize) return views_.add_pass(frame);
-    if (phase != PassPhase::lists) return {};
+    if (phase == PassPhase::visualize) views_.add_pass(frame);
+    if (phase != PassPhase::lists) return;
     keep_completeness(frame);
-    if (frame.find<CloseupFrame>() == nullptr) {
+    if (frame.find<CloseupFrame>() == nullptr)
       ready_ = closeup_pipelines_ready(frame, closeup_knobs(frame.knobs()));
-      return {};
-    }
-    return add_closeup_passes(frame, closeup_knobs(frame.knobs()));
+    else
+      add_closeup_passes(frame, closeup_knobs(frame.knobs()));
   }
 
   [[nodiscard]] std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,

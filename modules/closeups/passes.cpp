@@ -3,10 +3,8 @@
 #include "modules/closeups/passes.h"
 
 #include <algorithm>
-#include <iterator>
-#include <string>
-#include <utility>
 
+#include "engine/render/declare/compute_pass.h"
 #include "engine/render/outputs.h"
 #include "modules/closeups/compose/frame.h"
 #include "modules/closeups/compose/overlay.h"
@@ -17,23 +15,17 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kModule = "closeups";
-constexpr std::uint32_t kFirstShadowBinding = 12;
-
 bool by_index(Entity a, Entity b) { return a.index < b.index; }
 
-gpu::ComputePipelineDesc compose_pipeline(const ShadowsOutputs& shadows, bool directional,
-                                          const gpu::DeviceInfo& device) {
+ComputeProgram compose_program(const ShadowsOutputs& shadows, bool directional, const gpu::DeviceInfo& device) {
   using namespace shaders::closeups;
-  const FinalLists& lists = *shadows.final_lists;
-  const gpu::ShaderCode code = directional ? (shadows.standard ? compose_suns_standard_comp : compose_suns_comp)
-                                           : (shadows.standard ? compose_local_standard_comp : compose_local_comp);
-  gpu::ComputePipelineDesc desc{
-      std::string("closeup_compose/") + (directional ? "suns/" : "local/") + shadows.variant + "/" + lists.variant,
-      kModule, code, shadows.constants};
-  desc.constants.push_back({0, threads_a_tile(device)});
-  desc.constants.insert(desc.constants.end(), lists.constants.begin(), lists.constants.end());
-  return desc;
+  const std::vector<gpu::SpecConstant>& of_lists = shadows.final_lists->constants;
+  ComputeProgram program{directional ? (shadows.standard ? compose_suns_standard_comp : compose_suns_comp)
+                                     : (shadows.standard ? compose_local_standard_comp : compose_local_comp),
+                         shadows.constants};
+  program.constants.push_back({0, threads_a_tile(device)});
+  program.constants.insert(program.constants.end(), of_lists.begin(), of_lists.end());
+  return program;
 }
 
 shaders::CloseupConstants constants_of(const CloseupView& pair, const RenderView& view, const DirectionalLook& sun) {
@@ -61,124 +53,54 @@ shaders::CloseupConstants constants_of(const CloseupView& pair, const RenderView
   return c;
 }
 
-/// Pairs that share the close-up map at a time.
-struct Batch {
-  std::vector<CloseupView> pairs;
-  std::vector<gpu::Binding::BufferRange> constants;
-  std::vector<gpu::PipelineHandle> pipelines;
-};
-
-/// Gives all faces of a batch the size of the largest one, and places them side by side in the close-up map.
-void place(std::vector<CloseupView>& pairs) {
+/// The pairs with faces of one size, that of the largest one, side by side in the close-up map.
+std::vector<CloseupView> placed(std::span<const CloseupView> batch) {
+  std::vector<CloseupView> pairs(batch.begin(), batch.end());
   std::uint32_t size = 0;
   for (const CloseupView& pair : pairs) size = std::max(size, pair.face.square.size);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) pairs[i].face.square = {uvec2(i & 1u, i >> 1) * size, size};
+  return pairs;
 }
 
-/// `shadows`: the outputs with the filter for close-up maps.
-Result<Batch> make_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, const ShadowsOutputs& shadows) {
-  const FrameServices& services = frame.services();
+void draw_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, ExtraAtlas& map) {
+  const auto& subjects = frame.world().resource<CloseupSubjects>();
+  std::vector<ExtraMap> maps;
+  for (const CloseupView& pair : pairs) maps.push_back({pair.face, subjects.subjects[pair.subject_index].casters});
+  frame.get<ShadowMapDrawer>().draw(frame, "closeup", maps, map);
+}
+
+void write_final_lists(ComputePass& pass, FinalLists& lists) {
+  lists.tiles = pass.write("final_tiles", lists.tiles);
+  lists.entries = pass.write("entries", lists.entries);
+  write_visibilities(pass, lists);
+  lists.counters = pass.write("counters", lists.counters);
+  lists.commands = pass.write("commands", lists.commands);
+  lists.fallback_tiles = pass.write("fallback_tiles", lists.fallback_tiles);
+}
+
+/// `shadows`: with the filter for close-up maps and the atlas, pyramid and block of the close-up map.
+void compose_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, const ShadowsOutputs& shadows) {
+  const gpu::DeviceInfo& device = frame.services().device.info();
   const std::vector<DirectionalLook> suns =
       directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id));
-  Batch batch;
-  batch.pairs.assign(pairs.begin(), pairs.end());
-  place(batch.pairs);
-  for (const CloseupView& pair : batch.pairs) {
-    const DirectionalLook sun =
-        pair.directional && pair.light_index < suns.size() ? suns[pair.light_index] : DirectionalLook{};
-    auto range = services.uniforms.write_value(constants_of(pair, frame.view(), sun));
-    if (!range.ok()) return range.error();
-    batch.constants.push_back(*range);
-    auto pipeline = services.pipelines.get(compose_pipeline(shadows, pair.directional, services.device.info()));
-    if (!pipeline.ok()) return pipeline.error();
-    batch.pipelines.push_back(*pipeline);
+  FinalLists& lists = *frame.get<ShadowsOutputs>().final_lists;
+  ComputePass pass(frame, "closeup_compose", compose_program(shadows, pairs.front().directional, device));
+  read_geometry(pass, frame.get<GeometryOutputs>());
+  read_shadows(pass, shadows);
+  pass.read("light_texels", frame.get<LightsOutputs>().texels);
+  pass.read("grid", lists.grid);
+  write_final_lists(pass, lists);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const CloseupView& pair = pairs[i];
+    if (i > 0) {
+      pass.barrier();  // pairs may share tiles
+      pass.use(compose_program(shadows, pair.directional, device));
+    }
+    const bool sun = pair.directional && pair.light_index < suns.size();
+    pass.uniform("closeup", constants_of(pair, frame.view(), sun ? suns[pair.light_index] : DirectionalLook{}));
+    const uvec2 tiles = pair.tiles.end - pair.tiles.begin;
+    pass.dispatch(tiles.x, tiles.y);
   }
-  return batch;
-}
-
-Status draw_batch(FrameBuilder& frame, const Batch& batch, const CloseupSubjects& subjects, ExtraAtlas& atlas) {
-  std::vector<ExtraMap> maps;
-  for (const CloseupView& pair : batch.pairs)
-    maps.push_back({pair.face, subjects.subjects[pair.subject_index].casters});
-  return frame.get<ShadowMapDrawer>().draw(frame, "closeup", kModule, maps, atlas);
-}
-
-/// Inputs for recording a compose pass.
-struct Compose {
-  Batch batch;
-  ShadowsOutputs shadows;  ///< with the atlas, pyramid and block of the close-up map
-  GeometryOutputs geometry;
-  ImageRef texels;
-  gpu::SamplerHandle sampler;
-};
-
-gpu::Binding::BufferRange whole(const PassContext& context, BufferRef buffer) { return {context.buffer(buffer)}; }
-
-std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context, const Compose& c,
-                                      std::size_t pair) {
-  const auto sampled = [&](ImageRef ref) { return gpu::Binding::Sampled{{.image = context.image(ref)}, c.sampler}; };
-  const FinalLists& lists = *c.shadows.final_lists;
-  std::vector<gpu::Binding> bindings = {frame.view_binding(),
-                                        {1, c.batch.constants[pair]},
-                                        {2, lists.grid},
-                                        {3, sampled(c.geometry.depth)},
-                                        {4, sampled(c.geometry.normals)},
-                                        {5, sampled(c.geometry.base_color)},
-                                        {6, sampled(c.texels)},
-                                        {7, gpu::Binding::Storage{{.image = context.image(lists.tiles)}}},
-                                        {8, whole(context, lists.entries)},
-                                        {9, whole(context, lists.visibilities[0])},
-                                        {10, whole(context, lists.visibilities[1])},
-                                        {11, whole(context, lists.counters)}};
-  append_shadow_bindings(bindings, kFirstShadowBinding, context, c.shadows);
-  bindings.push_back({18, whole(context, lists.commands)});
-  bindings.push_back({19, whole(context, lists.fallback_tiles)});
-  bindings.push_back({20, sampled(c.geometry.depth_bounds)});
-  return bindings;
-}
-
-void record(const FrameBuilder& frame, PassContext& context, const Compose& c) {
-  const FinalLists& lists = *c.shadows.final_lists;
-  std::vector<gpu::BufferBarrier> written;
-  for (const BufferRef buffer :
-       {lists.entries, lists.visibilities[0], lists.counters, lists.commands, lists.fallback_tiles})
-    written.push_back({context.buffer(buffer), gpu::Access::compute_write, gpu::Access::compute_write});
-  if (lists.visibilities[1].resource != lists.visibilities[0].resource)
-    written.push_back({context.buffer(lists.visibilities[1]), gpu::Access::compute_write, gpu::Access::compute_write});
-  const gpu::ImageBarrier tiles{context.image(lists.tiles), gpu::Access::compute_write, gpu::Access::compute_write};
-  gpu::CommandList& commands = context.commands();
-  for (std::size_t i = 0; i < c.batch.pairs.size(); ++i) {
-    // Pairs may share tiles.
-    if (i > 0) commands.barrier(written, {&tiles, 1});
-    commands.bind_pipeline(c.batch.pipelines[i]);
-    commands.bind(bindings_of(frame, context, c, i));
-    const uvec2 count = c.batch.pairs[i].tiles.end - c.batch.pairs[i].tiles.begin;
-    commands.dispatch(count.x, count.y, 1);
-  }
-}
-
-void compose_batch(FrameBuilder& frame, Batch batch, const ExtraAtlas& atlas, gpu::Binding::BufferRange block,
-                   ShadowsOutputs& shadows) {
-  Compose c{std::move(batch), shadows, frame.get<GeometryOutputs>(), {}, shadows.nearest};
-  const LightsOutputs& lights = frame.get<LightsOutputs>();
-  c.texels = lights.texels ? lights.texels : c.geometry.base_color;
-  c.shadows.block = block;
-  c.shadows.atlas = atlas.atlas;
-  c.shadows.pyramid = atlas.pyramid;
-  PassBuilder pass = frame.graph().add_pass("closeup_compose", kModule);
-  for (const ImageRef image :
-       {c.geometry.depth, c.geometry.depth_bounds, c.geometry.normals, c.geometry.base_color, c.texels})
-    pass.read(image, gpu::Access::compute_read);
-  declare_shadow_reads(pass, c.shadows, gpu::Access::compute_read);
-  FinalLists& lists = *shadows.final_lists;
-  lists.tiles = pass.write(lists.tiles, gpu::Access::compute_write);
-  const bool split = lists.visibilities[1].resource != lists.visibilities[0].resource;
-  for (BufferRef* buffer :
-       {&lists.entries, &lists.visibilities[0], &lists.counters, &lists.commands, &lists.fallback_tiles})
-    *buffer = pass.write(*buffer, gpu::Access::compute_write);
-  lists.visibilities[1] = split ? pass.write(lists.visibilities[1], gpu::Access::compute_write) : lists.visibilities[0];
-  c.shadows.final_lists = lists;
-  pass.execute([&frame, c = std::move(c)](PassContext& context) { record(frame, context, c); });
 }
 
 }  // namespace
@@ -206,37 +128,34 @@ bool closeup_pipelines_ready(const FrameBuilder& frame, const CloseupKnobs& knob
   const ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
   PipelineList list;
   for (const bool directional : {false, true})
-    list.push_back(compose_pipeline(looked, directional, services.device.info()));
+    list.push_back(pipeline_desc(compose_program(looked, directional, services.device.info()), frame.module()));
   list_closeup_overlay_pipelines(maps->d16(), list);
   return services.pipelines.request(list, services.log);
 }
 
-Status add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
+void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
   auto* closeups = frame.find<CloseupFrame>();
   auto* shadows = frame.find<ShadowsOutputs>();
   auto* drawer = frame.find<ShadowMapDrawer>();
-  if (closeups == nullptr || closeups->pairs.empty() || shadows == nullptr || drawer == nullptr) return {};
-  const auto& subjects = frame.world().resource<CloseupSubjects>();
-  const CloseupSettings& settings = frame.world().view_resource<CloseupSettings>(frame.view().id);
-  ExtraAtlas atlas = drawer->create(frame.graph(), kModule, settings.map_size);
-  auto block = drawer->block(frame, atlas.size);
-  if (!block.ok()) return block.error();
+  if (closeups == nullptr || closeups->pairs.empty() || shadows == nullptr || drawer == nullptr) return;
+  ExtraAtlas map = drawer->create(frame, frame.world().view_resource<CloseupSettings>(frame.view().id).map_size);
   const bool seen = standard_maps_are_seen(frame, shadows->final_lists->always_complete);
   if (seen && !closeups->copies) add_late_copies(frame, *closeups);
   CloseupOverlay overlay(knobs.draws_standard);
-  if (seen) GLOAM_TRY(overlay.start(frame, closeups->overlay));
-  const std::span<const CloseupView> pairs = closeups->pairs;
-  const ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
-  for (std::size_t first = 0; first < pairs.size(); first += knobs.batch) {
-    const std::size_t count = std::min<std::size_t>(knobs.batch, pairs.size() - first);
-    auto batch = make_batch(frame, pairs.subspan(first, count), looked);
-    if (!batch.ok()) return batch.error();
-    GLOAM_TRY(draw_batch(frame, *batch, subjects, atlas));
-    const std::vector<CloseupView> placed = batch->pairs;
-    compose_batch(frame, std::move(*batch), atlas, *block, *shadows);
-    GLOAM_TRY(overlay.add(frame, placed, atlas));
+  if (seen) overlay.start(frame, closeups->overlay);
+  ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
+  looked.block = drawer->block(frame, map.size);
+  for (std::span<const CloseupView> left = closeups->pairs; !left.empty();) {
+    const std::size_t count = std::min<std::size_t>(knobs.batch, left.size());
+    const std::vector<CloseupView> pairs = placed(left.first(count));
+    draw_batch(frame, pairs, map);
+    looked.atlas = map.atlas;
+    looked.pyramid = map.pyramid;
+    compose_batch(frame, pairs, looked);
+    overlay.add(frame, pairs, map);
+    left = left.subspan(count);
   }
-  return overlay.finish(frame);
+  overlay.finish(frame);
 }
 
 }  // namespace gloam

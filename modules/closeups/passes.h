@@ -4,7 +4,6 @@
 
 #include <span>
 
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/closeups/knobs.h"
 #include "modules/closeups/pairs/views.h"
@@ -20,6 +19,6 @@ namespace gloam {
 /// For the pairs of the CloseupFrame on the board, batch after batch: draws them into the close-up map, and lowers the
 /// visibilities in the final lists on the board by what the subjects hide. If the frame reads standard maps, also adds
 /// the subjects to the overlay. Does nothing in a frame without final lists.
-[[nodiscard]] Status add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs);
+void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs);
 
 }  // namespace gloam

@@ -7,10 +7,10 @@
 
 namespace gloam {
 
-/// Pipelines that add_fog_passes uses with these knobs and a perspective camera.
+/// Pipelines that add_fog_passes uses with these knobs.
 void list_fog_pipelines(const KnobRegistry& knobs, PipelineList& list);
 
 /// Blurs LitOutput to a glow and blends the fog over LitOutput.
-[[nodiscard]] Status add_fog_passes(FrameBuilder& frame, const Fog& fog);
+void add_fog_passes(FrameBuilder& frame, const Fog& fog);
 
 }  // namespace gloam

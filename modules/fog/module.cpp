@@ -70,9 +70,8 @@ class FogModule final : public Module {
     list_fog_pipelines(knobs, list);
   }
 
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase != PassPhase::post) return {};
-    return add_fog_passes(frame, find_fog(frame.world()));
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::post) add_fog_passes(frame, find_fog(frame.world()));
   }
 };
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/lights/outputs.h"
 
@@ -10,13 +9,13 @@ namespace gloam {
 
 /// Inputs of all shading, created once per frame and put on the board.
 struct ShadingInputs {
-  gpu::Binding::BufferRange lights;       ///< LightBlock; without lights if the scene has none
   gpu::Binding::BufferRange environment;  ///< EnvironmentConstants
   std::uint32_t directional_count = 0;
-  LightsOutputs outputs;  ///< of the lights module; default values if the scene has no light
+  /// Of the lights module. If the scene has no light: a block without lights, and default values.
+  LightsOutputs outputs;
 };
 
 /// The frame's ShadingInputs from the board; the first call creates them.
-[[nodiscard]] Result<ShadingInputs> shading_inputs(FrameBuilder& frame);
+[[nodiscard]] const ShadingInputs& shading_inputs(FrameBuilder& frame);
 
 }  // namespace gloam

@@ -43,21 +43,10 @@ class LightingModule final : public Module {
 
   [[nodiscard]] bool essential() const override { return true; }
 
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    switch (phase) {
-      case PassPhase::shading:
-        return add_deferred_pass(frame);
-      case PassPhase::translucent:
-        return add_forward_pass(frame);
-      case PassPhase::output:
-        return add_tone_map_passes(frame, exposures_);
-      case PassPhase::lists:
-      case PassPhase::post:
-      case PassPhase::announce:
-      case PassPhase::visualize:
-        break;
-    }
-    return {};
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::shading) add_deferred_pass(frame);
+    if (phase == PassPhase::translucent) add_forward_pass(frame);
+    if (phase == PassPhase::output) add_tone_map_passes(frame, exposures_);
   }
 
   void release() override { exposures_.release(); }

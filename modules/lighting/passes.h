@@ -8,12 +8,12 @@
 namespace gloam {
 
 /// Shades the surfaces in the geometry buffer and fills the sky; writes LitOutput.
-[[nodiscard]] Status add_deferred_pass(FrameBuilder& frame);
+void add_deferred_pass(FrameBuilder& frame);
 
 /// Draws blended surfaces over LitOutput, back to front. Does nothing if there are none.
-[[nodiscard]] Status add_forward_pass(FrameBuilder& frame);
+void add_forward_pass(FrameBuilder& frame);
 
 /// Maps LitOutput to TargetOutput. Meters first, in the first frame of a camera without a set exposure.
-[[nodiscard]] Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures);
+void add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures);
 
 }  // namespace gloam

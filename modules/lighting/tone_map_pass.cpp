@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "engine/render/declare/compute_pass.h"
+#include "engine/render/declare/draw_pass.h"
 #include "engine/scene/resources.h"
 #include "modules/lighting/passes.h"
 #include "shaders/lighting/lighting_shared.h"
@@ -9,99 +11,40 @@ namespace gloam {
 namespace {
 
 /// Meters the frame's light into an exposure slot.
-Status add_meter_pass(FrameBuilder& frame, BufferRef& slots, std::uint32_t slot) {
-  auto pipeline =
-      frame.services().pipelines.get(gpu::ComputePipelineDesc{"meter", "lighting", shaders::lighting::meter_comp, {}});
-  if (!pipeline.ok()) return pipeline.error();
-  auto sampler = frame.nearest_sampler();
-  if (!sampler.ok()) return sampler.error();
-  const ImageRef lit = frame.get<LitOutput>().color;
-  PassBuilder pass = frame.graph().add_pass("meter", "lighting");
-  pass.read(lit, gpu::Access::compute_read);
-  slots = pass.write(slots, gpu::Access::compute_write);
-  const shaders::MeterConstants constants{{frame.view().width, frame.view().height}, slot};
-  pass.execute([lit, slots, constants, pipeline = *pipeline, sampler = *sampler](PassContext& context) {
-    gpu::CommandList& commands = context.commands();
-    commands.bind_pipeline(pipeline);
-    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(lit)}, sampler}},
-                                     {1, gpu::Binding::BufferRange{context.buffer(slots)}}};
-    commands.bind(bindings);
-    commands.push(constants);
-    commands.dispatch(1, 1, 1);
-  });
-  return {};
+void add_meter_pass(FrameBuilder& frame, BufferRef& slots, std::uint32_t slot) {
+  ComputePass pass(frame, "meter", shaders::lighting::meter_comp);
+  pass.read("lit_image", frame.get<LitOutput>().color);
+  slots = pass.write("exposures", slots);
+  pass.push(shaders::MeterConstants{{frame.view().width, frame.view().height}, slot});
+  pass.dispatch(1);
 }
 
 /// The chosen tone curve as a table; none if lighting.tone_map_table = exact.
-Result<ImageRef> add_tone_table_pass(FrameBuilder& frame) {
+ImageRef add_tone_table_pass(FrameBuilder& frame) {
   static constexpr std::uint32_t kSizes[] = {0, 1024, 256, 64};  // indexed by the choice of lighting.tone_map_table
   const std::uint32_t size = kSizes[frame.knobs().choice("lighting.tone_map_table")];
-  if (size == 0) return ImageRef{};
-  auto pipeline = frame.services().pipelines.get(
-      gpu::ComputePipelineDesc{"tone_table", "lighting", shaders::lighting::tone_table_comp, {}});
-  if (!pipeline.ok()) return pipeline.error();
+  if (size == 0) return {};
   gpu::ImageDesc desc;
   desc.name = "tone_table";
   desc.module = "lighting";
   desc.format = gpu::Format::rgba16_float;
   desc.width = size;
-  PassBuilder pass = frame.graph().add_pass("tone_table", "lighting");
-  const ImageRef table = pass.write(frame.graph().create_image(desc), gpu::Access::compute_write);
-  const shaders::ToneTableConstants constants{frame.knobs().choice("lighting.tone_map"), size};
-  pass.execute([table, constants, pipeline = *pipeline](PassContext& context) {
-    gpu::CommandList& commands = context.commands();
-    commands.bind_pipeline(pipeline);
-    const gpu::Binding bindings[] = {{0, gpu::Binding::Storage{{.image = context.image(table)}}}};
-    commands.bind(bindings);
-    commands.push(constants);
-    commands.dispatch((constants.size + 63) / 64, 1, 1);
-  });
+  ComputePass pass(frame, "tone_table", shaders::lighting::tone_table_comp);
+  const ImageRef table = pass.write("table_image", frame.graph().create_image(desc));
+  pass.push(shaders::ToneTableConstants{frame.knobs().choice("lighting.tone_map"), size});
+  pass.dispatch_over(size);
   return table;
-}
-
-struct ToneMapPass {
-  shaders::ToneMapConstants constants{};
-  gpu::PipelineHandle pipeline;
-  gpu::SamplerHandle nearest;
-  gpu::SamplerHandle linear;
-  ImageRef table;  ///< none: the curve is computed per pixel
-};
-
-void add_tone_map_pass(FrameBuilder& frame, const ToneMapPass& tone_map, BufferRef slots) {
-  const ImageRef lit = frame.get<LitOutput>().color;
-  TargetOutput& target = frame.get<TargetOutput>();
-  PassBuilder pass = frame.graph().add_pass("tone_map", "lighting");
-  pass.read(lit, gpu::Access::fragment_read);
-  pass.read(slots, gpu::Access::fragment_read);
-  if (tone_map.table) pass.read(tone_map.table, gpu::Access::fragment_read);
-  target.color = pass.write(target.color, gpu::Access::color_target);
-  pass.execute([&frame, lit, slots, tone_map, color = target.color](PassContext& context) {
-    // Without a table the shader does not read this image, but every binding must be set.
-    const ImageRef table = tone_map.table ? tone_map.table : lit;
-    FullscreenPass draw;
-    draw.pipeline = tone_map.pipeline;
-    draw.bindings = {{0, gpu::Binding::Sampled{{.image = context.image(lit)}, tone_map.nearest}},
-                     {1, gpu::Binding::BufferRange{context.buffer(slots)}},
-                     {2, gpu::Binding::Sampled{{.image = context.image(table)}, tone_map.linear}}};
-    draw.target = context.image(color);
-    draw.width = frame.view().width;
-    draw.height = frame.view().height;
-    draw.constants = std::as_bytes(std::span(&tone_map.constants, 1));
-    record_fullscreen(context.commands(), draw);
-  });
 }
 
 }  // namespace
 
-Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
-  const FrameServices& services = frame.services();
-  GLOAM_TRY(exposures.prepare(services.device));
+void add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
+  if (!frame.check(exposures.prepare(frame.services().device))) return;
   const auto& environment = frame.world().resource<SceneEnvironment>();
   BufferRef& slots = exposures.in(frame.graph());
-  const TargetOutput& target = frame.get<TargetOutput>();
+  TargetOutput& target = frame.get<TargetOutput>();
 
-  ToneMapPass tone_map;
-  shaders::ToneMapConstants& constants = tone_map.constants;
+  shaders::ToneMapConstants constants{};
   constants.curve = frame.knobs().choice("lighting.tone_map");
   constants.encode_srgb = gpu::encodes_srgb(target.format) ? 0 : 1;
   if (environment.has_exposure) {
@@ -110,27 +53,17 @@ Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
     const ExposureSlots::Slot slot = exposures.slot_of(frame.world().resource<LightingWorld>(), frame.view());
     constants.exposure_slot = slot.index;
     constants.metered = 1;
-    if (slot.fresh) GLOAM_TRY(add_meter_pass(frame, slots, slot.index));
+    if (slot.fresh) add_meter_pass(frame, slots, slot.index);
   }
 
-  auto table = add_tone_table_pass(frame);
-  if (!table.ok()) return table.error();
-  tone_map.table = *table;
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(
-      std::string(tone_map.table ? "tone_map_table/" : "tone_map/") + std::string(gpu::name_of(target.format)),
-      "lighting", shaders::lighting::tone_map_frag, target.format);
-  desc.constants = {{0, tone_map.table ? 1u : 0u}};
-  auto pipeline = services.pipelines.get(desc);
-  if (!pipeline.ok()) return pipeline.error();
-  auto nearest = frame.nearest_sampler();
-  if (!nearest.ok()) return nearest.error();
-  auto linear = frame.linear_sampler();
-  if (!linear.ok()) return linear.error();
-  tone_map.pipeline = *pipeline;
-  tone_map.nearest = *nearest;
-  tone_map.linear = *linear;
-  add_tone_map_pass(frame, tone_map, slots);
-  return {};
+  const ImageRef table = add_tone_table_pass(frame);
+  DrawPass pass(frame, "tone_map", {shaders::lighting::tone_map_frag, {{0, table ? 1u : 0u}}});
+  pass.read("lit_image", frame.get<LitOutput>().color);
+  pass.read("exposures", slots);
+  pass.read("table_image", table, Sampling::linear);
+  pass.push(constants);
+  target.color = pass.target(target.color);
+  pass.draw_triangle();
 }
 
 }  // namespace gloam

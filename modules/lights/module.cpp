@@ -102,9 +102,9 @@ class LightsModule final : public Module {
     world.view_resource<ZBinSettings>(view).count = kFewestZBins << knobs.choice("lights.z_bins");
   }
 
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase == PassPhase::visualize) return views_.add_pass(frame);
-    if (phase != PassPhase::lists) return {};
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::visualize) views_.add_pass(frame);
+    if (phase != PassPhase::lists) return;
     const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
     if (visible.dropped > 0 && !warned_.exchange(true)) {
       frame.services().log.warning("more lights are visible than fit (" + std::to_string(GLOAM_MAX_LOCAL_LIGHTS) +
@@ -114,7 +114,7 @@ class LightsModule final : public Module {
     }
     const auto& bins = frame.world().view_resource<ZBins>(frame.view().id);
     const auto& masks = frame.world().view_resource<TileLightMasks>(frame.view().id);
-    return add_find_lights_passes(frame, visible, bins, masks);
+    add_find_lights_passes(frame, visible, bins, masks);
   }
 
   [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {

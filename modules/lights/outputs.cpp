@@ -26,6 +26,17 @@ std::vector<DirectionalLook> directional_looks(const VisibleLights& visible) {
   return looks;
 }
 
+void read_light_lists(ShaderPass& pass, const LightsOutputs& lights) {
+  pass.read_if_declared("lights", lights.lights);
+  pass.read_if_declared("grid", lights.grid);
+  pass.read_if_declared("light_texels", lights.texels);
+  pass.read_if_declared("tile_lists", lights.tile_lists);
+  pass.read_if_declared("early_lists", lights.early_lists);
+  pass.read_if_declared("group_masks", lights.group_masks);
+  pass.read_if_declared("mask_tiles", lights.mask_tiles);
+  pass.read_if_declared("z_bin_words", lights.z_bins);
+}
+
 std::span<const std::byte> empty_light_block() {
   static const shaders::LightBlock block{};
   return std::as_bytes(std::span(&block, 1));

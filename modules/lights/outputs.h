@@ -11,6 +11,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
+#include "engine/render/declare/shader_pass.h"
 
 namespace gloam {
 
@@ -36,6 +37,10 @@ struct LightsOutputs {
   bool lists_always_fit = false;    ///< every tile has room to list every light, so every tile gets a list
   [[nodiscard]] bool has_lists() const { return static_cast<bool>(tile_lists); }
 };
+
+/// Binds the light data that the program in use declares: lights, grid (a LightGrid), light_texels, tile_lists,
+/// early_lists, group_masks, mask_tiles and z_bin_words. What the view does not have becomes a placeholder.
+void read_light_lists(ShaderPass& pass, const LightsOutputs& lights);
 
 /// A later module puts this on the board, before PassPhase::visualize, if it draws the visualizer light_list of the
 /// view's lights itself, to show the final use of the early lists.

@@ -155,10 +155,4 @@ std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::u
           {GLOAM_SHADOWS_COVERAGE_ID, knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u}};
 }
 
-std::string shadow_variant(const std::vector<gpu::SpecConstant>& constants) {
-  std::string variant = "shadows";
-  for (const gpu::SpecConstant& constant : constants) variant += "-" + std::to_string(constant.value);
-  return variant;
-}
-
 }  // namespace gloam

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "engine/gpu/types.h"
@@ -52,8 +51,6 @@ void add_shadow_knobs(KnobRegistry& registry);
 
 /// Specialisation constants of the knobs, for shaders that include shadows_api.glsl. filter: GLOAM_SHADOWS_FILTER_ID.
 [[nodiscard]] std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter);
-/// A text that differs when the constants differ, for the names of pipelines.
-[[nodiscard]] std::string shadow_variant(const std::vector<gpu::SpecConstant>& constants);
 
 // Values of GLOAM_SHADOWS_FILTER_ID.
 inline constexpr std::uint32_t kContactHardening = 3;

@@ -77,24 +77,24 @@ class ShadowsModule final : public Module {
     static_cast<void>(load_cookies(world));
   }
 
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::visualize) {
-      GLOAM_TRY(add_shadow_reference_view_pass(frame));
-      GLOAM_TRY(add_final_list_view_pass(frame, [&](const std::string& sentence) { warn_once(frame, sentence); }));
-      return add_shadow_view_pass(frame, states_);
+      add_shadow_reference_view_pass(frame);
+      add_final_list_view_pass(frame, [&](const std::string& sentence) { warn_once(frame, sentence); });
+      add_shadow_view_pass(frame, states_);
     }
     if (phase == PassPhase::shading) keep_list_counters(frame);
-    if (phase != PassPhase::lists) return {};
+    if (phase != PassPhase::lists) return;
     warn(frame);
-    GLOAM_TRY(add_shadow_passes(frame, states_));
-    if (const auto* outputs = frame.find<ShadowsOutputs>(); outputs != nullptr && outputs->final_lists) {
+    add_shadow_passes(frame, states_);
+    if (!frame.status().ok()) return;
+    if (const auto& outputs = frame.get<ShadowsOutputs>(); outputs.final_lists) {
       const auto tools =
-          std::make_shared<ShadowMapTools>(ShadowMapTools{states_, shadow_knobs(frame.knobs()), outputs->block_values});
+          std::make_shared<ShadowMapTools>(ShadowMapTools{states_, shadow_knobs(frame.knobs()), outputs.block_values});
       frame.put(ShadowMapDrawer(tools));
       frame.put(OverlayMaps(tools));
     }
     take_light_list_view(frame);
-    return {};
   }
 
   [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {

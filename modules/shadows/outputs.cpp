@@ -8,14 +8,6 @@
 #include "shaders/shadows/final_lists_shared.h"
 
 namespace gloam {
-namespace {
-
-gpu::Binding::Sampled sampled(const PassContext& context, ImageRef image, gpu::SamplerHandle sampler,
-                              bool as_array = false) {
-  return {{.image = context.image(image), .as_array = as_array}, sampler};
-}
-
-}  // namespace
 
 std::span<const Entity> WithheldCasters::of(Entity light) const {
   const auto found = std::lower_bound(lights.begin(), lights.end(), light,
@@ -31,57 +23,35 @@ ShadowsOutputs by_single_fetches(ShadowsOutputs shadows) {
     constant.value = kSingleFetches;
     shadows.standard = false;
   }
-  shadows.variant = shadow_variant(shadows.constants);
   return shadows;
 }
 
-void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access) {
-  for (const ImageRef image : {shadows.rows, shadows.atlas, shadows.pyramid, shadows.cookies, shadows.traced})
-    pass.read(image, access);
+void read_shadows(ShaderPass& pass, const ShadowsOutputs& shadows) {
+  pass.read_if_declared("shadow_block", shadows.block);
+  pass.read_if_declared("shadow_rows", shadows.rows);
+  pass.read_if_declared("shadow_atlas", shadows.atlas);
+  pass.read_if_declared("shadow_pyramid", shadows.pyramid);
+  pass.read_if_declared("shadow_cookies", shadows.cookies, Sampling::linear);
+  pass.read_if_declared("shadow_traced", shadows.traced);
 }
 
-void append_shadow_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
-                            const ShadowsOutputs& shadows) {
-  bindings.push_back({first, shadows.block});
-  bindings.push_back({first + 1, sampled(context, shadows.rows, shadows.nearest)});
-  bindings.push_back({first + 2, sampled(context, shadows.atlas, shadows.nearest)});
-  bindings.push_back({first + 3, sampled(context, shadows.pyramid, shadows.nearest)});
-  bindings.push_back({first + 4, sampled(context, shadows.cookies, shadows.linear, true)});
-  bindings.push_back({first + 5, sampled(context, shadows.traced, shadows.nearest, true)});
+void read_final_lists(ShaderPass& pass, const FinalLists& lists) {
+  pass.read_if_declared("final_tiles", lists.tiles);
+  pass.read_if_declared("final_entries", lists.entries);
+  pass.read_if_declared("visibilities_0", lists.visibilities[0]);
+  pass.read_if_declared("visibilities_1", lists.visibilities[1]);
 }
 
-void declare_arriving_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access) {
-  if (!shadows.cookies_only) return declare_shadow_reads(pass, shadows, access);
-  pass.read(shadows.rows, access);
-  pass.read(shadows.cookies, access);
+void write_visibilities(ShaderPass& pass, FinalLists& lists) {
+  const bool split = lists.visibilities[1].resource != lists.visibilities[0].resource;
+  lists.visibilities[0] = pass.write("visibilities_0", lists.visibilities[0]);
+  lists.visibilities[1] = pass.write("visibilities_1", lists.visibilities[split ? 1 : 0]);
+  if (!split) lists.visibilities[0] = lists.visibilities[1];
 }
 
-void append_arriving_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
-                              const ShadowsOutputs& shadows) {
-  if (!shadows.cookies_only) return append_shadow_bindings(bindings, first, context, shadows);
-  append_cookie_bindings(bindings, first, context, shadows);
-}
-
-void append_cookie_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
-                            const ShadowsOutputs& shadows) {
-  bindings.push_back({first, shadows.block});
-  bindings.push_back({first + 1, sampled(context, shadows.rows, shadows.nearest)});
-  bindings.push_back({first + 2, sampled(context, shadows.cookies, shadows.linear, true)});
-}
-
-void declare_final_list_reads(PassBuilder& pass, const FinalLists& lists, gpu::Access access) {
-  pass.read(lists.tiles, access);
-  pass.read(lists.entries, access);
-  pass.read(lists.visibilities[0], access);
-  if (lists.visibilities[1].resource != lists.visibilities[0].resource) pass.read(lists.visibilities[1], access);
-}
-
-void append_final_list_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
-                                const FinalLists& lists, gpu::SamplerHandle nearest) {
-  bindings.push_back({first, sampled(context, lists.tiles, nearest)});
-  bindings.push_back({first + 1, gpu::Binding::BufferRange{context.buffer(lists.entries)}});
-  bindings.push_back({first + 2, gpu::Binding::BufferRange{context.buffer(lists.visibilities[0])}});
-  bindings.push_back({first + 3, gpu::Binding::BufferRange{context.buffer(lists.visibilities[1])}});
+const FinalLists* find_final_lists(const FrameBuilder& frame) {
+  const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
+  return shadows != nullptr && shadows->final_lists ? &*shadows->final_lists : nullptr;
 }
 
 FinalList decode_final_list(uvec4 texel) {

@@ -21,6 +21,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
+#include "engine/render/declare/shader_pass.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/reference/reference.h"
 #include "modules/lights/components.h"
@@ -95,10 +96,8 @@ struct FinalLists {
   std::uint32_t visibility_bits = 8;  ///< bits of one visibility: 8 or 4
   std::uint32_t slot_capacity = 0;    ///< visibility slots that both buffers hold together
   std::uint32_t pair_capacity = 0;    ///< tile-light pairs that the view has room for
-  /// Specialisation constants of shaders that include final_lists_api.glsl (GLOAM_FINAL_…_ID). `variant` is a text that
-  /// differs when they differ, for the names of pipelines.
+  /// Specialisation constants of shaders that include final_lists_api.glsl (GLOAM_FINAL_…_ID).
   std::vector<gpu::SpecConstant> constants;
-  std::string variant;
 };
 
 /// The inputs of shaders that evaluate a view's shadows and cookies with shaders/shadows/shadows_api.glsl. Put on the
@@ -109,14 +108,11 @@ struct ShadowsOutputs {
   ImageRef rows;  ///< rgba32f: light rows, GLOAM_SHADOW_ROW_TEXELS texels wide, one row per local light and per cascade
   /// Content of `rows`: a ShadowRow per local light; from block.cascade_row on, a CascadeRow per cascade.
   std::shared_ptr<const std::vector<shaders::ShadowRow>> row_values;
-  ImageRef atlas;  ///< r32f or r16_unorm: reversed depth of all faces and mips; without maps, the image of `rows`
-  /// r32f: nearest and farthest depth of blocks of the atlas; without maps, the image of `rows`.
-  ImageRef pyramid;
+  ImageRef atlas;    ///< r32f or r16_unorm: reversed depth of all faces and mips; null without maps
+  ImageRef pyramid;  ///< r32f: nearest and farthest depth of blocks of the atlas; null without maps
   ImageRef cookies;  ///< rgba8_srgb array: cookies of spot lights; one white layer when there is none
-  ImageRef traced;   ///< r8_unorm array: traced visibility, one layer per light, of the view's size; the cookies' image
-                     ///< when nothing was traced
-  gpu::SamplerHandle nearest;
-  gpu::SamplerHandle linear;
+  ImageRef traced;   ///< r8_unorm array: traced visibility, one layer per light, of the view's size; null when
+                     ///< nothing was traced
 
   /// No light of the view has a map or traced visibility. Shaders may then include cookies_api.glsl in place of
   /// shadows_api.glsl, which is many times smaller.
@@ -125,9 +121,8 @@ struct ShadowsOutputs {
   /// code.
   bool standard = false;
   /// Specialisation constants of shaders that include shadows_api.glsl (GLOAM_SHADOWS_…_ID), the same for all shaders
-  /// of the frame. `variant` is a text that differs when they differ, for the names of pipelines.
+  /// of the frame.
   std::vector<gpu::SpecConstant> constants;
-  std::string variant;
 
   std::uint32_t cookie_lights = 0;  ///< spot lights of the scene that project a cookie
 
@@ -138,31 +133,19 @@ struct ShadowsOutputs {
 
 /// Returns a copy whose constants select shadows.filter=pcss instead of chs: the same penumbrae, computed by single
 /// fetches from mip 0. Outputs with any other filter keep their filter. `standard` becomes false when the filter
-/// changes; `variant` follows the constants.
+/// changes.
 [[nodiscard]] ShadowsOutputs by_single_fetches(ShadowsOutputs shadows);
 
-/// Declares that the pass reads all images that append_shadow_bindings binds.
-void declare_shadow_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access);
-/// Appends the six bindings of shadows_api.glsl from number `first` on: block, rows, atlas, pyramid, cookies, traced.
-void append_shadow_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
-                            const ShadowsOutputs& shadows);
-
-/// Like the two functions above, for shaders that include cookies_api.glsl if shadows.cookies_only is set, and
-/// shadows_api.glsl if not. With cookies_only, only block, rows and cookies are declared and bound.
-void declare_arriving_reads(PassBuilder& pass, const ShadowsOutputs& shadows, gpu::Access access);
-void append_arriving_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
-                              const ShadowsOutputs& shadows);
-
-/// Appends the three bindings of cookies_api.glsl from number `first` on: block, rows, cookies.
-void append_cookie_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
-                            const ShadowsOutputs& shadows);
-
-/// declare_final_list_reads() declares that the pass reads the images and buffers of the lists.
-/// append_final_list_bindings() appends the four bindings of final_lists_api.glsl from number `first` on: tiles,
-/// entries and the two visibility buffers.
-void declare_final_list_reads(PassBuilder& pass, const FinalLists& lists, gpu::Access access);
-void append_final_list_bindings(std::vector<gpu::Binding>& bindings, std::uint32_t first, const PassContext& context,
-                                const FinalLists& lists, gpu::SamplerHandle nearest);
+/// Binds the inputs of shadows_api.glsl and cookies_api.glsl that the program in use declares: shadow_block,
+/// shadow_rows, shadow_atlas, shadow_pyramid, shadow_cookies and shadow_traced.
+void read_shadows(ShaderPass& pass, const ShadowsOutputs& shadows);
+/// Binds the inputs of final_lists_api.glsl that the program in use declares: final_tiles, final_entries,
+/// visibilities_0 and visibilities_1.
+void read_final_lists(ShaderPass& pass, const FinalLists& lists);
+/// Binds visibilities_0 and visibilities_1 for writing, which may be one buffer.
+void write_visibilities(ShaderPass& pass, FinalLists& lists);
+/// The view's final lists; null if the frame makes none.
+[[nodiscard]] const FinalLists* find_final_lists(const FrameBuilder& frame);
 
 /// Withheld casters: a light's standard maps leave them out, because a later module draws them itself. That module puts
 /// this on the board in PassPhase::announce. Ignored in frames without final lists, in which the maps hold all casters.
@@ -228,19 +211,20 @@ class ShadowMapDrawer {
  public:
   explicit ShadowMapDrawer(std::shared_ptr<const ShadowMapTools> tools) : tools_(std::move(tools)) {}
 
-  /// Creates transient images (FrameGraph::create_image) for an atlas with a side of `size` texels, a power of two.
-  /// Their memory counts towards `module`.
-  [[nodiscard]] ExtraAtlas create(FrameGraph& graph, const char* module, std::uint32_t size) const;
+  /// Creates transient images for an atlas with a side of `size` texels, a power of two. Their memory counts towards
+  /// the module that is adding passes.
+  [[nodiscard]] ExtraAtlas create(FrameBuilder& frame, std::uint32_t size) const;
   /// Greatest number of maps with a side of `size` texels that one call of draw() accepts (asserted there).
   [[nodiscard]] static std::size_t most_maps(std::uint32_t size);
   /// Draws the maps and makes their mips and pyramids: passes shadow_map_`name` and shadow_map_`name`_mips, which count
-  /// towards `module`. maps: 1 … most_maps(size), all with the same square.size. Afterwards `into` refers to the
-  /// written images. Fails if a pipeline or memory cannot be created.
-  [[nodiscard]] Status draw(FrameBuilder& frame, const char* name, const char* module, std::span<const ExtraMap> maps,
-                            ExtraAtlas& into) const;
+  /// towards the module that is adding passes. maps: 1 … most_maps(size), all with the same square.size. Afterwards
+  /// `into` refers to the written images. If a pipeline or memory cannot be created, the frame is given up
+  /// (FrameBuilder::fail).
+  void draw(FrameBuilder& frame, const char* name, std::span<const ExtraMap> maps, ExtraAtlas& into) const;
   /// Uploads the ShadowBlock that shadows_api.glsl needs for maps of an ExtraAtlas, and returns its range in the
   /// frame's uniform memory. It equals the standard maps' ShadowBlock except for atlas_size. size: ExtraAtlas::size.
-  [[nodiscard]] Result<gpu::Binding::BufferRange> block(FrameBuilder& frame, std::uint32_t size) const;
+  /// If there is no memory, the range is empty and the frame is given up.
+  [[nodiscard]] gpu::Binding::BufferRange block(FrameBuilder& frame, std::uint32_t size) const;
 
  private:
   std::shared_ptr<const ShadowMapTools> tools_;
@@ -301,12 +285,13 @@ class OverlayMaps {
   /// Whether the atlas is r16_unorm; otherwise it is r32f.
   [[nodiscard]] bool d16() const;
   /// Copies mip 0 of each face (at least one) into OverlayFace::copy: pass shadow_overlay_copy. Allocates no image
-  /// memory. Cached maps that lie in the squares of the copies are dropped from the cache.
-  [[nodiscard]] Result<OverlayCopies> start(FrameBuilder& frame, std::span<const OverlayFace> faces) const;
+  /// memory. Cached maps that lie in the squares of the copies are dropped from the cache. Passes of overlays count
+  /// towards the shadows module. On an error the frame is given up (FrameBuilder::fail) and the copies are empty.
+  [[nodiscard]] OverlayCopies start(FrameBuilder& frame, std::span<const OverlayFace> faces) const;
   /// Makes the copies' mips and pyramids (pass shadow_overlay_mips), and makes ShadowsOutputs on the board refer to
   /// them: atlas, pyramid, and rows that point to the copies (pass shadow_overlay_rows). Call after all writes to the
   /// copies.
-  [[nodiscard]] Status finish(FrameBuilder& frame, const OverlayCopies& copies) const;
+  void finish(FrameBuilder& frame, const OverlayCopies& copies) const;
 
  private:
   std::shared_ptr<const ShadowMapTools> tools_;

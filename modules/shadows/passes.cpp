@@ -37,49 +37,47 @@ void set_constants(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uin
   const std::size_t cookie_lights = count_cookie_lights(frame.world());
   outputs.cookie_lights = static_cast<std::uint32_t>(cookie_lights);
   outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(cookie_lights)});
-  outputs.variant = shadow_variant(outputs.constants);
 }
 
 /// Updates the maps of the view's faces, of which at least one has a place. Withheld casters are left out only when the
 /// frame makes final lists (for_lists): otherwise no module would draw them.
-Result<ShadowMaps> add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
+ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
   auto found = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
-  if (!found.ok()) return found.error();
+  if (!frame.check(found)) return {};
   ViewShadows& kept = **found;
   const WithheldCasters* withheld = for_lists ? frame.find<WithheldCasters>() : nullptr;
   kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
-  auto maps = add_shadow_map_passes(frame, states, kept, views, knobs);
-  if (!maps.ok()) return maps.error();
+  ShadowMaps maps = add_shadow_map_passes(frame, states, kept, views, knobs);
+  if (!frame.status().ok()) return {};
   // Planes follow the atlas only in frames that read them; after others that draw maps they are out of date.
-  if (!maps->drawn.empty() && !(for_lists && knobs.classify)) kept.planes.filled = false;
-  frame.expose(maps->atlas, "shadow_atlas");
+  if (!maps.drawn.empty() && !(for_lists && knobs.classify)) kept.planes.filled = false;
+  frame.expose(maps.atlas, "shadow_atlas");
   return maps;
 }
 
 /// Adds the passes of final lists; with classification, the planes before them.
-Status add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
-                       ShadowsOutputs& outputs) {
+void add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
+                     ShadowsOutputs& outputs) {
   auto kept = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
-  if (!kept.ok()) return kept.error();
+  if (!frame.check(kept)) return;
   ImageRef planes;
   if (knobs.classify) {
     const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-    auto made = add_shadow_planes_pass(frame, states, **kept, maps, views);
-    if (!made.ok()) return made.error();
-    planes = *made;
+    planes = add_shadow_planes_pass(frame, states, **kept, maps, views);
   }
-  return add_generate_passes(frame, knobs, planes, outputs);
+  add_generate_passes(frame, knobs, planes, outputs);
 }
 
 }  // namespace
 
-Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
+void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   const ShadowKnobs knobs = shadow_knobs(frame.knobs());
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
   states.begin(frame.services().device);
   ShadowsOutputs outputs;
-  GLOAM_TRY(add_shadow_uploads(frame, states, views, knobs, outputs));
+  add_shadow_uploads(frame, states, views, knobs, outputs);
+  if (!frame.status().ok()) return;
 
   const TracedVisibility* found = traced_visibility_of(frame.world(), frame.view());
   const bool traced = knobs.enabled && found != nullptr && found->shades;
@@ -87,19 +85,15 @@ Status add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   set_constants(frame, knobs, traced ? kTracedShadows : has_maps ? knobs.filter : kNoShadows, outputs);
   const bool has_lists = has_maps && can_generate(frame, knobs) && generate_pipelines_ready(frame, knobs, outputs);
   ShadowMaps maps;
-  if (has_maps) {
-    auto made = add_maps(frame, states, knobs, has_lists);
-    if (!made.ok()) return made.error();
-    maps = *made;
-  } else {
+  if (has_maps)
+    maps = add_maps(frame, states, knobs, has_lists);
+  else
     states.rest(frame.world().resource<ShadowWorld>(), frame.view().id);
-  }
-  // Without maps, shaders read none, but every binding must be set.
-  outputs.atlas = has_maps ? maps.atlas : outputs.rows;
-  outputs.pyramid = has_maps ? maps.pyramid : outputs.rows;
-  if (has_lists) GLOAM_TRY(add_final_lists(frame, states, maps, knobs, outputs));
+  if (!frame.status().ok()) return;
+  outputs.atlas = maps.atlas;
+  outputs.pyramid = maps.pyramid;
+  if (has_lists) add_final_lists(frame, states, maps, knobs, outputs);
   frame.put(std::move(outputs));
-  return {};
 }
 
 }  // namespace gloam

@@ -6,7 +6,7 @@
 #include "shaders/shadows/shadows_shared.h"
 
 // Cookies for shaders that evaluate no shadows. Before including this, define GLOAM_COOKIES_BINDING, the first of three
-// bindings: block, rows and cookies of ShadowsOutputs (append_arriving_bindings, append_cookie_bindings).
+// bindings: block, rows and cookies of ShadowsOutputs (read_shadows).
 
 layout(set = 0, binding = GLOAM_COOKIES_BINDING, scalar) uniform ShadowBlockBinding { ShadowBlock shadow_block; };
 layout(set = 0, binding = GLOAM_COOKIES_BINDING + 1) uniform sampler2D shadow_rows;

@@ -7,7 +7,7 @@
 #include "shaders/shadows/final_lists_shared.h"
 
 // Reads final lists (layout: final_lists_shared.h). Before including this, define GLOAM_FINAL_LISTS_BINDING, the first
-// of four bindings: tiles, entries and both visibility buffers of FinalLists (append_final_list_bindings). The
+// of four bindings: tiles, entries and both visibility buffers of FinalLists (read_final_lists). The
 // specialisation constants are FinalLists::constants. Example:
 //   FinalList list = final_list(pixel);
 //   for (uint i = 0u; i < list.local_count; ++i) {

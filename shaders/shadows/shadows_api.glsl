@@ -6,7 +6,7 @@
 #include "shaders/shadows/shadows_shared.h"
 
 // Evaluates how much of a light a receiver sees. Before including this, define GLOAM_SHADOWS_BINDING, the first of six
-// bindings: block, rows, atlas, pyramid, cookies and traced of ShadowsOutputs (append_shadow_bindings). The
+// bindings: block, rows, atlas, pyramid, cookies and traced of ShadowsOutputs (read_shadows). The
 // specialisation constants are ShadowsOutputs::constants. Define GLOAM_SHADOWS_STANDARD to compile the standard filter
 // only: half of the code, for pipelines that must be ready soon. Shaders that are not fragment shaders define
 // GLOAM_SHADOWS_PIXEL, the ivec2 at which traced visibility is read.

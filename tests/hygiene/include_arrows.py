@@ -34,7 +34,7 @@ ROOMS = {
     "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
                         ("components", "outputs", "knobs")),
     "modules/closeups": (("pairs", "umbra", "compose", "debug"), ("components", "knobs")),
-    "engine/render": (("knobs", "scene", "draws", "passes", "readback", "reference"),
+    "engine/render": (("knobs", "scene", "draws", "declare", "passes", "readback", "reference"),
                       ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups"), ()),
     "sandbox": (("output", "scenes", "session", "window", "bench", "commands"), ("options", "console", "log")),

@@ -62,12 +62,11 @@ class CountingModule final : public Module {
   void pipelines(const KnobRegistry&, const gpu::DeviceInfo&, PipelineList& list) const override {
     list.push_back(pipeline());
   }
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
     ++calls_.passes;
-    if (phase != PassPhase::lists) return {};
-    GLOAM_TRY(keep_buffer(frame.services().device));
-    auto made = frame.services().pipelines.get(pipeline());
-    if (!made.ok()) return made.error();
+    if (phase != PassPhase::lists || !frame.check(keep_buffer(frame.services().device))) return;
+    const auto made = frame.services().pipelines.get(pipeline());
+    if (!frame.check(made)) return;
     gpu::ImageDesc desc;
     desc.name = "counted";
     desc.module = "counting";
@@ -81,7 +80,6 @@ class CountingModule final : public Module {
       context.commands().bind_pipeline(pipeline);
       context.commands().dispatch(1, 1, 1);
     });
-    return {};
   }
   void counters(const World&, const RenderView&, CounterSink& sink) const override {
     ++calls_.counters;

@@ -104,11 +104,10 @@ class ReplacingModule final : public Module {
   void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "always"}; }
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase != PassPhase::post) return {};
-    const ImageRef other = create_view_image(frame, "other", "replacing", gpu::Format::rgba16_float);
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::post) return;
+    const ImageRef other = create_view_image(frame, "other", gpu::Format::rgba16_float);
     (lit_ ? frame.get<LitOutput>().color : frame.get<TargetOutput>().color) = other;
-    return {};
   }
 
  private:

@@ -55,11 +55,13 @@ enum Op : std::uint32_t {
 };
 
 enum Decoration : std::uint32_t {
+  decoration_spec_id = 1,
   decoration_block = 2,
   decoration_buffer_block = 3,
   decoration_array_stride = 6,
   decoration_matrix_stride = 7,
   decoration_built_in = 11,
+  decoration_non_writable = 24,
   decoration_binding = 33,
   decoration_descriptor_set = 34,
   decoration_offset = 35,
@@ -196,6 +198,13 @@ class Parser {
       case decoration_built_in:
         if (has_value) id.is_workgroup_size = o[2] == kBuiltInWorkgroupSize;
         return has_value;
+      case decoration_spec_id:
+        id.has_spec_id = has_value;
+        if (has_value) id.spec_id = o[2];
+        return has_value;
+      case decoration_non_writable:
+        id.non_writable = true;
+        return true;
       case decoration_binding:
         id.has_binding = has_value;
         if (has_value) id.binding = o[2];
@@ -211,6 +220,7 @@ class Parser {
 
   bool member_decorate(Operands o) {
     if (o.size() < 3 || !known(o[0])) return false;
+    if (o[2] == decoration_non_writable) module_.ids[o[0]].members[o[1]].non_writable = true;
     if (o[2] != decoration_offset && o[2] != decoration_matrix_stride) return true;
     if (o.size() < 4) return false;
     MemberDecorations& member = module_.ids[o[0]].members[o[1]];
@@ -236,8 +246,11 @@ class Parser {
     for (std::size_t i = 0; i < 3 && i + 2 < o.size(); ++i) {
       if (!known(o[i + 2])) return false;
       id.composite[i] = module_.ids[o[i + 2]].constant;
+      id.parts[i] = o[i + 2];
     }
-    if (id.is_workgroup_size) workgroup_size_ = id.composite;
+    if (!id.is_workgroup_size) return true;
+    workgroup_size_ = id.composite;
+    module_.local_size_ids = id.parts;
     return true;
   }
 
@@ -259,6 +272,8 @@ class Parser {
       case op_type_float:
         if (o.size() < 2 || o[1] > 64) return false;
         type = {.kind = TypeKind::scalar, .bytes = o[1] / 8};
+        type.is_float = op == op_type_float;
+        type.is_signed = op == op_type_int && o.size() >= 3 && o[2] != 0;
         return true;
       case op_type_vector:
         if (o.size() < 3 || !is_type(o[1])) return false;
@@ -272,6 +287,7 @@ class Parser {
       case op_type_image:
         if (o.size() < 8) return false;
         type.kind = TypeKind::image;
+        type.element = known(o[1]) ? o[1] : 0;
         type.image_dimension = o[2];
         type.image_arrayed = o[4] != 0;
         type.image_sampled = o[6];
@@ -357,9 +373,12 @@ class Parser {
 
   void resolve_local_size() {
     if (local_size_are_ids_) {
+      module_.local_size_ids = module_.local_size;
       for (std::uint32_t& size : module_.local_size) size = known(size) ? module_.ids[size].constant : 0;
     }
     if (workgroup_size_[0] != 0) module_.local_size = workgroup_size_;
+    for (std::uint32_t& id : module_.local_size_ids)
+      if (!known(id)) id = 0;
   }
 
   std::span<const std::uint32_t> words_;

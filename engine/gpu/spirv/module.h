@@ -35,9 +35,11 @@ struct Type {
   std::uint32_t count = 0;            ///< components, columns or elements
   std::uint32_t bytes = 0;            ///< size without trailing padding; 0: opaque, unsized, or a matrix
   std::uint32_t storage_class = 0;    ///< pointers only
-  std::uint32_t image_dimension = 0;  ///< Dim operand
+  std::uint32_t image_dimension = 0;  ///< Dim operand; element: the sampled type
   bool image_arrayed = false;
   std::uint32_t image_sampled = 0;     ///< 1: with a sampler, 2: storage
+  bool is_float = false;               ///< scalars only
+  bool is_signed = false;              ///< integer scalars only
   std::vector<std::uint32_t> members;  ///< structures only: type ids
 };
 
@@ -46,6 +48,7 @@ struct MemberDecorations {
   bool has_offset = false;
   std::uint32_t offset = 0;
   std::uint32_t matrix_stride = 0;
+  bool non_writable = false;
 };
 
 /// The properties of one id.
@@ -55,12 +58,16 @@ struct Id {
   std::uint32_t constant = 0;  ///< value of a constant: its first word
   bool has_constant = false;
   std::array<std::uint32_t, 3> composite = {0, 0, 0};  ///< first words of a composite constant's parts
+  std::array<std::uint32_t, 3> parts = {0, 0, 0};      ///< ids of a composite constant's parts
+  bool has_spec_id = false;
+  std::uint32_t spec_id = 0;
   bool is_workgroup_size = false;
   bool has_set = false;
   bool has_binding = false;
   bool buffer_block = false;
   bool block = false;
   bool used = false;
+  bool non_writable = false;
   std::uint32_t set = 0;
   std::uint32_t binding = 0;
   std::uint32_t array_stride = 0;
@@ -76,6 +83,8 @@ struct Module {
   bool has_entry = false;
   std::uint32_t execution_model = 0;
   std::array<std::uint32_t, 3> local_size = {0, 0, 0};
+  /// Ids of the constants that give the local size; 0 where it is a literal.
+  std::array<std::uint32_t, 3> local_size_ids = {0, 0, 0};
 
   /// Like Type::bytes, but for matrices too. matrix_stride: bytes; declared by the member that holds the matrix.
   [[nodiscard]] std::uint32_t bytes_of(std::uint32_t type, std::uint32_t matrix_stride) const;

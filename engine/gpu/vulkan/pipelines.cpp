@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/gpu/pipeline_hash.h"
 #include "engine/gpu/vulkan/errors.h"
 #include "engine/gpu/vulkan/graphics_state.h"
 #include "engine/gpu/vulkan/shader_stages.h"
@@ -55,9 +56,11 @@ Result<PipelineHandle> Pipelines::create(const ComputePipelineDesc& desc) {
   const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                             .stage = stages.infos().front(),
                                             .layout = pipeline->layout->layout};
-  return finish(std::move(*pipeline), retained_.enabled() ? content_hash(desc) : 0, [&](VkPipeline& compiled) {
-    return context_.vk.vkCreateComputePipelines(context_.device, cache_.handle(), 1, &info, nullptr, &compiled);
-  });
+  return finish(std::move(*pipeline), retained_.enabled() ? description_hash(desc, ShaderIdentity::words) : 0,
+                [&](VkPipeline& compiled) {
+                  return context_.vk.vkCreateComputePipelines(context_.device, cache_.handle(), 1, &info, nullptr,
+                                                              &compiled);
+                });
 }
 
 Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
@@ -75,9 +78,11 @@ Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
   info.stageCount = static_cast<std::uint32_t>(stages.infos().size());
   info.pStages = stages.infos().data();
   info.layout = pipeline->layout->layout;
-  return finish(std::move(*pipeline), retained_.enabled() ? content_hash(desc) : 0, [&](VkPipeline& compiled) {
-    return context_.vk.vkCreateGraphicsPipelines(context_.device, cache_.handle(), 1, &info, nullptr, &compiled);
-  });
+  return finish(std::move(*pipeline), retained_.enabled() ? description_hash(desc, ShaderIdentity::words) : 0,
+                [&](VkPipeline& compiled) {
+                  return context_.vk.vkCreateGraphicsPipelines(context_.device, cache_.handle(), 1, &info, nullptr,
+                                                               &compiled);
+                });
 }
 
 void Pipelines::destroy(PipelineHandle handle) {

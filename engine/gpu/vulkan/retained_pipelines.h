@@ -28,11 +28,6 @@ class PipelineObject {
   VkPipeline pipeline_;
 };
 
-/// A hash of everything that determines the compiled pipeline: code, constants and fixed-function state. Name and
-/// module are not included.
-[[nodiscard]] std::uint64_t content_hash(const ComputePipelineDesc& desc);
-[[nodiscard]] std::uint64_t content_hash(const GraphicsPipelineDesc& desc);
-
 /// Keeps the newest `capacity` compiled pipelines by content hash, so that creating an equal pipeline again needs no
 /// compilation. Capacity 0 keeps none. Thread-safe.
 class RetainedPipelines {

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "engine/render/declare/compute_pass.h"
 #include "engine/render/passes/passes.h"
 #include "engine/scene/resources.h"
 #include "shaders/render/shaders.h"
 
 namespace gloam {
 namespace {
-
-constexpr std::uint32_t kGroupSize = 64;
 
 /// Three matrix rows per joint, as the shader reads them.
 std::vector<vec4> joint_rows(const JointMatrices& joints) {
@@ -21,31 +20,35 @@ std::vector<vec4> joint_rows(const JointMatrices& joints) {
   return rows;
 }
 
+/// Items of a buffer. Without items, a null range: the shader reads none.
 template <class T>
-gpu::Binding range_binding(std::uint32_t binding, gpu::BufferHandle buffer, std::uint64_t first, std::uint64_t count) {
-  // Every binding must be given, so an unused input binds the buffer's first elements.
-  if (count == 0) return {binding, gpu::Binding::BufferRange{buffer, 0, 256}};
-  return {binding, gpu::Binding::BufferRange{buffer, first * sizeof(T), count * sizeof(T)}};
+gpu::Binding::BufferRange part(gpu::BufferHandle buffer, std::uint64_t first, std::uint64_t count) {
+  if (count == 0) return {};
+  return {buffer, first * sizeof(T), count * sizeof(T)};
+}
+
+void deform(ComputePass& pass, const GpuScene& scene, const DeformJob& job, FrameBuilder::Deformed& deformed) {
+  const GpuPrimitive& p = *job.primitive;
+  const std::uint64_t count = p.vertex_count;
+  const std::uint64_t morph_floats = 3ull * count * job.constants.morph_targets * (p.morph_has_normals ? 2 : 1);
+  pass.read("rest_positions", part<vec3>(scene.positions(), p.first_vertex, count));
+  pass.read("rest_frames", part<PackedFrame>(scene.frames(), p.first_vertex, count));
+  pass.read("influences",
+            part<PackedInfluence>(scene.influences(), p.first_influence, job.constants.skinned != 0 ? count : 0));
+  pass.read("morph_offsets", part<float>(scene.morph_offsets(), p.first_morph, morph_floats));
+  deformed.positions =
+      pass.write_part("positions", deformed.positions, job.first_vertex * sizeof(vec3), count * sizeof(vec3));
+  deformed.frames =
+      pass.write_part("frames", deformed.frames, job.first_vertex * sizeof(PackedFrame), count * sizeof(PackedFrame));
+  pass.push(job.constants);
+  pass.dispatch_over(p.vertex_count);
 }
 
 }  // namespace
 
-Status add_deform_pass(FrameBuilder& frame) {
+void add_deform_pass(FrameBuilder& frame) {
   const DrawLists& draws = frame.draws();
-  if (draws.deforms.empty()) return {};
-  const FrameServices& services = frame.services();
-  auto pipeline =
-      services.pipelines.get(gpu::ComputePipelineDesc{"deform", "engine", shaders::render::deform_comp, {}});
-  if (!pipeline.ok()) return pipeline.error();
-
-  const std::vector<vec4> rows = joint_rows(frame.world().resource<JointMatrices>());
-  auto joints = services.storage.write(std::as_bytes(std::span(rows)));
-  if (!joints.ok()) return joints.error();
-  std::vector<float> weights = frame.world().resource<MorphWeights>().values;
-  weights.resize(std::max<std::size_t>(weights.size(), 1));
-  auto weight_range = services.storage.write(std::as_bytes(std::span(weights)));
-  if (!weight_range.ok()) return weight_range.error();
-
+  if (draws.deforms.empty()) return;
   const auto stream = [&](const char* name, std::size_t stride) {
     gpu::BufferDesc desc;
     desc.name = name;
@@ -55,35 +58,13 @@ Status add_deform_pass(FrameBuilder& frame) {
   };
   FrameBuilder::Deformed deformed{stream("deformed_positions", sizeof(vec3)),
                                   stream("deformed_frames", sizeof(PackedFrame))};
-  PassBuilder pass = frame.graph().add_pass("deform", "engine");
-  deformed.positions = pass.write(deformed.positions, gpu::Access::compute_write);
-  deformed.frames = pass.write(deformed.frames, gpu::Access::compute_write);
+  std::vector<float> weights = frame.world().resource<MorphWeights>().values;
+  weights.resize(std::max<std::size_t>(weights.size(), 1));
+  ComputePass pass(frame, "deform", shaders::render::deform_comp);
+  pass.items<vec4>("joint_rows", joint_rows(frame.world().resource<JointMatrices>()));
+  pass.items<float>("morph_weights", weights);
+  for (const DeformJob& job : draws.deforms) deform(pass, frame.scene(), job, deformed);
   frame.put(deformed);
-  pass.execute(
-      [&frame, deformed, pipeline = *pipeline, joints = *joints, weights_at = *weight_range](PassContext& context) {
-        gpu::CommandList& commands = context.commands();
-        const GpuScene& scene = frame.scene();
-        commands.bind_pipeline(pipeline);
-        for (const DeformJob& job : frame.draws().deforms) {
-          const GpuPrimitive& p = *job.primitive;
-          const std::uint64_t count = p.vertex_count;
-          const std::uint64_t morph_floats = 3ull * count * job.constants.morph_targets * (p.morph_has_normals ? 2 : 1);
-          const gpu::Binding bindings[] = {
-              range_binding<vec3>(0, scene.positions(), p.first_vertex, count),
-              range_binding<PackedFrame>(1, scene.frames(), p.first_vertex, count),
-              range_binding<PackedInfluence>(2, scene.influences(), p.first_influence,
-                                             job.constants.skinned != 0 ? count : 0),
-              range_binding<float>(3, scene.morph_offsets(), p.first_morph, morph_floats),
-              {4, joints},
-              {5, weights_at},
-              range_binding<vec3>(6, context.buffer(deformed.positions), job.first_vertex, count),
-              range_binding<PackedFrame>(7, context.buffer(deformed.frames), job.first_vertex, count)};
-          commands.bind(bindings);
-          commands.push(job.constants);
-          commands.dispatch((p.vertex_count + kGroupSize - 1) / kGroupSize, 1, 1);
-        }
-      });
-  return {};
 }
 
 }  // namespace gloam

@@ -11,16 +11,16 @@ namespace gloam {
 
 /// Morphs and skins the vertices of deformed primitives that are drawn or cast shadows; puts FrameBuilder::Deformed.
 /// Does nothing if there are none.
-[[nodiscard]] Status add_deform_pass(FrameBuilder& frame);
+void add_deform_pass(FrameBuilder& frame);
 
 /// Draws solid surfaces into the geometry buffer; puts GeometryOutputs.
-[[nodiscard]] Status add_geometry_pass(FrameBuilder& frame);
+void add_geometry_pass(FrameBuilder& frame);
 
 /// Computes the farthest and nearest depth of each 8×8 tile; sets GeometryOutputs::depth_bounds, which
 /// add_geometry_pass has put.
-[[nodiscard]] Status add_depth_bounds_pass(FrameBuilder& frame);
+void add_depth_bounds_pass(FrameBuilder& frame);
 
 /// Draws albedo, normal or depth over the picture. `code`: see debug_view.frag.
-[[nodiscard]] Status add_debug_view_pass(FrameBuilder& frame, std::uint32_t code);
+void add_debug_view_pass(FrameBuilder& frame, std::uint32_t code);
 
 }  // namespace gloam

@@ -7,18 +7,8 @@
 
 namespace gloam {
 
-namespace {
-
-std::string name_of(const SurfacePass& pass, SurfaceVariant variant) {
-  static constexpr const char* kCullNames[] = {"/two-sided", "/front-culled", "/back-culled"};
-  return pass.name + "/" + std::to_string(variant.features) + kCullNames[static_cast<std::size_t>(variant.cull)];
-}
-
-}  // namespace
-
 gpu::GraphicsPipelineDesc surface_pipeline_desc(const SurfacePass& pass, SurfaceVariant variant) {
   gpu::GraphicsPipelineDesc desc;
-  desc.name = name_of(pass, variant);
   desc.module = pass.module;
   desc.vertex = shaders::render::surface_vert;
   desc.fragment = pass.fragment;
@@ -39,7 +29,6 @@ gpu::GraphicsPipelineDesc surface_pipeline_desc(const SurfacePass& pass, Surface
 }
 
 Result<gpu::PipelineHandle> surface_pipeline(Pipelines& pipelines, const SurfacePass& pass, SurfaceVariant variant) {
-  if (const gpu::PipelineHandle found = pipelines.find(name_of(pass, variant))) return found;
   return pipelines.get(surface_pipeline_desc(pass, variant));
 }
 

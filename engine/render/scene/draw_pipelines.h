@@ -13,13 +13,12 @@ namespace gloam {
 /// Pipeline state that all draws of a pass share: fragment shader, targets, blending. Each pass that draws meshes has
 /// one.
 struct SurfacePass {
-  std::string name;  ///< "geometry"
   std::string module;
   gpu::ShaderCode fragment;
   std::vector<gpu::Format> color_formats;
   gpu::BlendMode blend = gpu::BlendMode::opaque;
   bool depth_write = true;
-  /// Constants of the fragment shader, except constant 0. Passes with other constants need another `name`.
+  /// Constants of the fragment shader, except constant 0.
   std::vector<gpu::SpecConstant> constants = {};
 };
 

@@ -70,7 +70,6 @@ gpu::SamplerDesc sampler_desc(const Texture& texture) {
 const SurfacePass& geometry_surface_pass() {
   static const SurfacePass pass = [] {
     SurfacePass p;
-    p.name = "geometry";
     p.module = "engine";
     p.fragment = shaders::render::geometry_frag;
     p.color_formats = {gpu::Format::rgba8_unorm, gpu::Format::rg32_uint, gpu::Format::rgba8_unorm,

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/closeups/pairs/views.h"
+#include "shaders/closeups/closeups_shared.h"
 
 namespace gloam {
 
@@ -20,27 +20,25 @@ class CloseupOverlay {
   explicit CloseupOverlay(bool draws) : draws_(draws) {}
 
   /// Copies the planned faces within the atlas (pass shadow_overlay_copy).
-  [[nodiscard]] Status start(FrameBuilder& frame, const OverlayPlan& plan);
+  void start(FrameBuilder& frame, const OverlayPlan& plan);
   /// Adds the subjects of `pairs`, whose faces have their place in `map` (pass closeup_transfer). With `draws`, this
   /// overwrites `map`: call it after every other pass that reads these pairs' faces.
-  [[nodiscard]] Status add(FrameBuilder& frame, std::span<const CloseupView> pairs, ExtraAtlas& map);
+  void add(FrameBuilder& frame, std::span<const CloseupView> pairs, ExtraAtlas& map);
   /// Makes ShadowsOutputs on the board refer to the copies and their mips.
-  [[nodiscard]] Status finish(FrameBuilder& frame);
+  void finish(FrameBuilder& frame);
 
  private:
   struct Transfer {
-    gpu::Binding::BufferRange constants;
-    std::size_t face = 0;     ///< index in OverlayCopies
-    uvec2 groups = uvec2(0);  ///< workgroups of the dispatch
+    std::size_t face = 0;  ///< index in OverlayCopies
+    shaders::CloseupTransfer constants{};
   };
-  using Transfers = std::vector<Transfer>;
   /// Indices in OverlayCopies of the faces of the pair's light that may see its subject.
   [[nodiscard]] std::vector<std::size_t> faces_of(const FrameBuilder& frame, const CloseupView& pair) const;
-  [[nodiscard]] Status add_transfer(FrameBuilder& frame, const CloseupView& pair, const ShadowFace& from,
-                                    std::size_t face, const ExtraAtlas& map, Transfers& transfers) const;
-  [[nodiscard]] Status draw_and_add(FrameBuilder& frame, const CloseupView& pair, std::span<const std::size_t> faces,
-                                    ExtraAtlas& map);
-  [[nodiscard]] Status add_pass(FrameBuilder& frame, Transfers transfers, const ExtraAtlas& map) const;
+  /// The transfer from `from`, a face in `map`, to a copy.
+  [[nodiscard]] Transfer transfer_to(std::size_t face, const FrameBuilder& frame, const CloseupView& pair,
+                                     const ShadowFace& from, const ExtraAtlas& map) const;
+  void draw_and_add(FrameBuilder& frame, const CloseupView& pair, std::span<const std::size_t> faces, ExtraAtlas& map);
+  void add_pass(FrameBuilder& frame, std::span<const Transfer> transfers, const ExtraAtlas& map) const;
 
   bool draws_;
   OverlayCopies copies_;

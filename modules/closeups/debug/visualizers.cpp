@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 #include "engine/render/passes/visualizer_pass.h"
 #include "modules/closeups/compose/frame.h"
@@ -18,18 +17,6 @@ namespace {
 
 constexpr const char* kFrusta = "closeup_frusta";
 constexpr const char* kTexels = "closeup_texels";
-
-/// Inputs for recording a visualizer pass.
-struct ViewDraw {
-  bool texels = false;
-  std::uint32_t count = 0;  ///< number of pairs
-  gpu::PipelineHandle pipeline;
-  gpu::SamplerHandle sampler;
-  gpu::Binding::BufferRange closeups;
-  gpu::Binding::BufferRange lines;
-  GeometryOutputs geometry;
-  VisualizerTargets targets;
-};
 
 /// Pairs and the lines of their frusta, as the shaders read them.
 struct Shown {
@@ -77,67 +64,31 @@ Shown shown_closeups(std::span<const CloseupView> pairs, const RenderView& view)
   return shown;
 }
 
-gpu::GraphicsPipelineDesc view_pipeline(bool texels, gpu::Format format) {
+void add_view(FrameBuilder& frame, std::span<const CloseupView> pairs, bool texels) {
   using namespace shaders::closeups;
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(
-      std::string(texels ? "closeup_texels_view/" : "closeup_frusta_view/") + std::string(gpu::name_of(format)),
-      "closeups", texels ? closeup_texels_view_frag : closeup_frusta_view_frag, format);
-  desc.color_formats.push_back(texels ? gpu::Format::rgba16_float : gpu::Format::rgba8_unorm);
-  desc.blend = gpu::BlendMode::alpha;
-  desc.constants = {{0, gpu::encodes_srgb(format) ? 0u : 1u}};
-  return desc;
-}
-
-void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& draw) {
-  const auto sampled = [&](ImageRef image) {
-    return gpu::Binding::Sampled{{.image = context.image(image)}, draw.sampler};
-  };
-  std::vector<gpu::Binding> bindings = {
-      frame.view_binding(), {1, draw.closeups}, {2, sampled(draw.geometry.depth)}, {3, draw.lines}};
-  if (draw.texels) bindings.back() = {3, sampled(draw.geometry.normals)};
-  record_visualizer(context, frame.view(), draw.targets, draw.pipeline, bindings,
-                    std::as_bytes(std::span(&draw.count, 1)));
-}
-
-Status add_view(FrameBuilder& frame, std::span<const CloseupView> pairs, bool texels) {
-  TargetOutput& target = frame.get<TargetOutput>();
-  const FrameServices& services = frame.services();
   const Shown shown = shown_closeups(pairs.first(std::min(pairs.size(), kMostShownCloseups)), frame.view());
-  ViewDraw draw{.texels = texels, .count = static_cast<std::uint32_t>(shown.closeups.size())};
-  auto closeups = services.storage.write(std::as_bytes(std::span(shown.closeups)));
-  if (!closeups.ok()) return closeups.error();
-  auto lines = services.storage.write(std::as_bytes(std::span(shown.lines)));
-  if (!lines.ok()) return lines.error();
-  auto pipeline = services.pipelines.get(view_pipeline(texels, target.format));
-  if (!pipeline.ok()) return pipeline.error();
-  auto sampler = frame.nearest_sampler();
-  if (!sampler.ok()) return sampler.error();
-  draw.pipeline = *pipeline;
-  draw.sampler = *sampler;
-  draw.closeups = *closeups;
-  draw.lines = *lines;
-  draw.geometry = frame.get<GeometryOutputs>();
+  const GeometryOutputs& geometry = frame.get<GeometryOutputs>();
   const std::string name = texels ? kTexels : kFrusta;
-  PassBuilder pass = frame.graph().add_pass(name + "_view", "closeups");
-  pass.read(draw.geometry.depth, gpu::Access::fragment_read);
-  if (texels) pass.read(draw.geometry.normals, gpu::Access::fragment_read);
-  draw.targets = write_visualizer_targets(frame, pass, name, "closeups",
-                                          texels ? gpu::Format::rgba16_float : gpu::Format::rgba8_unorm);
-  frame.expose(draw.targets.values);
-  pass.execute([&frame, draw](PassContext& context) { record(frame, context, draw); });
-  return {};
-}
-
-bool has_final_lists(const FrameBuilder& frame) {
-  const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
-  return shadows != nullptr && shadows->final_lists.has_value();
+  DrawPass pass(frame, name + "_view",
+                {.fragment = texels ? closeup_texels_view_frag : closeup_frusta_view_frag,
+                 .constants = {encoding_constant(frame)},
+                 .blend = gpu::BlendMode::alpha});
+  pass.read("depth_image", geometry.depth);
+  pass.items<shaders::ShownCloseup>("closeups", shown.closeups);
+  if (texels)
+    pass.read("normals", geometry.normals);
+  else
+    pass.items<shaders::CloseupLine>("lines", shown.lines);
+  pass.push(static_cast<std::uint32_t>(shown.closeups.size()));
+  add_visualizer_targets(frame, pass, name, texels ? gpu::Format::rgba16_float : gpu::Format::rgba8_unorm);
+  pass.draw_triangle();
 }
 
 }  // namespace
 
 std::span<const CloseupView> drawn_closeups(const FrameBuilder& frame) {
   const auto* closeups = frame.find<CloseupFrame>();
-  if (closeups == nullptr || !has_final_lists(frame)) return {};
+  if (closeups == nullptr || find_final_lists(frame) == nullptr) return {};
   return closeups->pairs;
 }
 
@@ -170,16 +121,15 @@ std::vector<VisualizerInfo> closeup_visualizers() {
   return views;
 }
 
-Status CloseupViewPasses::add_pass(FrameBuilder& frame) {
+void CloseupViewPasses::add_pass(FrameBuilder& frame) {
   const std::string shown(frame.visualizer());
-  if (shown != kFrusta && shown != kTexels) return {};
+  if (shown != kFrusta && shown != kTexels) return;
   const std::span<const CloseupView> pairs = drawn_closeups(frame);
   if (!pairs.empty()) return add_view(frame, pairs, shown == kTexels);
-  if (has_final_lists(frame)) return {};
+  if (find_final_lists(frame) != nullptr) return;
   const auto [sentence, fresh] =
       told_.insert("view " + shown + " shows the picture as it is: the frame has no final lists");
   if (fresh) frame.services().log.warning(*sentence);
-  return {};
 }
 
 }  // namespace gloam

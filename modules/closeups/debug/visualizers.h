@@ -31,7 +31,7 @@ class CloseupViewPasses {
  public:
   /// Adds the pass of FrameBuilder::visualizer() if the visualizer belongs to this module. A frame that draws no pair
   /// is left unchanged; if the cause is missing final lists, one warning says so.
-  [[nodiscard]] Status add_pass(FrameBuilder& frame);
+  void add_pass(FrameBuilder& frame);
 
  private:
   std::set<std::string> told_;  ///< warnings already logged

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
-#include <span>
-#include <utility>
 
 #include "engine/render/passes/visualizer_pass.h"
 #include "engine/scene/resources.h"
@@ -42,81 +40,15 @@ constexpr NamedView kViews[] = {
 bool shows_one_light(LightView view) { return view == LightView::culling || view == LightView::list; }
 bool shows_counts(LightView view) { return view < LightView::culling; }
 
-struct ViewShader {
-  std::string_view name;
-  gpu::ShaderCode fragment;
-};
-ViewShader shader_of(LightView view) {
-  if (view == LightView::culling) return {"light_culling_view", shaders::lights::light_culling_view_frag};
-  if (view == LightView::list) return {"light_list_view", shaders::lights::light_list_view_frag};
-  if (view == LightView::nothing) return {"light_nothing_view", shaders::lights::light_nothing_view_frag};
-  return {"light_count_view", shaders::lights::light_count_view_frag};
-}
-
-gpu::GraphicsPipelineDesc view_pipeline(LightView view, gpu::Format format) {
-  const ViewShader shader = shader_of(view);
-  const auto count = static_cast<std::uint32_t>(view);
-  std::string name = std::string(shader.name) + "/" + std::string(gpu::name_of(format));
-  if (shows_counts(view)) name += "/" + std::to_string(count);
-  gpu::GraphicsPipelineDesc desc = fullscreen_pipeline(std::move(name), "lights", shader.fragment, format);
-  desc.color_formats.push_back(gpu::Format::rgba8_unorm);
-  desc.blend = gpu::BlendMode::alpha;
-  desc.constants = {{0, gpu::encodes_srgb(format) ? 0u : 1u}};
-  if (shows_counts(view)) desc.constants.push_back({1, count});
-  return desc;
-}
-
-/// Inputs for recording a visualizer pass.
-struct ViewDraw {
-  LightView view = LightView::nothing;
-  gpu::PipelineHandle pipeline;
-  gpu::SamplerHandle sampler;
-  LightsOutputs lights;
-  GeometryOutputs geometry;
-  std::uint32_t light = 0;  ///< index of the shown light in the sorted local lights
-  float opacity = 1.0f;     ///< LightView::nothing: opacity of black over the picture
-  VisualizerTargets targets;
-};
-
-void declare_reads(PassBuilder& pass, const ViewDraw& draw) {
-  if (draw.view == LightView::nothing) return;
-  pass.read(draw.lights.tile_lists, gpu::Access::fragment_read);
-  if (shows_counts(draw.view)) return;
-  pass.read(draw.geometry.depth, gpu::Access::fragment_read);
-  pass.read(draw.lights.texels, gpu::Access::fragment_read);
-  pass.read(draw.lights.group_masks, gpu::Access::fragment_read);
-  pass.read(draw.lights.early_lists, gpu::Access::fragment_read);
-  if (draw.view == LightView::culling) pass.read(draw.geometry.depth_bounds, gpu::Access::fragment_read);
-}
-
-std::vector<gpu::Binding> bindings_of(const FrameBuilder& frame, const PassContext& context, const ViewDraw& draw) {
-  const auto sampled = [&](ImageRef image) {
-    return gpu::Binding::Sampled{{.image = context.image(image)}, draw.sampler};
-  };
-  const auto whole = [&](BufferRef buffer) { return gpu::Binding::BufferRange{context.buffer(buffer)}; };
-  const LightsOutputs& lights = draw.lights;
-  if (draw.view == LightView::nothing) return {};
-  if (shows_counts(draw.view)) return {{0, lights.grid}, {1, lights.mask_tiles}, {2, sampled(lights.tile_lists)}};
-  std::vector<gpu::Binding> bindings = {frame.view_binding(),
-                                        {1, lights.grid},
-                                        {2, sampled(draw.geometry.depth)},
-                                        {3, sampled(lights.texels)},
-                                        {4, whole(lights.group_masks)},
-                                        {5, sampled(lights.tile_lists)},
-                                        {6, whole(lights.early_lists)}};
-  if (draw.view == LightView::culling) {
-    bindings.push_back({7, sampled(draw.geometry.depth_bounds)});
-    bindings.push_back({8, lights.z_bins});
-    bindings.push_back({9, lights.mask_tiles});
-  }
-  return bindings;
-}
-
-void record(const FrameBuilder& frame, PassContext& context, const ViewDraw& draw) {
-  std::span<const std::byte> constants;
-  if (shows_one_light(draw.view)) constants = std::as_bytes(std::span(&draw.light, 1));
-  if (draw.view == LightView::nothing) constants = std::as_bytes(std::span(&draw.opacity, 1));
-  record_visualizer(context, frame.view(), draw.targets, draw.pipeline, bindings_of(frame, context, draw), constants);
+DrawProgram program_of(FrameBuilder& frame, LightView view) {
+  using namespace shaders::lights;
+  DrawProgram program{
+      .fragment = light_count_view_frag, .constants = {encoding_constant(frame)}, .blend = gpu::BlendMode::alpha};
+  if (view == LightView::culling) program.fragment = light_culling_view_frag;
+  if (view == LightView::list) program.fragment = light_list_view_frag;
+  if (view == LightView::nothing) program.fragment = light_nothing_view_frag;
+  if (shows_counts(view)) program.constants.push_back({1, static_cast<std::uint32_t>(view)});
+  return program;
 }
 
 }  // namespace
@@ -175,39 +107,32 @@ std::optional<std::uint32_t> LightViews::shown_light(const FrameBuilder& frame, 
   return std::nullopt;
 }
 
-Status LightViews::add_pass(FrameBuilder& frame) {
+void LightViews::add_pass(FrameBuilder& frame) {
   const std::string_view shown = frame.visualizer();
   const std::string stem(shown.substr(0, shown.find(':')));
   const auto* named =
       std::find_if(std::begin(kViews), std::end(kViews), [&](const NamedView& v) { return v.name == stem; });
-  if (named == std::end(kViews)) return {};
+  if (named == std::end(kViews)) return;
   if (frame.knobs().is("lights.culling", "brute"))
-    return Error{ErrorKind::usage, "view " + stem + " needs lights.culling=tiled"};
-  TargetOutput& target = frame.get<TargetOutput>();
-  ViewDraw draw;
-  draw.lights = frame.get<LightsOutputs>();
-  draw.geometry = frame.get<GeometryOutputs>();
-  draw.view = draw.lights.has_lists() ? named->view : LightView::nothing;
+    return frame.fail({ErrorKind::usage, "view " + stem + " needs lights.culling=tiled"});
+  const LightsOutputs& lights = frame.get<LightsOutputs>();
+  LightView view = lights.has_lists() ? named->view : LightView::nothing;
+  std::optional<std::uint32_t> light;  // index of the shown light in the sorted local lights
   if (shows_one_light(named->view)) {
     const std::string_view name = shown.substr(stem.size() + 1);
-    if (is_taken(frame, named->view, name)) return {};
-    const std::optional<std::uint32_t> light = shown_light(frame, name);
-    if (!light) draw.view = LightView::nothing;
-    draw.light = light.value_or(0);
-    draw.opacity = 0.75f;
+    if (is_taken(frame, named->view, name)) return;
+    light = shown_light(frame, name);
+    if (!light) view = LightView::nothing;
   }
-  auto pipeline = frame.services().pipelines.get(view_pipeline(draw.view, target.format));
-  if (!pipeline.ok()) return pipeline.error();
-  auto sampler = frame.nearest_sampler();
-  if (!sampler.ok()) return sampler.error();
-  draw.pipeline = *pipeline;
-  draw.sampler = *sampler;
-
-  PassBuilder pass = frame.graph().add_pass(stem + "_view", "lights");
-  declare_reads(pass, draw);
-  draw.targets = write_visualizer_targets(frame, pass, stem, "lights", gpu::Format::rgba8_unorm);
-  pass.execute([&frame, draw](PassContext& context) { record(frame, context, draw); });
-  return {};
+  DrawPass pass(frame, stem + "_view", program_of(frame, view));
+  read_geometry(pass, frame.get<GeometryOutputs>());
+  read_light_lists(pass, lights);
+  if (view == LightView::nothing)
+    pass.push(shows_one_light(named->view) ? 0.75f : 1.0f);  // opacity of black over the picture
+  else if (light)
+    pass.push(*light);
+  add_visualizer_targets(frame, pass, stem, gpu::Format::rgba8_unorm);
+  pass.draw_triangle();
 }
 
 }  // namespace gloam

@@ -23,7 +23,7 @@ class LightViews {
   /// Adds the pass of FrameBuilder::visualizer() if the visualizer belongs to this module. Usage error unless
   /// lights.culling = tiled. If the named light is in none of the frame's lists, the picture is darkened, no tile is
   /// marked and one warning says why. Adds nothing if a later module draws the visualizer (LightListViewTaken).
-  [[nodiscard]] Status add_pass(FrameBuilder& frame);
+  void add_pass(FrameBuilder& frame);
 
  private:
   /// Index of the named light in the view's sorted local lights; none if it is not among

@@ -68,8 +68,7 @@ std::uint32_t list_capacity(std::uint32_t tiles, std::uint32_t fixed_slots, cons
   return keeps ? there : needed;
 }
 
-Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks, LightsOutputs& outputs) {
-  const FrameServices& services = frame.services();
+void upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks, LightsOutputs& outputs) {
   const RenderView& view = frame.view();
   const uvec2 tiles = shadow_tiles_of(view);
   const std::uint32_t tile_count = tiles.x * tiles.y;
@@ -93,15 +92,9 @@ Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLigh
   outputs.lists_always_fit = grid.slot_capacity >= std::uint64_t{tile_count} * ((grid.local_count + 2) / 3 * 3);
   outputs.slot_capacity = grid.slot_capacity;
 
-  auto grid_range = services.uniforms.write_value(grid);
-  if (!grid_range.ok()) return grid_range.error();
-  outputs.grid = *grid_range;
-  auto bins_range = services.storage.write(std::as_bytes(std::span(bins.bins)));
-  if (!bins_range.ok()) return bins_range.error();
-  outputs.z_bins = *bins_range;
-  auto masks_range = services.storage.write(std::as_bytes(std::span(masks.words)));
-  if (!masks_range.ok()) return masks_range.error();
-  outputs.mask_tiles = *masks_range;
+  outputs.grid = frame.upload_uniform(grid);
+  outputs.z_bins = frame.upload_items(std::span(bins.bins));
+  outputs.mask_tiles = frame.upload_items(std::span(masks.words));
 
   FrameGraph& graph = frame.graph();
   outputs.group_masks =
@@ -115,7 +108,6 @@ Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLigh
   lists.width = tiles.x;
   lists.height = tiles.y;
   outputs.tile_lists = graph.create_image(lists);
-  return {};
 }
 
 void record_counters_start(gpu::CommandList& commands, gpu::BufferHandle counters) {

@@ -67,8 +67,7 @@ inline constexpr std::uint64_t kListBytesThatFitAll = std::uint64_t{512} << 10;
 
 /// Uploads the inputs of the searches and of shading, and declares the list buffers. `outputs`: local_count must be
 /// set; fills grid and all fields after it.
-[[nodiscard]] Status upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks,
-                                        LightsOutputs& outputs);
+void upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks, LightsOutputs& outputs);
 
 /// Writes the initial values of a view's LightCounters. Record it in a pass that writes the buffer with transfer_write.
 void record_counters_start(gpu::CommandList& commands, gpu::BufferHandle counters);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/lights/bins/z_bins.h"
 #include "modules/lights/masks/tile_light_masks.h"
@@ -16,7 +15,7 @@ void list_light_pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& devi
 /// Uploads the view's lights. If there are local lights, adds pass light_texels; if also lights.culling = tiled, adds
 /// passes find_lights_approx and find_lights_accurate, which list the lights of each shadow tile, and check_lists if
 /// lights.check = on. Puts LightsOutputs on the board.
-[[nodiscard]] Status add_find_lights_passes(FrameBuilder& frame, const VisibleLights& visible, const ZBins& bins,
-                                            const TileLightMasks& masks);
+void add_find_lights_passes(FrameBuilder& frame, const VisibleLights& visible, const ZBins& bins,
+                            const TileLightMasks& masks);
 
 }  // namespace gloam

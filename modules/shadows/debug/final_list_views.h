@@ -22,7 +22,6 @@ void take_light_list_view(FrameBuilder& frame);
 /// take_light_list_view() has taken it over, "light_list:LIGHT" for a light in view. It draws over the picture and into
 /// an image of the visualizer's name, for captures. Without final lists the picture stays as it is, and warn() gets the
 /// reason.
-[[nodiscard]] Status add_final_list_view_pass(FrameBuilder& frame,
-                                              const std::function<void(const std::string& sentence)>& warn);
+void add_final_list_view_pass(FrameBuilder& frame, const std::function<void(const std::string& sentence)>& warn);
 
 }  // namespace gloam

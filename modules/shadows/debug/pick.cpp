@@ -123,15 +123,10 @@ class PickLines {
   std::vector<std::string> lines_;
 };
 
-const FinalLists* final_lists(const FrameBuilder& frame) {
-  const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
-  return shadows != nullptr && shadows->final_lists ? &*shadows->final_lists : nullptr;
-}
-
 }  // namespace
 
 Status add_shadow_pick_copies(FrameBuilder& frame, Captures& copies) {
-  const FinalLists* lists = final_lists(frame);
+  const FinalLists* lists = find_final_lists(frame);
   if (lists == nullptr) return {};
   GLOAM_TRY(copies.add(frame.graph(), "shadows.depth_bounds", frame.get<GeometryOutputs>().depth_bounds));
   GLOAM_TRY(copies.add(frame.graph(), "shadows.final_tiles", lists->tiles));
@@ -142,7 +137,7 @@ Status add_shadow_pick_copies(FrameBuilder& frame, Captures& copies) {
 }
 
 std::vector<std::string> shadow_pick_lines(FrameBuilder& frame, const PickedPixel& pixel, const Captures& copies) {
-  const FinalLists* lists = final_lists(frame);
+  const FinalLists* lists = find_final_lists(frame);
   if (lists == nullptr) return {};
   return PickLines(frame, pixel, copies, *lists).take();
 }

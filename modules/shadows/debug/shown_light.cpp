@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 
 #include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
@@ -22,6 +23,15 @@ std::optional<shaders::ShownLightConstants> shown_light(const FrameBuilder& fram
     ++directional;
   }
   return std::nullopt;
+}
+
+std::optional<shaders::ShownLightConstants> shown_light_or_warn(const FrameBuilder& frame) {
+  const std::string_view shown = frame.visualizer();
+  const auto light = shown_light(frame, shown.substr(shown.find(':') + 1));
+  if (!light)
+    frame.services().log.warning("view " + std::string(shown) +
+                                 " shows the picture as it is: the light reaches nothing in view");
+  return light;
 }
 
 }  // namespace gloam

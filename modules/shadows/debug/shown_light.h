@@ -14,4 +14,7 @@ namespace gloam {
 /// nothing in view.
 [[nodiscard]] std::optional<shaders::ShownLightConstants> shown_light(const FrameBuilder& frame, std::string_view name);
 
+/// The same for the light that FrameBuilder::visualizer() names after ':'. Logs a warning when there is none.
+[[nodiscard]] std::optional<shaders::ShownLightConstants> shown_light_or_warn(const FrameBuilder& frame);
+
 }  // namespace gloam

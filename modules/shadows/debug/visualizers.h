@@ -2,13 +2,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "engine/render/declare/draw_pass.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
 #include "modules/shadows/maps/state.h"
 
 namespace gloam {
+
+/// A full-screen visualizer of this module.
+struct ShadowPicture {
+  std::string pass;                             ///< name of the pass
+  std::string values;                           ///< name of the exposed image of plain values
+  gpu::Format format = gpu::Format::r32_float;  ///< of that image
+  /// Without constant 0, which is added: whether the shader encodes sRGB. With blending it draws over the view's
+  /// picture, otherwise in its place.
+  DrawProgram program;
+  std::span<const std::byte> push = {};  ///< push constants; none: the shader declares none
+};
+/// Adds the visualizer's pass. Binds what its shaders declare of the view's geometry, lights, shadows and final lists.
+/// ShadowsOutputs must be on the board.
+void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture);
 
 /// Names and legends of the visualizers of shadow maps.
 [[nodiscard]] std::vector<VisualizerInfo> shadow_visualizers();
@@ -17,6 +35,6 @@ namespace gloam {
 /// visibility over the picture and into the exposed image "shadow_visibility" (r32f; −1 where the light does not
 /// reach); "shadow_atlas" draws the frame's maps. With final lists, "shadow" shows the visibilities that they hold;
 /// fallback tiles are evaluated as in shadows.mode=monolithic.
-[[nodiscard]] Status add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states);
+void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states);
 
 }  // namespace gloam

@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "engine/render/declare/compute_pass.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/filter/uploads.h"
 #include "modules/shadows/maps/mips.h"
@@ -17,20 +18,13 @@
 namespace gloam {
 namespace {
 
-gpu::ComputePipelineDesc copy_pipeline(bool d16) {
-  if (d16) return {"shadow_overlay_copy/d16", "shadows", shaders::shadows::overlay_copy_r16_comp, {}};
-  return {"shadow_overlay_copy/d32", "shadows", shaders::shadows::overlay_copy_comp, {}};
+ComputeProgram copy_program(bool d16) {
+  return {d16 ? shaders::shadows::overlay_copy_r16_comp : shaders::shadows::overlay_copy_comp};
 }
 
 bool is_same(const ShadowFace& a, const ShadowFace& b) { return a.light == b.light && a.index == b.index; }
 
-struct CopyWork {
-  GroupRange all;
-  gpu::Binding::BufferRange groups;
-  gpu::PipelineHandle pipeline;
-};
-
-Result<CopyWork> plan_copies(FrameBuilder& frame, std::span<const OverlayFace> faces, bool d16) {
+std::vector<shaders::ShadowCopyGroup> copy_groups(std::span<const OverlayFace> faces) {
   std::vector<shaders::ShadowCopyGroup> groups;
   for (const OverlayFace& overlaid : faces) {
     shaders::ShadowCopyGroup group{};
@@ -43,23 +37,7 @@ Result<CopyWork> plan_copies(FrameBuilder& frame, std::span<const OverlayFace> f
                  groups.push_back(group);
                });
   }
-  CopyWork work;
-  work.all.count = static_cast<std::uint32_t>(groups.size());
-  auto written = frame.services().storage.write(std::as_bytes(std::span(groups)));
-  if (!written.ok()) return written.error();
-  work.groups = *written;
-  auto pipeline = frame.services().pipelines.get(copy_pipeline(d16));
-  if (!pipeline.ok()) return pipeline.error();
-  work.pipeline = *pipeline;
-  return work;
-}
-
-void record_copies(PassContext& context, const CopyWork& work, ImageRef atlas) {
-  gpu::CommandList& commands = context.commands();
-  const gpu::Binding bindings[] = {{0, gpu::Binding::Storage{{.image = context.image(atlas)}}}, {1, work.groups}};
-  commands.bind_pipeline(work.pipeline);
-  commands.bind(bindings);
-  dispatch_groups(commands, shaders::ShadowCopyConstants{}, work.all);
+  return groups;
 }
 
 /// Drops cached maps in the squares of the copies. They belong to faces that are not in view in this frame; the copies
@@ -74,16 +52,18 @@ void forget_what_lay_there(ShadowCache& cache, std::span<const OverlayFace> face
   }
 }
 
-void record_mips(PassContext& context, const ShadowMipWork& work, ImageRef atlas, ImageRef pyramid) {
-  gpu::CommandList& commands = context.commands();
-  const ShadowMipImages of{{}, context.image(atlas), context.image(pyramid), {}};
-  record_batch_mips(commands, work, 0, of);
-  if (work.coarse.empty()) return;
-  const gpu::ImageBarrier written[] = {{of.atlas, gpu::Access::compute_write, gpu::Access::compute_write},
-                                       {of.pyramid, gpu::Access::compute_write, gpu::Access::compute_write}};
-  commands.barrier({}, written);
-  record_coarse_mips(commands, work, of);
-}
+/// While it lives, passes and pipelines belong to the shadows module, whichever module adds them.
+class AsShadows {
+ public:
+  explicit AsShadows(FrameBuilder& frame) : frame_(frame), caller_(frame.module()) { frame.set_module("shadows"); }
+  ~AsShadows() { frame_.set_module(caller_); }
+  AsShadows(const AsShadows&) = delete;
+  AsShadows& operator=(const AsShadows&) = delete;
+
+ private:
+  FrameBuilder& frame_;
+  std::string_view caller_;
+};
 
 /// Makes a local light's row refer to the copy.
 void redirect_local(shaders::ShadowRow& row, const OverlayFace& overlaid) {
@@ -145,48 +125,37 @@ bool OverlayPlan::add(Entity light, const dvec3& low, const dvec3& high) {
 
 bool OverlayMaps::d16() const { return tools_->knobs.d16; }
 
-Result<OverlayCopies> OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFace> faces) const {
+OverlayCopies OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFace> faces) const {
   const ShadowKnobs& knobs = tools_->knobs;
+  auto found = tools_->states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  if (!frame.check(found)) return {};
   OverlayCopies copies{{faces.begin(), faces.end()}, knobs.d16};
   if (knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) copies.depth_bits = ~GLOAM_SHADOW_FREE_BITS;
-  auto work = plan_copies(frame, faces, knobs.d16);
-  if (!work.ok()) return work.error();
-  auto found = tools_->states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
-  if (!found.ok()) return found.error();
-  ViewShadows& kept = **found;
+  const std::vector<shaders::ShadowCopyGroup> groups = copy_groups(faces);
+  const AsShadows owner(frame);
   ImageRef& atlas = frame.get<ShadowsOutputs>().atlas;
-  PassBuilder pass = frame.graph().add_pass("shadow_overlay_copy", "shadows");
-  atlas = pass.write(atlas, gpu::Access::compute_write);
-  pass.execute([work = *work, faces = copies.faces, &kept, atlas](PassContext& context) {
-    forget_what_lay_there(kept.cache, faces);
-    record_copies(context, work, atlas);
-  });
-  return copies;
+  ComputePass pass(frame, "shadow_overlay_copy", copy_program(knobs.d16));
+  atlas = pass.write("atlas", atlas);
+  pass.items<shaders::ShadowCopyGroup>("groups", groups);
+  pass.record([&kept = **found, faces = copies.faces](PassContext&) { forget_what_lay_there(kept.cache, faces); });
+  dispatch_groups(pass, shaders::ShadowCopyConstants{}, {0, static_cast<std::uint32_t>(groups.size())});
+  return frame.status().ok() ? copies : OverlayCopies{};
 }
 
-Status OverlayMaps::finish(FrameBuilder& frame, const OverlayCopies& copies) const {
+void OverlayMaps::finish(FrameBuilder& frame, const OverlayCopies& copies) const {
   std::vector<ShadowFace> made;
   for (const OverlayFace& overlaid : copies.faces) made.push_back(overlaid.at_copy());
-  auto work = plan_shadow_mips_in_place(frame, made, tools_->knobs);
-  if (!work.ok()) return work.error();
+  const AsShadows owner(frame);
   auto& outputs = frame.get<ShadowsOutputs>();
-  PassBuilder pass = frame.graph().add_pass("shadow_overlay_mips", "shadows");
-  outputs.atlas = pass.write(outputs.atlas, gpu::Access::compute_write);
-  outputs.pyramid = pass.write(outputs.pyramid, gpu::Access::compute_write);
-  pass.execute([work = std::move(*work), atlas = outputs.atlas, pyramid = outputs.pyramid](PassContext& context) {
-    record_mips(context, work, atlas, pyramid);
-  });
+  add_shadow_mips_in_place(frame, "shadow_overlay_mips", made, tools_->knobs, outputs.atlas, outputs.pyramid);
   std::vector<shaders::ShadowRow> values = redirected_rows(frame, outputs, copies.faces);
-  auto rows = upload_shadow_rows(frame, tools_->states, "shadow_overlay_rows", values);
-  if (!rows.ok()) return rows.error();
-  outputs.rows = *rows;
+  outputs.rows = upload_shadow_rows(frame, tools_->states, "shadow_overlay_rows", values);
   outputs.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(values));
-  return {};
 }
 
 void list_overlay_map_pipelines(bool d16, PipelineList& list) {
-  list.push_back(copy_pipeline(d16));
-  list.push_back(shadow_mips_in_place_pipeline(d16));
+  list.push_back(pipeline_desc(copy_program(d16), "shadows"));
+  list.push_back(pipeline_desc(shadow_mips_in_place_program(d16), "shadows"));
 }
 
 }  // namespace gloam

@@ -26,10 +26,16 @@ struct Copy {
   std::uint32_t layers = 1;
 };
 
-Result<UploadSlice> stage(UploadRing& staging, std::span<const std::byte> bytes) {
+UploadSlice stage(FrameBuilder& frame, UploadRing& staging, std::span<const std::byte> bytes) {
   auto slice = staging.allocate(bytes.size());
-  if (slice.ok()) std::memcpy(slice->bytes.data(), bytes.data(), bytes.size());
-  return slice;
+  if (!frame.check(slice)) return {};
+  std::memcpy(slice->bytes.data(), bytes.data(), bytes.size());
+  return *slice;
+}
+
+void record_copy(PassContext& context, const Copy& copy) {
+  context.commands().copy_buffer_to_image(copy.source.buffer, copy.source.offset, context.image(copy.target), 0, 0,
+                                          copy.layers);
 }
 
 float cookie_layer(const World& world, Entity entity, const Cookies& cookies) {
@@ -83,44 +89,39 @@ shaders::ShadowBlock block_of(const FrameBuilder& frame, const ShadowViews& view
   return block;
 }
 
-Result<ImageRef> add_rows(FrameBuilder& frame, ShadowStates& states, std::span<const shaders::ShadowRow> rows,
-                          std::vector<Copy>& copies) {
+Copy add_rows(FrameBuilder& frame, ShadowStates& states, std::span<const shaders::ShadowRow> rows) {
   gpu::ImageDesc desc;
   desc.name = "shadow_rows";
   desc.module = "shadows";
   desc.format = gpu::Format::rgba32_float;
   desc.width = GLOAM_SHADOW_ROW_TEXELS;
   desc.height = static_cast<std::uint32_t>(rows.size());
-  auto slice = stage(states.staging(), std::as_bytes(rows));
-  if (!slice.ok()) return slice.error();
-  copies.push_back({frame.graph().create_image(desc), *slice});
-  return copies.back().target;
+  return {frame.graph().create_image(desc), stage(frame, states.staging(), std::as_bytes(rows))};
 }
 
 /// The world's cookies, with a copy into their image when it is not up to date. Imported once per frame, for all views.
-Result<WorldCookies*> add_cookies(FrameBuilder& frame, ShadowStates& states, std::vector<Copy>& copies) {
+/// Null, and the frame is given up, if the image cannot be created.
+WorldCookies* add_cookies(FrameBuilder& frame, ShadowStates& states, std::vector<Copy>& copies) {
   const Cookies& cookies = frame.world().resource<Cookies>();
   const auto layers = static_cast<std::uint32_t>(cookies.texels.size());
   auto found =
       states.cookies(frame.world().resource<ShadowWorld>(), std::max(layers, 1u), layers == 0 ? 1 : kCookieSide);
-  if (!found.ok()) return found;
+  if (!frame.check(found)) return nullptr;
   WorldCookies& kept = **found;
-  if (kept.imported && kept.imported.frame == frame.graph().frame()) return found;
+  if (kept.imported && kept.imported.frame == frame.graph().frame()) return &kept;
   const bool there = kept.images.filled && kept.version == cookies.version;
   const gpu::Access before = kept.images.filled ? gpu::Access::fragment_read : gpu::Access::none;
   kept.imported = frame.graph().import_image("shadow_cookies", kept.images.image, before, gpu::Access::fragment_read);
-  if (there) return found;
+  if (there) return &kept;
   std::vector<std::uint8_t> texels;
   for (const auto& layer : cookies.texels) texels.insert(texels.end(), layer.begin(), layer.end());
   if (texels.empty()) texels.assign(4, 255);
-  auto slice = stage(states.staging(), std::as_bytes(std::span(texels)));
-  if (!slice.ok()) return slice.error();
-  copies.push_back({kept.imported, *slice, std::max(layers, 1u)});
-  return found;
+  copies.push_back(
+      {kept.imported, stage(frame, states.staging(), std::as_bytes(std::span(texels))), std::max(layers, 1u)});
+  return &kept;
 }
 
-Result<ImageRef> add_traced(FrameBuilder& frame, ShadowStates& states, const TracedVisibility& traced,
-                            std::vector<Copy>& copies) {
+Copy add_traced(FrameBuilder& frame, ShadowStates& states, const TracedVisibility& traced) {
   gpu::ImageDesc desc;
   desc.name = "shadow_traced";
   desc.module = "shadows";
@@ -129,10 +130,8 @@ Result<ImageRef> add_traced(FrameBuilder& frame, ShadowStates& states, const Tra
   desc.height = traced.height;
   desc.layers = static_cast<std::uint32_t>(traced.lights.size());
   desc.shape = gpu::ImageShape::array;
-  auto slice = stage(states.traced_staging(), std::as_bytes(std::span(traced.visibility)));
-  if (!slice.ok()) return slice.error();
-  copies.push_back({frame.graph().create_image(desc), *slice, desc.layers});
-  return copies.back().target;
+  return {frame.graph().create_image(desc),
+          stage(frame, states.traced_staging(), std::as_bytes(std::span(traced.visibility))), desc.layers};
 }
 
 }  // namespace
@@ -142,23 +141,17 @@ const TracedVisibility* traced_visibility_of(const World& world, const RenderVie
   return traced != nullptr && traced->width == view.width && traced->height == view.height ? traced : nullptr;
 }
 
-Result<ImageRef> upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::string_view pass_name,
-                                    std::span<const shaders::ShadowRow> rows) {
-  std::vector<Copy> copies;
-  auto made = add_rows(frame, states, rows, copies);
-  if (!made.ok()) return made;
-  Copy copy = copies.front();
-  PassBuilder pass = frame.graph().add_pass(pass_name, "shadows");
+ImageRef upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::string_view pass_name,
+                            std::span<const shaders::ShadowRow> rows) {
+  Copy copy = add_rows(frame, states, rows);
+  PassBuilder pass = frame.graph().add_pass(pass_name, frame.module());
   copy.target = pass.write(copy.target, gpu::Access::transfer_write);
-  pass.execute([copy](PassContext& context) {
-    context.commands().copy_buffer_to_image(copy.source.buffer, copy.source.offset, context.image(copy.target), 0, 0,
-                                            copy.layers);
-  });
+  pass.execute([copy](PassContext& context) { record_copy(context, copy); });
   return copy.target;
 }
 
-Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
-                          ShadowsOutputs& outputs) {
+void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
+                        ShadowsOutputs& outputs) {
   const TracedVisibility* traced = traced_visibility_of(frame.world(), frame.view());
   std::vector<shaders::ShadowRow> rows_now = rows_of(frame, views, traced);
   shaders::ShadowBlock block_now = block_of(frame, views, knobs, traced, rows_now);
@@ -168,44 +161,30 @@ Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const Shado
   append_cascade_rows(directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id)), block_now,
                       rows_now);
   auto block = frame.services().uniforms.write_value(block_now);
-  if (!block.ok()) return block.error();
-  outputs.block = *block;
+  if (frame.check(block)) outputs.block = *block;
   outputs.block_values = block_now;
-  auto nearest = frame.nearest_sampler();
-  if (!nearest.ok()) return nearest.error();
-  outputs.nearest = *nearest;
-  auto linear = frame.linear_sampler();
-  if (!linear.ok()) return linear.error();
-  outputs.linear = *linear;
 
-  std::vector<Copy> copies;
   outputs.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(rows_now));
-  auto rows = add_rows(frame, states, *outputs.row_values, copies);
-  if (!rows.ok()) return rows.error();
-  auto cookies = add_cookies(frame, states, copies);
-  if (!cookies.ok()) return cookies.error();
+  std::vector<Copy> copies = {add_rows(frame, states, *outputs.row_values)};
+  WorldCookies* kept = add_cookies(frame, states, copies);
+  if (kept == nullptr) return;
   const bool has_traced = traced != nullptr && !traced->lights.empty();
-  if (has_traced)
-    if (auto image = add_traced(frame, states, *traced, copies); !image.ok()) return image.error();
+  if (has_traced) copies.push_back(add_traced(frame, states, *traced));
 
-  PassBuilder pass = frame.graph().add_pass("shadow_rows", "shadows");
-  WorldCookies& kept = **cookies;
+  PassBuilder pass = frame.graph().add_pass("shadow_rows", frame.module());
   for (Copy& copy : copies) {
-    const bool is_cookies = copy.target.resource == kept.imported.resource;
+    const bool is_cookies = copy.target.resource == kept->imported.resource;
     copy.target = pass.write(copy.target, gpu::Access::transfer_write);
-    if (is_cookies) kept.imported = copy.target;
+    if (is_cookies) kept->imported = copy.target;
   }
   outputs.rows = copies.front().target;
-  outputs.cookies = kept.imported;
-  outputs.traced = has_traced ? copies.back().target : outputs.cookies;
-  pass.execute([copies, &kept, version = frame.world().resource<Cookies>().version](PassContext& context) {
-    for (const Copy& copy : copies)
-      context.commands().copy_buffer_to_image(copy.source.buffer, copy.source.offset, context.image(copy.target), 0, 0,
-                                              copy.layers);
-    kept.images.filled = true;
-    kept.version = version;
+  outputs.cookies = kept->imported;
+  if (has_traced) outputs.traced = copies.back().target;
+  pass.execute([copies, kept, version = frame.world().resource<Cookies>().version](PassContext& context) {
+    for (const Copy& copy : copies) record_copy(context, copy);
+    kept->images.filled = true;
+    kept->version = version;
   });
-  return {};
 }
 
 }  // namespace gloam

@@ -5,7 +5,6 @@
 #include <span>
 #include <string_view>
 
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/filter/traced_visibility.h"
@@ -19,12 +18,13 @@ namespace gloam {
 [[nodiscard]] const TracedVisibility* traced_visibility_of(const World& world, const RenderView& view);
 
 /// Uploads the view's light rows, ShadowBlock, cookies and traced visibility: pass shadow_rows. Sets block,
-/// block_values, rows, row_values, cookies, traced, nearest and linear of the outputs.
-[[nodiscard]] Status add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views,
-                                        const ShadowKnobs& knobs, ShadowsOutputs& outputs);
+/// block_values, rows, row_values, cookies and traced of the outputs. On an error the frame is given up.
+void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
+                        ShadowsOutputs& outputs);
 
-/// Uploads `rows` into another image, which may replace ShadowsOutputs::rows: pass `pass_name`. Returns that image.
-[[nodiscard]] Result<ImageRef> upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::string_view pass_name,
-                                                  std::span<const shaders::ShadowRow> rows);
+/// Uploads `rows` into another image, which may replace ShadowsOutputs::rows: pass `pass_name`. Returns that image. On
+/// an error the frame is given up.
+[[nodiscard]] ImageRef upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::string_view pass_name,
+                                          std::span<const shaders::ShadowRow> rows);
 
 }  // namespace gloam

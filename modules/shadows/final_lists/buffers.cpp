@@ -68,7 +68,6 @@ void create_visibilities(FrameGraph& graph, FinalLists& lists) {
     lists.visibilities[1] =
         create(graph, "more_shadow_visibilities", std::uint64_t{lists.slot_capacity - first} * slot_bytes(bits));
   lists.constants = {{GLOAM_FINAL_BITS_ID, bits}, {GLOAM_FINAL_BUFFERS_ID, split ? 2u : 1u}};
-  lists.variant = "final-" + std::to_string(bits) + (split ? "-2" : "-1");
 }
 
 }  // namespace
@@ -120,7 +119,7 @@ void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote
 
 std::uint32_t visibility_bits_of(const ShadowKnobs& knobs) { return knobs.levels == 15 ? 4 : 8; }
 
-Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs) {
+FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs) {
   FrameGraph& graph = frame.graph();
   const LightsOutputs& lights = *frame.find<LightsOutputs>();
   const uvec2 tiles = (uvec2(frame.view().width, frame.view().height) + uvec2(kShadowTile - 1)) / uvec2(kShadowTile);
@@ -145,8 +144,7 @@ Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const Shad
   lists.always_complete =
       c.fit_all && grid.entry_capacity == entries && (!lights.has_lists() || lights.lists_always_fit);
   auto range = frame.services().uniforms.write_value(grid);
-  if (!range.ok()) return range.error();
-  made.grid = lists.grid = *range;
+  if (frame.check(range)) lists.grid = *range;
 
   gpu::ImageDesc image;
   image.name = "final_light_lists";

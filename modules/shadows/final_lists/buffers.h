@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
 #include "modules/shadows/knobs.h"
@@ -62,14 +61,13 @@ void count_final_lists(const shaders::ShadowListCounters& counters, const FinalL
 struct FinalListBuffers {
   FinalLists lists;
   BufferRef pairs;
-  gpu::Binding::BufferRange grid;  ///< a FinalGrid, uniform
   FinalListNote note;
 };
 /// Bits of a visibility in a slot: 4 or 8.
 [[nodiscard]] std::uint32_t visibility_bits_of(const ShadowKnobs& knobs);
 
 /// Creates the view's images and buffers, with capacities from its FinalListFeedback. LightsOutputs must be on the
-/// board.
-[[nodiscard]] Result<FinalListBuffers> make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs);
+/// board. If there is no memory for the grid, the frame is given up.
+[[nodiscard]] FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs);
 
 }  // namespace gloam

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/outputs.h"
@@ -21,7 +20,6 @@ namespace gloam {
 /// Makes final lists from early lists: passes shadow_list_start, classify_shadows, generate_shadows, finish_lists. Sets
 /// shadows.final_lists, and puts a FinalListNote on the board. planes: from add_shadow_planes_pass(), or null when
 /// tiles are not classified.
-[[nodiscard]] Status add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes,
-                                         ShadowsOutputs& shadows);
+void add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes, ShadowsOutputs& shadows);
 
 }  // namespace gloam

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/maps/draw_passes.h"
 
-#include <algorithm>
 #include <bit>
 #include <memory>
 #include <utility>
@@ -14,14 +13,6 @@
 namespace gloam {
 namespace {
 
-/// All draws of this frame. Outlives the declaration, because pass functions run later.
-struct MapWork {
-  FacePlan backgrounds;
-  FacePlan faces;
-  MapRecording map;
-  ShadowMipWork mips;
-};
-
 /// Draws resting casters into the image of backgrounds, batch by batch. The frame graph does not track this image, nor
 /// the scratch image; between frames it is in state compute_read.
 void record_backgrounds(FrameBuilder& frame, PassContext& context, const MapWork& work, ViewShadows& kept) {
@@ -30,13 +21,13 @@ void record_backgrounds(FrameBuilder& frame, PassContext& context, const MapWork
   const gpu::ImageHandle image = kept.backgrounds.image;
   gpu::Access before = kept.backgrounds.filled ? gpu::Access::compute_read : gpu::Access::none;
   for (std::size_t batch = 0; batch < work.backgrounds.plan.batches.size(); ++batch) {
-    record_draws(frame, context, work.map, work.backgrounds, batch);
+    record_draws(frame, context, work, work.backgrounds, batch);
     const std::uint32_t size = work.backgrounds.plan.batches[batch].size;
-    work.map.scratch->begin_reading(commands, size);
+    work.scratch->begin_reading(commands, size);
     const gpu::ImageBarrier write{image, before, gpu::Access::compute_write};
     commands.barrier({}, {&write, 1});
     before = gpu::Access::compute_write;
-    record_backgrounds(commands, work.mips, batch, {work.map.scratch->image(size), {}, {}, image});
+    record_backgrounds(commands, work.mips, batch, {work.scratch->image(size), {}, {}, image});
   }
   const gpu::ImageBarrier read{image, gpu::Access::compute_write, gpu::Access::compute_read};
   commands.barrier({}, {&read, 1});
@@ -45,7 +36,7 @@ void record_backgrounds(FrameBuilder& frame, PassContext& context, const MapWork
 
 ShadowMipImages mip_images(PassContext& context, const MapWork& work, std::size_t batch, const ViewShadows& kept,
                            const ShadowMaps& maps) {
-  return {work.map.scratch->image(work.faces.plan.batches[batch].size), context.image(maps.atlas),
+  return {work.scratch->image(work.faces.plan.batches[batch].size), context.image(maps.atlas),
           context.image(maps.pyramid), kept.backgrounds.filled ? kept.backgrounds.image : gpu::ImageHandle{}};
 }
 
@@ -54,20 +45,20 @@ ShadowMipImages mip_images(PassContext& context, const MapWork& work, std::size_
 void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, std::size_t index, ViewShadows& kept,
                ShadowMaps& maps) {
   const bool there = index < work->faces.plan.batches.size();
-  PassBuilder draw = frame.graph().add_pass("shadow_map_draw", "shadows");
+  PassBuilder draw = frame.graph().add_pass("shadow_map_draw", frame.module());
   frame.read_vertices(draw);
   draw.keep();  // writes images the graph does not track: never cull
   if (there)
     draw.execute([&frame, work, index, &kept](PassContext& context) {
       if (index == 0) record_backgrounds(frame, context, *work, kept);
-      record_draws(frame, context, work->map, work->faces, index);
+      record_draws(frame, context, *work, work->faces, index);
     });
-  PassBuilder mips = frame.graph().add_pass("shadow_map_mips", "shadows");
+  PassBuilder mips = frame.graph().add_pass("shadow_map_mips", frame.module());
   maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
   maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);
   if (!there) return;
   mips.execute([work, index, &kept, maps](PassContext& context) {
-    work->map.scratch->begin_reading(context.commands(), work->faces.plan.batches[index].size);
+    work->scratch->begin_reading(context.commands(), work->faces.plan.batches[index].size);
     record_batch_mips(context.commands(), work->mips, index, mip_images(context, *work, index, kept, maps));
   });
 }
@@ -75,7 +66,7 @@ void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, 
 /// Adds the last pass; after it the atlas holds all that was drawn.
 void add_coarse_mips(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, ViewShadows& kept,
                      ShadowMaps& maps) {
-  PassBuilder mips = frame.graph().add_pass("shadow_map_mips", "shadows");
+  PassBuilder mips = frame.graph().add_pass("shadow_map_mips", frame.module());
   maps.atlas = mips.write(maps.atlas, gpu::Access::compute_write);
   maps.pyramid = mips.write(maps.pyramid, gpu::Access::compute_write);
   mips.execute([work, maps, &kept, drawn_in = kept.history.frame()](PassContext& context) {
@@ -95,16 +86,15 @@ void add_coarse_mips(FrameBuilder& frame, const std::shared_ptr<const MapWork>& 
 void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list) {
   list.push_back(map_pipeline(false));
   list.push_back(map_pipeline(true));
-  list.push_back(shadow_mips_pipeline(knobs.d16));
-  list.push_back(shadow_backgrounds_pipeline());
+  list.push_back(pipeline_desc(shadow_mips_program(knobs.d16), "shadows"));
+  list.push_back(pipeline_desc(shadow_backgrounds_program(), "shadows"));
 }
 
-Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
-                                         const ShadowViews& views, const ShadowKnobs& knobs) {
+ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept, const ShadowViews& views,
+                                 const ShadowKnobs& knobs) {
   auto work = std::make_shared<MapWork>();
-  work->map.bias_units = knobs.bias_units;
   DrawnMaps drawn = faces_to_draw(frame, kept, views, knobs);
-  if (kept.counts.cached == 0 && drawn.faces.empty()) return ShadowMaps{};
+  if (kept.counts.cached == 0 && drawn.faces.empty()) return {};
   work->backgrounds = plan_faces(std::move(drawn.backgrounds));
   work->faces = plan_faces(std::move(drawn.faces));
   FrameGraph& graph = frame.graph();
@@ -115,17 +105,10 @@ Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& stat
   ShadowMaps maps{import("shadow_atlas", kept.atlas), import("shadow_pyramid", kept.pyramid), {}};
   frame.expose(maps.pyramid);
   if (work->faces.faces.empty()) return maps;
-  const FacePlan* const plans[] = {&work->backgrounds, &work->faces};
-  GLOAM_TRY(make_map_pipelines(frame, plans, work->map));
   for (const DrawnFace& face : work->faces.faces)
     for (const DrawnRegion& region : face.regions) maps.drawn.push_back({face.face.square, region.texels});
-  if (!work->backgrounds.faces.empty()) GLOAM_TRY(states.reserve_backgrounds(kept));
-  auto mips = plan_shadow_mips(frame, work->backgrounds, work->faces, knobs);
-  if (!mips.ok()) return mips.error();
-  work->mips = *mips;
-  auto scratch = states.scratch(std::max(work->backgrounds.plan.texels(), work->faces.plan.texels()));
-  if (!scratch.ok()) return scratch.error();
-  work->map.scratch = *scratch;
+  if (!work->backgrounds.faces.empty() && !frame.check(states.reserve_backgrounds(kept))) return maps;
+  prepare_maps(frame, states, knobs, kSteepestSurface, *work);
   // Rounded up, so that few different numbers of passes occur and cached frame-graph plans can be reused.
   const std::size_t batches = std::bit_ceil(work->faces.plan.batches.size());
   for (std::size_t batch = 0; batch < batches; ++batch) add_batch(frame, work, batch, kept, maps);

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/atlas/face_regions.h"
 #include "modules/shadows/atlas/view_faces.h"
@@ -31,8 +30,8 @@ struct ShadowMaps {
 
 /// Draws the faces whose maps the atlas does not hold, batch by batch through ShadowScratch. Each batch has a pass
 /// shadow_map_draw and a pass shadow_map_mips; the number of batches is rounded up to a power of two with empty passes.
-/// A last pass shadow_map_mips makes the coarser mips of all faces.
-[[nodiscard]] Result<ShadowMaps> add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
-                                                       const ShadowViews& views, const ShadowKnobs& knobs);
+/// A last pass shadow_map_mips makes the coarser mips of all faces. On an error the frame is given up.
+[[nodiscard]] ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
+                                               const ShadowViews& views, const ShadowKnobs& knobs);
 
 }  // namespace gloam

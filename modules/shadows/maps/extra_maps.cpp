@@ -15,13 +15,8 @@
 namespace gloam {
 namespace {
 
-/// Outlives the declaration, because pass functions run later.
-struct ExtraWork {
+struct ExtraWork : MapWork {
   std::vector<Caster> casters;  ///< draws point to these
-  FacePlan backgrounds;         ///< always empty: an extra map has no cached background
-  FacePlan faces;
-  MapRecording map;
-  ShadowMipWork mips;
 };
 
 DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, bool simplified) {
@@ -45,24 +40,24 @@ std::vector<Caster> casters_of(const FrameBuilder& frame, std::span<const Entity
 }
 
 ShadowMipImages images_of(PassContext& context, const ExtraWork& work, const ExtraAtlas& atlas) {
-  return {work.map.scratch->image(work.faces.plan.batches.front().size),
+  return {work.scratch->image(work.faces.plan.batches.front().size),
           context.image(atlas.atlas),
           context.image(atlas.pyramid),
           {}};
 }
 
-void add_passes(FrameBuilder& frame, const std::string& name, const char* module,
-                const std::shared_ptr<const ExtraWork>& work, ExtraAtlas& into) {
-  PassBuilder draw = frame.graph().add_pass(name, module);
+void add_passes(FrameBuilder& frame, const std::string& name, const std::shared_ptr<const ExtraWork>& work,
+                ExtraAtlas& into) {
+  PassBuilder draw = frame.graph().add_pass(name, frame.module());
   frame.read_vertices(draw);
   draw.keep();  // writes images the graph does not track: never cull
-  draw.execute([&frame, work](PassContext& context) { record_draws(frame, context, work->map, work->faces, 0); });
-  PassBuilder mips = frame.graph().add_pass(name + "_mips", module);
+  draw.execute([&frame, work](PassContext& context) { record_draws(frame, context, *work, work->faces, 0); });
+  PassBuilder mips = frame.graph().add_pass(name + "_mips", frame.module());
   into.atlas = mips.write(into.atlas, gpu::Access::compute_write);
   into.pyramid = mips.write(into.pyramid, gpu::Access::compute_write);
   mips.execute([work, into](PassContext& context) {
     gpu::CommandList& commands = context.commands();
-    work->map.scratch->begin_reading(commands, work->faces.plan.batches.front().size);
+    work->scratch->begin_reading(commands, work->faces.plan.batches.front().size);
     const ShadowMipImages images = images_of(context, *work, into);
     record_batch_mips(commands, work->mips, 0, images);
     if (work->mips.coarse.empty()) return;
@@ -85,22 +80,22 @@ std::uint32_t threads_a_tile(const gpu::DeviceInfo& device) {
   return device.type == gpu::DeviceType::cpu ? 8 : 64;
 }
 
-ExtraAtlas ShadowMapDrawer::create(FrameGraph& graph, const char* module, std::uint32_t size) const {
+ExtraAtlas ShadowMapDrawer::create(FrameBuilder& frame, std::uint32_t size) const {
   gpu::ImageDesc desc;
-  desc.module = module;
-  desc.name = std::string(module) + "_atlas";
+  desc.module = frame.module();
+  desc.name = desc.module + "_atlas";
   desc.format = tools_->knobs.d16 ? gpu::Format::r16_unorm : gpu::Format::r32_float;
   desc.width = size_with_mips(size).x;
   desc.height = size_with_mips(size).y;
   ExtraAtlas made;
   made.size = size;
-  made.atlas = graph.create_image(desc);
-  desc.name = std::string(module) + "_pyramid";
+  made.atlas = frame.graph().create_image(desc);
+  desc.name = desc.module + "_pyramid";
   desc.format = gpu::Format::r32_float;
   const std::uint32_t side = size >> GLOAM_SHADOW_PYRAMID_MIP;
   desc.width = size_with_mips(side).x;
   desc.height = 2 * size_with_mips(side).y;  // nearest depths above farthest ones
-  made.pyramid = graph.create_image(desc);
+  made.pyramid = frame.graph().create_image(desc);
   return made;
 }
 
@@ -108,8 +103,8 @@ std::size_t ShadowMapDrawer::most_maps(std::uint32_t size) {
   return std::min(std::max(kScratchTexels / size / size, 1u), kMostScratchLayers);
 }
 
-Status ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, const char* module, std::span<const ExtraMap> maps,
-                             ExtraAtlas& into) const {
+void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<const ExtraMap> maps,
+                           ExtraAtlas& into) const {
   auto work = std::make_shared<ExtraWork>();
   std::vector<std::size_t> counts;
   for (const ExtraMap& map : maps) {
@@ -125,25 +120,17 @@ Status ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, const char* 
   }
   work->faces = plan_faces(std::move(faces));
   GLOAM_ASSERT(work->faces.plan.batches.size() == 1, "maps of one size, few enough for one image, are drawn at a time");
-  const FacePlan* const plans[] = {&work->faces};
-  GLOAM_TRY(make_map_pipelines(frame, plans, work->map));
-  work->map.bias_units = tools_->knobs.bias_units;
   ShadowKnobs knobs = tools_->knobs;
   knobs.atlas_size = into.size;
-  auto mips = plan_shadow_mips(frame, work->backgrounds, work->faces, knobs, kSteepestSubject);
-  if (!mips.ok()) return mips.error();
-  work->mips = *mips;
-  auto scratch = tools_->states.scratch(work->faces.plan.texels());
-  if (!scratch.ok()) return scratch.error();
-  work->map.scratch = *scratch;
-  add_passes(frame, std::string("shadow_map_") + name, module, work, into);
-  return {};
+  prepare_maps(frame, tools_->states, knobs, kSteepestSubject, *work);
+  add_passes(frame, std::string("shadow_map_") + name, work, into);
 }
 
-Result<gpu::Binding::BufferRange> ShadowMapDrawer::block(FrameBuilder& frame, std::uint32_t size) const {
+gpu::Binding::BufferRange ShadowMapDrawer::block(FrameBuilder& frame, std::uint32_t size) const {
   shaders::ShadowBlock block = tools_->block;
   block.atlas_size = static_cast<float>(size);
-  return frame.services().uniforms.write_value(block);
+  auto range = frame.services().uniforms.write_value(block);
+  return frame.check(range) ? *range : gpu::Binding::BufferRange{};
 }
 
 }  // namespace gloam

@@ -26,7 +26,7 @@ TexelRect bounds_of(const DrawnFace& face) {
 /// Collects the workgroups of all dispatches of a frame.
 class GroupList {
  public:
-  explicit GroupList(float steepest = kSteepestSurface) : steepest_(steepest) {}
+  explicit GroupList(float steepest) : steepest_(steepest) {}
   /// Adds the workgroups of one dispatch for these texels of a face: the run of mips after mip `first`.
   void add(const ShadowFace& face, std::uint32_t layer, const TexelRect& texels, std::uint32_t first,
            bool on_background = false) {
@@ -79,13 +79,6 @@ void record(gpu::CommandList& commands, const ShadowMipWork& work, const GroupRa
 
 void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images) {
   commands.bind_pipeline(work.pipeline);
-  if (!images.scratch) {
-    const gpu::Binding in_place[] = {{1, gpu::Binding::Storage{{.image = images.atlas}}},
-                                     {2, gpu::Binding::Storage{{.image = images.pyramid}}},
-                                     {3, work.groups}};
-    commands.bind(in_place);
-    return;
-  }
   const gpu::ImageView scratch{.image = images.scratch, .as_array = true};
   const gpu::ImageView backgrounds{.image = images.backgrounds ? images.backgrounds : images.scratch, .as_array = true};
   const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{scratch, work.sampler}},
@@ -96,46 +89,38 @@ void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMip
   commands.bind(bindings);
 }
 
-void add_coarse_runs(const FacePlan& faces, GroupList& list, ShadowMipWork& work) {
+/// Adds the runs of coarser mips, from mip GLOAM_SHADOW_MIP_RUN on.
+std::vector<GroupRange> add_coarse_runs(const FacePlan& faces, GroupList& list) {
+  std::vector<GroupRange> runs;
   for (std::uint32_t first = GLOAM_SHADOW_MIP_RUN; faces.plan.batches.front().size >> first > 1;
        first += GLOAM_SHADOW_MIP_RUN) {
     // Coarser mips have few texels: those between a face's regions are made along with them, so that none is made
     // twice.
     for (const DrawnFace& face : faces.faces)
       if (face.face.square.size >> first > 1) list.add(face.face, 0, bounds_of(face), first);
-    work.coarse.push_back(list.take_range());
+    runs.push_back(list.take_range());
   }
+  return runs;
 }
 
-/// Uploads the workgroups and gets the pipeline.
-Status prepare(FrameBuilder& frame, const GroupList& list, const gpu::ComputePipelineDesc& desc,
-               const ShadowKnobs& knobs, ShadowMipWork& work) {
-  work.constants.mip_operator = knobs.mip_operator;
-  work.constants.atlas_size = knobs.atlas_size;
-  auto groups = frame.services().storage.write(std::as_bytes(std::span(list.groups())));
-  if (!groups.ok()) return groups.error();
-  work.groups = *groups;
-  auto pipeline = frame.services().pipelines.get(desc);
-  if (!pipeline.ok()) return pipeline.error();
-  work.pipeline = *pipeline;
-  return {};
+shaders::ShadowMipConstants constants_of(const ShadowKnobs& knobs) {
+  shaders::ShadowMipConstants constants{};
+  constants.mip_operator = knobs.mip_operator;
+  constants.atlas_size = knobs.atlas_size;
+  return constants;
 }
 
 }  // namespace
 
-gpu::ComputePipelineDesc shadow_mips_pipeline(bool d16) {
-  if (d16) return {"shadow_map_mips/d16", "shadows", shaders::shadows::mips_r16_comp, {}};
-  return {"shadow_map_mips/d32", "shadows", shaders::shadows::mips_comp, {}};
+ComputeProgram shadow_mips_program(bool d16) {
+  return {d16 ? shaders::shadows::mips_r16_comp : shaders::shadows::mips_comp};
 }
 
-gpu::ComputePipelineDesc shadow_mips_in_place_pipeline(bool d16) {
-  if (d16) return {"shadow_map_mips/in_place/d16", "shadows", shaders::shadows::mips_in_place_r16_comp, {}};
-  return {"shadow_map_mips/in_place/d32", "shadows", shaders::shadows::mips_in_place_comp, {}};
+ComputeProgram shadow_mips_in_place_program(bool d16) {
+  return {d16 ? shaders::shadows::mips_in_place_r16_comp : shaders::shadows::mips_in_place_comp};
 }
 
-gpu::ComputePipelineDesc shadow_backgrounds_pipeline() {
-  return {"shadow_backgrounds", "shadows", shaders::shadows::backgrounds_comp, {}};
-}
+ComputeProgram shadow_backgrounds_program() { return {shaders::shadows::backgrounds_comp}; }
 
 FacePlan plan_faces(std::vector<DrawnFace> faces) {
   std::vector<std::uint32_t> sizes;
@@ -143,38 +128,43 @@ FacePlan plan_faces(std::vector<DrawnFace> faces) {
   return {std::move(faces), plan_scratch(sizes)};
 }
 
-Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,
-                                       const ShadowKnobs& knobs, float steepest) {
+ShadowMipWork plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,
+                               const ShadowKnobs& knobs, float steepest) {
   ShadowMipWork work;
   GroupList list(steepest);
   work.backgrounds = list.add_batches(backgrounds);
   work.batches = list.add_batches(faces);
-  add_coarse_runs(faces, list, work);
-  GLOAM_TRY(prepare(frame, list, shadow_mips_pipeline(knobs.d16), knobs, work));
-  if (!work.backgrounds.empty()) {
-    auto made = frame.services().pipelines.get(shadow_backgrounds_pipeline());
-    if (!made.ok()) return made.error();
-    work.backgrounds_pipeline = *made;
-  }
-  auto sampler = frame.nearest_sampler();
-  if (!sampler.ok()) return sampler.error();
-  work.sampler = *sampler;
+  work.coarse = add_coarse_runs(faces, list);
+  work.constants = constants_of(knobs);
+  auto groups = frame.services().storage.write(std::as_bytes(std::span(list.groups())));
+  if (frame.check(groups)) work.groups = *groups;
+  work.pipeline = pipeline_of(frame, pipeline_desc(shadow_mips_program(knobs.d16), "shadows"));
+  if (!work.backgrounds.empty())
+    work.backgrounds_pipeline = pipeline_of(frame, pipeline_desc(shadow_backgrounds_program(), "shadows"));
+  work.sampler = frame.sampler(Sampling::nearest);
   return work;
 }
 
-Result<ShadowMipWork> plan_shadow_mips_in_place(FrameBuilder& frame, std::span<const ShadowFace> faces,
-                                                const ShadowKnobs& knobs) {
-  ShadowMipWork work;
-  GroupList list;
+void add_shadow_mips_in_place(FrameBuilder& frame, std::string_view name, std::span<const ShadowFace> faces,
+                              const ShadowKnobs& knobs, ImageRef& atlas, ImageRef& pyramid) {
+  GroupList list(kSteepestSurface);
   std::vector<DrawnFace> whole;
   for (const ShadowFace& face : faces) {
     list.add(face, 0, whole_face(face), 0);
     whole.push_back({face, {}, {DrawnRegion{whole_face(face), {}, {}}}, {}});
   }
-  work.batches.push_back(list.take_range());
-  add_coarse_runs(plan_faces(std::move(whole)), list, work);
-  GLOAM_TRY(prepare(frame, list, shadow_mips_in_place_pipeline(knobs.d16), knobs, work));
-  return work;
+  std::vector<GroupRange> runs = {list.take_range()};
+  for (const GroupRange& run : add_coarse_runs(plan_faces(std::move(whole)), list)) runs.push_back(run);
+  ComputePass pass(frame, name, shadow_mips_in_place_program(knobs.d16));
+  atlas = pass.write("atlas", atlas);
+  pyramid = pass.write("pyramid", pyramid);
+  pass.items<shaders::ShadowMipGroup>("groups", list.groups());
+  shaders::ShadowMipConstants constants = constants_of(knobs);
+  for (const GroupRange& run : runs) {
+    if (constants.first > 0) pass.barrier();  // each run reads the last mip of the run before
+    dispatch_groups(pass, constants, run);
+    constants.first += GLOAM_SHADOW_MIP_RUN;
+  }
 }
 
 void record_backgrounds(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,

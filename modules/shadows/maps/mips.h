@@ -3,9 +3,10 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
-#include "engine/core/result.h"
+#include "engine/render/declare/compute_pass.h"
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/atlas/drawn_faces.h"
 #include "modules/shadows/knobs.h"
@@ -15,10 +16,18 @@
 
 namespace gloam {
 
-// Plans and records the dispatches that move drawn faces into the atlas and make their mips and pyramid.
-[[nodiscard]] gpu::ComputePipelineDesc shadow_mips_pipeline(bool d16);
-[[nodiscard]] gpu::ComputePipelineDesc shadow_mips_in_place_pipeline(bool d16);
-[[nodiscard]] gpu::ComputePipelineDesc shadow_backgrounds_pipeline();
+// Plans and records the dispatches that move drawn faces into the atlas and make their mips and pyramid. They read
+// scratch images, which the frame graph does not track, so their passes record commands themselves.
+[[nodiscard]] ComputeProgram shadow_mips_program(bool d16);
+[[nodiscard]] ComputeProgram shadow_mips_in_place_program(bool d16);
+[[nodiscard]] ComputeProgram shadow_backgrounds_program();
+
+/// A pipeline for commands that a pass records itself. Null if it cannot be created, and the frame is given up.
+template <class Desc>
+[[nodiscard]] gpu::PipelineHandle pipeline_of(FrameBuilder& frame, const Desc& desc) {
+  auto made = frame.services().pipelines.get(desc);
+  return frame.check(made) ? *made : gpu::PipelineHandle{};
+}
 
 /// Faces and the batches that they are drawn in.
 struct FacePlan {
@@ -48,17 +57,16 @@ inline constexpr float kSteepestSurface = 3.0f;
 inline constexpr float kSteepestSubject = 25.0f;
 
 /// Plans the mips of drawn faces: uploads the workgroups and gets the pipelines. backgrounds and faces: as drawn by
-/// record_draws(). steepest: see kSteepestSurface.
-[[nodiscard]] Result<ShadowMipWork> plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds,
-                                                     const FacePlan& faces, const ShadowKnobs& knobs,
-                                                     float steepest = kSteepestSurface);
+/// record_draws(). steepest: see kSteepestSurface. On an error the frame is given up.
+[[nodiscard]] ShadowMipWork plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,
+                                             const ShadowKnobs& knobs, float steepest);
 
-/// The same for faces whose mip 0 is already in the atlas; all faces form one batch.
-[[nodiscard]] Result<ShadowMipWork> plan_shadow_mips_in_place(FrameBuilder& frame, std::span<const ShadowFace> faces,
-                                                              const ShadowKnobs& knobs);
+/// Makes mips and pyramids of faces whose mip 0 is already in the atlas: pass `name`.
+void add_shadow_mips_in_place(FrameBuilder& frame, std::string_view name, std::span<const ShadowFace> faces,
+                              const ShadowKnobs& knobs, ImageRef& atlas, ImageRef& pyramid);
 
 struct ShadowMipImages {
-  gpu::ImageHandle scratch;  ///< scratch image of the batch; coarse mips: any readable one; null: in place
+  gpu::ImageHandle scratch;  ///< scratch image of the batch; coarse mips: any readable one
   gpu::ImageHandle atlas;
   gpu::ImageHandle pyramid;
   gpu::ImageHandle backgrounds;  ///< null: the view has no backgrounds

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "engine/render/declare/compute_pass.h"
 #include "modules/shadows/maps/work_groups.h"
 #include "shaders/shadows/maps/planes_shared.h"
 #include "shaders/shadows/shaders.h"
@@ -13,8 +14,6 @@ namespace {
 
 constexpr std::uint32_t kCoarsest = GLOAM_SHADOW_PLANE_BLOCK
                                     << (GLOAM_SHADOW_PLANE_LEVELS - 1);  // texels of a block's side, last level
-
-gpu::ComputePipelineDesc planes_pipeline() { return {"shadow_planes", "shadows", shaders::shadows::planes_comp, {}}; }
 
 std::vector<FacePart> parts_of(const ShadowMaps& maps, const ShadowViews& views, bool all) {
   if (!all) return maps.drawn;
@@ -65,11 +64,13 @@ PlaneWork work_of(std::span<const FacePart> parts) {
 
 }  // namespace
 
-void list_shadow_plane_pipelines(PipelineList& list) { list.push_back(planes_pipeline()); }
+void list_shadow_plane_pipelines(PipelineList& list) {
+  list.push_back(pipeline_desc({shaders::shadows::planes_comp}, "shadows"));
+}
 
-Result<ImageRef> add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
-                                        const ShadowMaps& maps, const ShadowViews& views) {
-  GLOAM_TRY(states.reserve_planes(kept));
+ImageRef add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept, const ShadowMaps& maps,
+                                const ShadowViews& views) {
+  if (!frame.check(states.reserve_planes(kept))) return {};
   const bool all = !kept.planes.filled;
   ImageRef planes =
       frame.graph().import_image("shadow_planes", kept.planes.image,
@@ -77,30 +78,15 @@ Result<ImageRef> add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& state
   const std::vector<FacePart> parts = parts_of(maps, views, all);
   if (parts.empty()) return planes;
   const PlaneWork work = work_of(parts);
-  auto groups = frame.services().storage.write(std::as_bytes(std::span(work.groups)));
-  if (!groups.ok()) return groups.error();
-  auto pipeline = frame.services().pipelines.get(planes_pipeline());
-  if (!pipeline.ok()) return pipeline.error();
-  auto sampler = frame.nearest_sampler();
-  if (!sampler.ok()) return sampler.error();
-  PassBuilder pass = frame.graph().add_pass("shadow_planes", "shadows");
-  pass.read(maps.atlas, gpu::Access::compute_read);
-  planes = pass.write(planes, gpu::Access::compute_write);
-  pass.execute([&kept, first = work.ranges[0], others = work.ranges[1], groups = *groups, atlas = maps.atlas, planes,
-                pipeline = *pipeline, sampler = *sampler](PassContext& context) {
-    gpu::CommandList& commands = context.commands();
-    commands.bind_pipeline(pipeline);
-    const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(atlas)}, sampler}},
-                                     {1, gpu::Binding::Storage{{.image = context.image(planes)}}},
-                                     {2, groups}};
-    commands.bind(bindings);
-    dispatch_groups(commands, shaders::ShadowPlaneConstants{0, kept.atlas_size, 0}, first);
-    const gpu::ImageBarrier written[] = {
-        {context.image(planes), gpu::Access::compute_write, gpu::Access::compute_write}};
-    commands.barrier({}, written);
-    dispatch_groups(commands, shaders::ShadowPlaneConstants{1, kept.atlas_size, 0}, others);
-    kept.planes.filled = true;  // set here: a frame that ends before has made none
-  });
+  ComputePass pass(frame, "shadow_planes", shaders::shadows::planes_comp);
+  pass.read("atlas", maps.atlas);
+  planes = pass.write("planes", planes);
+  pass.items<shaders::ShadowPlaneGroup>("groups", work.groups);
+  dispatch_groups(pass, shaders::ShadowPlaneConstants{0, kept.atlas_size, 0}, work.ranges[0]);
+  pass.barrier();
+  dispatch_groups(pass, shaders::ShadowPlaneConstants{1, kept.atlas_size, 0}, work.ranges[1]);
+  // Set in recording: a frame that ends before has made none.
+  pass.record([&kept](PassContext&) { kept.planes.filled = true; });
   return planes;
 }
 

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
-
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/maps/draw_passes.h"
 #include "modules/shadows/maps/state.h"
@@ -16,8 +13,8 @@ void list_shadow_plane_pipelines(PipelineList& list);
 
 /// Updates the view's planes (shaders/shadows/maps/planes_shared.h) for the parts of faces that this frame draws: pass
 /// shadow_planes. If the planes were out of date (ViewShadows::planes is not filled), updates them for all faces.
-/// Returns the image of planes.
-[[nodiscard]] Result<ImageRef> add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
-                                                      const ShadowMaps& maps, const ShadowViews& views);
+/// Returns the image of planes; a null ref if it cannot be created, and the frame is given up.
+[[nodiscard]] ImageRef add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
+                                              const ShadowMaps& maps, const ShadowViews& views);
 
 }  // namespace gloam

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/maps/recording.h"
 
+#include <algorithm>
+
 #include "engine/render/scene/mesh_packing.h"
 #include "shaders/shadows/maps/map_shared.h"
 #include "shaders/shadows/shaders.h"
@@ -15,7 +17,6 @@ constexpr float kSlopeBias = 1.0f;
 
 gpu::GraphicsPipelineDesc map_pipeline(bool cut_out) {
   gpu::GraphicsPipelineDesc desc;
-  desc.name = cut_out ? "shadow_map/cut_out" : "shadow_map/opaque";
   desc.module = "shadows";
   desc.vertex = cut_out ? shaders::shadows::map_mask_vert : shaders::shadows::map_vert;
   desc.attributes = {{0, 0, gpu::Format::rgb32_float, 0}};
@@ -38,7 +39,7 @@ namespace {
 /// Records the draws of regions. The viewport must be set.
 class FaceRecorder {
  public:
-  FaceRecorder(FrameBuilder& frame, PassContext& context, const MapRecording& map)
+  FaceRecorder(FrameBuilder& frame, PassContext& context, const MapWork& map)
       : frame_(frame), context_(context), commands_(context.commands()), map_(map) {}
 
   void record(const DrawnFace& face, const DrawnRegion& region) {
@@ -65,7 +66,7 @@ class FaceRecorder {
   FrameBuilder& frame_;
   PassContext& context_;
   gpu::CommandList& commands_;
-  const MapRecording& map_;
+  const MapWork& map_;
   gpu::PipelineHandle bound_;
 };
 
@@ -87,9 +88,16 @@ void begin_region(gpu::CommandList& commands, const gpu::ImageView& layer, std::
                        extent.y);
 }
 
+bool draws_cut_outs(const FacePlan& plan) {
+  for (const DrawnFace& face : plan.faces)
+    for (const DrawnRegion& region : face.regions)  // cut-out casters come last
+      if (!region.draws.empty() && is_cut_out(*region.draws.back().caster)) return true;
+  return false;
+}
+
 }  // namespace
 
-void record_draws(FrameBuilder& frame, PassContext& context, const MapRecording& map, const FacePlan& plan,
+void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& map, const FacePlan& plan,
                   std::size_t index) {
   const ScratchPlan::Batch& batch = plan.plan.batches[index];
   gpu::CommandList& commands = context.commands();
@@ -107,22 +115,14 @@ void record_draws(FrameBuilder& frame, PassContext& context, const MapRecording&
   }
 }
 
-Status make_map_pipelines(FrameBuilder& frame, std::span<const FacePlan* const> plans, MapRecording& map) {
-  Pipelines& pipelines = frame.services().pipelines;
-  bool any_cut_out = false;
-  for (const FacePlan* plan : plans)
-    for (const DrawnFace& face : plan->faces)
-      for (const DrawnRegion& region : face.regions)  // cut-out casters come last
-        any_cut_out = any_cut_out || (!region.draws.empty() && is_cut_out(*region.draws.back().caster));
-  auto opaque = pipelines.get(map_pipeline(false));
-  if (!opaque.ok()) return opaque.error();
-  map.opaque = *opaque;
-  if (any_cut_out) {
-    auto cut_out = pipelines.get(map_pipeline(true));
-    if (!cut_out.ok()) return cut_out.error();
-    map.cut_out = *cut_out;
-  }
-  return {};
+void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work) {
+  work.bias_units = knobs.bias_units;
+  work.opaque = pipeline_of(frame, map_pipeline(false));
+  if (draws_cut_outs(work.backgrounds) || draws_cut_outs(work.faces))
+    work.cut_out = pipeline_of(frame, map_pipeline(true));
+  work.mips = plan_shadow_mips(frame, work.backgrounds, work.faces, knobs, steepest);
+  auto scratch = states.scratch(std::max(work.backgrounds.plan.texels(), work.faces.plan.texels()));
+  if (frame.check(scratch)) work.scratch = *scratch;
 }
 
 }  // namespace gloam

@@ -3,31 +3,34 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 
-#include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/maps/mips.h"
 #include "modules/shadows/maps/scratch.h"
+#include "modules/shadows/maps/state.h"
 
 namespace gloam {
 
 /// The pipeline that draws casters into the scratch image. cut_out: with an alpha test.
 [[nodiscard]] gpu::GraphicsPipelineDesc map_pipeline(bool cut_out);
 
-/// The inputs of recorded shadow-map draws.
-struct MapRecording {
+/// What the maps of a frame need in recording. Outlives the declaration, because pass functions run later.
+struct MapWork {
+  FacePlan backgrounds;
+  FacePlan faces;
   const ShadowScratch* scratch = nullptr;
   float bias_units = 0.0f;  ///< ShadowKnobs::bias_units
   gpu::PipelineHandle opaque;
   gpu::PipelineHandle cut_out;  ///< null when no cut-out caster is drawn
+  ShadowMipWork mips;
 };
 
-/// Sets map.opaque, and map.cut_out if a plan draws a cut-out caster. Fails if a pipeline cannot be created.
-[[nodiscard]] Status make_map_pipelines(FrameBuilder& frame, std::span<const FacePlan* const> plans, MapRecording& map);
+/// Sets the other members of `work` from backgrounds and faces. knobs: with the size of the atlas that the faces go
+/// to. steepest: see kSteepestSurface. If a pipeline or memory cannot be created, the frame is given up.
+void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work);
 
-/// Records the draws of one batch of the plan into the scratch image.
-void record_draws(FrameBuilder& frame, PassContext& context, const MapRecording& map, const FacePlan& plan,
+/// Records the draws of one batch into the scratch image. plan: work.backgrounds or work.faces.
+void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work, const FacePlan& plan,
                   std::size_t batch);
 
 }  // namespace gloam

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "engine/gpu/command_list.h"
 #include "engine/math/types.h"
 
 // Dispatches whose workgroups read their work from a buffer. One dispatch then serves parts of many faces, which saves
@@ -28,14 +27,14 @@ void add_groups(uvec2 begin, uvec2 end, std::uint32_t side, const Add& add) {
 }
 
 /// Pushes `constants` and dispatches one workgroup per entry of `groups`, in several dispatches when there are many.
-/// Constants::first_group is set to the first entry of each dispatch.
-template <class Constants>
-void dispatch_groups(gpu::CommandList& commands, Constants constants, const GroupRange& groups) {
+/// Constants::first_group is set to the first entry of each dispatch. target: a ComputePass or a gpu::CommandList.
+template <class Target, class Constants>
+void dispatch_groups(Target& target, Constants constants, const GroupRange& groups) {
   constexpr std::uint32_t kMost = 32768;  // workgroups along an axis; devices have at least 65535
   for (std::uint32_t done = 0; done < groups.count; done += kMost) {
     constants.first_group = groups.first + done;
-    commands.push(constants);
-    commands.dispatch(std::min(groups.count - done, kMost), 1, 1);
+    target.push(constants);
+    target.dispatch(std::min(groups.count - done, kMost), 1, 1);
   }
 }
 

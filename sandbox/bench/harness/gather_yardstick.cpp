@@ -7,7 +7,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/frame/upload.h"
-#include "engine/render/frame_builder.h"
+#include "engine/render/declare/draw_pass.h"
 #include "engine/render/readback/capture.h"
 #include "shaders/sandbox/shaders.h"
 
@@ -70,8 +70,8 @@ Status GatherYardstick::prepare(std::uint32_t width, std::uint32_t height) {
   auto sampler = device_.create_sampler(nearest);
   if (!sampler.ok()) return sampler.error();
   sampler_ = *sampler;
-  auto pipeline = device_.create_pipeline(
-      fullscreen_pipeline("gather48", "engine", shaders::sandbox::gather48_frag, gpu::Format::r32_float));
+  const gpu::Format colors[] = {target.format};
+  auto pipeline = device_.create_pipeline(pipeline_desc({shaders::sandbox::gather48_frag}, "engine", colors));
   if (!pipeline.ok()) return pipeline.error();
   pipeline_ = *pipeline;
   Uploader uploader(device_);
@@ -88,13 +88,17 @@ Status GatherYardstick::draw() {
   PassBuilder pass = graph_.add_pass("gather48", "engine");
   target = pass.write(target, gpu::Access::color_target);
   pass.execute([&](PassContext& context) {
-    FullscreenPass draw;
-    draw.pipeline = pipeline_;
-    draw.bindings = {{0, gpu::Binding::Sampled{{.image = map_}, sampler_}}};
-    draw.target = context.image(target);
-    draw.width = desc.width;
-    draw.height = desc.height;
-    record_fullscreen(context.commands(), draw);
+    gpu::CommandList& list = context.commands();
+    list.begin_rendering({.colors = {{.view = {.image = context.image(target)}, .load = gpu::LoadOp::discard}},
+                          .width = desc.width,
+                          .height = desc.height});
+    list.set_viewport(0.0f, 0.0f, static_cast<float>(desc.width), static_cast<float>(desc.height));
+    list.set_scissor(0, 0, desc.width, desc.height);
+    const gpu::Binding map[] = {{0, gpu::Binding::Sampled{{.image = map_}, sampler_}}};
+    list.bind_pipeline(pipeline_);
+    list.bind(map);
+    list.draw(3, 1, 0, 0);
+    list.end_rendering();
   });
   GLOAM_TRY(graph_.compile());
   graph_.execute(**commands);

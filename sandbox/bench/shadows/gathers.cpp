@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/render/frame_builder.h"
+#include "engine/render/declare/draw_pass.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
@@ -15,8 +15,6 @@
 
 namespace gloam {
 namespace {
-
-constexpr std::uint32_t kFirstShadowBinding = 6;
 
 std::optional<std::uint32_t> light_index(const FrameBuilder& frame) {
   const std::string_view shown = frame.visualizer();
@@ -30,88 +28,26 @@ std::optional<std::uint32_t> light_index(const FrameBuilder& frame) {
   return static_cast<std::uint32_t>(at - lights.begin());
 }
 
-struct Footprints {
-  ImageRef search_and_fine;
-  ImageRef coarse;
-};
+void add_gathers_passes(FrameBuilder& frame, std::uint32_t light, const ShadowsOutputs& shadows) {
+  DrawPass find(frame, "shadow_footprints", {shaders::sandbox::shadow_footprints_frag, shadows.constants});
+  read_geometry(find, frame.get<GeometryOutputs>());
+  read_light_lists(find, frame.get<LightsOutputs>());
+  read_shadows(find, shadows);
+  find.push(light);
+  const auto footprints = [&](const char* name) {
+    return find.target(create_view_image(frame, name, gpu::Format::rgba32_float), gpu::LoadOp::clear);
+  };
+  const ImageRef search_and_fine = footprints("shadow_footprints");
+  const ImageRef coarse = footprints("shadow_footprints_coarse");
+  find.draw_triangle();
 
-void begin(gpu::CommandList& commands, const RenderView& view, std::vector<gpu::ColorTarget> targets) {
-  gpu::RenderingDesc rendering;
-  rendering.colors = std::move(targets);
-  rendering.width = view.width;
-  rendering.height = view.height;
-  commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(view.width), static_cast<float>(view.height));
-  commands.set_scissor(0, 0, view.width, view.height);
-}
-
-Result<Footprints> add_footprints_pass(FrameBuilder& frame, std::uint32_t light, const ShadowsOutputs& shadows) {
-  gpu::GraphicsPipelineDesc desc =
-      fullscreen_pipeline("shadow_footprints/" + shadows.variant, "bench", shaders::sandbox::shadow_footprints_frag,
-                          gpu::Format::rgba32_float);
-  desc.color_formats.push_back(gpu::Format::rgba32_float);
-  desc.constants = shadows.constants;
-  auto pipeline = frame.services().pipelines.get(desc);
-  if (!pipeline.ok()) return pipeline.error();
-  const GeometryOutputs geometry = frame.get<GeometryOutputs>();
-  const LightsOutputs lights = frame.get<LightsOutputs>();
-  Footprints footprints{create_view_image(frame, "shadow_footprints", "bench", gpu::Format::rgba32_float),
-                        create_view_image(frame, "shadow_footprints_coarse", "bench", gpu::Format::rgba32_float)};
-  PassBuilder pass = frame.graph().add_pass("shadow_footprints", "bench");
-  for (const ImageRef image : {geometry.depth, geometry.normals, geometry.base_color, lights.texels})
-    pass.read(image, gpu::Access::fragment_read);
-  declare_shadow_reads(pass, shadows, gpu::Access::fragment_read);
-  footprints.search_and_fine = pass.write(footprints.search_and_fine, gpu::Access::color_target);
-  footprints.coarse = pass.write(footprints.coarse, gpu::Access::color_target);
-  pass.execute([&frame, geometry, lights, footprints, light, shadows, pipeline = *pipeline](PassContext& context) {
-    const auto sampled = [&](ImageRef ref) {
-      return gpu::Binding::Sampled{{.image = context.image(ref)}, shadows.nearest};
-    };
-    std::vector<gpu::Binding> bindings = {frame.view_binding(),
-                                          {1, lights.lights},
-                                          {2, sampled(geometry.depth)},
-                                          {3, sampled(geometry.normals)},
-                                          {4, sampled(geometry.base_color)},
-                                          {5, sampled(lights.texels)}};
-    append_shadow_bindings(bindings, kFirstShadowBinding, context, shadows);
-    gpu::CommandList& commands = context.commands();
-    begin(commands, frame.view(),
-          {{.view = {.image = context.image(footprints.search_and_fine)}},
-           {.view = {.image = context.image(footprints.coarse)}}});
-    commands.bind_pipeline(pipeline);
-    commands.bind(bindings);
-    commands.push(light);
-    commands.draw(3, 1, 0, 0);
-    commands.end_rendering();
-  });
-  return footprints;
-}
-
-Status add_gathers_pass(FrameBuilder& frame, const Footprints& footprints, const ShadowsOutputs& shadows) {
-  auto pipeline = frame.services().pipelines.get(
-      fullscreen_pipeline("shadow_gathers", "bench", shaders::sandbox::shadow_gathers_frag, gpu::Format::r32_float));
-  if (!pipeline.ok()) return pipeline.error();
-  ImageRef sum = create_view_image(frame, "shadow_gathers", "bench", gpu::Format::r32_float);
-  PassBuilder pass = frame.graph().add_pass("shadow_gathers", "bench");
-  for (const ImageRef image : {footprints.search_and_fine, footprints.coarse, shadows.atlas})
-    pass.read(image, gpu::Access::fragment_read);
-  sum = pass.write(sum, gpu::Access::color_target);
-  frame.expose(sum);  // benches hash it
-  pass.keep();
-  pass.execute([&frame, footprints, sum, shadows, pipeline = *pipeline](PassContext& context) {
-    const auto sampled = [&](ImageRef ref) {
-      return gpu::Binding::Sampled{{.image = context.image(ref)}, shadows.nearest};
-    };
-    FullscreenPass draw;
-    draw.pipeline = pipeline;
-    draw.bindings = {
-        {0, sampled(footprints.search_and_fine)}, {1, sampled(footprints.coarse)}, {2, sampled(shadows.atlas)}};
-    draw.target = context.image(sum);
-    draw.width = frame.view().width;
-    draw.height = frame.view().height;
-    record_fullscreen(context.commands(), draw);
-  });
-  return {};
+  DrawPass gather(frame, "shadow_gathers", {shaders::sandbox::shadow_gathers_frag});
+  gather.read("search_and_fine_image", search_and_fine);
+  gather.read("coarse_image", coarse);
+  gather.read("atlas", shadows.atlas);
+  frame.expose(gather.target(create_view_image(frame, "shadow_gathers", gpu::Format::r32_float)));  // benches hash it
+  gather.keep();
+  gather.draw_triangle();
 }
 
 class ShadowGathersModule final : public Module {
@@ -123,14 +59,11 @@ class ShadowGathersModule final : public Module {
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
     return {{kShadowGathersView, "bench", "LIGHT", "the picture as it is; its passes are timed"}};
   }
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase != PassPhase::visualize) return {};
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::visualize) return;
     const auto light = light_index(frame);
     const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
-    if (!light || shadows == nullptr) return {};
-    const auto footprints = add_footprints_pass(frame, *light, *shadows);
-    if (!footprints) return footprints.error();
-    return add_gathers_pass(frame, *footprints, *shadows);
+    if (light && shadows != nullptr) add_gathers_passes(frame, *light, *shadows);
   }
 };
 

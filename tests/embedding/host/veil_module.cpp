@@ -3,7 +3,7 @@
 #include "veil_module.h"
 
 #include "engine/ecs/view.h"
-#include "engine/render/frame_builder.h"
+#include "engine/render/declare/draw_pass.h"
 #include "engine/scene/key_table.h"
 #include "shaders/veil/shaders.h"
 #include "shaders/veil/veil_shared.h"
@@ -32,39 +32,20 @@ class VeilModule final : public Module {
 
   // What add_passes will ask for: made in the background under Readiness::background.
   void pipelines(const KnobRegistry&, const gpu::DeviceInfo&, PipelineList& list) const override {
-    list.push_back(pipeline());
+    const gpu::Format light[] = {gpu::Format::rgba16_float};
+    list.push_back(pipeline_desc(program(), name(), light));
   }
 
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase != PassPhase::post) return {};
-    // Everything that can fail comes before the pass is declared.
-    auto made = frame.services().pipelines.get(pipeline());
-    if (!made.ok()) return made.error();
-    auto nearest = frame.nearest_sampler();
-    if (!nearest.ok()) return nearest.error();
-
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::post) return;
     const Veil& veil = *find(frame.world());
-    const shaders::VeilConstants constants{veil.radiance, veil.density};
-    const ImageRef depth = frame.get<GeometryOutputs>().depth;
-    LitOutput& lit = frame.get<LitOutput>();
-    PassBuilder pass = frame.graph().add_pass("veil", "veil");
-    pass.read(depth, gpu::Access::fragment_read);
+    DrawPass pass(frame, "veil", program());
+    pass.read("depth_image", frame.get<GeometryOutputs>().depth);
+    pass.push(shaders::VeilConstants{veil.radiance, veil.density});
     // A write gives a new version of the handle. It goes back to the board: later passes must not name the old one.
-    lit.color = pass.write(lit.color, gpu::Access::color_target);
-    // Runs later, when the frame is recorded: capture values and the builder, no references to locals.
-    pass.execute(
-        [&frame, depth, constants, color = lit.color, pipeline = *made, nearest = *nearest](PassContext& context) {
-          FullscreenPass draw;
-          draw.pipeline = pipeline;
-          draw.bindings = {frame.view_binding(), {1, gpu::Binding::Sampled{{.image = context.image(depth)}, nearest}}};
-          draw.target = context.image(color);
-          draw.width = frame.view().width;
-          draw.height = frame.view().height;
-          draw.load = gpu::LoadOp::load;  // blended over the light
-          draw.constants = std::as_bytes(std::span(&constants, 1));
-          record_fullscreen(context.commands(), draw);
-        });
-    return {};
+    LitOutput& lit = frame.get<LitOutput>();
+    lit.color = pass.target(lit.color, gpu::LoadOp::load);  // blended over the light
+    pass.draw_triangle();
   }
 
   void counters(const World& world, const RenderView&, CounterSink& sink) const override {
@@ -78,13 +59,9 @@ class VeilModule final : public Module {
     return found;
   }
 
-  // One function makes the description, so that list and use agree. A name holds every constant, format and state that
-  // varies.
-  [[nodiscard]] static gpu::GraphicsPipelineDesc pipeline() {
-    gpu::GraphicsPipelineDesc desc =
-        fullscreen_pipeline("veil", "veil", shaders::veil::veil_frag, gpu::Format::rgba16_float);
-    desc.blend = gpu::BlendMode::premultiplied;
-    return desc;
+  // One function describes the pipeline, so that list and use agree.
+  [[nodiscard]] static DrawProgram program() {
+    return {.fragment = shaders::veil::veil_frag, .blend = gpu::BlendMode::premultiplied};
   }
 };
 

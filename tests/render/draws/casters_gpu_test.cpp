@@ -37,8 +37,8 @@ class ProbeModule final : public Module {
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "always"}; }
   [[nodiscard]] bool needs_casters(const World&, const KnobRegistry&) const override { return true; }
   [[nodiscard]] bool needs_simplified_casters(const World&, const KnobRegistry&) const override { return simplified_; }
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase != PassPhase::lists) return {};
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::lists) return;
     seen_ = {};
     seen_.draws = frame.draws().solid.size() + frame.draws().blended.size();
     seen_.casters = frame.casters().casters;
@@ -48,11 +48,9 @@ class ProbeModule final : public Module {
       seen_.simplified = seen_.simplified || caster.primitive->simplified_index_count > 0;
     }
     const FrameBuilder::Deformed* deformed = frame.find<FrameBuilder::Deformed>();
-    if (deformed == nullptr) return {};
+    if (deformed == nullptr) return;
     auto capture = capture_buffer(frame.graph(), frame.services().device, deformed->positions);
-    if (!capture.ok()) return capture.error();
-    seen_.capture = *capture;
-    return {};
+    if (frame.check(capture)) seen_.capture = *capture;
   }
 
  private:

@@ -116,14 +116,13 @@ class ExposingModule final : public Module {
   void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "always"}; }
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::lists) {
-      image_ = fill(frame, create_view_image(frame, "filled", "exposing", gpu::Format::r32_uint, 2), 7);
+      image_ = fill(frame, create_view_image(frame, "filled", gpu::Format::r32_uint, 2), 7);
       frame.expose(image_);
       frame.expose(image_, "by_another_name");
     }
     if (phase == PassPhase::visualize) image_ = fill(frame, image_, 9);
-    return {};
   }
 
  private:

@@ -27,12 +27,11 @@ class CopyReader final : public Module {
   void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "always"}; }
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase != PassPhase::visualize) return {};
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::visualize) return;
     const auto* closeups = frame.find<CloseupFrame>();
     copies.clear();
     if (closeups != nullptr) copies.assign(closeups->overlay.faces().begin(), closeups->overlay.faces().end());
-    return {};
   }
 
   std::vector<OverlayFace> copies;  ///< of the last frame

@@ -68,15 +68,14 @@ class ForgetfulModule final : public Module {
   void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "always"}; }
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase != PassPhase::lists || !forgets) return {};
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::lists || !forgets) return;
     ImageRef& lists = frame.get<LightsOutputs>().tile_lists;
     PassBuilder pass = frame.graph().add_pass("forget", "forgetful");
     lists = pass.write(lists, gpu::Access::transfer_write);
     pass.execute([lists](PassContext& context) {
       context.commands().clear_color_image(context.image(lists), {0, 0, 0, 0});
     });
-    return {};
   }
   bool forgets = false;
 };

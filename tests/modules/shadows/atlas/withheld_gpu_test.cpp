@@ -30,12 +30,11 @@ class Withholder final : public Module {
   void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "always"}; }
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::announce) frame.put(withheld);
-    if (phase != PassPhase::shading) return {};
+    if (phase != PassPhase::shading) return;
     const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
     has_lists = shadows != nullptr && shadows->final_lists.has_value();
-    return {};
   }
 
   WithheldCasters withheld;

@@ -92,24 +92,25 @@ class FinalListReader final : public Module {
   void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "always"}; }
-  [[nodiscard]] Status add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase != PassPhase::visualize || !wanted) return {};
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase != PassPhase::visualize || !wanted) return;
     const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
     read_ = {};
     copies_.reset();
-    if (shadows == nullptr || !shadows->final_lists) return {};
+    if (shadows == nullptr || !shadows->final_lists) return;
     const FinalLists& lists = *shadows->final_lists;
     note(frame, lists);
     copies_ = std::make_unique<Captures>(frame.services().device);
-    FrameGraph& graph = frame.graph();
-    GLOAM_TRY(copies_->add(graph, "tiles", lists.tiles));
-    GLOAM_TRY(copies_->add(graph, "entries", lists.entries));
-    GLOAM_TRY(copies_->add(graph, "words", lists.visibilities[0]));
-    if (lists.visibilities[1].resource != lists.visibilities[0].resource)
-      GLOAM_TRY(copies_->add(graph, "more words", lists.visibilities[1]));
-    GLOAM_TRY(copies_->add(graph, "fallback", lists.fallback_tiles));
-    GLOAM_TRY(copies_->add(graph, "counters", lists.counters));
-    return copies_->add(graph, "commands", lists.commands);
+    const auto copy = [&](const char* what, auto ref) {
+      static_cast<void>(frame.check(copies_->add(frame.graph(), what, ref)));
+    };
+    copy("tiles", lists.tiles);
+    copy("entries", lists.entries);
+    copy("words", lists.visibilities[0]);
+    if (lists.visibilities[1].resource != lists.visibilities[0].resource) copy("more words", lists.visibilities[1]);
+    copy("fallback", lists.fallback_tiles);
+    copy("counters", lists.counters);
+    copy("commands", lists.commands);
   }
   void release() override { copies_.reset(); }
 

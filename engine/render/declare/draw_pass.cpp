@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/declare/draw_pass.h"
+
+#include "engine/core/assert.h"
+#include "engine/render/declare/recording.h"
+#include "shaders/render/shaders.h"
+
+namespace gloam {
+namespace {
+
+using declare::Recording;
+using declare::Step;
+using declare::StepKind;
+
+void begin_rendering(const FrameGraph& graph, const Recording& recording, PassContext& context) {
+  gpu::RenderingDesc rendering;
+  for (const declare::Target& target : recording.colors)
+    rendering.colors.push_back({.view = {.image = context.image(target.image)}, .load = target.load});
+  if (recording.depth.image)
+    rendering.depth = {.view = {.image = context.image(recording.depth.image)},
+                       .load = recording.depth.load,
+                       .read_only = recording.depth_read_only};
+  const gpu::ImageDesc& area =
+      graph.desc(recording.colors.empty() ? recording.depth.image : recording.colors.front().image);
+  rendering.width = area.width;
+  rendering.height = area.height;
+  gpu::CommandList& commands = context.commands();
+  commands.begin_rendering(rendering);
+  commands.set_viewport(0.0f, 0.0f, static_cast<float>(area.width), static_cast<float>(area.height));
+  commands.set_scissor(0, 0, area.width, area.height);
+}
+
+void record_draws(FrameBuilder& frame, const Recording& recording, PassContext& context) {
+  if (recording.failed) return;
+  begin_rendering(frame.graph(), recording, context);
+  gpu::CommandList& commands = context.commands();
+  std::vector<gpu::Binding> storage;
+  for (const Step& step : recording.steps) {
+    switch (step.kind) {
+      case StepKind::draw:
+        begin_step(recording, step, context, storage);
+        commands.draw(step.counts[0], step.counts[1], 0, 0);
+        break;
+      case StepKind::draw_indirect:
+        begin_step(recording, step, context, storage);
+        commands.draw_indirect(context.buffer(step.arguments), step.offset);
+        break;
+      case StepKind::surfaces:
+        // Cannot fail: the pipelines were compiled in declaration.
+        static_cast<void>(frame.draw_surfaces(context, step.draws, recording.surface_passes[step.surface_pass],
+                                              bindings_of(recording, step, context, storage)));
+        break;
+      default:
+        recording.functions[step.function](context);
+        break;
+    }
+  }
+  commands.end_rendering();
+}
+
+}  // namespace
+
+gpu::GraphicsPipelineDesc pipeline_desc(const DrawProgram& program, std::string_view module,
+                                        std::span<const gpu::Format> colors, gpu::Format depth) {
+  gpu::GraphicsPipelineDesc desc;
+  desc.module = module;
+  desc.vertex = program.vertex.words.empty() ? shaders::render::fullscreen_vert : program.vertex;
+  desc.fragment = program.fragment;
+  desc.constants = program.constants;
+  desc.color_formats.assign(colors.begin(), colors.end());
+  desc.depth_format = depth;
+  if (depth != gpu::Format::undefined) desc.depth_compare = program.depth_compare;
+  desc.cull = gpu::CullMode::none;
+  desc.blend = program.blend;
+  desc.depth_write = false;
+  return desc;
+}
+
+DrawPass::DrawPass(FrameBuilder& frame, std::string_view name) : ShaderPass(frame, name) {
+  graph_pass().execute(
+      [&frame, recording = &recording()](PassContext& context) { record_draws(frame, *recording, context); });
+}
+
+ImageRef DrawPass::target(ImageRef image, gpu::LoadOp load) {
+  image = graph_pass().write(image, gpu::Access::color_target);
+  recording().colors.push_back({image, load});
+  return image;
+}
+
+ImageRef DrawPass::depth_target(ImageRef image, gpu::LoadOp load) {
+  image = graph_pass().write(image, gpu::Access::depth_target);
+  recording().depth = {image, load};
+  return image;
+}
+
+void DrawPass::test_depth(ImageRef image) {
+  graph_pass().read(image, gpu::Access::depth_test);
+  recording().depth = {image, gpu::LoadOp::load};
+  recording().depth_read_only = true;
+}
+
+void DrawPass::use(const DrawProgram& program) {
+  program_ = program;
+  pipeline_ = {};
+  const gpu::ShaderCode& vertex = program.vertex.words.empty() ? shaders::render::fullscreen_vert : program.vertex;
+  auto interface = frame().services().declared.interfaces.of(vertex, program.fragment);
+  if (!interface.ok()) return fail(interface.error());
+  ShaderPass::use(*interface);
+}
+
+void DrawPass::use(const SurfacePass& surfaces) {
+  recording().surface_passes.push_back(surfaces);
+  auto interface = frame().services().declared.interfaces.of(shaders::render::surface_vert, surfaces.fragment);
+  if (!interface.ok()) return fail(interface.error());
+  ShaderPass::use(*interface);
+}
+
+bool DrawPass::make_pipeline() {
+  if (!has_program() || recording().failed) return false;
+  if (pipeline_) return true;
+  std::vector<gpu::Format> colors;
+  for (const declare::Target& target : recording().colors) colors.push_back(frame().graph().desc(target.image).format);
+  const ImageRef depth = recording().depth.image;
+  GLOAM_ASSERT(depth || !colors.empty(), sentence("", "targets must be declared before the first draw"));
+  const gpu::Format depth_format = depth ? frame().graph().desc(depth).format : gpu::Format::undefined;
+  auto made = frame().services().pipelines.get(pipeline_desc(program_, frame().module(), colors, depth_format));
+  if (!made.ok()) {
+    fail(made.error());
+    return false;
+  }
+  pipeline_ = *made;
+  return true;
+}
+
+void DrawPass::draw(std::uint32_t vertices, std::uint32_t instances) {
+  if (!make_pipeline()) return;
+  Step& step = add_step(StepKind::draw, pipeline_);
+  step.counts[0] = vertices;
+  step.counts[1] = instances;
+}
+
+void DrawPass::draw_indirect(BufferRef arguments, std::uint64_t offset) {
+  if (!make_pipeline()) return;
+  graph_pass().read(arguments, gpu::Access::indirect_read);
+  Step& step = add_step(StepKind::draw_indirect, pipeline_);
+  step.arguments = arguments;
+  step.offset = offset;
+}
+
+void DrawPass::surfaces(std::span<const Draw> draws) {
+  if (!has_program() || recording().failed) return;
+  GLOAM_ASSERT(!recording().surface_passes.empty(), sentence("", "no surface pass was chosen"));
+  if (const Status made = frame().prepare_surfaces(draws, recording().surface_passes.back()); !made.ok())
+    return fail(made.error());
+  frame().read_vertices(graph_pass());
+  Step& step = add_step(StepKind::surfaces, {});
+  step.draws = draws;
+  step.surface_pass = recording().surface_passes.size() - 1;
+}
+
+}  // namespace gloam

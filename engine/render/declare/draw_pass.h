@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/render/declare/shader_pass.h"
+
+namespace gloam {
+
+/// A fragment shader with its vertex shader, constants and fixed state. Draws have no vertex streams.
+struct DrawProgram {
+  gpu::ShaderCode fragment;
+  std::vector<gpu::SpecConstant> constants = {};
+  gpu::BlendMode blend = gpu::BlendMode::opaque;
+  /// With a depth target: the test of the fragment's depth against the stored one. Depth is not written.
+  gpu::CompareOp depth_compare = gpu::CompareOp::greater_equal;
+  gpu::ShaderCode vertex = {};  ///< no words: one full-screen triangle at depth 0 (fullscreen.vert)
+};
+/// For Module::pipelines. colors: formats of the colour targets. depth: format of the depth target, or undefined.
+[[nodiscard]] gpu::GraphicsPipelineDesc pipeline_desc(const DrawProgram& program, std::string_view module,
+                                                      std::span<const gpu::Format> colors,
+                                                      gpu::Format depth = gpu::Format::undefined);
+
+/// A pass that draws into images: full-screen triangles, lists of surfaces, indirect draws. See ShaderPass for
+/// bindings. The rendered area is the whole first target. Targets must be declared before the first draw.
+class DrawPass : public ShaderPass {
+ public:
+  DrawPass(FrameBuilder& frame, std::string_view name);
+  DrawPass(FrameBuilder& frame, std::string_view name, const DrawProgram& program) : DrawPass(frame, name) {
+    use(program);
+  }
+
+  /// Adds the next colour target. Returns the version that later passes read. load: `load` keeps the content or blends
+  /// over it; `clear` sets zeros; `discard`: the draws cover every pixel.
+  [[nodiscard]] ImageRef target(ImageRef image, gpu::LoadOp load = gpu::LoadOp::discard);
+  /// A depth image that is tested and written. clear: to 0 (reversed depth: infinitely far).
+  [[nodiscard]] ImageRef depth_target(ImageRef image, gpu::LoadOp load);
+  /// A depth image that is only tested. The pass may also bind it.
+  void test_depth(ImageRef image);
+
+  /// Later draws use this program.
+  void use(const DrawProgram& program);
+  /// Later surfaces() are drawn with this pass's fragment shader. Its formats must be those of the targets.
+  void use(const SurfacePass& surfaces);
+
+  /// One full-screen triangle.
+  void draw_triangle() { draw(3, 1); }
+  void draw(std::uint32_t vertices, std::uint32_t instances);
+  /// One non-indexed draw with arguments from a buffer (CommandList::draw_indirect). offset: bytes.
+  void draw_indirect(BufferRef arguments, std::uint64_t offset);
+  /// Draws meshes. `draws` must live until the frame is submitted, as those of FrameBuilder::draws().
+  void surfaces(std::span<const Draw> draws);
+
+ private:
+  [[nodiscard]] bool make_pipeline();
+  DrawProgram program_;
+  gpu::PipelineHandle pipeline_;
+};
+
+}  // namespace gloam

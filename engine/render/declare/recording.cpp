@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/declare/recording.h"
+
+namespace gloam::declare {
+
+void Recording::clear(std::string_view new_name) {
+  name = new_name;
+  items.clear();
+  in_force.clear();
+  bound.clear();
+  pushes.clear();
+  first_push = push_bytes = 0;
+  steps.clear();
+  functions.clear();
+  surface_passes.clear();
+  colors.clear();
+  depth = {};
+  depth_read_only = false;
+  failed = false;
+}
+
+Recording& Recordings::next(std::string_view name) {
+  if (used_ == all_.size()) all_.push_back(std::make_unique<Recording>());
+  Recording& recording = *all_[used_++];
+  recording.clear(name);
+  return recording;
+}
+
+namespace {
+
+gpu::Binding binding_of(const Item& item, std::uint32_t binding, const PassContext& context) {
+  switch (item.kind) {
+    case Item::Kind::sampled:
+      return {binding, gpu::Binding::Sampled{{.image = context.image(item.image)}, item.sampler}};
+    case Item::Kind::storage:
+      return {binding, gpu::Binding::Storage{{.image = context.image(item.image)}}};
+    case Item::Kind::buffer:
+      return {binding, gpu::Binding::BufferRange{context.buffer(item.buffer), item.range.offset, item.range.size}};
+    case Item::Kind::range:
+      break;
+  }
+  return {binding, item.range};
+}
+
+}  // namespace
+
+std::span<const gpu::Binding> bindings_of(const Recording& recording, const Step& step, const PassContext& context,
+                                          std::vector<gpu::Binding>& storage) {
+  storage.clear();
+  for (const BoundItem& bound : std::span(recording.bound).subspan(step.first_bound, step.bound_count))
+    storage.push_back(binding_of(recording.items[bound.item], bound.binding, context));
+  return storage;
+}
+
+void begin_step(const Recording& recording, const Step& step, PassContext& context,
+                std::vector<gpu::Binding>& storage) {
+  gpu::CommandList& commands = context.commands();
+  commands.bind_pipeline(step.pipeline);
+  commands.bind(bindings_of(recording, step, context, storage));
+  if (step.push_bytes > 0)
+    commands.push_constants(std::span(recording.pushes).subspan(step.first_push, step.push_bytes));
+}
+
+}  // namespace gloam::declare
