@@ -126,6 +126,10 @@ void FrameResults::forget_world(std::uint64_t world) {
   erase_if([&](const ResultKey& key) { return key.world == world; });
 }
 
+void FrameResults::forget_view(std::uint32_t view) {
+  erase_if([&](const ResultKey& key) { return key.view == view; });
+}
+
 void FrameResults::forget_module(std::string_view module) {
   erase_if([&](const ResultKey& key) { return key.module == module; });
 }

@@ -80,6 +80,7 @@ class FrameResults {
   [[nodiscard]] std::vector<ResultKey> kept_keys() const;
 
   void forget_world(std::uint64_t world);
+  void forget_view(std::uint32_t view);
   void forget_module(std::string_view module);
 
  private:

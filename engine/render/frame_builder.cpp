@@ -43,7 +43,7 @@ bool FrameBuilder::has_surfaces(std::span<const Draw> draws, const SurfacePass& 
 Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
                                    std::span<const gpu::Binding> bindings) {
   gpu::CommandList& commands = context.commands();
-  const Deformed* deformed = find<Deformed>();
+  const Deformed* deformed = shared_.find<Deformed>();
   commands.bind_indices(scene_.indices(), 0);
   const SurfaceVariant* bound_variant = nullptr;
   std::uint32_t bound_material = kNone;
@@ -76,7 +76,7 @@ Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> d
 }
 
 void FrameBuilder::read_vertices(PassBuilder& pass) {
-  if (const Deformed* deformed = find<Deformed>()) {
+  if (const Deformed* deformed = shared_.find<Deformed>()) {
     pass.read(deformed->positions, gpu::Access::vertex_input);
     pass.read(deformed->frames, gpu::Access::vertex_input);
   }
@@ -89,7 +89,7 @@ void FrameBuilder::bind_caster_vertices(PassContext& context, const Caster& cast
     commands.bind_vertex_stream(0, scene_.positions(), first * sizeof(vec3));
   } else {
     const std::uint64_t moved = draws_.deforms[caster.deform].first_vertex;
-    commands.bind_vertex_stream(0, context.buffer(find<Deformed>()->positions), moved * sizeof(vec3));
+    commands.bind_vertex_stream(0, context.buffer(shared_.find<Deformed>()->positions), moved * sizeof(vec3));
   }
   if (with_surfaces) commands.bind_vertex_stream(1, scene_.surfaces(), first * sizeof(PackedSurface));
 }

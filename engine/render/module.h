@@ -136,8 +136,8 @@ class Module {
     static_cast<void>(frame);
     static_cast<void>(phase);
   }
-  /// Reports counters that are known on the CPU. Called once per frame for its last view, if the module took part in
-  /// that view (demanded by world and view, pipelines ready), after its passes were recorded and before they are
+  /// Reports counters that are known on the CPU. Called once per frame for each view, if the module took part in that
+  /// view (demanded by world and view, pipelines ready), after its passes were declared and before they are
   /// submitted.
   virtual void counters(const World& world, const RenderView& view, CounterSink& sink) const {
     static_cast<void>(world);
@@ -174,6 +174,8 @@ class Module {
     static_cast<void>(result);
     static_cast<void>(sink);
   }
+  /// Frees what the module keeps for this view in any world. Called by Renderer::release_view.
+  virtual void release_view(ViewId view) { static_cast<void>(view); }
   /// Frees the module's GPU memory. Called after 120 frames without demand and when the renderer is destroyed; the
   /// module allocates the memory again when it is next needed. The renderer owns the pipelines.
   virtual void release() {}

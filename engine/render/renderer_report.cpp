@@ -26,18 +26,22 @@ T texel(std::span<const std::byte> bytes, std::size_t index) {
 
 }  // namespace
 
-void Renderer::State::collect_counters(const World& world) {
+void Renderer::State::count_view(const World& world, const FrameBuilder& builder) {
+  ViewCounters& own = view_counters.emplace_back(ViewCounters{builder.view().id, {}});
+  MapSink sink(own.counters);
+  sink.count("engine.draws", static_cast<double>(builder.draws().solid.size() + builder.draws().blended.size()));
+  sink.count("engine.culled_primitives", builder.draws().culled_instances);
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (runtimes[i].in_last_view) options.modules[i]->counters(world, builder.view(), sink);
+}
+
+void Renderer::State::collect_counters() {
   counters.clear();
   counted_results.clear();
-  if (builders.empty()) return;
-  const FrameBuilder& last = *builders.back();
-  MapSink sink(counters);
-  sink.count("engine.draws", static_cast<double>(last.draws().solid.size() + last.draws().blended.size()));
-  sink.count("engine.culled_primitives", last.draws().culled_instances);
-  for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (runtimes[i].in_last_view) options.modules[i]->counters(world, last.view(), sink);
+  if (view_counters.empty()) return;
+  counters = view_counters.back().counters;
   counted_results = results.kept_keys();
-  std::erase_if(counted_results, [&](const ResultKey& key) { return key.view != last.view().id.value; });
+  std::erase_if(counted_results, [&](const ResultKey& key) { return key.view != view_counters.back().view.value; });
 }
 
 void Renderer::State::add_result_counters(std::map<std::string, double>& all) const {
@@ -57,6 +61,7 @@ FrameReport Renderer::report() {
   report.passes = s.graph.pass_times();
   report.gpu_ms = s.graph.gpu_ms();
   report.counters = s.counters;
+  report.views = s.view_counters;
   s.add_result_counters(report.counters);
   report.plans_compiled = s.graph.plans_compiled();
   report.pipelines_pending = s.pipelines.pending();

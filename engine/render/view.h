@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/ecs/entity.h"
 #include "engine/ecs/world.h"
@@ -12,6 +14,26 @@
 #include "engine/scene/components.h"
 
 namespace gloam {
+
+/// What a view is drawn for. Modules decide by it whether they take part (Module::demand): a capture, for example, has
+/// no fog.
+enum class ViewPurpose : std::uint8_t {
+  main,       ///< a picture for users
+  capture,    ///< light that other views use, for example a reflection probe
+  reference,  ///< a picture that others are judged against
+};
+
+/// A mirror: the points p with dot(normal, p) = offset. Its visible side is where the dot product is greater.
+struct MirrorPlane {
+  dvec3 normal = dvec3(0.0, 1.0, 0.0);  ///< unit length
+  double offset = 0.0;                  ///< metres
+};
+
+/// A knob's value for one view, as text (KnobRegistry::set).
+struct KnobOverride {
+  std::string name;
+  std::string value;
+};
 
 /// A caller's settings for a view.
 struct ViewSettings {
@@ -26,6 +48,11 @@ struct ViewSettings {
   dmat4 world_from_camera = dmat4(1.0);  ///< rigid; the camera looks along −Z
   Camera camera;
   std::string visualizer = "none";  ///< a name of Renderer::visualizers()
+  ViewPurpose purpose = ViewPurpose::main;
+  std::vector<KnobOverride> knobs;   ///< replace the renderer's values in this view; an unknown one is a usage error
+  std::vector<std::string> without;  ///< names of modules that this view leaves out
+  /// Draws what the mirror shows of its visible side to the camera. The camera may be on either side.
+  std::optional<MirrorPlane> mirror;
 };
 
 /// One view of one frame, for systems and passes. A view resource. Positions on the GPU are relative to `position`.
@@ -41,7 +68,11 @@ struct RenderView {
   mat4 clip_from_relative = mat4(1.0);
   Camera camera;
   float near_m = 0.1f;
-  Frustum frustum;  ///< in camera-relative space
+  ViewPurpose purpose = ViewPurpose::main;
+  bool mirrored = false;  ///< front faces of unmirrored meshes are clockwise; `position` is the mirrored camera's
+  bool clipped = false;   ///< only what is on the visible side of clip_plane is drawn
+  vec4 clip_plane = vec4(0.0f);  ///< dot(xyz, p) + w ≥ 0 is visible; p: camera-relative
+  Frustum frustum;               ///< in camera-relative space
 
   /// Camera-relative float position of a world position.
   [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }

@@ -20,4 +20,5 @@ void main() {
   out_normals = uvec4(pack_normal(s.normal), pack_normal(s.face_normal), 0u, 0u);
   out_material = vec4(s.roughness, s.metallic, s.occlusion, s.reflectivity);
   out_emissive = vec4(s.emissive, 0.0);
+  if ((kSurface & GLOAM_SURFACE_CLIPPED) != 0u && is_clipped(view, in_relative)) discard;
 }

@@ -47,8 +47,8 @@ void deform(ComputePass& pass, const GpuScene& scene, const DeformJob& job, Fram
 }  // namespace
 
 void add_deform_pass(FrameBuilder& frame) {
-  const DrawLists& draws = frame.draws();
-  if (draws.deforms.empty()) return;
+  const FrameDraws& draws = frame.frame_draws();
+  if (draws.deforms.empty() || frame.shared().find<FrameBuilder::Deformed>() != nullptr) return;
   const auto stream = [&](const char* name, std::size_t stride) {
     gpu::BufferDesc desc;
     desc.name = name;
@@ -64,7 +64,7 @@ void add_deform_pass(FrameBuilder& frame) {
   pass.items<vec4>("joint_rows", joint_rows(frame.world().resource<JointMatrices>()));
   pass.items<float>("morph_weights", weights);
   for (const DeformJob& job : draws.deforms) deform(pass, frame.scene(), job, deformed);
-  frame.put(deformed);
+  frame.shared().put(deformed);
 }
 
 }  // namespace gloam
