@@ -67,6 +67,7 @@ void FrameGraph::execute(gpu::CommandList& commands) {
     counting.reset();
     s.recording_pass = planned.pass;
     if (pass.function) pass.function(context);
+    if (!s.recorded.ok()) return;
     s.recording_pass = frame::kNone;
     if (timed) commands.write_timestamp(i + 1);
     commands.end_label();
@@ -74,6 +75,18 @@ void FrameGraph::execute(gpu::CommandList& commands) {
   }
   s.record_barriers(commands, plan.first_final_barrier, static_cast<std::uint32_t>(plan.barriers.size()));
 }
+const Status& FrameGraph::recorded() const { return state_->recorded; }
+
+std::string_view FrameGraph::recording() const {
+  const State& s = *state_;
+  return s.recording_pass == frame::kNone ? std::string_view() : s.declaration.passes[s.recording_pass].name;
+}
+
+void PassContext::fail(Error error) {
+  Status& recorded = graph_.state_->recorded;
+  if (recorded.ok()) recorded = std::move(error);
+}
+
 
 template <class Kind>
 const DeclaredUse& FrameGraph::State::declared_use(FrameRef<Kind> ref) {

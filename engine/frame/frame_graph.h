@@ -35,6 +35,8 @@ class PassContext {
   [[nodiscard]] gpu::CommandList& commands() { return commands_; }
   [[nodiscard]] gpu::ImageHandle image(ImageRef ref) const;
   [[nodiscard]] gpu::BufferHandle buffer(BufferRef ref) const;
+  /// Reports that the pass could not be recorded. The frame is then given up (FrameGraph::recorded).
+  void fail(Error error);
 
  private:
   FrameGraph& graph_;
@@ -114,7 +116,13 @@ class FrameGraph {
   /// The passes of the newest completed frame in order of execution; empty until a frame has completed.
   [[nodiscard]] std::vector<PassTime> pass_times();
   /// GPU time of the newest completed frame in milliseconds, from the begin of its first pass to the end of its last
+  /// If the function of a pass throws or fails (PassContext::fail), recording stops there, possibly inside rendering:
+  /// the commands must be dropped (gpu::Device::abandon_frame).
   /// pass; 0 until a frame has completed.
+  /// The error with which a pass failed in the last execute, if one did.
+  [[nodiscard]] const Status& recorded() const;
+  /// The name of the pass that is recorded now, or whose function stopped the last execute; otherwise empty.
+  [[nodiscard]] std::string_view recording() const;
   [[nodiscard]] double gpu_ms() const;
   [[nodiscard]] std::uint64_t plans_compiled() const;
   [[nodiscard]] std::uint64_t plan_hash() const;

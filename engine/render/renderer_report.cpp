@@ -88,11 +88,17 @@ void Renderer::free_idle_memory() { state_->graph.free_idle_memory(); }
 Result<Picture> Renderer::read_picture(ViewId view) {
   State& s = *state_;
   const auto found = s.images.find(view.value);
+Status Renderer::State::check_drawn(const ViewImages& view) {
+  if (view.drawn) return {};
+  return Error{ErrorKind::failed, "the view has no picture yet: its frames were given up"};
+}
+
   GLOAM_ASSERT(found != s.images.end() && found->second.picture,
                "read_picture needs a view that was rendered without a target");
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.picture);
   if (!bytes.ok()) return bytes.error();
+  GLOAM_TRY(State::check_drawn(found->second));
   Picture picture{found->second.width, found->second.height, {}};
   picture.rgba.resize(bytes->size());
   std::memcpy(picture.rgba.data(), bytes->data(), bytes->size());
@@ -106,6 +112,7 @@ Result<LinearPicture> Renderer::read_linear(ViewId view) {
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.lit);
   if (!bytes.ok()) return bytes.error();
+  GLOAM_TRY(State::check_drawn(found->second));
   LinearPicture picture{found->second.width, found->second.height, {}};
   picture.rgba.resize(bytes->size() / sizeof(std::uint16_t));
   for (std::size_t i = 0; i < picture.rgba.size(); ++i)

@@ -34,6 +34,7 @@ struct ViewImages {
   gpu::ImageHandle picture;       ///< rgba8 sRGB; null if the caller provides a target
   std::uint64_t world = 0;        ///< RenderSlot of the world that drew the view last
   std::uint32_t idle_frames = 0;  ///< since a frame drew the view
+  bool drawn = false;             ///< a frame that was not given up has drawn the images
 };
 
 /// Request to copy results of a view's passes in the next frame. add_copies: called after all passes of the view are
@@ -65,6 +66,8 @@ struct Renderer::State {
   /// target.
   [[nodiscard]] Status prepare_images(const World& world, const ViewRequest& request);
   void destroy_images(ViewImages& view);
+  /// An error unless the view's images have been drawn.
+  [[nodiscard]] static Status check_drawn(const ViewImages& view);
   /// Frees the images of views for which `unwanted` is true.
   void release_images(const std::function<bool(std::uint32_t id, const ViewImages&)>& unwanted);
   /// After a frame: frees the images of views that were not drawn for kFramesUntilRelease frames.
@@ -73,6 +76,14 @@ struct Renderer::State {
   /// Whether `question` (e.g. &Module::needs_casters) is true for any demanded module.
   [[nodiscard]] bool any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const,
                                const World& world) const;
+  /// Renderer::render, except for exceptions that it passes on after giving the frame up.
+  [[nodiscard]] Status draw_frame(World& world, std::span<const ViewRequest> requests);
+  /// Notes a submitted frame as drawn.
+  void commit_frame(World& world, std::span<const ViewRequest> requests);
+  /// Undoes what was noted for a frame that the GPU does not execute. `frame`: its Device::frame_number.
+  void give_up_frame(std::uint64_t frame);
+  /// Runs the systems of the world, or of a view. An exception becomes an error that names the system.
+  [[nodiscard]] Status run_systems(World& world, std::optional<ViewId> view);
   /// Everything between Device::begin_frame and submit_frame.
   [[nodiscard]] Status record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands);
   /// Declares one view's passes.

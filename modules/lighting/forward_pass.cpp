@@ -114,8 +114,9 @@ Status add_forward_pass(FrameBuilder& frame) {
         .view = {.image = context.image(f.geometry.depth)}, .load = gpu::LoadOp::load, .read_only = true};
     gpu::CommandList& commands = context.commands();
     begin_view_rendering(commands, frame.view(), std::move(rendering));
-    // Cannot fail: the pipelines were created when the pass was declared.
-    static_cast<void>(frame.draw_surfaces(context, frame.draws().blended, f.surfaces, bindings_of(frame, context, f)));
+    const Status drawn =
+        frame.draw_surfaces(context, frame.draws().blended, f.surfaces, bindings_of(frame, context, f));
+    if (!drawn.ok()) context.fail(drawn.error());
     commands.end_rendering();
   });
   return {};

@@ -60,6 +60,7 @@ class LightingModule final : public Module {
     return {};
   }
 
+  void give_up_frame(std::uint64_t frame) override { exposures_.give_up_frame(frame); }
   void release() override { exposures_.release(); }
 
  private:

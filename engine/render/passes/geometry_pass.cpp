@@ -37,8 +37,8 @@ Status add_geometry_pass(FrameBuilder& frame) {
     commands.set_viewport(0.0f, 0.0f, static_cast<float>(rendering.width), static_cast<float>(rendering.height));
     commands.set_scissor(0, 0, rendering.width, rendering.height);
     const gpu::Binding bindings[] = {frame.view_binding()};
-    // Cannot fail: the pipelines were compiled in declaration.
-    static_cast<void>(frame.draw_surfaces(context, frame.draws().solid, geometry_surface_pass(), bindings));
+    const Status drawn = frame.draw_surfaces(context, frame.draws().solid, geometry_surface_pass(), bindings);
+    if (!drawn.ok()) context.fail(drawn.error());
     commands.end_rendering();
   });
   return {};

@@ -45,7 +45,15 @@ Status Renderer::draw_again(World& world, ViewId view, std::function<Status(Fram
   again.settings.height = s.images.at(view.value).height;
   s.copies = std::make_unique<Captures>(*s.options.device);
   s.copy_request = CopyRequest{view, std::move(add_copies)};
-  Status drawn = render(world, std::span(&again, 1));
+  Status drawn;
+  try {
+    drawn = render(world, std::span(&again, 1));
+  } catch (...) {
+    s.copy_request.reset();
+    s.copies.reset();
+    s.last_requests = all;
+    throw;
+  }
   s.copy_request.reset();
   s.last_requests = all;
   if (drawn.ok()) drawn = wait();
