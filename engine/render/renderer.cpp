@@ -365,6 +365,7 @@ Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> re
     throw;
   }
   if (drawn.ok()) {
+    submitted_ns = options.zones == nullptr ? 0 : options.zones->now_ns();
     drawn = device.submit_frame();
   } else {
     static_cast<void>(device.abandon_frame());  // if the device is lost, the next begin_frame says so

@@ -74,6 +74,8 @@ struct FrameReport {
   double cpu_ms = 0.0;  ///< systems, declaration and recording
   double gpu_ms = 0.0;
   std::vector<PassTime> passes;
+  /// When the last frame was given to the GPU: ZoneRecorder::now_ns just before; 0 without a recorder.
+  std::uint64_t submitted_ns = 0;
   std::vector<ModuleState> modules;  ///< "engine" first, then in list order
   /// Counters of the last view; counters from the GPU are of the newest completed frame.
   std::map<std::string, double> counters;
@@ -116,6 +118,9 @@ class Renderer {
   [[nodiscard]] Status wait();
 
   [[nodiscard]] FrameReport report();
+  /// The GPU times of every frame that has completed since the last call, oldest first; at most the last 4. For callers
+  /// that keep several frames in flight.
+  [[nodiscard]] std::vector<GpuFrameTimes> take_times();
   /// Frees the memory of cached plans except the last frame's (FrameGraph::free_idle_memory). Without this call, memory
   /// of unused plans is kept for a while, in case frames with the same passes return.
   void free_idle_memory();

@@ -56,6 +56,7 @@ FrameReport Renderer::report() {
   report.cpu_ms = s.cpu_ms;
   report.passes = s.graph.pass_times();
   report.gpu_ms = s.graph.gpu_ms();
+  report.submitted_ns = s.submitted_ns;
   report.counters = s.counters;
   s.add_result_counters(report.counters);
   report.plans_compiled = s.graph.plans_compiled();
@@ -83,22 +84,24 @@ FrameReport Renderer::report() {
   return report;
 }
 
+std::vector<GpuFrameTimes> Renderer::take_times() { return state_->graph.take_times(); }
+
 void Renderer::free_idle_memory() { state_->graph.free_idle_memory(); }
 
-Result<Picture> Renderer::read_picture(ViewId view) {
-  State& s = *state_;
-  const auto found = s.images.find(view.value);
 Status Renderer::State::check_drawn(const ViewImages& view) {
   if (view.drawn) return {};
   return Error{ErrorKind::failed, "the view has no picture yet: its frames were given up"};
 }
 
+Result<Picture> Renderer::read_picture(ViewId view) {
+  State& s = *state_;
+  const auto found = s.images.find(view.value);
   GLOAM_ASSERT(found != s.images.end() && found->second.picture,
                "read_picture needs a view that was rendered without a target");
+  GLOAM_TRY(State::check_drawn(found->second));
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.picture);
   if (!bytes.ok()) return bytes.error();
-  GLOAM_TRY(State::check_drawn(found->second));
   Picture picture{found->second.width, found->second.height, {}};
   picture.rgba.resize(bytes->size());
   std::memcpy(picture.rgba.data(), bytes->data(), bytes->size());
@@ -109,10 +112,10 @@ Result<LinearPicture> Renderer::read_linear(ViewId view) {
   State& s = *state_;
   const auto found = s.images.find(view.value);
   GLOAM_ASSERT(found != s.images.end() && found->second.lit, "read_linear needs a view that was rendered");
+  GLOAM_TRY(State::check_drawn(found->second));
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.lit);
   if (!bytes.ok()) return bytes.error();
-  GLOAM_TRY(State::check_drawn(found->second));
   LinearPicture picture{found->second.width, found->second.height, {}};
   picture.rgba.resize(bytes->size() / sizeof(std::uint16_t));
   for (std::size_t i = 0; i < picture.rgba.size(); ++i)

@@ -129,6 +129,7 @@ struct Renderer::State {
   std::optional<CopyRequest> copy_request;
   std::unique_ptr<Captures> copies;  ///< of a frame that Renderer::draw_again has drawn
   double cpu_ms = 0.0;
+  std::uint64_t submitted_ns = 0;  ///< FrameReport::submitted_ns
 };
 
 }  // namespace gloam
