@@ -137,5 +137,9 @@ TEST(Stats, count_overlapping_frames_from_end_to_end) {
   EXPECT_DOUBLE_EQ(samples[3].wall_ms(), 5.0) << "a pause between frames is in none";
 }
 
+TEST(Stats, hold_no_bytes_that_are_not_measured) {
+  for (const auto& row : stats_of({frame(4.0)})["memory"]) EXPECT_FALSE(row.contains("cpu_bytes"));
+}
+
 }  // namespace
 }  // namespace gloam
