@@ -186,13 +186,11 @@ Status check_command(std::span<const std::string> arguments, const std::vector<C
   if (arguments.empty() || arguments.front().starts_with('-')) return {};
   const std::string& wanted = arguments.front();
   std::vector<std::string> names;
-  std::string list;
   for (const CommandApp& command : commands) {
     if (command.app->get_name() == wanted) return {};
     names.push_back(command.app->get_name());
-    list += (list.empty() ? "" : ", ") + names.back();
   }
-  return usage("unknown command '" + wanted + "'; " + did_you_mean(wanted, names) + "there are " + list);
+  return usage("unknown command '" + wanted + "'; " + valid_names(wanted, names));
 }
 
 }  // namespace

@@ -16,13 +16,8 @@ const FrameBuilder::Exposed* find_exposed(const FrameBuilder& frame, std::string
 
 Error unknown_image(const FrameBuilder& frame, std::string_view name) {
   std::vector<std::string> names;
-  std::string list;
-  for (const FrameBuilder::Exposed& exposed : frame.exposed()) {
-    names.emplace_back(exposed.name);
-    list += (list.empty() ? "" : ", ") + names.back();
-  }
-  return {ErrorKind::usage,
-          "the last frame has no image " + std::string(name) + "; " + did_you_mean(name, names) + "there are " + list};
+  for (const FrameBuilder::Exposed& exposed : frame.exposed()) names.emplace_back(exposed.name);
+  return {ErrorKind::usage, "the last frame has no image " + std::string(name) + "; " + valid_names(name, names)};
 }
 
 template <class T>
