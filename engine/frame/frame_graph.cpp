@@ -89,6 +89,7 @@ void FrameGraph::begin() {
   s.stage = State::Stage::declaring;
   s.plan = nullptr;
   s.recording_pass = frame::kNone;
+  s.recorded = {};
   ++s.frame_number;
 }
 

@@ -49,6 +49,7 @@ struct FrameGraph::State {
   std::uint64_t hash = 0;
   frame::CachedPlan* plan = nullptr;  ///< plan of this frame; null before compile
   std::uint32_t recording_pass = frame::kNone;
+  Status recorded;  ///< of the last execute
   std::vector<gpu::BufferBarrier> buffer_barriers;
   std::vector<gpu::ImageBarrier> image_barriers;
 };

@@ -78,6 +78,11 @@ Status FrameResults::add_pass(FrameGraph& graph) {
   return {};
 }
 
+void FrameResults::give_up_frame() {
+  slots_[current_].recorded = false;
+  slots_[current_].requests.clear();
+}
+
 FrameResult FrameResults::read(const Slot& slot, const Request& request) const {
   const std::span<const std::byte> bytes = device_.mapped(slot.buffer).subspan(request.offset, request.size);
   return {slot.frame, {bytes.begin(), bytes.end()}, request.note};

@@ -7,6 +7,7 @@
 
 #include "engine/core/nearest_name.h"
 #include "engine/ecs/view.h"
+#include "engine/render/attempt.h"
 #include "engine/render/declare/draw_pass.h"
 #include "engine/render/passes/passes.h"
 #include "engine/render/renderer_state.h"
@@ -164,6 +165,7 @@ Status Renderer::State::prepare_images(const World& world, const ViewRequest& re
     auto made = device.create_image(desc);
     if (!made.ok()) return made.error();
     image = *made;
+    view.drawn = false;
     return {};
   };
   GLOAM_TRY(make(view.lit, "lit", gpu::Format::rgba16_float));
@@ -214,8 +216,11 @@ Status Renderer::State::add_module_passes(FrameBuilder& builder, const FrameView
     if (view.request.target.light && phase >= PassPhase::output) break;
     for (Module* module : taking_part) {
       builder.set_module(module->name());
-      module->add_passes(builder, phase);
-      if (!builder.status().ok()) return builder.status();
+      GLOAM_TRY(attempt([&] { return "declaring the passes of module '" + std::string(module->name()) + "'"; },
+                        [&]() -> Status {
+                          module->add_passes(builder, phase);
+                          return builder.status();
+                        }));
     }
   }
   builder.set_module("engine");
@@ -341,7 +346,7 @@ Status Renderer::State::begin_views(std::span<const ViewRequest> requests) {
 }
 
 Status Renderer::State::prepare_views(World& world) {
-  const std::uint64_t frame = world.resource<RenderSlot>().frames++;
+  const std::uint64_t frame = world.resource<RenderSlot>().frames;
   for (FrameView& own : frame_views) {
     GLOAM_TRY(acquire_target(*options.device, own.request));
     ViewSettings& settings = own.request.settings;
@@ -353,12 +358,12 @@ Status Renderer::State::prepare_views(World& world) {
     for (std::size_t i = 0; i < options.modules.size(); ++i)
       if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs_of(own));
     hand_out_results(world, settings.id);
-    schedule.run_view(settings.id, world, *options.executor, options.zones);
+    GLOAM_TRY(run_systems(world, settings.id));
   }
   return {};
 }
 
-Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands) {
+Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   uniforms.begin_frame();
   storage.begin_frame();
   results.begin_frame();
@@ -367,7 +372,7 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
   builders.clear();
   shared.clear();
   light_imports.clear();
-  view_counters.clear();
+  declared_counters.clear();
   GLOAM_TRY(prepare_views(world));
   std::vector<const RenderView*> views;
   for (const FrameView& view : frame_views) views.push_back(view.view.get());
@@ -381,13 +386,76 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
   }
   {
     const ScopedZone zone(options.zones, "record_passes", "engine");
-    graph.execute(commands);
+    const auto place = [&] { return "pass '" + std::string(graph.recording()) + "'"; };
+    GLOAM_TRY(attempt(place, [&]() -> Status {
+      graph.execute(commands);
+      if (graph.recorded().ok()) return {};
+      return Error{graph.recorded().error().kind, place() + " failed: " + graph.recorded().error().message};
+    }));
   }
+  return {};
+}
+
+Status Renderer::State::run_systems(World& world, std::optional<ViewId> view) {
+  return attempt([&] { return "system '" + std::string(schedule.failed_system()) + "'"; },
+                 [&]() -> Status {
+                   if (view) {
+                     schedule.run_view(*view, world, *options.executor, options.zones);
+                   } else {
+                     schedule.run(Stage::world, world, *options.executor, options.zones);
+                   }
+                   return {};
+                 });
+}
+
+void Renderer::State::commit_frame(World& world, std::span<const ViewRequest> requests) {
+  ++world.resource<RenderSlot>().frames;
+  for (const ViewRequest& request : requests) images.at(request.settings.id.value).drawn = true;
   last_requests.assign(requests.begin(), requests.end());
   collect_counters();
   release_idle_modules();
   release_idle_views();
-  return {};
+}
+
+void Renderer::State::give_up_frame(std::uint64_t frame) {
+  results.give_up_frame();
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (runtimes[i].in_view) options.modules[i]->give_up_frame(frame);
+}
+
+Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> requests) {
+  update_demand(world);
+  GLOAM_TRY(run_systems(world, std::nullopt));
+  GLOAM_TRY(begin_views(requests));
+  const SceneAssets& assets = world.resource<SceneAssets>();
+  GLOAM_TRY(scene_of(world).sync(assets, *options.executor));
+  if (any_needs(&Module::needs_simplified_casters, world))
+    GLOAM_TRY(scene_of(world).simplify_casters(assets, *options.executor));
+
+  gpu::Device& device = *options.device;
+  auto commands = device.begin_frame();
+  if (!commands.ok()) return commands.error();
+  const std::uint64_t frame = device.frame_number();
+  Status drawn;
+  try {
+    drawn = record_frame(world, **commands);
+  } catch (...) {
+    static_cast<void>(device.abandon_frame());
+    give_up_frame(frame);
+    throw;
+  }
+  if (drawn.ok()) {
+    submitted_ns = options.zones == nullptr ? 0 : options.zones->now_ns();
+    drawn = device.submit_frame();
+  } else {
+    static_cast<void>(device.abandon_frame());  // if the device is lost, the next begin_frame says so
+  }
+  if (drawn.ok()) {
+    commit_frame(world, requests);
+  } else {
+    give_up_frame(frame);
+  }
+  return drawn;
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -463,23 +531,10 @@ void Renderer::release_view(World& world, ViewId view) {
 }
 
 Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
-  State& s = *state_;
   const auto start = std::chrono::steady_clock::now();
-  s.update_demand(world);
-  s.schedule.run(Stage::world, world, *s.options.executor, s.options.zones);
-  GLOAM_TRY(s.begin_views(requests));
-  const SceneAssets& assets = world.resource<SceneAssets>();
-  GLOAM_TRY(s.scene_of(world).sync(assets, *s.options.executor));
-  if (s.any_needs(&Module::needs_simplified_casters, world))
-    GLOAM_TRY(s.scene_of(world).simplify_casters(assets, *s.options.executor));
-
-  auto commands = s.options.device->begin_frame();
-  if (!commands.ok()) return commands.error();
-  const Status recorded = s.record_frame(world, requests, **commands);
-  // Submit even if recording failed: the empty frame signals its semaphores, and the next frame can begin.
-  const Status submitted = s.options.device->submit_frame();
-  s.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return recorded.ok() ? submitted : recorded;
+  Status drawn = attempt([] { return std::string("the frame"); }, [&] { return state_->draw_frame(world, requests); });
+  state_->cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return drawn;
 }
 
 Status Renderer::wait() { return state_->options.device->wait_idle(); }

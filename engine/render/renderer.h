@@ -95,6 +95,8 @@ struct FrameReport {
   double cpu_ms = 0.0;  ///< systems, declaration and recording
   double gpu_ms = 0.0;
   std::vector<PassTime> passes;
+  /// When the last frame was given to the GPU: ZoneRecorder::now_ns just before; 0 without a recorder.
+  std::uint64_t submitted_ns = 0;
   std::vector<ModuleState> modules;  ///< "engine" first, then in list order
   /// Counters of the last view; counters from the GPU are of the newest completed frame.
   std::map<std::string, double> counters;
@@ -133,16 +135,22 @@ class Renderer {
   void release_view(World& world, ViewId view);
 
   /// Draws one frame: runs the world systems, then the systems and passes of each view, and submits. Does not wait for
-  /// the GPU.
+  /// the GPU. On an error the frame is given up: the GPU executes nothing of it, its system commands are dropped, and
+  /// the next call draws as if it had not been begun. Exceptions of systems, jobs and passes become errors that name
+  /// the system or the pass, if they are derived from std::exception; others pass through after the frame was given up.
   [[nodiscard]] Status render(World& world, std::span<const ViewRequest> views);
   /// Waits until the GPU has finished everything submitted.
   [[nodiscard]] Status wait();
 
   [[nodiscard]] FrameReport report();
+  /// The GPU times of every frame that has completed since the last call, oldest first; at most the last 4. For callers
+  /// that keep several frames in flight.
+  [[nodiscard]] std::vector<GpuFrameTimes> take_times();
   /// Frees the memory of cached plans except the last frame's (FrameGraph::free_idle_memory). Without this call, memory
   /// of unused plans is kept for a while, in case frames with the same passes return.
   void free_idle_memory();
-  /// Reads the picture of a view's last frame. The view must have had no target image. Waits for the GPU.
+  /// Reads the picture of a view's last frame. The view must have had no target image. Waits for the GPU. Fails if all
+  /// frames that drew the view since its images were made were given up.
   [[nodiscard]] Result<Picture> read_picture(ViewId view);
   /// Reads the linear light of the view's last frame. Waits for the GPU.
   [[nodiscard]] Result<LinearPicture> read_linear(ViewId view);

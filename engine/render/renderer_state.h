@@ -35,6 +35,7 @@ struct ViewImages {
   gpu::ImageHandle picture;       ///< rgba8 sRGB; null if the caller provides a target
   std::uint64_t world = 0;        ///< RenderSlot of the world that drew the view last
   std::uint32_t idle_frames = 0;  ///< since a frame drew the view
+  bool drawn = false;             ///< a frame that was not given up has drawn the images
 };
 
 /// Request to copy results of a view's passes in the next frame. add_copies: called after all passes of the view are
@@ -82,6 +83,8 @@ struct Renderer::State {
   /// target.
   [[nodiscard]] Status prepare_images(const World& world, const ViewRequest& request);
   void destroy_images(ViewImages& view);
+  /// An error unless the view's images have been drawn.
+  [[nodiscard]] static Status check_drawn(const ViewImages& view);
   /// Frees the images of views for which `unwanted` is true.
   void release_images(const std::function<bool(std::uint32_t id, const ViewImages&)>& unwanted);
   /// After a frame: frees the images of views that were not drawn for kFramesUntilRelease frames.
@@ -90,8 +93,16 @@ struct Renderer::State {
   /// Whether `question` (e.g. &Module::needs_casters) is true for any demanded module.
   [[nodiscard]] bool any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const,
                                const World& world) const;
+  /// Renderer::render, except for exceptions that it passes on after giving the frame up.
+  [[nodiscard]] Status draw_frame(World& world, std::span<const ViewRequest> requests);
+  /// Notes a submitted frame as drawn.
+  void commit_frame(World& world, std::span<const ViewRequest> requests);
+  /// Undoes what was noted for a frame that the GPU does not execute. `frame`: its Device::frame_number.
+  void give_up_frame(std::uint64_t frame);
+  /// Runs the systems of the world, or of a view. An exception becomes an error that names the system.
+  [[nodiscard]] Status run_systems(World& world, std::optional<ViewId> view);
   /// Everything between Device::begin_frame and submit_frame.
-  [[nodiscard]] Status record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands);
+  [[nodiscard]] Status record_frame(World& world, gpu::CommandList& commands);
   /// Starts the frame's views: requests and knobs.
   [[nodiscard]] Status begin_views(std::span<const ViewRequest> requests);
   /// Settles the settings of all views of the frame, and runs their systems.
@@ -144,11 +155,13 @@ struct Renderer::State {
   std::set<std::string> told;                             ///< warnings that were given; each is given once
   std::vector<ViewRequest> last_requests;
   std::map<std::string, double> counters;
-  std::vector<ViewCounters> view_counters;
+  std::vector<ViewCounters> declared_counters;  ///< of the frame that is being declared
+  std::vector<ViewCounters> view_counters;      ///< of the last frame
   std::vector<ResultKey> counted_results;  ///< of the last view
   std::optional<CopyRequest> copy_request;
   std::unique_ptr<Captures> copies;  ///< of a frame that Renderer::draw_again has drawn
   double cpu_ms = 0.0;
+  std::uint64_t submitted_ns = 0;  ///< FrameReport::submitted_ns
 };
 
 }  // namespace gloam

@@ -9,6 +9,7 @@ namespace gloam {
 float exposure_from_ev100(float ev100) { return 1.0f / (1.2f * std::exp2(ev100)); }
 
 Status ExposureSlots::prepare(gpu::Device& device) {
+  frame_ = device.frame_number();
   if (buffer_) return {};
   gpu::BufferDesc desc;
   desc.name = "exposures";
@@ -35,16 +36,20 @@ void ExposureSlots::release() {
   next_ = 0;
 }
 
+void ExposureSlots::give_up_frame(std::uint64_t frame) {
+  std::erase_if(slots_, [&](const auto& entry) { return entry.second.frame == frame; });
+}
+
 ExposureSlots::Slot ExposureSlots::slot_of(LightingWorld world, const RenderView& view) {
   const Entity camera = view.camera_entity;
-  const auto [found, fresh] =
-      slots_.try_emplace({world.number, view.id.value, camera.index, camera.generation}, next_ % kCapacity);
-  if (!fresh) return {found->second, false};
-  const std::uint32_t index = found->second;
+  const auto [found, fresh] = slots_.try_emplace({world.number, view.id.value, camera.index, camera.generation},
+                                                 Kept{next_ % kCapacity, frame_});
+  if (!fresh) return {found->second.index, false};
+  const std::uint32_t index = found->second.index;
   const auto* const kept = &found->first;
   ++next_;
   if (next_ > kCapacity)
-    std::erase_if(slots_, [&](const auto& entry) { return entry.second == index && &entry.first != kept; });
+    std::erase_if(slots_, [&](const auto& entry) { return entry.second.index == index && &entry.first != kept; });
   return {index, true};
 }
 

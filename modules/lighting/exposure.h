@@ -32,8 +32,11 @@ class ExposureSlots {
     bool fresh = false;  ///< must be metered in this frame
   };
 
-  /// Creates the buffer on the first call; fails if the device cannot. `device` must live until release().
+  /// Call it in every frame, before slot_of. Creates the buffer on the first call; fails if the device cannot. `device`
+  /// must live until release().
   [[nodiscard]] Status prepare(gpu::Device& device);
+  /// Forgets the slots that were first given in this frame (Device::frame_number), which were never metered.
+  void give_up_frame(std::uint64_t frame);
   /// Destroys the buffer and forgets all slots.
   void release();
   [[nodiscard]] gpu::BufferHandle buffer() const { return buffer_; }
@@ -50,8 +53,13 @@ class ExposureSlots {
   BufferRef imported_;
   using Key = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t,
                          std::uint32_t>;  // world, view, camera's index and generation
-  std::map<Key, std::uint32_t> slots_;
+  struct Kept {
+    std::uint32_t index = 0;
+    std::uint64_t frame = 0;  ///< Device::frame_number of the frame that meters it
+  };
+  std::map<Key, Kept> slots_;
   std::uint32_t next_ = 0;
+  std::uint64_t frame_ = 0;  ///< Device::frame_number of the last prepare()
 };
 
 }  // namespace gloam

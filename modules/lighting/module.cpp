@@ -49,6 +49,7 @@ class LightingModule final : public Module {
     if (phase == PassPhase::output) add_tone_map_passes(frame, exposures_);
   }
 
+  void give_up_frame(std::uint64_t frame) override { exposures_.give_up_frame(frame); }
   void release() override { exposures_.release(); }
 
  private:

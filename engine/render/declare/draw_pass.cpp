@@ -53,9 +53,10 @@ void record_draws(FrameBuilder& frame, const Recording& recording, PassContext& 
         commands.draw_indirect(context.buffer(step.arguments), step.offset);
         break;
       case StepKind::surfaces:
-        // Cannot fail: the pipelines were compiled in declaration.
-        static_cast<void>(frame.draw_surfaces(context, step.draws, recording.surface_passes[step.surface_pass],
-                                              bindings_of(recording, step, context, storage)));
+        if (const Status drawn = frame.draw_surfaces(context, step.draws, recording.surface_passes[step.surface_pass],
+                                                     bindings_of(recording, step, context, storage));
+            !drawn.ok())
+          context.fail(drawn.error());
         break;
       default:
         recording.functions[step.function](context);

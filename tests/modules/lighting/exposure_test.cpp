@@ -104,6 +104,26 @@ TEST_F(Slots, never_share_an_index_over_many_rounds) {
   }
 }
 
+TEST_F(Slots, of_a_frame_that_was_given_up_are_metered_again) {
+  const auto frame_with = [&](std::uint32_t view, bool given_up) {
+    EXPECT_TRUE(device->begin_frame().ok());
+    const std::uint64_t frame = device->frame_number();
+    EXPECT_TRUE(slots.prepare(*device).ok());
+    const auto slot = slots.slot_of(world, view_of(view));
+    EXPECT_TRUE((given_up ? device->abandon_frame() : device->submit_frame()).ok());
+    if (given_up) slots.give_up_frame(frame);
+    return slot;
+  };
+  const auto kept = frame_with(0, false);
+  EXPECT_TRUE(frame_with(1, true).fresh);
+  EXPECT_TRUE(frame_with(1, false).fresh);
+  EXPECT_FALSE(frame_with(1, true).fresh);
+  EXPECT_FALSE(frame_with(1, false).fresh) << "metered in an earlier frame";
+  const auto still = frame_with(0, false);
+  EXPECT_FALSE(still.fresh);
+  EXPECT_EQ(still.index, kept.index);
+}
+
 TEST_F(Slots, release_forgets_every_camera) {
   static_cast<void>(slots.slot_of(world, view_of(0)));
   slots.release();
