@@ -66,6 +66,7 @@ Renderer::State::State(RendererOptions given)
       uniforms(*options.device, "engine", gpu::BufferUsage::uniform),
       storage(*options.device, "engine", gpu::BufferUsage::storage),
       results(*options.device),
+      history(*options.device),
       graph(*options.device),
       runtimes(options.modules.size()) {
   add_scene_systems(schedule);
@@ -82,9 +83,8 @@ Renderer::State::~State() {
 }
 
 FrameServices Renderer::State::services() {
-  return {*options.device, *options.executor, *options.log,
-          knobs,           pipelines,         uniforms,
-          storage,         results,           options.readiness == Readiness::wait};
+  return {*options.device, *options.executor, *options.log, knobs,   pipelines,
+          uniforms,        storage,           results,      history, options.readiness == Readiness::wait};
 }
 
 GpuScene& Renderer::State::scene_of(const World& world) {
@@ -221,6 +221,7 @@ void Renderer::State::release_idle_modules() {
     if (runtime.idle_frames == kFramesUntilRelease) {
       options.modules[i]->release();
       results.forget_module(options.modules[i]->name());
+      history.release_module(options.modules[i]->name());
     }
     // Repeated, because a pipeline that was being compiled may have been added since.
     if (runtime.absent_frames != 0 && runtime.absent_frames % kFramesUntilRelease == 0)
@@ -278,9 +279,12 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
   storage.begin_frame();
   results.begin_frame();
   graph.begin();
+  history.begin_frame();
+  cuts.begin_frame();
   builders.clear();
   views.clear();
-  const std::uint64_t frame = world.resource<RenderSlot>().frames++;
+  const RenderSlot slot = world.resource<RenderSlot>();
+  const std::uint64_t frame = copy_request && slot.frames > 0 ? slot.frames - 1 : slot.frames;
   for (const ViewRequest& requested : requests) {
     ViewRequest request = requested;
     GLOAM_TRY(acquire_target(*options.device, request));
@@ -288,7 +292,8 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
     check_target(*options.device, request);
     follow_camera(world, settings);
     GLOAM_TRY(prepare_images(world, request));
-    views.push_back(std::make_unique<RenderView>(make_view(settings, frame)));
+    views.push_back(
+        std::make_unique<RenderView>(make_view(settings, frame, cuts.declare(slot.value, settings, frame))));
     world.set_view_resource(settings.id, *views.back());
     for (std::size_t i = 0; i < options.modules.size(); ++i)
       if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs);
@@ -310,6 +315,13 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
   release_idle_modules();
   release_idle_views();
   return {};
+}
+
+void Renderer::State::commit_frame(World& world) {
+  const bool again = copy_request.has_value();
+  history.commit(graph, !again);
+  cuts.commit();
+  if (!again) ++world.resource<RenderSlot>().frames;
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -370,10 +382,14 @@ void Renderer::release_world(const World& world) {
   if (slot == nullptr) return;
   state_->scenes.erase(slot->value);
   state_->results.forget_world(slot->value);
+  state_->history.release_world(slot->value);
+  state_->cuts.forget_world(slot->value);
   state_->release_images([&](std::uint32_t, const ViewImages& view) { return view.world == slot->value; });
 }
 
 void Renderer::release_view(ViewId view) {
+  state_->history.release_view(view.value);
+  state_->cuts.forget_view(view);
   state_->release_images([&](std::uint32_t id, const ViewImages&) { return id == view.value; });
 }
 
@@ -392,6 +408,7 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   const Status recorded = s.record_frame(world, requests, **commands);
   // Submit even if recording failed: the empty frame signals its semaphores, and the next frame can begin.
   const Status submitted = s.options.device->submit_frame();
+  if (recorded.ok() && submitted.ok()) s.commit_frame(world);
   s.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return recorded.ok() ? submitted : recorded;
 }

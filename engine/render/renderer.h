@@ -100,11 +100,11 @@ class Renderer {
   /// Registers the components and resources of the scene and of every module. Call it once per world, before the world
   /// is filled.
   void prepare_world(World& world) const;
-  /// Frees the GPU data of a world and the images of the views that it drew last. Call it before the world is
-  /// destroyed. If the world is drawn again, its data is uploaded again.
+  /// Frees the GPU data of a world, its history, and the images of the views that it drew last. Call it before the
+  /// world is destroyed. If the world is drawn again, its data is uploaded again.
   void release_world(const World& world);
-  /// Frees the images that the renderer keeps for a view, its picture included. Drawing the view again creates them
-  /// again. The images of a view that is not drawn for a while are freed without this call.
+  /// Frees the images and the history that the renderer keeps for a view, its picture included. Drawing the view again
+  /// creates them again. The images of a view that is not drawn for a while are freed without this call.
   void release_view(ViewId view);
 
   /// Draws one frame: runs the world systems, then the systems and passes of each view, and submits. Does not wait for

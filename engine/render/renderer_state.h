@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/frame/history.h"
 #include "engine/frame/upload.h"
+#include "engine/render/camera_cuts.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/readback/capture.h"
 #include "engine/render/renderer.h"
@@ -22,7 +24,8 @@ namespace gloam {
 /// A world's number among a renderer's GPU scenes, and its frame count. A resource of the world.
 struct RenderSlot {
   std::uint64_t value = 0;
-  /// Frames drawn so far. Counted per world, so that pictures of one world do not depend on others.
+  /// Frames drawn so far, without those that were given up or drew a frame again. Counted per world, so that pictures
+  /// of one world do not depend on others.
   std::uint64_t frames = 0;
 };
 
@@ -75,6 +78,8 @@ struct Renderer::State {
                                const World& world) const;
   /// Everything between Device::begin_frame and submit_frame.
   [[nodiscard]] Status record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands);
+  /// After a frame was submitted: what it left in histories counts, and the world's next frame has the next number.
+  void commit_frame(World& world);
   /// Declares one view's passes.
   [[nodiscard]] Status add_view(World& world, const ViewRequest& request, const RenderView& view);
   [[nodiscard]] Status add_module_passes(FrameBuilder& builder);
@@ -104,6 +109,8 @@ struct Renderer::State {
   UploadRing uniforms;
   UploadRing storage;
   FrameResults results;
+  History history;
+  CameraCuts cuts;
   FrameGraph graph;
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
   std::uint64_t next_slot = 1;
