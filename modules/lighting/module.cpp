@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/module.h"
 
-#include <atomic>
-
 #include "modules/lighting/passes.h"
 #include "modules/lighting/tone_reference.h"
 
@@ -14,7 +12,7 @@ class LightingModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "lighting"; }
 
-  void register_components(World& world) const override { world.set_resource(LightingWorld{++worlds_}); }
+  void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
 
   void knobs(KnobRegistry& registry) const override {
@@ -50,7 +48,7 @@ class LightingModule final : public Module {
       case PassPhase::translucent:
         return add_forward_pass(frame);
       case PassPhase::output:
-        return add_tone_map_passes(frame, exposures_);
+        return add_tone_map_passes(frame);
       case PassPhase::lists:
       case PassPhase::post:
       case PassPhase::announce:
@@ -59,12 +57,6 @@ class LightingModule final : public Module {
     }
     return {};
   }
-
-  void release() override { exposures_.release(); }
-
- private:
-  ExposureSlots exposures_;
-  mutable std::atomic<std::uint64_t> worlds_ = 0;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include "engine/scene/resources.h"
+#include "modules/lighting/exposure.h"
 #include "modules/lighting/passes.h"
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/shaders.h"
@@ -8,8 +9,22 @@
 namespace gloam {
 namespace {
 
-/// Meters the frame's light into an exposure slot.
-Status add_meter_pass(FrameBuilder& frame, BufferRef& slots, std::uint32_t slot) {
+/// The metered exposure of the view's camera. It stays for as long as frames show the camera: History destroys it
+/// later.
+Result<HistoryBuffer> exposure_of(FrameBuilder& frame) {
+  gpu::BufferDesc desc;
+  desc.name = "exposure";
+  desc.module = "lighting";
+  desc.size = sizeof(float);
+  desc.usage = gpu::BufferUsage::storage;
+  const Entity camera = frame.view().camera_entity;
+  return frame.history_buffer(desc, {.scope = HistoryScope::view,
+                                     .rest = gpu::Access::fragment_read,
+                                     .instance = std::uint64_t{camera.generation} << 32 | camera.index});
+}
+
+/// Meters the frame's light into an exposure.
+Status add_meter_pass(FrameBuilder& frame, BufferRef& exposure) {
   auto pipeline =
       frame.services().pipelines.get(gpu::ComputePipelineDesc{"meter", "lighting", shaders::lighting::meter_comp, {}});
   if (!pipeline.ok()) return pipeline.error();
@@ -18,13 +33,13 @@ Status add_meter_pass(FrameBuilder& frame, BufferRef& slots, std::uint32_t slot)
   const ImageRef lit = frame.get<LitOutput>().color;
   PassBuilder pass = frame.graph().add_pass("meter", "lighting");
   pass.read(lit, gpu::Access::compute_read);
-  slots = pass.write(slots, gpu::Access::compute_write);
-  const shaders::MeterConstants constants{{frame.view().width, frame.view().height}, slot};
-  pass.execute([lit, slots, constants, pipeline = *pipeline, sampler = *sampler](PassContext& context) {
+  exposure = pass.write(exposure, gpu::Access::compute_write);
+  const shaders::MeterConstants constants{{frame.view().width, frame.view().height}};
+  pass.execute([lit, exposure, constants, pipeline = *pipeline, sampler = *sampler](PassContext& context) {
     gpu::CommandList& commands = context.commands();
     commands.bind_pipeline(pipeline);
     const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{{.image = context.image(lit)}, sampler}},
-                                     {1, gpu::Binding::BufferRange{context.buffer(slots)}}};
+                                     {1, gpu::Binding::BufferRange{context.buffer(exposure)}}};
     commands.bind(bindings);
     commands.push(constants);
     commands.dispatch(1, 1, 1);
@@ -67,21 +82,21 @@ struct ToneMapPass {
   ImageRef table;  ///< none: the curve is computed per pixel
 };
 
-void add_tone_map_pass(FrameBuilder& frame, const ToneMapPass& tone_map, BufferRef slots) {
+void add_tone_map_pass(FrameBuilder& frame, const ToneMapPass& tone_map, BufferRef exposure) {
   const ImageRef lit = frame.get<LitOutput>().color;
   TargetOutput& target = frame.get<TargetOutput>();
   PassBuilder pass = frame.graph().add_pass("tone_map", "lighting");
   pass.read(lit, gpu::Access::fragment_read);
-  pass.read(slots, gpu::Access::fragment_read);
+  pass.read(exposure, gpu::Access::fragment_read);
   if (tone_map.table) pass.read(tone_map.table, gpu::Access::fragment_read);
   target.color = pass.write(target.color, gpu::Access::color_target);
-  pass.execute([&frame, lit, slots, tone_map, color = target.color](PassContext& context) {
+  pass.execute([&frame, lit, exposure, tone_map, color = target.color](PassContext& context) {
     // Without a table the shader does not read this image, but every binding must be set.
     const ImageRef table = tone_map.table ? tone_map.table : lit;
     FullscreenPass draw;
     draw.pipeline = tone_map.pipeline;
     draw.bindings = {{0, gpu::Binding::Sampled{{.image = context.image(lit)}, tone_map.nearest}},
-                     {1, gpu::Binding::BufferRange{context.buffer(slots)}},
+                     {1, gpu::Binding::BufferRange{context.buffer(exposure)}},
                      {2, gpu::Binding::Sampled{{.image = context.image(table)}, tone_map.linear}}};
     draw.target = context.image(color);
     draw.width = frame.view().width;
@@ -93,11 +108,11 @@ void add_tone_map_pass(FrameBuilder& frame, const ToneMapPass& tone_map, BufferR
 
 }  // namespace
 
-Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
+Status add_tone_map_passes(FrameBuilder& frame) {
   const FrameServices& services = frame.services();
-  GLOAM_TRY(exposures.prepare(services.device));
   const auto& environment = frame.world().resource<SceneEnvironment>();
-  BufferRef& slots = exposures.in(frame.graph());
+  auto metered = exposure_of(frame);  // bound even if the exposure is set
+  if (!metered.ok()) return metered.error();
   const TargetOutput& target = frame.get<TargetOutput>();
 
   ToneMapPass tone_map;
@@ -107,10 +122,8 @@ Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
   if (environment.has_exposure) {
     constants.exposure = exposure_from_ev100(environment.exposure_ev100);
   } else {
-    const ExposureSlots::Slot slot = exposures.slot_of(frame.world().resource<LightingWorld>(), frame.view());
-    constants.exposure_slot = slot.index;
     constants.metered = 1;
-    if (slot.fresh) GLOAM_TRY(add_meter_pass(frame, slots, slot.index));
+    if (!metered->valid() && !metered->written) GLOAM_TRY(add_meter_pass(frame, metered->buffer));
   }
 
   auto table = add_tone_table_pass(frame);
@@ -129,7 +142,7 @@ Status add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
   tone_map.pipeline = *pipeline;
   tone_map.nearest = *nearest;
   tone_map.linear = *linear;
-  add_tone_map_pass(frame, tone_map, slots);
+  add_tone_map_pass(frame, tone_map, metered->buffer);
   return {};
 }
 

@@ -171,5 +171,35 @@ TEST_F(HistoryFrames, reading_back_neither_counts_nor_ages) {
   EXPECT_EQ(control_.view.frame, 2u);
 }
 
+TEST_F(HistoryFrames, an_exposure_is_metered_once_for_each_camera) {
+  const auto metered = [&](Entity camera) {
+    ViewRequest one = request();
+    one.settings.camera_entity = camera;
+    const Status status = renderer_->render(world_, {&one, 1});
+    EXPECT_TRUE(status.ok());
+    for (const PassTime& pass : renderer_->report().passes)
+      if (pass.name == "meter") return true;
+    return false;
+  };
+  const Entity first = world_.create(), second = world_.create();
+  EXPECT_TRUE(metered(first));
+  EXPECT_FALSE(metered(first));
+  EXPECT_TRUE(metered(second));
+  EXPECT_FALSE(metered(first));
+  EXPECT_FALSE(metered(second));
+  EXPECT_EQ(bytes("lighting"), 8u);
+}
+
+TEST_F(HistoryFrames, an_exposure_that_was_metered_in_a_frame_given_up_is_metered_again) {
+  const ViewRequest one = request();
+  control_.fail = true;
+  EXPECT_FALSE(renderer_->render(world_, {&one, 1}).ok());
+  control_.fail = false;
+  draw();
+  std::vector<std::string> passes;
+  for (const PassTime& pass : renderer_->report().passes) passes.push_back(pass.name);
+  EXPECT_THAT(passes, ::testing::Contains("meter"));
+}
+
 }  // namespace
 }  // namespace gloam
