@@ -56,10 +56,12 @@ struct HistoryState {
   /// Frames of the world since the contents were written; ≥ 1 if valid, otherwise 0.
   std::uint64_t age = 0;
   /// The contents of this frame exist already: an earlier view of the frame has declared a write, or a frame is drawn
-  /// again (Renderer::read_image). A simulation must not step again. Passes that draw over a pair's `current` may
-  /// repeat: `previous`, `reset` and `age` are those of the first time.
+  /// again (Renderer::read_image) with the same HistoryRule::key. A simulation must not step again. Passes that draw
+  /// over a pair's `current` may repeat: `previous`, `reset` and `age` are those of the first time.
   bool written = false;
   [[nodiscard]] bool valid() const { return reset == HistoryReset::none; }
+  /// Whether the newest version of a resource in place has defined contents.
+  [[nodiscard]] bool filled() const { return valid() || written; }
 };
 
 /// One object in place. If not valid(), a pass may bind it but must not use its contents before it writes them. Views

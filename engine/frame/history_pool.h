@@ -191,6 +191,7 @@ Result<typename HistoryPool<Kind>::Pending> HistoryPool<Kind>::prepare(Item& ite
     pending.state.written = true;
     pending.current = contents.newest;
     pending.resets = contents.resets;
+    if (contents.key != use.reset.key) pending.state = {.reset = HistoryReset::key};
     return pending;
   }
   pending.state.reset = reset_of(contents, item.resets, view, use.reset);

@@ -123,7 +123,7 @@ Status add_tone_map_passes(FrameBuilder& frame) {
     constants.exposure = exposure_from_ev100(environment.exposure_ev100);
   } else {
     constants.metered = 1;
-    if (!metered->valid() && !metered->written) GLOAM_TRY(add_meter_pass(frame, metered->buffer));
+    if (!metered->filled()) GLOAM_TRY(add_meter_pass(frame, metered->buffer));
   }
 
   auto table = add_tone_table_pass(frame);

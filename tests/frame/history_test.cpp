@@ -391,6 +391,16 @@ TEST_F(HistoryTest, a_frame_that_is_drawn_again_gets_what_it_got_the_first_time)
   EXPECT_EQ(next.state.reset, HistoryReset::requested) << "the reset is of the next frame";
 }
 
+TEST_F(HistoryTest, a_frame_that_is_drawn_again_with_another_key_writes_again) {
+  (void)knots_frame(1);
+  --view.frame;
+  use.reset.key = 5;
+  const HistoryState again = knots_frame(2);
+  EXPECT_EQ(again.reset, HistoryReset::key);
+  EXPECT_FALSE(again.filled());
+  EXPECT_TRUE(knots_frame(std::nullopt).valid());
+}
+
 TEST_F(HistoryTest, resources_that_no_frame_uses_are_destroyed) {
   (void)pair_frame();
   for (std::uint64_t i = 0; i < History::kFramesKept; ++i) idle_frame();
