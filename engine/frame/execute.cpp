@@ -86,6 +86,23 @@ void PassContext::fail(Error error) {
   if (recorded.ok()) recorded = std::move(error);
 }
 
+bool FrameGraph::State::writes(std::uint32_t resource_index) const {
+  GLOAM_ASSERT(plan != nullptr, "which passes are culled is known after compile");
+  for (const PlannedPass& planned : plan->plan.passes)
+    for (const DeclaredUse& use : declaration.uses_of(declaration.passes[planned.pass]))
+      if (use.resource == resource_index && use.writes) return true;
+  return false;
+}
+
+bool FrameGraph::writes(ImageRef image) const {
+  static_cast<void>(state_->resource(image));  // asserts for handles of other frames
+  return state_->writes(image.resource);
+}
+bool FrameGraph::writes(BufferRef buffer) const {
+  static_cast<void>(state_->resource(buffer));
+  return state_->writes(buffer.resource);
+}
+
 template <class Kind>
 const DeclaredUse& FrameGraph::State::declared_use(FrameRef<Kind> ref) {
   const DeclaredResource& wanted = resource(ref);

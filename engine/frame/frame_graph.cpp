@@ -175,6 +175,10 @@ ImageRef FrameGraph::newest(ImageRef image) const {
   return {image.resource, state_->resource(image).version, image.frame};
 }
 
+BufferRef FrameGraph::newest(BufferRef buffer) const {
+  return {buffer.resource, state_->resource(buffer).version, buffer.frame};
+}
+
 const gpu::ImageDesc& FrameGraph::desc(ImageRef image) const {
   const DeclaredResource& resource = state_->resource(image);
   return resource.imported ? state_->device.desc(resource.image) : resource.image_desc;

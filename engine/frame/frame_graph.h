@@ -124,8 +124,12 @@ class FrameGraph {
   /// The name of the pass that is recorded now, or whose function stopped the last execute; otherwise empty.
   [[nodiscard]] std::string_view recording() const;
 
-  /// The newest version of the image after all passes declared so far.
+  /// The newest version of the resource after all passes declared so far.
   [[nodiscard]] ImageRef newest(ImageRef image) const;
+  [[nodiscard]] BufferRef newest(BufferRef buffer) const;
+  /// After compile: whether a pass that is not culled writes the resource, in any version.
+  [[nodiscard]] bool writes(ImageRef image) const;
+  [[nodiscard]] bool writes(BufferRef buffer) const;
   [[nodiscard]] const gpu::ImageDesc& desc(ImageRef image) const;
   [[nodiscard]] const gpu::BufferDesc& desc(BufferRef buffer) const;
 

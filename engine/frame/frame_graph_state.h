@@ -33,6 +33,9 @@ struct FrameGraph::State {
   template <class Kind>
   const frame::DeclaredUse& declared_use(FrameRef<Kind> ref);
 
+  /// Whether a pass of the plan writes the resource.
+  [[nodiscard]] bool writes(std::uint32_t resource_index) const;
+
   void check_declaring() const {
     GLOAM_ASSERT(stage == Stage::declaring, "declarations come between FrameGraph::begin and FrameGraph::compile");
   }

@@ -109,6 +109,29 @@ void FrameBuilder::keep_result(std::string module, std::string name, BufferRef b
   services_.results.keep(std::move(key), buffer, 0, graph_.desc(buffer).size, std::move(note));
 }
 
+HistoryView FrameBuilder::history_view() const {
+  return {world_.resource<RenderSlot>().value, view_.id.value, view_.frame, view_.cut_frame};
+}
+
+Result<HistoryImage> FrameBuilder::history_image(const gpu::ImageDesc& desc, const HistoryUse& use) {
+  return services_.history.image(graph_, history_view(), desc, use);
+}
+Result<HistoryBuffer> FrameBuilder::history_buffer(const gpu::BufferDesc& desc, const HistoryUse& use) {
+  return services_.history.buffer(graph_, history_view(), desc, use);
+}
+Result<HistoryImagePair> FrameBuilder::history_image_pair(const gpu::ImageDesc& desc, const HistoryUse& use) {
+  return services_.history.image_pair(graph_, history_view(), desc, use);
+}
+Result<HistoryBufferPair> FrameBuilder::history_buffer_pair(const gpu::BufferDesc& desc, const HistoryUse& use) {
+  return services_.history.buffer_pair(graph_, history_view(), desc, use);
+}
+
+void FrameBuilder::reset_history(std::string_view module, std::string_view name) {
+  services_.history.reset(history_view().world, module, name);
+}
+
+void FrameBuilder::on_commit(std::function<void()> function) { services_.history.on_commit(std::move(function)); }
+
 gpu::SamplerHandle FrameBuilder::sampler(Sampling sampling) {
   gpu::SamplerDesc desc;
   if (sampling == Sampling::nearest) desc.min_filter = desc.mag_filter = desc.mip_filter = gpu::Filter::nearest;

@@ -5,6 +5,7 @@
 #include <any>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "engine/core/log.h"
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/frame_results.h"
+#include "engine/frame/history.h"
 #include "engine/frame/upload.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/board.h"
@@ -41,7 +43,8 @@ struct FrameServices {
   UploadRing& uniforms;
   UploadRing& storage;
   FrameResults& results;
-  declare::State& declared;        ///< of passes that bind by name
+  declare::State& declared;  ///< of passes that bind by name
+  History& history;
   bool wait_for_pipelines = true;  ///< false: prefer ready pipelines where there is a choice (Pipelines::request)
 };
 
@@ -151,6 +154,18 @@ class FrameBuilder {
   /// `buffer`: the version that no later pass writes.
   void keep_result(std::string module, std::string name, BufferRef buffer, std::any note = {});
 
+  /// Images and buffers whose contents live over frames, of this view or of its world (engine/frame/history.h).
+  /// desc.module: the module's own name; its memory goes with the module's (Module::release).
+  [[nodiscard]] Result<HistoryImage> history_image(const gpu::ImageDesc& desc, const HistoryUse& use);
+  [[nodiscard]] Result<HistoryBuffer> history_buffer(const gpu::BufferDesc& desc, const HistoryUse& use);
+  [[nodiscard]] Result<HistoryImagePair> history_image_pair(const gpu::ImageDesc& desc, const HistoryUse& use);
+  [[nodiscard]] Result<HistoryBufferPair> history_buffer_pair(const gpu::BufferDesc& desc, const HistoryUse& use);
+  /// Invalidates all history resources of this name in the world, from the next use on that has not been made yet.
+  void reset_history(std::string_view module, std::string_view name);
+  /// Calls the function after the frame was submitted, and never if the frame is given up: for state of the CPU that
+  /// describes contents on the GPU.
+  void on_commit(std::function<void()> function);
+
   /// Makes an image of this view available to Renderer::read_image, under the image's own name or `name`, with its
   /// content after all passes. An image that is owned outside the graph must have been created as a transfer_source. A
   /// later image of the same name replaces it.
@@ -183,6 +198,8 @@ class FrameBuilder {
   };
 
  private:
+  [[nodiscard]] HistoryView history_view() const;
+
   FrameServices services_;
   FrameGraph& graph_;
   const World& world_;

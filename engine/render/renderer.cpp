@@ -73,6 +73,7 @@ Renderer::State::State(RendererOptions given)
       storage(*options.device, "engine", gpu::BufferUsage::storage),
       results(*options.device),
       declared(*options.device),
+      history(*options.device),
       graph(*options.device),
       runtimes(options.modules.size()) {
   add_scene_systems(schedule);
@@ -98,6 +99,7 @@ FrameServices Renderer::State::services(const KnobRegistry& view_knobs) {
           .storage = storage,
           .results = results,
           .declared = declared,
+          .history = history,
           .wait_for_pipelines = options.readiness == Readiness::wait};
 }
 
@@ -250,6 +252,7 @@ void Renderer::State::release_idle_modules() {
     if (runtime.idle_frames == kFramesUntilRelease) {
       options.modules[i]->release();
       results.forget_module(options.modules[i]->name());
+      history.release_module(options.modules[i]->name());
     }
     // Repeated, because a pipeline that was being compiled may have been added since.
     if (runtime.absent_frames != 0 && runtime.absent_frames % kFramesUntilRelease == 0)
@@ -346,14 +349,15 @@ Status Renderer::State::begin_views(std::span<const ViewRequest> requests) {
 }
 
 Status Renderer::State::prepare_views(World& world) {
-  const std::uint64_t frame = world.resource<RenderSlot>().frames;
+  const RenderSlot slot = world.resource<RenderSlot>();
+  const std::uint64_t frame = copy_request && slot.frames > 0 ? slot.frames - 1 : slot.frames;
   for (FrameView& own : frame_views) {
     GLOAM_TRY(acquire_target(*options.device, own.request));
     ViewSettings& settings = own.request.settings;
     check_target(*options.device, own.request);
     follow_camera(world, settings);
     GLOAM_TRY(prepare_images(world, own.request));
-    own.view = std::make_unique<RenderView>(make_view(settings, frame));
+    own.view = std::make_unique<RenderView>(make_view(settings, frame, cuts.declare(slot.value, settings, frame)));
     world.set_view_resource(settings.id, *own.view);
     for (std::size_t i = 0; i < options.modules.size(); ++i)
       if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs_of(own));
@@ -369,6 +373,8 @@ Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   results.begin_frame();
   graph.begin();
   declared.recordings.begin_frame();
+  history.begin_frame();
+  cuts.begin_frame();
   builders.clear();
   shared.clear();
   light_imports.clear();
@@ -409,7 +415,10 @@ Status Renderer::State::run_systems(World& world, std::optional<ViewId> view) {
 }
 
 void Renderer::State::commit_frame(World& world, std::span<const ViewRequest> requests) {
-  ++world.resource<RenderSlot>().frames;
+  const bool again = copy_request.has_value();
+  history.commit(graph, !again);
+  cuts.commit();
+  if (!again) ++world.resource<RenderSlot>().frames;
   for (const ViewRequest& request : requests) images.at(request.settings.id.value).drawn = true;
   last_requests.assign(requests.begin(), requests.end());
   collect_counters();
@@ -516,10 +525,14 @@ void Renderer::release_world(const World& world) {
   if (slot == nullptr) return;
   state_->scenes.erase(slot->value);
   state_->results.forget_world(slot->value);
+  state_->history.release_world(slot->value);
+  state_->cuts.forget_world(slot->value);
   state_->release_images([&](std::uint32_t, const ViewImages& view) { return view.world == slot->value; });
 }
 
 void Renderer::release_view(ViewId view) {
+  state_->history.release_view(view.value);
+  state_->cuts.forget_view(view);
   state_->release_images([&](std::uint32_t id, const ViewImages&) { return id == view.value; });
   state_->results.forget_view(view.value);
   for (const auto& module : state_->options.modules) module->release_view(view);

@@ -124,8 +124,8 @@ class Renderer {
   /// Registers the components and resources of the scene and of every module. Call it once per world, before the world
   /// is filled.
   void prepare_world(World& world) const;
-  /// Frees the GPU data of a world and the images of the views that it drew last. Call it before the world is
-  /// destroyed. If the world is drawn again, its data is uploaded again.
+  /// Frees the GPU data of a world, its history, and the images of the views that it drew last. Call it before the
+  /// world is destroyed. If the world is drawn again, its data is uploaded again.
   void release_world(const World& world);
   /// Frees all that the renderer and the modules keep for a view: images, its picture included, maps, histories and
   /// results. Drawing the view again creates it again. The images of a view that is not drawn for a while are freed

@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/frame/history.h"
 #include "engine/frame/upload.h"
+#include "engine/render/camera_cuts.h"
 #include "engine/render/declare/recording.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/readback/capture.h"
@@ -23,7 +25,8 @@ namespace gloam {
 /// A world's number among a renderer's GPU scenes, and its frame count. A resource of the world.
 struct RenderSlot {
   std::uint64_t value = 0;
-  /// Frames drawn so far. Counted per world, so that pictures of one world do not depend on others.
+  /// Frames drawn so far, without those that were given up or drew a frame again. Counted per world, so that pictures
+  /// of one world do not depend on others.
   std::uint64_t frames = 0;
 };
 
@@ -141,6 +144,8 @@ struct Renderer::State {
   UploadRing storage;
   FrameResults results;
   declare::State declared;
+  History history;
+  CameraCuts cuts;
   FrameGraph graph;
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
   std::uint64_t next_slot = 1;

@@ -67,13 +67,14 @@ void follow_camera(const World& world, ViewSettings& settings) {
   settings.world_from_camera = rigid(transform->matrix);
 }
 
-RenderView make_view(const ViewSettings& settings, std::uint64_t frame) {
+RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame) {
   GLOAM_ASSERT(settings.width > 0 && settings.height > 0, "a view has at least one pixel");
   RenderView view;
   view.id = settings.id;
   view.width = settings.width;
   view.height = settings.height;
   view.frame = frame;
+  view.cut_frame = cut_frame;
   view.camera_entity = settings.camera_entity;
   view.position = dvec3(settings.world_from_camera[3]);
   view.camera = settings.camera;

@@ -53,6 +53,9 @@ struct ViewSettings {
   std::vector<std::string> without;  ///< names of modules that this view leaves out
   /// Draws what the mirror shows of its visible side to the camera. The camera may be on either side.
   std::optional<MirrorPlane> mirror;
+  /// The camera jumps in this frame: contents that follow it over frames begin anew. The renderer itself sees a change
+  /// of camera_entity and of the kind of projection; a jump of the pose is stated here.
+  bool camera_cut = false;
 };
 
 /// One view of one frame, for systems and passes. A view resource. Positions on the GPU are relative to `position`.
@@ -60,7 +63,9 @@ struct RenderView {
   ViewId id{0};
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint64_t frame = 0;              ///< frame number of its world, from 0
+  /// Number among the drawn frames of its world, from 0. A frame that is given up or drawn again gives its number on.
+  std::uint64_t frame = 0;
+  std::uint64_t cut_frame = 0;          ///< the view's newest frame with a camera cut, ≤ frame; its first is one
   Entity camera_entity = kNoEntity;     ///< camera whose effects the view has, or kNoEntity
   dvec3 position = dvec3(0.0);          ///< world position of the camera
   mat4 view_from_relative = mat4(1.0);  ///< rotation only
@@ -74,6 +79,8 @@ struct RenderView {
   vec4 clip_plane = vec4(0.0f);  ///< dot(xyz, p) + w ≥ 0 is visible; p: camera-relative
   Frustum frustum;               ///< in camera-relative space
 
+  /// Whether the camera was cut between the view's last frame and this one.
+  [[nodiscard]] bool camera_cut() const { return cut_frame == frame; }
   /// Camera-relative float position of a world position.
   [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }
   /// View depth in metres of a value of the depth image (reversed Z); not for the sky's 0.
@@ -86,7 +93,8 @@ struct RenderView {
 /// If settings.follow_camera is set and settings.camera_entity is alive, sets pose and lens from its current state.
 void follow_camera(const World& world, ViewSettings& settings);
 
-[[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame);
+/// cut_frame: see RenderView.
+[[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame = 0);
 
 /// Settings for the view of a camera entity, from its Camera and WorldTransform. kNoEntity: of a camera fitted to the
 /// bounds of everything drawn. width, height: pixels.

@@ -22,7 +22,7 @@ namespace gloam::test {
 
 /// Wraps a device with a gate. Pipelines that threads other than its creator's request wait until the gate lets them
 /// through. It counts created resources and can make named pipelines fail. Thread-safe.
-class GatedDevice final : public gpu::Device {
+class GatedDevice : public gpu::Device {
  public:
   explicit GatedDevice(gpu::Device& inner) : inner_(inner) {}
 
