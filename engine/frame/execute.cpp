@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // FrameGraph: compiles a frame, records its passes, and reports their times and memory.
+#include <algorithm>
+
 #include "engine/core/assert.h"
 #include "engine/frame/counting_commands.h"
 #include "engine/frame/frame_graph.h"
@@ -41,7 +43,7 @@ void FrameGraph::State::record_barriers(gpu::CommandList& commands, std::uint32_
   for (std::uint32_t i = first; i < end; ++i) {
     const PlannedBarrier& b = plan->plan.barriers[i];
     if (declaration.resources[b.resource].is_image) {
-      image_barriers.push_back({image_of(b.resource), b.before, b.after, b.also_before, b.also_after});
+      image_barriers.push_back({image_of(b.resource), b.before, b.after, b.also_before, b.also_after, b.range});
     } else {
       buffer_barriers.push_back({buffer_of(b.resource), b.before, b.after, b.also_before, b.also_after});
     }
@@ -76,26 +78,31 @@ void FrameGraph::execute(gpu::CommandList& commands) {
 }
 
 template <class Kind>
-const DeclaredUse& FrameGraph::State::declared_use(FrameRef<Kind> ref) {
+void FrameGraph::State::check_declared(FrameRef<Kind> ref) {
   const DeclaredResource& wanted = resource(ref);
   GLOAM_ASSERT(recording_pass != frame::kNone, "a pass asks for its resources while it records");
   const frame::DeclaredPass& pass = declaration.passes[recording_pass];
-  const DeclaredUse* found = nullptr;
+  bool declared = false;
+  std::uint32_t first = ~0u;
+  std::uint32_t last = 0;
   for (const DeclaredUse& use : declaration.uses_of(pass)) {
-    if (use.resource == ref.resource) found = &use;
+    if (use.resource != ref.resource) continue;
+    declared = true;
+    first = std::min(first, use.first_version);
+    last = std::max(last, use.last_version);
   }
-  GLOAM_ASSERT(found != nullptr,
-               "pass '" + pass.name + "' uses resource '" + wanted.name() + "' that it did not declare");
-  GLOAM_ASSERT(ref.version >= found->first_version && ref.version <= found->last_version,
+  GLOAM_ASSERT(declared, "pass '" + pass.name + "' uses resource '" + wanted.name() + "' that it did not declare");
+  GLOAM_ASSERT(ref.version >= first && ref.version <= last,
                "pass '" + pass.name + "' uses another version of resource '" + wanted.name() + "' than it declared");
-  return *found;
 }
 
 gpu::ImageHandle PassContext::image(ImageRef ref) const {
-  return graph_.state_->image_of(graph_.state_->declared_use(ref).resource);
+  graph_.state_->check_declared(ref);
+  return graph_.state_->image_of(ref.resource);
 }
 gpu::BufferHandle PassContext::buffer(BufferRef ref) const {
-  return graph_.state_->buffer_of(graph_.state_->declared_use(ref).resource);
+  graph_.state_->check_declared(ref);
+  return graph_.state_->buffer_of(ref.resource);
 }
 
 std::vector<PassTime> FrameGraph::pass_times() {

@@ -45,13 +45,16 @@ using PassFunction = std::function<void(PassContext&)>;
 
 /// Declares one pass: the resources that it reads and writes, and the function that records it. Reads and writes must
 /// be declared before the next pass is added. A pass may declare one resource several times if one layout and one
-/// barrier suffice: several reads, or a write that includes the reads. Other combinations assert.
+/// barrier suffice: several reads, or a write that includes the reads. Other combinations assert. Mips and layers of an
+/// image are separate in this respect: a pass may read one mip and write the next. Two ranges of one image in one pass
+/// must be equal or disjoint. Passes that write different mips or layers do not wait for each other.
 class PassBuilder {
  public:
   PassBuilder(FrameGraph& graph, std::uint32_t pass) : graph_(graph), pass_(pass) {}
-  void read(ImageRef image, gpu::Access access);
+  void read(ImageRef image, gpu::Access access, const gpu::ImageRange& range = {});
   void read(BufferRef buffer, gpu::Access access);
-  [[nodiscard]] ImageRef write(ImageRef image, gpu::Access access);
+  /// Other mips and layers than those of the range keep their contents.
+  [[nodiscard]] ImageRef write(ImageRef image, gpu::Access access, const gpu::ImageRange& range = {});
   [[nodiscard]] BufferRef write(BufferRef buffer, gpu::Access access);
   /// Prevents culling, for a pass with effects that the graph does not track.
   void keep();
@@ -91,7 +94,8 @@ class FrameGraph {
   [[nodiscard]] BufferRef create_buffer(gpu::BufferDesc desc);
   /// Imports an object that is owned outside the graph, at most once per frame. `before`: its last access outside the
   /// graph (none: the contents may be discarded). `after`: the access that it is left ready for at the end of the frame
-  /// (none: its last access in the graph). Passes that write an import are never culled.
+  /// (none: its last access in the graph, which must then be the same for all mips and layers if the contents are
+  /// kept). Passes that write an import are never culled.
   [[nodiscard]] ImageRef import_image(std::string_view name, gpu::ImageHandle image, gpu::Access before,
                                       gpu::Access after);
   [[nodiscard]] BufferRef import_buffer(std::string_view name, gpu::BufferHandle buffer, gpu::Access before,

@@ -28,10 +28,13 @@ struct FrameGraph::State {
   }
   /// Adds an access of a pass to a resource. Returns the resource's version after the access.
   template <class Kind>
-  std::uint32_t add_use(std::uint32_t pass, FrameRef<Kind> ref, gpu::Access access, bool write);
-  /// The use of a resource by the pass that is being recorded; asserts if the pass has not declared one.
+  std::uint32_t add_use(std::uint32_t pass, FrameRef<Kind> ref, gpu::Access access, bool write,
+                        const gpu::ImageRange& range = {});
+  /// `range` with counts; the default range if it is the whole image.
+  [[nodiscard]] gpu::ImageRange range_of_use(frame::DeclaredResource& image, const gpu::ImageRange& range) const;
+  /// Asserts that the pass that is being recorded has declared this version of the resource.
   template <class Kind>
-  const frame::DeclaredUse& declared_use(FrameRef<Kind> ref);
+  void check_declared(FrameRef<Kind> ref);
 
   void check_declaring() const {
     GLOAM_ASSERT(stage == Stage::declaring, "declarations come between FrameGraph::begin and FrameGraph::compile");

@@ -19,6 +19,7 @@ struct PlannedBarrier {
   gpu::Access after = gpu::Access::none;
   gpu::AccessMask also_before = 0;
   gpu::AccessMask also_after = 0;
+  gpu::ImageRange range;  ///< default: the whole resource
 };
 
 /// A pass that is executed, and its range in Plan::barriers.
@@ -33,7 +34,7 @@ struct PlannedPass {
 struct ResourceLife {
   std::uint32_t first = kNone;
   std::uint32_t last = kNone;
-  std::uint32_t first_barrier = kNone;  ///< index into Plan::barriers, before the first use; kNone: none needed
+  std::uint32_t first_barrier = kNone;  ///< index of the first of its Plan::barriers; kNone: none needed
   gpu::AccessMask ending = 0;           ///< accesses that the next user of the memory must wait for
   std::uint32_t slot = kNone;           ///< of a transient: index into Plan::image_slots or Plan::buffer_slots
   std::uint32_t image_usage = 0;        ///< gpu::ImageUsage flags of all live accesses
@@ -62,7 +63,9 @@ struct Plan {
 /// A pass is live if it is kept, writes an import, or writes a resource that a later live pass uses.
 /// The uses of a resource form epochs: an epoch is one write, or consecutive reads that need no layout change between
 /// them. One barrier precedes each epoch. It names all accesses of the epoch and waits for all accesses of the previous
-/// epoch.
+/// epoch. Mips and layers of an image that passes use as such have epochs each. Equal barriers of neighbours are
+/// joined. The first barriers of all mips and layers stand before the image's first pass, so that no pass waits for
+/// another one that writes other mips or layers.
 [[nodiscard]] Plan compile_plan(const Declaration& declaration);
 
 /// Assigns transients with disjoint lifetimes to common slots: images share memory, buffers of equal size share one

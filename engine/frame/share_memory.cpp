@@ -62,17 +62,17 @@ std::uint64_t bytes_of(const DeclaredResource& resource) {
   return resource.is_image ? gpu::image_bytes(resource.image_desc) : resource.buffer_desc.size;
 }
 
-/// Makes the first barrier of each resource wait for the earlier users of its memory, including the users in the
-/// previous frame.
-void chain(const Declaration& declaration, Plan& plan, const std::vector<MemorySlot>& slots) {
+/// Makes the first barriers of each resource, which discard its contents, wait for the earlier users of its memory,
+/// including the users in the previous frame.
+void chain(const Declaration& declaration, Plan& plan, const std::vector<MemorySlot>& slots,
+           std::vector<gpu::AccessMask>& earlier) {
   for (const MemorySlot& slot : slots) {
     plan.transient_bytes += slot.bytes;
     Predecessors predecessors;
     for (const bool this_frame : {false, true}) {
       for (std::uint32_t resource : slot.resources) {
-        const ResourceLife& life = plan.lives[resource];
-        if (this_frame) plan.barriers[life.first_barrier].also_before = predecessors.endings();
-        predecessors.add(bytes_of(declaration.resources[resource]), life.ending);
+        if (this_frame) earlier[resource] = predecessors.endings();
+        predecessors.add(bytes_of(declaration.resources[resource]), plan.lives[resource].ending);
       }
     }
   }
@@ -90,8 +90,13 @@ void share_memory(const Declaration& declaration, Plan& plan) {
     const DeclaredResource& resource = declaration.resources[r];
     place(plan, resource.is_image ? plan.image_slots : plan.buffer_slots, r, bytes_of(resource), !resource.is_image);
   }
-  chain(declaration, plan, plan.image_slots);
-  chain(declaration, plan, plan.buffer_slots);
+  std::vector<gpu::AccessMask> earlier(declaration.resources.size(), 0);
+  chain(declaration, plan, plan.image_slots, earlier);
+  chain(declaration, plan, plan.buffer_slots, earlier);
+  for (PlannedBarrier& barrier : plan.barriers) {
+    const bool discards = barrier.before == gpu::Access::none && !declaration.resources[barrier.resource].imported;
+    if (discards) barrier.also_before = earlier[barrier.resource];
+  }
 }
 
 }  // namespace gloam::frame

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "engine/gpu/image_size.h"
@@ -35,20 +36,21 @@ class Recorder final : public RecordingDevice {
   Result<BufferHandle> create_buffer(const BufferDesc& desc) override {
     GLOAM_TRY(creation_status());
     GLOAM_ASSERT(desc.size > 0, "a buffer has at least one byte");
-    return BufferHandle{objects_.buffers.add(Buffer{.desc = desc}), 1};
+    auto memory = std::make_shared<Memory>(Memory{.module = desc.module, .bytes = desc.size});
+    auto place = add_placement(*memory, {.bytes = desc.size});
+    return BufferHandle{
+        objects_.buffers.add(Buffer{.desc = desc, .memory = std::move(memory), .place = std::move(place)}), 1};
   }
 
   Result<ImageHandle> create_image(const ImageDesc& desc) override {
     GLOAM_TRY(creation_status());
-    auto memory = std::make_shared<ImageMemory>();
-    memory->module = desc.module;
-    return add_image(desc, std::move(memory));
+    return add_image(desc, std::make_shared<Memory>(Memory{.module = desc.module}));
   }
 
   Result<std::vector<ImageHandle>> create_aliased_images(std::span<const ImageDesc> descs) override {
     GLOAM_TRY(creation_status());
     std::vector<ImageHandle> images;
-    auto memory = std::make_shared<ImageMemory>();
+    auto memory = std::make_shared<Memory>();
     if (!descs.empty()) memory->module = descs.front().module;
     for (const ImageDesc& desc : descs) images.push_back(add_image(desc, memory));
     return images;
@@ -148,13 +150,12 @@ class Recorder final : public RecordingDevice {
 
   std::vector<ModuleMemory> memory() const override {
     std::map<std::string, std::uint64_t> bytes;
-    objects_.buffers.for_each_alive([&](const Buffer& buffer) { bytes[buffer.desc.module] += buffer.desc.size; });
-    std::vector<const ImageMemory*> counted;
-    objects_.images.for_each_alive([&](const Image& image) {
-      if (std::ranges::find(counted, image.memory.get()) != counted.end()) return;
-      counted.push_back(image.memory.get());
-      bytes[image.memory->module] += image.memory->bytes;
-    });
+    std::set<const Memory*> counted;
+    const auto count_memory = [&](const auto& resource) {
+      if (counted.insert(resource.memory.get()).second) bytes[resource.memory->module] += resource.memory->bytes;
+    };
+    objects_.buffers.for_each_alive(count_memory);
+    objects_.images.for_each_alive(count_memory);
     std::vector<ModuleMemory> result;
     for (const auto& [module, count] : bytes) result.push_back({module, count});
     return result;
@@ -181,12 +182,20 @@ class Recorder final : public RecordingDevice {
     return {};
   }
 
-  ImageHandle add_image(const ImageDesc& desc, std::shared_ptr<ImageMemory> memory) {
+  static std::shared_ptr<Placement> add_placement(Memory& memory, Placement placement) {
+    memory.placements.push_back(std::make_shared<Placement>(std::move(placement)));
+    return memory.placements.back();
+  }
+
+  ImageHandle add_image(const ImageDesc& desc, std::shared_ptr<Memory> memory) {
     GLOAM_ASSERT(desc.format != Format::undefined, "an image has a format");
     GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.mips > 0,
                  "an image has a width, a height, a layer and a mip");
     memory->bytes = std::max(memory->bytes, image_bytes(desc));
-    return ImageHandle{objects_.images.add(Image{.desc = desc, .memory = std::move(memory)}), 1};
+    auto place =
+        add_placement(*memory, {.bytes = image_bytes(desc), .sync = Subresources<SyncState>(desc.mips, desc.layers)});
+    return ImageHandle{objects_.images.add(Image{.desc = desc, .memory = std::move(memory), .place = std::move(place)}),
+                       1};
   }
 
   Result<PipelineHandle> add_pipeline(Pipeline pipeline) {

@@ -147,6 +147,22 @@ struct SamplerDesc {
   bool operator==(const SamplerDesc&) const = default;
 };
 
+/// Mips and layers of an image: a rectangle of subresources. A count of 0 means all remaining ones, so the default
+/// range is the whole image.
+struct ImageRange {
+  std::uint32_t first_mip = 0;
+  std::uint32_t mip_count = 0;
+  std::uint32_t first_layer = 0;
+  std::uint32_t layer_count = 0;
+  bool operator==(const ImageRange&) const = default;
+};
+
+/// One mip of one layer of an image.
+struct ImagePart {
+  std::uint32_t mip = 0;
+  std::uint32_t layer = 0;
+};
+
 /// The mips and layers of an image that a pass or a binding uses. A count of 0 means all remaining ones.
 struct ImageView {
   ImageHandle image;
@@ -268,6 +284,7 @@ struct ImageBarrier {
   Access after = Access::none;
   AccessMask also_before = 0;  ///< if `before` is none: accesses to this image, or to one that shares its memory
   AccessMask also_after = 0;
+  ImageRange range;  ///< all of it is in the layout of `before`; ranges of one image in one call must not overlap
 };
 
 enum class LoadOp : std::uint8_t { load, clear, discard };

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "tests/support/expect_assert.h"
 
 namespace gloam::gpu {
@@ -106,6 +108,28 @@ TEST_F(RecordingDeviceTest, a_binding_must_fit_the_state_of_the_image) {
   EXPECT_THAT(faults(), IsEmpty());
   dispatch({0, Binding::Sampled{.view = {.image = picture}}});
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("dispatch: image 'picture' is used as uniform_read|compute_read")));
+}
+
+TEST_F(RecordingDeviceTest, mips_and_layers_are_tracked_as_such) {
+  ImageDesc desc = image_desc("picture");
+  desc.mips = 2;
+  desc.layers = 2;
+  const ImageHandle picture = device->create_image(desc).value();
+  const ImageBarrier first{.image = picture, .after = Access::compute_read, .range = {.mip_count = 1}};
+  const ImageBarrier second{
+      .image = picture, .after = Access::compute_write, .range = {.first_mip = 1, .first_layer = 1}};
+  commands->barrier({}, std::array{first, second});
+  dispatch({0, Binding::Sampled{.view = {.image = picture, .mip_count = 1}}});
+  dispatch({0, Binding::Storage{.view = {.image = picture, .first_mip = 1, .first_layer = 1}}});
+  EXPECT_THAT(faults(), IsEmpty());
+  dispatch({0, Binding::Storage{.view = {.image = picture, .first_mip = 1}}});
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("'picture' mips 1+1 is used as compute_storage_read|compute_write but "
+                                              "its last barrier left it ready for nothing")));
+  commands->barrier({}, std::array{first, first});
+  EXPECT_THAT(faults().at(1), HasSubstr("a part of one image appears twice in one call"));
+  const ImageBarrier outside{.image = picture, .after = Access::compute_read, .range = {.first_layer = 2}};
+  commands->barrier({}, {&outside, 1});
+  EXPECT_THAT(faults().back(), HasSubstr("'picture' layers 2+0 reaches past its end"));
 }
 
 TEST_F(RecordingDeviceTest, a_barrier_that_starts_from_another_layout_is_a_fault) {

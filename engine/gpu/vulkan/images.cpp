@@ -61,16 +61,16 @@ Status check_limits(const Context& context, const ImageDesc& desc) {
 
 }  // namespace
 
+ImageRange range_of(const ImageDesc& desc, const ImageView& view) {
+  return resolve({view.first_mip, view.mip_count, view.first_layer, view.layer_count}, desc);
+}
+
 ViewKey resolve_view(const ImageDesc& desc, const ImageView& view) {
-  GLOAM_ASSERT(view.first_mip < desc.mips && view.first_layer < desc.layers, "a view begins inside its image");
-  ViewKey key;
-  key.first_mip = view.first_mip;
-  key.mip_count = view.mip_count == 0 ? desc.mips - view.first_mip : view.mip_count;
-  key.first_layer = view.first_layer;
-  key.layer_count = view.layer_count == 0 ? desc.layers - view.first_layer : view.layer_count;
-  GLOAM_ASSERT(key.mip_count <= desc.mips - key.first_mip && key.layer_count <= desc.layers - key.first_layer,
-               "a view ends inside its image");
-  return key;
+  const ImageRange range = range_of(desc, view);
+  return {.first_mip = range.first_mip,
+          .mip_count = range.mip_count,
+          .first_layer = range.first_layer,
+          .layer_count = range.layer_count};
 }
 
 Images::~Images() {
@@ -96,6 +96,7 @@ Result<Image> Images::make(const ImageDesc& desc) const {
                                   .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
   Image image;
   image.desc = desc;
+  image.access = Subresources<Access>(desc.mips, desc.layers);
   const VkResult result = context_.vk.vkCreateImage(context_.device, &info, nullptr, &image.image);
   if (result != VK_SUCCESS) return failure(cannot_make(desc), result);
   context_.set_name(VK_OBJECT_TYPE_IMAGE, image.image, desc.name);
@@ -149,6 +150,7 @@ ImageHandle Images::adopt(const ImageDesc& desc, VkImage vk_image) {
   check_rules(desc);
   Image image;
   image.desc = desc;
+  image.access = Subresources<Access>(desc.mips, desc.layers);
   image.image = vk_image;
   return table_.insert(std::move(image));
 }

@@ -10,6 +10,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/handle_table.h"
+#include "engine/gpu/subresources.h"
 #include "engine/gpu/types.h"
 #include "engine/gpu/vulkan/context.h"
 #include "engine/gpu/vulkan/graveyard.h"
@@ -32,10 +33,12 @@ struct Image {
   VkImage image = VK_NULL_HANDLE;
   AllocationOwner memory;  ///< null: an adopted image, which is not destroyed here
   std::vector<std::pair<ViewKey, VkImageView>> views;
-  /// The access that the last recorded barrier left the image ready for. Only the recording thread uses it.
-  Access access = Access::none;
+  /// The access that the last recorded barrier left each mip and layer ready for. Only the recording thread uses it.
+  Subresources<Access> access;
 };
 
+/// The mips and layers of a view. Asserts that the view lies inside the image.
+[[nodiscard]] ImageRange range_of(const ImageDesc& desc, const ImageView& view);
 /// Replaces counts of 0 by actual counts and asserts that the view lies inside the image. The caller sets `type`.
 [[nodiscard]] ViewKey resolve_view(const ImageDesc& desc, const ImageView& view);
 
