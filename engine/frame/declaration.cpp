@@ -37,7 +37,7 @@ void hash_resource(Hasher& hasher, const DeclaredResource& resource) {
   } else if (resource.is_image) {
     const gpu::ImageDesc& d = resource.image_desc;
     hasher.text(d.module).value(d.format).value(d.width).value(d.height).value(d.layers).value(d.mips);
-    hasher.value(d.usage).value(d.shape);
+    hasher.value(d.usage).value(d.shape).value(d.depth);
   } else {
     const gpu::BufferDesc& d = resource.buffer_desc;
     hasher.text(d.module).value(d.size).value(d.usage).value(d.memory);

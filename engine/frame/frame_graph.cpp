@@ -139,7 +139,7 @@ std::uint32_t FrameGraph::frame() const { return state_->frame_number; }
 ImageRef FrameGraph::create_image(gpu::ImageDesc desc) {
   state_->check_declaring();
   GLOAM_ASSERT(desc.format != gpu::Format::undefined, "a transient image has a format: '" + desc.name + "'");
-  GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.mips > 0,
+  GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.depth > 0 && desc.layers > 0 && desc.mips > 0,
                "a transient image has a width, a height, a layer and a mip: '" + desc.name + "'");
   add_resource(state_->declaration, true, false).image_desc = std::move(desc);
   return {state_->declaration.resources.size() - 1, 0, state_->frame_number};

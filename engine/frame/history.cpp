@@ -14,7 +14,7 @@ namespace {
 
 bool same_contents(const gpu::ImageDesc& a, const gpu::ImageDesc& b) {
   const auto key = [](const gpu::ImageDesc& d) {
-    return std::tuple(d.format, d.width, d.height, d.layers, d.mips, d.usage, d.shape);
+    return std::tuple(d.format, d.width, d.height, d.layers, d.mips, d.usage, d.shape, d.depth);
   };
   return key(a) == key(b);
 }

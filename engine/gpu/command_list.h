@@ -29,7 +29,7 @@ class CommandList {
   virtual void copy_buffer(BufferHandle source, std::uint64_t source_offset, BufferHandle target,
                            std::uint64_t target_offset, std::uint64_t size) = 0;
   /// Copies tightly packed texels to one mip of the layers [first_layer, first_layer + layer_count), layer after layer.
-  /// source_offset: bytes.
+  /// A volume has one layer, with one slice after the other. source_offset: bytes.
   virtual void copy_buffer_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target,
                                     std::uint32_t mip, std::uint32_t first_layer, std::uint32_t layer_count) = 0;
   /// Copies one mip of one layer to tightly packed texels. target_offset: bytes.
@@ -41,7 +41,8 @@ class CommandList {
   /// a float, or as an integer for integer formats.
   virtual void clear_color_image(ImageHandle image, std::array<std::uint32_t, 4> bits, ImageRange range = {}) = 0;
   /// Copies one mip of one layer of a colour image to another, scaled with a linear filter. `from` must be ready for
-  /// transfer_read, `to` for transfer_write. source and target may be one image if the two parts differ.
+  /// transfer_read, `to` for transfer_write. Both are volumes, or neither is. source and target may be one image if the
+  /// two parts differ.
   virtual void blit(ImageHandle source, ImageHandle target, ImagePart from = {}, ImagePart to = {}) = 0;
 
   virtual void begin_rendering(const RenderingDesc& desc) = 0;

@@ -189,7 +189,9 @@ class Recorder final : public RecordingDevice {
 
   ImageHandle add_image(const ImageDesc& desc, std::shared_ptr<Memory> memory) {
     GLOAM_ASSERT(desc.format != Format::undefined, "an image has a format");
-    GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.mips > 0,
+    GLOAM_ASSERT(desc.shape == ImageShape::volume ? desc.layers == 1 : desc.depth == 1,
+                 "a volume has a depth and one layer, all other images have no depth");
+    GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.depth > 0 && desc.layers > 0 && desc.mips > 0,
                  "an image has a width, a height, a layer and a mip");
     memory->bytes = std::max(memory->bytes, image_bytes(desc));
     auto place =

@@ -116,9 +116,11 @@ struct BufferDesc {
   MemoryKind memory = MemoryKind::device;
 };
 
-enum class ImageShape : std::uint8_t { plain, array, cube };
+enum class ImageShape : std::uint8_t { plain, array, cube, volume };
 
-/// width and height in texels. A cube image is square and has six layers per cube. `module`: as in BufferDesc.
+/// width, height and depth in texels. A cube image is square and has six layers per cube. A volume is
+/// three-dimensional: each mip halves its depth too, and it has one layer, no depth format and no target usage.
+/// `module`: as in BufferDesc.
 struct ImageDesc {
   std::string name;
   std::string module;
@@ -129,6 +131,7 @@ struct ImageDesc {
   std::uint32_t mips = 1;
   ImageUsage usage = ImageUsage::none;
   ImageShape shape = ImageShape::plain;
+  std::uint32_t depth = 1;  ///< of a volume; 1 for all other shapes
 };
 
 enum class Filter : std::uint8_t { nearest, linear };
@@ -140,7 +143,7 @@ struct SamplerDesc {
   Filter mag_filter = Filter::linear;
   Filter mip_filter = Filter::linear;
   AddressMode address_u = AddressMode::repeat;
-  AddressMode address_v = AddressMode::repeat;
+  AddressMode address_v = AddressMode::repeat;  ///< also along the depth of a volume
   float max_anisotropy = 1.0f;
   bool compare = false;
   CompareOp compare_op = CompareOp::greater_equal;

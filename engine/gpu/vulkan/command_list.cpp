@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/gpu/image_size.h"
 #include "engine/gpu/vulkan/barriers.h"
 #include "engine/gpu/vulkan/convert.h"
 
@@ -13,12 +14,7 @@ namespace gloam::gpu::vulkan {
 namespace {
 
 VkExtent3D mip_extent(const ImageDesc& desc, std::uint32_t mip) {
-  return {std::max(desc.width >> mip, 1u), std::max(desc.height >> mip, 1u), 1};
-}
-
-std::uint64_t packed_bytes(const ImageDesc& desc, std::uint32_t mip, std::uint32_t layers) {
-  const VkExtent3D extent = mip_extent(desc, mip);
-  return std::uint64_t{extent.width} * extent.height * layers * bytes_per_texel(desc.format);
+  return {std::max(desc.width >> mip, 1u), std::max(desc.height >> mip, 1u), std::max(desc.depth >> mip, 1u)};
 }
 
 VkBufferImageCopy packed_region(const ImageDesc& desc, std::uint64_t offset, std::uint32_t mip, std::uint32_t layer,
@@ -103,7 +99,7 @@ void VulkanCommandList::copy_buffer_to_image(BufferHandle source, std::uint64_t 
   const Image& image = images_.get(target);
   check_transfer_layout(image, {mip, 1, first_layer, layer_count}, Access::transfer_write);
   const VkBufferImageCopy region = packed_region(image.desc, source_offset, mip, first_layer, layer_count);
-  check_range(source, source_offset, packed_bytes(image.desc, mip, layer_count));
+  check_range(source, source_offset, mip_bytes(image.desc, mip) * layer_count);
   context_.vk.vkCmdCopyBufferToImage(commands_, buffers_.get(source).buffer, image.image,
                                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
@@ -113,7 +109,7 @@ void VulkanCommandList::copy_image_to_buffer(ImageHandle source, std::uint32_t m
   const Image& image = images_.get(source);
   check_transfer_layout(image, {mip, 1, layer, 1}, Access::transfer_read);
   const VkBufferImageCopy region = packed_region(image.desc, target_offset, mip, layer, 1);
-  check_range(target, target_offset, packed_bytes(image.desc, mip, 1));
+  check_range(target, target_offset, mip_bytes(image.desc, mip));
   context_.vk.vkCmdCopyImageToBuffer(commands_, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                      buffers_.get(target).buffer, 1, &region);
 }
@@ -138,6 +134,8 @@ void VulkanCommandList::clear_color_image(ImageHandle handle, std::array<std::ui
 void VulkanCommandList::blit(ImageHandle source, ImageHandle target, ImagePart from, ImagePart to) {
   const Image& source_image = images_.get(source);
   const Image& target_image = images_.get(target);
+  GLOAM_ASSERT((source_image.desc.shape == ImageShape::volume) == (target_image.desc.shape == ImageShape::volume),
+               "a blit goes from a volume to a volume, or between other images");
   check_transfer_layout(source_image, range_of(from), Access::transfer_read);
   check_transfer_layout(target_image, range_of(to), Access::transfer_write);
   const auto corner = [](const ImageDesc& desc, std::uint32_t mip) {

@@ -10,8 +10,12 @@
 namespace gloam::gpu::vulkan {
 namespace {
 
-/// The view type that the shader declares. Asserts that the number of layers fits it.
-VkImageViewType view_type(const ReflectedBinding& slot, std::uint32_t layers) {
+/// The view type that the shader declares. Asserts that the image and the number of layers fit it.
+VkImageViewType view_type(const ReflectedBinding& slot, const ImageDesc& desc, std::uint32_t layers) {
+  GLOAM_ASSERT((slot.dimension == ImageDimension::volume) == (desc.shape == ImageShape::volume),
+               "\"" + slot.name + "\" is " + (slot.dimension == ImageDimension::volume ? "a" : "no") +
+                   " volume for the shader, unlike image \"" + desc.name + "\"");
+  if (slot.dimension == ImageDimension::volume) return VK_IMAGE_VIEW_TYPE_3D;
   if (slot.dimension == ImageDimension::cube) {
     GLOAM_ASSERT(slot.arrayed ? layers % 6 == 0 : layers == 6,
                  "\"" + slot.name + "\" is a cube for the shader and needs six layers a cube");
@@ -110,7 +114,7 @@ Status DescriptorWriter::add_image(const ReflectedBinding& slot, const ImageView
                                    Layouts layouts) {
   const Image& image = images_.get(view.image);
   ViewKey key = resolve_view(image.desc, view);
-  key.type = view_type(slot, key.layer_count);
+  key.type = view_type(slot, image.desc, key.layer_count);
   const bool storage = slot.kind == ResourceKind::storage_image;
   if (storage) key.mip_count = 1;  // a storage image has one mip
   const Result<VkImageView> vk_view = images_.view(view.image, key);

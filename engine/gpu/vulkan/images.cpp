@@ -3,9 +3,9 @@
 #include "engine/gpu/vulkan/images.h"
 
 #include <algorithm>
-#include <bit>
 #include <string>
 
+#include "engine/gpu/image_size.h"
 #include "engine/gpu/vulkan/convert.h"
 #include "engine/gpu/vulkan/errors.h"
 
@@ -14,8 +14,8 @@ namespace {
 
 std::string cannot_make(const ImageDesc& desc) {
   return "Image \"" + desc.name + "\" of module \"" + desc.module + "\" (" + std::to_string(desc.width) + "x" +
-         std::to_string(desc.height) + ", " + std::to_string(desc.layers) + " layers, " +
-         std::string(name_of(desc.format)) + ") could not be made";
+         std::to_string(desc.height) + (desc.shape == ImageShape::volume ? "x" + std::to_string(desc.depth) : "") +
+         ", " + std::to_string(desc.layers) + " layers, " + std::string(name_of(desc.format)) + ") could not be made";
 }
 
 VkFormatFeatureFlags features_needed(ImageUsage usage) {
@@ -30,18 +30,36 @@ VkFormatFeatureFlags features_needed(ImageUsage usage) {
 void check_rules(const ImageDesc& desc) {
   GLOAM_ASSERT(desc.format != Format::undefined, "an image has a format");
   GLOAM_ASSERT(desc.usage != ImageUsage::none, "an image must be used for something");
-  GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.mips > 0, "an image holds a texel");
-  GLOAM_ASSERT(desc.shape != ImageShape::plain || desc.layers == 1, "a plain image has one layer");
+  GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.depth > 0 && desc.layers > 0 && desc.mips > 0,
+               "an image holds a texel");
+  const bool volume = desc.shape == ImageShape::volume;
+  GLOAM_ASSERT((desc.shape != ImageShape::plain && !volume) || desc.layers == 1,
+               "a plain image has one layer, and so has a volume");
+  GLOAM_ASSERT(volume || desc.depth == 1, "only a volume has a depth");
+  GLOAM_ASSERT(!volume || (!is_depth(desc.format) && !has(desc.usage, ImageUsage::color_target)),
+               "a volume is sampled, written by shaders and copied, never a target");
   GLOAM_ASSERT(desc.shape != ImageShape::cube || (desc.layers % 6 == 0 && desc.width == desc.height),
                "a cube image is square and has six layers a cube");
-  GLOAM_ASSERT(desc.mips <= static_cast<std::uint32_t>(std::bit_width(std::max(desc.width, desc.height))),
-               "an image has no more mips than it can be halved");
+  GLOAM_ASSERT(desc.mips <= full_mip_count(desc), "an image has no more mips than it can be halved");
+}
+
+std::uint32_t largest_side(const VkPhysicalDeviceLimits& limits, ImageShape shape) {
+  switch (shape) {
+    case ImageShape::cube:
+      return limits.maxImageDimensionCube;
+    case ImageShape::volume:
+      return limits.maxImageDimension3D;
+    case ImageShape::plain:
+    case ImageShape::array:
+      break;
+  }
+  return limits.maxImageDimension2D;
 }
 
 Status check_limits(const Context& context, const ImageDesc& desc) {
   const VkPhysicalDeviceLimits& limits = context.physical.limits;
-  const std::uint32_t most = desc.shape == ImageShape::cube ? limits.maxImageDimensionCube : limits.maxImageDimension2D;
-  if (desc.width > most || desc.height > most) {
+  const std::uint32_t most = largest_side(limits, desc.shape);
+  if (std::max({desc.width, desc.height, desc.depth}) > most) {
     return Error{ErrorKind::failed,
                  cannot_make(desc) + ": the device allows " + std::to_string(most) + " texels a side"};
   }
@@ -84,9 +102,9 @@ Result<Image> Images::make(const ImageDesc& desc) const {
                                   .flags = desc.shape == ImageShape::cube
                                                ? static_cast<VkImageCreateFlags>(VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT)
                                                : 0,
-                                  .imageType = VK_IMAGE_TYPE_2D,
+                                  .imageType = desc.shape == ImageShape::volume ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D,
                                   .format = to_vulkan(desc.format),
-                                  .extent = {desc.width, desc.height, 1},
+                                  .extent = {desc.width, desc.height, desc.depth},
                                   .mipLevels = desc.mips,
                                   .arrayLayers = desc.layers,
                                   .samples = VK_SAMPLE_COUNT_1_BIT,
