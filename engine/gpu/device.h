@@ -26,7 +26,13 @@ class Device {
 
   [[nodiscard]] virtual const DeviceInfo& info() const = 0;
 
+  /// Whether images of this format can be made for all of these uses, of any shape (volumes: without targets).
+  [[nodiscard]] virtual bool supports(Format format, ImageUsage usage) const = 0;
+  /// Whether CommandList::blit works from and to images of this format. Integer and depth formats are never filtered.
+  [[nodiscard]] virtual bool supports_blit(Format format) const = 0;
+
   [[nodiscard]] virtual Result<BufferHandle> create_buffer(const BufferDesc& desc) = 0;
+  /// Fails if the device does not support the format for the usage, or the size.
   [[nodiscard]] virtual Result<ImageHandle> create_image(const ImageDesc& desc) = 0;
   /// Equal descriptions return the same sampler. It lives as long as the device.
   [[nodiscard]] virtual Result<SamplerHandle> create_sampler(const SamplerDesc& desc) = 0;

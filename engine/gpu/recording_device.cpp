@@ -33,6 +33,22 @@ class Recorder final : public RecordingDevice {
 
   const DeviceInfo& info() const override { return info_; }
 
+  bool supports(Format format, ImageUsage usage) const override {
+    const std::lock_guard lock(mutex_);
+    const auto withdrawn = withdrawn_.find(format);
+    if (withdrawn != withdrawn_.end() && has(withdrawn->second, usage)) return false;
+    using enum ImageUsage;
+    if (format == Format::undefined || format == Format::rgb32_float) return false;
+    if (has(usage, is_depth(format) ? storage | color_target : depth_target)) return false;
+    return !has(usage, storage) || !encodes_srgb(format);
+  }
+  bool supports_blit(Format format) const override {
+    using enum ImageUsage;
+    if (is_depth(format) || is_integer(format) || !supports(format, transfer_source | transfer_target)) return false;
+    const std::lock_guard lock(mutex_);
+    return std::ranges::find(without_blit_, format) == without_blit_.end();
+  }
+
   Result<BufferHandle> create_buffer(const BufferDesc& desc) override {
     GLOAM_TRY(creation_status());
     GLOAM_ASSERT(desc.size > 0, "a buffer has at least one byte");
@@ -44,11 +60,13 @@ class Recorder final : public RecordingDevice {
 
   Result<ImageHandle> create_image(const ImageDesc& desc) override {
     GLOAM_TRY(creation_status());
+    GLOAM_TRY(support_of(desc));
     return add_image(desc, std::make_shared<Memory>(Memory{.module = desc.module}));
   }
 
   Result<std::vector<ImageHandle>> create_aliased_images(std::span<const ImageDesc> descs) override {
     GLOAM_TRY(creation_status());
+    for (const ImageDesc& desc : descs) GLOAM_TRY(support_of(desc));
     std::vector<ImageHandle> images;
     auto memory = std::make_shared<Memory>();
     if (!descs.empty()) memory->module = descs.front().module;
@@ -174,12 +192,26 @@ class Recorder final : public RecordingDevice {
     const std::lock_guard lock(mutex_);
     next_failure_ = std::move(error);
   }
+  void withdraw_support(Format format, ImageUsage usage, bool blit) override {
+    const std::lock_guard lock(mutex_);
+    ImageUsage& withdrawn = withdrawn_[format];
+    withdrawn = withdrawn | usage;
+    if (blit) without_blit_.push_back(format);
+  }
 
  private:
   Status creation_status() {
     const std::lock_guard lock(mutex_);
     if (auto failure = std::exchange(next_failure_, std::nullopt)) return *std::move(failure);
     return {};
+  }
+
+  [[nodiscard]] Status support_of(const ImageDesc& desc) const {
+    if (desc.format == Format::undefined || supports(desc.format, desc.usage)) return {};
+    return Error{ErrorKind::failed, "Image \"" + desc.name + "\" of module \"" + desc.module +
+                                        "\" could not be made: the device cannot use " +
+                                        std::string(name_of(desc.format)) + " in that way (" + text_of(desc.usage) +
+                                        ")"};
   }
 
   static std::shared_ptr<Placement> add_placement(Memory& memory, Placement placement) {
@@ -210,9 +242,11 @@ class Recorder final : public RecordingDevice {
   CommandRecorder commands_;
   std::uint64_t frame_ = 0;
   std::map<std::uint64_t, std::vector<std::uint64_t>> timestamps_;
-  mutable std::mutex mutex_;  ///< guards samplers_ and next_failure_
+  mutable std::mutex mutex_;  ///< guards all below
   std::vector<SamplerDesc> samplers_;
   std::optional<Error> next_failure_;
+  std::map<Format, ImageUsage> withdrawn_;
+  std::vector<Format> without_blit_;
 };
 
 }  // namespace

@@ -31,6 +31,8 @@ class RecordingDevice : public Device {
   virtual void forget_commands() = 0;
   /// Makes the next creation of an object fail with this error, once.
   virtual void fail_next_creation(Error error) = 0;
+  /// Makes the device support this format no longer for any of these uses; `blit` also not for blits.
+  virtual void withdraw_support(Format format, ImageUsage usage, bool blit = false) = 0;
 };
 
 [[nodiscard]] std::unique_ptr<RecordingDevice> make_recording_device();

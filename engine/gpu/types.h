@@ -59,6 +59,7 @@ enum class Format : std::uint8_t {
 
 [[nodiscard]] std::uint32_t bytes_per_texel(Format format);
 [[nodiscard]] bool is_depth(Format format);
+[[nodiscard]] bool is_integer(Format format);
 /// Whether the hardware encodes linear colour as sRGB when it writes this format.
 [[nodiscard]] constexpr bool encodes_srgb(Format format) {
   return format == Format::rgba8_srgb || format == Format::bgra8_srgb;
@@ -100,6 +101,9 @@ enum class ImageUsage : std::uint32_t {
 };
 template <>
 inline constexpr bool kIsFlags<ImageUsage> = true;
+
+/// "sampled, storage"; "no use" for ImageUsage::none.
+[[nodiscard]] std::string text_of(ImageUsage usage);
 
 enum class MemoryKind : std::uint8_t {
   device,    ///< fastest for the GPU; not mapped

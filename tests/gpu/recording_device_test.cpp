@@ -259,6 +259,24 @@ TEST_F(RecordingDeviceTest, frames_complete_at_once_and_keep_their_timestamps_fo
   EXPECT_THAT(device->timestamps(0), IsEmpty());
 }
 
+TEST_F(RecordingDeviceTest, support_of_a_format_can_be_withdrawn) {
+  using enum ImageUsage;
+  EXPECT_TRUE(device->supports(Format::rgba8_unorm, sampled | storage | color_target));
+  EXPECT_FALSE(device->supports(Format::rgba8_unorm, depth_target));
+  EXPECT_FALSE(device->supports(Format::d32_float, depth_target | storage));
+  EXPECT_TRUE(device->supports_blit(Format::rgba8_unorm));
+  EXPECT_FALSE(device->supports_blit(Format::r32_uint));
+  device->withdraw_support(Format::rgba8_unorm, storage, true);
+  EXPECT_FALSE(device->supports(Format::rgba8_unorm, sampled | storage));
+  EXPECT_TRUE(device->supports(Format::rgba8_unorm, sampled));
+  EXPECT_FALSE(device->supports_blit(Format::rgba8_unorm));
+  const auto made = device->create_image(image_desc("picture"));
+  ASSERT_FALSE(made.ok());
+  EXPECT_THAT(made.error().message, HasSubstr("\"picture\" of module \"test\" could not be made: the device cannot use "
+                                              "rgba8_unorm in that way (transfer_source, transfer_target, sampled, "
+                                              "storage, color_target)"));
+}
+
 TEST_F(RecordingDeviceTest, misuse_asserts) {
   EXPECT_ASSERT((void)device->begin_frame(), "needs the frame before it to be submitted");
   EXPECT_ASSERT((void)device->mapped(buffer("a")), "device memory is not mapped");

@@ -56,6 +56,10 @@ class GatedDevice final : public gpu::Device {
   }
 
   [[nodiscard]] const gpu::DeviceInfo& info() const override { return inner_.info(); }
+  [[nodiscard]] bool supports(gpu::Format format, gpu::ImageUsage usage) const override {
+    return inner_.supports(format, usage);
+  }
+  [[nodiscard]] bool supports_blit(gpu::Format format) const override { return inner_.supports_blit(format); }
   [[nodiscard]] Result<gpu::BufferHandle> create_buffer(const gpu::BufferDesc& desc) override {
     count_resource();
     return inner_.create_buffer(desc);

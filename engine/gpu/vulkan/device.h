@@ -30,6 +30,10 @@ class VulkanDevice final : public Device {
   ~VulkanDevice() override;
 
   [[nodiscard]] const DeviceInfo& info() const override { return context_->physical.info; }
+  [[nodiscard]] bool supports(Format format, ImageUsage usage) const override {
+    return vulkan::supports(*context_, format, usage);
+  }
+  [[nodiscard]] bool supports_blit(Format format) const override { return vulkan::supports_blit(*context_, format); }
   [[nodiscard]] Result<BufferHandle> create_buffer(const BufferDesc& desc) override { return buffers_.create(desc); }
   [[nodiscard]] Result<ImageHandle> create_image(const ImageDesc& desc) override { return images_.create(desc); }
   [[nodiscard]] Result<SamplerHandle> create_sampler(const SamplerDesc& desc) override {

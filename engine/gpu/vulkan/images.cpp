@@ -20,11 +20,37 @@ std::string cannot_make(const ImageDesc& desc) {
 
 VkFormatFeatureFlags features_needed(ImageUsage usage) {
   VkFormatFeatureFlags needed = 0;
+  if (has(usage, ImageUsage::transfer_source)) needed |= VK_FORMAT_FEATURE_TRANSFER_SRC_BIT;
+  if (has(usage, ImageUsage::transfer_target)) needed |= VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
   if (has(usage, ImageUsage::sampled)) needed |= VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
   if (has(usage, ImageUsage::storage)) needed |= VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
   if (has(usage, ImageUsage::color_target)) needed |= VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
   if (has(usage, ImageUsage::depth_target)) needed |= VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT;
   return needed;
+}
+
+/// The formats that shaders may name for storage images without shaderStorageImageExtendedFormats.
+bool is_basic_storage(Format format) {
+  switch (format) {
+    case Format::rgba8_unorm:
+    case Format::rgba16_float:
+    case Format::r32_uint:
+    case Format::rgba32_uint:
+    case Format::r32_float:
+    case Format::rgba32_float:
+    case Format::rgba8_uint:
+    case Format::rgba16_uint:
+      return true;
+    default:
+      return false;
+  }
+}
+
+VkFormatFeatureFlags features_of(const Context& context, Format format) {
+  VkFormatProperties properties;
+  context.instance_functions().vkGetPhysicalDeviceFormatProperties(context.physical.handle, to_vulkan(format),
+                                                                   &properties);
+  return properties.optimalTilingFeatures;
 }
 
 void check_rules(const ImageDesc& desc) {
@@ -67,17 +93,30 @@ Status check_limits(const Context& context, const ImageDesc& desc) {
     return Error{ErrorKind::failed,
                  cannot_make(desc) + ": the device allows " + std::to_string(limits.maxImageArrayLayers) + " layers"};
   }
-  VkFormatProperties format;
-  context.instance_functions().vkGetPhysicalDeviceFormatProperties(context.physical.handle, to_vulkan(desc.format),
-                                                                   &format);
-  const VkFormatFeatureFlags needed = features_needed(desc.usage);
-  if ((format.optimalTilingFeatures & needed) != needed) {
-    return Error{ErrorKind::failed, cannot_make(desc) + ": the device cannot use this format in that way"};
+  if (!supports(context, desc.format, desc.usage)) {
+    return Error{ErrorKind::failed,
+                 cannot_make(desc) + ": the device cannot use this format in that way (" + text_of(desc.usage) + ")"};
   }
   return {};
 }
 
 }  // namespace
+
+bool supports(const Context& context, Format format, ImageUsage usage) {
+  if (format == Format::undefined) return false;
+  const bool extended = context.physical.features.core.features.shaderStorageImageExtendedFormats == VK_TRUE;
+  if (has(usage, ImageUsage::storage) && !extended && !is_basic_storage(format)) return false;
+  const VkFormatFeatureFlags features = features_of(context, format);
+  const VkFormatFeatureFlags needed = features_needed(usage);
+  return features != 0 && (features & needed) == needed;
+}
+
+bool supports_blit(const Context& context, Format format) {
+  constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
+                                           VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+  if (format == Format::undefined || is_depth(format) || is_integer(format)) return false;
+  return (features_of(context, format) & kNeeded) == kNeeded;
+}
 
 ImageRange range_of(const ImageDesc& desc, const ImageView& view) {
   return resolve({view.first_mip, view.mip_count, view.first_layer, view.layer_count}, desc);

@@ -42,6 +42,10 @@ struct Image {
 /// Replaces counts of 0 by actual counts and asserts that the view lies inside the image. The caller sets `type`.
 [[nodiscard]] ViewKey resolve_view(const ImageDesc& desc, const ImageView& view);
 
+/// Whether the device supports a format for all of these uses, as in Device::supports.
+[[nodiscard]] bool supports(const Context& context, Format format, ImageUsage usage);
+[[nodiscard]] bool supports_blit(const Context& context, Format format);
+
 /// Creates, stores and destroys images and their views. Thread-safe, except Image::access.
 class Images {
  public:
