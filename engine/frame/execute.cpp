@@ -29,11 +29,11 @@ Status FrameGraph::compile() {
 
 gpu::ImageHandle FrameGraph::State::image_of(std::uint32_t resource_index) const {
   const DeclaredResource& r = declaration.resources[resource_index];
-  return r.imported ? r.image : plan->images[resource_index];
+  return r.imported ? r.image : plan->objects.images[resource_index];
 }
 gpu::BufferHandle FrameGraph::State::buffer_of(std::uint32_t resource_index) const {
   const DeclaredResource& r = declaration.resources[resource_index];
-  return r.imported ? r.buffer : plan->buffers[resource_index];
+  return r.imported ? r.buffer : plan->objects.buffers[resource_index];
 }
 
 void FrameGraph::State::record_barriers(gpu::CommandList& commands, std::uint32_t first, std::uint32_t end) {
@@ -42,10 +42,13 @@ void FrameGraph::State::record_barriers(gpu::CommandList& commands, std::uint32_
   image_barriers.clear();
   for (std::uint32_t i = first; i < end; ++i) {
     const PlannedBarrier& b = plan->plan.barriers[i];
-    if (declaration.resources[b.resource].is_image) {
-      image_barriers.push_back({image_of(b.resource), b.before, b.after, b.also_before, b.also_after, b.range});
+    const frame::DeclaredResource& resource = declaration.resources[b.resource];
+    const bool takes_over = b.before == gpu::Access::none && !resource.imported;
+    const gpu::AccessMask also_before = b.also_before | (takes_over ? other_plans : 0);
+    if (resource.is_image) {
+      image_barriers.push_back({image_of(b.resource), b.before, b.after, also_before, b.also_after, b.range});
     } else {
-      buffer_barriers.push_back({buffer_of(b.resource), b.before, b.after, b.also_before, b.also_after});
+      buffer_barriers.push_back({buffer_of(b.resource), b.before, b.after, also_before, b.also_after});
     }
   }
   commands.barrier(buffer_barriers, image_barriers);
@@ -55,6 +58,7 @@ void FrameGraph::execute(gpu::CommandList& commands) {
   State& s = *state_;
   GLOAM_ASSERT(s.stage == State::Stage::compiled, "execute needs a successful compile before it, once a frame");
   s.stage = State::Stage::executed;
+  s.other_plans = s.cache.begin_execution(*s.plan);
   s.timer.begin_frame(s.device.frame_number());
   frame::CountingCommands counting(commands);
   PassContext context(*this, counting);
@@ -114,7 +118,10 @@ double FrameGraph::gpu_ms() const {
   return state_->timer.gpu_ms();
 }
 
-void FrameGraph::free_idle_memory() { state_->cache.free_memory_except(state_->plan); }
+void FrameGraph::free_idle_memory() {
+  // A plan whose frame has not been declared anew belongs to the declaration that is still there.
+  state_->cache.free_memory_except(state_->plan, state_->declaration);
+}
 std::uint64_t FrameGraph::plans_compiled() const { return state_->cache.plans_compiled(); }
 std::uint64_t FrameGraph::plan_hash() const { return state_->hash; }
 std::uint64_t FrameGraph::transient_bytes() const {

@@ -124,11 +124,13 @@ class FrameGraph {
   [[nodiscard]] std::uint64_t plan_hash() const;
   /// One line per pass: name, module, reads, writes, and after compile its barriers or "culled".
   [[nodiscard]] std::string describe() const;
-  /// Bytes of transient memory in the current plan: as allocated, and as it would be without memory sharing.
+  /// Bytes of transient memory that the current plan uses, and that it would use without memory sharing. All plans lie
+  /// in the same memory, so as much is allocated as the largest plan needs. The bytes that the current plan leaves
+  /// unused are accounted to "engine".
   [[nodiscard]] std::uint64_t transient_bytes() const;
   [[nodiscard]] std::uint64_t unshared_bytes() const;
-  /// Frees the transient memory of all cached plans except the current one. A plan that is not used for 60 frames frees
-  /// its memory automatically.
+  /// Shrinks transient memory to what the current plan needs; without a current plan (after begin) all is freed. What
+  /// only plans need that were not used for 60 frames is freed automatically.
   void free_idle_memory();
 
  private:

@@ -51,6 +51,7 @@ struct FrameGraph::State {
   std::uint32_t frame_number = 1;
   std::uint64_t hash = 0;
   frame::CachedPlan* plan = nullptr;  ///< plan of this frame; null before compile
+  gpu::AccessMask other_plans = 0;    ///< what the first barriers of transients wait for besides their plan's users
   std::uint32_t recording_pass = frame::kNone;
   std::vector<gpu::BufferBarrier> buffer_barriers;
   std::vector<gpu::ImageBarrier> image_barriers;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/core/assert.h"
 #include "engine/frame/barrier_placer.h"
 #include "engine/gpu/access.h"
 #include "engine/gpu/subresources.h"
@@ -55,9 +56,7 @@ void add_usage(ResourceLife& life, const DeclaredUse& use, bool is_image) {
   });
 }
 
-}  // namespace
-
-Plan compile_plan(const Declaration& declaration) {
+Plan place_barriers(const Declaration& declaration) {
   Plan plan;
   plan.lives.resize(declaration.resources.size());
   const std::vector<bool> live = find_live_passes(declaration);
@@ -76,7 +75,21 @@ Plan compile_plan(const Declaration& declaration) {
     }
   }
   placer.finish();
-  share_memory(declaration, plan);
+  return plan;
+}
+
+}  // namespace
+
+Plan compile_plan(const Declaration& declaration) {
+  Plan plan = place_barriers(declaration);
+  const Status shared = share_memory(declaration, nullptr, plan);
+  GLOAM_ASSERT(shared.ok(), "only a device can refuse a resource");
+  return plan;
+}
+
+Result<Plan> compile_plan(const Declaration& declaration, const gpu::Device& device) {
+  Plan plan = place_barriers(declaration);
+  GLOAM_TRY(share_memory(declaration, &device, plan));
   return plan;
 }
 

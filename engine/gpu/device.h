@@ -56,6 +56,20 @@ class Device {
   /// description, in order. The bytes are counted once, for the module of the first image.
   [[nodiscard]] virtual Result<std::vector<ImageHandle>> create_aliased_images(std::span<const ImageDesc> descs) = 0;
 
+  /// What an image or a buffer needs of a memory block. Fails as create_image and create_buffer do for the description.
+  [[nodiscard]] virtual Result<MemoryNeeds> memory_needs(const ImageDesc& desc) const = 0;
+  [[nodiscard]] virtual Result<MemoryNeeds> memory_needs(const BufferDesc& desc) const = 0;
+  [[nodiscard]] virtual Result<MemoryHandle> create_memory(const MemoryDesc& desc) = 0;
+  /// Create an image or a buffer (MemoryKind::device) inside a memory block. Places may overlap: a barrier with
+  /// `before` none takes the bytes over from earlier users, which lose their contents, and must wait for them. Nothing
+  /// is allocated, and no bytes are accounted.
+  [[nodiscard]] virtual Result<ImageHandle> create_image(const ImageDesc& desc, const MemoryPlace& place) = 0;
+  [[nodiscard]] virtual Result<BufferHandle> create_buffer(const BufferDesc& desc, const MemoryPlace& place) = 0;
+  /// Objects that are placed in the block may outlive the handle; the memory is freed with the last of them.
+  virtual void destroy(MemoryHandle memory) = 0;
+  /// Accounts the block's bytes to these modules; the rest stays with the block's own module.
+  virtual void account(MemoryHandle memory, std::span<const ModuleMemory> shares) = 0;
+
   /// Waits until the frame kFramesInFlight frames ago has finished on the GPU, then starts recording. Frames are
   /// numbered from 0.
   [[nodiscard]] virtual Result<CommandList*> begin_frame() = 0;

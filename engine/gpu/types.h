@@ -28,6 +28,7 @@ using ImageHandle = Handle<struct ImageTag>;
 using SamplerHandle = Handle<struct SamplerTag>;
 using PipelineHandle = Handle<struct PipelineTag>;
 using ResourceSetHandle = Handle<struct ResourceSetTag>;
+using MemoryHandle = Handle<struct MemoryTag>;
 
 enum class Format : std::uint8_t {
   undefined,
@@ -325,6 +326,27 @@ struct DeviceInfo {
   DeviceType type = DeviceType::other;
   std::uint32_t subgroup_size = 0;      ///< threads
   std::uint64_t max_storage_range = 0;  ///< largest size of one storage buffer binding, in bytes
+};
+
+/// What an image or a buffer needs of the memory block that it is placed in.
+struct MemoryNeeds {
+  std::uint64_t size = 0;       ///< bytes, > 0
+  std::uint64_t alignment = 1;  ///< of the offset; a power of two
+  std::uint32_t types = 0;      ///< kinds of memory that fit, a bit each; what a bit means is up to the device
+};
+
+/// A block of device memory. types: of all images and buffers that will be placed in it, combined with &.
+struct MemoryDesc {
+  std::string name;
+  std::string module;
+  std::uint64_t size = 0;  ///< bytes, > 0
+  std::uint32_t types = 0;
+};
+
+/// Where an image or a buffer lies in a memory block. offset: bytes, a multiple of its MemoryNeeds::alignment.
+struct MemoryPlace {
+  MemoryHandle memory;
+  std::uint64_t offset = 0;
 };
 
 struct ModuleMemory {

@@ -73,6 +73,29 @@ class GatedDevice final : public gpu::Device {
     count_resource();
     return inner_.create_aliased_images(descs);
   }
+  [[nodiscard]] Result<gpu::MemoryNeeds> memory_needs(const gpu::ImageDesc& desc) const override {
+    return inner_.memory_needs(desc);
+  }
+  [[nodiscard]] Result<gpu::MemoryNeeds> memory_needs(const gpu::BufferDesc& desc) const override {
+    return inner_.memory_needs(desc);
+  }
+  [[nodiscard]] Result<gpu::MemoryHandle> create_memory(const gpu::MemoryDesc& desc) override {
+    return inner_.create_memory(desc);
+  }
+  [[nodiscard]] Result<gpu::ImageHandle> create_image(const gpu::ImageDesc& desc,
+                                                      const gpu::MemoryPlace& place) override {
+    count_resource();
+    return inner_.create_image(desc, place);
+  }
+  [[nodiscard]] Result<gpu::BufferHandle> create_buffer(const gpu::BufferDesc& desc,
+                                                        const gpu::MemoryPlace& place) override {
+    count_resource();
+    return inner_.create_buffer(desc, place);
+  }
+  void destroy(gpu::MemoryHandle memory) override { inner_.destroy(memory); }
+  void account(gpu::MemoryHandle memory, std::span<const gpu::ModuleMemory> shares) override {
+    inner_.account(memory, shares);
+  }
   [[nodiscard]] Result<gpu::SamplerHandle> create_sampler(const gpu::SamplerDesc& desc) override {
     return inner_.create_sampler(desc);
   }

@@ -42,8 +42,16 @@ struct Placement {
 /// A piece of memory with all resources that were placed in it.
 struct Memory {
   std::string module;
-  std::uint64_t bytes = 0;
+  std::uint64_t bytes = 0;  ///< 0: bytes of a block, which are accounted with the block
   std::vector<std::shared_ptr<Placement>> placements;
+};
+
+/// A memory block into which callers place resources.
+struct Block {
+  MemoryDesc desc;
+  bool alive = true;
+  std::shared_ptr<Memory> memory;
+  std::vector<ModuleMemory> shares;
 };
 
 struct Buffer {
@@ -112,6 +120,7 @@ struct Objects {
   Table<Image> images;
   Table<Pipeline> pipelines;
   Table<ResourceSet> resource_sets;
+  Table<Block> blocks;
 
   void fault(std::string text) {
     const std::lock_guard lock(fault_mutex);

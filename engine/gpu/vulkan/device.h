@@ -16,6 +16,7 @@
 #include "engine/gpu/vulkan/images.h"
 #include "engine/gpu/vulkan/instance.h"
 #include "engine/gpu/vulkan/memory.h"
+#include "engine/gpu/vulkan/memory_blocks.h"
 #include "engine/gpu/vulkan/pipelines.h"
 #include "engine/gpu/vulkan/resource_sets.h"
 #include "engine/gpu/vulkan/samplers.h"
@@ -60,6 +61,18 @@ class VulkanDevice final : public Device {
     return images_.create_aliased(descs);
   }
 
+  [[nodiscard]] Result<MemoryNeeds> memory_needs(const ImageDesc& desc) const override { return images_.needs(desc); }
+  [[nodiscard]] Result<MemoryNeeds> memory_needs(const BufferDesc& desc) const override { return buffers_.needs(desc); }
+  [[nodiscard]] Result<MemoryHandle> create_memory(const MemoryDesc& desc) override { return blocks_.create(desc); }
+  [[nodiscard]] Result<ImageHandle> create_image(const ImageDesc& desc, const MemoryPlace& place) override {
+    return images_.create_in(desc, blocks_.get(place.memory), place.offset);
+  }
+  [[nodiscard]] Result<BufferHandle> create_buffer(const BufferDesc& desc, const MemoryPlace& place) override {
+    return buffers_.create_in(desc, blocks_.get(place.memory), place.offset);
+  }
+  void destroy(MemoryHandle memory) override { blocks_.destroy(memory); }
+  void account(MemoryHandle memory, std::span<const ModuleMemory> shares) override { blocks_.account(memory, shares); }
+
   [[nodiscard]] Result<CommandList*> begin_frame() override;
   [[nodiscard]] Status submit_frame() override;
   [[nodiscard]] std::uint64_t frame_number() const override { return frames_->number(); }
@@ -90,6 +103,7 @@ class VulkanDevice final : public Device {
   std::unique_ptr<Context> context_;
   Graveyard graveyard_;
   MemoryAllocator memory_;
+  MemoryBlocks blocks_;
   Buffers buffers_;
   Images images_;
   Samplers samplers_;

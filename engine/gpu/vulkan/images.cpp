@@ -8,6 +8,7 @@
 #include "engine/gpu/image_size.h"
 #include "engine/gpu/vulkan/convert.h"
 #include "engine/gpu/vulkan/errors.h"
+#include "engine/gpu/vulkan/memory_blocks.h"
 
 namespace gloam::gpu::vulkan {
 namespace {
@@ -100,6 +101,22 @@ Status check_limits(const Context& context, const ImageDesc& desc) {
   return {};
 }
 
+VkImageCreateInfo create_info(const ImageDesc& desc) {
+  const bool cube = desc.shape == ImageShape::cube;
+  return {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+          .flags = cube ? static_cast<VkImageCreateFlags>(VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT) : 0,
+          .imageType = desc.shape == ImageShape::volume ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D,
+          .format = to_vulkan(desc.format),
+          .extent = {desc.width, desc.height, desc.depth},
+          .mipLevels = desc.mips,
+          .arrayLayers = desc.layers,
+          .samples = VK_SAMPLE_COUNT_1_BIT,
+          .tiling = VK_IMAGE_TILING_OPTIMAL,
+          .usage = to_vulkan(desc.usage),
+          .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
+          .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+}
+
 }  // namespace
 
 bool supports(const Context& context, Format format, ImageUsage usage) {
@@ -137,20 +154,7 @@ Images::~Images() {
 Result<Image> Images::make(const ImageDesc& desc) const {
   check_rules(desc);
   GLOAM_TRY(check_limits(context_, desc));
-  const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-                                  .flags = desc.shape == ImageShape::cube
-                                               ? static_cast<VkImageCreateFlags>(VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT)
-                                               : 0,
-                                  .imageType = desc.shape == ImageShape::volume ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D,
-                                  .format = to_vulkan(desc.format),
-                                  .extent = {desc.width, desc.height, desc.depth},
-                                  .mipLevels = desc.mips,
-                                  .arrayLayers = desc.layers,
-                                  .samples = VK_SAMPLE_COUNT_1_BIT,
-                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
-                                  .usage = to_vulkan(desc.usage),
-                                  .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
-                                  .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+  const VkImageCreateInfo info = create_info(desc);
   Image image;
   image.desc = desc;
   image.access = Subresources<Access>(desc.mips, desc.layers);
@@ -160,12 +164,36 @@ Result<Image> Images::make(const ImageDesc& desc) const {
   return image;
 }
 
-Status Images::bind(Image& image, AllocationOwner memory) const {
+Status Images::bind(Image& image, AllocationOwner memory, std::uint64_t offset) const {
   image.memory = std::move(memory);
   const VkResult result =
-      context_.vk.vkBindImageMemory(context_.device, image.image, image.memory->memory, image.memory->offset);
+      context_.vk.vkBindImageMemory(context_.device, image.image, image.memory->memory, image.memory->offset + offset);
   if (result != VK_SUCCESS) return failure(cannot_make(image.desc), result);
   return {};
+}
+
+Result<MemoryNeeds> Images::needs(const ImageDesc& desc) const {
+  check_rules(desc);
+  GLOAM_TRY(check_limits(context_, desc));
+  const VkImageCreateInfo info = create_info(desc);
+  const VkDeviceImageMemoryRequirements query = {.sType = VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS,
+                                                 .pCreateInfo = &info};
+  VkMemoryRequirements2 requirements = {.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
+  context_.vk.vkGetDeviceImageMemoryRequirements(context_.device, &query, &requirements);
+  return needs_in_block(context_, requirements.memoryRequirements);
+}
+
+Result<ImageHandle> Images::create_in(const ImageDesc& desc, const AllocationOwner& block, std::uint64_t offset) {
+  Result<Image> image = make(desc);
+  if (!image) return image.error();
+  VkMemoryRequirements needs;
+  context_.vk.vkGetImageMemoryRequirements(context_.device, image->image, &needs);
+  check_place(context_, *block, needs, offset, desc.name);
+  if (const Status bound = bind(*image, block, offset); !bound) {
+    context_.vk.vkDestroyImage(context_.device, image->image, nullptr);
+    return bound.error();
+  }
+  return table_.insert(std::move(*image));
 }
 
 Result<ImageHandle> Images::create(const ImageDesc& desc) {
@@ -196,7 +224,7 @@ Result<std::vector<ImageHandle>> Images::create_aliased(std::span<const ImageDes
   const Result<AllocationOwner> memory = memory_.allocate(request);
   if (!memory) return fail(memory.error());
   for (Image& image : images) {
-    if (const Status bound = bind(image, *memory); !bound) return fail(bound.error());
+    if (const Status bound = bind(image, *memory, 0); !bound) return fail(bound.error());
   }
   std::vector<ImageHandle> handles;
   for (Image& image : images) handles.push_back(table_.insert(std::move(image)));

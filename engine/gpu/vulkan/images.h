@@ -54,6 +54,10 @@ class Images {
   ~Images();
 
   [[nodiscard]] Result<ImageHandle> create(const ImageDesc& desc);
+  /// Creates an image inside a memory block. offset: bytes from the begin of the block.
+  [[nodiscard]] Result<ImageHandle> create_in(const ImageDesc& desc, const AllocationOwner& block,
+                                              std::uint64_t offset);
+  [[nodiscard]] Result<MemoryNeeds> needs(const ImageDesc& desc) const;
   [[nodiscard]] Result<std::vector<ImageHandle>> create_aliased(std::span<const ImageDesc> descs);
   /// Adds an image owned by a window or a host. Destroying the handle destroys only the image's views.
   [[nodiscard]] ImageHandle adopt(const ImageDesc& desc, VkImage image);
@@ -65,7 +69,8 @@ class Images {
 
  private:
   [[nodiscard]] Result<Image> make(const ImageDesc& desc) const;
-  [[nodiscard]] Status bind(Image& image, AllocationOwner memory) const;
+  /// offset: bytes from the begin of `memory`.
+  [[nodiscard]] Status bind(Image& image, AllocationOwner memory, std::uint64_t offset) const;
   void release(const Image& image) const;
 
   Context& context_;
