@@ -70,11 +70,11 @@ Result<BufferHandle> Buffers::create(const BufferDesc& desc) {
 
 Result<BufferHandle> Buffers::create_in(const BufferDesc& desc, const AllocationOwner& block, std::uint64_t offset) {
   GLOAM_ASSERT(desc.memory == MemoryKind::device, "a buffer in a memory block is in device memory");
+  const Result<MemoryNeeds> needed = needs(desc);
+  if (!needed) return needed.error();
+  check_place(*block, *needed, offset, desc.name);
   Result<Buffer> buffer = make(desc);
   if (!buffer) return buffer.error();
-  VkMemoryRequirements needs;
-  context_.vk.vkGetBufferMemoryRequirements(context_.device, buffer->buffer, &needs);
-  check_place(context_, *block, needs, offset, desc.name);
   return bind(std::move(*buffer), block, offset);
 }
 

@@ -184,11 +184,11 @@ Result<MemoryNeeds> Images::needs(const ImageDesc& desc) const {
 }
 
 Result<ImageHandle> Images::create_in(const ImageDesc& desc, const AllocationOwner& block, std::uint64_t offset) {
+  const Result<MemoryNeeds> needed = needs(desc);
+  if (!needed) return needed.error();
+  check_place(*block, *needed, offset, desc.name);
   Result<Image> image = make(desc);
   if (!image) return image.error();
-  VkMemoryRequirements needs;
-  context_.vk.vkGetImageMemoryRequirements(context_.device, image->image, &needs);
-  check_place(context_, *block, needs, offset, desc.name);
   if (const Status bound = bind(*image, block, offset); !bound) {
     context_.vk.vkDestroyImage(context_.device, image->image, nullptr);
     return bound.error();

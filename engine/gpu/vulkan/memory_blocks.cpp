@@ -36,10 +36,8 @@ MemoryNeeds needs_in_block(const Context& context, const VkMemoryRequirements& r
           .types = requirements.memoryTypeBits};
 }
 
-void check_place(const Context& context, const Allocation& block, const VkMemoryRequirements& requirements,
-                 std::uint64_t offset, const std::string& name) {
-  const MemoryNeeds needs = needs_in_block(context, requirements);
-  GLOAM_ASSERT(offset % needs.alignment == 0 && offset <= block.size && requirements.size <= block.size - offset,
+void check_place(const Allocation& block, const MemoryNeeds& needs, std::uint64_t offset, const std::string& name) {
+  GLOAM_ASSERT(offset % needs.alignment == 0 && offset <= block.size && needs.size <= block.size - offset,
                "\"" + name + "\" lies inside its memory block, at a multiple of its alignment");
 }
 

@@ -40,8 +40,7 @@ class MemoryBlocks {
 /// bufferImageGranularity.
 [[nodiscard]] MemoryNeeds needs_in_block(const Context& context, const VkMemoryRequirements& requirements);
 
-/// Asserts that an object with these requirements fits at this offset.
-void check_place(const Context& context, const Allocation& block, const VkMemoryRequirements& requirements,
-                 std::uint64_t offset, const std::string& name);
+/// Asserts that an object with these needs fits the block at this offset.
+void check_place(const Allocation& block, const MemoryNeeds& needs, std::uint64_t offset, const std::string& name);
 
 }  // namespace gloam::gpu::vulkan
