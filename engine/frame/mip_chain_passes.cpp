@@ -6,7 +6,7 @@
 #include <array>
 
 #include "engine/core/assert.h"
-#include "shaders/mips/shaders.h"
+#include "shaders/frame/shaders.h"
 
 namespace gloam {
 
@@ -57,17 +57,17 @@ ImageRef add_blit_pass(FrameGraph& graph, const MipChain& chain, ImageRef larger
 std::optional<gpu::ShaderCode> mip_chain_shader(gpu::Format format) {
   switch (format) {
     case gpu::Format::rgba8_unorm:
-      return shaders::mips::halve_rgba8_comp;
+      return shaders::frame::halve_rgba8_comp;
     case gpu::Format::rgba16_float:
-      return shaders::mips::halve_rgba16f_comp;
+      return shaders::frame::halve_rgba16f_comp;
     case gpu::Format::r32_float:
-      return shaders::mips::halve_r32f_comp;
+      return shaders::frame::halve_r32f_comp;
     case gpu::Format::r16_float:
-      return shaders::mips::halve_r16f_comp;
+      return shaders::frame::halve_r16f_comp;
     case gpu::Format::rg16_float:
-      return shaders::mips::halve_rg16f_comp;
+      return shaders::frame::halve_rg16f_comp;
     case gpu::Format::rg11b10_float:
-      return shaders::mips::halve_r11f_g11f_b10f_comp;
+      return shaders::frame::halve_r11f_g11f_b10f_comp;
     default:
       return std::nullopt;
   }

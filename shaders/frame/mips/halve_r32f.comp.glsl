@@ -2,5 +2,5 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define GLOAM_MIP_FORMAT r16f
-#include "shaders/mips/halve.glsl"
+#define GLOAM_MIP_FORMAT r32f
+#include "shaders/frame/mips/halve.glsl"

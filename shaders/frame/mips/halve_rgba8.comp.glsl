@@ -3,4 +3,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GLOAM_MIP_FORMAT rgba8
-#include "shaders/mips/halve.glsl"
+#include "shaders/frame/mips/halve.glsl"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#ifndef GLOAM_SHADERS_MIPS_HALVE_GLSL
-#define GLOAM_SHADERS_MIPS_HALVE_GLSL
+#ifndef GLOAM_SHADERS_FRAME_MIPS_HALVE_GLSL
+#define GLOAM_SHADERS_FRAME_MIPS_HALVE_GLSL
 
 // Writes a mip of all layers from the next larger one: each texel is the mean of 2×2 texels. Of an odd size the last
 // row or column is left out; a side of one texel counts twice. GLOAM_MIP_FORMAT: storage format of the image.

@@ -2,5 +2,5 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define GLOAM_MIP_FORMAT rgba16f
-#include "shaders/mips/halve.glsl"
+#define GLOAM_MIP_FORMAT rg16f
+#include "shaders/frame/mips/halve.glsl"
