@@ -37,10 +37,12 @@ class CountingCommands final : public gpu::CommandList {
   void fill_buffer(gpu::BufferHandle buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t word) override {
     next_.fill_buffer(buffer, offset, size, word);
   }
-  void clear_color_image(gpu::ImageHandle image, std::array<std::uint32_t, 4> bits) override {
-    next_.clear_color_image(image, bits);
+  void clear_color_image(gpu::ImageHandle image, std::array<std::uint32_t, 4> bits, gpu::ImageRange range) override {
+    next_.clear_color_image(image, bits, range);
   }
-  void blit(gpu::ImageHandle source, gpu::ImageHandle target) override { next_.blit(source, target); }
+  void blit(gpu::ImageHandle source, gpu::ImageHandle target, gpu::ImagePart from, gpu::ImagePart to) override {
+    next_.blit(source, target, from, to);
+  }
   void begin_rendering(const gpu::RenderingDesc& desc) override { next_.begin_rendering(desc); }
   void end_rendering() override { next_.end_rendering(); }
   void set_viewport(float x, float y, float width, float height) override { next_.set_viewport(x, y, width, height); }

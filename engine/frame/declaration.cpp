@@ -33,10 +33,11 @@ void hash_resource(Hasher& hasher, const DeclaredResource& resource) {
   hasher.value(resource.is_image).value(resource.imported).text(resource.name());
   if (resource.imported) {
     hasher.value(resource.before).value(resource.after);
+    if (resource.is_image) hasher.value(resource.image_desc.mips).value(resource.image_desc.layers);
   } else if (resource.is_image) {
     const gpu::ImageDesc& d = resource.image_desc;
     hasher.text(d.module).value(d.format).value(d.width).value(d.height).value(d.layers).value(d.mips);
-    hasher.value(d.usage).value(d.shape);
+    hasher.value(d.usage).value(d.shape).value(d.depth);
   } else {
     const gpu::BufferDesc& d = resource.buffer_desc;
     hasher.text(d.module).value(d.size).value(d.usage).value(d.memory);
@@ -66,6 +67,9 @@ std::uint64_t structural_hash(const Declaration& declaration) {
   }
   for (const DeclaredUse& use : declaration.uses) {
     hasher.value(use.resource).value(use.accesses).value(use.reads).value(use.writes);
+    if (use.range == gpu::ImageRange()) continue;
+    hasher.value(use.range.first_mip).value(use.range.mip_count);
+    hasher.value(use.range.first_layer).value(use.range.layer_count);
   }
   return hasher.digest();
 }

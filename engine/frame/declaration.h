@@ -22,7 +22,7 @@ namespace frame {
 struct DeclaredResource {
   bool is_image = false;
   bool imported = false;
-  gpu::ImageDesc image_desc;    ///< of a transient image; an import sets only the name
+  gpu::ImageDesc image_desc;    ///< of a transient image; an import sets the name, and mips and layers if they matter
   gpu::BufferDesc buffer_desc;  ///< of a transient buffer; an import sets only the name
   gpu::ImageHandle image;       ///< of an import
   gpu::BufferHandle buffer;     ///< of an import
@@ -33,7 +33,8 @@ struct DeclaredResource {
   [[nodiscard]] const std::string& name() const { return is_image ? image_desc.name : buffer_desc.name; }
 };
 
-/// All accesses of one pass to one resource.
+/// All accesses of one pass to one resource, or to one range of an image's mips and layers. Ranges of one pass do not
+/// overlap.
 struct DeclaredUse {
   std::uint32_t resource = 0;
   gpu::AccessMask accesses = 0;     ///< reads of one layout, or one write
@@ -41,6 +42,7 @@ struct DeclaredUse {
   std::uint32_t last_version = 0;   ///< version after the pass
   bool reads = false;
   bool writes = false;
+  gpu::ImageRange range;  ///< default: the whole resource; otherwise without counts of 0
 };
 
 struct DeclaredPass {

@@ -7,6 +7,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/frame_graph_state.h"
 #include "engine/gpu/access.h"
+#include "engine/gpu/subresources.h"
 
 namespace gloam {
 
@@ -31,7 +32,7 @@ std::string text_of_uses(const Declaration& declaration, const DeclaredPass& pas
   for (const DeclaredUse& use : declaration.uses_of(pass)) {
     if (use.writes != writes) continue;
     text += text.empty() ? (writes ? "; writes " : "; reads ") : ", ";
-    text += declaration.resources[use.resource].name() + " " + text_of(use.accesses);
+    text += declaration.resources[use.resource].name() + gpu::text_of(use.range) + " " + text_of(use.accesses);
   }
   return text;
 }
@@ -42,7 +43,7 @@ std::string text_of_barriers(const Declaration& declaration, const Plan& plan, s
     const frame::PlannedBarrier& b = plan.barriers[i];
     const bool discards = b.before == gpu::Access::none;
     text += text.empty() ? "; barriers " : ", ";
-    text += declaration.resources[b.resource].name() + " ";
+    text += declaration.resources[b.resource].name() + gpu::text_of(b.range) + " ";
     // "none" means that the contents are discarded. The barrier then waits for the earlier accesses to the memory.
     text += discards ? (b.also_before == 0 ? "none" : "none after " + text_of(b.also_before))
                      : text_of(gpu::mask_of(b.before) | b.also_before);

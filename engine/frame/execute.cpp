@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // FrameGraph: compiles a frame, records its passes, and reports their times and memory.
+#include <algorithm>
+
 #include "engine/core/assert.h"
 #include "engine/frame/counting_commands.h"
 #include "engine/frame/frame_graph.h"
@@ -27,11 +29,11 @@ Status FrameGraph::compile() {
 
 gpu::ImageHandle FrameGraph::State::image_of(std::uint32_t resource_index) const {
   const DeclaredResource& r = declaration.resources[resource_index];
-  return r.imported ? r.image : plan->images[resource_index];
+  return r.imported ? r.image : plan->objects.images[resource_index];
 }
 gpu::BufferHandle FrameGraph::State::buffer_of(std::uint32_t resource_index) const {
   const DeclaredResource& r = declaration.resources[resource_index];
-  return r.imported ? r.buffer : plan->buffers[resource_index];
+  return r.imported ? r.buffer : plan->objects.buffers[resource_index];
 }
 
 void FrameGraph::State::record_barriers(gpu::CommandList& commands, std::uint32_t first, std::uint32_t end) {
@@ -40,10 +42,13 @@ void FrameGraph::State::record_barriers(gpu::CommandList& commands, std::uint32_
   image_barriers.clear();
   for (std::uint32_t i = first; i < end; ++i) {
     const PlannedBarrier& b = plan->plan.barriers[i];
-    if (declaration.resources[b.resource].is_image) {
-      image_barriers.push_back({image_of(b.resource), b.before, b.after, b.also_before, b.also_after});
+    const frame::DeclaredResource& resource = declaration.resources[b.resource];
+    const bool takes_over = b.before == gpu::Access::none && !resource.imported;
+    const gpu::AccessMask also_before = b.also_before | (takes_over ? other_plans : 0);
+    if (resource.is_image) {
+      image_barriers.push_back({image_of(b.resource), b.before, b.after, also_before, b.also_after, b.range});
     } else {
-      buffer_barriers.push_back({buffer_of(b.resource), b.before, b.after, b.also_before, b.also_after});
+      buffer_barriers.push_back({buffer_of(b.resource), b.before, b.after, also_before, b.also_after});
     }
   }
   commands.barrier(buffer_barriers, image_barriers);
@@ -53,6 +58,7 @@ void FrameGraph::execute(gpu::CommandList& commands) {
   State& s = *state_;
   GLOAM_ASSERT(s.stage == State::Stage::compiled, "execute needs a successful compile before it, once a frame");
   s.stage = State::Stage::executed;
+  s.other_plans = s.cache.begin_execution(*s.plan);
   s.timer.begin_frame(s.device.frame_number());
   frame::CountingCommands counting(commands);
   PassContext context(*this, counting);
@@ -104,26 +110,31 @@ bool FrameGraph::writes(BufferRef buffer) const {
 }
 
 template <class Kind>
-const DeclaredUse& FrameGraph::State::declared_use(FrameRef<Kind> ref) {
+void FrameGraph::State::check_declared(FrameRef<Kind> ref) {
   const DeclaredResource& wanted = resource(ref);
   GLOAM_ASSERT(recording_pass != frame::kNone, "a pass asks for its resources while it records");
   const frame::DeclaredPass& pass = declaration.passes[recording_pass];
-  const DeclaredUse* found = nullptr;
+  bool declared = false;
+  std::uint32_t first = ~0u;
+  std::uint32_t last = 0;
   for (const DeclaredUse& use : declaration.uses_of(pass)) {
-    if (use.resource == ref.resource) found = &use;
+    if (use.resource != ref.resource) continue;
+    declared = true;
+    first = std::min(first, use.first_version);
+    last = std::max(last, use.last_version);
   }
-  GLOAM_ASSERT(found != nullptr,
-               "pass '" + pass.name + "' uses resource '" + wanted.name() + "' that it did not declare");
-  GLOAM_ASSERT(ref.version >= found->first_version && ref.version <= found->last_version,
+  GLOAM_ASSERT(declared, "pass '" + pass.name + "' uses resource '" + wanted.name() + "' that it did not declare");
+  GLOAM_ASSERT(ref.version >= first && ref.version <= last,
                "pass '" + pass.name + "' uses another version of resource '" + wanted.name() + "' than it declared");
-  return *found;
 }
 
 gpu::ImageHandle PassContext::image(ImageRef ref) const {
-  return graph_.state_->image_of(graph_.state_->declared_use(ref).resource);
+  graph_.state_->check_declared(ref);
+  return graph_.state_->image_of(ref.resource);
 }
 gpu::BufferHandle PassContext::buffer(BufferRef ref) const {
-  return graph_.state_->buffer_of(graph_.state_->declared_use(ref).resource);
+  graph_.state_->check_declared(ref);
+  return graph_.state_->buffer_of(ref.resource);
 }
 
 std::vector<PassTime> FrameGraph::pass_times() {
@@ -139,7 +150,10 @@ std::vector<GpuFrameTimes> FrameGraph::take_times() {
   return state_->timer.take();
 }
 
-void FrameGraph::free_idle_memory() { state_->cache.free_memory_except(state_->plan); }
+void FrameGraph::free_idle_memory() {
+  // A plan whose frame has not been declared anew belongs to the declaration that is still there.
+  state_->cache.free_memory_except(state_->plan, state_->declaration);
+}
 std::uint64_t FrameGraph::plans_compiled() const { return state_->cache.plans_compiled(); }
 std::uint64_t FrameGraph::plan_hash() const { return state_->hash; }
 std::uint64_t FrameGraph::transient_bytes() const {

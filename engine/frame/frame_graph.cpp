@@ -5,6 +5,7 @@
 #include "engine/core/assert.h"
 #include "engine/frame/frame_graph_state.h"
 #include "engine/gpu/access.h"
+#include "engine/gpu/subresources.h"
 
 namespace gloam {
 
@@ -20,8 +21,20 @@ std::string in_pass(const DeclaredPass& pass, const DeclaredResource& resource) 
 
 }  // namespace
 
+gpu::ImageRange FrameGraph::State::range_of_use(DeclaredResource& image, const gpu::ImageRange& range) const {
+  if (range == gpu::ImageRange()) return range;
+  gpu::ImageDesc& desc = image.image_desc;
+  if (image.imported) {
+    desc.mips = device.desc(image.image).mips;
+    desc.layers = device.desc(image.image).layers;
+  }
+  const gpu::ImageRange resolved = gpu::resolve(range, desc);
+  return resolved.mip_count == desc.mips && resolved.layer_count == desc.layers ? gpu::ImageRange() : resolved;
+}
+
 template <class Kind>
-std::uint32_t FrameGraph::State::add_use(std::uint32_t pass_index, FrameRef<Kind> ref, gpu::Access access, bool write) {
+std::uint32_t FrameGraph::State::add_use(std::uint32_t pass_index, FrameRef<Kind> ref, gpu::Access access, bool write,
+                                         const gpu::ImageRange& range) {
   check_declaring();
   GLOAM_ASSERT(pass_index + 1 == declaration.passes.size(),
                "a pass declares its reads and writes before the next pass is added");
@@ -31,19 +44,29 @@ std::uint32_t FrameGraph::State::add_use(std::uint32_t pass_index, FrameRef<Kind
                in_pass(pass, target) + std::string(name_of(access)) + (write ? " writes nothing" : " is no read"));
   GLOAM_ASSERT(target.is_image ? gpu::fits_image(access) : gpu::fits_buffer(access),
                in_pass(pass, target) + "this kind of resource has no access " + std::string(name_of(access)));
+  const gpu::ImageRange used = range_of_use(target, range);
   DeclaredUse* use = nullptr;
-  for (std::uint32_t i = pass.first_use; i < declaration.uses.size() && use == nullptr; ++i) {
-    if (declaration.uses[i].resource == ref.resource) use = &declaration.uses[i];
+  bool replaced_here = false;
+  for (std::uint32_t i = pass.first_use; i < declaration.uses.size(); ++i) {
+    DeclaredUse& other = declaration.uses[i];
+    if (other.resource != ref.resource) continue;
+    // A pass may read the version that it replaces; it may declare the read before or after the write.
+    replaced_here = replaced_here || (!write && ref.version >= other.first_version);
+    if (other.range == used) {
+      use = &other;
+    } else {
+      const gpu::ImageDesc& desc = target.image_desc;
+      GLOAM_ASSERT(!overlap(gpu::resolve(other.range, desc), gpu::resolve(used, desc)),
+                   in_pass(pass, target) + "ranges of mips and layers in one pass are equal or disjoint");
+    }
   }
-  // A pass may read the version that it replaces; it may declare the read before or after the write.
-  const bool replaced_here = use != nullptr && !write && ref.version >= use->first_version;
   GLOAM_ASSERT(ref.version == target.version || replaced_here,
                in_pass(pass, target) + "this handle is stale; a pass has written a newer version since");
   GLOAM_ASSERT(write || target.imported || target.version > 0,
                in_pass(pass, target) + "a transient is read that no pass has written");
   if (use == nullptr) {
-    use = &declaration.uses.emplace_back(
-        DeclaredUse{.resource = ref.resource, .first_version = ref.version, .last_version = ref.version});
+    use = &declaration.uses.emplace_back(DeclaredUse{
+        .resource = ref.resource, .first_version = ref.version, .last_version = ref.version, .range = used});
     ++pass.use_count;
   }
   const gpu::AccessMask combined = frame::combine_accesses(use->accesses, access, target.is_image);
@@ -56,11 +79,13 @@ std::uint32_t FrameGraph::State::add_use(std::uint32_t pass_index, FrameRef<Kind
   return target.version;
 }
 
-void PassBuilder::read(ImageRef image, gpu::Access access) { graph_.state_->add_use(pass_, image, access, false); }
+void PassBuilder::read(ImageRef image, gpu::Access access, const gpu::ImageRange& range) {
+  graph_.state_->add_use(pass_, image, access, false, range);
+}
 void PassBuilder::read(BufferRef buffer, gpu::Access access) { graph_.state_->add_use(pass_, buffer, access, false); }
 
-ImageRef PassBuilder::write(ImageRef image, gpu::Access access) {
-  return {image.resource, graph_.state_->add_use(pass_, image, access, true), image.frame};
+ImageRef PassBuilder::write(ImageRef image, gpu::Access access, const gpu::ImageRange& range) {
+  return {image.resource, graph_.state_->add_use(pass_, image, access, true, range), image.frame};
 }
 BufferRef PassBuilder::write(BufferRef buffer, gpu::Access access) {
   return {buffer.resource, graph_.state_->add_use(pass_, buffer, access, true), buffer.frame};
@@ -115,7 +140,7 @@ std::uint32_t FrameGraph::frame() const { return state_->frame_number; }
 ImageRef FrameGraph::create_image(gpu::ImageDesc desc) {
   state_->check_declaring();
   GLOAM_ASSERT(desc.format != gpu::Format::undefined, "a transient image has a format: '" + desc.name + "'");
-  GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.mips > 0,
+  GLOAM_ASSERT(desc.width > 0 && desc.height > 0 && desc.depth > 0 && desc.layers > 0 && desc.mips > 0,
                "a transient image has a width, a height, a layer and a mip: '" + desc.name + "'");
   add_resource(state_->declaration, true, false).image_desc = std::move(desc);
   return {state_->declaration.resources.size() - 1, 0, state_->frame_number};
@@ -138,6 +163,7 @@ ImageRef FrameGraph::import_image(std::string_view name, gpu::ImageHandle image,
   }
   DeclaredResource& resource = add_resource(state_->declaration, true, true);
   resource.image_desc.name = name;
+  resource.image_desc.mips = resource.image_desc.layers = 1;
   resource.image = image;
   resource.before = before;
   resource.after = after;

@@ -47,13 +47,16 @@ using PassFunction = std::function<void(PassContext&)>;
 
 /// Declares one pass: the resources that it reads and writes, and the function that records it. Reads and writes must
 /// be declared before the next pass is added. A pass may declare one resource several times if one layout and one
-/// barrier suffice: several reads, or a write that includes the reads. Other combinations assert.
+/// barrier suffice: several reads, or a write that includes the reads. Other combinations assert. Mips and layers of an
+/// image are separate in this respect: a pass may read one mip and write the next. Two ranges of one image in one pass
+/// must be equal or disjoint. Passes that write different mips or layers do not wait for each other.
 class PassBuilder {
  public:
   PassBuilder(FrameGraph& graph, std::uint32_t pass) : graph_(graph), pass_(pass) {}
-  void read(ImageRef image, gpu::Access access);
+  void read(ImageRef image, gpu::Access access, const gpu::ImageRange& range = {});
   void read(BufferRef buffer, gpu::Access access);
-  [[nodiscard]] ImageRef write(ImageRef image, gpu::Access access);
+  /// Other mips and layers than those of the range keep their contents.
+  [[nodiscard]] ImageRef write(ImageRef image, gpu::Access access, const gpu::ImageRange& range = {});
   [[nodiscard]] BufferRef write(BufferRef buffer, gpu::Access access);
   /// Prevents culling, for a pass with effects that the graph does not track.
   void keep();
@@ -103,7 +106,8 @@ class FrameGraph {
   [[nodiscard]] BufferRef create_buffer(gpu::BufferDesc desc);
   /// Imports an object that is owned outside the graph, at most once per frame. `before`: its last access outside the
   /// graph (none: the contents may be discarded). `after`: the access that it is left ready for at the end of the frame
-  /// (none: its last access in the graph). Passes that write an import are never culled.
+  /// (none: its last access in the graph, which must then be the same for all mips and layers if the contents are
+  /// kept). Passes that write an import are never culled.
   [[nodiscard]] ImageRef import_image(std::string_view name, gpu::ImageHandle image, gpu::Access before,
                                       gpu::Access after);
   [[nodiscard]] BufferRef import_buffer(std::string_view name, gpu::BufferHandle buffer, gpu::Access before,
@@ -144,11 +148,13 @@ class FrameGraph {
   [[nodiscard]] std::uint64_t plan_hash() const;
   /// One line per pass: name, module, reads, writes, and after compile its barriers or "culled".
   [[nodiscard]] std::string describe() const;
-  /// Bytes of transient memory in the current plan: as allocated, and as it would be without memory sharing.
+  /// Bytes of transient memory that the current plan uses, and that it would use without memory sharing. All plans lie
+  /// in the same memory, so as much is allocated as the largest plan needs. The bytes that the current plan leaves
+  /// unused are accounted to "engine".
   [[nodiscard]] std::uint64_t transient_bytes() const;
   [[nodiscard]] std::uint64_t unshared_bytes() const;
-  /// Frees the transient memory of all cached plans except the current one. A plan that is not used for 60 frames frees
-  /// its memory automatically.
+  /// Shrinks transient memory to what the current plan needs; without a current plan (after begin) all is freed. What
+  /// only plans need that were not used for 60 frames is freed automatically.
   void free_idle_memory();
 
  private:

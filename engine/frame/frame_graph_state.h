@@ -28,10 +28,13 @@ struct FrameGraph::State {
   }
   /// Adds an access of a pass to a resource. Returns the resource's version after the access.
   template <class Kind>
-  std::uint32_t add_use(std::uint32_t pass, FrameRef<Kind> ref, gpu::Access access, bool write);
-  /// The use of a resource by the pass that is being recorded; asserts if the pass has not declared one.
+  std::uint32_t add_use(std::uint32_t pass, FrameRef<Kind> ref, gpu::Access access, bool write,
+                        const gpu::ImageRange& range = {});
+  /// `range` with counts; the default range if it is the whole image.
+  [[nodiscard]] gpu::ImageRange range_of_use(frame::DeclaredResource& image, const gpu::ImageRange& range) const;
+  /// Asserts that the pass that is being recorded has declared this version of the resource.
   template <class Kind>
-  const frame::DeclaredUse& declared_use(FrameRef<Kind> ref);
+  void check_declared(FrameRef<Kind> ref);
 
   /// Whether a pass of the plan writes the resource.
   [[nodiscard]] bool writes(std::uint32_t resource_index) const;
@@ -51,6 +54,7 @@ struct FrameGraph::State {
   std::uint32_t frame_number = 1;
   std::uint64_t hash = 0;
   frame::CachedPlan* plan = nullptr;  ///< plan of this frame; null before compile
+  gpu::AccessMask other_plans = 0;    ///< what the first barriers of transients wait for besides their plan's users
   std::uint32_t recording_pass = frame::kNone;
   Status recorded;  ///< of the last execute
   std::vector<gpu::BufferBarrier> buffer_barriers;

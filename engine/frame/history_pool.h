@@ -36,7 +36,7 @@ struct HistoryImages {
   using Ref = ImageRef;
   [[nodiscard]] static bool same(const Desc& a, const Desc& b) {
     const auto tie = [](const Desc& d) {
-      return std::tie(d.format, d.width, d.height, d.layers, d.mips, d.usage, d.shape);
+      return std::tie(d.format, d.width, d.height, d.layers, d.mips, d.usage, d.shape, d.depth);
     };
     return tie(a) == tie(b);
   }

@@ -29,7 +29,7 @@ class CommandList {
   virtual void copy_buffer(BufferHandle source, std::uint64_t source_offset, BufferHandle target,
                            std::uint64_t target_offset, std::uint64_t size) = 0;
   /// Copies tightly packed texels to one mip of the layers [first_layer, first_layer + layer_count), layer after layer.
-  /// source_offset: bytes.
+  /// A volume has one layer, with one slice after the other. source_offset: bytes.
   virtual void copy_buffer_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target,
                                     std::uint32_t mip, std::uint32_t first_layer, std::uint32_t layer_count) = 0;
   /// Copies one mip of one layer to tightly packed texels. target_offset: bytes.
@@ -37,12 +37,13 @@ class CommandList {
                                     std::uint64_t target_offset) = 0;
   /// Fills a range with copies of `word`. offset and size: bytes, multiples of 4, size > 0.
   virtual void fill_buffer(BufferHandle buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t word) = 0;
-  /// Sets all mips and layers of a colour image, which must be ready for transfer_write. bits: the four channels as
-  /// bits of a float, or as an integer for integer formats.
-  virtual void clear_color_image(ImageHandle image, std::array<std::uint32_t, 4> bits) = 0;
-  /// Copies mip 0 of layer 0 of a colour image to another, scaled with a linear filter. source must be ready for
-  /// transfer_read, target for transfer_write.
-  virtual void blit(ImageHandle source, ImageHandle target) = 0;
+  /// Sets mips and layers of a colour image, which must be ready for transfer_write. bits: the four channels as bits of
+  /// a float, or as an integer for integer formats.
+  virtual void clear_color_image(ImageHandle image, std::array<std::uint32_t, 4> bits, ImageRange range = {}) = 0;
+  /// Copies one mip of one layer of a colour image to another, scaled with a linear filter. `from` must be ready for
+  /// transfer_read, `to` for transfer_write. Both are volumes, or neither is. source and target may be one image if the
+  /// two parts differ.
+  virtual void blit(ImageHandle source, ImageHandle target, ImagePart from = {}, ImagePart to = {}) = 0;
 
   virtual void begin_rendering(const RenderingDesc& desc) = 0;
   virtual void end_rendering() = 0;

@@ -26,7 +26,13 @@ class Device {
 
   [[nodiscard]] virtual const DeviceInfo& info() const = 0;
 
+  /// Whether images of this format can be made for all of these uses, of any shape (volumes: without targets).
+  [[nodiscard]] virtual bool supports(Format format, ImageUsage usage) const = 0;
+  /// Whether CommandList::blit works from and to images of this format. Integer and depth formats are never filtered.
+  [[nodiscard]] virtual bool supports_blit(Format format) const = 0;
+
   [[nodiscard]] virtual Result<BufferHandle> create_buffer(const BufferDesc& desc) = 0;
+  /// Fails if the device does not support the format for the usage, or the size.
   [[nodiscard]] virtual Result<ImageHandle> create_image(const ImageDesc& desc) = 0;
   /// Equal descriptions return the same sampler. It lives as long as the device.
   [[nodiscard]] virtual Result<SamplerHandle> create_sampler(const SamplerDesc& desc) = 0;
@@ -49,6 +55,20 @@ class Device {
   /// Creates images that share one piece of memory: only one of them can be in use at a time. Returns one handle per
   /// description, in order. The bytes are counted once, for the module of the first image.
   [[nodiscard]] virtual Result<std::vector<ImageHandle>> create_aliased_images(std::span<const ImageDesc> descs) = 0;
+
+  /// What an image or a buffer needs of a memory block. Fails as create_image and create_buffer do for the description.
+  [[nodiscard]] virtual Result<MemoryNeeds> memory_needs(const ImageDesc& desc) const = 0;
+  [[nodiscard]] virtual Result<MemoryNeeds> memory_needs(const BufferDesc& desc) const = 0;
+  [[nodiscard]] virtual Result<MemoryHandle> create_memory(const MemoryDesc& desc) = 0;
+  /// Create an image or a buffer (MemoryKind::device) inside a memory block. Places may overlap: a barrier with
+  /// `before` none takes the bytes over from earlier users, which lose their contents, and must wait for them. Nothing
+  /// is allocated, and no bytes are accounted.
+  [[nodiscard]] virtual Result<ImageHandle> create_image(const ImageDesc& desc, const MemoryPlace& place) = 0;
+  [[nodiscard]] virtual Result<BufferHandle> create_buffer(const BufferDesc& desc, const MemoryPlace& place) = 0;
+  /// Objects that are placed in the block may outlive the handle; the memory is freed with the last of them.
+  virtual void destroy(MemoryHandle memory) = 0;
+  /// Accounts the block's bytes to these modules; the rest stays with the block's own module.
+  virtual void account(MemoryHandle memory, std::span<const ModuleMemory> shares) = 0;
 
   /// Waits until the frame kFramesInFlight frames ago has finished on the GPU, then starts recording. Frames are
   /// numbered from 0.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "engine/gpu/types.h"
@@ -11,10 +12,14 @@
 /// memory on a device.
 namespace gloam::gpu {
 
+/// The number of mips down to one texel.
+[[nodiscard]] inline std::uint32_t full_mip_count(const ImageDesc& desc) {
+  return static_cast<std::uint32_t>(std::bit_width(std::max({desc.width, desc.height, desc.depth})));
+}
 /// Bytes of one layer of one mip.
 [[nodiscard]] inline std::uint64_t mip_bytes(const ImageDesc& desc, std::uint32_t mip) {
   return std::uint64_t{std::max(desc.width >> mip, 1u)} * std::max(desc.height >> mip, 1u) *
-         bytes_per_texel(desc.format);
+         std::max(desc.depth >> mip, 1u) * bytes_per_texel(desc.format);
 }
 /// Bytes of one layer with all its mips.
 [[nodiscard]] inline std::uint64_t layer_bytes(const ImageDesc& desc) {

@@ -20,6 +20,7 @@ constexpr std::uint32_t kStorageUniform = 2;
 constexpr std::uint32_t kStoragePushConstant = 9;
 constexpr std::uint32_t kStorageStorageBuffer = 12;
 constexpr std::uint32_t kDim2d = 1;
+constexpr std::uint32_t kDim3d = 2;
 constexpr std::uint32_t kDimCube = 3;
 
 std::optional<ShaderStage> stage_of(std::uint32_t execution_model) {
@@ -62,6 +63,7 @@ void describe_image(const Module& module, const Type& image, ReflectedBinding& b
     binding.texels = texel.is_signed ? TexelKind::signed_integers : TexelKind::unsigned_integers;
   binding.arrayed = image.image_arrayed;
   binding.dimension = image.image_dimension == kDim2d     ? ImageDimension::plane
+                      : image.image_dimension == kDim3d   ? ImageDimension::volume
                       : image.image_dimension == kDimCube ? ImageDimension::cube
                                                           : ImageDimension::other;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/types.h"
 
+#include <utility>
+
 #include "engine/core/assert.h"
 
 namespace gloam::gpu {
@@ -47,6 +49,38 @@ static_assert(kAccessNames.size() == static_cast<std::size_t>(Access::present) +
 std::uint32_t bytes_per_texel(Format format) { return facts_of(format).bytes; }
 
 bool is_depth(Format format) { return format == Format::d32_float; }
+
+bool is_integer(Format format) {
+  switch (format) {
+    case Format::r16_uint:
+    case Format::r32_uint:
+    case Format::rg32_uint:
+    case Format::rgba32_uint:
+    case Format::rgba8_uint:
+    case Format::rgba16_uint:
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::string text_of(ImageUsage usage) {
+  constexpr std::array<std::pair<ImageUsage, std::string_view>, 6> kNames = {{
+      {ImageUsage::transfer_source, "transfer_source"},
+      {ImageUsage::transfer_target, "transfer_target"},
+      {ImageUsage::sampled, "sampled"},
+      {ImageUsage::storage, "storage"},
+      {ImageUsage::color_target, "color_target"},
+      {ImageUsage::depth_target, "depth_target"},
+  }};
+  std::string text;
+  for (const auto& [flag, name] : kNames) {
+    if (!has(usage, flag)) continue;
+    text += text.empty() ? "" : ", ";
+    text += name;
+  }
+  return text.empty() ? "no use" : text;
+}
 
 std::string_view name_of(Format format) { return facts_of(format).name; }
 

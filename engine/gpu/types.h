@@ -28,6 +28,7 @@ using ImageHandle = Handle<struct ImageTag>;
 using SamplerHandle = Handle<struct SamplerTag>;
 using PipelineHandle = Handle<struct PipelineTag>;
 using ResourceSetHandle = Handle<struct ResourceSetTag>;
+using MemoryHandle = Handle<struct MemoryTag>;
 
 enum class Format : std::uint8_t {
   undefined,
@@ -59,6 +60,7 @@ enum class Format : std::uint8_t {
 
 [[nodiscard]] std::uint32_t bytes_per_texel(Format format);
 [[nodiscard]] bool is_depth(Format format);
+[[nodiscard]] bool is_integer(Format format);
 /// Whether the hardware encodes linear colour as sRGB when it writes this format.
 [[nodiscard]] constexpr bool encodes_srgb(Format format) {
   return format == Format::rgba8_srgb || format == Format::bgra8_srgb;
@@ -101,6 +103,9 @@ enum class ImageUsage : std::uint32_t {
 template <>
 inline constexpr bool kIsFlags<ImageUsage> = true;
 
+/// "sampled, storage"; "no use" for ImageUsage::none.
+[[nodiscard]] std::string text_of(ImageUsage usage);
+
 enum class MemoryKind : std::uint8_t {
   device,    ///< fastest for the GPU; not mapped
   upload,    ///< mapped, written sequentially by the CPU, read by the GPU
@@ -116,9 +121,11 @@ struct BufferDesc {
   MemoryKind memory = MemoryKind::device;
 };
 
-enum class ImageShape : std::uint8_t { plain, array, cube };
+enum class ImageShape : std::uint8_t { plain, array, cube, volume };
 
-/// width and height in texels. A cube image is square and has six layers per cube. `module`: as in BufferDesc.
+/// width, height and depth in texels. A cube image is square and has six layers per cube. A volume is
+/// three-dimensional: each mip halves its depth too, and it has one layer, no depth format and no target usage.
+/// `module`: as in BufferDesc.
 struct ImageDesc {
   std::string name;
   std::string module;
@@ -129,6 +136,7 @@ struct ImageDesc {
   std::uint32_t mips = 1;
   ImageUsage usage = ImageUsage::none;
   ImageShape shape = ImageShape::plain;
+  std::uint32_t depth = 1;  ///< of a volume; 1 for all other shapes
 };
 
 enum class Filter : std::uint8_t { nearest, linear };
@@ -140,11 +148,27 @@ struct SamplerDesc {
   Filter mag_filter = Filter::linear;
   Filter mip_filter = Filter::linear;
   AddressMode address_u = AddressMode::repeat;
-  AddressMode address_v = AddressMode::repeat;
+  AddressMode address_v = AddressMode::repeat;  ///< also along the depth of a volume
   float max_anisotropy = 1.0f;
   bool compare = false;
   CompareOp compare_op = CompareOp::greater_equal;
   bool operator==(const SamplerDesc&) const = default;
+};
+
+/// Mips and layers of an image: a rectangle of subresources. A count of 0 means all remaining ones, so the default
+/// range is the whole image.
+struct ImageRange {
+  std::uint32_t first_mip = 0;
+  std::uint32_t mip_count = 0;
+  std::uint32_t first_layer = 0;
+  std::uint32_t layer_count = 0;
+  bool operator==(const ImageRange&) const = default;
+};
+
+/// One mip of one layer of an image.
+struct ImagePart {
+  std::uint32_t mip = 0;
+  std::uint32_t layer = 0;
 };
 
 /// The mips and layers of an image that a pass or a binding uses. A count of 0 means all remaining ones.
@@ -268,6 +292,7 @@ struct ImageBarrier {
   Access after = Access::none;
   AccessMask also_before = 0;  ///< if `before` is none: accesses to this image, or to one that shares its memory
   AccessMask also_after = 0;
+  ImageRange range;  ///< all of it is in the layout of `before`; ranges of one image in one call must not overlap
 };
 
 enum class LoadOp : std::uint8_t { load, clear, discard };
@@ -301,6 +326,27 @@ struct DeviceInfo {
   DeviceType type = DeviceType::other;
   std::uint32_t subgroup_size = 0;      ///< threads
   std::uint64_t max_storage_range = 0;  ///< largest size of one storage buffer binding, in bytes
+};
+
+/// What an image or a buffer needs of the memory block that it is placed in.
+struct MemoryNeeds {
+  std::uint64_t size = 0;       ///< bytes, > 0
+  std::uint64_t alignment = 1;  ///< of the offset; a power of two
+  std::uint32_t types = 0;      ///< kinds of memory that fit, a bit each; what a bit means is up to the device
+};
+
+/// A block of device memory. types: of all images and buffers that will be placed in it, combined with &.
+struct MemoryDesc {
+  std::string name;
+  std::string module;
+  std::uint64_t size = 0;  ///< bytes, > 0
+  std::uint32_t types = 0;
+};
+
+/// Where an image or a buffer lies in a memory block. offset: bytes, a multiple of its MemoryNeeds::alignment.
+struct MemoryPlace {
+  MemoryHandle memory;
+  std::uint64_t offset = 0;
 };
 
 struct ModuleMemory {

@@ -124,6 +124,53 @@ TEST_F(FrameGraphGpuTest, kernels_compute_through_transient_buffers_that_share_m
   EXPECT_GT(graph.gpu_ms(), 0.0);
 }
 
+TEST_F(FrameGraphGpuTest, plans_of_growing_and_shrinking_sizes_share_memory_without_hazards) {
+  FrameGraph graph(*device);
+  Readback readback(*device);
+  std::mt19937 random(3);
+  std::vector<std::pair<ReadbackTicket, std::uint32_t>> tickets;
+  for (std::uint32_t frame = 0; frame < 60; ++frame) {
+    const std::uint32_t side = 4u << (random() % 6);
+    const std::uint32_t words = 64u << (random() % 5);
+    run_frame(graph, [&] {
+      // Two images and a buffer that live at different times, so that each plan places them in other bytes.
+      PassBuilder clear = graph.add_pass("clear", "test");
+      gpu::ImageDesc desc = {.name = "image", .module = "test", .format = gpu::Format::r32_uint};
+      desc.width = desc.height = side;
+      const ImageRef image = clear.write(graph.create_image(desc), Access::transfer_write);
+      clear.execute([=](PassContext& context) {
+        context.commands().clear_color_image(context.image(image), {frame + 1, 0, 0, 0});
+      });
+      tickets.emplace_back(value_of(readback.read_image(graph, image)), frame + 1);
+      PassBuilder fill = graph.add_pass("fill", "test");
+      const BufferRef buffer = fill.write(graph.create_buffer({.name = "words", .module = "test", .size = words * 4}),
+                                          Access::transfer_write);
+      fill.execute([=](PassContext& context) {
+        context.commands().fill_buffer(context.buffer(buffer), 0, words * 4, frame + 1001);
+      });
+      desc.width = side / 2;
+      PassBuilder paint = graph.add_pass("paint", "test");
+      const ImageRef other = paint.write(graph.create_image(desc), Access::color_target);
+      paint.execute([=](PassContext& context) {
+        const float bits = std::bit_cast<float>(frame + 2001);
+        context.commands().begin_rendering({.colors = {{.view = {context.image(other)}, .clear = {bits, 0, 0, 0}}},
+                                            .width = side / 2,
+                                            .height = side});
+        context.commands().end_rendering();
+      });
+      tickets.emplace_back(value_of(readback.read_buffer(graph, buffer)), frame + 1001);
+      tickets.emplace_back(value_of(readback.read_image(graph, other)), frame + 2001);
+    });
+    if (random() % 8 == 0) graph.free_idle_memory();
+  }
+  ASSERT_TRUE(device->wait_idle().ok());
+  for (const auto& [ticket, value] : tickets) {
+    const auto bytes = readback.take(ticket);
+    ASSERT_TRUE(bytes.has_value());
+    ASSERT_THAT(words_of(*bytes), testing::Each(value));
+  }
+}
+
 TEST_F(FrameGraphGpuTest, histories_and_uploads_hold_their_contents) {
   FrameGraph graph(*device);
   History history(*device);

@@ -54,28 +54,44 @@ RandomFrame RandomFrame::from(const std::vector<std::uint32_t>& numbers) {
   RandomFrame frame;
   const std::uint32_t resource_count = 2 + next.below(10);
   for (std::uint32_t r = 0; r < resource_count; ++r) {
-    frame.resources.push_back({.is_image = next.below(2) == 0,
-                               .imported = next.below(4) == 0,
-                               .content_kept = next.below(2) == 0,
-                               .size = 4 + 4 * next.below(3)});
+    Resource& resource = frame.resources.emplace_back(Resource{.is_image = next.below(2) == 0,
+                                                               .imported = next.below(4) == 0,
+                                                               .content_kept = next.below(2) == 0,
+                                                               .size = 4 + 4 * next.below(3)});
+    if (!resource.is_image || next.below(2) == 0) continue;
+    resource.mips = 1 + next.below(3);
+    resource.layers = 1 + next.below(3);
   }
-  std::vector<bool> written(resource_count, false);
+  std::vector<gpu::Subresources<int>> written;  // 0 or 1
+  for (const Resource& resource : frame.resources) written.emplace_back(resource.mips, resource.layers);
   for (std::size_t p = 0; p < std::min<std::size_t>(numbers.size() / 2 + 1, kMostPasses); ++p) {
     Pass& pass = frame.passes.emplace_back();
     pass.keep = next.below(8) == 0;
     const std::uint32_t use_count = 1 + next.below(3);
     for (std::uint32_t u = 0; u < use_count; ++u) {
       const std::uint32_t r = next.below(resource_count);
-      if (std::ranges::find(pass.uses, r, &Use::resource) != pass.uses.end()) continue;
       const Resource& resource = frame.resources[r];
-      Access access = resource.is_image ? kImageAccesses[next.below(kImageAccesses.size())]
-                                        : kBufferAccesses[next.below(kBufferAccesses.size())];
-      if (!resource.imported && !written[r] && !gpu::is_write(access)) access = Access::transfer_write;
-      written[r] = written[r] || gpu::is_write(access);
-      pass.uses.push_back({r, access});
+      Use use{.resource = r};
+      if (next.below(3) != 0) use.range = {next.below(resource.mips), 1, next.below(resource.layers), 1};
+      if (resource.mips * resource.layers == 1) use.range = {};
+      const bool taken = std::ranges::any_of(
+          pass.uses, [&](const Use& other) { return other.resource == r && resource.overlap(other.range, use.range); });
+      if (taken) continue;
+      use.access = resource.is_image ? kImageAccesses[next.below(kImageAccesses.size())]
+                                     : kBufferAccesses[next.below(kBufferAccesses.size())];
+      const gpu::ImageRange range = gpu::resolve(use.range, resource.mips, resource.layers);
+      bool readable = true;
+      written[r].visit(range, [&](int part) { readable = readable && (part != 0 || resource.imported); });
+      if (!readable && !gpu::is_write(use.access)) use.access = Access::transfer_write;
+      if (gpu::is_write(use.access)) written[r].set(range, 1);
+      pass.uses.push_back(use);
     }
   }
   return frame;
+}
+
+bool RandomFrame::Resource::overlap(const gpu::ImageRange& a, const gpu::ImageRange& b) const {
+  return gpu::overlap(gpu::resolve(a, mips, layers), gpu::resolve(b, mips, layers));
 }
 
 std::vector<bool> RandomFrame::reachable() const {
@@ -95,8 +111,10 @@ std::vector<bool> RandomFrame::reachable() const {
     reached[p] = true;
     for (std::size_t earlier = 0; earlier < p; ++earlier) {
       for (const Use& use : passes[earlier].uses) {
-        const bool feeds = gpu::is_write(use.access) &&
-                           std::ranges::find(passes[p].uses, use.resource, &Use::resource) != passes[p].uses.end();
+        const bool feeds =
+            gpu::is_write(use.access) && std::ranges::any_of(passes[p].uses, [&](const Use& later) {
+              return later.resource == use.resource && resources[use.resource].overlap(later.range, use.range);
+            });
         if (feeds) open.push_back(earlier);
       }
     }
@@ -110,7 +128,11 @@ frame::Declaration RandomFrame::declaration() const {
     frame::DeclaredResource& r = declaration.resources.add();
     r.is_image = resource.is_image;
     r.imported = resource.imported;
-    r.image_desc = {.format = gpu::Format::rgba8_unorm, .width = resource.size, .height = resource.size};
+    r.image_desc = {.format = gpu::Format::rgba8_unorm,
+                    .width = resource.size,
+                    .height = resource.size,
+                    .layers = resource.layers,
+                    .mips = resource.mips};
     r.buffer_desc = {.size = std::uint64_t{resource.size} * kBufferUnit};
   }
   for (const Pass& pass : passes) {
@@ -120,15 +142,19 @@ frame::Declaration RandomFrame::declaration() const {
     p.use_count = static_cast<std::uint32_t>(pass.uses.size());
     for (const Use& use : pass.uses) {
       const bool write = gpu::is_write(use.access);
-      declaration.uses.push_back(
-          {.resource = use.resource, .accesses = gpu::mask_of(use.access), .reads = !write, .writes = write});
+      declaration.uses.push_back({.resource = use.resource,
+                                  .accesses = gpu::mask_of(use.access),
+                                  .reads = !write,
+                                  .writes = write,
+                                  .range = use.range});
     }
   }
   return declaration;
 }
 
 RandomFrameRunner::RandomFrameRunner(const RandomFrame& frame, gpu::Device& device, bool with_shaders)
-    : frame_(frame), device_(device), with_shaders_(with_shaders), contents_(frame.resources.size()) {
+    : frame_(frame), device_(device), with_shaders_(with_shaders) {
+  for (const RandomFrame::Resource& resource : frame.resources) contents_.emplace_back(resource.mips, resource.layers);
   scratch_ = device_
                  .create_buffer({.name = "scratch",
                                  .module = "test",
@@ -155,6 +181,17 @@ RandomFrameRunner::~RandomFrameRunner() {
   device_.destroy(scratch_);
 }
 
+gpu::ImageDesc RandomFrameRunner::image_desc(const RandomFrame::Resource& resource, std::string name) const {
+  return {.name = std::move(name),
+          .module = "test",
+          .format = gpu::Format::rgba8_unorm,
+          .width = resource.size,
+          .height = resource.size,
+          .layers = resource.layers,
+          .mips = resource.mips,
+          .shape = gpu::ImageShape::array};
+}
+
 void RandomFrameRunner::make_imports() {
   for (std::size_t r = 0; r < frame_.resources.size(); ++r) {
     const RandomFrame::Resource& resource = frame_.resources[r];
@@ -162,14 +199,9 @@ void RandomFrameRunner::make_imports() {
     if (!resource.imported) continue;
     const std::string name = "import " + std::to_string(r);
     if (resource.is_image) {
-      imported.image = device_
-                           .create_image({.name = name,
-                                          .module = "test",
-                                          .format = gpu::Format::rgba8_unorm,
-                                          .width = resource.size,
-                                          .height = resource.size,
-                                          .usage = kAllImageUsage})
-                           .value();
+      gpu::ImageDesc desc = image_desc(resource, name);
+      desc.usage = kAllImageUsage;
+      imported.image = device_.create_image(desc).value();
     } else {
       imported.buffer = device_
                             .create_buffer({.name = name,
@@ -189,17 +221,13 @@ void RandomFrameRunner::declare_resources(std::vector<ImageRef>& images, std::ve
     const std::string name = "resource " + std::to_string(r);
     const Access before = resource.content_kept && imports_[r].used ? kRest : Access::none;
     const Access after = resource.content_kept ? kRest : Access::none;
-    if (!resource.imported || before == Access::none) contents_[r].reset();
+    if (!resource.imported || before == Access::none) contents_[r].set(contents_[r].all(), {});
     if (resource.imported && resource.is_image) {
       images[r] = graph_.import_image(name, imports_[r].image, before, after);
     } else if (resource.imported) {
       buffers[r] = graph_.import_buffer(name, imports_[r].buffer, before, after);
     } else if (resource.is_image) {
-      images[r] = graph_.create_image({.name = name,
-                                       .module = "test",
-                                       .format = gpu::Format::rgba8_unorm,
-                                       .width = resource.size,
-                                       .height = resource.size});
+      images[r] = graph_.create_image(image_desc(resource, name));
     } else {
       buffers[r] =
           graph_.create_buffer({.name = name, .module = "test", .size = std::uint64_t{resource.size} * kBufferUnit});
@@ -224,9 +252,9 @@ std::vector<std::string> RandomFrameRunner::run(std::uint32_t pass_count) {
     for (const RandomFrame::Use& use : pass.uses) {
       const bool write = gpu::is_write(use.access);
       const bool is_image = frame_.resources[use.resource].is_image;
-      if (write && is_image) images[use.resource] = builder.write(images[use.resource], use.access);
+      if (write && is_image) images[use.resource] = builder.write(images[use.resource], use.access, use.range);
       if (write && !is_image) buffers[use.resource] = builder.write(buffers[use.resource], use.access);
-      if (!write && is_image) builder.read(images[use.resource], use.access);
+      if (!write && is_image) builder.read(images[use.resource], use.access, use.range);
       if (!write && !is_image) builder.read(buffers[use.resource], use.access);
     }
     // Captures the resource versions of this pass for the time when it records.
@@ -247,7 +275,7 @@ void RandomFrameRunner::record(PassContext& context, std::uint32_t pass, const s
   for (const RandomFrame::Use& use : frame_.passes[pass].uses) {
     follow_contents(pass, use);
     if (frame_.resources[use.resource].is_image) {
-      touch_image(context.commands(), context.image(images[use.resource]), use.access, value_of(pass));
+      touch_image(context.commands(), context.image(images[use.resource]), use, value_of(pass));
     } else {
       touch_buffer(context.commands(), context.buffer(buffers[use.resource]), use.access, value_of(pass));
     }
@@ -255,14 +283,20 @@ void RandomFrameRunner::record(PassContext& context, std::uint32_t pass, const s
 }
 
 void RandomFrameRunner::follow_contents(std::uint32_t pass, const RandomFrame::Use& use) {
-  std::optional<std::uint8_t>& content = contents_[use.resource];
+  const RandomFrame::Resource& resource = frame_.resources[use.resource];
+  auto& contents = contents_[use.resource];
+  const gpu::ImageRange range = gpu::resolve(use.range, resource.mips, resource.layers);
   if (use.access == Access::transfer_write || use.access == Access::color_target) {
-    content = value_of(pass);
+    contents.set(range, value_of(pass));
   } else if (gpu::is_write(use.access)) {
-    content.reset();
-  } else if (use.access == Access::transfer_read && content.has_value()) {
-    expected_.push_back(
-        {scratch_used_, *content, "pass " + std::to_string(pass) + ", resource " + std::to_string(use.resource)});
+    contents.set(range, {});
+  } else if (use.access == Access::transfer_read) {
+    contents.visit({range.first_mip, 1, range.first_layer, 1}, [&](std::optional<std::uint8_t> content) {
+      if (!content.has_value()) return;
+      expected_.push_back(
+          {scratch_used_, *content,
+           "pass " + std::to_string(pass) + ", resource " + std::to_string(use.resource) + text_of(use.range)});
+    });
   }
 }
 
@@ -296,28 +330,35 @@ void RandomFrameRunner::draw(gpu::CommandList& commands, const gpu::Binding& bin
   commands.end_rendering();
 }
 
-void RandomFrameRunner::touch_image(gpu::CommandList& commands, gpu::ImageHandle image, Access access,
+void RandomFrameRunner::touch_image(gpu::CommandList& commands, gpu::ImageHandle image, const RandomFrame::Use& use,
                                     std::uint8_t value) {
   const float color = static_cast<float>(value) / 255.0f;
-  switch (access) {
+  const gpu::ImageDesc& desc = device_.desc(image);
+  const gpu::ImageRange range = gpu::resolve(use.range, desc);
+  gpu::ImageView view{image, range.first_mip, range.mip_count, range.first_layer, range.layer_count};
+  switch (use.access) {
     case Access::compute_write:
     case Access::compute_storage_read:
-      return dispatch(commands, {0, gpu::Binding::Storage{.view = {.image = image}}});
+      return dispatch(commands, {0, gpu::Binding::Storage{.view = view}});
     case Access::compute_read:
-      return dispatch(commands, {0, gpu::Binding::Sampled{.view = {.image = image}}});
+      return dispatch(commands, {0, gpu::Binding::Sampled{.view = view}});
     case Access::fragment_read:
-      return draw(commands, {0, gpu::Binding::Sampled{.view = {.image = image}}});
+      return draw(commands, {0, gpu::Binding::Sampled{.view = view}});
     case Access::color_target:
-      commands.begin_rendering(
-          {.colors = {{.view = {.image = image}, .clear = {color, color, color, color}}}, .width = 4, .height = 4});
-      return commands.end_rendering();
+      for (view.mip_count = 1; view.first_mip < range.first_mip + range.mip_count; ++view.first_mip) {
+        const std::uint32_t side = 4u >> view.first_mip;
+        commands.begin_rendering(
+            {.colors = {{.view = view, .clear = {color, color, color, color}}}, .width = side, .height = side});
+        commands.end_rendering();
+      }
+      return;
     case Access::transfer_write: {
       const auto bits = std::bit_cast<std::uint32_t>(color);
-      return commands.clear_color_image(image, {bits, bits, bits, bits});
+      return commands.clear_color_image(image, {bits, bits, bits, bits}, use.range);
     }
     default:
       make_scratch_ready(commands, Access::transfer_write);
-      commands.copy_image_to_buffer(image, 0, 0, scratch_, scratch_used_);
+      commands.copy_image_to_buffer(image, range.first_mip, range.first_layer, scratch_, scratch_used_);
       scratch_used_ += kScratchStep;
   }
 }

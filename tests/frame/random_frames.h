@@ -10,6 +10,7 @@
 #include "engine/frame/declaration.h"
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/device.h"
+#include "engine/gpu/subresources.h"
 
 namespace gloam::test {
 
@@ -20,10 +21,15 @@ struct RandomFrame {
     bool imported = false;
     bool content_kept = false;  ///< of an import: its contents are kept from frame to frame
     std::uint32_t size = 1;     ///< side of an image in texels, or 16-byte units of a buffer
+    std::uint32_t mips = 1;
+    std::uint32_t layers = 1;
+    /// Whether two uses have a mip of a layer in common.
+    [[nodiscard]] bool overlap(const gpu::ImageRange& a, const gpu::ImageRange& b) const;
   };
   struct Use {
     std::uint32_t resource = 0;
     gpu::Access access = gpu::Access::none;
+    gpu::ImageRange range;  ///< the whole resource, or one mip of one layer
   };
   struct Pass {
     std::vector<Use> uses;
@@ -71,7 +77,8 @@ class RandomFrameRunner {
   void record(PassContext& context, std::uint32_t pass, const std::vector<ImageRef>& images,
               const std::vector<BufferRef>& buffers);
   void follow_contents(std::uint32_t pass, const RandomFrame::Use& use);
-  void touch_image(gpu::CommandList& commands, gpu::ImageHandle image, gpu::Access access, std::uint8_t value);
+  void touch_image(gpu::CommandList& commands, gpu::ImageHandle image, const RandomFrame::Use& use, std::uint8_t value);
+  [[nodiscard]] gpu::ImageDesc image_desc(const RandomFrame::Resource& resource, std::string name) const;
   void touch_buffer(gpu::CommandList& commands, gpu::BufferHandle buffer, gpu::Access access, std::uint8_t value);
   void dispatch(gpu::CommandList& commands, const gpu::Binding& binding);
   void draw(gpu::CommandList& commands, const gpu::Binding& binding);
@@ -88,7 +95,8 @@ class RandomFrameRunner {
   gpu::BufferHandle scratch_;
   std::uint64_t scratch_used_ = 0;
   std::vector<std::string> ran_;
-  std::vector<std::optional<std::uint8_t>> contents_;  ///< the value of each resource, where known
+  /// The value of each resource, for images of each mip and layer, where known.
+  std::vector<gpu::Subresources<std::optional<std::uint8_t>>> contents_;
   std::vector<Expected> expected_;
 };
 

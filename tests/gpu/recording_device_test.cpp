@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "tests/support/expect_assert.h"
 
 namespace gloam::gpu {
@@ -106,6 +108,28 @@ TEST_F(RecordingDeviceTest, a_binding_must_fit_the_state_of_the_image) {
   EXPECT_THAT(faults(), IsEmpty());
   dispatch({0, Binding::Sampled{.view = {.image = picture}}});
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("dispatch: image 'picture' is used as uniform_read|compute_read")));
+}
+
+TEST_F(RecordingDeviceTest, mips_and_layers_are_tracked_as_such) {
+  ImageDesc desc = image_desc("picture");
+  desc.mips = 2;
+  desc.layers = 2;
+  const ImageHandle picture = device->create_image(desc).value();
+  const ImageBarrier first{.image = picture, .after = Access::compute_read, .range = {.mip_count = 1}};
+  const ImageBarrier second{
+      .image = picture, .after = Access::compute_write, .range = {.first_mip = 1, .first_layer = 1}};
+  commands->barrier({}, std::array{first, second});
+  dispatch({0, Binding::Sampled{.view = {.image = picture, .mip_count = 1}}});
+  dispatch({0, Binding::Storage{.view = {.image = picture, .first_mip = 1, .first_layer = 1}}});
+  EXPECT_THAT(faults(), IsEmpty());
+  dispatch({0, Binding::Storage{.view = {.image = picture, .first_mip = 1}}});
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("'picture' mips 1+1 is used as compute_storage_read|compute_write but "
+                                              "its last barrier left it ready for nothing")));
+  commands->barrier({}, std::array{first, first});
+  EXPECT_THAT(faults().at(1), HasSubstr("a part of one image appears twice in one call"));
+  const ImageBarrier outside{.image = picture, .after = Access::compute_read, .range = {.first_layer = 2}};
+  commands->barrier({}, {&outside, 1});
+  EXPECT_THAT(faults().back(), HasSubstr("'picture' layers 2+0 reaches past its end"));
 }
 
 TEST_F(RecordingDeviceTest, a_barrier_that_starts_from_another_layout_is_a_fault) {
@@ -259,6 +283,22 @@ TEST_F(RecordingDeviceTest, an_abandoned_frame_leaves_objects_in_the_states_of_t
   EXPECT_THAT(faults(), IsEmpty());
   barrier(other, Access::color_target, Access::transfer_read);
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("'other' is said to be in color_target")));
+TEST_F(RecordingDeviceTest, support_of_a_format_can_be_withdrawn) {
+  using enum ImageUsage;
+  EXPECT_TRUE(device->supports(Format::rgba8_unorm, sampled | storage | color_target));
+  EXPECT_FALSE(device->supports(Format::rgba8_unorm, depth_target));
+  EXPECT_FALSE(device->supports(Format::d32_float, depth_target | storage));
+  EXPECT_TRUE(device->supports_blit(Format::rgba8_unorm));
+  EXPECT_FALSE(device->supports_blit(Format::r32_uint));
+  device->withdraw_support(Format::rgba8_unorm, storage, true);
+  EXPECT_FALSE(device->supports(Format::rgba8_unorm, sampled | storage));
+  EXPECT_TRUE(device->supports(Format::rgba8_unorm, sampled));
+  EXPECT_FALSE(device->supports_blit(Format::rgba8_unorm));
+  const auto made = device->create_image(image_desc("picture"));
+  ASSERT_FALSE(made.ok());
+  EXPECT_THAT(made.error().message, HasSubstr("\"picture\" of module \"test\" could not be made: the device cannot use "
+                                              "rgba8_unorm in that way (transfer_source, transfer_target, sampled, "
+                                              "storage, color_target)"));
 }
 
 TEST_F(RecordingDeviceTest, misuse_asserts) {

@@ -35,6 +35,16 @@ TEST(SpirvReflection, reads_the_size_of_push_constants) {
   EXPECT_EQ(reflect(shaders::gpu_test::triangle_vert).push_constant_bytes, 0u);
 }
 
+TEST(SpirvReflection, tells_volumes_from_planes) {
+  const SpirvReflection painted = reflect_spirv(shaders::gpu_test::paint_volume_comp).value();
+  ASSERT_EQ(painted.bindings.size(), 1u);
+  EXPECT_EQ(painted.bindings[0].kind, ResourceKind::storage_image);
+  EXPECT_EQ(painted.bindings[0].dimension, ImageDimension::volume);
+  const SpirvReflection seen = reflect_spirv(shaders::gpu_test::look_into_volume_comp).value();
+  EXPECT_EQ(seen.bindings[0].kind, ResourceKind::sampled_image);
+  EXPECT_EQ(seen.bindings[0].dimension, ImageDimension::volume);
+}
+
 TEST(SpirvReflection, tells_what_every_binding_is) {
   struct Expected {
     std::uint32_t set, binding;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/gpu/image_size.h"
+
 #include <set>
 
 namespace gloam::gpu {
@@ -21,6 +23,15 @@ TEST(Types, every_format_has_a_name_of_its_own_and_a_size) {
   EXPECT_EQ(bytes_per_texel(Format::rgba16_float), 8u);
   EXPECT_EQ(name_of(Format::r16_unorm), "r16_unorm");
   EXPECT_EQ(bytes_per_texel(Format::r16_unorm), 2u);
+}
+
+TEST(Types, mips_of_volumes_halve_all_three_sides) {
+  const ImageDesc desc = {
+      .format = Format::r16_float, .width = 5, .height = 3, .mips = 3, .shape = ImageShape::volume, .depth = 4};
+  EXPECT_EQ(mip_bytes(desc, 0), 5u * 3 * 4 * 2);
+  EXPECT_EQ(mip_bytes(desc, 1), 2u * 1 * 2 * 2);
+  EXPECT_EQ(image_bytes(desc), 120u + 8 + 2);
+  EXPECT_EQ(full_mip_count(desc), 3u);
 }
 
 TEST(Types, only_the_depth_format_is_depth) {

@@ -59,6 +59,10 @@ class GatedDevice : public gpu::Device {
   }
 
   [[nodiscard]] const gpu::DeviceInfo& info() const override { return inner_.info(); }
+  [[nodiscard]] bool supports(gpu::Format format, gpu::ImageUsage usage) const override {
+    return inner_.supports(format, usage);
+  }
+  [[nodiscard]] bool supports_blit(gpu::Format format) const override { return inner_.supports_blit(format); }
   [[nodiscard]] Result<gpu::BufferHandle> create_buffer(const gpu::BufferDesc& desc) override {
     count_resource();
     return inner_.create_buffer(desc);
@@ -71,6 +75,29 @@ class GatedDevice : public gpu::Device {
       std::span<const gpu::ImageDesc> descs) override {
     count_resource();
     return inner_.create_aliased_images(descs);
+  }
+  [[nodiscard]] Result<gpu::MemoryNeeds> memory_needs(const gpu::ImageDesc& desc) const override {
+    return inner_.memory_needs(desc);
+  }
+  [[nodiscard]] Result<gpu::MemoryNeeds> memory_needs(const gpu::BufferDesc& desc) const override {
+    return inner_.memory_needs(desc);
+  }
+  [[nodiscard]] Result<gpu::MemoryHandle> create_memory(const gpu::MemoryDesc& desc) override {
+    return inner_.create_memory(desc);
+  }
+  [[nodiscard]] Result<gpu::ImageHandle> create_image(const gpu::ImageDesc& desc,
+                                                      const gpu::MemoryPlace& place) override {
+    count_resource();
+    return inner_.create_image(desc, place);
+  }
+  [[nodiscard]] Result<gpu::BufferHandle> create_buffer(const gpu::BufferDesc& desc,
+                                                        const gpu::MemoryPlace& place) override {
+    count_resource();
+    return inner_.create_buffer(desc, place);
+  }
+  void destroy(gpu::MemoryHandle memory) override { inner_.destroy(memory); }
+  void account(gpu::MemoryHandle memory, std::span<const gpu::ModuleMemory> shares) override {
+    inner_.account(memory, shares);
   }
   [[nodiscard]] Result<gpu::SamplerHandle> create_sampler(const gpu::SamplerDesc& desc) override {
     return inner_.create_sampler(desc);

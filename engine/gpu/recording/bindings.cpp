@@ -70,12 +70,7 @@ std::string CommandRecorder::text_of(const Binding& binding) const {
   const auto* sampled = std::get_if<Binding::Sampled>(&binding.resource);
   const ImageView& view = sampled != nullptr ? sampled->view : std::get<Binding::Storage>(binding.resource).view;
   text += (sampled != nullptr ? "sampled " : "storage ") + name(view.image);
-  if (view.first_mip != 0 || view.mip_count != 0) {
-    text += " mips " + std::to_string(view.first_mip) + "+" + std::to_string(view.mip_count);
-  }
-  if (view.first_layer != 0 || view.layer_count != 0) {
-    text += " layers " + std::to_string(view.first_layer) + "+" + std::to_string(view.layer_count);
-  }
+  text += gpu::text_of(ImageRange{view.first_mip, view.mip_count, view.first_layer, view.layer_count});
   return text;
 }
 
@@ -104,9 +99,13 @@ void CommandRecorder::use_binding(const Binding& binding, bool compute, std::str
   if (const auto* range = std::get_if<Binding::BufferRange>(&binding.resource)) {
     tracker_.use(range->buffer, compute ? kComputeBuffer : kDrawBuffer, command);
   } else if (const auto* sampled = std::get_if<Binding::Sampled>(&binding.resource)) {
-    tracker_.use(sampled->view.image, compute ? kComputeSampled : kDrawSampled, command);
+    const ImageView& view = sampled->view;
+    tracker_.use(view.image, {view.first_mip, view.mip_count, view.first_layer, view.layer_count},
+                 compute ? kComputeSampled : kDrawSampled, command);
   } else if (const auto* storage = std::get_if<Binding::Storage>(&binding.resource)) {
-    tracker_.use(storage->view.image, compute ? kComputeStorage : kDrawStorage, command);
+    const ImageView& view = storage->view;  // a storage view has one mip
+    tracker_.use(view.image, {view.first_mip, 1, view.first_layer, view.layer_count},
+                 compute ? kComputeStorage : kDrawStorage, command);
   }
 }
 

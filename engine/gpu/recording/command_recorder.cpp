@@ -105,7 +105,8 @@ void CommandRecorder::write_timestamp(std::uint32_t index) {
 void CommandRecorder::barrier(std::span<const BufferBarrier> buffers, std::span<const ImageBarrier> images) {
   std::string text;
   for (const BufferBarrier& b : buffers) text += (text.empty() ? "" : ", ") + text_of_barrier(b, name(b.buffer));
-  for (const ImageBarrier& b : images) text += (text.empty() ? "" : ", ") + text_of_barrier(b, name(b.image));
+  for (const ImageBarrier& b : images)
+    text += (text.empty() ? "" : ", ") + text_of_barrier(b, name(b.image) + gpu::text_of(b.range));
   note("barrier", std::move(text), Place::outside_rendering);
   tracker_.barrier(buffers, images);
 }
@@ -113,7 +114,8 @@ void CommandRecorder::barrier(std::span<const BufferBarrier> buffers, std::span<
 void CommandRecorder::use_target(const ImageView& view, ImageUsage usage, Access access) {
   const std::uint32_t layer_end = view.first_layer + std::max(view.layer_count, 1u);
   if (image_for(view.image, usage, view.first_mip, layer_end, "begin_rendering") != nullptr) {
-    tracker_.use(view.image, mask_of(access), "begin_rendering");
+    tracker_.use(view.image, {view.first_mip, 1, view.first_layer, view.layer_count}, mask_of(access),
+                 "begin_rendering");
   }
 }
 

@@ -37,8 +37,8 @@ class CommandRecorder final : public CommandList {
   void copy_image_to_buffer(ImageHandle source, std::uint32_t mip, std::uint32_t layer, BufferHandle target,
                             std::uint64_t target_offset) override;
   void fill_buffer(BufferHandle buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t word) override;
-  void clear_color_image(ImageHandle image, std::array<std::uint32_t, 4> bits) override;
-  void blit(ImageHandle source, ImageHandle target) override;
+  void clear_color_image(ImageHandle image, std::array<std::uint32_t, 4> bits, ImageRange range) override;
+  void blit(ImageHandle source, ImageHandle target, ImagePart from, ImagePart to) override;
   void begin_rendering(const RenderingDesc& desc) override;
   void end_rendering() override;
   void set_viewport(float x, float y, float width, float height) override;

@@ -79,7 +79,7 @@ void CommandRecorder::copy_buffer_to_image(BufferHandle source, std::uint64_t so
       buffer_for(source, BufferUsage::transfer_source, source_offset, bytes * layer_count, "copy_buffer_to_image");
   if (buffer == nullptr) return;
   tracker_.use(source, mask_of(Access::transfer_read), "copy_buffer_to_image");
-  tracker_.use(target, mask_of(Access::transfer_write), "copy_buffer_to_image");
+  tracker_.use(target, {mip, 1, first_layer, layer_count}, mask_of(Access::transfer_write), "copy_buffer_to_image");
   for (std::uint32_t i = 0; i < layer_count; ++i) {
     const auto texels = bytes_of(*buffer).subspan(source_offset + i * bytes, bytes);
     image->texels[{mip, first_layer + i}].assign(texels.begin(), texels.end());
@@ -97,7 +97,7 @@ void CommandRecorder::copy_image_to_buffer(ImageHandle source, std::uint32_t mip
   const std::uint64_t bytes = mip_bytes(image->desc, mip);
   Buffer* buffer = buffer_for(target, BufferUsage::transfer_target, target_offset, bytes, "copy_image_to_buffer");
   if (buffer == nullptr) return;
-  tracker_.use(source, mask_of(Access::transfer_read), "copy_image_to_buffer");
+  tracker_.use(source, {mip, 1, layer, 1}, mask_of(Access::transfer_read), "copy_image_to_buffer");
   tracker_.use(target, mask_of(Access::transfer_write), "copy_image_to_buffer");
   const auto out = bytes_of(*buffer).subspan(target_offset, bytes);
   const auto texels = image->texels.find({mip, layer});
@@ -123,25 +123,35 @@ void CommandRecorder::fill_buffer(BufferHandle handle, std::uint64_t offset, std
   }
 }
 
-void CommandRecorder::clear_color_image(ImageHandle handle, std::array<std::uint32_t, 4> bits) {
-  std::string text = name(handle);
+void CommandRecorder::clear_color_image(ImageHandle handle, std::array<std::uint32_t, 4> bits, ImageRange range) {
+  std::string text = name(handle) + gpu::text_of(range);
   for (std::uint32_t word : bits) text += " " + std::to_string(word);
   note("clear_color_image", std::move(text), Place::outside_rendering);
-  Image* image = image_for(handle, ImageUsage::transfer_target, 0, 1, "clear_color_image");
+  const std::uint32_t last_mip = range.first_mip + std::max(range.mip_count, 1u) - 1;
+  const std::uint32_t layer_end = range.first_layer + std::max(range.layer_count, 1u);
+  Image* image = image_for(handle, ImageUsage::transfer_target, last_mip, layer_end, "clear_color_image");
   if (image == nullptr) return;
   if (is_depth(image->desc.format)) fault("clear_color_image", name(handle) + " is a depth image");
-  tracker_.use(handle, mask_of(Access::transfer_write), "clear_color_image");
-  image->texels.clear();
+  tracker_.use(handle, range, mask_of(Access::transfer_write), "clear_color_image");
+  const ImageRange cleared = resolve(range, image->desc);
+  std::erase_if(image->texels, [&](const auto& item) {
+    return overlap(cleared, {item.first.first, 1, item.first.second, 1});
+  });
 }
 
-void CommandRecorder::blit(ImageHandle source, ImageHandle target) {
-  note("blit", name(source) + " > " + name(target), Place::outside_rendering);
-  if (image_for(source, ImageUsage::transfer_source, 0, 1, "blit") == nullptr) return;
-  Image* to = image_for(target, ImageUsage::transfer_target, 0, 1, "blit");
-  if (to == nullptr) return;
-  tracker_.use(source, mask_of(Access::transfer_read), "blit");
-  tracker_.use(target, mask_of(Access::transfer_write), "blit");
-  to->texels.clear();
+void CommandRecorder::blit(ImageHandle source, ImageHandle target, ImagePart from, ImagePart to) {
+  const auto text_of_part = [](const ImagePart& part) {
+    return part.mip == 0 && part.layer == 0
+               ? std::string()
+               : " mip " + std::to_string(part.mip) + " layer " + std::to_string(part.layer);
+  };
+  note("blit", name(source) + text_of_part(from) + " > " + name(target) + text_of_part(to), Place::outside_rendering);
+  if (image_for(source, ImageUsage::transfer_source, from.mip, from.layer + 1, "blit") == nullptr) return;
+  Image* image = image_for(target, ImageUsage::transfer_target, to.mip, to.layer + 1, "blit");
+  if (image == nullptr) return;
+  tracker_.use(source, {from.mip, 1, from.layer, 1}, mask_of(Access::transfer_read), "blit");
+  tracker_.use(target, {to.mip, 1, to.layer, 1}, mask_of(Access::transfer_write), "blit");
+  image->texels.erase({to.mip, to.layer});
 }
 
 }  // namespace gloam::gpu::recording

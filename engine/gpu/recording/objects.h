@@ -10,39 +10,63 @@
 #include <utility>
 #include <vector>
 
+#include "engine/gpu/subresources.h"
 #include "engine/gpu/types.h"
 
 /// The objects that the recording device keeps instead of GPU objects.
 namespace gloam::gpu::recording {
 
-/// The synchronisation state of a buffer or of a piece of image memory.
+/// The synchronisation state of a buffer or of one mip of one layer of an image.
 struct SyncState {
   AccessMask ready = 0;             ///< accesses that the last barrier made it ready for; 0: no barrier yet
   AccessMask pending = 0;           ///< accesses since that barrier
   std::uint64_t pending_frame = 0;  ///< frame of the newest pending access
   std::uint32_t writer = 0;         ///< number of the outermost label that wrote since that barrier; 0: none
+  bool operator==(const SyncState&) const = default;
+};
+
+/// The bytes that one resource takes in a piece of memory, and the resource's state. It outlives the resource, because
+/// the frames that use it may still run.
+struct Placement {
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;
+  Subresources<SyncState> sync;
+  bool holds = false;                 ///< its contents are in the memory
+  bool lost = false;                  ///< another resource has taken the memory over since
+  AccessMask inherited = 0;           ///< accesses to resources from which it took the memory over
+  std::uint64_t inherited_frame = 0;  ///< frame of the newest of them
+
+  [[nodiscard]] std::uint64_t end() const { return offset + bytes; }
+};
+
+/// A piece of memory with all resources that were placed in it.
+struct Memory {
+  std::string module;
+  std::uint64_t bytes = 0;  ///< 0: bytes of a block, which are accounted with the block
+  std::vector<std::shared_ptr<Placement>> placements;
+};
+
+/// A memory block into which callers place resources.
+struct Block {
+  MemoryDesc desc;
+  bool alive = true;
+  std::shared_ptr<Memory> memory;
+  std::vector<ModuleMemory> shares;
 };
 
 struct Buffer {
   BufferDesc desc;
   bool alive = true;
   std::vector<std::byte> bytes;  ///< allocated on first use
-  SyncState sync;
-};
-
-/// The memory of one image, or of several images that share it.
-struct ImageMemory {
-  static constexpr std::uint32_t kNobody = ~0u;
-  std::string module;
-  std::uint64_t bytes = 0;
-  std::uint32_t owner = kNobody;  ///< index of the image whose contents it holds
-  SyncState sync;
+  std::shared_ptr<Memory> memory;
+  std::shared_ptr<Placement> place;
 };
 
 struct Image {
   ImageDesc desc;
   bool alive = true;
-  std::shared_ptr<ImageMemory> memory;
+  std::shared_ptr<Memory> memory;
+  std::shared_ptr<Placement> place;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::byte>> texels;  ///< by mip and layer, as copied in
 };
 
@@ -96,6 +120,7 @@ struct Objects {
   Table<Image> images;
   Table<Pipeline> pipelines;
   Table<ResourceSet> resource_sets;
+  Table<Block> blocks;
 
   void fault(std::string text) {
     const std::lock_guard lock(fault_mutex);

@@ -33,6 +33,11 @@ bool writes(AccessMask mask) {
   return any;
 }
 
+bool lies_inside(const ImageRange& range, const ImageDesc& desc) {
+  return range.first_mip < desc.mips && range.mip_count <= desc.mips - range.first_mip &&
+         range.first_layer < desc.layers && range.layer_count <= desc.layers - range.first_layer;
+}
+
 std::string name_of_object(const Buffer& buffer) { return "buffer '" + buffer.desc.name + "'"; }
 std::string name_of_object(const Image& image) { return "image '" + image.desc.name + "'"; }
 
@@ -49,19 +54,31 @@ std::string text_of(AccessMask mask) {
 }
 
 void Tracker::abandon_frame() {
-  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change) {
-    *change->sync = change->before;
-    if (change->memory != nullptr) change->memory->owner = change->owner;
-  }
+  for (const Change& change : changes_) *change.place = change.before;
   changes_.clear();
+}
+
+void Tracker::remember(const std::shared_ptr<Placement>& place) {
+  if (std::ranges::find(changes_, place, &Change::place) == changes_.end()) changes_.push_back({place, *place});
 }
 
 void Tracker::idle() {
   changes_.clear();
-  objects_.buffers.for_each_alive([](Buffer& buffer) { buffer.sync = {}; });
-  objects_.images.for_each_alive([](Image& image) {
-    const AccessMask ready = image.memory->sync.ready;
-    image.memory->sync = {.ready = ready == 0 ? 0 : accesses_in(layout_of(first_of(ready)))};
+  const auto forget = [](Memory& memory) {
+    for (const auto& place : memory.placements) {
+      place->inherited = 0;
+      place->sync.update(place->sync.all(), [](SyncState& sync) { sync.pending = 0; });
+    }
+  };
+  objects_.buffers.for_each_alive([&](Buffer& buffer) {
+    forget(*buffer.memory);
+    buffer.place->sync.set(buffer.place->sync.all(), {});
+  });
+  objects_.images.for_each_alive([&](Image& image) {
+    forget(*image.memory);
+    image.place->sync.update(image.place->sync.all(), [](SyncState& sync) {
+      sync = {.ready = sync.ready == 0 ? 0 : accesses_in(layout_of(first_of(sync.ready)))};
+    });
   });
 }
 
@@ -75,15 +92,45 @@ bool Tracker::end_label() {
   return true;
 }
 
+void Tracker::check_waits(AccessMask before, AccessMask pending, std::uint64_t pending_frame,
+                          const std::string& object) {
+  const AccessMask missed = pending & ~with_reads_of_same_stages(before);
+  const bool still_running = pending_frame + Device::kFramesInFlight > frame_;
+  if (before == 0 || !still_running || missed == 0) return;
+  objects_.fault("barrier: " + object + " waits for " + text_of(before) + " but not for its earlier " +
+                 text_of(missed));
+}
+
 void Tracker::pass_barrier(SyncState& sync, AccessMask before, AccessMask after, const std::string& object) {
-  const AccessMask waited = with_reads_of_same_stages(before);
-  const bool still_running = sync.pending_frame + Device::kFramesInFlight > frame_;
-  if (before != 0 && still_running && (sync.pending & ~waited) != 0) {
-    objects_.fault("barrier: " + object + " waits for " + text_of(before) + " but not for its earlier " +
-                   text_of(sync.pending & ~waited));
-  }
-  remember(sync);
+  check_waits(before, sync.pending, sync.pending_frame, object);
   sync = {.ready = after, .pending = 0, .pending_frame = frame_, .writer = 0};
+}
+
+void Tracker::take_over(Memory& memory, Placement& place, AccessMask before, const std::string& object) {
+  if (!place.holds) {
+    place.inherited = 0;
+    place.inherited_frame = 0;
+    for (const auto& other : memory.placements) {
+      if (other.get() == &place || other->offset >= place.end() || place.offset >= other->end()) continue;
+      // Later users of memory that `place` covers wait for `place`, which has waited for this resource.
+      remember(other);
+      const bool covered = place.offset <= other->offset && other->end() <= place.end();
+      other->holds = false;
+      other->lost = true;
+      other->sync.update(other->sync.all(), [&](SyncState& sync) {
+        if (sync.pending != 0 && sync.pending_frame + Device::kFramesInFlight > frame_) {
+          place.inherited |= sync.pending;
+          place.inherited_frame = std::max(place.inherited_frame, sync.pending_frame);
+        }
+        sync.ready = 0;
+        sync.writer = 0;
+        if (covered) sync.pending = 0;
+      });
+    }
+    place.holds = true;
+    place.lost = false;
+  }
+  check_waits(before, place.inherited, place.inherited_frame, object);
 }
 
 void Tracker::buffer_barriers(std::span<const BufferBarrier> barriers) {
@@ -93,41 +140,50 @@ void Tracker::buffer_barriers(std::span<const BufferBarrier> barriers) {
   AccessMask before = 0;
   AccessMask after = 0;
   bool waits_for_all = false;
+  bool discards = false;
   for (const BufferBarrier& b : barriers) {
     if (b.buffer != handle) continue;
     const AccessMask own_before = mask_of(b.before) | b.also_before;
     waits_for_all = waits_for_all || own_before == 0;
+    discards = discards || b.before == Access::none;
     before |= own_before;
     after |= mask_of(b.after) | b.also_after;
   }
   if (waits_for_all) before = 0;
+  remember(buffer->place);
   const std::string object = name_of_object(*buffer);
-  const AccessMask ready = buffer->sync.ready;
+  AccessMask ready = 0;
+  buffer->place->sync.visit(buffer->place->sync.all(), [&](const SyncState& sync) { ready = sync.ready; });
   if (after == 0) objects_.fault("barrier: " + object + " is made ready for nothing");
   if (before != 0 && ready != 0 && (with_reads_of_same_stages(before) & ready) == 0) {
     objects_.fault("barrier: " + object + " waits for " + text_of(before) + " but its last barrier left it ready for " +
                    text_of(ready));
   }
-  pass_barrier(buffer->sync, before, after, object);
+  if (discards) take_over(*buffer->memory, *buffer->place, before, object);
+  buffer->place->sync.update(buffer->place->sync.all(),
+                             [&](SyncState& sync) { pass_barrier(sync, before, after, object); });
 }
 
 void Tracker::image_barrier(const ImageBarrier& b) {
   Image* image = objects_.images.find(b.image);
   if (image == nullptr) return objects_.fault("barrier: an image that is not alive");
-  ImageMemory& memory = *image->memory;
-  const std::string object = name_of_object(*image);
+  const std::string object = name_of_object(*image) + gpu::text_of(b.range);
+  if (!lies_inside(b.range, image->desc)) return objects_.fault("barrier: " + object + " reaches past its end");
+  const AccessMask before = mask_of(b.before) | b.also_before;
   const AccessMask after = mask_of(b.after) | b.also_after;
   if (b.after == Access::none || (after & ~accesses_in(layout_of(b.after))) != 0) {
     objects_.fault("barrier: " + object + " is made ready for " + text_of(after) + ", which is not one layout");
   }
-  const AccessMask ready = memory.owner == b.image.index ? memory.sync.ready : 0;
-  if (b.before != Access::none && (ready == 0 || layout_of(first_of(ready)) != layout_of(b.before))) {
-    objects_.fault("barrier: " + object + " is said to be in " + std::string(name_of(b.before)) +
-                   " but its last barrier left it ready for " + text_of(ready));
-  }
-  changes_.push_back({.sync = &memory.sync, .before = memory.sync, .memory = &memory, .owner = memory.owner});
-  memory.owner = b.image.index;
-  pass_barrier(memory.sync, mask_of(b.before) | b.also_before, after, object);
+  remember(image->place);
+  Placement& place = *image->place;
+  if (b.before == Access::none) take_over(*image->memory, place, before, object);
+  place.sync.update(resolve(b.range, image->desc), [&](SyncState& sync) {
+    if (b.before != Access::none && (sync.ready == 0 || layout_of(first_of(sync.ready)) != layout_of(b.before))) {
+      objects_.fault("barrier: " + object + " is said to be in " + std::string(name_of(b.before)) +
+                     " but its last barrier left it ready for " + text_of(sync.ready));
+    }
+    pass_barrier(sync, before, after, object);
+  });
 }
 
 void Tracker::barrier(std::span<const BufferBarrier> buffers, std::span<const ImageBarrier> images) {
@@ -138,9 +194,15 @@ void Tracker::barrier(std::span<const BufferBarrier> buffers, std::span<const Im
     buffer_barriers(buffers.subspan(i));
   }
   for (std::size_t i = 0; i < images.size(); ++i) {
-    const auto earlier = images.first(i);
-    if (std::ranges::find(earlier, images[i].image, &ImageBarrier::image) != earlier.end()) {
-      objects_.fault("barrier: one image appears twice in one call");
+    for (const ImageBarrier& earlier : images.first(i)) {
+      if (earlier.image != images[i].image) continue;
+      const Image* image = objects_.images.find(earlier.image);
+      if (image == nullptr || !lies_inside(earlier.range, image->desc) || !lies_inside(images[i].range, image->desc)) {
+        continue;
+      }
+      if (overlap(resolve(earlier.range, image->desc), resolve(images[i].range, image->desc))) {
+        objects_.fault("barrier: a part of one image appears twice in one call");
+      }
     }
     image_barrier(images[i]);
   }
@@ -152,7 +214,6 @@ void Tracker::note_use(SyncState& sync, AccessMask possible, const std::string& 
                    " was written under an earlier label and has had no barrier since");
   }
   // Without a barrier, the access of a binding is unknown. A command with only one possible access is known.
-  remember(sync);
   const AccessMask used = sync.ready != 0 ? (sync.ready & possible) : (possible & (possible - 1)) == 0 ? possible : 0;
   if (sync.ready == 0 && writes(used)) sync.ready = used;
   sync.pending |= used;
@@ -167,32 +228,41 @@ void Tracker::use(BufferHandle handle, AccessMask possible, std::string_view com
     return;
   }
   const std::string object = name_of_object(*buffer);
-  if (buffer->sync.ready != 0 && (buffer->sync.ready & possible) == 0) {
-    objects_.fault(std::string(command) + ": " + object + " is used as " + text_of(possible) +
-                   " but its last barrier left it ready for " + text_of(buffer->sync.ready));
+  remember(buffer->place);
+  Placement& place = *buffer->place;
+  if (place.lost) {
+    objects_.fault(std::string(command) + ": " + object + " has lost its memory to another resource");
     return;
   }
-  note_use(buffer->sync, possible, object, command);
+  place.sync.update(place.sync.all(), [&](SyncState& sync) {
+    if (sync.ready == 0 || (sync.ready & possible) != 0) return note_use(sync, possible, object, command);
+    objects_.fault(std::string(command) + ": " + object + " is used as " + text_of(possible) +
+                   " but its last barrier left it ready for " + text_of(sync.ready));
+  });
 }
 
-void Tracker::use(ImageHandle handle, AccessMask possible, std::string_view command) {
+void Tracker::use(ImageHandle handle, const ImageRange& range, AccessMask possible, std::string_view command) {
   Image* image = objects_.images.find(handle);
   if (image == nullptr) {
     objects_.fault(std::string(command) + ": an image that is not alive");
     return;
   }
-  const std::string object = name_of_object(*image);
-  ImageMemory& memory = *image->memory;
-  if (memory.owner != handle.index && memory.owner != ImageMemory::kNobody) {
-    objects_.fault(std::string(command) + ": " + object + " has lost its memory to another image");
+  if (!lies_inside(range, image->desc)) return;  // the command reports it
+  const std::string object = name_of_object(*image) + gpu::text_of(range);
+  remember(image->place);
+  Placement& place = *image->place;
+  if (place.lost) {
+    objects_.fault(std::string(command) + ": " + object + " has lost its memory to another resource");
     return;
   }
-  if ((memory.sync.ready & possible) == 0) {
+  bool faulty = false;
+  place.sync.update(resolve(range, image->desc), [&](SyncState& sync) {
+    if ((sync.ready & possible) != 0) return note_use(sync, possible, object, command);
+    if (faulty) return;
+    faulty = true;
     objects_.fault(std::string(command) + ": " + object + " is used as " + text_of(possible) +
-                   " but its last barrier left it ready for " + text_of(memory.sync.ready));
-    return;
-  }
-  note_use(memory.sync, possible, object, command);
+                   " but its last barrier left it ready for " + text_of(sync.ready));
+  });
 }
 
 }  // namespace gloam::gpu::recording

@@ -16,9 +16,10 @@ namespace gloam::gpu::recording {
 /// - An object may be used only for accesses that its last barrier made it ready for.
 /// - A barrier must wait for all accesses since the previous barrier and start from the layout that the previous
 ///   barrier left.
-/// - Of the images that share memory, only the one whose barrier last discarded the contents may be used.
+/// - Of the resources that share memory, only the one whose barrier last discarded the contents may be used. That
+///   barrier must wait for all accesses to the other ones.
 /// - After one outermost label has written a resource, another label may use it only after a barrier.
-/// A buffer that never had a barrier may be used freely until a command writes it.
+/// Images are tracked by mip and layer. A buffer that never had a barrier may be used freely until a command writes it.
 class Tracker {
  public:
   explicit Tracker(Objects& objects) : objects_(objects) {}
@@ -39,27 +40,28 @@ class Tracker {
   void barrier(std::span<const BufferBarrier> buffers, std::span<const ImageBarrier> images);
   /// `possible`: the accesses that the command may make; the object's state decides which of them it makes.
   void use(BufferHandle handle, AccessMask possible, std::string_view command);
-  void use(ImageHandle handle, AccessMask possible, std::string_view command);
+  void use(ImageHandle handle, const ImageRange& range, AccessMask possible, std::string_view command);
 
  private:
   /// Applies all barriers in `barriers` that concern the buffer of the first one.
   void buffer_barriers(std::span<const BufferBarrier> barriers);
   void image_barrier(const ImageBarrier& barrier);
+  /// Makes `place` the resource whose contents are in the memory.
+  void take_over(Memory& memory, Placement& place, AccessMask before, const std::string& object);
+  void check_waits(AccessMask before, AccessMask pending, std::uint64_t pending_frame, const std::string& object);
   void pass_barrier(SyncState& sync, AccessMask before, AccessMask after, const std::string& object);
   void note_use(SyncState& sync, AccessMask possible, const std::string& object, std::string_view command);
 
-  /// A state before one change. Objects and their memory never move.
+  /// The state of a resource before the frame's first change of it.
   struct Change {
-    SyncState* sync = nullptr;
-    SyncState before;
-    ImageMemory* memory = nullptr;  ///< null: of a buffer
-    std::uint32_t owner = ImageMemory::kNobody;
+    std::shared_ptr<Placement> place;
+    Placement before;
   };
-  void remember(SyncState& sync) { changes_.push_back({.sync = &sync, .before = sync}); }
+  void remember(const std::shared_ptr<Placement>& place);
 
   Objects& objects_;
   std::uint64_t frame_ = 0;
-  std::vector<Change> changes_;  ///< of this frame, in order
+  std::vector<Change> changes_;  ///< of this frame
   std::uint32_t label_ = 0;      ///< number of the outermost open label; 0: none
   std::uint32_t labels_ = 0;
   std::uint32_t label_depth_ = 0;

@@ -85,6 +85,11 @@ SyncScope target_scope(AccessMask after) {
   return scope;
 }
 
+VkImageSubresourceRange to_vulkan(const ImageRange& range, VkImageAspectFlags aspect) {
+  return {aspect, range.first_mip, range.mip_count == 0 ? VK_REMAINING_MIP_LEVELS : range.mip_count, range.first_layer,
+          range.layer_count == 0 ? VK_REMAINING_ARRAY_LAYERS : range.layer_count};
+}
+
 VkBufferMemoryBarrier2 to_vulkan(const BufferBarrier& barrier, VkBuffer buffer) {
   const SyncScope before = source_scope(mask_of(barrier.before) | barrier.also_before);
   const SyncScope after = target_scope(mask_of(barrier.after) | barrier.also_after);
@@ -114,7 +119,7 @@ VkImageMemoryBarrier2 to_vulkan(const ImageBarrier& barrier, VkImage image, VkIm
           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
           .image = image,
-          .subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
+          .subresourceRange = to_vulkan(barrier.range, aspect)};
 }
 
 }  // namespace gloam::gpu::vulkan

@@ -25,8 +25,8 @@ struct SyncScope {
 [[nodiscard]] SyncScope source_scope(AccessMask before);
 [[nodiscard]] SyncScope target_scope(AccessMask after);
 
+[[nodiscard]] VkImageSubresourceRange to_vulkan(const ImageRange& range, VkImageAspectFlags aspect);
 [[nodiscard]] VkBufferMemoryBarrier2 to_vulkan(const BufferBarrier& barrier, VkBuffer buffer);
-/// Covers all mips and layers of the image.
 [[nodiscard]] VkImageMemoryBarrier2 to_vulkan(const ImageBarrier& barrier, VkImage image, VkImageAspectFlags aspect);
 
 }  // namespace gloam::gpu::vulkan

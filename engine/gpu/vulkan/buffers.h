@@ -27,11 +27,22 @@ class Buffers {
   ~Buffers();
 
   [[nodiscard]] Result<BufferHandle> create(const BufferDesc& desc);
+  /// Creates a buffer inside a memory block. offset: bytes from the begin of the block.
+  [[nodiscard]] Result<BufferHandle> create_in(const BufferDesc& desc, const AllocationOwner& block,
+                                               std::uint64_t offset);
+  [[nodiscard]] Result<MemoryNeeds> needs(const BufferDesc& desc) const;
   void destroy(BufferHandle handle);
   [[nodiscard]] const Buffer& get(BufferHandle handle) const { return table_.get(handle); }
   [[nodiscard]] std::span<std::byte> mapped(BufferHandle handle) const;
 
  private:
+  [[nodiscard]] Status check(const BufferDesc& desc) const;
+  /// Makes the object without memory.
+  [[nodiscard]] Result<Buffer> make(const BufferDesc& desc) const;
+  /// Binds the memory and hands out the handle; destroys the object if that fails. offset: bytes from the begin of
+  /// `memory`.
+  [[nodiscard]] Result<BufferHandle> bind(Buffer buffer, const AllocationOwner& memory, std::uint64_t offset);
+
   Context& context_;
   MemoryAllocator& memory_;
   Graveyard& graveyard_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/gpu/image_size.h"
 #include "engine/gpu/vulkan/barriers.h"
 #include "engine/gpu/vulkan/convert.h"
 
@@ -13,12 +14,7 @@ namespace gloam::gpu::vulkan {
 namespace {
 
 VkExtent3D mip_extent(const ImageDesc& desc, std::uint32_t mip) {
-  return {std::max(desc.width >> mip, 1u), std::max(desc.height >> mip, 1u), 1};
-}
-
-std::uint64_t packed_bytes(const ImageDesc& desc, std::uint32_t mip, std::uint32_t layers) {
-  const VkExtent3D extent = mip_extent(desc, mip);
-  return std::uint64_t{extent.width} * extent.height * layers * bytes_per_texel(desc.format);
+  return {std::max(desc.width >> mip, 1u), std::max(desc.height >> mip, 1u), std::max(desc.depth >> mip, 1u)};
 }
 
 VkBufferImageCopy packed_region(const ImageDesc& desc, std::uint64_t offset, std::uint32_t mip, std::uint32_t layer,
@@ -30,11 +26,15 @@ VkBufferImageCopy packed_region(const ImageDesc& desc, std::uint64_t offset, std
           .imageExtent = mip_extent(desc, mip)};
 }
 
-void check_transfer_layout(const Image& image, Access wanted) {
-  GLOAM_ASSERT(image.access == wanted, "image \"" + image.desc.name + "\" must be in " + std::string(name_of(wanted)) +
-                                           " for this copy, and its last barrier left it in " +
-                                           std::string(name_of(image.access)));
+void check_transfer_layout(const Image& image, const ImageRange& range, Access wanted) {
+  image.access.visit(resolve(range, image.desc), [&](Access access) {
+    GLOAM_ASSERT(access == wanted, "image \"" + image.desc.name + "\" must be in " + std::string(name_of(wanted)) +
+                                       " for this copy, and its last barrier left it in " +
+                                       std::string(name_of(access)) + text_of(range));
+  });
 }
+
+ImageRange range_of(const ImagePart& part) { return {part.mip, 1, part.layer, 1}; }
 
 }  // namespace
 
@@ -83,7 +83,7 @@ void VulkanCommandList::barrier(std::span<const BufferBarrier> buffers, std::spa
     Image& image = images_.get(b.image);
     image_barriers_.push_back(to_vulkan(b, image.image, aspect_of(image.desc.format)));
     earlier_accesses_.emplace_back(b.image, image.access);
-    image.access = b.after;
+    image.access.set(resolve(b.range, image.desc), b.after);
   }
   const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                  .bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffer_barriers_.size()),
@@ -105,9 +105,9 @@ void VulkanCommandList::copy_buffer(BufferHandle source, std::uint64_t source_of
 void VulkanCommandList::copy_buffer_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target,
                                              std::uint32_t mip, std::uint32_t first_layer, std::uint32_t layer_count) {
   const Image& image = images_.get(target);
-  check_transfer_layout(image, Access::transfer_write);
+  check_transfer_layout(image, {mip, 1, first_layer, layer_count}, Access::transfer_write);
   const VkBufferImageCopy region = packed_region(image.desc, source_offset, mip, first_layer, layer_count);
-  check_range(source, source_offset, packed_bytes(image.desc, mip, layer_count));
+  check_range(source, source_offset, mip_bytes(image.desc, mip) * layer_count);
   context_.vk.vkCmdCopyBufferToImage(commands_, buffers_.get(source).buffer, image.image,
                                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
@@ -115,9 +115,9 @@ void VulkanCommandList::copy_buffer_to_image(BufferHandle source, std::uint64_t 
 void VulkanCommandList::copy_image_to_buffer(ImageHandle source, std::uint32_t mip, std::uint32_t layer,
                                              BufferHandle target, std::uint64_t target_offset) {
   const Image& image = images_.get(source);
-  check_transfer_layout(image, Access::transfer_read);
+  check_transfer_layout(image, {mip, 1, layer, 1}, Access::transfer_read);
   const VkBufferImageCopy region = packed_region(image.desc, target_offset, mip, layer, 1);
-  check_range(target, target_offset, packed_bytes(image.desc, mip, 1));
+  check_range(target, target_offset, mip_bytes(image.desc, mip));
   context_.vk.vkCmdCopyImageToBuffer(commands_, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                      buffers_.get(target).buffer, 1, &region);
 }
@@ -129,31 +129,34 @@ void VulkanCommandList::fill_buffer(BufferHandle buffer, std::uint64_t offset, s
   context_.vk.vkCmdFillBuffer(commands_, buffers_.get(buffer).buffer, offset, size, word);
 }
 
-void VulkanCommandList::clear_color_image(ImageHandle handle, std::array<std::uint32_t, 4> bits) {
+void VulkanCommandList::clear_color_image(ImageHandle handle, std::array<std::uint32_t, 4> bits, ImageRange range) {
   const Image& image = images_.get(handle);
   GLOAM_ASSERT(!is_depth(image.desc.format), "a depth image is cleared by rendering to it");
-  check_transfer_layout(image, Access::transfer_write);
+  check_transfer_layout(image, range, Access::transfer_write);
   VkClearColorValue value;
   std::copy(bits.begin(), bits.end(), value.uint32);
-  const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
-                                       VK_REMAINING_ARRAY_LAYERS};
-  context_.vk.vkCmdClearColorImage(commands_, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &all);
+  const VkImageSubresourceRange parts = to_vulkan(range, VK_IMAGE_ASPECT_COLOR_BIT);
+  context_.vk.vkCmdClearColorImage(commands_, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &parts);
 }
 
-void VulkanCommandList::blit(ImageHandle source, ImageHandle target) {
-  const Image& from = images_.get(source);
-  const Image& to = images_.get(target);
-  check_transfer_layout(from, Access::transfer_read);
-  check_transfer_layout(to, Access::transfer_write);
-  const auto corner = [](const ImageDesc& desc) {
-    return VkOffset3D{static_cast<std::int32_t>(desc.width), static_cast<std::int32_t>(desc.height), 1};
+void VulkanCommandList::blit(ImageHandle source, ImageHandle target, ImagePart from, ImagePart to) {
+  const Image& source_image = images_.get(source);
+  const Image& target_image = images_.get(target);
+  GLOAM_ASSERT((source_image.desc.shape == ImageShape::volume) == (target_image.desc.shape == ImageShape::volume),
+               "a blit goes from a volume to a volume, or between other images");
+  check_transfer_layout(source_image, range_of(from), Access::transfer_read);
+  check_transfer_layout(target_image, range_of(to), Access::transfer_write);
+  const auto corner = [](const ImageDesc& desc, std::uint32_t mip) {
+    const VkExtent3D extent = mip_extent(desc, mip);
+    return VkOffset3D{static_cast<std::int32_t>(extent.width), static_cast<std::int32_t>(extent.height),
+                      static_cast<std::int32_t>(extent.depth)};
   };
   VkImageBlit region = {};
-  region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  region.dstSubresource = region.srcSubresource;
-  region.srcOffsets[1] = corner(from.desc);
-  region.dstOffsets[1] = corner(to.desc);
-  context_.vk.vkCmdBlitImage(commands_, from.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.image,
+  region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, from.mip, from.layer, 1};
+  region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, to.mip, to.layer, 1};
+  region.srcOffsets[1] = corner(source_image.desc, from.mip);
+  region.dstOffsets[1] = corner(target_image.desc, to.mip);
+  context_.vk.vkCmdBlitImage(commands_, source_image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target_image.image,
                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
 }
 

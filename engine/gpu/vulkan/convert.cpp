@@ -73,20 +73,6 @@ Format from_vulkan(VkFormat format) {
   return found == kFormats.end() ? Format::undefined : static_cast<Format>(found - kFormats.begin());
 }
 
-bool is_integer(Format format) {
-  switch (format) {
-    case Format::r16_uint:
-    case Format::r32_uint:
-    case Format::rg32_uint:
-    case Format::rgba32_uint:
-    case Format::rgba8_uint:
-    case Format::rgba16_uint:
-      return true;
-    default:
-      return false;
-  }
-}
-
 VkImageAspectFlags aspect_of(Format format) {
   return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }

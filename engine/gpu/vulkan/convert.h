@@ -12,7 +12,6 @@ namespace gloam::gpu::vulkan {
 [[nodiscard]] VkFormat to_vulkan(Format format);
 /// Returns Format::undefined if Format has no equivalent.
 [[nodiscard]] Format from_vulkan(VkFormat format);
-[[nodiscard]] bool is_integer(Format format);
 [[nodiscard]] VkImageAspectFlags aspect_of(Format format);
 [[nodiscard]] VkBufferUsageFlags to_vulkan(BufferUsage usage);
 [[nodiscard]] VkImageUsageFlags to_vulkan(ImageUsage usage);

@@ -10,8 +10,12 @@
 namespace gloam::gpu::vulkan {
 namespace {
 
-/// The view type that the shader declares. Asserts that the number of layers fits it.
-VkImageViewType view_type(const ReflectedBinding& slot, std::uint32_t layers) {
+/// The view type that the shader declares. Asserts that the image and the number of layers fit it.
+VkImageViewType view_type(const ReflectedBinding& slot, const ImageDesc& desc, std::uint32_t layers) {
+  GLOAM_ASSERT((slot.dimension == ImageDimension::volume) == (desc.shape == ImageShape::volume),
+               "\"" + slot.name + "\" is " + (slot.dimension == ImageDimension::volume ? "a" : "no") +
+                   " volume for the shader, unlike image \"" + desc.name + "\"");
+  if (slot.dimension == ImageDimension::volume) return VK_IMAGE_VIEW_TYPE_3D;
   if (slot.dimension == ImageDimension::cube) {
     GLOAM_ASSERT(slot.arrayed ? layers % 6 == 0 : layers == 6,
                  "\"" + slot.name + "\" is a cube for the shader and needs six layers a cube");
@@ -19,6 +23,21 @@ VkImageViewType view_type(const ReflectedBinding& slot, std::uint32_t layers) {
   }
   GLOAM_ASSERT(slot.arrayed || layers == 1, "\"" + slot.name + "\" has one layer for the shader");
   return slot.arrayed ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+}
+
+/// Whether the barriers recorded so far left the mips and layers of a view in the general layout, as for a kernel that
+/// samples one mip and writes the next of an image that is in one layout. Asserts that the view is in one layout.
+bool is_general(const Image& image, const ViewKey& key) {
+  const auto general = [](Access access) { return facts_of(access).layout == VK_IMAGE_LAYOUT_GENERAL; };
+  std::uint32_t values = 0;
+  std::uint32_t generals = 0;
+  image.access.visit({key.first_mip, key.mip_count, key.first_layer, key.layer_count}, [&](Access access) {
+    ++values;
+    generals += general(access) ? 1 : 0;
+  });
+  GLOAM_ASSERT(generals == 0 || generals == values,
+               "the mips and layers of a view of image \"" + image.desc.name + "\" are in one layout");
+  return generals > 0;
 }
 
 bool is_buffer(ResourceKind kind) {
@@ -95,14 +114,12 @@ Status DescriptorWriter::add_image(const ReflectedBinding& slot, const ImageView
                                    Layouts layouts) {
   const Image& image = images_.get(view.image);
   ViewKey key = resolve_view(image.desc, view);
-  key.type = view_type(slot, key.layer_count);
+  key.type = view_type(slot, image.desc, key.layer_count);
   const bool storage = slot.kind == ResourceKind::storage_image;
   if (storage) key.mip_count = 1;  // a storage image has one mip
   const Result<VkImageView> vk_view = images_.view(view.image, key);
   if (!vk_view) return vk_view.error();
-  // If a kernel samples one mip and writes the next, the whole image is in the general layout.
-  const bool general =
-      storage || (layouts == Layouts::as_recorded && facts_of(image.access).layout == VK_IMAGE_LAYOUT_GENERAL);
+  const bool general = storage || (layouts == Layouts::as_recorded && is_general(image, key));
   image_infos_.push_back({sampler, *vk_view, general ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL});
   return {};
 }

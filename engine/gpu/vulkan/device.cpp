@@ -14,6 +14,7 @@ VulkanDevice::VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<C
     : instance_(std::move(instance)),
       context_(std::move(context)),
       memory_(*context_),
+      blocks_(memory_, graveyard_),
       buffers_(*context_, memory_, graveyard_),
       images_(*context_, memory_, graveyard_),
       samplers_(*context_),

@@ -16,6 +16,7 @@
 #include "engine/gpu/vulkan/images.h"
 #include "engine/gpu/vulkan/instance.h"
 #include "engine/gpu/vulkan/memory.h"
+#include "engine/gpu/vulkan/memory_blocks.h"
 #include "engine/gpu/vulkan/pipelines.h"
 #include "engine/gpu/vulkan/resource_sets.h"
 #include "engine/gpu/vulkan/samplers.h"
@@ -30,6 +31,10 @@ class VulkanDevice final : public Device {
   ~VulkanDevice() override;
 
   [[nodiscard]] const DeviceInfo& info() const override { return context_->physical.info; }
+  [[nodiscard]] bool supports(Format format, ImageUsage usage) const override {
+    return vulkan::supports(*context_, format, usage);
+  }
+  [[nodiscard]] bool supports_blit(Format format) const override { return vulkan::supports_blit(*context_, format); }
   [[nodiscard]] Result<BufferHandle> create_buffer(const BufferDesc& desc) override { return buffers_.create(desc); }
   [[nodiscard]] Result<ImageHandle> create_image(const ImageDesc& desc) override { return images_.create(desc); }
   [[nodiscard]] Result<SamplerHandle> create_sampler(const SamplerDesc& desc) override {
@@ -55,6 +60,18 @@ class VulkanDevice final : public Device {
   [[nodiscard]] Result<std::vector<ImageHandle>> create_aliased_images(std::span<const ImageDesc> descs) override {
     return images_.create_aliased(descs);
   }
+
+  [[nodiscard]] Result<MemoryNeeds> memory_needs(const ImageDesc& desc) const override { return images_.needs(desc); }
+  [[nodiscard]] Result<MemoryNeeds> memory_needs(const BufferDesc& desc) const override { return buffers_.needs(desc); }
+  [[nodiscard]] Result<MemoryHandle> create_memory(const MemoryDesc& desc) override { return blocks_.create(desc); }
+  [[nodiscard]] Result<ImageHandle> create_image(const ImageDesc& desc, const MemoryPlace& place) override {
+    return images_.create_in(desc, blocks_.get(place.memory), place.offset);
+  }
+  [[nodiscard]] Result<BufferHandle> create_buffer(const BufferDesc& desc, const MemoryPlace& place) override {
+    return buffers_.create_in(desc, blocks_.get(place.memory), place.offset);
+  }
+  void destroy(MemoryHandle memory) override { blocks_.destroy(memory); }
+  void account(MemoryHandle memory, std::span<const ModuleMemory> shares) override { blocks_.account(memory, shares); }
 
   [[nodiscard]] Result<CommandList*> begin_frame() override;
   [[nodiscard]] Status submit_frame() override;
@@ -88,6 +105,7 @@ class VulkanDevice final : public Device {
   std::unique_ptr<Context> context_;
   Graveyard graveyard_;
   MemoryAllocator memory_;
+  MemoryBlocks blocks_;
   Buffers buffers_;
   Images images_;
   Samplers samplers_;

@@ -103,6 +103,8 @@
   X(vkFreeDescriptorSets)                \
   X(vkFreeMemory)                        \
   X(vkGetBufferMemoryRequirements)       \
+  X(vkGetDeviceBufferMemoryRequirements) \
+  X(vkGetDeviceImageMemoryRequirements)  \
   X(vkGetDeviceQueue)                    \
   X(vkGetImageMemoryRequirements)        \
   X(vkGetPipelineCacheData)              \

@@ -10,6 +10,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/handle_table.h"
+#include "engine/gpu/subresources.h"
 #include "engine/gpu/types.h"
 #include "engine/gpu/vulkan/context.h"
 #include "engine/gpu/vulkan/graveyard.h"
@@ -32,12 +33,18 @@ struct Image {
   VkImage image = VK_NULL_HANDLE;
   AllocationOwner memory;  ///< null: an adopted image, which is not destroyed here
   std::vector<std::pair<ViewKey, VkImageView>> views;
-  /// The access that the last recorded barrier left the image ready for. Only the recording thread uses it.
-  Access access = Access::none;
+  /// The access that the last recorded barrier left each mip and layer ready for. Only the recording thread uses it.
+  Subresources<Access> access;
 };
 
+/// The mips and layers of a view. Asserts that the view lies inside the image.
+[[nodiscard]] ImageRange range_of(const ImageDesc& desc, const ImageView& view);
 /// Replaces counts of 0 by actual counts and asserts that the view lies inside the image. The caller sets `type`.
 [[nodiscard]] ViewKey resolve_view(const ImageDesc& desc, const ImageView& view);
+
+/// Whether the device supports a format for all of these uses, as in Device::supports.
+[[nodiscard]] bool supports(const Context& context, Format format, ImageUsage usage);
+[[nodiscard]] bool supports_blit(const Context& context, Format format);
 
 /// Creates, stores and destroys images and their views. Thread-safe, except Image::access.
 class Images {
@@ -47,6 +54,10 @@ class Images {
   ~Images();
 
   [[nodiscard]] Result<ImageHandle> create(const ImageDesc& desc);
+  /// Creates an image inside a memory block. offset: bytes from the begin of the block.
+  [[nodiscard]] Result<ImageHandle> create_in(const ImageDesc& desc, const AllocationOwner& block,
+                                              std::uint64_t offset);
+  [[nodiscard]] Result<MemoryNeeds> needs(const ImageDesc& desc) const;
   [[nodiscard]] Result<std::vector<ImageHandle>> create_aliased(std::span<const ImageDesc> descs);
   /// Adds an image owned by a window or a host. Destroying the handle destroys only the image's views.
   [[nodiscard]] ImageHandle adopt(const ImageDesc& desc, VkImage image);
@@ -59,7 +70,8 @@ class Images {
 
  private:
   [[nodiscard]] Result<Image> make(const ImageDesc& desc) const;
-  [[nodiscard]] Status bind(Image& image, AllocationOwner memory) const;
+  /// offset: bytes from the begin of `memory`.
+  [[nodiscard]] Status bind(Image& image, AllocationOwner memory, std::uint64_t offset) const;
   void release(const Image& image) const;
 
   Context& context_;

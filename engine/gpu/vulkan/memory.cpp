@@ -45,6 +45,7 @@ MemoryAllocator::Pool MemoryAllocator::pool_of(const MemoryRequest& request) {
     case MemoryKind::device:
       break;
   }
+  if (request.block) return Pool::blocks;
   return request.image ? Pool::images : Pool::buffers;
 }
 
@@ -82,7 +83,7 @@ std::optional<AllocationOwner> MemoryAllocator::allocate_in(std::uint32_t type, 
   const std::uint64_t size = request.requirements.size;
   const std::uint64_t alignment = std::max<std::uint64_t>(request.requirements.alignment, 1);
   const Pool pool = pool_of(request);
-  const bool dedicated = size > kBlockBytes / 2;
+  const bool dedicated = request.block || size > kBlockBytes / 2;
   if (!dedicated) {
     for (auto block = blocks_.begin(); block != blocks_.end(); ++block) {
       if (block->type != type || block->pool != pool || block->dedicated) continue;
@@ -117,22 +118,48 @@ VkResult MemoryAllocator::add_block(std::uint32_t type, Pool pool, std::uint64_t
 }
 
 AllocationOwner MemoryAllocator::take(Blocks::iterator block, std::uint64_t offset, const MemoryRequest& request) {
-  auto* allocation = new Allocation{block->memory, offset, request.requirements.size,
-                                    block->mapped == nullptr ? nullptr : block->mapped + offset};
-  std::string module(request.module);
-  module_bytes_[module] += allocation->size;
-  return {allocation, [this, block, module = std::move(module)](const Allocation* a) {
-            give_back(block, *a, module);
+  auto* allocation = new Allocation{block->memory,
+                                    offset,
+                                    request.requirements.size,
+                                    block->mapped == nullptr ? nullptr : block->mapped + offset,
+                                    {{std::string(request.module), request.requirements.size}}};
+  add_shares(*allocation);
+  return {allocation, [this, block](const Allocation* a) {
+            give_back(block, *a);
             delete a;
           }};
 }
 
-void MemoryAllocator::give_back(Blocks::iterator block, const Allocation& allocation, const std::string& module) {
-  const std::lock_guard lock(mutex_);
-  const auto bytes = module_bytes_.find(module);
-  bytes->second -= allocation.size;
-  if (bytes->second == 0) module_bytes_.erase(bytes);
+void MemoryAllocator::add_shares(const Allocation& allocation) {
+  for (const ModuleMemory& share : allocation.shares) module_bytes_[share.module] += share.bytes;
+}
 
+void MemoryAllocator::remove_shares(const Allocation& allocation) {
+  for (const ModuleMemory& share : allocation.shares) {
+    const auto bytes = module_bytes_.find(share.module);
+    bytes->second -= share.bytes;
+    if (bytes->second == 0) module_bytes_.erase(bytes);
+  }
+}
+
+void MemoryAllocator::account(const AllocationOwner& allocation, std::span<const ModuleMemory> shares,
+                              std::string_view module) {
+  const std::lock_guard lock(mutex_);
+  remove_shares(*allocation);
+  allocation->shares.clear();
+  std::uint64_t rest = allocation->size;
+  for (const ModuleMemory& share : shares) {
+    GLOAM_ASSERT(share.bytes <= rest, "no more bytes are accounted than a memory block has");
+    rest -= share.bytes;
+    if (share.bytes > 0) allocation->shares.push_back(share);
+  }
+  if (rest > 0) allocation->shares.push_back({std::string(module), rest});
+  add_shares(*allocation);
+}
+
+void MemoryAllocator::give_back(Blocks::iterator block, const Allocation& allocation) {
+  const std::lock_guard lock(mutex_);
+  remove_shares(allocation);
   block->ranges.free(allocation.offset);
   if (!block->ranges.empty()) return;
   // Keeps one empty block per memory type and pool, so that an object that is created and destroyed every frame does

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,8 @@ struct Allocation {
   std::uint64_t offset = 0;
   std::uint64_t size = 0;
   std::byte* mapped = nullptr;  ///< address of the first byte; null for MemoryKind::device
+  /// The modules that the bytes are accounted to. Only the allocator uses it.
+  mutable std::vector<ModuleMemory> shares;
 };
 using AllocationOwner = std::shared_ptr<const Allocation>;
 
@@ -33,6 +36,7 @@ struct MemoryRequest {
   VkMemoryRequirements requirements = {};
   MemoryKind kind = MemoryKind::device;
   bool image = false;
+  bool block = false;  ///< a memory block, which gets its own VkDeviceMemory
   std::string_view module;
   std::string_view name;  ///< for the error message
 };
@@ -48,10 +52,12 @@ class MemoryAllocator {
   ~MemoryAllocator();
 
   [[nodiscard]] Result<AllocationOwner> allocate(const MemoryRequest& request);
+  /// Accounts the bytes of an allocation to these modules instead, the rest to `module`.
+  void account(const AllocationOwner& allocation, std::span<const ModuleMemory> shares, std::string_view module);
   [[nodiscard]] std::vector<ModuleMemory> usage() const;
 
  private:
-  enum class Pool : std::uint8_t { buffers, images, upload, readback };
+  enum class Pool : std::uint8_t { buffers, images, upload, readback, blocks };
   struct Block {
     Pool pool;
     std::uint32_t type;
@@ -67,7 +73,9 @@ class MemoryAllocator {
   std::optional<AllocationOwner> allocate_in(std::uint32_t type, const MemoryRequest& request, VkResult& result);
   VkResult add_block(std::uint32_t type, Pool pool, std::uint64_t bytes, bool dedicated);
   AllocationOwner take(Blocks::iterator block, std::uint64_t offset, const MemoryRequest& request);
-  void give_back(Blocks::iterator block, const Allocation& allocation, const std::string& module);
+  void give_back(Blocks::iterator block, const Allocation& allocation);
+  void add_shares(const Allocation& allocation);
+  void remove_shares(const Allocation& allocation);
   void release(Blocks::iterator block);
 
   Context& context_;

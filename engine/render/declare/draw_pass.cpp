@@ -90,7 +90,7 @@ DrawPass::DrawPass(FrameBuilder& frame, std::string_view name) : ShaderPass(fram
 }
 
 ImageRef DrawPass::target(ImageRef image, gpu::LoadOp load, std::uint32_t mip, std::uint32_t layer) {
-  image = graph_pass().write(image, gpu::Access::color_target);
+  image = graph_pass().write(image, gpu::Access::color_target, {mip, 1, layer, 1});
   recording().colors.push_back({image, load, mip, layer});
   return image;
 }

@@ -29,12 +29,20 @@ Recording& Recordings::next(std::string_view name) {
 
 namespace {
 
+gpu::ImageView view_of(const Item& item, const PassContext& context) {
+  return {.image = context.image(item.image),
+          .first_mip = item.part.first_mip,
+          .mip_count = item.part.mip_count,
+          .first_layer = item.part.first_layer,
+          .layer_count = item.part.layer_count};
+}
+
 gpu::Binding binding_of(const Item& item, std::uint32_t binding, const PassContext& context) {
   switch (item.kind) {
     case Item::Kind::sampled:
-      return {binding, gpu::Binding::Sampled{{.image = context.image(item.image)}, item.sampler}};
+      return {binding, gpu::Binding::Sampled{view_of(item, context), item.sampler}};
     case Item::Kind::storage:
-      return {binding, gpu::Binding::Storage{{.image = context.image(item.image)}}};
+      return {binding, gpu::Binding::Storage{view_of(item, context)}};
     case Item::Kind::buffer:
       return {binding, gpu::Binding::BufferRange{context.buffer(item.buffer), item.range.offset, item.range.size}};
     case Item::Kind::range:

@@ -26,6 +26,7 @@ struct Item {
   Kind kind = Kind::range;
   bool written = false;
   ImageRef image;
+  gpu::ImageRange part;  ///< of the image
   BufferRef buffer;
   gpu::SamplerHandle sampler;
   gpu::Binding::BufferRange range;  ///< kind buffer: offset and size only

@@ -76,15 +76,15 @@ void ShaderPass::set(const InterfaceBinding& slot, const Item& item) {
   recording_.in_force.push_back(index);
 }
 
-void ShaderPass::declare_read(const InterfaceBinding& slot, ImageRef image) {
+void ShaderPass::declare_read(const InterfaceBinding& slot, ImageRef image, const gpu::ImageRange& range) {
   if (slot.kind == ResourceKind::storage_image) {
     GLOAM_ASSERT(interface_->compute && !slot.writable,
                  sentence(slot.name, "the shader may write this image, so the pass must write it"));
-    return graph_pass_.read(image, Access::compute_storage_read);
+    return graph_pass_.read(image, Access::compute_storage_read, range);
   }
-  if (interface_->compute) return graph_pass_.read(image, Access::compute_read);
-  if (slot.in_vertex) graph_pass_.read(image, Access::vertex_read);
-  if (slot.in_last) graph_pass_.read(image, Access::fragment_read);
+  if (interface_->compute) return graph_pass_.read(image, Access::compute_read, range);
+  if (slot.in_vertex) graph_pass_.read(image, Access::vertex_read, range);
+  if (slot.in_last) graph_pass_.read(image, Access::fragment_read, range);
 }
 
 void ShaderPass::declare_read(const InterfaceBinding& slot, BufferRef buffer) {
@@ -94,10 +94,12 @@ void ShaderPass::declare_read(const InterfaceBinding& slot, BufferRef buffer) {
   if (slot.in_last) graph_pass_.read(buffer, Access::fragment_read);
 }
 
-void ShaderPass::bind_image(const InterfaceBinding& slot, ImageRef image, gpu::SamplerHandle sampler) {
+void ShaderPass::bind_image(const InterfaceBinding& slot, ImageRef image, gpu::SamplerHandle sampler,
+                            const gpu::ImageRange& range) {
   Item item;
   item.kind = slot.kind == ResourceKind::storage_image ? Item::Kind::storage : Item::Kind::sampled;
   item.image = image;
+  item.part = range;
   item.sampler = sampler;
   set(slot, item);
 }
@@ -110,20 +112,22 @@ void ShaderPass::bind_buffer(const InterfaceBinding& slot, BufferRef buffer, std
   set(slot, item);
 }
 
-void ShaderPass::read(std::string_view binding, ImageRef image, Sampling sampling) {
-  read(binding, image, frame_.sampler(sampling));
+void ShaderPass::read(std::string_view binding, ImageRef image, Sampling sampling, const gpu::ImageRange& range) {
+  read(binding, image, frame_.sampler(sampling), range);
 }
 
-void ShaderPass::read(std::string_view binding, ImageRef image, gpu::SamplerHandle sampler) {
+void ShaderPass::read(std::string_view binding, ImageRef image, gpu::SamplerHandle sampler,
+                      const gpu::ImageRange& range) {
   const InterfaceBinding* slot = expect(binding, true, false);
   if (slot == nullptr) return;
   if (!image) {
     auto placeholder = frame_.services().declared.placeholders.image(frame_.graph(), *slot);
     if (!placeholder.ok()) return fail(placeholder.error());
-    image = *placeholder;
+    declare_read(*slot, *placeholder, {});
+    return bind_image(*slot, *placeholder, sampler, {});
   }
-  declare_read(*slot, image);
-  bind_image(*slot, image, sampler);
+  declare_read(*slot, image, range);
+  bind_image(*slot, image, sampler, range);
 }
 
 void ShaderPass::read(std::string_view binding, BufferRef buffer) { read_part(binding, buffer, 0, 0); }
@@ -155,12 +159,12 @@ Access ShaderPass::write_access(const InterfaceBinding& slot) const {
   return interface_->compute ? Access::compute_write : Access::fragment_write;
 }
 
-ImageRef ShaderPass::write(std::string_view binding, ImageRef image) {
+ImageRef ShaderPass::write(std::string_view binding, ImageRef image, const gpu::ImageRange& range) {
   const InterfaceBinding* slot = expect(binding, true, true);
   // Also written if the program failed: later passes of a frame that is given up may still declare reads.
-  if (slot == nullptr) return graph_pass_.write(image, Access::compute_write);
-  image = graph_pass_.write(image, write_access(*slot));
-  bind_image(*slot, image, {});
+  if (slot == nullptr) return graph_pass_.write(image, Access::compute_write, range);
+  image = graph_pass_.write(image, write_access(*slot), range);
+  bind_image(*slot, image, {}, range);
   recording_.items.back().written = true;
   return image;
 }

@@ -43,15 +43,17 @@ class ShaderPass {
   /// Whether the program in use declares a binding of this name.
   [[nodiscard]] bool declares(std::string_view binding) const;
 
-  void read(std::string_view binding, ImageRef image, Sampling sampling = Sampling::nearest);
-  void read(std::string_view binding, ImageRef image, gpu::SamplerHandle sampler);
+  /// range: the mips and layers that the shader sees; by default all.
+  void read(std::string_view binding, ImageRef image, Sampling sampling = Sampling::nearest,
+            const gpu::ImageRange& range = {});
+  void read(std::string_view binding, ImageRef image, gpu::SamplerHandle sampler, const gpu::ImageRange& range = {});
   void read(std::string_view binding, BufferRef buffer);
   /// A part of a buffer of the graph. offset, size: bytes; size 0: to the end.
   void read_part(std::string_view binding, BufferRef buffer, std::uint64_t offset, std::uint64_t size);
   /// Memory outside the graph: uploaded data, or a buffer that no pass of the frame writes.
   void read(std::string_view binding, const gpu::Binding::BufferRange& range);
   /// Returns the version that later passes read.
-  [[nodiscard]] ImageRef write(std::string_view binding, ImageRef image);
+  [[nodiscard]] ImageRef write(std::string_view binding, ImageRef image, const gpu::ImageRange& range = {});
   [[nodiscard]] BufferRef write(std::string_view binding, BufferRef buffer);
   [[nodiscard]] BufferRef write_part(std::string_view binding, BufferRef buffer, std::uint64_t offset,
                                      std::uint64_t size);
@@ -102,9 +104,10 @@ class ShaderPass {
  private:
   [[nodiscard]] const InterfaceBinding* expect(std::string_view binding, bool image, bool write);
   void set(const InterfaceBinding& slot, const declare::Item& item);
-  void bind_image(const InterfaceBinding& slot, ImageRef image, gpu::SamplerHandle sampler);
+  void bind_image(const InterfaceBinding& slot, ImageRef image, gpu::SamplerHandle sampler,
+                  const gpu::ImageRange& range);
   void bind_buffer(const InterfaceBinding& slot, BufferRef buffer, std::uint64_t offset, std::uint64_t size);
-  void declare_read(const InterfaceBinding& slot, ImageRef image);
+  void declare_read(const InterfaceBinding& slot, ImageRef image, const gpu::ImageRange& range);
   void declare_read(const InterfaceBinding& slot, BufferRef buffer);
   [[nodiscard]] gpu::Access write_access(const InterfaceBinding& slot) const;
   void upload(std::string_view binding, std::span<const std::byte> bytes);

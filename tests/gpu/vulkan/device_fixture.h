@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/gpu/device.h"
+#include "engine/gpu/image_size.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam::gpu {
@@ -39,9 +40,7 @@ class VulkanTest : public ::testing::Test {
   [[nodiscard]] BufferHandle read_layer(CommandList& commands, ImageHandle image, Access before,
                                         std::uint32_t layer = 0, std::uint32_t mip = 0) {
     const ImageDesc& desc = device_->desc(image);
-    const std::uint64_t bytes = std::uint64_t{std::max(desc.width >> mip, 1u)} * std::max(desc.height >> mip, 1u) *
-                                bytes_per_texel(desc.format);
-    const BufferHandle target = test::make_readback(*device_, bytes);
+    const BufferHandle target = test::make_readback(*device_, mip_bytes(desc, mip));
     const ImageBarrier to_read = {.image = image, .before = before, .after = Access::transfer_read};
     commands.barrier({}, {&to_read, 1});
     commands.copy_image_to_buffer(image, mip, layer, target, 0);

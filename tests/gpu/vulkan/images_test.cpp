@@ -252,6 +252,28 @@ TEST_F(Images, limits_and_formats_are_errors_that_name_the_image) {
   EXPECT_NE(odd.error().message.find("cannot use this format"), std::string::npos) << odd.error().message;
 }
 
+TEST_F(Images, are_made_exactly_for_the_uses_that_the_device_supports) {
+  constexpr std::array kUses = {transfer_source, transfer_target, sampled, storage, color_target, depth_target};
+  std::uint32_t supported = 0;
+  for (int f = 1; f <= static_cast<int>(Format::d32_float); ++f) {
+    const auto format = static_cast<Format>(f);
+    for (const ImageUsage use : kUses) {
+      const auto made = device().create_image(
+          {.name = "any", .module = "test", .format = format, .width = 4, .height = 4, .usage = use});
+      EXPECT_EQ(made.ok(), device().supports(format, use)) << name_of(format) << " " << text_of(use);
+      supported += made.ok() ? 1 : 0;
+      if (made.ok()) device().destroy(*made);
+    }
+  }
+  EXPECT_GT(supported, 60u);
+  EXPECT_TRUE(device().supports(Format::rgba16_float, sampled | storage | color_target));
+  EXPECT_FALSE(device().supports(Format::rgba16_float, depth_target));
+  EXPECT_FALSE(device().supports(Format::d32_float, sampled | storage));
+  EXPECT_TRUE(device().supports_blit(Format::rgba16_float));
+  EXPECT_FALSE(device().supports_blit(Format::d32_float));
+  EXPECT_FALSE(device().supports_blit(Format::r32_uint));
+}
+
 TEST_F(Images, misuse_asserts_with_a_sentence) {
   const ImageHandle image = make_image(ImageShape::array, 2, storage | transfer_source | transfer_target);
   EXPECT_ASSERT((void)device().create_image({.name = "x", .format = Format::r8_unorm, .layers = 2, .usage = sampled}),
