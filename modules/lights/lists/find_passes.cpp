@@ -24,9 +24,9 @@ gpu::ComputePipelineDesc accurate_pipeline() {
 gpu::ComputePipelineDesc accurate_tiles_pipeline() {
   return {"find_lights_accurate_tiles", "lights", shaders::lights::find_lights_accurate_tiles_comp, {}};
 }
-/// On a CPU device a workgroup's threads run one after another, and each barrier swaps all their state. The version
-/// with one thread per tile needs no barrier.
-bool runs_threads_in_turn(const gpu::DeviceInfo& device) { return device.type == gpu::DeviceType::cpu; }
+/// Where a workgroup's threads run one after another, the version with one thread per tile is used: it needs no
+/// barrier.
+bool runs_threads_in_turn(const gpu::DeviceInfo& device) { return device.threads_in_turn; }
 gpu::ComputePipelineDesc check_pipeline() { return {"check_lists", "lights", shaders::lights::check_lists_comp, {}}; }
 
 /// The pipeline and workgroup count of a search. Bindings are added when the pass records, because images and buffers
