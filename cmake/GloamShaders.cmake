@@ -11,7 +11,7 @@ set_property(GLOBAL PROPERTY GLOAM_SHADER_ROOT "${GLOAM_SHADER_ROOT}")
 # gloam_add_shaders(<folder> <file.comp.glsl>…)
 # Compiles shaders/<folder>/<file> to SPIR-V and embeds it in the library gloam_shaders_<folder>. The header
 # shaders/<folder>/shaders.h in the build tree declares each shader as gloam::shaders::<folder>::<symbol>: the file name
-# without .glsl and with _ for ., so blur.frag.glsl is blur_frag. The SPIR-V keeps names, because reflection finds
+# without .glsl and with _ for ., so blur.frag.glsl is blur_frag; every_shader lists them. The SPIR-V keeps names, because reflection finds
 # structures by name. Shaders include files by full path from the root of their project or of gloam.
 function(gloam_add_shaders folder)
   if(NOT GLSLANG_VALIDATOR)
@@ -23,6 +23,7 @@ function(gloam_add_shaders folder)
   set(declarations "")
   set(definitions "")
   set(includes "")
+  set(addresses "")
   set(outputs "")
   foreach(source IN LISTS ARGN)
     string(REGEX REPLACE "\\.glsl$" "" stem ${source})
@@ -42,12 +43,14 @@ function(gloam_add_shaders folder)
     string(APPEND declarations "extern const gpu::ShaderCode ${symbol};\n")
     string(APPEND includes "#include \"shaders/${folder}/${stem}.spv.h\"\n")
     string(APPEND definitions "const gpu::ShaderCode ${symbol}{\"${folder}/${stem}\", ${symbol}_words};\n")
+    string(APPEND addresses "&${symbol}, ")
   endforeach()
   file(CONFIGURE OUTPUT ${out_dir}/shaders.h CONTENT
 "#pragma once
 #include \"engine/gpu/types.h\"
 namespace gloam::shaders::${folder} {
-${declarations}}
+${declarations}extern const std::span<const gpu::ShaderCode* const> every_shader;
+}
 ")
   file(CONFIGURE OUTPUT ${out_dir}/shaders.cpp CONTENT
 "#include \"shaders/${folder}/shaders.h\"
@@ -55,8 +58,11 @@ ${declarations}}
 namespace {
 ${includes}}
 namespace gloam::shaders::${folder} {
-${definitions}}
+${definitions}constexpr const gpu::ShaderCode* kEveryShader[] = {${addresses}};
+const std::span<const gpu::ShaderCode* const> every_shader = kEveryShader;
+}
 ")
+  set_property(GLOBAL APPEND PROPERTY GLOAM_SHADER_FOLDERS ${folder})
   add_custom_target(gloam_shaders_${folder}_words DEPENDS ${outputs})
   add_library(gloam_shaders_${folder} STATIC ${out_dir}/shaders.cpp ${outputs})
   add_library(gloam::shaders_${folder} ALIAS gloam_shaders_${folder})

@@ -79,6 +79,20 @@ function(gloam_add_test_program program)
   endif()
 endfunction()
 
+# The Vulkan driver of entries labelled second_device: SwiftShader, which Debian's package chromium brings.
+set(GLOAM_SECOND_DRIVER "/usr/lib/chromium/vk_swiftshader_icd.json" CACHE FILEPATH "Driver file of SwiftShader")
+
+# gloam_add_second_device_entry(<name> COMMAND program [arguments…])
+# Adds a CTest entry whose tests run on SwiftShader, beside the other drivers of the machine. It is skipped if the driver
+# is absent.
+function(gloam_add_second_device_entry name)
+  cmake_parse_arguments(ARG "" "" "COMMAND" ${ARGN})
+  add_test(NAME ${name} COMMAND ${ARG_COMMAND})
+  set_tests_properties(${name} PROPERTIES LABELS "gpu;second_device" TIMEOUT ${GLOAM_TEST_TIMEOUT}
+    FAIL_REGULAR_EXPRESSION "Running 0 tests" SKIP_REGULAR_EXPRESSION "there is no usable Vulkan device"
+    ENVIRONMENT "VK_ADD_DRIVER_FILES=${GLOAM_SECOND_DRIVER};GLOAM_TEST_DEVICE=swiftshader;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/shader_cache")
+endfunction()
+
 # gloam_add_entries(<suite> COMMAND program [arguments…] [LABELS …] [WIDTHS …] [ENVIRONMENT …])
 # Adds one CTest entry, or one per subgroup width if WIDTHS are given (in bits of a lavapipe vector).
 function(gloam_add_entries suite)

@@ -11,6 +11,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/core/env.h"
+#include "engine/gpu/vulkan_device.h"
 #include "sandbox/commands/commands.h"
 #include "sandbox/console.h"
 #include "sandbox/log.h"
@@ -96,6 +97,7 @@ Status run_guarded(std::span<const std::string> arguments, gloam::Console& conso
 }  // namespace
 
 int main(int argc, char** argv) {
+  gloam::gpu::separate_driver_caches();
   gloam::Console console;
   assert_console = &console;
   gloam::set_assert_handler(&tell_assertion);

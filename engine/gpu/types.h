@@ -324,6 +324,9 @@ struct DeviceInfo {
   std::string name;
   std::string driver;
   DeviceType type = DeviceType::other;
+  /// A workgroup's threads run one after another, and each barrier swaps all their state: kernels with few threads and
+  /// barriers are faster. True on cpu devices (see VulkanOptions::threads_in_turn).
+  bool threads_in_turn = false;
   std::uint32_t subgroup_size = 0;      ///< threads
   std::uint64_t max_storage_range = 0;  ///< largest size of one storage buffer binding, in bytes
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@
 #include "engine/gpu/device.h"
 
 namespace gloam::gpu {
+
+/// How the resources of set 0, which CommandList::bind takes, get to the device.
+enum class PushDescriptors : std::uint8_t {
+  automatic,  ///< pushed where the device has VK_KHR_push_descriptor, otherwise in descriptor sets from pools
+  never,      ///< in descriptor sets from pools
+};
 
 struct VulkanOptions {
   /// "auto" (prefers discrete, then integrated, then other devices, then cpu), "cpu", "gpu" (any type but cpu), or part
@@ -27,10 +34,22 @@ struct VulkanOptions {
   LogSink* log = nullptr;  ///< must outlive the device; null: nothing is logged
   /// The instance extensions that the window system requires; empty: no window.
   std::vector<std::string> window_extensions;
+  /// Creates a surface of the window, as for create_swapchain; called once, and the surface is destroyed after the
+  /// choice. Only devices that can present to it are chosen. Null: any device with VK_KHR_swapchain can be chosen.
+  std::function<std::uint64_t(void* instance)> create_surface;
+  PushDescriptors push_descriptors = PushDescriptors::automatic;
+  /// Replaces DeviceInfo::threads_in_turn, so that tests run the kernel variants of another kind of device.
+  std::optional<bool> threads_in_turn;
 };
 
 /// Fails with ErrorKind::no_device if no device fits; the error lists the devices found.
 [[nodiscard]] Result<std::unique_ptr<Device>> create_vulkan_device(const VulkanOptions& options);
+
+/// lavapipe 22.3 keeps compiled shaders on disk without noting the vector width (LP_NATIVE_VECTOR_WIDTH) that they were
+/// compiled for, and code of another width overwrites memory. If that variable is set, this function selects a cache
+/// directory for this width by setting MESA_SHADER_CACHE_DIR; otherwise it does nothing. Call it before the first
+/// device is created and while no other thread uses the environment. Repeated calls have no effect.
+void separate_driver_caches();
 
 /// The images of a window, which are shown in turn.
 class Swapchain {

@@ -19,18 +19,18 @@
 
 namespace gloam::gpu {
 
-/// The device extensions that the host must enable in vkCreateDevice. No instance extension is required.
+/// The device extensions that the host must enable in vkCreateDevice: none. No instance extension is required.
 [[nodiscard]] std::span<const char* const> required_device_extensions();
+/// The device extensions that gloam uses if the host enables them: VK_KHR_push_descriptor.
+[[nodiscard]] std::span<const char* const> useful_device_extensions();
 
 /// Sets the features that gloam requires to VK_TRUE and leaves all other features unchanged. The host owns and chains
 /// the structures; sType and pNext are not touched.
 void fill_required_features(VkPhysicalDeviceFeatures& core, VkPhysicalDeviceVulkan12Features& v12,
                             VkPhysicalDeviceVulkan13Features& v13);
 /// Sets the optional features that gloam uses (anisotropic filtering, …) to VK_TRUE where the device supports them.
-/// core_supported and v12_supported come from vkGetPhysicalDeviceFeatures2.
-void fill_useful_features(const VkPhysicalDeviceFeatures& core_supported,
-                          const VkPhysicalDeviceVulkan12Features& v12_supported, VkPhysicalDeviceFeatures& core,
-                          VkPhysicalDeviceVulkan12Features& v12);
+/// core_supported comes from vkGetPhysicalDeviceFeatures2.
+void fill_useful_features(const VkPhysicalDeviceFeatures& core_supported, VkPhysicalDeviceFeatures& core);
 
 /// A device that the host has created. The host owns all handles; they must outlive the gpu::Device created on them.
 struct HostDevice {

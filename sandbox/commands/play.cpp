@@ -159,7 +159,9 @@ Status run_play(const CommandContext& context) {
   GLOAM_TRY(check_scene_exists(options.scene));
   const auto window = Window::open("gloam: " + options.scene, options.width, options.height);
   if (!window) return window.error();
-  const auto session = open_session(options, context.log, window.value()->vulkan_extensions());
+  const auto session = open_session(
+      options, context.log,
+      {.extensions = window.value()->vulkan_extensions(), .create_surface = window.value()->surface_maker()});
   if (!session) return session.error();
   warn_of_missing_effects(*session.value(), context.log);
   GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));

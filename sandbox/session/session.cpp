@@ -27,15 +27,7 @@ Status set_knobs(KnobRegistry& knobs, const Options& options) {
   return {};
 }
 
-Status open_renderer(Session& session, const Options& options, LogSink& log,
-                     const std::vector<std::string>& window_extensions, ModuleList more_modules) {
-  auto device = gpu::create_vulkan_device({.device = options.device,
-                                           .validate = options.validate,
-                                           .cache_directory = options.cache_dir,
-                                           .log = &log,
-                                           .window_extensions = window_extensions});
-  if (!device) return device.error();
-  session.device = std::move(device).value();
+Status open_renderer(Session& session, const Options& options, LogSink& log, ModuleList more_modules) {
   ModuleList modules = make_all_modules();
   std::move(more_modules.begin(), more_modules.end(), std::back_inserter(modules));
   auto renderer = Renderer::create({.device = session.device.get(),
@@ -81,13 +73,26 @@ Status Session::check_validation() const {
                "Vulkan validation has " + std::to_string(count) + (count == 1 ? " message" : " messages")};
 }
 
-Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& log,
-                                              const std::vector<std::string>& window_extensions,
+Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& log, const WindowNeeds& window,
                                               ModuleList more_modules) {
+  GLOAM_TRY(check_scene_exists(options.scene));
+  auto device = gpu::create_vulkan_device({.device = options.device,
+                                           .validate = options.validate,
+                                           .cache_directory = options.cache_dir,
+                                           .log = &log,
+                                           .window_extensions = window.extensions,
+                                           .create_surface = window.create_surface});
+  if (!device) return device.error();
+  return open_session_on(std::move(device).value(), options, log, std::move(more_modules));
+}
+
+Result<std::unique_ptr<Session>> open_session_on(std::unique_ptr<gpu::Device> device, const Options& options,
+                                                 LogSink& log, ModuleList more_modules) {
   GLOAM_TRY(check_scene_exists(options.scene));
   auto session = std::make_unique<Session>();
   session->executor = make_pool_executor(options.threads);
-  GLOAM_TRY(open_renderer(*session, options, log, window_extensions, std::move(more_modules)));
+  session->device = std::move(device);
+  GLOAM_TRY(open_renderer(*session, options, log, std::move(more_modules)));
   session->renderer->prepare_world(session->world);
   auto info = load_scene({.scene = options.scene, .animation = options.animation}, session->renderer->modules(),
                          session->world, *session->executor, log);

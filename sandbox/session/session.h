@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,11 +46,21 @@ struct Session {
   [[nodiscard]] Status check_validation() const;
 };
 
+/// What a window needs of the device; members as in gpu::VulkanOptions. Empty: no window.
+struct WindowNeeds {
+  std::vector<std::string> extensions;
+  std::function<std::uint64_t(void* instance)> create_surface;
+};
+
 /// Opens the device, creates the renderer with all modules, sets the knobs (--config, then --set), loads the scene,
-/// poses it at --time and checks camera and visualizer. log must outlive the session. window_extensions: Vulkan
-/// instance extensions of the window system, or empty. more_modules: added after the program's own modules.
+/// poses it at --time and checks camera and visualizer. log must outlive the session. more_modules: added after the
+/// program's own modules.
 [[nodiscard]] Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& log,
-                                                            const std::vector<std::string>& window_extensions = {},
+                                                            const WindowNeeds& window = {},
                                                             ModuleList more_modules = {});
+/// As open_session, on a device that exists already; --device, --validate and --cache-dir are not read.
+[[nodiscard]] Result<std::unique_ptr<Session>> open_session_on(std::unique_ptr<gpu::Device> device,
+                                                               const Options& options, LogSink& log,
+                                                               ModuleList more_modules = {});
 
 }  // namespace gloam

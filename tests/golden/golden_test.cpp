@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +9,7 @@
 #include "engine/scene/image_file.h"
 #include "sandbox/output/image_io.h"
 #include "sandbox/session/session.h"
+#include "tests/golden/whole_pictures.h"
 #include "tests/support/gpu_device.h"
 
 // Compares whole pictures with golden pictures. A golden picture changes only in a commit that says why. Each test
@@ -50,16 +49,6 @@ Picture draw(const Options& options) {
   return picture.ok() ? std::move(*picture) : Picture{};
 }
 
-/// Root mean square of the difference of encoded channels, 0…1.
-double root_mean_square(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double difference = (static_cast<double>(a[i]) - static_cast<double>(b[i])) / 255.0;
-    sum += difference * difference;
-  }
-  return std::sqrt(sum / static_cast<double>(a.size()));
-}
-
 std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -83,10 +72,9 @@ void expect_golden(const Picture& picture, const std::string& name) {
 class Golden : public testing::Test {
  protected:
   void SetUp() override {
-    const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
-    if (width != nullptr && std::string(width) == "512")
-      GTEST_SKIP() << "lavapipe 22.3 crashes at this width when fragments sample";
-    GLOAM_REQUIRE_GPU(make_test_device(false));
+    const auto device = make_test_device(false);
+    GLOAM_REQUIRE_GPU(device);
+    GLOAM_REQUIRE_DEPTH_TESTS(device);
   }
 };
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -107,10 +106,9 @@ void expect_flight_without_flicker(Session& session, std::span<const PathKey> ke
 class LightFlight : public testing::Test {
  protected:
   void SetUp() override {
-    const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
-    if (width != nullptr && std::string(width) == "512")
-      GTEST_SKIP() << "lavapipe 22.3 crashes at this width when fragments sample";
-    GLOAM_REQUIRE_GPU(make_test_device(false));
+    const auto device = make_test_device(false);
+    GLOAM_REQUIRE_GPU(device);
+    GLOAM_REQUIRE_DEPTH_TESTS(device);
   }
 
   std::unique_ptr<Session> open(const std::string& scene) {

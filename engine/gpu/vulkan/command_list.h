@@ -12,6 +12,7 @@
 #include "engine/gpu/vulkan/buffers.h"
 #include "engine/gpu/vulkan/context.h"
 #include "engine/gpu/vulkan/descriptor_writer.h"
+#include "engine/gpu/vulkan/frame_sets.h"
 #include "engine/gpu/vulkan/frames.h"
 #include "engine/gpu/vulkan/images.h"
 #include "engine/gpu/vulkan/pipelines.h"
@@ -23,13 +24,14 @@ namespace gloam::gpu::vulkan {
 class VulkanCommandList final : public CommandList {
  public:
   VulkanCommandList(Context& context, const Buffers& buffers, Images& images, const Pipelines& pipelines,
-                    const ResourceSets& sets, const DescriptorWriter& writer, Frames& frames)
+                    const ResourceSets& sets, const DescriptorWriter& writer, FrameSets& frame_sets, Frames& frames)
       : context_(context),
         buffers_(buffers),
         images_(images),
         pipelines_(pipelines),
         sets_(sets),
         writer_(writer),
+        frame_sets_(frame_sets),
         frames_(frames) {}
 
   void start(VkCommandBuffer commands);
@@ -90,6 +92,7 @@ class VulkanCommandList final : public CommandList {
   const Pipelines& pipelines_;
   const ResourceSets& sets_;
   DescriptorWriter writer_;
+  FrameSets& frame_sets_;
   Frames& frames_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   PipelineHandle pipeline_;

@@ -95,9 +95,22 @@ void VulkanCommandList::bind_pipeline(PipelineHandle handle) {
 
 void VulkanCommandList::bind(std::span<const Binding> bindings) {
   const Pipeline& pipeline = bound_pipeline();
-  const auto writes = writer_.build(pipeline, 0, bindings, VK_NULL_HANDLE, DescriptorWriter::Layouts::as_recorded);
+  VkDescriptorSet set = VK_NULL_HANDLE;
+  if (!pipeline.layout->pushes_set_0 && !pipeline.shader.of_set(0).empty()) {
+    const Result<VkDescriptorSet> allocated = frame_sets_.allocate(pipeline.layout->sets[0], pipeline.shader.of_set(0));
+    if (!allocated) return fail(allocated.error());
+    set = *allocated;
+  }
+  const auto writes = writer_.build(pipeline, 0, bindings, set, DescriptorWriter::Layouts::as_recorded);
   if (!writes) return fail(writes.error());
   if (writes->empty()) return;
+  if (set != VK_NULL_HANDLE) {
+    context_.vk.vkUpdateDescriptorSets(context_.device, static_cast<std::uint32_t>(writes->size()), writes->data(), 0,
+                                       nullptr);
+    context_.vk.vkCmdBindDescriptorSets(commands_, pipeline.bind_point, pipeline.layout->layout, 0, 1, &set, 0,
+                                        nullptr);
+    return;
+  }
   context_.vk.vkCmdPushDescriptorSetKHR(commands_, pipeline.bind_point, pipeline.layout->layout, 0,
                                         static_cast<std::uint32_t>(writes->size()), writes->data());
 }
@@ -151,7 +164,15 @@ void VulkanCommandList::draw_indirect(BufferHandle buffer, std::uint64_t offset)
 
 void VulkanCommandList::draw_indexed_indirect(BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) {
   check_range(buffer, offset, std::uint64_t{draw_count} * kIndirectDrawBytes);
-  context_.vk.vkCmdDrawIndexedIndirect(commands_, buffers_.get(buffer).buffer, offset, draw_count, kIndirectDrawBytes);
+  const PhysicalDevice& device = context_.physical;
+  const bool many = device.features.core.features.multiDrawIndirect == VK_TRUE;
+  const std::uint32_t most = many ? device.limits.maxDrawIndirectCount : 1;
+  while (draw_count > 0) {
+    const std::uint32_t count = std::min(draw_count, most);
+    context_.vk.vkCmdDrawIndexedIndirect(commands_, buffers_.get(buffer).buffer, offset, count, kIndirectDrawBytes);
+    offset += std::uint64_t{count} * kIndirectDrawBytes;
+    draw_count -= count;
+  }
 }
 
 void VulkanCommandList::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {

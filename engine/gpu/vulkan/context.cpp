@@ -15,6 +15,7 @@ Result<std::unique_ptr<Context>> Context::create(const Instance& instance, const
   Features features = features_to_enable(physical.features);
   const std::span<const char* const> required = required_device_extensions();
   std::vector<const char*> extensions(required.begin(), required.end());
+  if (physical.push_descriptors) extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
   if (physical.can_present) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 
   const float priority = 1.0f;

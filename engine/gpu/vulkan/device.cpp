@@ -8,6 +8,21 @@
 
 namespace gloam::gpu {
 namespace vulkan {
+namespace {
+
+Result<PhysicalDevice> choose_device(const Instance& instance, const VulkanOptions& options) {
+  WindowNeeds window = {.present = !options.window_extensions.empty()};
+  if (!window.present || !options.create_surface) return choose_physical_device(instance, options.device, window);
+  window.surface = (VkSurfaceKHR)options.create_surface(instance.handle());
+  if (window.surface == VK_NULL_HANDLE) {
+    return Error{ErrorKind::failed, "The window has no surface that Vulkan can draw to"};
+  }
+  Result<PhysicalDevice> chosen = choose_physical_device(instance, options.device, window);
+  instance.functions().vkDestroySurfaceKHR(instance.handle(), window.surface, nullptr);
+  return chosen;
+}
+
+}  // namespace
 
 VulkanDevice::VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,
                            const std::string& cache_directory, std::size_t retained_pipelines)
@@ -20,14 +35,16 @@ VulkanDevice::VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<C
       samplers_(*context_),
       pipelines_(*context_, graveyard_, cache_directory, retained_pipelines),
       writer_(*context_, buffers_, images_, samplers_),
-      sets_(*context_, graveyard_, writer_) {}
+      sets_(*context_, graveyard_, writer_),
+      frame_sets_(*context_) {}
 
 Result<std::unique_ptr<Device>> VulkanDevice::create(const VulkanOptions& options) {
   Result<std::unique_ptr<Instance>> instance = Instance::create(options);
   if (!instance) return instance.error();
-  const bool for_window = !options.window_extensions.empty();
-  const Result<PhysicalDevice> physical = choose_physical_device(**instance, options.device, for_window);
+  Result<PhysicalDevice> physical = choose_device(**instance, options);
   if (!physical) return physical.error();
+  if (options.push_descriptors == PushDescriptors::never) physical->push_descriptors = false;
+  if (options.threads_in_turn) physical->info.threads_in_turn = *options.threads_in_turn;
   Result<std::unique_ptr<Context>> context = Context::create(**instance, *physical);
   if (!context) return context.error();
   return assemble(std::move(*instance), std::move(*context), options.cache_directory, options.retained_pipelines);
@@ -61,7 +78,7 @@ Result<std::unique_ptr<Device>> VulkanDevice::assemble(std::unique_ptr<Instance>
   device->frames_ = std::move(*frames);
   device->commands_ =
       std::make_unique<VulkanCommandList>(*device->context_, device->buffers_, device->images_, device->pipelines_,
-                                          device->sets_, device->writer_, *device->frames_);
+                                          device->sets_, device->writer_, device->frame_sets_, *device->frames_);
   return std::unique_ptr<Device>(std::move(device));
 }
 
@@ -78,6 +95,7 @@ VulkanDevice::~VulkanDevice() {
 Result<CommandList*> VulkanDevice::begin_frame() {
   const Result<VkCommandBuffer> commands = frames_->begin();
   if (!commands) return commands.error();
+  frame_sets_.begin(frames_->number());
   commands_->start(*commands);
   return static_cast<CommandList*>(commands_.get());
 }

@@ -11,6 +11,7 @@
 #include "engine/gpu/vulkan/buffers.h"
 #include "engine/gpu/vulkan/command_list.h"
 #include "engine/gpu/vulkan/context.h"
+#include "engine/gpu/vulkan/frame_sets.h"
 #include "engine/gpu/vulkan/frames.h"
 #include "engine/gpu/vulkan/graveyard.h"
 #include "engine/gpu/vulkan/images.h"
@@ -93,6 +94,8 @@ class VulkanDevice final : public Device {
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] Images& images() { return images_; }
   [[nodiscard]] Frames& frames() { return *frames_; }
+  // For tests.
+  [[nodiscard]] const FrameSets& frame_sets() const { return frame_sets_; }
 
  private:
   VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context, const std::string& cache_directory,
@@ -112,6 +115,7 @@ class VulkanDevice final : public Device {
   Pipelines pipelines_;
   DescriptorWriter writer_;
   ResourceSets sets_;
+  FrameSets frame_sets_;
   std::unique_ptr<Frames> frames_;
   std::unique_ptr<VulkanCommandList> commands_;
 };

@@ -12,39 +12,38 @@ using Core = VkPhysicalDeviceFeatures;
 using V12 = VkPhysicalDeviceVulkan12Features;
 using V13 = VkPhysicalDeviceVulkan13Features;
 
+/// `of_shaders`: gloam's own shaders need the feature, as a test reads from their SPIR-V. Otherwise `needed_by` is a
+/// Vulkan function of functions.h that needs it.
 template <class Part>
 struct Feature {
   VkBool32 Part::*flag;
   std::string_view name;
+  bool of_shaders;
+  std::string_view needed_by;
 };
 
 constexpr std::array kRequiredCore = {
-    Feature<Core>{&Core::fragmentStoresAndAtomics, "fragmentStoresAndAtomics"},
-    Feature<Core>{&Core::drawIndirectFirstInstance, "drawIndirectFirstInstance"},
-    Feature<Core>{&Core::multiDrawIndirect, "multiDrawIndirect"},
-    Feature<Core>{&Core::independentBlend, "independentBlend"},
-    Feature<Core>{&Core::imageCubeArray, "imageCubeArray"},
+    Feature<Core>{&Core::shaderStorageImageExtendedFormats, "shaderStorageImageExtendedFormats", true,
+                  "capability StorageImageExtendedFormats"},
 };
 constexpr std::array kRequired12 = {
-    Feature<V12>{&V12::timelineSemaphore, "timelineSemaphore"},
-    Feature<V12>{&V12::scalarBlockLayout, "scalarBlockLayout"},
+    Feature<V12>{&V12::timelineSemaphore, "timelineSemaphore", false, "vkWaitSemaphores"},
+    Feature<V12>{&V12::scalarBlockLayout, "scalarBlockLayout", true, "member offsets of blocks"},
 };
 constexpr std::array kRequired13 = {
-    Feature<V13>{&V13::dynamicRendering, "dynamicRendering"},
-    Feature<V13>{&V13::synchronization2, "synchronization2"},
-    Feature<V13>{&V13::maintenance4, "maintenance4"},
+    Feature<V13>{&V13::dynamicRendering, "dynamicRendering", false, "vkCmdBeginRendering"},
+    Feature<V13>{&V13::synchronization2, "synchronization2", false, "vkQueueSubmit2"},
+    Feature<V13>{&V13::maintenance4, "maintenance4", true, "execution mode LocalSizeId"},
 };
+// Optional: what the interface of this layer offers beyond what gloam's own passes use.
 constexpr std::array kUsefulCore = {
-    &Core::samplerAnisotropy,
-    &Core::depthClamp,
-    &Core::shaderStorageImageReadWithoutFormat,
-    &Core::shaderStorageImageWriteWithoutFormat,
-    &Core::shaderStorageImageExtendedFormats,
-    &Core::vertexPipelineStoresAndAtomics,
-};
-constexpr std::array kUseful12 = {
-    &V12::shaderOutputLayer,
-    &V12::shaderSubgroupExtendedTypes,
+    &Core::samplerAnisotropy,               // SamplerDesc::max_anisotropy
+    &Core::multiDrawIndirect,               // CommandList::draw_indexed_indirect; draws one by one without it
+    &Core::drawIndirectFirstInstance,       // indirect draws whose first instance is not 0
+    &Core::independentBlend,                // GraphicsPipelineDesc::blend with integer targets among others
+    &Core::imageCubeArray,                  // arrays of cubes in shaders of other modules
+    &Core::fragmentStoresAndAtomics,        // buffers and images written by fragment shaders of other modules
+    &Core::vertexPipelineStoresAndAtomics,  // and by vertex shaders
 };
 
 template <class Part, std::size_t kCount>
@@ -70,7 +69,6 @@ void add_link(Features& on, const VkBaseInStructure* link) {
   switch (link->sType) {
     case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES:
       for (const auto& f : kRequired12) add(on.v12.*f.flag, as<V12>(link).*f.flag);
-      for (auto flag : kUseful12) add(on.v12.*flag, as<V12>(link).*flag);
       break;
     case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES:
       for (const auto& f : kRequired13) add(on.v13.*f.flag, as<V13>(link).*f.flag);
@@ -80,10 +78,6 @@ void add_link(Features& on, const VkBaseInStructure* link) {
       break;
     case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES:
       add(on.v12.scalarBlockLayout, as<VkPhysicalDeviceScalarBlockLayoutFeatures>(link).scalarBlockLayout);
-      break;
-    case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_EXTENDED_TYPES_FEATURES:
-      add(on.v12.shaderSubgroupExtendedTypes,
-          as<VkPhysicalDeviceShaderSubgroupExtendedTypesFeatures>(link).shaderSubgroupExtendedTypes);
       break;
     case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES:
       add(on.v13.dynamicRendering, as<VkPhysicalDeviceDynamicRenderingFeatures>(link).dynamicRendering);
@@ -113,20 +107,28 @@ void require_features(Core& core, V12& v12, V13& v13) {
   for (const auto& f : kRequired13) v13.*f.flag = VK_TRUE;
 }
 
-void add_useful_features(const Core& core_there, const V12& v12_there, Core& core, V12& v12) {
+void add_useful_features(const Core& core_there, Core& core) {
   for (auto flag : kUsefulCore) {
     if (core_there.*flag == VK_TRUE) core.*flag = VK_TRUE;
-  }
-  for (auto flag : kUseful12) {
-    if (v12_there.*flag == VK_TRUE) v12.*flag = VK_TRUE;
   }
 }
 
 Features features_to_enable(const Features& supported) {
   Features on;
   require_features(on.core.features, on.v12, on.v13);
-  add_useful_features(supported.core.features, supported.v12, on.core.features, on.v12);
+  add_useful_features(supported.core.features, on.core.features);
   return on;
+}
+
+std::vector<RequiredFeature> required_features() {
+  std::vector<RequiredFeature> list;
+  const auto add = [&](const auto& part) {
+    for (const auto& f : part) list.push_back({f.name, f.of_shaders, f.needed_by});
+  };
+  add(kRequiredCore);
+  add(kRequired12);
+  add(kRequired13);
+  return list;
 }
 
 std::string missing_features(const Features& features) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/gpu/vulkan/api.h"
 
@@ -20,8 +22,14 @@ struct Features {
 void require_features(VkPhysicalDeviceFeatures& core, VkPhysicalDeviceVulkan12Features& v12,
                       VkPhysicalDeviceVulkan13Features& v13);
 /// Enables the optional features that are supported. No effect of the engine requires one of them.
-void add_useful_features(const VkPhysicalDeviceFeatures& core_there, const VkPhysicalDeviceVulkan12Features& v12_there,
-                         VkPhysicalDeviceFeatures& core, VkPhysicalDeviceVulkan12Features& v12);
+void add_useful_features(const VkPhysicalDeviceFeatures& core_there, VkPhysicalDeviceFeatures& core);
+
+struct RequiredFeature {
+  std::string_view name;
+  bool of_shaders = false;     ///< needed by the SPIR-V of gloam's shaders, else by a call
+  std::string_view needed_by;  ///< what in the SPIR-V needs it, or a Vulkan function that does
+};
+[[nodiscard]] std::vector<RequiredFeature> required_features();
 
 /// The required features and the supported optional features.
 [[nodiscard]] Features features_to_enable(const Features& supported);

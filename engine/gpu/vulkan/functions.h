@@ -64,7 +64,6 @@
   X(vkCmdFillBuffer)                     \
   X(vkCmdPipelineBarrier2)               \
   X(vkCmdPushConstants)                  \
-  X(vkCmdPushDescriptorSetKHR)           \
   X(vkCmdResetQueryPool)                 \
   X(vkCmdSetDepthBias)                   \
   X(vkCmdSetScissor)                     \
@@ -114,11 +113,13 @@
   X(vkQueueSubmit2)                      \
   X(vkQueueWaitIdle)                     \
   X(vkResetCommandPool)                  \
+  X(vkResetDescriptorPool)               \
   X(vkUpdateDescriptorSets)              \
   X(vkWaitSemaphores)
 
 #define GLOAM_VULKAN_OPTIONAL_DEVICE_FUNCTIONS(X) \
   X(vkAcquireNextImageKHR)                        \
+  X(vkCmdPushDescriptorSetKHR)                    \
   X(vkCreateSwapchainKHR)                         \
   X(vkDestroySwapchainKHR)                        \
   X(vkGetSwapchainImagesKHR)                      \

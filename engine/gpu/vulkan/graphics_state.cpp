@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/vulkan/graphics_state.h"
 
+#include <algorithm>
+
 #include "engine/core/assert.h"
 #include "engine/gpu/vulkan/convert.h"
 
@@ -66,6 +68,11 @@ void GraphicsState::set_dynamic(const GraphicsPipelineDesc& desc) {
   dynamic_ = {.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
               .dynamicStateCount = static_cast<std::uint32_t>(dynamic_states_.size()),
               .pDynamicStates = dynamic_states_.data()};
+}
+
+bool GraphicsState::blends_differ() const {
+  return std::any_of(blends_.begin(), blends_.end(),
+                     [&](const auto& blend) { return blend.blendEnable != blends_.front().blendEnable; });
 }
 
 VkGraphicsPipelineCreateInfo GraphicsState::info() const {

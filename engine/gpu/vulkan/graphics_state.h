@@ -19,6 +19,8 @@ class GraphicsState {
 
   /// The result points into this object. The caller sets the stages and the layout.
   [[nodiscard]] VkGraphicsPipelineCreateInfo info() const;
+  /// Whether some targets are blended and others are not.
+  [[nodiscard]] bool blends_differ() const;
 
  private:
   void set_vertex_input(const GraphicsPipelineDesc& desc);

@@ -19,7 +19,9 @@ vulkan::VulkanDevice& vulkan_device(Device& device) {
 
 }  // namespace
 
-std::span<const char* const> required_device_extensions() {
+std::span<const char* const> required_device_extensions() { return {}; }
+
+std::span<const char* const> useful_device_extensions() {
   static constexpr const char* kNames[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
   return kNames;
 }
@@ -29,10 +31,8 @@ void fill_required_features(VkPhysicalDeviceFeatures& core, VkPhysicalDeviceVulk
   vulkan::require_features(core, v12, v13);
 }
 
-void fill_useful_features(const VkPhysicalDeviceFeatures& core_supported,
-                          const VkPhysicalDeviceVulkan12Features& v12_supported, VkPhysicalDeviceFeatures& core,
-                          VkPhysicalDeviceVulkan12Features& v12) {
-  vulkan::add_useful_features(core_supported, v12_supported, core, v12);
+void fill_useful_features(const VkPhysicalDeviceFeatures& core_supported, VkPhysicalDeviceFeatures& core) {
+  vulkan::add_useful_features(core_supported, core);
 }
 
 Result<std::unique_ptr<Device>> create_vulkan_device_on(const HostDevice& host) {

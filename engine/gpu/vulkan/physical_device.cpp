@@ -60,11 +60,23 @@ void add(std::string& list, std::string_view item) {
   list += item;
 }
 
+bool has_extension(const InstanceFunctions& f, VkPhysicalDevice device, const char* name) {
+  std::uint32_t count = 0;
+  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+constexpr std::uint32_t kLlvmpipeLanes[] = {4, 8};  ///< vectors that llvmpipe tests depth with
+
 void read_properties(const InstanceFunctions& f, PhysicalDevice& device) {
   VkPhysicalDevicePushDescriptorPropertiesKHR push = {
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR};
+  device.push_descriptors = has_extension(f, device.handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
   VkPhysicalDeviceVulkan11Properties v11 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
-                                            .pNext = &push};
+                                            .pNext = device.push_descriptors ? &push : nullptr};
   VkPhysicalDeviceVulkan12Properties v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,
                                             .pNext = &v11};
   VkPhysicalDeviceVulkan13Properties v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES,
@@ -82,18 +94,13 @@ void read_properties(const InstanceFunctions& f, PhysicalDevice& device) {
   device.info.name = core.deviceName;
   device.info.driver = std::string(v12.driverName) + " " + v12.driverInfo;
   device.info.subgroup_size = v11.subgroupSize;
+  device.info.threads_in_turn = device.info.type == DeviceType::cpu;
+  device.crashes_at_depth_tests =
+      v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE &&
+      std::find(std::begin(kLlvmpipeLanes), std::end(kLlvmpipeLanes), v11.subgroupSize) == std::end(kLlvmpipeLanes);
   device.info.max_storage_range = core.limits.maxStorageBufferRange;
   f.vkGetPhysicalDeviceMemoryProperties(device.handle, &device.memory);
   f.vkGetPhysicalDeviceFeatures2(device.handle, device.features.chain());
-}
-
-bool has_extension(const InstanceFunctions& f, VkPhysicalDevice device, const char* name) {
-  std::uint32_t count = 0;
-  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
 std::vector<VkQueueFamilyProperties> queue_families(const InstanceFunctions& f, VkPhysicalDevice device) {
@@ -104,26 +111,43 @@ std::vector<VkQueueFamilyProperties> queue_families(const InstanceFunctions& f, 
   return families;
 }
 
+bool can_draw(std::span<const VkQueueFamilyProperties> families, std::uint32_t index) {
+  return index < families.size() && (families[index].queueFlags & kQueueNeeds) == kQueueNeeds;
+}
+
 /// Whether the family supports graphics and compute. If so, stores its index and timestamp bits in `device`.
 bool take_queue_family(PhysicalDevice& device, std::span<const VkQueueFamilyProperties> families, std::uint32_t index) {
-  if (index >= families.size() || (families[index].queueFlags & kQueueNeeds) != kQueueNeeds) return false;
+  if (!can_draw(families, index)) return false;
   device.queue_family = index;
   device.timestamp_bits = families[index].timestampValidBits;
   return true;
 }
 
-bool find_queue_family(const InstanceFunctions& f, PhysicalDevice& device) {
+bool presents_to(const InstanceFunctions& f, VkPhysicalDevice device, std::uint32_t family, VkSurfaceKHR surface) {
+  VkBool32 supported = VK_FALSE;
+  const VkResult result = f.vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &supported);
+  return result == VK_SUCCESS && supported == VK_TRUE;
+}
+
+/// Takes the first queue family for graphics and compute that presents to the window, if there is one. Returns what
+/// the device lacks, or nothing.
+std::string_view find_queue_family(const InstanceFunctions& f, PhysicalDevice& device, const WindowNeeds& window) {
   const std::vector<VkQueueFamilyProperties> families = queue_families(f, device.handle);
+  bool draws = false;
   for (std::uint32_t i = 0; i < families.size(); ++i) {
-    if (take_queue_family(device, families, i)) return true;
+    if (!can_draw(families, i)) continue;
+    draws = true;
+    if (window.surface != VK_NULL_HANDLE && !presents_to(f, device.handle, i, window.surface)) continue;
+    static_cast<void>(take_queue_family(device, families, i));
+    return {};
   }
-  return false;
+  return draws ? "a queue that can present to this window" : "a queue for graphics and compute";
 }
 
 constexpr std::uint32_t kLeastUniformRange = 65536;
 constexpr std::uint32_t kLeastPushConstants = 128;
 
-Candidate examine(const Instance& instance, VkPhysicalDevice handle, bool for_window) {
+Candidate examine(const Instance& instance, VkPhysicalDevice handle, const WindowNeeds& window) {
   const InstanceFunctions& f = instance.functions();
   Candidate candidate;
   PhysicalDevice& device = candidate.device;
@@ -142,12 +166,9 @@ Candidate examine(const Instance& instance, VkPhysicalDevice handle, bool for_wi
   // more.
   if (device.limits.maxUniformBufferRange < kLeastUniformRange) add(candidate.lacks, "uniform buffers of 64 KiB");
   if (device.limits.maxPushConstantsSize < kLeastPushConstants) add(candidate.lacks, "128 bytes of push constants");
-  if (!has_extension(f, handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) {
-    add(candidate.lacks, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
-  }
-  device.can_present = for_window && has_extension(f, handle, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-  if (for_window && !device.can_present) add(candidate.lacks, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-  if (!find_queue_family(f, device)) add(candidate.lacks, "a queue for graphics and compute");
+  device.can_present = window.present && has_extension(f, handle, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (window.present && !device.can_present) add(candidate.lacks, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (const std::string_view queue = find_queue_family(f, device, window); !queue.empty()) add(candidate.lacks, queue);
   return candidate;
 }
 
@@ -172,7 +193,8 @@ Error no_device(std::string_view wish, const std::vector<Candidate>& candidates)
 
 }  // namespace
 
-Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::string_view wish, bool for_window) {
+Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::string_view wish,
+                                              const WindowNeeds& window) {
   const InstanceFunctions& f = instance.functions();
   std::uint32_t count = 0;
   VkResult result = f.vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr);
@@ -182,7 +204,7 @@ Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::str
     return Error{ErrorKind::no_device, "The Vulkan devices could not be listed: " + describe(result)};
   }
   std::vector<Candidate> candidates;
-  for (VkPhysicalDevice handle : handles) candidates.push_back(examine(instance, handle, for_window));
+  for (VkPhysicalDevice handle : handles) candidates.push_back(examine(instance, handle, window));
 
   const std::string wanted = lower(wish);
   const Candidate* best = nullptr;
@@ -195,7 +217,7 @@ Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::str
 }
 
 Result<PhysicalDevice> examine_host_device(const Instance& instance, const HostDevice& host) {
-  Candidate candidate = examine(instance, host.physical_device, false);
+  Candidate candidate = examine(instance, host.physical_device, {});
   PhysicalDevice& device = candidate.device;
   const std::string subject = "The host's device " + device.info.name + " cannot be used: ";
   if (!candidate.lacks.empty()) return Error{ErrorKind::no_device, subject + "it lacks " + candidate.lacks};
@@ -209,6 +231,7 @@ Result<PhysicalDevice> examine_host_device(const Instance& instance, const HostD
   };
   device.features = host.enabled_features == nullptr ? Features() : features_of_chain(*host.enabled_features);
   device.can_present = enabled(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  device.push_descriptors = enabled(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
   std::string absent = missing_features(device.features);
   for (const char* name : required_device_extensions()) {
     if (!enabled(name)) add(absent, name);

@@ -28,16 +28,24 @@ struct PhysicalDevice {
   std::array<std::uint8_t, VK_UUID_SIZE> cache_uuid = {};
   std::uint64_t max_buffer_size = 0;
   std::uint64_t max_allocation_size = 0;
+  bool push_descriptors = false;  ///< VK_KHR_push_descriptor is (to be) enabled
   std::uint32_t max_push_descriptors = 0;
   std::uint32_t queue_family = 0;
   std::uint32_t timestamp_bits = 0;
   bool can_present = false;
+  /// llvmpipe compiles depth tests for vectors of 128 and 256 bits only; its compiler crashes at other widths.
+  bool crashes_at_depth_tests = false;
 };
 
-/// `wish`: as VulkanOptions::device. `for_window`: the device must be able to present. Fails with ErrorKind::no_device
-/// if no device fits.
+/// What a device must present to.
+struct WindowNeeds {
+  bool present = false;                   ///< false: there is no window
+  VkSurfaceKHR surface = VK_NULL_HANDLE;  ///< VK_NULL_HANDLE: any surface
+};
+
+/// `wish`: as VulkanOptions::device. Fails with ErrorKind::no_device if no device fits.
 [[nodiscard]] Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::string_view wish,
-                                                            bool for_window);
+                                                            const WindowNeeds& window);
 
 /// Examines a host's device. Fails with ErrorKind::no_device; the error names everything that the device lacks or that
 /// the host has not enabled.

@@ -68,13 +68,6 @@ Result<ShaderInterface> merge_stages(const Context& context, std::string_view pi
                                         ", and the device allows " +
                                         std::to_string(device.limits.maxBoundDescriptorSets) + " sets"};
   }
-  std::uint32_t pushed = 0;
-  for (const ReflectedBinding& binding : shader.of_set(0)) pushed += binding.count;
-  if (pushed > device.max_push_descriptors) {
-    return Error{ErrorKind::failed, who + " has " + std::to_string(pushed) +
-                                        " resources in set 0, and the device allows " +
-                                        std::to_string(device.max_push_descriptors)};
-  }
   return shader;
 }
 
@@ -117,8 +110,11 @@ Result<VkDescriptorSetLayout> PipelineLayouts::set_layout(std::span<const Reflec
 Result<const PipelineLayout*> PipelineLayouts::find_or_create(const ShaderInterface& shader) {
   const std::lock_guard lock(mutex_);
   PipelineLayout made;
+  std::uint32_t resources = 0;
+  for (const ReflectedBinding& binding : shader.of_set(0)) resources += binding.count;
+  made.pushes_set_0 = context_.physical.push_descriptors && resources <= context_.physical.max_push_descriptors;
   for (std::uint32_t set = 0; set < shader.set_count(); ++set) {
-    const Result<VkDescriptorSetLayout> layout = set_layout(shader.of_set(set), set == 0);
+    const Result<VkDescriptorSetLayout> layout = set_layout(shader.of_set(set), set == 0 && made.pushes_set_0);
     if (!layout) return layout.error();
     made.sets.push_back(*layout);
   }

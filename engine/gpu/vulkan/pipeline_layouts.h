@@ -37,11 +37,12 @@ struct ShaderInterface {
 struct PipelineLayout {
   VkPipelineLayout layout = VK_NULL_HANDLE;
   std::vector<VkDescriptorSetLayout> sets;
+  bool pushes_set_0 = false;  ///< with push descriptors; otherwise in descriptor sets of FrameSets
 };
 
 /// Pipeline layouts and set layouts by content. They live as long as the device. Equal sets of two pipelines get one
 /// layout, so a resource set fits both pipelines; for the same reason every binding is visible to all stages. Set 0 is
-/// pushed, the other sets are allocated. Thread-safe.
+/// pushed if the device has push descriptors and enough of them. Thread-safe.
 class PipelineLayouts {
  public:
   explicit PipelineLayouts(Context& context) : context_(context) {}

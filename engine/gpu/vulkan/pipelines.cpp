@@ -67,6 +67,10 @@ Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
   constexpr std::array kStages = {ShaderStage::vertex, ShaderStage::fragment};
   const std::array shaders = {desc.vertex, desc.fragment};
   const std::size_t count = desc.fragment.words.empty() ? 1 : 2;
+  if (desc.depth_format != Format::undefined && context_.physical.crashes_at_depth_tests) {
+    return Error{ErrorKind::no_device,
+                 context_.physical.info.name + " crashes at depth tests: set LP_NATIVE_VECTOR_WIDTH to 128 or 256"};
+  }
   Result<Pipeline> pipeline = prepare(desc.name, desc.module, std::span(shaders).first(count), kStages);
   if (!pipeline) return pipeline.error();
   pipeline->bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
@@ -74,6 +78,11 @@ Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
   for (std::size_t i = 0; i < count; ++i) GLOAM_TRY(stages.add(shaders[i], kStages[i]));
 
   const GraphicsState state(desc);
+  if (state.blends_differ() && context_.physical.features.core.features.independentBlend == VK_FALSE) {
+    return Error{ErrorKind::no_device, "Pipeline \"" + desc.name +
+                                           "\" blends some of its targets only, and the device " +
+                                           context_.physical.info.name + " has no independentBlend"};
+  }
   VkGraphicsPipelineCreateInfo info = state.info();
   info.stageCount = static_cast<std::uint32_t>(stages.infos().size());
   info.pStages = stages.infos().data();

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/vulkan/resource_sets.h"
 
-#include <array>
 #include <string>
 
-#include "engine/gpu/vulkan/convert.h"
+#include "engine/gpu/vulkan/descriptor_pool.h"
 #include "engine/gpu/vulkan/errors.h"
 
 namespace gloam::gpu::vulkan {
@@ -13,8 +12,6 @@ namespace {
 
 constexpr std::uint32_t kSetsPerPool = 64;
 constexpr std::uint32_t kDescriptorsPerKind = 256;
-constexpr std::array kKinds = {ResourceKind::uniform_buffer, ResourceKind::storage_buffer, ResourceKind::sampled_image,
-                               ResourceKind::storage_image};
 
 }  // namespace
 
@@ -61,18 +58,11 @@ Result<ResourceSets::ResourceSet> ResourceSets::allocate(VkDescriptorSetLayout l
 }
 
 VkResult ResourceSets::add_pool(std::span<const ReflectedBinding> bindings) {
-  std::array<VkDescriptorPoolSize, kKinds.size()> sizes = {};
-  for (std::size_t i = 0; i < kKinds.size(); ++i) {
-    sizes[i] = {to_vulkan(kKinds[i]), kDescriptorsPerKind};
-    for (const ReflectedBinding& b : bindings) sizes[i].descriptorCount += b.kind == kKinds[i] ? b.count : 0;
-  }
-  const VkDescriptorPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                           .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
-                                           .maxSets = kSetsPerPool,
-                                           .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
-                                           .pPoolSizes = sizes.data()};
+  DescriptorCounts counts = count_descriptors(bindings);
+  for (std::uint32_t& count : counts) count += kDescriptorsPerKind;
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  const VkResult result = context_.vk.vkCreateDescriptorPool(context_.device, &info, nullptr, &pool);
+  const VkResult result =
+      create_descriptor_pool(context_, VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT, kSetsPerPool, counts, pool);
   if (result != VK_SUCCESS) return result;
   context_.set_name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "resource sets");
   pools_.push_back(pool);

@@ -10,9 +10,9 @@
 namespace gloam {
 namespace {
 
-/// On a CPU device a workgroup's threads run one after another, and each barrier swaps all their state. The version
-/// with one thread per tile needs no barrier.
-bool runs_threads_in_turn(const gpu::DeviceInfo& device) { return device.type == gpu::DeviceType::cpu; }
+/// Where a workgroup's threads run one after another, the version with one thread per tile is used: it needs no
+/// barrier.
+bool runs_threads_in_turn(const gpu::DeviceInfo& device) { return device.threads_in_turn; }
 
 ComputeProgram accurate_program(const gpu::DeviceInfo& device) {
   if (runs_threads_in_turn(device)) return {shaders::lights::find_lights_accurate_tiles_comp};

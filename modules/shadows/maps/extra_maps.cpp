@@ -75,9 +75,8 @@ shaders::ShadowCascade orthographic_constants(const ShadowFace& face, const dvec
 }
 
 std::uint32_t threads_a_tile(const gpu::DeviceInfo& device) {
-  // A device that is a CPU swaps the state of all threads of a workgroup at each barrier: few threads with many pixels
-  // each are faster.
-  return device.type == gpu::DeviceType::cpu ? 8 : 64;
+  // Where each barrier swaps the state of all threads of a workgroup, few threads with many pixels each are faster.
+  return device.threads_in_turn ? 8 : 64;
 }
 
 ExtraAtlas ShadowMapDrawer::create(FrameBuilder& frame, std::uint32_t size) const {

@@ -96,14 +96,11 @@ bool VulkanHost::make_device(std::string& why) {
   constexpr VkQueueFlags kNeeds = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   while (family_ < count && (families[family_].queueFlags & kNeeds) != kNeeds) ++family_;
 
-  // A host would enable its own features here; gloam adds the features that it uses.
+  // A host would enable its own features here; gloam adds the features that it requires. The
+  // optional features and VK_KHR_push_descriptor stay off: gloam must draw the same without them.
   features_.pNext = &features12_;
   features12_.pNext = &features13_;
-  VkPhysicalDeviceVulkan12Features supported12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-  VkPhysicalDeviceFeatures2 supported = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &supported12};
-  vkGetPhysicalDeviceFeatures2(physical_, &supported);
   gloam::gpu::fill_required_features(features_.features, features12_, features13_);
-  gloam::gpu::fill_useful_features(supported.features, supported12, features_.features, features12_);
   const auto extensions = gloam::gpu::required_device_extensions();
 
   const float priority = 1.0f;

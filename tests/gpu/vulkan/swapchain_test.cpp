@@ -27,15 +27,18 @@ class WindowTest : public ::testing::Test {
     ASSERT_NE(window_, nullptr);
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
-    auto made =
-        create_vulkan_device({.validate = true, .log = &test::gpu_log(), .window_extensions = {names, names + count}});
-    if (!made) GTEST_SKIP() << made.error().message;
-    device_ = std::move(*made);
-    auto swapchain = create_swapchain(*device_, [&](void* instance) -> std::uint64_t {
+    const auto create_surface = [this](void* instance) -> std::uint64_t {
       VkSurfaceKHR surface = VK_NULL_HANDLE;
       glfwCreateWindowSurface(static_cast<VkInstance>(instance), window_, nullptr, &surface);
       return (std::uint64_t)surface;
-    });
+    };
+    auto made = create_vulkan_device({.validate = true,
+                                      .log = &test::gpu_log(),
+                                      .window_extensions = {names, names + count},
+                                      .create_surface = create_surface});
+    if (!made) GTEST_SKIP() << made.error().message;
+    device_ = std::move(*made);
+    auto swapchain = create_swapchain(*device_, create_surface);
     ASSERT_TRUE(swapchain.ok()) << swapchain.error().message;
     swapchain_ = std::move(*swapchain);
   }

@@ -31,11 +31,7 @@ class LitSceneTest : public ::testing::Test {
  protected:
   void SetUp() override {
     GLOAM_REQUIRE_GPU(shared_device());
-    const gpu::DeviceInfo& info = shared_device()->info();
-    if (info.type == gpu::DeviceType::cpu && info.subgroup_size != 8)
-      GTEST_SKIP()
-          << "lavapipe 22.3 draws at LP_NATIVE_VECTOR_WIDTH=256 only: at 128 vertices overwrite the heap, at 512 "
-             "fragments that sample crash";
+    GLOAM_REQUIRE_DEPTH_TESTS(shared_device());
     RendererOptions options;
     options.device = shared_device();
     options.executor = executor.get();

@@ -111,11 +111,7 @@ class DrawingTest : public ::testing::Test {
  protected:
   void SetUp() override {
     GLOAM_REQUIRE_GPU(drawing_device());
-    const gpu::DeviceInfo& info = drawing_device()->info();
-    if (info.type == gpu::DeviceType::cpu && info.subgroup_size != 8)
-      GTEST_SKIP()
-          << "lavapipe 22.3 draws at LP_NATIVE_VECTOR_WIDTH=256 only: at 128 vertices overwrite the heap, at 512 "
-             "fragments that sample crash";
+    GLOAM_REQUIRE_DEPTH_TESTS(drawing_device());
     stage = std::make_unique<Stage>();
   }
   void TearDown() override {

@@ -98,9 +98,7 @@ class HardShadows : public LitSceneTest {
   [[nodiscard]] bool with_shadows() const override { return true; }
   void SetUp() override {
     GLOAM_REQUIRE_GPU(shared_device());
-    const gpu::DeviceInfo& info = shared_device()->info();
-    if (info.type == gpu::DeviceType::cpu && info.subgroup_size != 8)
-      GTEST_SKIP() << "lavapipe 22.3 draws at LP_NATIVE_VECTOR_WIDTH=256 only (see lit_scene.h)";
+    GLOAM_REQUIRE_DEPTH_TESTS(shared_device());
     shared().warnings = &warnings;
     renderer = std::move(shared().renderer);
     ASSERT_NE(renderer, nullptr);
