@@ -193,7 +193,8 @@ TEST_F(FrameGraphGpuTest, histories_and_uploads_hold_their_contents) {
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     run_frame(graph, [&] {
       history.begin_frame();
-      const auto pair = value_of(history.image(graph, desc, Access::transfer_read));
+      const auto pair =
+          value_of(history.image_pair(graph, {.world = 1, .frame = frame}, desc, {.rest = Access::transfer_read}));
       PassBuilder pass = graph.add_pass("write", "test");
       const ImageRef current = pass.write(pair.current, Access::transfer_write);
       pass.execute([=](PassContext& context) {
@@ -204,6 +205,7 @@ TEST_F(FrameGraphGpuTest, histories_and_uploads_hold_their_contents) {
       const ImageRef imported = graph.import_image("picture", picture, Access::transfer_read, Access::transfer_read);
       from_upload = value_of(readback.read_image(graph, imported));
     });
+    history.commit(graph);
   }
   ASSERT_TRUE(device->wait_idle().ok());
   EXPECT_EQ(readback.take(from_upload), texels);

@@ -283,6 +283,8 @@ TEST_F(RecordingDeviceTest, an_abandoned_frame_leaves_objects_in_the_states_of_t
   EXPECT_THAT(faults(), IsEmpty());
   barrier(other, Access::color_target, Access::transfer_read);
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("'other' is said to be in color_target")));
+}
+
 TEST_F(RecordingDeviceTest, support_of_a_format_can_be_withdrawn) {
   using enum ImageUsage;
   EXPECT_TRUE(device->supports(Format::rgba8_unorm, sampled | storage | color_target));
