@@ -260,8 +260,7 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   frame.put(LitOutput{lit});
   GLOAM_TRY(add_module_passes(frame));
   if (code == 0 && frame.visualizer() != "none") warn_of_idle_visualizer(frame);
-  GLOAM_ASSERT(frame.get<LitOutput>().color.resource == lit.resource,
-               "LitOutput is written in place: a module has put another image there");
+  keep_linear(frame, lit, request.keep_linear);
   GLOAM_ASSERT(frame.get<TargetOutput>().color.resource == target.resource,
                "TargetOutput is written in place: a module has put another image there");
   if (code != 0) add_debug_view_pass(frame, code);
@@ -269,6 +268,16 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
   if (copy_request && copy_request->view == view.id) GLOAM_TRY(copy_request->add_copies(frame));
   return {};
+}
+
+void Renderer::State::keep_linear(FrameBuilder& frame, ImageRef lit, bool wanted) {
+  const ImageRef last = frame.get<LitOutput>().color;
+  const gpu::ImageDesc &from = graph.desc(last), &to = graph.desc(lit);
+  GLOAM_ASSERT(from.format == to.format && from.width == to.width && from.height == to.height,
+               "LitOutput may move only to an image of the same size and format");
+  const bool moved = last.resource != lit.resource;
+  images.at(frame.view().id.value).lit_is_last = !moved || wanted;
+  if (moved && wanted) add_copy_light_pass(frame, last, graph.newest(lit));
 }
 
 void Renderer::State::hand_out_results(World& world, ViewId view) {

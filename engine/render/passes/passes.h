@@ -23,4 +23,7 @@ void add_depth_bounds_pass(FrameBuilder& frame);
 /// Draws albedo, normal or depth over the picture. `code`: see debug_view.frag.
 void add_debug_view_pass(FrameBuilder& frame, std::uint32_t code);
 
+/// Copies linear light to an image of the same size, bit for bit.
+void add_copy_light_pass(FrameBuilder& frame, ImageRef from, ImageRef to);
+
 }  // namespace gloam
