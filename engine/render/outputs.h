@@ -19,16 +19,16 @@ struct GeometryOutputs {
   ImageRef depth_bounds;
 };
 
-/// Linear light of the view, cd/m² before exposure, rgba16f. The renderer creates the image, shading fills it, later
-/// phases write it in place. A write moves `color` on to the image's new version, but `color` must never refer to
-/// another image, because Renderer::read_linear reads this one. A phase that needs the old light while it writes must
-/// copy it first.
+/// Linear light of the view, cd/m² before exposure, rgba16f. The renderer creates the image and shading fills it. Later
+/// passes write it in place, or read it and write their result to another image of the same size and format, for
+/// example a transient one (create_view_image). Either way, the pass puts the written version into `color`. An image
+/// that is owned outside the graph must have been created as sampled.
 struct LitOutput {
   ImageRef color;
 };
 
-/// Image of the finished picture, the caller's or the renderer's. Available from the first phase on. Written in place
-/// like LitOutput.
+/// Image of the finished picture, the caller's or the renderer's. Available from the first phase on. Written in place:
+/// a write moves `color` on to the image's new version, but `color` must never refer to another image.
 struct TargetOutput {
   ImageRef color;
   gpu::Format format = gpu::Format::rgba8_srgb;

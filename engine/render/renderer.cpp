@@ -8,13 +8,11 @@
 #include "engine/core/nearest_name.h"
 #include "engine/ecs/view.h"
 #include "engine/render/attempt.h"
-#include "engine/render/declare/draw_pass.h"
 #include "engine/render/passes/passes.h"
 #include "engine/render/renderer_state.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/resources.h"
 #include "engine/scene/systems.h"
-#include "shaders/render/shaders.h"
 
 namespace gloam {
 namespace {
@@ -273,10 +271,8 @@ Status Renderer::State::add_light_copy(FrameBuilder& frame, const LightTarget& t
   }
   GLOAM_ASSERT(import.target.before == target.before && import.target.after == target.after,
                "views that capture into one image state the same accesses");
-  DrawPass pass(frame, "copy_light", {shaders::render::copy_light_frag});
-  pass.read("lit_image", frame.get<LitOutput>().color);
-  import.image = pass.target(import.image, gpu::LoadOp::discard, target.mip, target.layer);
-  pass.draw_triangle();
+  import.image =
+      add_copy_light_pass(frame, frame.get<LitOutput>().color, import.image, target.mip, target.layer);
   return frame.status();
 }
 
@@ -303,6 +299,7 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
   frame.put(LitOutput{lit});
   if (request.target.light) {
     GLOAM_TRY(add_module_passes(frame, own_view));
+    keep_linear(frame, lit, request.keep_linear);
     GLOAM_TRY(add_light_copy(frame, *request.target.light));
     count_view(world, frame);
     return {};
@@ -314,8 +311,7 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
   frame.put(TargetOutput{target, options.device->desc(picture).format});
   GLOAM_TRY(add_module_passes(frame, own_view));
   if (code == 0 && frame.visualizer() != "none") warn_of_idle_visualizer(frame);
-  GLOAM_ASSERT(frame.get<LitOutput>().color.resource == lit.resource,
-               "LitOutput is written in place: a module has put another image there");
+  keep_linear(frame, lit, request.keep_linear);
   GLOAM_ASSERT(frame.get<TargetOutput>().color.resource == target.resource,
                "TargetOutput is written in place: a module has put another image there");
   if (code != 0) add_debug_view_pass(frame, code);
@@ -324,6 +320,16 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
   if (copy_request && copy_request->view == view.id) GLOAM_TRY(copy_request->add_copies(frame));
   count_view(world, frame);
   return {};
+}
+
+void Renderer::State::keep_linear(FrameBuilder& frame, ImageRef lit, bool wanted) {
+  const ImageRef last = frame.get<LitOutput>().color;
+  const gpu::ImageDesc &from = graph.desc(last), &to = graph.desc(lit);
+  GLOAM_ASSERT(from.format == to.format && from.width == to.width && from.height == to.height,
+               "LitOutput may move only to an image of the same size and format");
+  const bool moved = last.resource != lit.resource;
+  images.at(frame.view().id.value).lit_is_last = !moved || wanted;
+  if (moved && wanted) static_cast<void>(add_copy_light_pass(frame, last, graph.newest(lit)));
 }
 
 void Renderer::State::hand_out_results(World& world, ViewId view) {

@@ -73,6 +73,9 @@ struct ViewTarget {
 struct ViewRequest {
   ViewSettings settings;
   ViewTarget target;
+  /// Whether Renderer::read_linear may be called for this frame. It costs a copy of the view's light in frames in which
+  /// a pass has moved LitOutput to another image, and nothing in other frames.
+  bool keep_linear = true;
 };
 
 struct ModuleState {
@@ -152,7 +155,8 @@ class Renderer {
   /// Reads the picture of a view's last frame. The view must have had no target image. Waits for the GPU. Fails if all
   /// frames that drew the view since its images were made were given up.
   [[nodiscard]] Result<Picture> read_picture(ViewId view);
-  /// Reads the linear light of the view's last frame. Waits for the GPU.
+  /// Reads the linear light of the view's last frame, after all passes. Asserts that the frame has kept it
+  /// (ViewRequest::keep_linear). Waits for the GPU.
   [[nodiscard]] Result<LinearPicture> read_linear(ViewId view);
   /// Reads an image that passes of the view's last frame exposed (FrameBuilder::expose). Draws that frame again and
   /// waits for the GPU. The engine exposes "base_color", "normals", "material" and "depth". For an unknown name, a

@@ -120,6 +120,7 @@ Result<LinearPicture> Renderer::read_linear(ViewId view) {
   const auto found = s.images.find(view.value);
   GLOAM_ASSERT(found != s.images.end() && found->second.lit, "read_linear needs a view that was rendered");
   GLOAM_TRY(State::check_drawn(found->second));
+  GLOAM_ASSERT(found->second.lit_is_last, "read_linear needs a frame drawn with ViewRequest::keep_linear");
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.lit);
   if (!bytes.ok()) return bytes.error();

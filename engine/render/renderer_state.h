@@ -35,6 +35,7 @@ struct ViewImages {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   gpu::ImageHandle lit;           ///< rgba16f, cd/m²
+  bool lit_is_last = false;       ///< `lit` holds the light after all passes of the last frame
   gpu::ImageHandle picture;       ///< rgba8 sRGB; null if the caller provides a target
   std::uint64_t world = 0;        ///< RenderSlot of the world that drew the view last
   std::uint32_t idle_frames = 0;  ///< since a frame drew the view
@@ -115,6 +116,9 @@ struct Renderer::State {
   /// Copies the view's linear light into the caller's image.
   [[nodiscard]] Status add_light_copy(FrameBuilder& frame, const LightTarget& target);
   [[nodiscard]] Status add_module_passes(FrameBuilder& builder, const FrameView& view);
+  /// After all passes on the view's light: if it has moved from `lit`, the renderer's image, to another image, copies
+  /// it back if read_linear wants it.
+  void keep_linear(FrameBuilder& frame, ImageRef lit, bool wanted);
   /// Declares the copies that picked_lines reads: texels of the geometry buffer and data of the modules.
   [[nodiscard]] Status add_pick_copies(FrameBuilder& builder);
   /// Facts of the engine and the modules about a pixel, from the copies of a completed frame.

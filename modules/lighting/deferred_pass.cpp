@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <optional>
+#include <span>
 
 #include "engine/render/declare/draw_pass.h"
 #include "modules/lighting/environment.h"
+#include "modules/lighting/outputs.h"
 #include "modules/lighting/passes.h"
 #include "modules/shadows/outputs.h"
 #include "shaders/lighting/shaders.h"
@@ -11,6 +13,8 @@
 namespace gloam {
 
 namespace {
+
+constexpr gpu::Format kDiffuseLightFormat = gpu::Format::rgba16_float;
 
 /// Source of the local lights in the shader.
 enum class LocalLights : std::uint8_t {
@@ -37,14 +41,16 @@ gpu::ShaderCode shading_code(LocalLights source, const ShadowsOutputs* shadows) 
 /// A full-screen triangle at depth 0, the depth of the sky: the depth test selects the pixels with a surface. Pixels
 /// that fail the test cost nothing. A condition in the shader would not save time on software devices, which run both
 /// sides of it.
-DrawProgram shading_program(LocalLights source, std::uint32_t directional_lights, const ShadowsOutputs* shadows) {
+DrawProgram shading_program(LocalLights source, const ShadingInputs& inputs, const ShadowsOutputs* shadows) {
   const bool tiled = source != LocalLights::all, final_lists = source == LocalLights::final_lists;
   const bool shadowed = shadows != nullptr && !shadows->cookies_only && !final_lists;
   DrawProgram program{shading_code(source, shadows)};
   program.depth_compare = gpu::CompareOp::less;
   if (shadows != nullptr) program.constants = shadows->constants;
   // Loops with shadows are not unrolled: one pipeline serves any number of directional lights.
-  if (!shadowed) program.constants.push_back({1, directional_lights});
+  if (!shadowed) program.constants.push_back({1, inputs.directional_count});
+  if (inputs.specular_ambient_taken) program.constants.push_back({3, 0});
+  if (inputs.diffuse_light_wanted) program.constants.push_back({4, 1});
   if (final_lists) {
     const std::vector<gpu::SpecConstant>& constants = shadows->final_lists->constants;
     program.constants.insert(program.constants.end(), constants.begin(), constants.end());
@@ -57,21 +63,23 @@ DrawProgram shading_program(LocalLights source, std::uint32_t directional_lights
 /// Draws fallback tiles as with shadows.mode = monolithic.
 DrawProgram fallback_program(const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
   const LocalLights source = inputs.outputs.has_lists() ? LocalLights::lists_or_masks : LocalLights::all;
-  DrawProgram program = shading_program(source, inputs.directional_count, &shadows);
+  DrawProgram program = shading_program(source, inputs, &shadows);
   program.vertex = shaders::lighting::deferred_fallback_vert;
   return program;
 }
 
 /// Draws the pixels without a surface.
-DrawProgram sky_program() {
+DrawProgram sky_program(const ShadingInputs& inputs) {
   DrawProgram program{shaders::lighting::sky_frag};
+  if (inputs.diffuse_light_wanted) program.constants.push_back({4, 1});
   program.depth_compare = gpu::CompareOp::equal;
   return program;
 }
 
-gpu::GraphicsPipelineDesc pipeline_of(const DrawProgram& program) {
-  const gpu::Format color[] = {gpu::Format::rgba16_float};
-  return pipeline_desc(program, "lighting", color, gpu::Format::d32_float);
+gpu::GraphicsPipelineDesc pipeline_of(const DrawProgram& program, const ShadingInputs& inputs) {
+  const gpu::Format colors[] = {gpu::Format::rgba16_float, kDiffuseLightFormat};
+  const std::size_t targets = inputs.diffuse_light_wanted ? 2 : 1;
+  return pipeline_desc(program, "lighting", std::span(colors).first(targets), gpu::Format::d32_float);
 }
 
 /// Binds what the program in use declares. `shadows`: null for shading without shadows and cookies.
@@ -95,7 +103,7 @@ std::optional<LocalLights> ready_source(const FrameServices& services, const Sha
                                         const ShadowsOutputs* shadows) {
   const LocalLights best = best_source(inputs);
   const auto pipeline = [&](LocalLights source) {
-    return pipeline_of(shading_program(source, inputs.directional_count, shadows));
+    return pipeline_of(shading_program(source, inputs, shadows), inputs);
   };
   if (services.pipelines.request({pipeline(best)}, services.log)) return best;
   if (best == LocalLights::all) return std::nullopt;
@@ -106,8 +114,8 @@ std::optional<LocalLights> ready_source(const FrameServices& services, const Sha
 
 bool final_lists_ready(const FrameServices& services, const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
   if (services.wait_for_pipelines) return true;
-  PipelineList wanted = {pipeline_of(shading_program(LocalLights::final_lists, inputs.directional_count, &shadows))};
-  if (!shadows.final_lists->always_complete) wanted.push_back(pipeline_of(fallback_program(inputs, shadows)));
+  PipelineList wanted = {pipeline_of(shading_program(LocalLights::final_lists, inputs, &shadows), inputs)};
+  if (!shadows.final_lists->always_complete) wanted.push_back(pipeline_of(fallback_program(inputs, shadows), inputs));
   return services.pipelines.request(wanted, services.log);
 }
 
@@ -131,6 +139,12 @@ Variant choose_variant(FrameBuilder& frame, const ShadingInputs& inputs) {
   return {ready_source(services, inputs, nullptr).value_or(LocalLights::all)};
 }
 
+/// The second target of the pass, on the board.
+void add_diffuse_light_target(FrameBuilder& frame, DrawPass& pass) {
+  const ImageRef image = create_view_image(frame, "diffuse_light", kDiffuseLightFormat);
+  frame.put(DiffuseLightOutput{pass.target(image)});
+}
+
 void draw_fallback_tiles(FrameBuilder& frame, DrawPass& pass, const ShadingInputs& inputs,
                          const ShadowsOutputs& shadows) {
   const FinalLists& lists = *shadows.final_lists;
@@ -146,14 +160,15 @@ void add_deferred_pass(FrameBuilder& frame) {
   const ShadingInputs& inputs = shading_inputs(frame);
   const Variant variant = choose_variant(frame, inputs);
   LitOutput& lit = frame.get<LitOutput>();
-  DrawPass pass(frame, "deferred", shading_program(variant.source, inputs.directional_count, variant.shadows));
+  DrawPass pass(frame, "deferred", shading_program(variant.source, inputs, variant.shadows));
   lit.color = pass.target(lit.color);
+  if (inputs.diffuse_light_wanted) add_diffuse_light_target(frame, pass);
   pass.test_depth(frame.get<GeometryOutputs>().depth);
   read_inputs(frame, pass, inputs, variant.shadows);
   pass.draw_triangle();
   if (variant.source == LocalLights::final_lists && !variant.shadows->final_lists->always_complete)
     draw_fallback_tiles(frame, pass, inputs, *variant.shadows);
-  pass.use(sky_program());
+  pass.use(sky_program(inputs));
   pass.draw_triangle();
 }
 

@@ -3,6 +3,7 @@
 #include "modules/lighting/environment.h"
 
 #include "engine/scene/resources.h"
+#include "modules/lighting/outputs.h"
 #include "shaders/lighting/lighting_shared.h"
 
 namespace gloam {
@@ -13,6 +14,8 @@ const ShadingInputs& shading_inputs(FrameBuilder& frame) {
   const auto& sky = frame.world().resource<SceneEnvironment>();
   inputs.environment = frame.upload_uniform(shaders::EnvironmentConstants{
       vec4(sky.sky_zenith, 0.0f), vec4(sky.sky_horizon, 0.0f), vec4(sky.sky_ground, 0.0f)});
+  inputs.specular_ambient_taken = frame.find<SpecularAmbientTaken>() != nullptr;
+  inputs.diffuse_light_wanted = frame.find<DiffuseLightWanted>() != nullptr;
   if (const LightsOutputs* lights = frame.find<LightsOutputs>()) {
     inputs.directional_count = lights->directional_count;
     inputs.outputs = *lights;

@@ -11,6 +11,8 @@ namespace gloam {
 struct ShadingInputs {
   gpu::Binding::BufferRange environment;  ///< EnvironmentConstants
   std::uint32_t directional_count = 0;
+  bool specular_ambient_taken = false;  ///< see SpecularAmbientTaken
+  bool diffuse_light_wanted = false;    ///< see DiffuseLightWanted
   /// Of the lights module. If the scene has no light: a block without lights, and default values.
   LightsOutputs outputs;
 };

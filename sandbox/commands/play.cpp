@@ -102,7 +102,8 @@ class Player {
       return image;
     };
     GLOAM_TRY(render({.settings = settings_,
-                      .target = {.after = gpu::Access::present, .acquire = acquire, .overlay = panel_.overlay()}}));
+                      .target = {.after = gpu::Access::present, .acquire = acquire, .overlay = panel_.overlay()},
+                      .keep_linear = false}));
     GLOAM_TRY(swapchain_.present());
     if (!fits_) return false;
     time_s_ += dt_s;

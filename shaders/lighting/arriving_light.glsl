@@ -49,8 +49,13 @@ void set_receiver(vec3 position, vec3 face_normal, bool subsurface) {
   look_up_cookies(position);
 }
 
+// Define GLOAM_LIGHT_FROM_BEHIND if the shader also uses light that arrives from behind the surface.
 bool gives_light(vec3 illuminance, vec3 normal, vec3 to_light) {
+#ifdef GLOAM_LIGHT_FROM_BEHIND
+  return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0;
+#else
   return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && dot(normal, to_light) > 0.0;
+#endif
 }
 
 // Always false, see shaders/shadows/filter/space.glsl.

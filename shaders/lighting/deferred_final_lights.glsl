@@ -20,7 +20,7 @@ vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
     at += uint(held);
     DirectionalLight d = lights.directional[i];
     float share = held ? entry_visibility(entry, slot_pixel(pixel)) : 0.0;
-    sum += reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal) * share);
+    sum += add_reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal) * share);
   }
   return sum;
 }

@@ -5,4 +5,4 @@
 
 // Forward lighting without light lists, unshadowed, without cookies.
 
-#include "shaders/lighting/forward_all_lights.glsl"
+#include "shaders/lighting/forward.glsl"

@@ -5,5 +5,5 @@
 
 // Forward lighting without light lists, unshadowed, with cookies.
 
-#define GLOAM_COOKIES_BINDING 7
-#include "shaders/lighting/forward_all_lights.glsl"
+#define GLOAM_FORWARD_COOKIES
+#include "shaders/lighting/forward.glsl"

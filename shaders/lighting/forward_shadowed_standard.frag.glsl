@@ -6,5 +6,5 @@
 // Forward lighting without light lists, with shadows (standard filter only) and cookies.
 
 #define GLOAM_SHADOWS_STANDARD
-#define GLOAM_SHADOWS_BINDING 7
-#include "shaders/lighting/forward_all_lights.glsl"
+#define GLOAM_FORWARD_SHADOWS
+#include "shaders/lighting/forward.glsl"

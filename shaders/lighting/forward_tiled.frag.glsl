@@ -5,5 +5,5 @@
 
 // Forward lighting with tile masks and zBins, unshadowed, without cookies.
 
-#define GLOAM_Z_BINS_BINDING 5
-#include "shaders/lighting/forward_tile_lights.glsl"
+#define GLOAM_FORWARD_TILED
+#include "shaders/lighting/forward.glsl"

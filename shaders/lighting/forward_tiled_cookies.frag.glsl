@@ -5,6 +5,6 @@
 
 // Forward lighting with tile masks and zBins, unshadowed, with cookies.
 
-#define GLOAM_Z_BINS_BINDING 5
-#define GLOAM_COOKIES_BINDING 7
-#include "shaders/lighting/forward_tile_lights.glsl"
+#define GLOAM_FORWARD_TILED
+#define GLOAM_FORWARD_COOKIES
+#include "shaders/lighting/forward.glsl"

@@ -5,7 +5,7 @@
 
 // Forward lighting with tile masks and zBins, with shadows (standard filter only) and cookies.
 
-#define GLOAM_Z_BINS_BINDING 5
+#define GLOAM_FORWARD_TILED
 #define GLOAM_SHADOWS_STANDARD
-#define GLOAM_SHADOWS_BINDING 7
-#include "shaders/lighting/forward_tile_lights.glsl"
+#define GLOAM_FORWARD_SHADOWS
+#include "shaders/lighting/forward.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 
-// Copies the view's linear light texel by texel.
+// Copies linear light. Texels are fetched, not filtered: infinity and NaN of a texel stay in it.
 
 layout(set = 0, binding = 0) uniform sampler2D lit_image;
 

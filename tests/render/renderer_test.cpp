@@ -96,40 +96,65 @@ TEST_F(RendererTest, five_frames_of_a_small_scene_break_no_rule) {
     EXPECT_TRUE(passes.contains(name)) << name;
 }
 
-/// Replaces the image of LitOutput or TargetOutput, which modules must not do.
+/// Puts another image into LitOutput or TargetOutput.
 class ReplacingModule final : public Module {
  public:
-  explicit ReplacingModule(bool lit) : lit_(lit) {}
+  explicit ReplacingModule(bool lit, gpu::Format format, std::uint32_t divisor)
+      : lit_(lit), format_(format), divisor_(divisor) {}
   [[nodiscard]] std::string_view name() const override { return "replacing"; }
   void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "always"}; }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase != PassPhase::post) return;
-    const ImageRef other = create_view_image(frame, "other", gpu::Format::rgba16_float);
+    PassBuilder pass = frame.graph().add_pass("replace", "replacing");
+    const ImageRef other = pass.write(create_view_image(frame, "other", format_, divisor_), gpu::Access::color_target);
+    pass.execute([](PassContext&) {});
     (lit_ ? frame.get<LitOutput>().color : frame.get<TargetOutput>().color) = other;
   }
 
  private:
   bool lit_;
+  gpu::Format format_;
+  std::uint32_t divisor_;
 };
 
-TEST(RendererOutputs, are_written_in_place_and_never_replaced) {
-  for (const bool lit : {true, false}) {
-    const auto device = gpu::make_recording_device();
-    const auto executor = make_shuffled_executor(3);
+/// A renderer with one module, on a recording device.
+struct OneModule {
+  explicit OneModule(std::unique_ptr<Module> module) {
     RendererOptions options;
     options.device = device.get();
     options.executor = executor.get();
-    options.modules.push_back(std::make_unique<ReplacingModule>(lit));
-    const auto renderer = Renderer::create(std::move(options)).value();
-    World world;
+    options.modules.push_back(std::move(module));
+    renderer = Renderer::create(std::move(options)).value();
     renderer->prepare_world(world);
+  }
+  [[nodiscard]] Status render() {
     ViewRequest view;
     view.settings = test::look_at(dvec3(2.0, 3.0, 9.0), dvec3(0.0), 64, 40);
-    EXPECT_ASSERT((void)renderer->render(world, {&view, 1}),
-                  lit ? "LitOutput is written in place" : "TargetOutput is written in place");
+    return renderer->render(world, {&view, 1});
   }
+
+  std::unique_ptr<gpu::RecordingDevice> device = gpu::make_recording_device();
+  std::unique_ptr<JobExecutor> executor = make_shuffled_executor(3);
+  std::unique_ptr<Renderer> renderer;
+  World world;
+};
+
+TEST(RendererOutputs, light_may_move_to_an_image_of_the_same_size_and_format) {
+  OneModule moved(std::make_unique<ReplacingModule>(true, gpu::Format::rgba16_float, 1));
+  ASSERT_TRUE(moved.render().ok());
+  EXPECT_TRUE(moved.renderer->read_linear(ViewId{0}).ok());
+  EXPECT_THAT(moved.device->faults(), ::testing::IsEmpty());
+  OneModule smaller(std::make_unique<ReplacingModule>(true, gpu::Format::rgba16_float, 2));
+  EXPECT_ASSERT((void)smaller.render(), "of the same size and format");
+  OneModule wider(std::make_unique<ReplacingModule>(true, gpu::Format::rgba32_float, 1));
+  EXPECT_ASSERT((void)wider.render(), "of the same size and format");
+}
+
+TEST(RendererOutputs, the_picture_is_written_in_place_and_never_replaced) {
+  OneModule replaced(std::make_unique<ReplacingModule>(false, gpu::Format::rgba8_srgb, 1));
+  EXPECT_ASSERT((void)replaced.render(), "TargetOutput is written in place");
 }
 
 TEST_F(RendererTest, an_empty_world_and_no_view_at_all_are_frames_too) {

@@ -23,4 +23,8 @@ void add_depth_bounds_pass(FrameBuilder& frame);
 /// Draws albedo, normal or depth over the picture. `code`: see debug_view.frag.
 void add_debug_view_pass(FrameBuilder& frame, std::uint32_t code);
 
+/// Copies linear light to a mip of a layer of the same size, bit for bit. Returns the written version of `to`.
+[[nodiscard]] ImageRef add_copy_light_pass(FrameBuilder& frame, ImageRef from, ImageRef to, std::uint32_t mip = 0,
+                                           std::uint32_t layer = 0);
+
 }  // namespace gloam

@@ -48,11 +48,17 @@ inline constexpr double kPiOracle = 3.14159265358979323846;
   return illuminance * nl * ((1.0 - fresnel) * diffuse + fresnel * d * v);
 }
 
-/// KHR_lights_punctual, with the window that ends a light at its range.
-[[nodiscard]] inline dvec3 oracle_light(const OracleSurface& s, const OracleLight& l) {
+/// A light that arrives at a point.
+struct OracleArrival {
+  dvec3 to_light = dvec3(0.0);
+  dvec3 illuminance = dvec3(0.0);  ///< on a plane that faces the light
+};
+
+/// KHR_lights_punctual, with the window that ends a light at its range. Nothing blocks the light.
+[[nodiscard]] inline OracleArrival oracle_arrival(const dvec3& position, const OracleLight& l) {
   const dvec3 color = dvec3(l.light.color) * static_cast<double>(l.light.intensity);
-  if (l.light.kind == LightKind::directional) return oracle_reflected(s, -l.direction, color);
-  const dvec3 offset = l.position - s.position;
+  if (l.light.kind == LightKind::directional) return {-l.direction, color};
+  const dvec3 offset = l.position - position;
   const double distance = glm::length(offset);
   const dvec3 to_light = offset / distance;
   const double range = l.light.range_m > 0.0f ? static_cast<double>(l.light.range_m)
@@ -65,7 +71,12 @@ inline constexpr double kPiOracle = 3.14159265358979323846;
     const double ramp = (glm::dot(-to_light, l.direction) - outer) / std::max(inner - outer, 1e-3);
     cone = std::pow(std::clamp(ramp, 0.0, 1.0), 2.0);
   }
-  return oracle_reflected(s, to_light, color * (window * window * cone / (distance * distance)));
+  return {to_light, color * (window * window * cone / (distance * distance))};
+}
+
+[[nodiscard]] inline dvec3 oracle_light(const OracleSurface& s, const OracleLight& l) {
+  const OracleArrival arrival = oracle_arrival(s.position, l);
+  return oracle_reflected(s, arrival.to_light, arrival.illuminance);
 }
 
 [[nodiscard]] inline dvec3 oracle_sky(const SceneEnvironment& sky, const dvec3& direction) {
@@ -73,10 +84,15 @@ inline constexpr double kPiOracle = 3.14159265358979323846;
   return glm::mix(dvec3(sky.sky_horizon), end, std::sqrt(std::abs(direction.y)));
 }
 
+/// Mean radiance of the hemisphere around a normal.
+[[nodiscard]] inline dvec3 oracle_hemisphere(const SceneEnvironment& sky, const dvec3& normal) {
+  const dvec3 above = 0.5 * (dvec3(sky.sky_horizon) + dvec3(sky.sky_zenith));
+  return glm::mix(dvec3(sky.sky_ground), above, 0.5 + 0.5 * normal.y);
+}
+
 /// The ambient term as its comment states it: a hemisphere for diffuse light, the fit of Karis 2014 for specular.
 [[nodiscard]] inline dvec3 oracle_ambient(const OracleSurface& s, const SceneEnvironment& sky) {
-  const dvec3 above = 0.5 * (dvec3(sky.sky_horizon) + dvec3(sky.sky_zenith));
-  const dvec3 hemisphere = glm::mix(dvec3(sky.sky_ground), above, 0.5 + 0.5 * s.normal.y);
+  const dvec3 hemisphere = oracle_hemisphere(sky, s.normal);
   const double nv = glm::dot(s.normal, s.to_eye);
   const double r = s.roughness;
   const double rx = 1.0 - r, ry = 0.0425 - 0.0275 * r, rz = 1.04 - 0.572 * r, rw = 0.022 * r - 0.04;

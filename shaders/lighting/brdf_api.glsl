@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#ifndef GLOAM_SHADERS_LIGHTING_BRDF_GLSL
-#define GLOAM_SHADERS_LIGHTING_BRDF_GLSL
+#ifndef GLOAM_SHADERS_LIGHTING_BRDF_API_GLSL
+#define GLOAM_SHADERS_LIGHTING_BRDF_API_GLSL
 
 #include "shaders/common/math.glsl"
 

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lighting/outputs.h"
+
+#include "engine/math/packing.h"
+#include "modules/lighting/environment.h"
+#include "modules/shadows/outputs.h"
+
+namespace gloam {
+namespace {
+
+ForwardShadows version_of(const ShadowsOutputs& shadows) {
+  if (shadows.cookies_only) return ForwardShadows::cookies;
+  return shadows.standard ? ForwardShadows::standard : ForwardShadows::all;
+}
+
+}  // namespace
+
+vec3 decode_diffuse_light(uvec2 texel) {
+  const auto half = [](std::uint32_t bits) { return half_to_float(static_cast<std::uint16_t>(bits)); };
+  return {half(texel.x), half(texel.x >> 16), half(texel.y)};
+}
+
+ForwardLighting forward_lighting(const FrameBuilder& frame) {
+  ForwardLighting version;
+  const LightsOutputs* lights = frame.find<LightsOutputs>();
+  version.tiled = lights != nullptr && lights->has_lists();
+  if (const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>()) {
+    version.shadows = version_of(*shadows);
+    version.constants = shadows->constants;
+  }
+  return version;
+}
+
+void read_lighting(ShaderPass& pass, FrameBuilder& frame) {
+  const ShadingInputs& inputs = shading_inputs(frame);
+  pass.read_if_declared("environment", inputs.environment);
+  read_light_lists(pass, inputs.outputs);
+  if (const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>()) read_shadows(pass, *shadows);
+}
+
+}  // namespace gloam

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/frame/frame_graph.h"
+#include "engine/gpu/types.h"
+#include "engine/math/types.h"
+#include "engine/render/declare/shader_pass.h"
+#include "engine/render/frame_builder.h"
+
+namespace gloam {
+
+/// Another module adds the specular reflection of the surroundings (sky and ground) to opaque surfaces itself. It puts
+/// this on the board in PassPhase::announce. LitOutput then lacks exactly occlusion · specular_ambient()
+/// (shaders/lighting/environment_api.glsl) at each pixel with a surface, until that module adds its own term. The sky
+/// and blended surfaces are not affected.
+struct SpecularAmbientTaken {};
+
+/// Another module needs DiffuseLightOutput. It puts this on the board in PassPhase::announce.
+struct DiffuseLightWanted {};
+
+/// Diffuse light intensity of the view: the illuminance, in lux, of the opaque surface at each pixel. It is the sum of
+/// every light's illuminance times the cosine of incidence and its visibility, plus π · occlusion ·
+/// hemisphere_radiance() of the surroundings. Base colour and emission do not enter, so a diffuse surface reflects
+/// base colour / π of it. rgba16f of the view's size, at most 65504; sky pixels are 0; alpha is 1. (r11f_g11f_b10f
+/// would take half of the memory, but its steps of up to 3 % show in ratios of two lights.)
+///
+/// On the board from PassPhase::shading on, only in views with DiffuseLightWanted.
+struct DiffuseLightOutput {
+  ImageRef light;
+};
+/// Decodes one texel: the two words of four half floats.
+[[nodiscard]] vec3 decode_diffuse_light(uvec2 texel);
+
+/// What a shader that includes shaders/lighting/forward_lights_api.glsl needs to show the shadows of a frame.
+enum class ForwardShadows : std::uint8_t {
+  none,
+  cookies,   ///< GLOAM_FORWARD_COOKIES: no light of the view has a shadow
+  standard,  ///< GLOAM_FORWARD_SHADOWS and GLOAM_SHADOWS_STANDARD; a shader for `all` works as well
+  all,       ///< GLOAM_FORWARD_SHADOWS
+};
+
+/// The version of such a shader that a frame calls for. Versions without GLOAM_FORWARD_TILED draw the same picture, and
+/// versions with less shadows work, too: both may be used while a pipeline is being compiled.
+struct ForwardLighting {
+  bool tiled = false;  ///< GLOAM_FORWARD_TILED may be used
+  ForwardShadows shadows = ForwardShadows::none;
+  std::vector<gpu::SpecConstant> constants = {};  ///< of versions with shadows or cookies
+};
+
+/// The functions below may be called from PassPhase::shading on.
+[[nodiscard]] ForwardLighting forward_lighting(const FrameBuilder& frame);
+/// Binds the inputs of environment_api.glsl and forward_lights_api.glsl that the program in use declares: environment,
+/// lights, light_texels, grid, mask_tiles and z_bin_words; with shadows or cookies also those of read_shadows(). The
+/// program must be a version for this frame, see ForwardLighting.
+void read_lighting(ShaderPass& pass, FrameBuilder& frame);
+
+}  // namespace gloam
