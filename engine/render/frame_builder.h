@@ -4,6 +4,7 @@
 
 #include <any>
 #include <cstddef>
+#include <deque>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include "engine/frame/frame_results.h"
 #include "engine/frame/upload.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/draws/caster_source.h"
 #include "engine/render/draws/draw_lists.h"
 #include "engine/render/knobs/knobs.h"
 #include "engine/render/outputs.h"
@@ -65,6 +67,11 @@ class FrameBuilder {
   /// All shadow casters, in the camera's view or not; empty if no module that the world demands needs them
   /// (Module::needs_casters).
   [[nodiscard]] const CasterList& casters() const { return draws_.casters; }
+  /// Adds a caster without a mesh, for this view and frame. Asserts after the first call of caster_sources(): call it
+  /// in PassPhase::announce, because shadow maps are declared in PassPhase::lists.
+  void add_caster_source(CasterSource source);
+  /// All caster sources, in the order in which they were added.
+  [[nodiscard]] std::span<const CasterSource* const> caster_sources();
   [[nodiscard]] const KnobRegistry& knobs() const { return services_.knobs; }
   [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
   void set_visualizer(std::string_view name) { visualizer_ = name; }
@@ -176,6 +183,9 @@ class FrameBuilder {
   const RenderView& view_;
   const GpuScene& scene_;
   DrawLists draws_;
+  std::deque<CasterSource> caster_sources_;
+  std::vector<const CasterSource*> caster_source_list_;
+  bool caster_sources_read_ = false;
   std::string_view visualizer_ = "none";
   std::string_view module_ = "engine";
   Status status_;
