@@ -15,8 +15,8 @@
 namespace gloam {
 namespace {
 
-constexpr Entity kLight = {50, 1};
-constexpr Entity kOtherLight = {51, 1};
+constexpr Entity kSpot = {50, 1};
+constexpr Entity kOtherSpot = {51, 1};
 
 /// Two spots at the origin, one along −Z and one along +Z, and meshes 4 m in front of the first.
 class DrawnFaces : public ::testing::Test {
@@ -25,7 +25,7 @@ class DrawnFaces : public ::testing::Test {
     primitive.index_count = 3;
     for (const double side : {-1.0, 1.0}) {
       ShadowFace face;
-      face.light = side < 0.0 ? kLight : kOtherLight;
+      face.light = side < 0.0 ? kSpot : kOtherSpot;
       face.right = vec3(static_cast<float>(-side), 0.0f, 0.0f);
       face.forward = vec3(0.0f, 0.0f, static_cast<float>(side));
       face.far_m = 10.0f;
@@ -117,7 +117,7 @@ TEST_F(DrawnFaces, a_source_that_changes_comes_or_goes_costs_its_rectangle) {
     if (what[3] == 'g') sources.clear();
     const DrawnMaps maps = frame();
     ASSERT_EQ(maps.faces.size(), 1u);
-    EXPECT_EQ(maps.faces[0].face.light, kLight);
+    EXPECT_EQ(maps.faces[0].face.light, kSpot);
     ASSERT_EQ(maps.faces[0].regions.size(), 1u);
     expect_around(maps.faces[0].regions[0].texels, kLow, kHigh);
     EXPECT_EQ(maps.faces[0].regions[0].sources.size(), sources.size());
@@ -244,7 +244,7 @@ TEST_F(DrawnFaces, a_source_is_withheld_with_its_entity) {
   CasterSource& field = source(kLow, kHigh, true);
   field.entity = {3, 1};
   frames(3);
-  kept.history.withhold({{{kLight, {{3, 1}}}}});
+  kept.history.withhold({{{kSpot, {{3, 1}}}}});
   const DrawnMaps left_out = frame();
   ASSERT_EQ(left_out.faces.size(), 1u) << "the map without it";
   for (const DrawnRegion& region : left_out.faces[0].regions) EXPECT_EQ(region.sources, Sources{});
@@ -264,7 +264,7 @@ TEST_F(DrawnFaces, a_resting_source_costs_its_rectangle_when_it_is_withheld_and_
   source(dvec3(2.0, 2.0, -3.0), dvec3(2.1, 2.1, -2.5));
   frames(3);
   for (const bool withheld : {true, false}) {
-    kept.history.withhold(withheld ? WithheldCasters{{{kLight, {{900, 1}}}}} : WithheldCasters{});
+    kept.history.withhold(withheld ? WithheldCasters{{{kSpot, {{900, 1}}}}} : WithheldCasters{});
     const DrawnMaps maps = frame();
     ASSERT_EQ(maps.faces.size(), 1u) << withheld;
     ASSERT_EQ(maps.faces[0].regions.size(), 1u);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <random>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "modules/shadows/outputs.h"
 #include "tests/modules/shadows/support/blades_module.h"
 #include "tests/modules/shadows/support/held_faces.h"
 #include "tests/modules/shadows/support/shadowed_scene.h"
@@ -133,6 +135,15 @@ class CasterSources : public test::ShadowedScene {
     set("shadows.casters", "full");
     return held();
   }
+  /// Number of texels in which two maps differ.
+  [[nodiscard]] static std::size_t differing(const Faces& a, const Faces& b) {
+    std::size_t count = 0;
+    EXPECT_EQ(a.size(), b.size());
+    for (std::size_t f = 0; f < std::min(a.size(), b.size()); ++f)
+      for (std::size_t i = 0; i + 4 <= std::min(a[f].size(), b[f].size()); i += 4)
+        count += std::memcmp(&a[f][i], &b[f][i], 4) == 0 ? 0 : 1;
+    return count;
+  }
   /// Draws frames in which blades sway, boxes move now and then, and a resting field changes. Compares the maps with
   /// maps drawn from scratch.
   void expect_equal_walks(int frames, double most_share) {
@@ -202,25 +213,21 @@ TEST_F(CasterSources, blades_cast_a_suns_shadows_in_a_scene_whose_meshes_are_fla
 TEST_F(CasterSources, blades_far_from_the_worlds_origin_cast_the_same_maps) {
   resting_boxes();
   swaying(dvec3(0.1, -0.2, 0.9)).phase = 0.7f;
-  const Entity spot = lamp_of("spot", LightKind::spot, dvec3(0.25, 0.125, 2.5), 512);
+  lamp_of("spot", LightKind::spot, dvec3(0.25, 0.125, 2.5), 512);
   draw();
   const Faces here = held();
   const dvec3 away(1048576.0, -524288.0, 2097152.0);
   world.view<WorldTransform>().each([&](WorldTransform& transform) { transform.matrix[3] += dvec4(away, 0.0); });
-  static_cast<void>(spot);
   settings.world_from_camera[3] += dvec4(away, 0.0);
   blades_->fields[0].origin += away;
   draw();
   const Faces there = held();
-  ASSERT_EQ(here.size(), there.size());
-  std::size_t differing = 0;
-  for (std::size_t i = 0; i < here[0].size(); i += 4)
-    differing += std::equal(here[0].begin() + static_cast<std::ptrdiff_t>(i),
-                            here[0].begin() + static_cast<std::ptrdiff_t>(i) + 4,
-                            there[0].begin() + static_cast<std::ptrdiff_t>(i))
-                     ? 0
-                     : 1;
-  EXPECT_LT(differing, here[0].size() / 4 / 100) << "only the rounding of world positions differs";
+  blades_->fields.clear();
+  draw();
+  const Faces bare = held();
+  const std::size_t by_blades = differing(there, bare);
+  EXPECT_GT(by_blades, 500u);
+  EXPECT_LT(differing(here, there), by_blades / 20) << "only the rounding of world positions differs";
 }
 
 TEST_F(CasterSources, casters_that_rest_are_not_drawn_again_while_blades_sway_over_them) {
@@ -291,6 +298,75 @@ TEST_F(CasterSources, swaying_blades_leave_a_lamps_six_maps_as_drawn_from_scratc
 TEST_F(CasterSources, swaying_blades_leave_a_suns_maps_as_drawn_from_scratch) {
   lamp_of("sun", LightKind::directional, dvec3(0.0), 256, dvec3(0.3, -0.5, -1.0));
   expect_equal_walks(12, 0.9);
+}
+
+TEST_F(CasterSources, withheld_blades_are_as_if_they_were_not_there) {
+  set("shadows.mode", "deferred");
+  set("shadows.visibility_bits", "8");
+  resting_boxes();
+  swaying(dvec3(0.1, -0.2, 0.9)).entity = world.create(WorldTransform{});
+  const Entity spot = lamp_of("spot", LightKind::spot, dvec3(0.2, 0.1, 2.5), 512);
+  draw();
+  const Faces with = held();
+  const Entity entity = blades_->fields[0].entity;
+  blades_->also = [spot, entity](FrameBuilder& frame, PassPhase phase) {
+    if (phase == PassPhase::announce) frame.put(WithheldCasters{{{spot, {entity}}}});
+  };
+  draw();
+  const Faces without = held();
+  EXPECT_FALSE(without == with);
+  for (int i = 0; i < 3; ++i) {
+    sway(), draw();
+    EXPECT_EQ(counter("shadows.texels_drawn"), 0.0) << "they sway unseen";
+  }
+  blades_->also = nullptr;
+  sway(), draw();
+  EXPECT_GT(counter("shadows.texels_drawn"), 0.0);
+  EXPECT_TRUE(held() == held_from_scratch());
+  blades_->fields.clear();
+  draw();
+  EXPECT_TRUE(held() == without);
+}
+
+TEST_F(CasterSources, an_extra_map_holds_the_blades_of_its_entities) {
+  set("shadows.mode", "deferred");
+  set("shadows.visibility_bits", "8");
+  resting_boxes();
+  for (const double x : {0.1, -0.7}) swaying(dvec3(x, -0.2, 0.9)).entity = world.create(WorldTransform{});
+  lamp_of("spot", LightKind::spot, dvec3(0.2, 0.1, 2.5), 512);
+  std::vector<Entity> all;
+  world.view<const MeshInstance>().each([&](Entity entity, const MeshInstance&) { all.push_back(entity); });
+  for (const test::BladeField& made : blades_->fields) all.push_back(made.entity);
+  std::ranges::sort(all, {}, &Entity::index);
+  std::vector<Entity> casters = all;
+  blades_->also = [&](FrameBuilder& frame, PassPhase phase) {
+    if (phase != PassPhase::shading) return;
+    const ShadowMapDrawer& drawer = frame.get<ShadowMapDrawer>();
+    ExtraMap map{frame.world().view_resource<ShadowViews>(frame.view().id).faces.front(), casters};
+    map.face.square.origin = uvec2(0);
+    ExtraAtlas atlas = drawer.create(frame, 512);
+    drawer.draw(frame, "extra", {&map, 1}, atlas);
+    frame.expose(atlas.atlas, "extra_atlas");
+  };
+  const auto extra = [&] {
+    test::FaceTexels texels;
+    const ImageBytes image = test::value_of(renderer->read_image(world, ViewId{0}, "extra_atlas"));
+    test::append_texels(texels, image.bytes, 512, 0, 0, {uvec2(0), 512});
+    return texels;
+  };
+  draw();
+  test::FaceTexels standard = held().at(0);
+  test::FaceTexels first = extra();
+  standard.resize(first.size());  // mip 0
+  EXPECT_TRUE(first == standard);
+  std::erase(casters, blades_->fields[1].entity);
+  EXPECT_FALSE(extra() == first) << "without the second field";
+  blades_->fields.pop_back();
+  EXPECT_TRUE(extra() == [&] {
+    test::FaceTexels texels = held().at(0);
+    texels.resize(first.size());
+    return texels;
+  }());
 }
 
 TEST_F(CasterSources, blades_that_no_light_reaches_cost_nothing) {

@@ -54,6 +54,7 @@ void BladesModule::pipelines(const KnobRegistry&, const gpu::DeviceInfo&, Pipeli
 void BladesModule::add_passes(FrameBuilder& frame, PassPhase phase) {
   if (phase == PassPhase::announce) announce(frame);
   if (phase == PassPhase::lists) sway(frame);
+  if (also != nullptr) also(frame, phase);
 }
 
 void BladesModule::announce(FrameBuilder& frame) {

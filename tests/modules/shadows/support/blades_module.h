@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +47,7 @@ class BladesModule final : public Module {
   void add_passes(FrameBuilder& frame, PassPhase phase) override;
 
   std::vector<BladeField> fields;
+  std::function<void(FrameBuilder&, PassPhase)> also;  ///< called in each phase, if set
   /// Calls of the sources' functions since the test set them to 0.
   int declared = 0;
   int recorded = 0;
