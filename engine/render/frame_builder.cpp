@@ -75,6 +75,18 @@ Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> d
   return {};
 }
 
+void FrameBuilder::add_caster_source(CasterSource source) {
+  GLOAM_ASSERT(source.record != nullptr, "a caster source needs a function that records its draws");
+  GLOAM_ASSERT(!caster_sources_read_,
+               "caster sources are added in PassPhase::announce, before shadow maps are declared");
+  caster_source_list_.push_back(&caster_sources_.emplace_back(std::move(source)));
+}
+
+std::span<const CasterSource* const> FrameBuilder::caster_sources() {
+  caster_sources_read_ = true;
+  return caster_source_list_;
+}
+
 void FrameBuilder::read_vertices(PassBuilder& pass) {
   if (const Deformed* deformed = shared_.find<Deformed>()) {
     pass.read(deformed->positions, gpu::Access::vertex_input);

@@ -5,6 +5,7 @@
 #include <any>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@
 #include "engine/frame/upload.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/board.h"
+#include "engine/render/draws/caster_source.h"
 #include "engine/render/draws/draw_lists.h"
 #include "engine/render/knobs/knobs.h"
 #include "engine/render/outputs.h"
@@ -78,6 +80,11 @@ class FrameBuilder {
   /// All shadow casters, in the camera's view or not; empty if no module that the world demands needs them
   /// (Module::needs_casters).
   [[nodiscard]] const CasterList& casters() const { return draws_.casters; }
+  /// Adds a caster without a mesh, for this view and frame. Asserts after the first call of caster_sources(): call it
+  /// in PassPhase::announce, because shadow maps are declared in PassPhase::lists.
+  void add_caster_source(CasterSource source);
+  /// All caster sources, in the order in which they were added.
+  [[nodiscard]] std::span<const CasterSource* const> caster_sources();
   [[nodiscard]] const KnobRegistry& knobs() const { return services_.knobs; }
   [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
   void set_visualizer(std::string_view name) { visualizer_ = name; }
@@ -208,6 +215,9 @@ class FrameBuilder {
   const FrameDraws& draws_;
   std::size_t view_index_;
   Board& shared_;
+  std::deque<CasterSource> caster_sources_;
+  std::vector<const CasterSource*> caster_source_list_;
+  bool caster_sources_read_ = false;
   std::string_view visualizer_ = "none";
   std::string_view module_ = "engine";
   Status status_;

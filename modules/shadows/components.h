@@ -4,12 +4,22 @@
 
 #include <cstdint>
 
+#include "engine/math/types.h"
+
 namespace gloam {
 
 /// How a light casts shadows. A light without this component casts them with these defaults.
 struct ShadowCaster {
   bool enabled = true;
   std::uint32_t resolution = 0;  ///< texels of a face's side; 0: chosen from screen coverage
+};
+
+/// World-space box of casters without a mesh (CasterSource), on any entity. Cascades of directional lights hold the
+/// boxes of all meshes and all volumes; casters outside of them are drawn onto the near side of the light's box. Set it
+/// before the systems of the view stage run. Ignored if a bound is not finite or min is above max.
+struct CasterVolume {
+  dvec3 min = dvec3(0.0);
+  dvec3 max = dvec3(0.0);
 };
 
 }  // namespace gloam

@@ -37,6 +37,7 @@ class ShadowsModule final : public Module {
 
   void register_components(World& world) const override {
     world.register_component<ShadowCaster>("shadow_caster");
+    world.register_component<CasterVolume>("caster_volume");
     world.set_resource(ShadowWorld{++worlds_});
     world.set_resource(Cookies{});
   }

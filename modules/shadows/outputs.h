@@ -152,7 +152,9 @@ void write_visibilities(ShaderPass& pass, FinalLists& lists);
 struct WithheldCasters {
   struct OfLight {
     Entity light;
-    std::vector<Entity> casters;  ///< Caster::entity of the left-out casters, ascending by Entity::index
+    /// Caster::entity of the left-out casters and CasterSource::entity of the left-out sources, ascending by
+    /// Entity::index.
+    std::vector<Entity> casters;
   };
   std::vector<OfLight> lights;  ///< ascending by Entity::index
   /// The casters withheld from this light; empty when there are none. Valid while `lights` is unchanged.
@@ -184,8 +186,9 @@ struct FinalEntry {
 
 /// A shadow map outside the standard atlas: one face and the casters that are drawn into it.
 struct ExtraMap {
-  ShadowFace face;                  ///< face.square is the place in the ExtraAtlas
-  std::span<const Entity> casters;  ///< Caster::entity of the casters, ascending by Entity::index
+  ShadowFace face;  ///< face.square is the place in the ExtraAtlas
+  /// Caster::entity of the casters and CasterSource::entity of the sources, ascending by Entity::index.
+  std::span<const Entity> casters;
 };
 
 /// An atlas and its pyramid in the layout of shaders/shadows/shadows_shared.h, with a size independent of the standard

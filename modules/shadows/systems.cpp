@@ -73,8 +73,9 @@ std::vector<ShadowLight> gather(std::span<const Entity> entities, const ShadowLi
 }  // namespace
 
 void shadow_bounds_system(ViewResource<const VisibleLights> visible,
-                          View<const MeshInstance, const WorldTransform> meshes, Resource<const SceneAssets> assets,
-                          Resource<const JointMatrices> joints, ViewResource<CasterBounds> casters, JobExecutor& jobs) {
+                          View<const MeshInstance, const WorldTransform> meshes, View<const CasterVolume> volumes,
+                          Resource<const SceneAssets> assets, Resource<const JointMatrices> joints,
+                          ViewResource<CasterBounds> casters, JobExecutor& jobs) {
   if (directional_lights(*visible).empty()) return;
   std::vector<CasterBounds> found(meshes.chunk_count(kMeshGrain));
   meshes.parallel_chunks(
@@ -89,6 +90,9 @@ void shadow_bounds_system(ViewResource<const VisibleLights> visible,
     const Aabb* box = instance == nullptr ? nullptr : box_of(*assets, *instance);
     if (box != nullptr) grow_skinned(all, *joints, range, *box);
   }
+  volumes.each([&](const CasterVolume& volume) {
+    if (const CasterBounds box{volume.min, volume.max}; box.known()) all.grow(box.min, box.max);
+  });
   *casters = all;
 }
 

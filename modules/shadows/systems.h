@@ -17,12 +17,14 @@ namespace gloam {
 
 using ShadowLights = View<const Light, const WorldTransform, Maybe<const LightBounds>, Maybe<const ShadowCaster>>;
 
-/// Sets `casters` to the world-space bounds of all meshes; cascades use them. The bounds of a skinned mesh enclose its
-/// rest box as moved by each of its joints. Does nothing if the view has no directional light. Morph targets are
-/// ignored: geometry that they move out of the bounds toward a light is drawn onto the near side of the light's box.
+/// Sets `casters` to the world-space bounds of all meshes and volumes; cascades use them. The bounds of a skinned mesh
+/// enclose its rest box as moved by each of its joints. Does nothing if the view has no directional light. Morph
+/// targets are ignored: geometry that they move out of the bounds toward a light is drawn onto the near side of the
+/// light's box.
 void shadow_bounds_system(ViewResource<const VisibleLights> visible,
-                          View<const MeshInstance, const WorldTransform> meshes, Resource<const SceneAssets> assets,
-                          Resource<const JointMatrices> joints, ViewResource<CasterBounds> casters, JobExecutor& jobs);
+                          View<const MeshInstance, const WorldTransform> meshes, View<const CasterVolume> volumes,
+                          Resource<const SceneAssets> assets, Resource<const JointMatrices> joints,
+                          ViewResource<CasterBounds> casters, JobExecutor& jobs);
 
 /// Finds the faces of the view's lights and their places in the atlas.
 void shadow_views_system(ViewResource<const VisibleLights> visible, ViewResource<const RenderView> view,

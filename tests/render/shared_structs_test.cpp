@@ -15,10 +15,12 @@
 #include "shaders/lighting/shaders.h"
 #include "shaders/lights/lights_shared.h"
 #include "shaders/lights/shaders.h"
+#include "shaders/render/caster_shared.h"
 #include "shaders/render/deform_shared.h"
 #include "shaders/render/draw_shared.h"
 #include "shaders/render/shaders.h"
 #include "shaders/render/view_shared.h"
+#include "shaders/shadows/shaders.h"
 
 // C++ and shaders share one declaration of each structure. These tests compare the offsets of both compilers.
 
@@ -94,6 +96,12 @@ TEST(SharedStructs, deform_constants) {
       shaders::render::deform_comp, "DeformConstants", sizeof(T),
       {GLOAM_MEMBER(T, vertex_count), GLOAM_MEMBER(T, first_joint), GLOAM_MEMBER(T, skinned),
        GLOAM_MEMBER(T, morph_targets), GLOAM_MEMBER(T, first_weight), GLOAM_MEMBER(T, morph_has_normals)});
+}
+
+TEST(SharedStructs, caster_constants) {
+  using T = shaders::CasterConstants;
+  expect_same_layout(shaders::shadows::map_vert, "CasterConstants", sizeof(T),
+                     {GLOAM_MEMBER(T, clip_from_local), GLOAM_MEMBER(T, orthographic)});
 }
 
 TEST(SharedStructs, packed_vertices_are_what_the_kernel_and_the_streams_read) {

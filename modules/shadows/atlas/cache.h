@@ -21,7 +21,7 @@ namespace gloam {
 struct FaceContent {
   std::uint64_t hash = 0;     ///< of the face, of all casters that it may see, and of `salt`
   std::uint64_t pose = 0;     ///< of the face and of `salt` only
-  bool moving = false;        ///< it may see an unsteady caster: its map is redrawn every frame
+  bool moving = false;        ///< it may see an unsteady caster: parts of its map are redrawn every frame
   std::uint32_t casters = 0;  ///< number of casters that it may see
   bool operator==(const FaceContent&) const = default;
 };

@@ -82,15 +82,19 @@ void for_each_pair(std::span<const CasterState* const> a, std::span<const Caster
   }
 }
 
-/// Appends the boxes of the casters in `here` that are not in `there`. states: ordered by entity.
-void append_boxes(std::span<const Entity> here, std::span<const Entity> there, std::span<const CasterState> states,
-                  std::vector<CasterBox>& boxes) {
+/// Appends the boxes of the casters in `here` that are not in `there`. The last `sources` states are in any order, the
+/// states before them are ordered by entity.
+void append_boxes(std::span<const Entity> here, std::span<const Entity> there, std::span<const CasterState> all,
+                  std::size_t sources, std::vector<CasterBox>& boxes) {
+  const std::span<const CasterState> states = all.first(all.size() - sources);
   std::vector<Entity> turned;
   std::set_difference(here.begin(), here.end(), there.begin(), there.end(), std::back_inserter(turned), by_entity);
   for (const Entity entity : turned) {
     auto at = std::lower_bound(states.begin(), states.end(), entity,
                                [](const CasterState& state, Entity e) { return by_entity(state.entity, e); });
     for (; at != states.end() && at->entity == entity; ++at) boxes.push_back(at->box);
+    for (const CasterState& source : all.last(sources))
+      if (source.entity == entity) boxes.push_back(source.box);
   }
 }
 
@@ -136,7 +140,26 @@ std::vector<CasterState> caster_states(std::span<const Caster> casters, std::spa
   return states;
 }
 
-void CasterHistory::advance(std::vector<CasterState> states) {
+std::vector<CasterState> source_states(std::span<const CasterSource* const> sources) {
+  std::vector<CasterState> states;
+  for (const CasterSource* source : sources) {
+    const WorldBox box = source->bounds.known() ? source->bounds : WorldBox{};
+    Hasher hasher;
+    hasher.value(source->content_hash);
+    for (const dvec3& corner : {box.min, box.max})
+      for (int axis = 0; axis < 3; ++axis) hasher.value(std::bit_cast<std::uint64_t>(corner[axis]));
+    states.push_back({hasher.digest(), source->moving, {box.min, box.max}, source->entity});
+  }
+  return states;
+}
+
+/// The casters of the frame before the newest one.
+struct CasterHistory::Before {
+  std::span<const CasterState> states;
+  std::size_t sources = 0;
+};
+
+void CasterHistory::advance(std::vector<CasterState> states, std::size_t sources) {
   // Most casters are unchanged and at the same index.
   std::vector<const CasterState*> gone, come;
   ++frame_;
@@ -168,20 +191,21 @@ void CasterHistory::advance(std::vector<CasterState> states) {
   });
   std::swap(states_, states);
   since_ = std::move(since);
+  const std::size_t sources_before = std::exchange(sources_, sources);
   withheld_before_ = std::exchange(withheld_, next_withheld_);
   changed_of_.clear();
   for (const Entity light : lights_of(withheld_before_, withheld_))
-    changed_of_.push_back({light, find_changed(light, states)});
+    changed_of_.push_back({light, find_changed(light, {states, sources_before})});
 }
 
-std::vector<CasterBox> CasterHistory::find_changed(Entity light, std::span<const CasterState> before) const {
+std::vector<CasterBox> CasterHistory::find_changed(Entity light, const Before& before) const {
   const std::span<const Entity> left_before = withheld_before_.of(light), left_now = withheld_.of(light);
   std::vector<CasterBox> boxes;
   for (std::size_t i = 0; i < changed_.size(); ++i)
     if (!is_withheld(i < gone_ ? left_before : left_now, changed_casters_[i])) boxes.push_back(changed_[i]);
   // A caster that becomes withheld was in the map before; one that is no longer withheld is in it now.
-  append_boxes(left_now, left_before, before, boxes);
-  append_boxes(left_before, left_now, states_, boxes);
+  append_boxes(left_now, left_before, before.states, before.sources, boxes);
+  append_boxes(left_before, left_now, states_, sources_, boxes);
   return boxes;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
 #include "engine/math/types.h"
+#include "engine/render/draws/caster_source.h"
 #include "engine/render/draws/draw_lists.h"
 #include "modules/shadows/outputs.h"
 
@@ -41,13 +42,17 @@ struct CasterState {
 [[nodiscard]] std::vector<CasterState> caster_states(std::span<const Caster> casters,
                                                      std::span<const std::uint64_t> poses, JobExecutor& executor);
 
+/// The state of each source, in order.
+[[nodiscard]] std::vector<CasterState> source_states(std::span<const CasterSource* const> sources);
+
 /// Tracks how casters change from frame to frame. Frames are numbered from 1.
 class CasterHistory {
  public:
   /// Sets the casters that maps leave out, from the frame that the next advance() begins.
   void withhold(WithheldCasters withheld) { next_withheld_ = std::move(withheld); }
-  /// Begins a frame with these casters, ordered by Entity::index.
-  void advance(std::vector<CasterState> states);
+  /// Begins a frame with these casters. The last `sources` states are those of caster sources, in any order; the states
+  /// before them are ordered by Entity::index.
+  void advance(std::vector<CasterState> states, std::size_t sources = 0);
   /// Number of the newest frame.
   [[nodiscard]] std::uint64_t frame() const { return frame_; }
   /// The casters of the newest frame.
@@ -73,11 +78,13 @@ class CasterHistory {
     Entity light;
     std::vector<CasterBox> boxes;
   };
-  [[nodiscard]] std::vector<CasterBox> find_changed(Entity light, std::span<const CasterState> before) const;
+  struct Before;
+  [[nodiscard]] std::vector<CasterBox> find_changed(Entity light, const Before& before) const;
 
   std::uint64_t frame_ = 0;
   std::vector<std::uint64_t> since_;  ///< by caster: the frame since which it has not changed
   std::vector<CasterState> states_;
+  std::size_t sources_ = 0;  ///< number of states at the end that are those of sources
   std::vector<CasterBox> changed_;
   std::vector<Entity> changed_casters_;  ///< by index into changed_
   std::size_t gone_ = 0;                 ///< the first gone_ boxes of changed_ are old boxes, of the frame before

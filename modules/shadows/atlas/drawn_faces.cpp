@@ -26,13 +26,19 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
       .digest();
 }
 
-/// The regions of the face's map that must be drawn; none when the map is up to date.
-std::vector<TexelRect> stale_regions(const ViewShadows& kept, const ShadowFace& face, const FaceContent& content) {
+/// What must be drawn of one face's map.
+struct Stale {
+  std::vector<TexelRect> regions;  ///< none when the map is up to date
+  bool held = false;               ///< the atlas holds the map of the frame before
+};
+
+Stale find_stale(const ViewShadows& kept, const ShadowFace& face, const FaceContent& content) {
   const CasterHistory& history = kept.history;
   if (kept.cache.holds(face, content)) return {};
+  if (!kept.cache.held(face, content, history.frame() - 1)) return {{whole_face(face)}, false};
   const std::span<const CasterBox> changed = history.changed(face.light);
-  if (!kept.cache.held(face, content, history.frame() - 1) || changed.size() > kMostChanges) return {whole_face(face)};
-  return covered_regions(face, changed);
+  if (changed.size() > kMostChanges) return {{whole_face(face)}, true};
+  return {covered_regions(face, changed), true};
 }
 
 /// Hash of a background: the resting casters that this part of the face may see.
@@ -58,7 +64,6 @@ TexelRect widened(const ShadowFace& face, const TexelRect& texels) {
 /// `made`.
 void find_backgrounds(const ViewShadows& kept, DrawnFace& face, DrawnFace& made) {
   constexpr std::size_t kMost = 2 * kMostRegions;
-  if (face.regions.front().texels == whole_face(face.face)) return;
   std::vector<FaceBackground>& there = face.backgrounds;
   for (const FaceBackground& background : kept.cache.backgrounds(face.face))
     if (background.hash == hash_of_resting(kept, face.face, background.texels)) there.push_back(background);
@@ -80,87 +85,112 @@ void find_backgrounds(const ViewShadows& kept, DrawnFace& face, DrawnFace& made)
 /// Which casters draw into a region.
 enum class Casters : std::uint8_t { all, resting, restless };
 
-void find_draws(const CasterHistory& history, DrawnFace& face, DrawnRegion& region, std::span<const Caster> casters,
-                bool simplified, Casters which) {
+void find_draws(const CasterHistory& history, const MapInputs& inputs, DrawnFace& face, DrawnRegion& region,
+                Casters which) {
   if (face.content.casters == 0) return;
+  const std::span<const Caster> casters = inputs.casters;
+  const std::span<const Entity> withheld = history.withheld(face.face.light);
+  const auto draws = [&](std::size_t state) {
+    return which == Casters::all || history.rests(state) == (which == Casters::resting);
+  };
   const bool whole = region.texels == whole_face(face.face);
   const FaceVolume volume = whole ? face_volume(face.face) : face_volume(face.face, region.texels);
-  region.draws = face_draws(volume, casters, simplified, history.withheld(face.face.light));
-  if (which != Casters::all)
-    std::erase_if(region.draws, [&](const FaceDraw& draw) {
-      return history.rests(static_cast<std::size_t>(draw.caster - casters.data())) != (which == Casters::resting);
-    });
+  region.draws = face_draws(volume, casters, inputs.simplified, withheld);
+  std::erase_if(region.draws,
+                [&](const FaceDraw& draw) { return !draws(static_cast<std::size_t>(draw.caster - casters.data())); });
   for (const FaceDraw& draw : region.draws)
     region.matrices.push_back(clip_from_mesh(face.face, draw.caster->world_from_mesh));
+  for (std::size_t i = 0; i < inputs.sources.size(); ++i) {
+    const std::size_t state = casters.size() + i;
+    if (draws(state) && may_see(volume, history.states()[state].box) &&
+        !is_withheld(withheld, inputs.sources[i]->entity))
+      region.sources.push_back(inputs.sources[i]);
+  }
 }
 
 /// Placed faces, their contents, and the regions that must be drawn.
 struct PlacedFaces {
   std::vector<ShadowFace> faces;
   std::vector<FaceContent> contents;
-  std::vector<std::vector<TexelRect>> stale;
+  std::vector<Stale> stale;
 };
 
-PlacedFaces placed_faces(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views, const ShadowKnobs& knobs) {
-  JobExecutor& executor = frame.services().executor;
+PlacedFaces place_faces(const MapInputs& inputs, ViewShadows& kept, JobExecutor& executor) {
   PlacedFaces placed;
-  for (const ShadowFace& face : views.faces)
+  for (const ShadowFace& face : inputs.faces)
     if (face.square.size > 0) placed.faces.push_back(face);
-  std::vector<CasterState> states =
-      caster_states(frame.casters().casters, caster_poses(frame.world(), frame.frame_draws()), executor);
-  kept.history.advance(std::move(states));
-  placed.contents =
-      face_contents(placed.faces, kept.history.states(), salt_of(frame, knobs), executor, kept.history.withheld());
+  std::vector<CasterState> states = caster_states(inputs.casters, inputs.poses, executor);
+  const std::vector<CasterState> sources = source_states(inputs.sources);
+  states.insert(states.end(), sources.begin(), sources.end());
+  kept.history.advance(std::move(states), sources.size());
+  placed.contents = face_contents(placed.faces, kept.history.states(), inputs.salt, executor, kept.history.withheld());
   placed.stale.resize(placed.faces.size());
   executor.parallel_for(placed.faces.size(), 8, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      placed.stale[i] = stale_regions(kept, placed.faces[i], placed.contents[i]);
+      placed.stale[i] = find_stale(kept, placed.faces[i], placed.contents[i]);
   });
   return placed;
 }
 
+/// Whether the regions of a face are drawn over backgrounds. A whole face would have to be drawn twice, which pays only
+/// if it is drawn again in the next frame, over the same background.
+bool wants_backgrounds(const DrawnFace& face, bool held) {
+  return held && (face.content.moving || face.regions.front().texels != whole_face(face.face));
+}
+
 }  // namespace
 
-DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views, const ShadowKnobs& knobs) {
-  const PlacedFaces placed = placed_faces(frame, kept, views, knobs);
+DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& executor) {
+  const PlacedFaces placed = place_faces(inputs, kept, executor);
   DrawnMaps maps;
   std::vector<DrawnFace>& drawn = maps.faces;
+  std::vector<std::uint8_t> on_backgrounds;  // by index into `drawn`
   kept.counts = {};
   kept.drawn.clear();
   for (std::size_t i = 0; i < placed.faces.size(); ++i) {
     const ShadowFace& face = placed.faces[i];
     const FaceContent& content = placed.contents[i];
-    if (placed.stale[i].empty()) {
+    if (placed.stale[i].regions.empty()) {
       kept.cache.keep(face, content, kept.history.frame());
       ++kept.counts.cached;
       continue;
     }
     DrawnFace& added = drawn.emplace_back(DrawnFace{face, content, {}, {}});
-    for (const TexelRect& texels : placed.stale[i]) {
+    for (const TexelRect& texels : placed.stale[i].regions) {
       added.regions.push_back({texels, {}, {}});
       kept.counts.texels += texels.texels();
     }
+    on_backgrounds.push_back(wants_backgrounds(added, placed.stale[i].held) ? 1 : 0);
     kept.drawn.push_back({face.light, face.index});
     if (content.casters == 0) ++kept.counts.skipped;
   }
   kept.counts.drawn = static_cast<std::uint32_t>(drawn.size()) - kept.counts.skipped;
-  const std::span<const Caster> casters = frame.casters().casters;
   for (const DrawnFace& face : drawn) maps.backgrounds.push_back({face.face, face.content, {}, {}});
-  frame.services().executor.parallel_for(drawn.size(), 1, [&](JobRange range) {
+  executor.parallel_for(drawn.size(), 1, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       DrawnFace &face = drawn[i], &background = maps.backgrounds[i];
-      find_backgrounds(kept, face, background);
+      if (on_backgrounds[i] != 0) find_backgrounds(kept, face, background);
       for (DrawnRegion& region : face.regions)
-        find_draws(kept.history, face, region, casters, knobs.simplified,
-                   region.on_background ? Casters::restless : Casters::all);
+        find_draws(kept.history, inputs, face, region, region.on_background ? Casters::restless : Casters::all);
       for (DrawnRegion& region : background.regions)
-        find_draws(kept.history, background, region, casters, knobs.simplified, Casters::resting);
+        find_draws(kept.history, inputs, background, region, Casters::resting);
     }
   });
   std::erase_if(maps.backgrounds, [](const DrawnFace& face) { return face.regions.empty(); });
   for (const DrawnFace& face : maps.backgrounds)
     for (const DrawnRegion& region : face.regions) kept.counts.texels += region.texels.texels();
   return maps;
+}
+
+DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views, const ShadowKnobs& knobs) {
+  const std::vector<std::uint64_t> poses = caster_poses(frame.world(), frame.frame_draws());
+  const MapInputs inputs{.faces = views.faces,
+                         .casters = frame.casters().casters,
+                         .poses = poses,
+                         .sources = frame.caster_sources(),
+                         .salt = salt_of(frame, knobs),
+                         .simplified = knobs.simplified};
+  return plan_maps(inputs, kept, frame.services().executor);
 }
 
 }  // namespace gloam

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "engine/jobs/executor.h"
 #include "engine/math/types.h"
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/atlas/cache.h"
@@ -20,8 +23,10 @@ struct DrawnRegion {
   TexelRect texels;
   std::vector<FaceDraw> draws;
   std::vector<mat4> matrices;  ///< clip_from_mesh of each of `draws`
-  /// The depth of resting casters comes from the image of backgrounds; `draws` holds the other casters only.
+  /// The depth of resting casters comes from the image of backgrounds; `draws` and `sources` hold the other casters
+  /// only.
   bool on_background = false;
+  std::vector<const CasterSource*> sources = {};  ///< drawn after `draws`
 };
 
 /// One face that is drawn in this frame.
@@ -39,10 +44,24 @@ struct DrawnMaps {
   std::vector<DrawnFace> backgrounds;
 };
 
-/// Decides which of the view's faces are drawn in this frame: all faces whose map the atlas does not hold. If only
-/// casters changed since the last frame, only the regions around the changed casters are drawn, otherwise the whole
-/// face. Advances the view's CasterHistory and sets kept.counts and kept.drawn. Casters withheld from a light are left
-/// out of its faces.
+/// Everything that the maps of a view depend on in one frame.
+struct MapInputs {
+  std::span<const ShadowFace> faces;             ///< those without a place (square.size 0) are ignored
+  std::span<const Caster> casters;               ///< ordered by Entity::index
+  std::span<const std::uint64_t> poses;          ///< caster_poses(), or empty
+  std::span<const CasterSource* const> sources;  ///< in any order
+  std::uint64_t salt = 0;                        ///< as in face_contents()
+  bool simplified = false;                       ///< as in face_draws()
+};
+
+/// Decides which of the faces are drawn in this frame: all faces whose map the atlas does not hold. If only casters
+/// changed since the last frame, only the regions around the changed casters are drawn, otherwise the whole face.
+/// Resting casters of a region come from the image of backgrounds, except in whole faces that see no unsteady caster.
+/// Advances the view's CasterHistory and sets kept.counts and kept.drawn. Casters withheld from a light are left out of
+/// its faces. The caller records what is drawn: ShadowCache::set_drawn and set_backgrounds.
+[[nodiscard]] DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& executor);
+
+/// plan_maps() for the view that the frame draws.
 [[nodiscard]] DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
                                       const ShadowKnobs& knobs);
 

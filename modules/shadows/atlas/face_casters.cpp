@@ -109,7 +109,7 @@ bool may_see(const FaceVolume& volume, const Caster& caster) {
   return may_see(volume, CasterBox{caster.bounds_min, caster.bounds_max});
 }
 
-mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh) {
+CasterProjection projection_of(const ShadowFace& face) {
   const dvec3 right(face.right), up(face.up), forward(face.forward);
   const bool perspective = face.tan_half > 0.0f;
   const double scale = 1.0 / static_cast<double>(perspective ? face.tan_half : face.half_extent_m);
@@ -124,9 +124,11 @@ mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh) {
     rows[2] = dvec4(forward * (-1.0 / depth), static_cast<double>(face.far_m) / depth);
     rows[3] = dvec4(0.0, 0.0, 0.0, 1.0);
   }
-  dmat4 relative = world_from_mesh;
-  relative[3] -= dvec4(face.origin, 0.0);
-  return mat4(glm::transpose(rows) * relative);
+  return {face.origin, glm::transpose(rows), !perspective};
+}
+
+mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh) {
+  return projection_of(face).clip_from(world_from_mesh);
 }
 
 bool is_cut_out(const Caster& caster) { return (caster.variant.features & GLOAM_SURFACE_MASK) != 0; }

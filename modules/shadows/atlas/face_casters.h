@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/math/frustum.h"
+#include "engine/render/draws/caster_source.h"
 #include "engine/render/draws/casters.h"
 #include "modules/shadows/atlas/caster_states.h"
 #include "modules/shadows/atlas/face_regions.h"
@@ -31,6 +32,8 @@ struct FaceVolume {
 [[nodiscard]] bool may_see(const FaceVolume& volume, const Caster& caster);
 [[nodiscard]] bool may_see(const FaceVolume& volume, const CasterBox& box);
 
+/// The face's projection.
+[[nodiscard]] CasterProjection projection_of(const ShadowFace& face);
 /// The transform from a caster's mesh to the face's clip space, composed in double relative to the light.
 [[nodiscard]] mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh);
 

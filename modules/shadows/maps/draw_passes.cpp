@@ -47,6 +47,8 @@ void add_batch(FrameBuilder& frame, const std::shared_ptr<const MapWork>& work, 
   const bool there = index < work->faces.plan.batches.size();
   PassBuilder draw = frame.graph().add_pass("shadow_map_draw", frame.module());
   frame.read_vertices(draw);
+  // The same in all batches, so that few different plans of the frame graph occur.
+  declare_source_reads(draw, {&work->backgrounds, &work->faces});
   draw.keep();  // writes images the graph does not track: never cull
   if (there)
     draw.execute([&frame, work, index, &kept](PassContext& context) {

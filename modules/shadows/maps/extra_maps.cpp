@@ -19,23 +19,31 @@ struct ExtraWork : MapWork {
   std::vector<Caster> casters;  ///< draws point to these
 };
 
-DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, bool simplified) {
+bool lists(std::span<const Entity> entities, Entity entity) {
+  const auto at =
+      std::lower_bound(entities.begin(), entities.end(), entity, [](Entity a, Entity b) { return a.index < b.index; });
+  return at != entities.end() && *at == entity;
+}
+
+DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, std::span<const CasterSource* const> sources,
+                     bool simplified) {
   DrawnFace drawn{map.face, {}, {}, {}};
   DrawnRegion& region = drawn.regions.emplace_back(DrawnRegion{whole_face(map.face), {}, {}});
-  region.draws = face_draws(face_volume(map.face), casters, simplified);
+  const FaceVolume volume = face_volume(map.face);
+  region.draws = face_draws(volume, casters, simplified);
   for (const FaceDraw& draw : region.draws)
     region.matrices.push_back(clip_from_mesh(map.face, draw.caster->world_from_mesh));
+  const std::vector<CasterState> states = source_states(sources);
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    if (lists(map.casters, sources[i]->entity) && may_see(volume, states[i].box)) region.sources.push_back(sources[i]);
   return drawn;
 }
 
 /// The casters whose entity is in `entities` (ascending by Entity::index).
 std::vector<Caster> casters_of(const FrameBuilder& frame, std::span<const Entity> entities) {
   std::vector<Caster> found;
-  for (const Caster& caster : frame.casters().casters) {
-    const auto at = std::lower_bound(entities.begin(), entities.end(), caster.entity,
-                                     [](Entity a, Entity b) { return a.index < b.index; });
-    if (at != entities.end() && *at == caster.entity) found.push_back(caster);
-  }
+  for (const Caster& caster : frame.casters().casters)
+    if (lists(entities, caster.entity)) found.push_back(caster);
   return found;
 }
 
@@ -50,6 +58,7 @@ void add_passes(FrameBuilder& frame, const std::string& name, const std::shared_
                 ExtraAtlas& into) {
   PassBuilder draw = frame.graph().add_pass(name, frame.module());
   frame.read_vertices(draw);
+  declare_source_reads(draw, {&work->faces});
   draw.keep();  // writes images the graph does not track: never cull
   draw.execute([&frame, work](PassContext& context) { record_draws(frame, context, *work, work->faces, 0); });
   PassBuilder mips = frame.graph().add_pass(name + "_mips", frame.module());
@@ -114,7 +123,7 @@ void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<cons
   std::vector<DrawnFace> faces;
   std::span<const Caster> left = work->casters;
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    faces.push_back(drawn_face(maps[i], left.first(counts[i]), tools_->knobs.simplified));
+    faces.push_back(drawn_face(maps[i], left.first(counts[i]), frame.caster_sources(), tools_->knobs.simplified));
     left = left.subspan(counts[i]);
   }
   work->faces = plan_faces(std::move(faces));

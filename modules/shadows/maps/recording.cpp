@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "engine/render/scene/mesh_packing.h"
-#include "shaders/shadows/maps/map_shared.h"
 #include "shaders/shadows/shaders.h"
 
 namespace gloam {
@@ -16,22 +15,17 @@ constexpr float kSlopeBias = 1.0f;
 }  // namespace
 
 gpu::GraphicsPipelineDesc map_pipeline(bool cut_out) {
-  gpu::GraphicsPipelineDesc desc;
-  desc.module = "shadows";
-  desc.vertex = cut_out ? shaders::shadows::map_mask_vert : shaders::shadows::map_vert;
-  desc.attributes = {{0, 0, gpu::Format::rgb32_float, 0}};
-  desc.stream_strides = {sizeof(vec3)};
+  CasterProgram program;
+  program.vertex = cut_out ? shaders::shadows::map_mask_vert : shaders::shadows::map_vert;
+  program.attributes = {{0, 0, gpu::Format::rgb32_float, 0}};
+  program.stream_strides = {sizeof(vec3)};
   if (cut_out) {
-    desc.fragment = shaders::shadows::map_mask_frag;
-    desc.attributes.push_back({1, 1, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)});
-    desc.attributes.push_back({2, 1, gpu::Format::rgba8_unorm, offsetof(PackedSurface, color)});
-    desc.stream_strides.push_back(sizeof(PackedSurface));
+    program.fragment = shaders::shadows::map_mask_frag;
+    program.attributes.push_back({1, 1, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)});
+    program.attributes.push_back({2, 1, gpu::Format::rgba8_unorm, offsetof(PackedSurface, color)});
+    program.stream_strides.push_back(sizeof(PackedSurface));
   }
-  desc.depth_format = gpu::Format::d32_float;
-  desc.cull = gpu::CullMode::none;  // sheets without thickness cast shadows from either side
-  desc.depth_compare = gpu::CompareOp::greater_equal;
-  desc.depth_bias = true;
-  return desc;
+  return caster_pipeline_desc(program, "shadows");
 }
 
 namespace {
@@ -43,6 +37,12 @@ class FaceRecorder {
       : frame_(frame), context_(context), commands_(context.commands()), map_(map) {}
 
   void record(const DrawnFace& face, const DrawnRegion& region) {
+    record_casters(face, region);
+    record_sources(face, region);
+  }
+
+ private:
+  void record_casters(const DrawnFace& face, const DrawnRegion& region) {
     for (std::size_t i = 0; i < region.draws.size(); ++i) {
       const FaceDraw& draw = region.draws[i];
       const Caster& caster = *draw.caster;
@@ -50,14 +50,20 @@ class FaceRecorder {
       bind(cut_out ? map_.cut_out : map_.opaque);
       frame_.bind_caster_vertices(context_, caster, cut_out);
       if (cut_out) commands_.bind_set(1, frame_.scene().materials()[caster.primitive->material].set);
-      commands_.push(shaders::ShadowDrawConstants{region.matrices[i], face.face.tan_half > 0.0f ? 0u : 1u});
+      commands_.push(shaders::CasterConstants{region.matrices[i], face.face.tan_half > 0.0f ? 0u : 1u});
       commands_.draw_indexed(draw.index_count, 1, draw.first_index, 0, 0);
     }
   }
-
- private:
+  void record_sources(const DrawnFace& face, const DrawnRegion& region) {
+    if (region.sources.empty()) return;
+    const CasterProjection projection = projection_of(face.face);
+    const CasterSourceDraw draw(context_, projection, face.face.square.size, -map_.bias_units, -kSlopeBias);
+    for (const CasterSource* source : region.sources) source->record(draw);
+    bound_ = {};  // sources bind pipelines and indices
+  }
   void bind(gpu::PipelineHandle pipeline) {
     if (bound_ == pipeline) return;
+    if (!bound_) commands_.bind_indices(frame_.scene().indices(), 0);
     commands_.bind_pipeline(pipeline);
     commands_.set_depth_bias(-map_.bias_units, -kSlopeBias);  // negative: depth is reversed
     bound_ = pipeline;
@@ -97,13 +103,24 @@ bool draws_cut_outs(const FacePlan& plan) {
 
 }  // namespace
 
+void declare_source_reads(PassBuilder& pass, std::initializer_list<const FacePlan*> plans) {
+  std::vector<const CasterSource*> declared;
+  for (const FacePlan* plan : plans)
+    for (const DrawnFace& face : plan->faces)
+      for (const DrawnRegion& region : face.regions)
+        for (const CasterSource* source : region.sources) {
+          if (source->declare_reads == nullptr || std::ranges::find(declared, source) != declared.end()) continue;
+          declared.push_back(source);
+        }
+  for (const CasterSource* source : declared) source->declare_reads(pass);
+}
+
 void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& map, const FacePlan& plan,
                   std::size_t index) {
   const ScratchPlan::Batch& batch = plan.plan.batches[index];
   gpu::CommandList& commands = context.commands();
   FaceRecorder recorder(frame, context, map);
   map.scratch->begin_drawing(commands, batch.size);
-  commands.bind_indices(frame.scene().indices(), 0);
   for (std::uint32_t layer = 0; layer < batch.items.size(); ++layer) {
     const DrawnFace& face = plan.faces[batch.items[layer]];
     const gpu::ImageView view{.image = map.scratch->image(batch.size), .first_layer = layer, .layer_count = 1};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/maps/mips.h"
@@ -28,6 +29,9 @@ struct MapWork {
 /// Sets the other members of `work` from backgrounds and faces. knobs: with the size of the atlas that the faces go
 /// to. steepest: see kSteepestSurface. If a pipeline or memory cannot be created, the frame is given up.
 void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work);
+
+/// Declares what the caster sources in these plans read.
+void declare_source_reads(PassBuilder& pass, std::initializer_list<const FacePlan*> plans);
 
 /// Records the draws of one batch into the scratch image. plan: work.backgrounds or work.faces.
 void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& work, const FacePlan& plan,

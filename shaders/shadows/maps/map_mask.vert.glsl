@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/render/caster_api.glsl"
 #include "shaders/render/draw_shared.h"
-#include "shaders/shadows/maps/map_position.glsl"
 
 // Draws the depth of cut-out casters: as map.vert, with the values that the alpha test needs.
 
@@ -13,11 +13,11 @@ layout(location = 2) in vec4 in_color;
 
 layout(location = 0) out vec3 out_uv_alpha;
 
-layout(push_constant, scalar) uniform DrawBlock { ShadowDrawConstants draw; };
+layout(push_constant, scalar) uniform CasterBlock { CasterConstants caster; };
 layout(set = 1, binding = 0, scalar) uniform MaterialBlock { MaterialConstants material; };
 
 void main() {
-  gl_Position = map_position(draw, in_position);
+  gl_Position = caster_position(caster, in_position);
   vec4 row0 = material.uv_transform[0];
   vec4 row1 = material.uv_transform[1];
   vec3 uv = vec3(row0.w < 0.5 ? in_uv.xy : in_uv.zw, 1.0);

@@ -7,12 +7,6 @@
 
 GLOAM_SHARED_BEGIN
 
-/// Push constants that draw one caster into one face. clip_from_mesh is composed in double relative to the light.
-struct ShadowDrawConstants {
-  mat4 clip_from_mesh;
-  uint orthographic;  // 1: vertices in front of the near side are moved onto it
-};
-
 /// One face in visualizer shadow_atlas.
 struct AtlasFaceConstants {
   vec2 origin;   // corner in the atlas, texels

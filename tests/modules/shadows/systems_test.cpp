@@ -31,6 +31,7 @@ struct ShadowWorld {
     prepare_scene_world(world);
     lights->register_components(world);
     world.register_component<ShadowCaster>("shadow_caster");
+    world.register_component<CasterVolume>("caster_volume");
     lights->add_systems(schedule);
     add_shadow_systems(schedule);
     lights->knobs(knobs);
@@ -440,12 +441,31 @@ TEST(ShadowSystems, find_skinned_meshes_where_their_joints_are) {
   const ViewId id = scene.settings.id;
   shadow_bounds_system(ViewResource<const VisibleLights>(std::as_const(world).view_resource<VisibleLights>(id)),
                        View<const MeshInstance, const WorldTransform>(std::as_const(world)),
+                       View<const CasterVolume>(std::as_const(world)),
                        Resource<const SceneAssets>(std::as_const(world).resource<SceneAssets>()),
                        Resource<const JointMatrices>(joints),
                        ViewResource<CasterBounds>(world.view_resource<CasterBounds>(id)), *make_serial_executor());
   const CasterBounds& bounds = world.view_resource<CasterBounds>(id);
   EXPECT_EQ(bounds.min, dvec3(-1, -1, -11));
   EXPECT_EQ(bounds.max, dvec3(101, 1, 1));
+}
+
+TEST(ShadowSystems, cascades_hold_volumes_of_casters_without_a_mesh) {
+  ShadowWorld scene;
+  scene.add_sun();
+  scene.add_mesh({0, 0, -10});
+  scene.run();
+  const CasterBounds& bounds = scene.world.view_resource<CasterBounds>(scene.settings.id);
+  EXPECT_EQ(bounds.max, dvec3(1, 1, -9));
+  const Entity volume = scene.world.create(CasterVolume{dvec3(-3, 0, -12), dvec3(0, 7, -10)});
+  scene.world.create(CasterVolume{dvec3(0, 100, 0), dvec3(0, 99, 0)});
+  scene.world.create(CasterVolume{dvec3(0.0), dvec3(std::numeric_limits<double>::infinity())});
+  scene.run();
+  EXPECT_EQ(bounds.min, dvec3(-3, -1, -12));
+  EXPECT_EQ(bounds.max, dvec3(1, 7, -9));
+  scene.world.destroy(volume);
+  scene.run();
+  EXPECT_EQ(bounds.max, dvec3(1, 1, -9));
 }
 
 TEST(ShadowSystems, survive_lights_that_lose_their_components_between_the_stages) {
