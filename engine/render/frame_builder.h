@@ -17,6 +17,7 @@
 #include "engine/frame/upload.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/draws/draw_lists.h"
+#include "engine/render/draws/motion_history.h"
 #include "engine/render/knobs/knobs.h"
 #include "engine/render/outputs.h"
 #include "engine/render/pipelines.h"
@@ -65,6 +66,9 @@ class FrameBuilder {
   /// All shadow casters, in the camera's view or not; empty if no module that the world demands needs them
   /// (Module::needs_casters).
   [[nodiscard]] const CasterList& casters() const { return draws_.casters; }
+  /// The world's instances in the previous frame; null if the view has no motion (GeometryOutputs::motion).
+  [[nodiscard]] const DrawnInstances* previous_instances() const { return previous_instances_; }
+  void set_previous_instances(const DrawnInstances* instances) { previous_instances_ = instances; }
   [[nodiscard]] const KnobRegistry& knobs() const { return services_.knobs; }
   [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
   void set_visualizer(std::string_view name) { visualizer_ = name; }
@@ -128,8 +132,9 @@ class FrameBuilder {
   [[nodiscard]] bool request_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
   /// Whether the pipelines of a list are ready; compiles none.
   [[nodiscard]] bool has_surfaces(std::span<const Draw> draws, const SurfacePass& pass) const;
-  /// Declares that a pass draws meshes or casters and so reads deformed vertices.
-  void read_vertices(PassBuilder& pass);
+  /// Declares that a pass draws meshes or casters and so reads deformed vertices. motion: also those of the previous
+  /// frame.
+  void read_vertices(PassBuilder& pass, bool motion = false);
   /// Binds the vertices of a caster: positions (vec3, deformed if the caster is) as stream 0 and, if `with_surfaces`,
   /// PackedSurface as stream 1. Both begin at the primitive's first vertex, like its indices (GpuScene::indices).
   void bind_caster_vertices(PassContext& context, const Caster& caster, bool with_surfaces) const;
@@ -167,15 +172,19 @@ class FrameBuilder {
   struct Deformed {
     BufferRef positions;
     BufferRef frames;
+    BufferRef previous_positions;  ///< null if the view has no motion
   };
 
  private:
+  void bind_previous_vertices(PassContext& context, const Draw& draw) const;
+
   FrameServices services_;
   FrameGraph& graph_;
   const World& world_;
   const RenderView& view_;
   const GpuScene& scene_;
   DrawLists draws_;
+  const DrawnInstances* previous_instances_ = nullptr;
   std::string_view visualizer_ = "none";
   std::string_view module_ = "engine";
   Status status_;

@@ -177,6 +177,16 @@ bool Renderer::State::any_needs(bool (Module::*question)(const World&, const Kno
   return false;
 }
 
+bool Renderer::State::needs_motion(const World& world, const RenderView& view) const {
+  for (std::size_t i = 0; i < options.modules.size(); ++i) {
+    const Module& module = *options.modules[i];
+    if (module.built() && runtimes[i].demand.needed && module.needs_motion(world, knobs) &&
+        module.demand(world, &view).needed)
+      return true;
+  }
+  return false;
+}
+
 bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder) {
   const Module& module = *options.modules[index];
   if (!module.built() || !runtimes[index].demand.needed) return false;
@@ -193,13 +203,18 @@ Status Renderer::State::add_module_passes(FrameBuilder& builder) {
   for (std::size_t i = 0; i < options.modules.size(); ++i)
     if (runtimes[i].in_last_view = takes_part(i, builder); runtimes[i].in_last_view)
       taking_part.push_back(options.modules[i].get());
-  for (const PassPhase phase : kAllPhases)
+  for (const PassPhase phase : kAllPhases) {
     for (Module* module : taking_part) {
       builder.set_module(module->name());
       module->add_passes(builder, phase);
       if (!builder.status().ok()) return builder.status();
     }
-  builder.set_module("engine");
+    builder.set_module("engine");
+    if (phase != PassPhase::geometry) continue;
+    add_sky_motion_pass(builder);
+    add_depth_bounds_pass(builder);
+    GLOAM_TRY(builder.status());
+  }
   return {};
 }
 
@@ -241,15 +256,16 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
       build_draw_lists(world, view, scene, *options.executor, any_needs(&Module::needs_casters, world))));
   FrameBuilder& frame = *builders.back();
   frame.set_visualizer(request.settings.visualizer);
+  if (needs_motion(world, view)) frame.set_previous_instances(&motion.instances());
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
   frame.upload_view_constants(code);
   add_deform_pass(frame);
   add_geometry_pass(frame);
-  add_depth_bounds_pass(frame);
   GLOAM_TRY(frame.status());
   const GeometryOutputs& geometry = frame.get<GeometryOutputs>();
   for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth})
     frame.expose(image);
+  if (geometry.motion) frame.expose(geometry.motion);
 
   const bool external = static_cast<bool>(request.target.image);
   const gpu::ImageHandle picture = external ? request.target.image : own.picture;
@@ -289,6 +305,8 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
   builders.clear();
   views.clear();
   const std::uint64_t frame = world.resource<RenderSlot>().frames++;
+  motion.begin_frame(world, world.resource<RenderSlot>().value, any_needs(&Module::needs_motion, world),
+                     copy_request.has_value());
   for (const ViewRequest& requested : requests) {
     ViewRequest request = requested;
     GLOAM_TRY(acquire_target(*options.device, request));
@@ -297,6 +315,7 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
     follow_camera(world, settings);
     GLOAM_TRY(prepare_images(world, request));
     views.push_back(std::make_unique<RenderView>(make_view(settings, frame)));
+    motion.begin_view(*views.back(), settings.camera_cut);
     world.set_view_resource(settings.id, *views.back());
     for (std::size_t i = 0; i < options.modules.size(); ++i)
       if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs);
@@ -378,10 +397,12 @@ void Renderer::release_world(const World& world) {
   if (slot == nullptr) return;
   state_->scenes.erase(slot->value);
   state_->results.forget_world(slot->value);
+  state_->motion.forget_world(slot->value);
   state_->release_images([&](std::uint32_t, const ViewImages& view) { return view.world == slot->value; });
 }
 
 void Renderer::release_view(ViewId view) {
+  state_->motion.forget_view(view);
   state_->release_images([&](std::uint32_t id, const ViewImages&) { return id == view.value; });
 }
 
@@ -400,6 +421,7 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   const Status recorded = s.record_frame(world, requests, **commands);
   // Submit even if recording failed: the empty frame signals its semaphores, and the next frame can begin.
   const Status submitted = s.options.device->submit_frame();
+  if (recorded.ok() && submitted.ok()) s.motion.commit(world);
   s.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return recorded.ok() ? submitted : recorded;
 }

@@ -13,6 +13,7 @@
 
 #include "engine/frame/upload.h"
 #include "engine/render/declare/recording.h"
+#include "engine/render/draws/motion_history.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/readback/capture.h"
 #include "engine/render/renderer.h"
@@ -74,6 +75,8 @@ struct Renderer::State {
   /// Whether `question` (e.g. &Module::needs_casters) is true for any demanded module.
   [[nodiscard]] bool any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const,
                                const World& world) const;
+  /// Whether a module that takes part in the view needs GeometryOutputs::motion.
+  [[nodiscard]] bool needs_motion(const World& world, const RenderView& view) const;
   /// Everything between Device::begin_frame and submit_frame.
   [[nodiscard]] Status record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands);
   /// Declares one view's passes.
@@ -106,6 +109,7 @@ struct Renderer::State {
   UploadRing storage;
   FrameResults results;
   declare::State declared;
+  MotionHistory motion;
   FrameGraph graph;
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
   std::uint64_t next_slot = 1;

@@ -26,6 +26,16 @@ struct ViewSettings {
   dmat4 world_from_camera = dmat4(1.0);  ///< rigid; the camera looks along −Z
   Camera camera;
   std::string visualizer = "none";  ///< a name of Renderer::visualizers()
+  bool camera_cut = false;          ///< the picture of the frame before must not be reused
+};
+
+/// Pose and lens of a view in one frame, without jitter.
+struct ViewCamera {
+  dvec3 position = dvec3(0.0);          ///< world
+  mat4 view_from_relative = mat4(1.0);  ///< rotation only
+  mat4 clip_from_view = mat4(1.0);      ///< reversed Z
+  mat4 clip_from_relative = mat4(1.0);
+  bool orthographic = false;
 };
 
 /// One view of one frame, for systems and passes. A view resource. Positions on the GPU are relative to `position`.
@@ -42,7 +52,15 @@ struct RenderView {
   Camera camera;
   float near_m = 0.1f;
   Frustum frustum;  ///< in camera-relative space
+  /// The view's camera in the world's previous drawn frame. If there is none (has_previous), the current camera. There
+  /// is none in the view's first frame, after a cut (ViewSettings::camera_cut, another camera entity or kind of
+  /// projection), and if the world's previous frame did not draw the view.
+  ViewCamera previous;
+  bool has_previous = false;
 
+  [[nodiscard]] ViewCamera view_camera() const {
+    return {position, view_from_relative, clip_from_view, clip_from_relative, camera.orthographic};
+  }
   /// Camera-relative float position of a world position.
   [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }
   /// View depth in metres of a value of the depth image (reversed Z); not for the sky's 0.

@@ -109,9 +109,11 @@ class InstanceDrawer {
     return world_box({primitive.bounds.min + reach.min, primitive.bounds.max + reach.max}, world_from_mesh);
   }
 
-  [[nodiscard]] Draw start(const GpuPrimitive& primitive, const shaders::DrawConstants& constants, bool flipped) const {
+  [[nodiscard]] Draw start(Entity entity, const GpuPrimitive& primitive, const shaders::DrawConstants& constants,
+                           bool flipped) const {
     const GpuMaterial& material = scene_.materials()[primitive.material];
     Draw draw;
+    draw.entity = entity;
     draw.primitive = &primitive;
     draw.constants = constants;
     draw.variant = surface_variant(material, primitive, flipped);
@@ -136,7 +138,7 @@ class InstanceDrawer {
       ++lists.culled_instances;
       return;
     }
-    Draw draw = start(primitive, constants, flipped);
+    Draw draw = start(instance.entity, primitive, constants, flipped);
     for (const Cluster& cluster : primitive.clusters) {
       const bool visible =
           primitive.clusters.size() == 1 || may_intersect(view_.frustum, transformed(cluster.bounds, matrix));
@@ -176,7 +178,7 @@ class InstanceDrawer {
     lists.deforms.push_back(deform_job(instance, primitive, skinned, morphed));
     if (casts_too) cast(instance.entity, primitive, matrix, flipped, box, deform, lists);
     if (!visible) return;
-    Draw draw = start(primitive, constants, flipped);
+    Draw draw = start(instance.entity, primitive, constants, flipped);
     draw.first_index = primitive.first_index;
     draw.index_count = primitive.index_count;
     draw.deform = deform;
@@ -186,6 +188,7 @@ class InstanceDrawer {
   [[nodiscard]] static DeformJob deform_job(const Instance& instance, const GpuPrimitive& primitive, bool skinned,
                                             bool morphed) {
     DeformJob job;
+    job.entity = instance.entity;
     job.primitive = &primitive;
     job.constants.vertex_count = primitive.vertex_count;
     job.constants.skinned = skinned ? 1 : 0;
