@@ -122,6 +122,7 @@ bool find_queue_family(const InstanceFunctions& f, PhysicalDevice& device) {
 
 constexpr std::uint32_t kLeastUniformRange = 65536;
 constexpr std::uint32_t kLeastPushConstants = 128;
+constexpr std::uint32_t kLeastColorTargets = 5;  // of the geometry buffer with motion; Vulkan guarantees 4
 
 Candidate examine(const Instance& instance, VkPhysicalDevice handle, bool for_window) {
   const InstanceFunctions& f = instance.functions();
@@ -142,6 +143,8 @@ Candidate examine(const Instance& instance, VkPhysicalDevice handle, bool for_wi
   // more.
   if (device.limits.maxUniformBufferRange < kLeastUniformRange) add(candidate.lacks, "uniform buffers of 64 KiB");
   if (device.limits.maxPushConstantsSize < kLeastPushConstants) add(candidate.lacks, "128 bytes of push constants");
+  if (std::min(device.limits.maxColorAttachments, device.limits.maxFragmentOutputAttachments) < kLeastColorTargets)
+    add(candidate.lacks, "5 colour targets");
   if (!has_extension(f, handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) {
     add(candidate.lacks, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
   }
