@@ -16,7 +16,7 @@
 //   layout(location = 0) out vec4 out_base_color;   encode_base_color(base_color, subsurface)
 //   layout(location = 1) out uvec4 out_normals;     encode_normals(normal, face_normal), both towards the viewer
 //   layout(location = 2) out vec4 out_material;     vec4(roughness, metallic, occlusion, reflectivity), each 0…1
-//   layout(location = 3) out vec4 out_emissive;     vec4(emissive, 0.0), cd/m²
+//   layout(location = 3) out vec4 out_emissive;     vec4(emissive, 0.0), emissive in cd/m²
 //   layout(location = 4) out vec2 out_motion;       screen_motion(…)
 
 #include "shaders/common/math.glsl"

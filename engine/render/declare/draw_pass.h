@@ -64,10 +64,10 @@ class DrawPass : public ShaderPass {
 };
 
 /// Declares the images of the geometry buffer as targets of a pass in PassPhase::geometry: base_color, normals,
-/// material, emissive, then motion if it is not null, and depth. What they hold is kept, so the program needs
-/// depth_compare greater_equal and depth_write. The fragment shader must write every target: gbuffer_api.glsl tells
-/// what, motion_api.glsl computes location 4. A shader that writes location 4 is for frames with motion only, so a
-/// module needs two fragment shaders.
+/// material, emissive, then motion if it is not null, and depth. Their contents are kept. The program must have
+/// depth_compare greater_equal and depth_write. The fragment shader must write every colour target, as
+/// gbuffer_api.glsl describes. Only frames with motion have the target at location 4, so a module needs a fragment
+/// shader for each case.
 void geometry_targets(DrawPass& pass, GeometryOutputs& geometry);
 /// Formats of the colour targets that geometry_targets declares, for pipeline_desc.
 [[nodiscard]] std::span<const gpu::Format> geometry_formats(bool motion);

@@ -41,8 +41,8 @@ struct DrawnInstances {
   [[nodiscard]] const DrawnInstance* find(const World& world, Entity entity) const;
 };
 
-/// What drawn frames leave for the motion of the next frame: each view's camera and, while they are needed, each
-/// world's instances. A frame that is given up changes nothing. For one thread.
+/// Keeps data of the last drawn frame for the motion of the next one: the camera of each view and, while some module
+/// needs motion, the instances of each world. A frame that is given up changes nothing. For one thread.
 ///
 /// Previous deformed vertices are not kept: a frame with motion deforms the vertices that it draws a second time, with
 /// the previous joints and weights. So they exist for vertices that the previous frame did not draw, too.
