@@ -27,6 +27,7 @@ bool parse_pair(const std::string& text, char separator, std::uint32_t& first, s
 struct RawTexts {
   std::string size;
   std::string pick;
+  std::optional<std::string> in_flight;
   std::optional<std::string> budget;
   std::optional<std::string> ledger;
   bool version = false;
@@ -92,6 +93,10 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   play->add_option("SCENE", options.scene, scene_text);
   CLI::App* render = add(Command::render, "render", "Render without a window");
   render->add_option("SCENE", options.scene, scene_text)->required();
+  render
+      ->add_option("--in-flight", raw.in_flight,
+                   "Frames in flight: 1 waits for each frame (default), 2 draws without a pause between frames")
+      ->type_name("N");
   CLI::App* inspect = add(Command::inspect, "inspect", "Print a scene's contents, the effects it needs, and why");
   inspect->add_option("SCENE", options.scene, scene_text)->required();
   inspect->add_flag("--json", options.json, "Print JSON");
@@ -125,6 +130,11 @@ Status check_texts(Options& options, const RawTexts& raw) {
     const bool read = parse_pair(raw.size, 'x', options.width, options.height);
     if (!read || options.width < 1 || options.height < 1 || options.width > kMaxSize || options.height > kMaxSize)
       return usage("--size wants WxH with numbers in 1…" + std::to_string(kMaxSize) + ", not '" + raw.size + "'");
+  }
+  if (raw.in_flight) {
+    if (raw.in_flight != "1" && raw.in_flight != "2")
+      return usage("--in-flight wants 1 or 2, not '" + *raw.in_flight + "'");
+    options.in_flight = raw.in_flight == "1" ? 1 : 2;
   }
   if (!raw.pick.empty()) {
     PixelPosition pixel;
@@ -176,13 +186,11 @@ Status check_command(std::span<const std::string> arguments, const std::vector<C
   if (arguments.empty() || arguments.front().starts_with('-')) return {};
   const std::string& wanted = arguments.front();
   std::vector<std::string> names;
-  std::string list;
   for (const CommandApp& command : commands) {
     if (command.app->get_name() == wanted) return {};
     names.push_back(command.app->get_name());
-    list += (list.empty() ? "" : ", ") + names.back();
   }
-  return usage("unknown command '" + wanted + "'; " + did_you_mean(wanted, names) + "there are " + list);
+  return usage("unknown command '" + wanted + "'; " + valid_names(wanted, names));
 }
 
 }  // namespace

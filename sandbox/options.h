@@ -28,8 +28,9 @@ struct Options {
 
   std::uint32_t width = 1280;  ///< pixels, 1…kMaxSize
   std::uint32_t height = 720;
-  std::string camera;        ///< empty: the scene's first camera; if it has none, one fitted to the scene
-  std::uint32_t frames = 1;  ///< play: 0 runs until the window is closed
+  std::string camera;           ///< empty: the scene's first camera; if it has none, one fitted to the scene
+  std::uint32_t frames = 1;     ///< play: 0 runs until the window is closed
+  std::uint32_t in_flight = 1;  ///< render: frames that may be unfinished at a time, 1…gpu::Device::kFramesInFlight
   double time_s = 0.0;
   double dt_s = 1.0 / 60.0;
   bool fixed_step = true;  ///< false for play without --dt: the scene follows the wall clock

@@ -59,4 +59,13 @@ std::string did_you_mean(std::string_view wanted, std::span<const std::string> n
   return nearest.empty() ? std::string() : "did you mean " + std::string(nearest) + "? ";
 }
 
+std::string valid_names(std::string_view wanted, std::span<const std::string> names) {
+  std::string list;
+  for (const std::string& name : names) {
+    if (!list.empty()) list += ", ";
+    list += name;
+  }
+  return did_you_mean(wanted, names) + "there are " + (names.empty() ? "none" : list);
+}
+
 }  // namespace gloam

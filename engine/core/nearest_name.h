@@ -22,4 +22,8 @@ namespace gloam {
 /// name.
 [[nodiscard]] std::string did_you_mean(std::string_view wanted, std::span<const std::string> names);
 
+/// "did you mean b? there are a, b, c", for the end of a sentence about an unknown name; without the question if there
+/// is no nearest name. "there are none" if `names` is empty.
+[[nodiscard]] std::string valid_names(std::string_view wanted, std::span<const std::string> names);
+
 }  // namespace gloam

@@ -60,19 +60,47 @@ void FrameGraph::execute(gpu::CommandList& commands) {
   for (std::uint32_t i = 0; i < plan.passes.size(); ++i) {
     const PlannedPass& planned = plan.passes[i];
     frame::DeclaredPass& pass = s.declaration.passes[planned.pass];
-    const bool timed = i < frame::PassTimer::kPassesTimed;
     commands.begin_label(pass.name);
-    if (i == 0) commands.write_timestamp(0);
     s.record_barriers(commands, planned.first_barrier, planned.first_barrier + planned.barrier_count);
+    s.timer.begin_pass(commands, planned.barrier_count > 0);
     counting.reset();
     s.recording_pass = planned.pass;
     if (pass.function) pass.function(context);
+    if (!s.recorded.ok()) return;
     s.recording_pass = frame::kNone;
-    if (timed) commands.write_timestamp(i + 1);
+    s.timer.end_pass(commands, pass, counting.dispatches(), counting.draws());
     commands.end_label();
-    s.timer.add(pass, counting.dispatches(), counting.draws());
   }
   s.record_barriers(commands, plan.first_final_barrier, static_cast<std::uint32_t>(plan.barriers.size()));
+}
+
+const Status& FrameGraph::recorded() const { return state_->recorded; }
+
+std::string_view FrameGraph::recording() const {
+  const State& s = *state_;
+  return s.recording_pass == frame::kNone ? std::string_view() : s.declaration.passes[s.recording_pass].name;
+}
+
+void PassContext::fail(Error error) {
+  Status& recorded = graph_.state_->recorded;
+  if (recorded.ok()) recorded = std::move(error);
+}
+
+bool FrameGraph::State::writes(std::uint32_t resource_index) const {
+  GLOAM_ASSERT(plan != nullptr, "which passes are culled is known after compile");
+  for (const PlannedPass& planned : plan->plan.passes)
+    for (const DeclaredUse& use : declaration.uses_of(declaration.passes[planned.pass]))
+      if (use.resource == resource_index && use.writes) return true;
+  return false;
+}
+
+bool FrameGraph::writes(ImageRef image) const {
+  static_cast<void>(state_->resource(image));  // asserts for handles of other frames
+  return state_->writes(image.resource);
+}
+bool FrameGraph::writes(BufferRef buffer) const {
+  static_cast<void>(state_->resource(buffer));
+  return state_->writes(buffer.resource);
 }
 
 template <class Kind>
@@ -100,11 +128,15 @@ gpu::BufferHandle PassContext::buffer(BufferRef ref) const {
 
 std::vector<PassTime> FrameGraph::pass_times() {
   state_->timer.refresh(state_->device);
-  return state_->timer.times();
+  return state_->timer.newest().passes;
 }
 double FrameGraph::gpu_ms() const {
   state_->timer.refresh(state_->device);
-  return state_->timer.gpu_ms();
+  return state_->timer.newest().gpu_ms;
+}
+std::vector<GpuFrameTimes> FrameGraph::take_times() {
+  state_->timer.refresh(state_->device);
+  return state_->timer.take();
 }
 
 void FrameGraph::free_idle_memory() { state_->cache.free_memory_except(state_->plan); }

@@ -89,6 +89,7 @@ void FrameGraph::begin() {
   s.stage = State::Stage::declaring;
   s.plan = nullptr;
   s.recording_pass = frame::kNone;
+  s.recorded = {};
   ++s.frame_number;
 }
 
@@ -172,6 +173,10 @@ PassBuilder FrameGraph::add_pass(std::string_view name, std::string_view module)
 
 ImageRef FrameGraph::newest(ImageRef image) const {
   return {image.resource, state_->resource(image).version, image.frame};
+}
+
+BufferRef FrameGraph::newest(BufferRef buffer) const {
+  return {buffer.resource, state_->resource(buffer).version, buffer.frame};
 }
 
 const gpu::ImageDesc& FrameGraph::desc(ImageRef image) const {

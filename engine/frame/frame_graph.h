@@ -35,6 +35,8 @@ class PassContext {
   [[nodiscard]] gpu::CommandList& commands() { return commands_; }
   [[nodiscard]] gpu::ImageHandle image(ImageRef ref) const;
   [[nodiscard]] gpu::BufferHandle buffer(BufferRef ref) const;
+  /// Reports that the pass could not be recorded. The frame is then given up (FrameGraph::recorded).
+  void fail(Error error);
 
  private:
   FrameGraph& graph_;
@@ -66,9 +68,19 @@ class PassBuilder {
 struct PassTime {
   std::string name;
   std::string module;
-  double ms = 0.0;
+  double ms = 0.0;  ///< from begin_ns to end_ns; 0 if the pass was not timed
   std::uint32_t dispatches = 0;
   std::uint32_t draws = 0;
+  /// Times of gpu::Device::timestamps; both 0 if the pass was not timed. Begin: after the barriers of the pass.
+  std::uint64_t begin_ns = 0;
+  std::uint64_t end_ns = 0;
+};
+
+/// The passes of one completed frame in order of execution.
+struct GpuFrameTimes {
+  std::uint64_t frame = 0;  ///< its gpu::Device::frame_number
+  double gpu_ms = 0.0;      ///< from the begin of the first pass to the end of the last; 0 if none was timed
+  std::vector<PassTime> passes;
 };
 
 /// The passes of one frame as data. They are declared again every frame. The compiled plan (culled passes, barriers,
@@ -104,10 +116,20 @@ class FrameGraph {
   [[nodiscard]] Status compile();
   /// Records every live pass with its label, barriers and timestamps. Call it once per frame, after a successful
   /// compile.
+  /// If the function of a pass throws or fails (PassContext::fail), recording stops there, possibly inside rendering:
+  /// the commands must be dropped (gpu::Device::abandon_frame).
   void execute(gpu::CommandList& commands);
+  /// The error with which a pass failed in the last execute, if one did.
+  [[nodiscard]] const Status& recorded() const;
+  /// The name of the pass that is recorded now, or whose function stopped the last execute; otherwise empty.
+  [[nodiscard]] std::string_view recording() const;
 
-  /// The newest version of the image after all passes declared so far.
+  /// The newest version of the resource after all passes declared so far.
   [[nodiscard]] ImageRef newest(ImageRef image) const;
+  [[nodiscard]] BufferRef newest(BufferRef buffer) const;
+  /// After compile: whether a pass that is not culled writes the resource, in any version.
+  [[nodiscard]] bool writes(ImageRef image) const;
+  [[nodiscard]] bool writes(BufferRef buffer) const;
   [[nodiscard]] const gpu::ImageDesc& desc(ImageRef image) const;
   [[nodiscard]] const gpu::BufferDesc& desc(BufferRef buffer) const;
 
@@ -116,6 +138,8 @@ class FrameGraph {
   /// GPU time of the newest completed frame in milliseconds, from the begin of its first pass to the end of its last
   /// pass; 0 until a frame has completed.
   [[nodiscard]] double gpu_ms() const;
+  /// Every frame that has completed since the last call, oldest first; at most the last 4.
+  [[nodiscard]] std::vector<GpuFrameTimes> take_times();
   [[nodiscard]] std::uint64_t plans_compiled() const;
   [[nodiscard]] std::uint64_t plan_hash() const;
   /// One line per pass: name, module, reads, writes, and after compile its barriers or "culled".

@@ -33,6 +33,9 @@ struct FrameGraph::State {
   template <class Kind>
   const frame::DeclaredUse& declared_use(FrameRef<Kind> ref);
 
+  /// Whether a pass of the plan writes the resource.
+  [[nodiscard]] bool writes(std::uint32_t resource_index) const;
+
   void check_declaring() const {
     GLOAM_ASSERT(stage == Stage::declaring, "declarations come between FrameGraph::begin and FrameGraph::compile");
   }
@@ -49,6 +52,7 @@ struct FrameGraph::State {
   std::uint64_t hash = 0;
   frame::CachedPlan* plan = nullptr;  ///< plan of this frame; null before compile
   std::uint32_t recording_pass = frame::kNone;
+  Status recorded;  ///< of the last execute
   std::vector<gpu::BufferBarrier> buffer_barriers;
   std::vector<gpu::ImageBarrier> image_barriers;
 };

@@ -78,6 +78,11 @@ Status FrameResults::add_pass(FrameGraph& graph) {
   return {};
 }
 
+void FrameResults::give_up_frame() {
+  slots_[current_].recorded = false;
+  slots_[current_].requests.clear();
+}
+
 FrameResult FrameResults::read(const Slot& slot, const Request& request) const {
   const std::span<const std::byte> bytes = device_.mapped(slot.buffer).subspan(request.offset, request.size);
   return {slot.frame, {bytes.begin(), bytes.end()}, request.note};
@@ -124,6 +129,10 @@ void FrameResults::erase_if(const std::function<bool(const ResultKey&)>& unwante
 
 void FrameResults::forget_world(std::uint64_t world) {
   erase_if([&](const ResultKey& key) { return key.world == world; });
+}
+
+void FrameResults::forget_view(std::uint32_t view) {
+  erase_if([&](const ResultKey& key) { return key.view == view; });
 }
 
 void FrameResults::forget_module(std::string_view module) {

@@ -69,6 +69,8 @@ class FrameResults {
   void keep(ResultKey key, BufferRef buffer, std::uint64_t offset, std::uint64_t size, std::any note = {});
   /// Call it after all passes are declared. Adds the pass that copies the requested results, if there are any.
   [[nodiscard]] Status add_pass(FrameGraph& graph);
+  /// Call it if the frame begun last is given up: it has no results.
+  void give_up_frame();
 
   /// The newest settled result, or null. Valid until the next begin_frame, forget_world or forget_module.
   [[nodiscard]] const FrameResult* settled(const ResultKey& key) const;
@@ -80,6 +82,7 @@ class FrameResults {
   [[nodiscard]] std::vector<ResultKey> kept_keys() const;
 
   void forget_world(std::uint64_t world);
+  void forget_view(std::uint32_t view);
   void forget_module(std::string_view module);
 
  private:

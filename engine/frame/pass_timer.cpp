@@ -3,6 +3,7 @@
 #include "engine/frame/pass_timer.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gloam::frame {
 
@@ -15,47 +16,72 @@ void PassTimer::begin_frame(std::uint64_t frame) {
   records_[current_].frame = frame;
   records_[current_].waits = true;
   records_[current_].passes.forget();
+  stamps_ = 0;
 }
 
-void PassTimer::add(const DeclaredPass& pass, std::uint32_t dispatches, std::uint32_t draws) {
+void PassTimer::begin_pass(gpu::CommandList& commands, bool has_barriers) {
+  const bool fresh = has_barriers || stamps_ == 0;
+  pass_begin_ = kNone;
+  if (stamps_ + (fresh ? 2 : 1) > gpu::Device::kTimestampsPerFrame) {  // its end needs one, too
+    stamps_ = gpu::Device::kTimestampsPerFrame;                        // no later pass is timed
+    return;
+  }
+  if (fresh) commands.write_timestamp(stamps_++);
+  pass_begin_ = stamps_ - 1;
+}
+
+void PassTimer::end_pass(gpu::CommandList& commands, const DeclaredPass& pass, std::uint32_t dispatches,
+                         std::uint32_t draws) {
   PassRecord& record = records_[current_].passes.add();
   record.name = pass.name;
   record.module = pass.module;
+  record.begin = pass_begin_;
+  record.end = kNone;
   record.dispatches = dispatches;
   record.draws = draws;
+  if (pass_begin_ == kNone) return;
+  record.end = stamps_++;
+  commands.write_timestamp(record.end);
 }
 
 void PassTimer::refresh(gpu::Device& device) {
   const std::uint64_t completed = device.completed_frames();
-  FrameRecord* newest = nullptr;
-  for (FrameRecord& record : records_) {
+  // The slot after the current one holds the oldest frame.
+  for (std::size_t i = 1; i <= records_.size(); ++i) {
+    FrameRecord& record = records_[(current_ + i) % records_.size()];
     if (!record.waits || record.frame >= completed) continue;
-    if (newest == nullptr || record.frame > newest->frame) newest = &record;
+    record.waits = false;
+    const std::vector<std::uint64_t> timestamps = device.timestamps(record.frame);
+    if (timestamps.empty()) continue;  // too old, or given up
+    newest_ = times_of(record, timestamps);
+    if (finished_.size() == kFramesKept) finished_.erase(finished_.begin());
+    finished_.push_back(newest_);
   }
-  if (newest == nullptr) return;
-  const std::vector<std::uint64_t> timestamps = device.timestamps(newest->frame);
-  if (!timestamps.empty()) take(*newest, timestamps);
-  const std::uint64_t frame = newest->frame;
-  for (FrameRecord& record : records_) record.waits = record.waits && record.frame > frame;
 }
 
-void PassTimer::take(const FrameRecord& record, const std::vector<std::uint64_t>& timestamps) {
-  times_.clear();
+GpuFrameTimes PassTimer::times_of(const FrameRecord& record, const std::vector<std::uint64_t>& timestamps) {
+  GpuFrameTimes times;
+  times.frame = record.frame;
   std::uint64_t first = ~std::uint64_t{0};
   std::uint64_t last = 0;
   for (std::size_t i = 0; i < record.passes.size(); ++i) {
     const PassRecord& pass = record.passes[i];
-    PassTime& time = times_.emplace_back(PassTime{
-        .name = pass.name, .module = pass.module, .ms = 0.0, .dispatches = pass.dispatches, .draws = pass.draws});
-    if (i + 1 >= timestamps.size()) continue;
-    const std::uint64_t begin = timestamps[i];
-    const std::uint64_t end = timestamps[i + 1];
+    PassTime& time = times.passes.emplace_back(
+        PassTime{.name = pass.name, .module = pass.module, .dispatches = pass.dispatches, .draws = pass.draws});
+    if (pass.end >= timestamps.size()) continue;  // kNone as well
+    const std::uint64_t begin = timestamps[pass.begin];
+    const std::uint64_t end = timestamps[pass.end];
     if (begin == 0 || end < begin) continue;
+    time.begin_ns = begin;
+    time.end_ns = end;
     time.ms = static_cast<double>(end - begin) * kMsPerNs;
     first = std::min(first, begin);
     last = std::max(last, end);
   }
-  gpu_ms_ = last > first ? static_cast<double>(last - first) * kMsPerNs : 0.0;
+  if (last > first) times.gpu_ms = static_cast<double>(last - first) * kMsPerNs;
+  return times;
 }
+
+std::vector<GpuFrameTimes> PassTimer::take() { return std::exchange(finished_, {}); }
 
 }  // namespace gloam::frame

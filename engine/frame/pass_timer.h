@@ -13,24 +13,32 @@
 
 namespace gloam::frame {
 
-/// Records which passes the frames in flight ran, and matches them with the device's timestamps. Pass i of a frame
-/// begins at timestamp i, where pass i - 1 has ended, and ends at timestamp i + 1. Adjacent passes share one timestamp,
-/// because software devices wait for their threads at each one.
+/// Records which passes the frames in flight ran, and matches them with the device's timestamps. A pass ends with a
+/// timestamp, and begins with one after its barriers. A pass without barriers begins where the pass before it has
+/// ended: it needs no timestamp, and software devices wait for their threads at each one.
 class PassTimer {
  public:
-  static constexpr std::uint32_t kPassesTimed = gpu::Device::kTimestampsPerFrame - 1;
+  static constexpr std::uint32_t kNone = ~0u;
+  static constexpr std::size_t kFramesKept = 4;  ///< completed frames that take() returns
 
   void begin_frame(std::uint64_t frame);
-  void add(const DeclaredPass& pass, std::uint32_t dispatches, std::uint32_t draws);
-  /// Reads the times of the newest completed frame, if the device still has them.
+  /// Writes the timestamp with which the next pass begins, unless it begins where the last one has ended.
+  void begin_pass(gpu::CommandList& commands, bool has_barriers);
+  /// Writes the timestamp with which the pass ends. Passes for which no timestamps are left are not timed.
+  void end_pass(gpu::CommandList& commands, const DeclaredPass& pass, std::uint32_t dispatches, std::uint32_t draws);
+  /// Reads the times of all completed frames that the device still has.
   void refresh(gpu::Device& device);
-  [[nodiscard]] const std::vector<PassTime>& times() const { return times_; }
-  [[nodiscard]] double gpu_ms() const { return gpu_ms_; }
+  /// Of the newest completed frame.
+  [[nodiscard]] const GpuFrameTimes& newest() const { return newest_; }
+  /// The completed frames since the last call, oldest first.
+  [[nodiscard]] std::vector<GpuFrameTimes> take();
 
  private:
   struct PassRecord {
     std::string name;
     std::string module;
+    std::uint32_t begin = kNone;  ///< index of its timestamp; kNone: not timed
+    std::uint32_t end = kNone;
     std::uint32_t dispatches = 0;
     std::uint32_t draws = 0;
   };
@@ -39,12 +47,14 @@ class PassTimer {
     bool waits = false;  ///< its times have not been read yet
     SlotVector<PassRecord> passes;
   };
-  void take(const FrameRecord& record, const std::vector<std::uint64_t>& timestamps);
+  [[nodiscard]] static GpuFrameTimes times_of(const FrameRecord& record, const std::vector<std::uint64_t>& timestamps);
 
   std::array<FrameRecord, gpu::Device::kFramesInFlight + 2> records_;
   std::size_t current_ = 0;
-  std::vector<PassTime> times_;
-  double gpu_ms_ = 0.0;
+  std::uint32_t stamps_ = 0;          ///< timestamps written in the current frame
+  std::uint32_t pass_begin_ = kNone;  ///< timestamp with which the current pass begins
+  GpuFrameTimes newest_;
+  std::vector<GpuFrameTimes> finished_;  ///< not taken yet, oldest first
 };
 
 }  // namespace gloam::frame

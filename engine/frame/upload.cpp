@@ -26,6 +26,19 @@ Uploader::Fill copy_of(std::vector<std::byte> bytes) {
   return [bytes = std::move(bytes)](std::span<std::byte> staging) { std::ranges::copy(bytes, staging.begin()); };
 }
 
+/// Buffers that are destroyed however the upload ends.
+struct StagingBuffers {
+  explicit StagingBuffers(gpu::Device& owner) : device(owner) {}
+  ~StagingBuffers() {
+    for (const gpu::BufferHandle buffer : buffers) device.destroy(buffer);
+  }
+  StagingBuffers(const StagingBuffers&) = delete;
+  StagingBuffers& operator=(const StagingBuffers&) = delete;
+
+  gpu::Device& device;
+  std::vector<gpu::BufferHandle> buffers;
+};
+
 }  // namespace
 
 UploadRing::UploadRing(gpu::Device& device, std::string module, gpu::BufferUsage usage, std::uint64_t first_bytes)
@@ -120,23 +133,18 @@ Status Uploader::flush(JobExecutor& executor) {
     std::uint64_t& size = sizes[i % sizes.size()];
     size = std::max(size, batches[i].bytes);
   }
-  std::vector<gpu::BufferHandle> staging;
-  Status done;
+  StagingBuffers staging(device_);
   for (const std::uint64_t size : sizes) {
-    if (size == 0 || !done.ok()) continue;
+    if (size == 0) continue;
     Result<gpu::BufferHandle> buffer = device_.create_buffer({.name = "upload staging",
                                                               .module = "engine",
                                                               .size = size,
                                                               .usage = gpu::BufferUsage::transfer_source,
                                                               .memory = gpu::MemoryKind::upload});
-    if (buffer.ok())
-      staging.push_back(*buffer);
-    else
-      done = buffer.error();
+    if (!buffer.ok()) return buffer.error();
+    staging.buffers.push_back(*buffer);
   }
-  if (done.ok()) done = submit(batches, staging, executor);
-  for (const gpu::BufferHandle buffer : staging) device_.destroy(buffer);
-  return done;
+  return submit(batches, staging.buffers, executor);
 }
 
 std::vector<Uploader::Batch> Uploader::batches_of(std::span<const Job> jobs) {
@@ -168,7 +176,12 @@ Status Uploader::submit(std::span<const Batch> batches, std::span<const gpu::Buf
       fills.emplace_back([&job, memory = mapped.subspan(offset, job.size)] { job.fill(memory); });
       offset += align_up(job.size, kAlignment);
     }
-    executor.run(fills);
+    try {
+      executor.run(fills);
+    } catch (...) {
+      static_cast<void>(device_.abandon_frame());
+      throw;
+    }
     record(**commands, jobs, buffer);
     GLOAM_TRY(device_.submit_frame());
   }

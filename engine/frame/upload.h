@@ -77,7 +77,8 @@ class Uploader {
   /// begin_frame and submit_frame. At most one upload per target and call. If an error is returned, the requests are
   /// dropped and not tried again.
   [[nodiscard]] Status flush();
-  /// The same, but staging memory is filled by jobs of `executor`.
+  /// The same, but staging memory is filled by jobs of `executor`. If a job throws, the requests are dropped and the
+  /// exception is rethrown.
   [[nodiscard]] Status flush(JobExecutor& executor);
 
  private:

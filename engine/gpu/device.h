@@ -54,6 +54,12 @@ class Device {
   /// numbered from 0.
   [[nodiscard]] virtual Result<CommandList*> begin_frame() = 0;
   [[nodiscard]] virtual Status submit_frame() = 0;
+  /// Ends the frame like submit_frame, but drops its commands, wherever the recording has stopped: the GPU executes
+  /// none of them, and images are as the frame before has left them. The frame still completes in order, and its
+  /// semaphores are waited for and signalled. submit_frame does the same if it returns an error of the recording.
+  [[nodiscard]] virtual Status abandon_frame() = 0;
+  /// Waits until this frame, which was submitted or abandoned, has finished on the GPU.
+  [[nodiscard]] virtual Status wait_frame(std::uint64_t frame) = 0;
   [[nodiscard]] virtual std::uint64_t frame_number() const = 0;  ///< of the frame being recorded, or the next one
   /// All frames with a smaller number have finished on the GPU.
   [[nodiscard]] virtual std::uint64_t completed_frames() const = 0;

@@ -135,6 +135,16 @@ class Recorder final : public RecordingDevice {
     ++frame_;
     return {};
   }
+  Status abandon_frame() override {
+    GLOAM_ASSERT(commands_.recording(), "abandon_frame needs begin_frame before it");
+    commands_.abandon_frame();
+    ++frame_;
+    return {};
+  }
+  Status wait_frame(std::uint64_t frame) override {
+    GLOAM_ASSERT(frame < frame_, "a frame is submitted before it is waited for");
+    return {};
+  }
   std::uint64_t frame_number() const override { return frame_; }
   std::uint64_t completed_frames() const override { return frame_; }
   std::vector<std::uint64_t> timestamps(std::uint64_t frame) override {

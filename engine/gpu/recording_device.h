@@ -18,7 +18,8 @@ struct RecordedCommand {
 
 /// A device without a GPU, for tests. It hands out handles, counts bytes and pipelines, keeps upload and readback
 /// memory as plain bytes, and records every command. Frames complete at once. Copies and fills between buffers and
-/// images move bytes; draws and dispatches do nothing. These are reported as faults:
+/// images move bytes at once, also those of a frame that is abandoned later; draws and dispatches do nothing. These are
+/// reported as faults:
 /// - the use of an object that is not alive, or a copy out of range
 /// - the use of an image for an access that its last barrier did not make it ready for
 /// - the use of a resource that another pass (outermost label) wrote, without a barrier in between

@@ -43,7 +43,7 @@ bool FrameBuilder::has_surfaces(std::span<const Draw> draws, const SurfacePass& 
 Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
                                    std::span<const gpu::Binding> bindings) {
   gpu::CommandList& commands = context.commands();
-  const Deformed* deformed = find<Deformed>();
+  const Deformed* deformed = shared_.find<Deformed>();
   commands.bind_indices(scene_.indices(), 0);
   const SurfaceVariant* bound_variant = nullptr;
   std::uint32_t bound_material = kNone;
@@ -85,11 +85,11 @@ void FrameBuilder::bind_previous_vertices(PassContext& context, const Draw& draw
   if (draw.deform == kNone)
     return commands.bind_vertex_stream(3, scene_.positions(), draw.primitive->first_vertex * sizeof(vec3));
   const std::uint64_t moved = draws_.deforms[draw.deform].first_vertex;
-  commands.bind_vertex_stream(3, context.buffer(find<Deformed>()->previous_positions), moved * sizeof(vec3));
+  commands.bind_vertex_stream(3, context.buffer(shared_.find<Deformed>()->previous_positions), moved * sizeof(vec3));
 }
 
 void FrameBuilder::read_vertices(PassBuilder& pass, bool motion) {
-  if (const Deformed* deformed = find<Deformed>()) {
+  if (const Deformed* deformed = shared_.find<Deformed>()) {
     if (motion) pass.read(deformed->previous_positions, gpu::Access::vertex_input);
     pass.read(deformed->positions, gpu::Access::vertex_input);
     pass.read(deformed->frames, gpu::Access::vertex_input);
@@ -103,7 +103,7 @@ void FrameBuilder::bind_caster_vertices(PassContext& context, const Caster& cast
     commands.bind_vertex_stream(0, scene_.positions(), first * sizeof(vec3));
   } else {
     const std::uint64_t moved = draws_.deforms[caster.deform].first_vertex;
-    commands.bind_vertex_stream(0, context.buffer(find<Deformed>()->positions), moved * sizeof(vec3));
+    commands.bind_vertex_stream(0, context.buffer(shared_.find<Deformed>()->positions), moved * sizeof(vec3));
   }
   if (with_surfaces) commands.bind_vertex_stream(1, scene_.surfaces(), first * sizeof(PackedSurface));
 }
@@ -122,6 +122,29 @@ void FrameBuilder::keep_result(std::string module, std::string name, BufferRef b
   ResultKey key{std::move(module), std::move(name), world_.resource<RenderSlot>().value, view_.id.value};
   services_.results.keep(std::move(key), buffer, 0, graph_.desc(buffer).size, std::move(note));
 }
+
+HistoryView FrameBuilder::history_view() const {
+  return {world_.resource<RenderSlot>().value, view_.id.value, view_.frame, view_.cut_frame};
+}
+
+Result<HistoryImage> FrameBuilder::history_image(const gpu::ImageDesc& desc, const HistoryUse& use) {
+  return services_.history.image(graph_, history_view(), desc, use);
+}
+Result<HistoryBuffer> FrameBuilder::history_buffer(const gpu::BufferDesc& desc, const HistoryUse& use) {
+  return services_.history.buffer(graph_, history_view(), desc, use);
+}
+Result<HistoryImagePair> FrameBuilder::history_image_pair(const gpu::ImageDesc& desc, const HistoryUse& use) {
+  return services_.history.image_pair(graph_, history_view(), desc, use);
+}
+Result<HistoryBufferPair> FrameBuilder::history_buffer_pair(const gpu::BufferDesc& desc, const HistoryUse& use) {
+  return services_.history.buffer_pair(graph_, history_view(), desc, use);
+}
+
+void FrameBuilder::reset_history(std::string_view module, std::string_view name) {
+  services_.history.reset(history_view().world, module, name);
+}
+
+void FrameBuilder::on_commit(std::function<void()> function) { services_.history.on_commit(std::move(function)); }
 
 gpu::SamplerHandle FrameBuilder::sampler(Sampling sampling) {
   gpu::SamplerDesc desc;

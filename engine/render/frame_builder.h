@@ -4,18 +4,20 @@
 
 #include <any>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <typeindex>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/core/log.h"
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/frame_results.h"
+#include "engine/frame/history.h"
 #include "engine/frame/upload.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/board.h"
 #include "engine/render/draws/draw_lists.h"
 #include "engine/render/draws/motion_history.h"
 #include "engine/render/knobs/knobs.h"
@@ -42,7 +44,8 @@ struct FrameServices {
   UploadRing& uniforms;
   UploadRing& storage;
   FrameResults& results;
-  declare::State& declared;        ///< of passes that bind by name
+  declare::State& declared;  ///< of passes that bind by name
+  History& history;
   bool wait_for_pipelines = true;  ///< false: prefer ready pipelines where there is a choice (Pipelines::request)
 };
 
@@ -51,9 +54,17 @@ struct FrameServices {
 /// builder.
 class FrameBuilder {
  public:
+  /// Number `view_index` of the frame's views.
   FrameBuilder(const FrameServices& services, FrameGraph& graph, const World& world, const RenderView& view,
-               const GpuScene& scene, DrawLists draws)
-      : services_(services), graph_(graph), world_(world), view_(view), scene_(scene), draws_(std::move(draws)) {}
+               const GpuScene& scene, const FrameDraws& draws, std::size_t view_index, Board& shared)
+      : services_(services),
+        graph_(graph),
+        world_(world),
+        view_(view),
+        scene_(scene),
+        draws_(draws),
+        view_index_(view_index),
+        shared_(shared) {}
   FrameBuilder(const FrameBuilder&) = delete;
   FrameBuilder& operator=(const FrameBuilder&) = delete;
 
@@ -62,7 +73,9 @@ class FrameBuilder {
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const RenderView& view() const { return view_; }
   [[nodiscard]] const GpuScene& scene() const { return scene_; }
-  [[nodiscard]] const DrawLists& draws() const { return draws_; }
+  [[nodiscard]] const ViewDraws& draws() const { return draws_.views[view_index_]; }
+  /// Draws of all views of the frame, and what they share.
+  [[nodiscard]] const FrameDraws& frame_draws() const { return draws_; }
   /// All shadow casters, in the camera's view or not; empty if no module that the world demands needs them
   /// (Module::needs_casters).
   [[nodiscard]] const CasterList& casters() const { return draws_.casters; }
@@ -98,18 +111,16 @@ class FrameBuilder {
   /// holds one output per type; a second one replaces the first.
   template <class T>
   T& put(T value) {
-    return std::any_cast<T&>(board_.insert_or_assign(std::type_index(typeid(T)), std::move(value)).first->second);
+    return board_.put(std::move(value));
   }
   /// The output of this type, or null if there is none.
   template <class T>
   [[nodiscard]] T* find() {
-    const auto found = board_.find(std::type_index(typeid(T)));
-    return found == board_.end() ? nullptr : &std::any_cast<T&>(found->second);
+    return board_.find<T>();
   }
   template <class T>
   [[nodiscard]] const T* find() const {
-    const auto found = board_.find(std::type_index(typeid(T)));
-    return found == board_.end() ? nullptr : &std::any_cast<const T&>(found->second);
+    return board_.find<T>();
   }
   template <class T>
   [[nodiscard]] T& get() {
@@ -117,6 +128,11 @@ class FrameBuilder {
     GLOAM_ASSERT(found != nullptr, "a pass needs an output that no earlier pass has put");
     return *found;
   }
+
+  /// The frame's board: outputs of earlier views of this frame that later ones may use. One per type, like the view's
+  /// board; empty at the begin of a frame.
+  [[nodiscard]] Board& shared() { return shared_; }
+  [[nodiscard]] const Board& shared() const { return shared_; }
 
   /// The view's constants (ViewConstants) as binding 0 of set 0.
   [[nodiscard]] gpu::Binding view_binding() const { return {0, view_range_}; }
@@ -143,6 +159,18 @@ class FrameBuilder {
   /// `buffer`: the version that no later pass writes.
   void keep_result(std::string module, std::string name, BufferRef buffer, std::any note = {});
 
+  /// Images and buffers whose contents live over frames, of this view or of its world (engine/frame/history.h).
+  /// desc.module: the module's own name; its memory goes with the module's (Module::release).
+  [[nodiscard]] Result<HistoryImage> history_image(const gpu::ImageDesc& desc, const HistoryUse& use);
+  [[nodiscard]] Result<HistoryBuffer> history_buffer(const gpu::BufferDesc& desc, const HistoryUse& use);
+  [[nodiscard]] Result<HistoryImagePair> history_image_pair(const gpu::ImageDesc& desc, const HistoryUse& use);
+  [[nodiscard]] Result<HistoryBufferPair> history_buffer_pair(const gpu::BufferDesc& desc, const HistoryUse& use);
+  /// Invalidates all history resources of this name in the world, from the next use on that has not been made yet.
+  void reset_history(std::string_view module, std::string_view name);
+  /// Calls the function after the frame was submitted, and never if the frame is given up: for state of the CPU that
+  /// describes contents on the GPU.
+  void on_commit(std::function<void()> function);
+
   /// Makes an image of this view available to Renderer::read_image, under the image's own name or `name`, with its
   /// content after all passes. An image that is owned outside the graph must have been created as a transfer_source. A
   /// later image of the same name replaces it.
@@ -168,28 +196,31 @@ class FrameBuilder {
   /// A null handle, and the frame is given up, if the device cannot create it.
   [[nodiscard]] gpu::SamplerHandle sampler(Sampling sampling);
 
-  /// Deformed vertex streams of this view; set by the deform pass.
+  /// Deformed vertex streams of the frame; the deform pass puts them on the shared board.
   struct Deformed {
     BufferRef positions;
     BufferRef frames;
-    BufferRef previous_positions;  ///< null if the view has no motion
+    BufferRef previous_positions;  ///< null if no view so far has motion
   };
 
  private:
   void bind_previous_vertices(PassContext& context, const Draw& draw) const;
+  [[nodiscard]] HistoryView history_view() const;
 
   FrameServices services_;
   FrameGraph& graph_;
   const World& world_;
   const RenderView& view_;
   const GpuScene& scene_;
-  DrawLists draws_;
+  const FrameDraws& draws_;
+  std::size_t view_index_;
+  Board& shared_;
   const DrawnInstances* previous_instances_ = nullptr;
   std::string_view visualizer_ = "none";
   std::string_view module_ = "engine";
   Status status_;
   gpu::Binding::BufferRange view_range_;
-  std::unordered_map<std::type_index, std::any> board_;
+  Board board_;
   std::vector<Exposed> exposed_;
 };
 

@@ -144,9 +144,9 @@ class Module {
     static_cast<void>(frame);
     static_cast<void>(phase);
   }
-  /// Reports counters that are known on the CPU. Called once per frame for its last view, if the module took part in
-  /// that view (demanded by world and view, pipelines ready), after its passes were recorded and before they are
-  /// submitted.
+  /// Reports counters that are known on the CPU. Called once per frame for each view, if the module took part in that
+  /// view (demanded by world and view, pipelines ready), after its passes were declared and before the frame is
+  /// recorded.
   virtual void counters(const World& world, const RenderView& view, CounterSink& sink) const {
     static_cast<void>(world);
     static_cast<void>(view);
@@ -181,6 +181,16 @@ class Module {
     static_cast<void>(name);
     static_cast<void>(result);
     static_cast<void>(sink);
+  }
+  /// Frees what the module keeps for this view in any world. Called by Renderer::release_view.
+  virtual void release_view(ViewId view) { static_cast<void>(view); }
+  /// Called when a frame is given up (an error, an exception) that declared passes of the module: the GPU executes
+  /// nothing of this frame. The module forgets what it noted as done while these passes were declared or recorded, so
+  /// that the next frame does it. `frame`: the frame's Device::frame_number. The default frees all of the module's
+  /// memory; modules that keep data which cannot be made again override it.
+  virtual void give_up_frame(std::uint64_t frame) {
+    static_cast<void>(frame);
+    release();
   }
   /// Frees the module's GPU memory. Called after 120 frames without demand and when the renderer is destroyed; the
   /// module allocates the memory again when it is next needed. The renderer owns the pipelines.

@@ -2,13 +2,19 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/renderer.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "engine/core/nearest_name.h"
 #include "engine/ecs/view.h"
+#include "engine/render/attempt.h"
+#include "engine/render/declare/draw_pass.h"
 #include "engine/render/passes/passes.h"
 #include "engine/render/renderer_state.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/resources.h"
 #include "engine/scene/systems.h"
+#include "shaders/render/shaders.h"
 
 namespace gloam {
 namespace {
@@ -67,6 +73,7 @@ Renderer::State::State(RendererOptions given)
       storage(*options.device, "engine", gpu::BufferUsage::storage),
       results(*options.device),
       declared(*options.device),
+      history(*options.device),
       graph(*options.device),
       runtimes(options.modules.size()) {
   add_scene_systems(schedule);
@@ -82,9 +89,18 @@ Renderer::State::~State() {
   for (auto& [id, view] : images) destroy_images(view);
 }
 
-FrameServices Renderer::State::services() {
-  return {*options.device, *options.executor, *options.log, knobs,    pipelines,
-          uniforms,        storage,           results,      declared, options.readiness == Readiness::wait};
+FrameServices Renderer::State::services(const KnobRegistry& view_knobs) {
+  return {.device = *options.device,
+          .executor = *options.executor,
+          .log = *options.log,
+          .knobs = view_knobs,
+          .pipelines = pipelines,
+          .uniforms = uniforms,
+          .storage = storage,
+          .results = results,
+          .declared = declared,
+          .history = history,
+          .wait_for_pipelines = options.readiness == Readiness::wait};
 }
 
 GpuScene& Renderer::State::scene_of(const World& world) {
@@ -132,7 +148,7 @@ Status Renderer::State::prepare_images(const World& world, const ViewRequest& re
     view.width = settings.width;
     view.height = settings.height;
   }
-  if (request.target.image && view.picture) {
+  if ((request.target.image || request.target.light) && view.picture) {
     device.destroy(view.picture);
     view.picture = {};
   }
@@ -151,10 +167,11 @@ Status Renderer::State::prepare_images(const World& world, const ViewRequest& re
     auto made = device.create_image(desc);
     if (!made.ok()) return made.error();
     image = *made;
+    view.drawn = false;
     return {};
   };
   GLOAM_TRY(make(view.lit, "lit", gpu::Format::rgba16_float));
-  if (!request.target.image) GLOAM_TRY(make(view.picture, "picture", gpu::Format::rgba8_srgb));
+  if (!request.target.image && !request.target.light) GLOAM_TRY(make(view.picture, "picture", gpu::Format::rgba8_srgb));
   return {};
 }
 
@@ -172,42 +189,50 @@ bool Renderer::State::any_needs(bool (Module::*question)(const World&, const Kno
                                 const World& world) const {
   for (std::size_t i = 0; i < options.modules.size(); ++i) {
     const Module& module = *options.modules[i];
-    if (module.built() && runtimes[i].demand.needed && (module.*question)(world, knobs)) return true;
+    if (!module.built() || !runtimes[i].demand.needed) continue;
+    for (const FrameView& view : frame_views)
+      if ((module.*question)(world, knobs_of(view))) return true;
   }
   return false;
 }
 
-bool Renderer::State::needs_motion(const World& world, const RenderView& view) const {
-  for (std::size_t i = 0; i < options.modules.size(); ++i) {
-    const Module& module = *options.modules[i];
-    if (module.built() && runtimes[i].demand.needed && module.needs_motion(world, knobs) &&
-        module.demand(world, &view).needed)
-      return true;
-  }
-  return false;
-}
-
-bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder) {
+bool Renderer::State::may_draw(std::size_t index, const World& world, const FrameView& view) const {
   const Module& module = *options.modules[index];
-  if (!module.built() || !runtimes[index].demand.needed) return false;
-  if (!module.demand(builder.world(), &builder.view()).needed) return false;
+  const std::vector<std::string>& without = view.request.settings.without;
+  return std::ranges::find(without, module.name()) == without.end() && module.built() &&
+         runtimes[index].demand.needed && module.demand(world, view.view.get()).needed;
+}
+
+bool Renderer::State::needs_motion(const World& world, const FrameView& view) const {
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (may_draw(i, world, view) && options.modules[i]->needs_motion(world, knobs_of(view))) return true;
+  return false;
+}
+
+bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder, const FrameView& view) {
+  const Module& module = *options.modules[index];
+  if (!may_draw(index, builder.world(), view)) return false;
   runtimes[index].in_view = true;
   if (options.readiness == Readiness::wait || module.essential()) return true;
   PipelineList needed;
-  module.pipelines(knobs, options.device->info(), needed);
+  module.pipelines(knobs_of(view), options.device->info(), needed);
   return pipelines.request(needed, *options.log);
 }
 
-Status Renderer::State::add_module_passes(FrameBuilder& builder) {
+Status Renderer::State::add_module_passes(FrameBuilder& builder, const FrameView& view) {
   std::vector<Module*> taking_part;
   for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (runtimes[i].in_last_view = takes_part(i, builder); runtimes[i].in_last_view)
+    if (runtimes[i].in_last_view = takes_part(i, builder, view); runtimes[i].in_last_view)
       taking_part.push_back(options.modules[i].get());
   for (const PassPhase phase : kAllPhases) {
+    if (view.request.target.light && phase >= PassPhase::output) break;
     for (Module* module : taking_part) {
       builder.set_module(module->name());
-      module->add_passes(builder, phase);
-      if (!builder.status().ok()) return builder.status();
+      GLOAM_TRY(attempt([&] { return "declaring the passes of module '" + std::string(module->name()) + "'"; },
+                        [&]() -> Status {
+                          module->add_passes(builder, phase);
+                          return builder.status();
+                        }));
     }
     builder.set_module("engine");
     if (phase != PassPhase::geometry) continue;
@@ -241,6 +266,7 @@ void Renderer::State::release_idle_modules() {
     if (runtime.idle_frames == kFramesUntilRelease) {
       options.modules[i]->release();
       results.forget_module(options.modules[i]->name());
+      history.release_module(options.modules[i]->name());
     }
     // Repeated, because a pipeline that was being compiled may have been added since.
     if (runtime.absent_frames != 0 && runtime.absent_frames % kFramesUntilRelease == 0)
@@ -248,15 +274,36 @@ void Renderer::State::release_idle_modules() {
   }
 }
 
-Status Renderer::State::add_view(World& world, const ViewRequest& request, const RenderView& view) {
-  GpuScene& scene = scene_of(world);
+Status Renderer::State::add_light_copy(FrameBuilder& frame, const LightTarget& target) {
+  const gpu::ImageDesc& desc = options.device->desc(target.image);
+  const uvec2 size = glm::max(uvec2(desc.width, desc.height) >> target.mip, uvec2(1));
+  GLOAM_ASSERT(size == uvec2(frame.view().width, frame.view().height),
+               "the mip of a light target has the size of its view");
+  const auto [at, first] = light_imports.try_emplace(target.image);
+  LightImport& import = at->second;
+  if (first) {
+    import.target = target;
+    import.image = graph.import_image("light_target", target.image, target.before, target.after);
+  }
+  GLOAM_ASSERT(import.target.before == target.before && import.target.after == target.after,
+               "views that capture into one image state the same accesses");
+  DrawPass pass(frame, "copy_light", {shaders::render::copy_light_frag});
+  pass.read("lit_image", frame.get<LitOutput>().color);
+  import.image = pass.target(import.image, gpu::LoadOp::discard, target.mip, target.layer);
+  pass.draw_triangle();
+  return frame.status();
+}
+
+Status Renderer::State::add_view(World& world, std::size_t index) {
+  const FrameView& own_view = frame_views[index];
+  const ViewRequest& request = own_view.request;
+  const RenderView& view = *own_view.view;
   const ViewImages& own = images.at(view.id.value);
-  builders.push_back(std::make_unique<FrameBuilder>(
-      services(), graph, world, view, scene,
-      build_draw_lists(world, view, scene, *options.executor, any_needs(&Module::needs_casters, world))));
+  builders.push_back(std::make_unique<FrameBuilder>(services(knobs_of(own_view)), graph, world, view, scene_of(world),
+                                                    draws, index, shared));
   FrameBuilder& frame = *builders.back();
   frame.set_visualizer(request.settings.visualizer);
-  if (needs_motion(world, view)) frame.set_previous_instances(&motion.instances());
+  if (needs_motion(world, own_view)) frame.set_previous_instances(&motion.instances());
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
   frame.upload_view_constants(code);
   add_deform_pass(frame);
@@ -267,14 +314,20 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
     frame.expose(image);
   if (geometry.motion) frame.expose(geometry.motion);
 
+  const ImageRef lit = graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read);
+  frame.put(LitOutput{lit});
+  if (request.target.light) {
+    GLOAM_TRY(add_module_passes(frame, own_view));
+    GLOAM_TRY(add_light_copy(frame, *request.target.light));
+    count_view(world, frame);
+    return {};
+  }
   const bool external = static_cast<bool>(request.target.image);
   const gpu::ImageHandle picture = external ? request.target.image : own.picture;
   const gpu::Access after = external ? request.target.after : gpu::Access::transfer_read;
   const ImageRef target = graph.import_image("picture", picture, gpu::Access::none, after);
-  const ImageRef lit = graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read);
   frame.put(TargetOutput{target, options.device->desc(picture).format});
-  frame.put(LitOutput{lit});
-  GLOAM_TRY(add_module_passes(frame));
+  GLOAM_TRY(add_module_passes(frame, own_view));
   if (code == 0 && frame.visualizer() != "none") warn_of_idle_visualizer(frame);
   GLOAM_ASSERT(frame.get<LitOutput>().color.resource == lit.resource,
                "LitOutput is written in place: a module has put another image there");
@@ -284,6 +337,7 @@ Status Renderer::State::add_view(World& world, const ViewRequest& request, const
   GLOAM_TRY(frame.status());
   if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
   if (copy_request && copy_request->view == view.id) GLOAM_TRY(copy_request->add_copies(frame));
+  count_view(world, frame);
   return {};
 }
 
@@ -296,33 +350,59 @@ void Renderer::State::hand_out_results(World& world, ViewId view) {
                            });
 }
 
-Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands) {
+Status Renderer::State::begin_views(std::span<const ViewRequest> requests) {
+  frame_views.clear();
+  for (const ViewRequest& request : requests) {
+    FrameView& own = frame_views.emplace_back();
+    own.request = request;
+    if (request.settings.knobs.empty()) continue;
+    auto overridden = std::make_unique<KnobRegistry>(knobs);
+    for (const KnobOverride& knob : request.settings.knobs) GLOAM_TRY(overridden->set(knob.name, knob.value));
+    own.knobs = std::move(overridden);
+  }
+  return {};
+}
+
+Status Renderer::State::prepare_views(World& world) {
+  const RenderSlot slot = world.resource<RenderSlot>();
+  const std::uint64_t frame = copy_request && slot.frames > 0 ? slot.frames - 1 : slot.frames;
+  for (FrameView& own : frame_views) {
+    GLOAM_TRY(acquire_target(*options.device, own.request));
+    ViewSettings& settings = own.request.settings;
+    check_target(*options.device, own.request);
+    follow_camera(world, settings);
+    GLOAM_TRY(prepare_images(world, own.request));
+    own.view = std::make_unique<RenderView>(make_view(settings, frame, cuts.declare(slot.value, settings, frame)));
+    motion.begin_view(*own.view);
+    world.set_view_resource(settings.id, *own.view);
+    for (std::size_t i = 0; i < options.modules.size(); ++i)
+      if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs_of(own));
+    hand_out_results(world, settings.id);
+    GLOAM_TRY(run_systems(world, settings.id));
+  }
+  return {};
+}
+
+Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   uniforms.begin_frame();
   storage.begin_frame();
   results.begin_frame();
   graph.begin();
   declared.recordings.begin_frame();
+  history.begin_frame();
+  cuts.begin_frame();
   builders.clear();
-  views.clear();
-  const std::uint64_t frame = world.resource<RenderSlot>().frames++;
+  shared.clear();
+  light_imports.clear();
+  declared_counters.clear();
   motion.begin_frame(world, world.resource<RenderSlot>().value, any_needs(&Module::needs_motion, world),
                      copy_request.has_value());
-  for (const ViewRequest& requested : requests) {
-    ViewRequest request = requested;
-    GLOAM_TRY(acquire_target(*options.device, request));
-    ViewSettings& settings = request.settings;
-    check_target(*options.device, request);
-    follow_camera(world, settings);
-    GLOAM_TRY(prepare_images(world, request));
-    views.push_back(std::make_unique<RenderView>(make_view(settings, frame)));
-    motion.begin_view(*views.back(), settings.camera_cut);
-    world.set_view_resource(settings.id, *views.back());
-    for (std::size_t i = 0; i < options.modules.size(); ++i)
-      if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs);
-    hand_out_results(world, settings.id);
-    schedule.run_view(settings.id, world, *options.executor, options.zones);
-    GLOAM_TRY(add_view(world, request, *views.back()));
-  }
+  GLOAM_TRY(prepare_views(world));
+  std::vector<const RenderView*> views;
+  for (const FrameView& view : frame_views) views.push_back(view.view.get());
+  GpuScene& scene = scene_of(world);
+  draws = build_frame_draws(world, views, scene, *options.executor, any_needs(&Module::needs_casters, world));
+  for (std::size_t i = 0; i < frame_views.size(); ++i) GLOAM_TRY(add_view(world, i));
   GLOAM_TRY(results.add_pass(graph));
   {
     const ScopedZone zone(options.zones, "compile_frame_graph", "engine");
@@ -330,13 +410,80 @@ Status Renderer::State::record_frame(World& world, std::span<const ViewRequest> 
   }
   {
     const ScopedZone zone(options.zones, "record_passes", "engine");
-    graph.execute(commands);
+    const auto place = [&] { return "pass '" + std::string(graph.recording()) + "'"; };
+    GLOAM_TRY(attempt(place, [&]() -> Status {
+      graph.execute(commands);
+      if (graph.recorded().ok()) return {};
+      return Error{graph.recorded().error().kind, place() + " failed: " + graph.recorded().error().message};
+    }));
   }
+  return {};
+}
+
+Status Renderer::State::run_systems(World& world, std::optional<ViewId> view) {
+  return attempt([&] { return "system '" + std::string(schedule.failed_system()) + "'"; },
+                 [&]() -> Status {
+                   if (view) {
+                     schedule.run_view(*view, world, *options.executor, options.zones);
+                   } else {
+                     schedule.run(Stage::world, world, *options.executor, options.zones);
+                   }
+                   return {};
+                 });
+}
+
+void Renderer::State::commit_frame(World& world, std::span<const ViewRequest> requests) {
+  const bool again = copy_request.has_value();
+  history.commit(graph, !again);
+  cuts.commit();
+  motion.commit(world);
+  if (!again) ++world.resource<RenderSlot>().frames;
+  for (const ViewRequest& request : requests) images.at(request.settings.id.value).drawn = true;
   last_requests.assign(requests.begin(), requests.end());
-  collect_counters(world);
+  collect_counters();
   release_idle_modules();
   release_idle_views();
-  return {};
+}
+
+void Renderer::State::give_up_frame(std::uint64_t frame) {
+  results.give_up_frame();
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (runtimes[i].in_view) options.modules[i]->give_up_frame(frame);
+}
+
+Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> requests) {
+  update_demand(world);
+  GLOAM_TRY(run_systems(world, std::nullopt));
+  GLOAM_TRY(begin_views(requests));
+  const SceneAssets& assets = world.resource<SceneAssets>();
+  GLOAM_TRY(scene_of(world).sync(assets, *options.executor));
+  if (any_needs(&Module::needs_simplified_casters, world))
+    GLOAM_TRY(scene_of(world).simplify_casters(assets, *options.executor));
+
+  gpu::Device& device = *options.device;
+  auto commands = device.begin_frame();
+  if (!commands.ok()) return commands.error();
+  const std::uint64_t frame = device.frame_number();
+  Status drawn;
+  try {
+    drawn = record_frame(world, **commands);
+  } catch (...) {
+    static_cast<void>(device.abandon_frame());
+    give_up_frame(frame);
+    throw;
+  }
+  if (drawn.ok()) {
+    submitted_ns = options.zones == nullptr ? 0 : options.zones->now_ns();
+    drawn = device.submit_frame();
+  } else {
+    static_cast<void>(device.abandon_frame());  // if the device is lost, the next begin_frame says so
+  }
+  if (drawn.ok()) {
+    commit_frame(world, requests);
+  } else {
+    give_up_frame(frame);
+  }
+  return drawn;
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -398,32 +545,30 @@ void Renderer::release_world(const World& world) {
   state_->scenes.erase(slot->value);
   state_->results.forget_world(slot->value);
   state_->motion.forget_world(slot->value);
+  state_->history.release_world(slot->value);
+  state_->cuts.forget_world(slot->value);
   state_->release_images([&](std::uint32_t, const ViewImages& view) { return view.world == slot->value; });
 }
 
 void Renderer::release_view(ViewId view) {
   state_->motion.forget_view(view);
+  state_->history.release_view(view.value);
+  state_->cuts.forget_view(view);
   state_->release_images([&](std::uint32_t id, const ViewImages&) { return id == view.value; });
+  state_->results.forget_view(view.value);
+  for (const auto& module : state_->options.modules) module->release_view(view);
+}
+
+void Renderer::release_view(World& world, ViewId view) {
+  release_view(view);
+  world.remove_view(view);
 }
 
 Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
-  State& s = *state_;
   const auto start = std::chrono::steady_clock::now();
-  s.update_demand(world);
-  s.schedule.run(Stage::world, world, *s.options.executor, s.options.zones);
-  const SceneAssets& assets = world.resource<SceneAssets>();
-  GLOAM_TRY(s.scene_of(world).sync(assets, *s.options.executor));
-  if (s.any_needs(&Module::needs_simplified_casters, world))
-    GLOAM_TRY(s.scene_of(world).simplify_casters(assets, *s.options.executor));
-
-  auto commands = s.options.device->begin_frame();
-  if (!commands.ok()) return commands.error();
-  const Status recorded = s.record_frame(world, requests, **commands);
-  // Submit even if recording failed: the empty frame signals its semaphores, and the next frame can begin.
-  const Status submitted = s.options.device->submit_frame();
-  if (recorded.ok() && submitted.ok()) s.motion.commit(world);
-  s.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return recorded.ok() ? submitted : recorded;
+  Status drawn = attempt([] { return std::string("the frame"); }, [&] { return state_->draw_frame(world, requests); });
+  state_->cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return drawn;
 }
 
 Status Renderer::wait() { return state_->options.device->wait_idle(); }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,18 @@ struct RendererOptions {
   Readiness readiness = Readiness::wait;
 };
 
+/// Destination of a view's linear light (cd/m² before exposure), for captures: one mip and layer of an image that
+/// belongs to the caller, of the view's size and with ImageUsage::color_target; six views make a cube. Several views of
+/// a frame may draw into one image; they state the same accesses. `before`: the access that the image was left ready
+/// for (none: the frame may discard all of its content). `after`: the access that it is left ready for.
+struct LightTarget {
+  gpu::ImageHandle image;
+  std::uint32_t mip = 0;
+  std::uint32_t layer = 0;
+  gpu::Access before = gpu::Access::none;
+  gpu::Access after = gpu::Access::fragment_read;
+};
+
 /// Destination of a view's picture. `image`, if set, belongs to the caller (swapchain, host): rgba8 or bgra8, UNORM
 /// (the shader encodes sRGB) or sRGB (the hardware does), of the view's size, created as a color_target. Its content is
 /// discarded; after the frame it is ready for `after`, an access that its usage must allow. Without an image, the
@@ -53,6 +66,8 @@ struct ViewTarget {
   /// Adds passes that write `picture`, and leaves `picture` at its newest version. Resources of the passes must live
   /// until the frame is submitted.
   std::function<Status(FrameGraph& graph, ImageRef& picture)> overlay;
+  /// In place of a picture: the phases `output` and `visualize` are left out. The other members must not be set.
+  std::optional<LightTarget> light;
 };
 
 struct ViewRequest {
@@ -69,14 +84,23 @@ struct ModuleState {
   std::uint64_t gpu_bytes = 0;
 };
 
+/// Counters of one view of the last frame, by name.
+struct ViewCounters {
+  ViewId view{0};
+  std::map<std::string, double> counters;
+};
+
 /// Cost of the last call of `render`. GPU figures are of the newest completed frame (after `wait`: of the last frame).
 struct FrameReport {
   double cpu_ms = 0.0;  ///< systems, declaration and recording
   double gpu_ms = 0.0;
   std::vector<PassTime> passes;
+  /// When the last frame was given to the GPU: ZoneRecorder::now_ns just before; 0 without a recorder.
+  std::uint64_t submitted_ns = 0;
   std::vector<ModuleState> modules;  ///< "engine" first, then in list order
   /// Counters of the last view; counters from the GPU are of the newest completed frame.
   std::map<std::string, double> counters;
+  std::vector<ViewCounters> views;   ///< counters of each view, in order; those that are known on the CPU
   std::uint64_t plans_compiled = 0;  ///< FrameGraph::plans_compiled, since the renderer was made
   /// Pipelines being compiled in the background; until then, frames leave passes out or use slower ones.
   std::size_t pipelines_pending = 0;
@@ -100,24 +124,33 @@ class Renderer {
   /// Registers the components and resources of the scene and of every module. Call it once per world, before the world
   /// is filled.
   void prepare_world(World& world) const;
-  /// Frees the GPU data of a world and the images of the views that it drew last. Call it before the world is
-  /// destroyed. If the world is drawn again, its data is uploaded again.
+  /// Frees the GPU data of a world, its history, and the images of the views that it drew last. Call it before the
+  /// world is destroyed. If the world is drawn again, its data is uploaded again.
   void release_world(const World& world);
-  /// Frees the images that the renderer keeps for a view, its picture included. Drawing the view again creates them
-  /// again. The images of a view that is not drawn for a while are freed without this call.
+  /// Frees all that the renderer and the modules keep for a view: images, its picture included, maps, histories and
+  /// results. Drawing the view again creates it again. The images of a view that is not drawn for a while are freed
+  /// without this call.
   void release_view(ViewId view);
+  /// The same, and removes the view's resources from the world.
+  void release_view(World& world, ViewId view);
 
   /// Draws one frame: runs the world systems, then the systems and passes of each view, and submits. Does not wait for
-  /// the GPU.
+  /// the GPU. On an error the frame is given up: the GPU executes nothing of it, its system commands are dropped, and
+  /// the next call draws as if it had not been begun. Exceptions of systems, jobs and passes become errors that name
+  /// the system or the pass, if they are derived from std::exception; others pass through after the frame was given up.
   [[nodiscard]] Status render(World& world, std::span<const ViewRequest> views);
   /// Waits until the GPU has finished everything submitted.
   [[nodiscard]] Status wait();
 
   [[nodiscard]] FrameReport report();
+  /// The GPU times of every frame that has completed since the last call, oldest first; at most the last 4. For callers
+  /// that keep several frames in flight.
+  [[nodiscard]] std::vector<GpuFrameTimes> take_times();
   /// Frees the memory of cached plans except the last frame's (FrameGraph::free_idle_memory). Without this call, memory
   /// of unused plans is kept for a while, in case frames with the same passes return.
   void free_idle_memory();
-  /// Reads the picture of a view's last frame. The view must have had no target image. Waits for the GPU.
+  /// Reads the picture of a view's last frame. The view must have had no target image. Waits for the GPU. Fails if all
+  /// frames that drew the view since its images were made were given up.
   [[nodiscard]] Result<Picture> read_picture(ViewId view);
   /// Reads the linear light of the view's last frame. Waits for the GPU.
   [[nodiscard]] Result<LinearPicture> read_linear(ViewId view);

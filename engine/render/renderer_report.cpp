@@ -26,18 +26,24 @@ T texel(std::span<const std::byte> bytes, std::size_t index) {
 
 }  // namespace
 
-void Renderer::State::collect_counters(const World& world) {
+void Renderer::State::count_view(const World& world, const FrameBuilder& builder) {
+  ViewCounters& own = declared_counters.emplace_back(ViewCounters{builder.view().id, {}});
+  MapSink sink(own.counters);
+  sink.count("engine.draws", static_cast<double>(builder.draws().solid.size() + builder.draws().blended.size()));
+  sink.count("engine.culled_primitives", builder.draws().culled_instances);
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (runtimes[i].in_last_view) options.modules[i]->counters(world, builder.view(), sink);
+}
+
+void Renderer::State::collect_counters() {
   counters.clear();
   counted_results.clear();
-  if (builders.empty()) return;
-  const FrameBuilder& last = *builders.back();
-  MapSink sink(counters);
-  sink.count("engine.draws", static_cast<double>(last.draws().solid.size() + last.draws().blended.size()));
-  sink.count("engine.culled_primitives", last.draws().culled_instances);
-  for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (runtimes[i].in_last_view) options.modules[i]->counters(world, last.view(), sink);
+  view_counters = std::move(declared_counters);
+  declared_counters.clear();
+  if (view_counters.empty()) return;
+  counters = view_counters.back().counters;
   counted_results = results.kept_keys();
-  std::erase_if(counted_results, [&](const ResultKey& key) { return key.view != last.view().id.value; });
+  std::erase_if(counted_results, [&](const ResultKey& key) { return key.view != view_counters.back().view.value; });
 }
 
 void Renderer::State::add_result_counters(std::map<std::string, double>& all) const {
@@ -56,7 +62,9 @@ FrameReport Renderer::report() {
   report.cpu_ms = s.cpu_ms;
   report.passes = s.graph.pass_times();
   report.gpu_ms = s.graph.gpu_ms();
+  report.submitted_ns = s.submitted_ns;
   report.counters = s.counters;
+  report.views = s.view_counters;
   s.add_result_counters(report.counters);
   report.plans_compiled = s.graph.plans_compiled();
   report.pipelines_pending = s.pipelines.pending();
@@ -83,13 +91,21 @@ FrameReport Renderer::report() {
   return report;
 }
 
+std::vector<GpuFrameTimes> Renderer::take_times() { return state_->graph.take_times(); }
+
 void Renderer::free_idle_memory() { state_->graph.free_idle_memory(); }
+
+Status Renderer::State::check_drawn(const ViewImages& view) {
+  if (view.drawn) return {};
+  return Error{ErrorKind::failed, "the view has no picture yet: its frames were given up"};
+}
 
 Result<Picture> Renderer::read_picture(ViewId view) {
   State& s = *state_;
   const auto found = s.images.find(view.value);
   GLOAM_ASSERT(found != s.images.end() && found->second.picture,
                "read_picture needs a view that was rendered without a target");
+  GLOAM_TRY(State::check_drawn(found->second));
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.picture);
   if (!bytes.ok()) return bytes.error();
@@ -103,6 +119,7 @@ Result<LinearPicture> Renderer::read_linear(ViewId view) {
   State& s = *state_;
   const auto found = s.images.find(view.value);
   GLOAM_ASSERT(found != s.images.end() && found->second.lit, "read_linear needs a view that was rendered");
+  GLOAM_TRY(State::check_drawn(found->second));
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.lit);
   if (!bytes.ok()) return bytes.error();

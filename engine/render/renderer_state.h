@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/frame/history.h"
 #include "engine/frame/upload.h"
+#include "engine/render/camera_cuts.h"
 #include "engine/render/declare/recording.h"
 #include "engine/render/draws/motion_history.h"
 #include "engine/render/frame_builder.h"
@@ -24,7 +26,8 @@ namespace gloam {
 /// A world's number among a renderer's GPU scenes, and its frame count. A resource of the world.
 struct RenderSlot {
   std::uint64_t value = 0;
-  /// Frames drawn so far. Counted per world, so that pictures of one world do not depend on others.
+  /// Frames drawn so far, without those that were given up or drew a frame again. Counted per world, so that pictures
+  /// of one world do not depend on others.
   std::uint64_t frames = 0;
 };
 
@@ -36,6 +39,7 @@ struct ViewImages {
   gpu::ImageHandle picture;       ///< rgba8 sRGB; null if the caller provides a target
   std::uint64_t world = 0;        ///< RenderSlot of the world that drew the view last
   std::uint32_t idle_frames = 0;  ///< since a frame drew the view
+  bool drawn = false;             ///< a frame that was not given up has drawn the images
 };
 
 /// Request to copy results of a view's passes in the next frame. add_copies: called after all passes of the view are
@@ -57,16 +61,34 @@ struct ModuleRuntime {
   std::uint32_t absent_frames = 0;  ///< since a world demanded it
 };
 
+/// A view of the current frame.
+struct FrameView {
+  ViewRequest request;
+  std::unique_ptr<const KnobRegistry> knobs;  ///< with the view's overrides; null: it has none
+  std::unique_ptr<RenderView> view;
+};
+
+/// A caller's image that views of the current frame capture light into.
+struct LightImport {
+  LightTarget target;
+  ImageRef image;  ///< newest version
+};
+
 struct Renderer::State {
   explicit State(RendererOptions given);
   ~State();
 
-  [[nodiscard]] FrameServices services();
+  [[nodiscard]] FrameServices services(const KnobRegistry& view_knobs);
+  [[nodiscard]] const KnobRegistry& knobs_of(const FrameView& view) const {
+    return view.knobs == nullptr ? knobs : *view.knobs;
+  }
   [[nodiscard]] GpuScene& scene_of(const World& world);
   /// Creates the view's images if they are missing or of another size. Frees its picture if the caller provides a
   /// target.
   [[nodiscard]] Status prepare_images(const World& world, const ViewRequest& request);
   void destroy_images(ViewImages& view);
+  /// An error unless the view's images have been drawn.
+  [[nodiscard]] static Status check_drawn(const ViewImages& view);
   /// Frees the images of views for which `unwanted` is true.
   void release_images(const std::function<bool(std::uint32_t id, const ViewImages&)>& unwanted);
   /// After a frame: frees the images of views that were not drawn for kFramesUntilRelease frames.
@@ -75,20 +97,36 @@ struct Renderer::State {
   /// Whether `question` (e.g. &Module::needs_casters) is true for any demanded module.
   [[nodiscard]] bool any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const,
                                const World& world) const;
-  /// Whether a module that takes part in the view needs GeometryOutputs::motion.
-  [[nodiscard]] bool needs_motion(const World& world, const RenderView& view) const;
+  /// Whether the module is built, demanded by the world and the view, and not left out by the view's settings.
+  [[nodiscard]] bool may_draw(std::size_t module, const World& world, const FrameView& view) const;
+  /// Whether a module that may draw in the view needs GeometryOutputs::motion.
+  [[nodiscard]] bool needs_motion(const World& world, const FrameView& view) const;
+  /// Renderer::render, except for exceptions that it passes on after giving the frame up.
+  [[nodiscard]] Status draw_frame(World& world, std::span<const ViewRequest> requests);
+  /// Notes a submitted frame as drawn.
+  void commit_frame(World& world, std::span<const ViewRequest> requests);
+  /// Undoes what was noted for a frame that the GPU does not execute. `frame`: its Device::frame_number.
+  void give_up_frame(std::uint64_t frame);
+  /// Runs the systems of the world, or of a view. An exception becomes an error that names the system.
+  [[nodiscard]] Status run_systems(World& world, std::optional<ViewId> view);
   /// Everything between Device::begin_frame and submit_frame.
-  [[nodiscard]] Status record_frame(World& world, std::span<const ViewRequest> requests, gpu::CommandList& commands);
-  /// Declares one view's passes.
-  [[nodiscard]] Status add_view(World& world, const ViewRequest& request, const RenderView& view);
-  [[nodiscard]] Status add_module_passes(FrameBuilder& builder);
+  [[nodiscard]] Status record_frame(World& world, gpu::CommandList& commands);
+  /// Starts the frame's views: requests and knobs.
+  [[nodiscard]] Status begin_views(std::span<const ViewRequest> requests);
+  /// Settles the settings of all views of the frame, and runs their systems.
+  [[nodiscard]] Status prepare_views(World& world);
+  /// Declares the passes of view number `index`.
+  [[nodiscard]] Status add_view(World& world, std::size_t index);
+  /// Copies the view's linear light into the caller's image.
+  [[nodiscard]] Status add_light_copy(FrameBuilder& frame, const LightTarget& target);
+  [[nodiscard]] Status add_module_passes(FrameBuilder& builder, const FrameView& view);
   /// Declares the copies that picked_lines reads: texels of the geometry buffer and data of the modules.
   [[nodiscard]] Status add_pick_copies(FrameBuilder& builder);
   /// Facts of the engine and the modules about a pixel, from the copies of a completed frame.
   [[nodiscard]] std::vector<std::string> picked_lines(std::uint32_t x, std::uint32_t y);
   /// Whether a module takes part in a view: built, demanded, and with its pipelines ready unless the frame waits for
   /// them.
-  [[nodiscard]] bool takes_part(std::size_t module, const FrameBuilder& builder);
+  [[nodiscard]] bool takes_part(std::size_t module, const FrameBuilder& builder, const FrameView& view);
   /// Passes a view's settled results to the modules that the world demands.
   void hand_out_results(World& world, ViewId view);
   /// Warns once if the view's visualizer belongs to a module that is not demanded: the picture is then shown as it is.
@@ -96,8 +134,10 @@ struct Renderer::State {
   /// After a frame: frees the memory of modules that no view has demanded for kFramesUntilRelease frames, and the
   /// pipelines of modules that no world has demanded for as long.
   void release_idle_modules();
-  /// Collects the counters of the frame's last view, from the modules that took part in it.
-  void collect_counters(const World& world);
+  /// Collects the counters of a view whose passes were declared, from the modules that took part in it.
+  void count_view(const World& world, const FrameBuilder& builder);
+  /// Makes the counters of the frame's last view those of the report.
+  void collect_counters();
   /// Adds counters from the last view's results in the newest completed frame.
   void add_result_counters(std::map<std::string, double>& all) const;
 
@@ -110,20 +150,29 @@ struct Renderer::State {
   FrameResults results;
   declare::State declared;
   MotionHistory motion;
+  History history;
+  CameraCuts cuts;
   FrameGraph graph;
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
   std::uint64_t next_slot = 1;
   std::map<std::uint32_t, ViewImages> images;
-  std::vector<std::unique_ptr<FrameBuilder>> builders;  ///< of the current frame; pass functions refer to them
-  std::vector<std::unique_ptr<RenderView>> views;
-  std::vector<ModuleRuntime> runtimes;  ///< by module
-  std::set<std::string> told;           ///< warnings that were given; each is given once
+  /// The following members are of the current frame; pass functions refer to them.
+  std::vector<FrameView> frame_views;
+  FrameDraws draws;
+  Board shared;
+  std::vector<std::unique_ptr<FrameBuilder>> builders;
+  std::map<gpu::ImageHandle, LightImport> light_imports;  ///< targets of captures
+  std::vector<ModuleRuntime> runtimes;                    ///< by module
+  std::set<std::string> told;                             ///< warnings that were given; each is given once
   std::vector<ViewRequest> last_requests;
   std::map<std::string, double> counters;
-  std::vector<ResultKey> counted_results;  ///< of the last view
+  std::vector<ViewCounters> declared_counters;  ///< of the frame that is being declared
+  std::vector<ViewCounters> view_counters;      ///< of the last frame
+  std::vector<ResultKey> counted_results;       ///< of the last view
   std::optional<CopyRequest> copy_request;
   std::unique_ptr<Captures> copies;  ///< of a frame that Renderer::draw_again has drawn
   double cpu_ms = 0.0;
+  std::uint64_t submitted_ns = 0;  ///< FrameReport::submitted_ns
 };
 
 }  // namespace gloam

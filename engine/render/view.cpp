@@ -49,6 +49,13 @@ dmat4 rigid(const dmat4& m) {
   return dmat4(dvec4(x, 0.0), dvec4(y, 0.0), dvec4(z, 0.0), dvec4(dvec3(m[3]), 1.0));
 }
 
+/// Mirrors directions at a plane through the origin.
+dmat4 reflection(const dvec3& normal) { return dmat4(glm::dmat3(1.0) - 2.0 * glm::outerProduct(normal, normal)); }
+
+dvec3 reflected(const dvec3& position, const MirrorPlane& mirror) {
+  return position - 2.0 * (glm::dot(mirror.normal, position) - mirror.offset) * mirror.normal;
+}
+
 }  // namespace
 
 void follow_camera(const World& world, ViewSettings& settings) {
@@ -60,20 +67,31 @@ void follow_camera(const World& world, ViewSettings& settings) {
   settings.world_from_camera = rigid(transform->matrix);
 }
 
-RenderView make_view(const ViewSettings& settings, std::uint64_t frame) {
+RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame) {
   GLOAM_ASSERT(settings.width > 0 && settings.height > 0, "a view has at least one pixel");
   RenderView view;
   view.id = settings.id;
   view.width = settings.width;
   view.height = settings.height;
   view.frame = frame;
+  view.cut_frame = cut_frame;
   view.camera_entity = settings.camera_entity;
   view.position = dvec3(settings.world_from_camera[3]);
   view.camera = settings.camera;
   view.near_m = settings.camera.near_m;
 
+  view.purpose = settings.purpose;
   dmat4 rotation = settings.world_from_camera;
   rotation[3] = dvec4(0.0, 0.0, 0.0, 1.0);
+  if (settings.mirror) {
+    const MirrorPlane& mirror = *settings.mirror;
+    GLOAM_ASSERT(std::abs(glm::length(mirror.normal) - 1.0) < 1e-6, "the normal of a mirror has unit length");
+    view.position = reflected(view.position, mirror);
+    rotation = reflection(mirror.normal) * rotation;
+    view.mirrored = view.clipped = true;
+    view.clip_plane =
+        vec4(vec3(mirror.normal), static_cast<float>(glm::dot(mirror.normal, view.position) - mirror.offset));
+  }
   view.view_from_relative = mat4(glm::transpose(rotation));
   const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
   if (settings.camera.orthographic) {

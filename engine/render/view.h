@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/ecs/entity.h"
 #include "engine/ecs/world.h"
@@ -12,6 +14,26 @@
 #include "engine/scene/components.h"
 
 namespace gloam {
+
+/// What a view is drawn for. Modules decide by it whether they take part (Module::demand): a capture, for example, has
+/// no fog.
+enum class ViewPurpose : std::uint8_t {
+  main,       ///< a picture for users
+  capture,    ///< light that other views use, for example a reflection probe
+  reference,  ///< a picture that others are judged against
+};
+
+/// A mirror: the points p with dot(normal, p) = offset. Its visible side is where the dot product is greater.
+struct MirrorPlane {
+  dvec3 normal = dvec3(0.0, 1.0, 0.0);  ///< unit length
+  double offset = 0.0;                  ///< metres
+};
+
+/// A knob's value for one view, as text (KnobRegistry::set).
+struct KnobOverride {
+  std::string name;
+  std::string value;
+};
 
 /// A caller's settings for a view.
 struct ViewSettings {
@@ -26,7 +48,14 @@ struct ViewSettings {
   dmat4 world_from_camera = dmat4(1.0);  ///< rigid; the camera looks along −Z
   Camera camera;
   std::string visualizer = "none";  ///< a name of Renderer::visualizers()
-  bool camera_cut = false;          ///< the picture of the frame before must not be reused
+  ViewPurpose purpose = ViewPurpose::main;
+  std::vector<KnobOverride> knobs;   ///< replace the renderer's values in this view; an unknown one is a usage error
+  std::vector<std::string> without;  ///< names of modules that this view leaves out
+  /// Draws what the mirror shows of its visible side to the camera. The camera may be on either side.
+  std::optional<MirrorPlane> mirror;
+  /// The camera jumps in this frame: contents that follow it over frames begin anew. The renderer itself sees a change
+  /// of camera_entity and of the kind of projection; a jump of the pose is stated here.
+  bool camera_cut = false;
 };
 
 /// Pose and lens of a view in one frame, without jitter.
@@ -43,7 +72,9 @@ struct RenderView {
   ViewId id{0};
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint64_t frame = 0;              ///< frame number of its world, from 0
+  /// Number among the drawn frames of its world, from 0. A frame that is given up or drawn again gives its number on.
+  std::uint64_t frame = 0;
+  std::uint64_t cut_frame = 0;          ///< the view's newest frame with a camera cut, ≤ frame; its first is one
   Entity camera_entity = kNoEntity;     ///< camera whose effects the view has, or kNoEntity
   dvec3 position = dvec3(0.0);          ///< world position of the camera
   mat4 view_from_relative = mat4(1.0);  ///< rotation only
@@ -51,16 +82,21 @@ struct RenderView {
   mat4 clip_from_relative = mat4(1.0);
   Camera camera;
   float near_m = 0.1f;
-  Frustum frustum;  ///< in camera-relative space
+  ViewPurpose purpose = ViewPurpose::main;
+  bool mirrored = false;  ///< front faces of unmirrored meshes are clockwise; `position` is the mirrored camera's
+  bool clipped = false;   ///< only what is on the visible side of clip_plane is drawn
+  vec4 clip_plane = vec4(0.0f);  ///< dot(xyz, p) + w ≥ 0 is visible; p: camera-relative
+  Frustum frustum;               ///< in camera-relative space
   /// The view's camera in the world's previous drawn frame. If there is none (has_previous), the current camera. There
-  /// is none in the view's first frame, after a cut (ViewSettings::camera_cut, another camera entity or kind of
-  /// projection), and if the world's previous frame did not draw the view.
+  /// is none after a camera cut, and if the world's previous frame did not draw the view.
   ViewCamera previous;
   bool has_previous = false;
 
   [[nodiscard]] ViewCamera view_camera() const {
     return {position, view_from_relative, clip_from_view, clip_from_relative, camera.orthographic};
   }
+  /// Whether the camera was cut between the view's last frame and this one.
+  [[nodiscard]] bool camera_cut() const { return cut_frame == frame; }
   /// Camera-relative float position of a world position.
   [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }
   /// View depth in metres of a value of the depth image (reversed Z); not for the sky's 0.
@@ -73,7 +109,8 @@ struct RenderView {
 /// If settings.follow_camera is set and settings.camera_entity is alive, sets pose and lens from its current state.
 void follow_camera(const World& world, ViewSettings& settings);
 
-[[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame);
+/// cut_frame: see RenderView.
+[[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame = 0);
 
 /// Settings for the view of a camera entity, from its Camera and WorldTransform. kNoEntity: of a camera fitted to the
 /// bounds of everything drawn. width, height: pixels.

@@ -14,6 +14,7 @@ shaders::ViewConstants view_constants(const RenderView& view) {
   constants.near_m = view.near_m;
   constants.orthographic = view.camera.orthographic ? 1 : 0;
   constants.frame = static_cast<std::uint32_t>(view.frame);
+  constants.clip_plane = view.clip_plane;
 
   const dvec3 right(rows[0]), up(rows[1]), forward = -dvec3(rows[2]);
   const dmat4 clip(view.clip_from_view);

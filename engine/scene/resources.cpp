@@ -22,19 +22,16 @@ void SceneNames::add(std::string_view kind, std::string_view name, Entity entity
 
 Result<Entity> SceneNames::find(std::string_view kind, std::string_view name) const {
   const std::string what(kind);
+  const auto unknown = [&](const std::vector<std::string>& names) {
+    return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + "; " + valid_names(name, names)};
+  };
   const auto found = kinds_.find(kind);
-  if (found == kinds_.end())
-    return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + ", there is none"};
+  if (found == kinds_.end()) return unknown({});
   const auto named = found->second.by_name.find(std::string(name));
   if (named == found->second.by_name.end()) {
     std::vector<std::string> names;
-    std::string list;
-    for (const std::string& known : found->second.order) {
-      names.push_back(one_line(known));
-      list += (list.empty() ? "" : ", ") + names.back();
-    }
-    return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + ", " + did_you_mean(name, names) +
-                                       "there are: " + list};
+    for (const std::string& known : found->second.order) names.push_back(one_line(known));
+    return unknown(names);
   }
   if (named->second.count > 1)
     return Error{ErrorKind::input, "the name " + in_quotes(name) + " is used by " +

@@ -83,9 +83,12 @@ Schedule::Graph& Schedule::graph(Stage stage) {
   graph = std::make_unique<Graph>();
   graph->plan = plan_stage(systems_, stage, [&](const System& system) { return is_enabled(system.module); });
   for (const StagePlan::Node& node : graph->plan.nodes) {
-    graph->nodes.push_back(
-        {[shared = graph.get(), system = systems_[node.system].get()] { run_system(*system, *shared->run); },
-         node.successors, static_cast<std::uint32_t>(node.waits_for.size())});
+    graph->nodes.push_back({[shared = graph.get(), system = systems_[node.system].get()] {
+                              system->failed = true;  // until it has returned
+                              run_system(*system, *shared->run);
+                              system->failed = false;
+                            },
+                            node.successors, static_cast<std::uint32_t>(node.waits_for.size())});
   }
   return *graph;
 }
@@ -116,12 +119,18 @@ void Schedule::run_stage(Stage stage, Run run) {
   std::optional<CheckedWorld> checker;
   if (checked_) run.checker = &checker.emplace(run.world);
   graph.run = &run;
+  failed_system_ = {};
+  for (const StagePlan::Node& node : graph.plan.nodes) systems_[node.system]->failed = false;
   running_ = true;
   try {
     run.executor.run_graph(graph.nodes);
     running_ = false;
   } catch (...) {
     running_ = false;
+    // Nodes are in order of registration, and the exception is of the failed node with the lowest index.
+    const auto failed =
+        std::ranges::find_if(graph.plan.nodes, [&](const auto& node) { return systems_[node.system]->failed; });
+    if (failed != graph.plan.nodes.end()) failed_system_ = systems_[failed->system]->name;
     for (const StagePlan::Node& node : graph.plan.nodes) systems_[node.system]->commands.clear();
     throw;
   }

@@ -67,6 +67,9 @@ class Schedule {
   /// As run(), for the systems of Stage::view and this view.
   void run_view(ViewId view, World& world, JobExecutor& executor, ZoneRecorder* zones = nullptr);
 
+  /// The name of the system whose exception the last run() or run_view() has rethrown; empty if it threw none.
+  [[nodiscard]] std::string_view failed_system() const { return failed_system_; }
+
   /// One line per system and stage: stage, name, module, reads, writes, recorded commands, and the systems it waits
   /// for.
   [[nodiscard]] std::string describe() const;
@@ -86,6 +89,7 @@ class Schedule {
   std::set<std::string, std::less<>> disabled_;
   bool checked_ = false;
   bool running_ = false;
+  std::string_view failed_system_;
   std::array<std::unique_ptr<Graph>, 2> graphs_;  ///< graphs of Stage::world and Stage::view; null until needed
 };
 

@@ -32,6 +32,7 @@ struct System {
   std::vector<std::uint32_t> after;  ///< indices of earlier systems that this one waits for, regardless of their access
   std::function<void(const SystemContext&)> run;
   Commands commands;
+  bool failed = false;  ///< it threw in the last run of its stage
 };
 
 /// The access list that follows from a function's signature.

@@ -61,7 +61,8 @@ class FogModule final : public Module {
     registry.add(radius);
   }
 
-  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
+  [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
+    if (view != nullptr && view->purpose == ViewPurpose::capture) return {false, "captures have no fog"};
     if (!(find_fog(world).density > 0.0f)) return {false, "no fog"};
     return {true, "the scene has fog"};
   }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/module.h"
 
-#include <atomic>
-
 #include "modules/lighting/passes.h"
 #include "modules/lighting/tone_reference.h"
 
@@ -14,7 +12,7 @@ class LightingModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "lighting"; }
 
-  void register_components(World& world) const override { world.set_resource(LightingWorld{++worlds_}); }
+  void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
 
   void knobs(KnobRegistry& registry) const override {
@@ -46,14 +44,8 @@ class LightingModule final : public Module {
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::shading) add_deferred_pass(frame);
     if (phase == PassPhase::translucent) add_forward_pass(frame);
-    if (phase == PassPhase::output) add_tone_map_passes(frame, exposures_);
+    if (phase == PassPhase::output) add_tone_map_passes(frame);
   }
-
-  void release() override { exposures_.release(); }
-
- private:
-  ExposureSlots exposures_;
-  mutable std::atomic<std::uint64_t> worlds_ = 0;
 };
 
 }  // namespace

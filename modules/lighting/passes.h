@@ -3,7 +3,6 @@
 #pragma once
 
 #include "engine/render/frame_builder.h"
-#include "modules/lighting/exposure.h"
 
 namespace gloam {
 
@@ -14,6 +13,6 @@ void add_deferred_pass(FrameBuilder& frame);
 void add_forward_pass(FrameBuilder& frame);
 
 /// Maps LitOutput to TargetOutput. Meters first, in the first frame of a camera without a set exposure.
-void add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures);
+void add_tone_map_passes(FrameBuilder& frame);
 
 }  // namespace gloam

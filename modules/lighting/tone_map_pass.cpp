@@ -3,6 +3,7 @@
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
 #include "engine/scene/resources.h"
+#include "modules/lighting/exposure.h"
 #include "modules/lighting/passes.h"
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/shaders.h"
@@ -10,12 +11,26 @@
 namespace gloam {
 namespace {
 
-/// Meters the frame's light into an exposure slot.
-void add_meter_pass(FrameBuilder& frame, BufferRef& slots, std::uint32_t slot) {
+/// The metered exposure of the view's camera. It stays for as long as frames show the camera: History destroys it
+/// later.
+Result<HistoryBuffer> exposure_of(FrameBuilder& frame) {
+  gpu::BufferDesc desc;
+  desc.name = "exposure";
+  desc.module = "lighting";
+  desc.size = sizeof(float);
+  desc.usage = gpu::BufferUsage::storage;
+  const Entity camera = frame.view().camera_entity;
+  return frame.history_buffer(desc, {.scope = HistoryScope::view,
+                                     .rest = gpu::Access::fragment_read,
+                                     .instance = std::uint64_t{camera.generation} << 32 | camera.index});
+}
+
+/// Meters the frame's light into an exposure.
+void add_meter_pass(FrameBuilder& frame, BufferRef& exposure) {
   ComputePass pass(frame, "meter", shaders::lighting::meter_comp);
   pass.read("lit_image", frame.get<LitOutput>().color);
-  slots = pass.write("exposures", slots);
-  pass.push(shaders::MeterConstants{{frame.view().width, frame.view().height}, slot});
+  exposure = pass.write("exposure", exposure);
+  pass.push(shaders::MeterConstants{{frame.view().width, frame.view().height}});
   pass.dispatch(1);
 }
 
@@ -38,10 +53,10 @@ ImageRef add_tone_table_pass(FrameBuilder& frame) {
 
 }  // namespace
 
-void add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
-  if (!frame.check(exposures.prepare(frame.services().device))) return;
+void add_tone_map_passes(FrameBuilder& frame) {
   const auto& environment = frame.world().resource<SceneEnvironment>();
-  BufferRef& slots = exposures.in(frame.graph());
+  auto metered = exposure_of(frame);  // bound even if the exposure is set
+  if (!frame.check(metered)) return;
   TargetOutput& target = frame.get<TargetOutput>();
 
   shaders::ToneMapConstants constants{};
@@ -50,16 +65,14 @@ void add_tone_map_passes(FrameBuilder& frame, ExposureSlots& exposures) {
   if (environment.has_exposure) {
     constants.exposure = exposure_from_ev100(environment.exposure_ev100);
   } else {
-    const ExposureSlots::Slot slot = exposures.slot_of(frame.world().resource<LightingWorld>(), frame.view());
-    constants.exposure_slot = slot.index;
     constants.metered = 1;
-    if (slot.fresh) add_meter_pass(frame, slots, slot.index);
+    if (!metered->filled()) add_meter_pass(frame, metered->buffer);
   }
 
   const ImageRef table = add_tone_table_pass(frame);
   DrawPass pass(frame, "tone_map", {shaders::lighting::tone_map_frag, {{0, table ? 1u : 0u}}});
   pass.read("lit_image", frame.get<LitOutput>().color);
-  pass.read("exposures", slots);
+  pass.read("metered_exposure", metered->buffer);
   pass.read("table_image", table, Sampling::linear);
   pass.push(constants);
   target.color = pass.target(target.color);

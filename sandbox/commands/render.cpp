@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sandbox/commands/commands.h"
+#include "sandbox/session/frame_run.h"
 #include "sandbox/session/frame_tracing.h"
 #include "sandbox/session/run_output.h"
 #include "sandbox/session/scene_loading.h"
@@ -24,15 +25,12 @@ Status show_traced_view(Session& session, const CommandContext& context, const V
 }
 
 Result<std::vector<FrameSample>> render_frames(Session& session, const Options& options, const ViewSettings& view) {
-  std::vector<FrameSample> samples;
-  samples.reserve(options.frames);
+  FrameRun run(session, options.in_flight);
   for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
     session.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
-    auto sample = session.render_frame({.settings = view, .target = {}});
-    if (!sample) return sample.error();
-    samples.push_back(std::move(sample).value());
+    GLOAM_TRY(run.draw({.settings = view, .target = {}}));
   }
-  return samples;
+  return run.finish();
 }
 
 }  // namespace

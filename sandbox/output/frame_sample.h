@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -12,12 +13,17 @@ namespace gloam {
 
 /// All measurements of one frame.
 struct FrameSample {
-  std::uint64_t begin_ns = 0;  ///< time of ZoneRecorder::now_ns
-  std::uint64_t end_ns = 0;    ///< after the GPU finished the frame
-  FrameReport report;          ///< complete: the GPU times and counters are of this frame
-  std::vector<Zone> zones;     ///< CPU zones of the frame
+  std::uint64_t begin_ns = 0;         ///< time of ZoneRecorder::now_ns
+  std::uint64_t end_ns = 0;           ///< after the GPU finished the frame
+  std::uint64_t previous_end_ns = 0;  ///< end_ns of the frame before it in the run; 0: none
+  FrameReport report;                 ///< complete: the GPU times and counters are of this frame
+  std::vector<Zone> zones;            ///< CPU zones of the frame
 
-  [[nodiscard]] double wall_ms() const { return static_cast<double>(end_ns - begin_ns) * 1e-6; }
+  /// Time for which this was the oldest unfinished frame. With one frame in flight it is the time from begin to end.
+  /// With more, it is the time from frame to frame.
+  [[nodiscard]] double wall_ms() const {
+    return static_cast<double>(end_ns - std::max(begin_ns, previous_end_ns)) * 1e-6;
+  }
 };
 
 }  // namespace gloam

@@ -9,9 +9,11 @@
 
 namespace gloam {
 
-/// A trace for chrome://tracing and Perfetto: one row per CPU thread with its zones, and one row "GPU" with the passes.
-/// The CPU and GPU clocks share no origin, so the passes of a frame are placed one after another from the frame's
-/// begin, each with its measured duration.
+/// A trace for chrome://tracing and Perfetto: one row per CPU thread with its zones, one row "GPU" with the passes, and
+/// the span of each frame. Passes have their measured begins and ends; the gaps between them are barriers and waits of
+/// the GPU. Its clock is placed on the CPU's by one offset for all samples, so that no frame begins before its
+/// submission: the row is early by at most the shortest delay between a submission and its begin. Untimed passes are
+/// left out.
 [[nodiscard]] std::string chrome_trace(std::span<const FrameSample> samples);
 
 }  // namespace gloam

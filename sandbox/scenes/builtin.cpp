@@ -35,14 +35,11 @@ std::span<const BuiltinScene> builtin_scenes() { return kScenes; }
 
 Result<const BuiltinScene*> find_builtin_scene(std::string_view name) {
   std::vector<std::string> names;
-  std::string list;
   for (const BuiltinScene& scene : kScenes) {
     if (scene.name == name) return &scene;
     names.emplace_back(scene.name);
-    list += (list.empty() ? "" : ", ") + names.back();
   }
-  return Error{ErrorKind::usage, "there is no built-in scene '" + std::string(name) + "'; " +
-                                     did_you_mean(name, names) + "there are: " + list};
+  return Error{ErrorKind::usage, "there is no built-in scene '" + std::string(name) + "'; " + valid_names(name, names)};
 }
 
 }  // namespace gloam

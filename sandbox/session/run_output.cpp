@@ -19,8 +19,11 @@ Status write_stats(const DrawnRun& run, const Options& options) {
   const auto linear = run.session.renderer->read_linear(run.view.id);
   if (!linear) return linear.error();
   const std::map<std::string, double> counters = {{"nan_pixels", static_cast<double>(count_nan_pixels(linear->rgba))}};
-  const RunDescription description = {
-      .scene = options.scene, .device = run.session.device->info(), .width = run.view.width, .height = run.view.height};
+  const RunDescription description = {.scene = options.scene,
+                                      .device = run.session.device->info(),
+                                      .width = run.view.width,
+                                      .height = run.view.height,
+                                      .in_flight = options.in_flight};
   GLOAM_TRY(make_folder_of(options.stats));
   return write_file(options.stats, stats_json(description, run.samples, counters, run.session.renderer->knobs()));
 }

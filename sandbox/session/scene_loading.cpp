@@ -31,14 +31,11 @@ std::string meant_builtin(std::string_view scene) {
 Status check_animation(const World& world, const std::string& name) {
   if (name.empty()) return {};
   std::vector<std::string> names;
-  std::string list;
   for (const AnimationClip& clip : world.resource<SceneAssets>().clips) {
     if (clip.name == name) return {};
     names.push_back(clip.name);
-    list += (list.empty() ? "" : ", ") + clip.name;
   }
-  const std::string rest = names.empty() ? "the scene has none" : did_you_mean(name, names) + "there are: " + list;
-  return Error{ErrorKind::usage, "there is no animation '" + name + "'; " + rest};
+  return Error{ErrorKind::usage, "there is no animation '" + name + "'; " + valid_names(name, names)};
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "engine/scene/systems.h"
 #include "modules/module_list/module_list.h"
 #include "sandbox/output/file_io.h"
+#include "sandbox/session/frame_run.h"
 #include "sandbox/session/scene_loading.h"
 
 namespace gloam {
@@ -66,14 +67,11 @@ ViewSettings Session::view_settings(std::uint32_t width, std::uint32_t height, c
 void Session::set_clock(double time_s, double dt_s) { world.resource<SceneClock>() = {.time_s = time_s, .dt_s = dt_s}; }
 
 Result<FrameSample> Session::render_frame(const ViewRequest& request) {
-  FrameSample sample;
-  sample.begin_ns = zones.now_ns();
-  GLOAM_TRY(renderer->render(world, {&request, 1}));
-  GLOAM_TRY(renderer->wait());
-  sample.end_ns = zones.now_ns();
-  sample.report = renderer->report();
-  sample.zones = zones.take();
-  return sample;
+  FrameRun run(*this, 1);
+  GLOAM_TRY(run.draw(request));
+  auto samples = run.finish();
+  if (!samples) return samples.error();
+  return std::move(samples->front());
 }
 
 Status Session::check_validation() const {

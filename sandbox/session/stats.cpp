@@ -149,6 +149,7 @@ std::string stats_json(const RunDescription& run, std::span<const FrameSample> s
   Json json = {{"version", 1}, {"scene", run.scene}, {"device", device_json(run.device)}};
   json["size"] = {run.width, run.height};
   json["frames"] = samples.size();
+  if (run.in_flight != 1) json["in_flight"] = run.in_flight;
   json["frame_ms"] = frame_times_json(measured);
   json["systems"] = systems_json(measured);
   json["passes"] = passes_json(measured);

@@ -20,12 +20,13 @@ struct RunDescription {
   gpu::DeviceInfo device;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
+  std::uint32_t in_flight = 1;  ///< frames that were unfinished at a time
 };
 
 /// The JSON text of `--stats` (schema version 1). samples: all frames of the run, in order, at least one. If there are
-/// several, the times leave out the first. Times of a system or pass are over the frames in which it ran; several calls
-/// of one name in a frame are added up. Counters and memory are those of the last frame, together with
-/// `extra_counters`.
+/// several, the times leave out the first. "in_flight" is absent if it is 1. Times of a system or pass are over the
+/// frames in which it ran; several calls of one name in a frame are added up. Counters and memory are those of the last
+/// frame, together with `extra_counters`. Figures that are not measured (bytes on the CPU) are absent.
 [[nodiscard]] std::string stats_json(const RunDescription& run, std::span<const FrameSample> samples,
                                      const std::map<std::string, double>& extra_counters, const KnobRegistry& knobs);
 

@@ -41,6 +41,7 @@ void main() {
   }
   light += local_lights(p);
   out_light = vec4(min(light, vec3(65504.0)), s.base_color.a);
+  if ((kSurface & GLOAM_SURFACE_CLIPPED) != 0u && is_clipped(view, in_relative)) discard;
 }
 
 #endif

@@ -16,11 +16,10 @@ struct EnvironmentConstants {
 
 /// Constants of the pass from linear light to picture.
 struct ToneMapConstants {
-  uint curve;          // 0 filmic, 1 reinhard, 2 linear
-  uint exposure_slot;  // index in the exposure buffer
-  uint metered;        // 1: use the slot's exposure; 0: use `exposure`
-  float exposure;      // factor for cd/m²
-  uint encode_srgb;    // 1: the target's format does not encode sRGB, so the shader does
+  uint curve;        // 0 filmic, 1 reinhard, 2 linear
+  uint metered;      // 1: use the metered exposure; 0: use `exposure`
+  float exposure;    // factor for cd/m²
+  uint encode_srgb;  // 1: the target's format does not encode sRGB, so the shader does
 };
 
 /// Constants for tabulating a tone curve.
@@ -29,10 +28,9 @@ struct ToneTableConstants {
   uint size;  // texels of the table
 };
 
-/// Constants for metering a view into an exposure slot.
+/// Constants for metering a view.
 struct MeterConstants {
   uvec2 size;  // pixels of the picture
-  uint slot;
 };
 
 GLOAM_SHARED_END

@@ -12,7 +12,7 @@ layout(local_size_x = 32) in;
 
 layout(push_constant, scalar) uniform Meter { MeterConstants c; };
 layout(set = 0, binding = 0) uniform sampler2D lit_image;
-layout(set = 0, binding = 1, scalar) buffer Exposure { float exposures[]; };
+layout(set = 0, binding = 1, scalar) buffer Exposure { float exposure; };
 
 shared float sums[32];
 
@@ -32,5 +32,5 @@ void main() {
   for (uint i = 0u; i < 32u; ++i) total += sums[i];
   float mean = exp2(total / 1024.0);
   float key = 1.03 - 2.0 / (2.0 + log2(mean + 1.0) / log2(10.0));
-  exposures[c.slot] = key / mean;
+  exposure = key / mean;
 }

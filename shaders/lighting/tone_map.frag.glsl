@@ -12,7 +12,7 @@ layout(constant_id = 0) const uint kTable = 0u;
 
 layout(push_constant, scalar) uniform ToneMap { ToneMapConstants c; };
 layout(set = 0, binding = 0) uniform sampler2D lit_image;
-layout(set = 0, binding = 1, scalar) readonly buffer Exposure { float exposures[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer Exposure { float metered_exposure; };
 layout(set = 0, binding = 2) uniform sampler2D table_image;
 
 layout(location = 0) out vec4 out_color;
@@ -24,7 +24,7 @@ float looked_up(float x) {
 }
 
 void main() {
-  float exposure = c.metered != 0u ? exposures[c.exposure_slot] : c.exposure;
+  float exposure = c.metered != 0u ? metered_exposure : c.exposure;
   vec3 x = clamp(texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb * exposure, vec3(0.0), vec3(1e6));
   vec3 shown;
   if (kTable != 0u)

@@ -30,6 +30,7 @@ void main() {
   out_normals = encode_normals(s.normal, s.face_normal);
   out_material = vec4(s.roughness, s.metallic, s.occlusion, s.reflectivity);
   out_emissive = vec4(s.emissive, 0.0);
+  if ((kSurface & GLOAM_SURFACE_CLIPPED) != 0u && is_clipped(view, in_relative)) discard;
 #ifdef GLOAM_MOTION
   out_motion = screen_motion(motion, in_clip, in_previous_clip);
 #endif

@@ -5,6 +5,11 @@
 
 #include "shaders/render/view_shared.h"
 
+// Whether a camera-relative position lies behind the clip plane of a clipped view.
+bool is_clipped(ViewConstants view, vec3 relative) {
+  return dot(view.clip_plane.xyz, relative) + view.clip_plane.w < 0.0;
+}
+
 // Camera-relative position of the point at `depth` (reversed Z) under the pixel centre `pixel` + 0.5.
 vec3 relative_position(ViewConstants view, vec2 pixel, float depth) {
   float scale = view.ray_base.w > 0.0 ? view.ray_base.w / depth : 1.0;

@@ -64,5 +64,13 @@ TEST(DidYouMean, stands_before_a_list_or_is_empty) {
   EXPECT_EQ(did_you_mean("water.level", kKnobs), "");
 }
 
+TEST(NearestName, valid_names_are_listed_in_their_order_after_the_nearest_one) {
+  const std::vector<std::string> names = {"walk", "idle", "run"};
+  EXPECT_EQ(valid_names("wlak", names), "did you mean walk? there are walk, idle, run");
+  EXPECT_EQ(valid_names("swim", names), "there are walk, idle, run");
+  EXPECT_EQ(valid_names("idel", std::vector<std::string>{"idle"}), "did you mean idle? there are idle");
+  EXPECT_EQ(valid_names("walk", {}), "there are none");
+}
+
 }  // namespace
 }  // namespace gloam

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 
-#include "engine/frame/pass_timer.h"
+#include <stdexcept>
+
 #include "tests/frame/graph_fixture.h"
 #include "tests/support/expect_assert.h"
 
@@ -121,14 +122,133 @@ TEST_F(ExecuteTest, times_and_counts_of_the_newest_completed_frame) {
 }
 
 TEST_F(ExecuteTest, passes_beyond_the_last_timestamp_run_untimed) {
-  const std::uint32_t count = frame::PassTimer::kPassesTimed + 10;
+  constexpr std::uint32_t kTimed = gpu::Device::kTimestampsPerFrame - 1;
+  const std::uint32_t count = kTimed + 10;
   run_frame([&](FrameGraph& g) {
     for (std::uint32_t i = 0; i < count; ++i) g.add_pass("p", "test").keep();
   });
   const std::vector<PassTime> times = graph.pass_times();
   ASSERT_EQ(times.size(), count);
-  EXPECT_GT(times[frame::PassTimer::kPassesTimed - 1].ms, 0.0);
-  EXPECT_EQ(times[frame::PassTimer::kPassesTimed].ms, 0.0);
+  EXPECT_GT(times[kTimed - 1].ms, 0.0);
+  EXPECT_EQ(times[kTimed].ms, 0.0);
+}
+
+TEST_F(ExecuteTest, passes_with_barriers_beyond_the_last_timestamp_run_untimed) {
+  constexpr std::uint32_t kTimed = gpu::Device::kTimestampsPerFrame / 2;
+  run_frame([&](FrameGraph& g) {
+    BufferRef words = g.create_buffer(buffer_desc("words"));
+    for (std::uint32_t i = 0; i < kTimed + 10; ++i) {
+      PassBuilder pass = g.add_pass("p", "test");
+      words = pass.write(words, Access::compute_write);
+      pass.keep();
+    }
+  });
+  const std::vector<PassTime> times = graph.pass_times();
+  ASSERT_EQ(times.size(), kTimed + 10);
+  EXPECT_GT(times[kTimed - 1].ms, 0.0);
+  EXPECT_EQ(times[kTimed].ms, 0.0);
+  EXPECT_EQ(times[kTimed].begin_ns, 0u);
+}
+
+TEST_F(ExecuteTest, a_pass_begins_after_its_barriers_and_otherwise_where_the_last_one_ended) {
+  run_frame([&](FrameGraph& g) {
+    PassBuilder a = g.add_pass("a", "test");
+    const BufferRef words = a.write(g.create_buffer(buffer_desc("words")), Access::compute_write);
+    PassBuilder b = g.add_pass("b", "test");
+    b.read(words, Access::compute_read);
+    b.keep();
+    g.add_pass("c", "test").keep();
+  });
+  const std::vector<PassTime> times = graph.pass_times();
+  ASSERT_EQ(times.size(), 3u);
+  // The recording device's clock advances by 1 µs per timestamp.
+  EXPECT_EQ(times[0].end_ns - times[0].begin_ns, 1000u);
+  EXPECT_EQ(times[1].begin_ns - times[0].end_ns, 1000u) << "the barrier of b lies between";
+  EXPECT_EQ(times[2].begin_ns, times[1].end_ns);
+  std::vector<std::string> order;
+  for (const gpu::RecordedCommand& command : device->commands())
+    if (command.name == "barrier" || command.name == "write_timestamp") order.push_back(command.name);
+  EXPECT_THAT(order, ElementsAre("barrier", "write_timestamp", "write_timestamp", "barrier", "write_timestamp",
+                                 "write_timestamp", "write_timestamp"));
+}
+
+TEST_F(ExecuteTest, every_completed_frame_has_its_times_once) {
+  const auto frame_with = [&](std::uint32_t passes) {
+    run_frame([&](FrameGraph& g) {
+      for (std::uint32_t i = 0; i < passes; ++i) g.add_pass("p", "test").keep();
+    });
+  };
+  EXPECT_THAT(graph.take_times(), IsEmpty());
+  for (const std::uint32_t passes : {1u, 2u, 3u}) frame_with(passes);
+  const std::vector<GpuFrameTimes> times = graph.take_times();
+  ASSERT_EQ(times.size(), 3u);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(times[i].frame, i);
+    EXPECT_EQ(times[i].passes.size(), i + 1);
+    EXPECT_DOUBLE_EQ(times[i].gpu_ms, 0.001 * (i + 1));
+  }
+  EXPECT_THAT(graph.take_times(), IsEmpty());
+  for (std::uint32_t i = 0; i < 9; ++i) frame_with(1);
+  const std::vector<GpuFrameTimes> last = graph.take_times();
+  ASSERT_EQ(last.size(), 4u);
+  EXPECT_EQ(last.back().frame, 11u);
+  EXPECT_EQ(graph.pass_times().size(), 1u);
+}
+
+/// A frame whose second pass writes to `out` inside rendering and then calls `stop`.
+class StoppedFrames : public ExecuteTest {
+ public:
+  void declare(const PassFunction& stop) {
+    graph.begin();
+    graph.add_pass("before", "test").keep();
+    PassBuilder pass = graph.add_pass("stops", "test");
+    target = pass.write(graph.import_image("kept", image, Access::none, Access::transfer_read), Access::color_target);
+    pass.execute([this, stop](PassContext& context) {
+      gpu::RenderingDesc rendering{.width = 8, .height = 8};
+      rendering.colors.push_back({.view = {.image = context.image(target)}});
+      context.commands().begin_rendering(rendering);
+      stop(context);
+    });
+    PassBuilder after = graph.add_pass("after", "test");
+    after.keep();
+    after.execute([this](PassContext&) { ran_after = true; });
+    ASSERT_TRUE(graph.compile().ok());
+  }
+  gpu::ImageHandle image =
+      make_image(image_desc("kept"), gpu::ImageUsage::color_target | gpu::ImageUsage::transfer_source);
+  ImageRef target;
+  bool ran_after = false;
+};
+
+TEST_F(StoppedFrames, an_exception_leaves_with_the_name_of_its_pass_at_hand) {
+  auto commands = device->begin_frame();
+  declare([](PassContext&) { throw std::runtime_error("no luck"); });
+  EXPECT_EQ(graph.recording(), "");
+  EXPECT_THROW(graph.execute(**commands), std::runtime_error);
+  EXPECT_EQ(graph.recording(), "stops");
+  ASSERT_TRUE(device->abandon_frame().ok());
+  EXPECT_FALSE(ran_after);
+  EXPECT_THAT(graph.pass_times(), IsEmpty());
+  run_frame([](FrameGraph& g) { g.add_pass("good", "test").keep(); });
+  EXPECT_EQ(graph.recording(), "");
+  EXPECT_EQ(graph.pass_times().size(), 1u);
+}
+
+TEST_F(StoppedFrames, a_pass_that_fails_stops_the_frame_with_its_first_error) {
+  auto commands = device->begin_frame();
+  declare([](PassContext& context) {
+    context.fail({ErrorKind::input, "first"});
+    context.fail({ErrorKind::failed, "second"});
+  });
+  graph.execute(**commands);
+  ASSERT_FALSE(graph.recorded().ok());
+  EXPECT_EQ(graph.recorded().error().message, "first");
+  EXPECT_EQ(graph.recorded().error().kind, ErrorKind::input);
+  EXPECT_EQ(graph.recording(), "stops");
+  EXPECT_FALSE(ran_after);
+  ASSERT_TRUE(device->abandon_frame().ok());
+  run_frame([](FrameGraph& g) { g.add_pass("good", "test").keep(); });
+  EXPECT_TRUE(graph.recorded().ok());
 }
 
 TEST_F(ExecuteTest, an_import_is_tracked_from_frame_to_frame) {

@@ -117,6 +117,27 @@ TEST_F(FrameResultsTest, of_a_frame_that_was_given_up_are_none) {
   EXPECT_EQ(results.settled(key()), nullptr);
 }
 
+TEST_F(FrameResultsTest, of_a_frame_that_was_given_up_after_its_copies_were_recorded_are_none) {
+  frame(1, {key()});
+  auto commands = device->begin_frame();
+  ASSERT_TRUE(commands.ok());
+  results.begin_frame();
+  graph.begin();
+  const BufferRef words =
+      graph.add_pass("fill", "test").write(graph.create_buffer(buffer_desc("words", 16)), Access::transfer_write);
+  results.keep(key(), words, 0, 4);
+  ASSERT_TRUE(results.add_pass(graph).ok());
+  ASSERT_TRUE(graph.compile().ok());
+  graph.execute(**commands);
+  results.give_up_frame();
+  ASSERT_TRUE(device->abandon_frame().ok());
+  ASSERT_TRUE(results.newest(key()).has_value());
+  EXPECT_EQ(results.newest(key())->frame, 0u);
+  for (std::uint32_t i = 0; i < 3; ++i) frame(i, {});
+  ASSERT_NE(results.settled(key()), nullptr);
+  EXPECT_EQ(results.settled(key())->frame, 0u);
+}
+
 TEST_F(FrameResultsTest, are_asked_for_once_a_key_and_in_words) {
   run_frame([&](FrameGraph& g) {
     results.begin_frame();

@@ -145,5 +145,20 @@ TEST_F(UploadTest, an_upload_that_finds_no_memory_says_so) {
   EXPECT_EQ(status.error().message, "no memory");
 }
 
+TEST_F(UploadTest, an_exception_of_a_fill_leaves_no_frame_begun_and_no_memory) {
+  const gpu::ImageHandle image = make_image(image_desc("image", 4), gpu::ImageUsage::transfer_target);
+  const std::uint64_t bytes = bytes_of_module("engine");
+  for (const auto& executor : {make_serial_executor(), make_shuffled_executor(2), make_pool_executor(3)}) {
+    Uploader uploader(*device);
+    uploader.image(
+        image, [](std::span<std::byte>) { throw std::runtime_error("the file is gone"); }, Access::fragment_read);
+    EXPECT_THROW((void)uploader.flush(*executor), std::runtime_error);
+    EXPECT_EQ(bytes_of_module("engine"), bytes);
+    uploader.image(image, std::vector<std::byte>(4 * 4 * 4, std::byte{7}), Access::fragment_read);
+    const Status flushed = uploader.flush(*executor);
+    EXPECT_TRUE(flushed.ok());
+  }
+}
+
 }  // namespace
 }  // namespace gloam::test

@@ -235,6 +235,32 @@ TEST_F(RecordingDeviceTest, frames_complete_at_once_and_keep_their_timestamps_fo
   EXPECT_THAT(device->timestamps(0), IsEmpty());
 }
 
+TEST_F(RecordingDeviceTest, an_abandoned_frame_leaves_objects_in_the_states_of_the_frame_before) {
+  const BufferHandle words = buffer("words");
+  const ImageHandle picture = image("picture");
+  const ImageHandle other = image("other");
+  barrier(words, Access::none, Access::compute_write);
+  barrier(picture, Access::none, Access::color_target);
+  next_frame();
+  barrier(words, Access::compute_write, Access::transfer_read);
+  barrier(picture, Access::color_target, Access::transfer_read);
+  barrier(other, Access::none, Access::color_target);
+  commands->begin_label("half recorded");
+  RenderingDesc rendering{.width = 4, .height = 4};
+  rendering.colors.push_back({.view = {.image = other}});
+  commands->begin_rendering(rendering);
+  ASSERT_TRUE(device->abandon_frame().ok());
+  EXPECT_EQ(device->frame_number(), 2u);
+  EXPECT_EQ(device->completed_frames(), 2u);
+  EXPECT_THAT(device->timestamps(1), IsEmpty());
+  begin();
+  barrier(words, Access::compute_write, Access::transfer_read);
+  barrier(picture, Access::color_target, Access::transfer_read);
+  EXPECT_THAT(faults(), IsEmpty());
+  barrier(other, Access::color_target, Access::transfer_read);
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("'other' is said to be in color_target")));
+}
+
 TEST_F(RecordingDeviceTest, misuse_asserts) {
   EXPECT_ASSERT((void)device->begin_frame(), "needs the frame before it to be submitted");
   EXPECT_ASSERT((void)device->mapped(buffer("a")), "device memory is not mapped");

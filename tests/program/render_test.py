@@ -80,6 +80,62 @@ class Render(ProgramCase):
         categories = {event.get("cat") for event in self.read_json("trace.json")["traceEvents"]}
         self.assertIn("engine", categories)
 
+    def gpu_frames(self, trace):
+        """The passes of a trace by frame as (begin, end) in µs, with the span of the frame."""
+        events = trace["traceEvents"]
+        row = next(e["tid"] for e in events if e["ph"] == "M" and e["args"]["name"] == "GPU")
+        begins = [e["ts"] for e in events if e["ph"] == "b"]
+        ends = [e["ts"] for e in events if e["ph"] == "e"]
+        frames = [[] for _ in begins]
+        frame = -1
+        for event in events:
+            if event["ph"] == "b":
+                frame += 1
+            elif event["ph"] == "X" and event["tid"] == row:
+                frames[frame].append((event["ts"], event["ts"] + event["dur"]))
+        return list(zip(begins, ends, frames))
+
+    def test_a_trace_shows_when_passes_begin_and_end(self):
+        slack = 0.002  # µs: times are whole nanoseconds in a double
+        for in_flight in ("1", "2"):
+            self.expect(0, "render", "builtin:shadows", *SMALL, "--frames", "4", "--in-flight", in_flight, "--trace",
+                        "trace.json")
+            trace = self.read_json("trace.json")
+            frames = self.gpu_frames(trace)
+            self.assertEqual(len(frames), 4)
+            records = [e for e in trace["traceEvents"] if e["name"] == "record_passes"]
+            self.assertEqual(len(records), 4)
+            before = 0.0
+            for (begin, end, passes), record in zip(frames, records):
+                self.assertGreater(len(passes), 10)
+                self.assertGreaterEqual(record["ts"], begin)
+                self.assertGreaterEqual(passes[0][0], record["ts"] + record["dur"] - slack, "a pass begins before it is recorded")
+                self.assertLessEqual(passes[-1][1], end + slack)
+                for first, last in passes:
+                    self.assertGreaterEqual(first, before - slack, "two passes overlap")
+                    self.assertGreaterEqual(last, first)
+                    before = last
+                gaps = sum(b[0] - a[1] for a, b in zip(passes, passes[1:]))
+                self.assertGreater(gaps, 0.0, "barriers take no time")
+
+    def test_frames_in_flight_do_not_change_the_picture(self):
+        for in_flight in ("1", "2"):
+            self.expect(0, "render", "builtin:shadows", *SMALL, "--frames", "5", "--in-flight", in_flight, "--out",
+                        f"{in_flight}.png", "--stats", f"{in_flight}.json")
+        self.assertEqual(self.bytes_of("1.png"), self.bytes_of("2.png"))
+        one, two = self.read_json("1.json"), self.read_json("2.json")
+        self.assertEqual(set(one), STATS)
+        self.assertEqual(set(two), STATS | {"in_flight"})
+        self.assertEqual(two["in_flight"], 2)
+        self.assertEqual(one["counters"], two["counters"])
+        names = [[(p["name"], p["dispatches"], p["draws"]) for p in stats["passes"]] for stats in (one, two)]
+        self.assertEqual(names[0], names[1])
+        for stats in (one, two):
+            self.assertGreater(stats["frame_ms"]["wall"]["p10"], 0)
+            self.assertGreater(stats["frame_ms"]["gpu"]["p10"], 0)
+            # A frame is never faster than the GPU's part of it.
+            self.assertGreaterEqual(stats["frame_ms"]["wall"]["median"] * 1.02, stats["frame_ms"]["gpu"]["median"])
+
     def test_a_pixel_can_be_asked_about(self):
         self.assertTrue(self.expect(0, "render", "builtin:plain", *SMALL, "--pick", "80,80", "--quiet").stdout.strip())
 

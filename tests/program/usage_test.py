@@ -27,7 +27,8 @@ class Usage(ProgramCase):
                           ["inspect", "builtin:plain", "--animation", "walk"],
                           ["render", "builtin:plain", "--size", "0x0"], ["render", "builtin:plain", "--frames", "0"],
                           ["render", "builtin:plain", "--out", "a.txt"], ["render", "builtin:plain", "--set", "x"],
-                          ["render", "builtin:plain", "--pick", "1280,0"], ["bench"], ["bench", "nothing"],
+                          ["render", "builtin:plain", "--pick", "1280,0"],
+                          ["render", "builtin:plain", "--in-flight", "3"], ["inspect", "builtin:plain", "--in-flight", "2"], ["bench"], ["bench", "nothing"],
                           ["cost", "builtin:plain"]):
             self.expect(2, *arguments)
 

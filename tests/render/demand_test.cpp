@@ -292,5 +292,20 @@ TEST_F(DemandFrames, transient_images_are_counted_under_the_module_of_the_first_
   EXPECT_EQ(seen("engine").bytes + seen("lighting").bytes, before) << "nobody else is charged";
 }
 
+TEST_F(DemandFrames, a_frame_whose_submission_fails_is_as_if_it_had_not_been_begun) {
+  call_for("counting");
+  frames(2);
+  const test::CountedCalls before = calls_;
+  gate_->break_submission({ErrorKind::failed, "the queue is full"});
+  const Status refused = render(*world_, {request()});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message, "the queue is full");
+  EXPECT_EQ(calls_.counters, before.counters);
+  EXPECT_EQ(calls_.releases, before.releases + 1) << "the module was not told that its frame was given up";
+  frames();
+  EXPECT_EQ(calls_.counters, before.counters + 1);
+  EXPECT_EQ(seen("counting").dispatches, 1u);
+}
+
 }  // namespace
 }  // namespace gloam

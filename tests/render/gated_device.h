@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -21,7 +22,7 @@ namespace gloam::test {
 
 /// Wraps a device with a gate. Pipelines that threads other than its creator's request wait until the gate lets them
 /// through. It counts created resources and can make named pipelines fail. Thread-safe.
-class GatedDevice final : public gpu::Device {
+class GatedDevice : public gpu::Device {
  public:
   explicit GatedDevice(gpu::Device& inner) : inner_(inner) {}
 
@@ -40,6 +41,8 @@ class GatedDevice final : public gpu::Device {
     const std::lock_guard lock(mutex_);
     broken_.insert_or_assign(std::move(name), std::move(error));
   }
+  /// Makes the next submit_frame fail with this error, after dropping the frame's commands.
+  void break_submission(Error error) { broken_submission_ = std::move(error); }
   void heal() {
     const std::lock_guard lock(mutex_);
     broken_.clear();
@@ -90,7 +93,13 @@ class GatedDevice final : public gpu::Device {
   [[nodiscard]] const gpu::ImageDesc& desc(gpu::ImageHandle image) const override { return inner_.desc(image); }
   [[nodiscard]] std::span<std::byte> mapped(gpu::BufferHandle buffer) override { return inner_.mapped(buffer); }
   [[nodiscard]] Result<gpu::CommandList*> begin_frame() override { return inner_.begin_frame(); }
-  [[nodiscard]] Status submit_frame() override { return inner_.submit_frame(); }
+  [[nodiscard]] Status submit_frame() override {
+    if (!broken_submission_) return inner_.submit_frame();
+    GLOAM_TRY(inner_.abandon_frame());
+    return *std::exchange(broken_submission_, std::nullopt);
+  }
+  [[nodiscard]] Status abandon_frame() override { return inner_.abandon_frame(); }
+  [[nodiscard]] Status wait_frame(std::uint64_t frame) override { return inner_.wait_frame(frame); }
   [[nodiscard]] std::uint64_t frame_number() const override { return inner_.frame_number(); }
   [[nodiscard]] std::uint64_t completed_frames() const override { return inner_.completed_frames(); }
   [[nodiscard]] std::vector<std::uint64_t> timestamps(std::uint64_t frame) override { return inner_.timestamps(frame); }
@@ -145,6 +154,7 @@ class GatedDevice final : public gpu::Device {
   std::uint32_t permits_ = kOpen;
   std::uint32_t waiting_ = 0;
   std::map<std::string, Error, std::less<>> broken_;
+  std::optional<Error> broken_submission_;
   Counts here_;
   Counts elsewhere_;
   std::uint64_t resources_made_ = 0;

@@ -111,11 +111,11 @@ TEST_F(ReadinessFrames, a_module_waits_for_the_last_of_its_pipelines) {
   static_cast<void>(call_for("fog"));
   frames();
   ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
-  for (std::uint32_t made = 0; made < 3; ++made) {
+  for (std::uint32_t made = 0; made < 4; ++made) {
     EXPECT_EQ(seen("fog").pipelines, made);
     EXPECT_EQ(seen("fog").passes, 0u);
     gate_->let(1);
-    if (made == 2) break;
+    if (made == 3) break;
     ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
     frames();
   }
@@ -158,7 +158,7 @@ TEST_F(ReadinessFrames, shading_is_brute_force_until_the_tiled_pipeline_is_made)
 }
 
 TEST_F(ReadinessFrames, a_pipeline_that_fails_is_told_once_and_the_next_frame_returns_the_error) {
-  gate_->break_pipeline("fog_blur", {ErrorKind::failed, "the compiler gave up"});
+  gate_->break_pipeline("fog/blur.frag", {ErrorKind::failed, "the compiler gave up"});
   static_cast<void>(call_for("fog"));
   frames(3);
   EXPECT_THAT(log_.lines(), IsEmpty());
@@ -169,7 +169,7 @@ TEST_F(ReadinessFrames, a_pipeline_that_fails_is_told_once_and_the_next_frame_re
   for (int again = 0; again < 3; ++again) {
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().message, "the compiler gave up");
-    EXPECT_THAT(log_.lines(), ElementsAre(HasSubstr("fog_blur failed in the background: the compiler gave up")));
+    EXPECT_THAT(log_.lines(), ElementsAre(HasSubstr("fog/blur.frag failed in the background: the compiler gave up")));
     status = render(*world_, {request()});
   }
   gate_->heal();

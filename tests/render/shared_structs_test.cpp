@@ -150,11 +150,10 @@ TEST(SharedStructs, lighting) {
   for (const gpu::ShaderCode& shader : {shaders::lighting::deferred_frag, shaders::lighting::forward_frag})
     expect_same_layout(shader, "EnvironmentConstants", sizeof(E),
                        {GLOAM_MEMBER(E, zenith), GLOAM_MEMBER(E, horizon), GLOAM_MEMBER(E, ground)});
-  expect_same_layout(shaders::lighting::tone_map_frag, "ToneMapConstants", sizeof(T),
-                     {GLOAM_MEMBER(T, curve), GLOAM_MEMBER(T, exposure_slot), GLOAM_MEMBER(T, metered),
-                      GLOAM_MEMBER(T, exposure), GLOAM_MEMBER(T, encode_srgb)});
-  expect_same_layout(shaders::lighting::meter_comp, "MeterConstants", sizeof(M),
-                     {GLOAM_MEMBER(M, size), GLOAM_MEMBER(M, slot)});
+  expect_same_layout(
+      shaders::lighting::tone_map_frag, "ToneMapConstants", sizeof(T),
+      {GLOAM_MEMBER(T, curve), GLOAM_MEMBER(T, metered), GLOAM_MEMBER(T, exposure), GLOAM_MEMBER(T, encode_srgb)});
+  expect_same_layout(shaders::lighting::meter_comp, "MeterConstants", sizeof(M), {GLOAM_MEMBER(M, size)});
 }
 
 TEST(SharedStructs, fog) {

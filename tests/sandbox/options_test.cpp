@@ -170,6 +170,15 @@ TEST(Options, sizes_are_two_numbers_in_range) {
   EXPECT_EQ(parsed({"render", "a.gltf", "--size", "1x16384"}).height, 16384u);
 }
 
+TEST(Options, one_or_two_frames_are_in_flight) {
+  EXPECT_EQ(parsed({"render", "a.gltf"}).in_flight, 1u);
+  EXPECT_EQ(parsed({"render", "a.gltf", "--in-flight", "1"}).in_flight, 1u);
+  EXPECT_EQ(parsed({"render", "a.gltf", "--in-flight", "2"}).in_flight, 2u);
+  for (const char* value : {"0", "3", "-1", "two", "1.5", "2 ", ""})
+    EXPECT_EQ(fault({"render", "a.gltf", "--in-flight", value}),
+              "--in-flight wants 1 or 2, not '" + std::string(value) + "'");
+}
+
 TEST(Options, a_pick_lies_in_the_picture) {
   EXPECT_TRUE(parsed({"render", "a.gltf", "--size", "10x10", "--pick", "9,9"}).pick.has_value());
   for (const char* pick : {"10,0", "0,10", "1", "1,", "-1,2", "1,2,3"})

@@ -27,8 +27,8 @@ TEST(SceneNames, an_absent_name_is_a_usage_error_that_lists_the_valid_ones) {
   const Result<Entity> found = names.find("camera", "roof");
   ASSERT_FALSE(found.ok());
   EXPECT_EQ(found.error().kind, ErrorKind::usage);
-  EXPECT_EQ(found.error().message, "no camera is named \"roof\", there are: court, lawn");
-  EXPECT_EQ(names.find("light", "roof").error().message, "no light is named \"roof\", there is none");
+  EXPECT_EQ(found.error().message, "no camera is named \"roof\"; there are court, lawn");
+  EXPECT_EQ(names.find("light", "roof").error().message, "no light is named \"roof\"; there are none");
 }
 
 TEST(SceneNames, a_misspelt_name_is_answered_with_the_nearest_one_before_the_list) {
@@ -37,8 +37,8 @@ TEST(SceneNames, a_misspelt_name_is_answered_with_the_nearest_one_before_the_lis
   names.add("camera", "lawn", {2, 1});
   names.add("light", "long", {3, 1});
   EXPECT_EQ(names.find("camera", "Cuort").error().message,
-            "no camera is named \"Cuort\", did you mean court? there are: court, lawn");
-  EXPECT_EQ(names.find("camera", "lon").error().message, "no camera is named \"lon\", there are: court, lawn")
+            "no camera is named \"Cuort\"; did you mean court? there are court, lawn");
+  EXPECT_EQ(names.find("camera", "lon").error().message, "no camera is named \"lon\"; there are court, lawn")
       << "names of another kind are no answer";
 }
 

@@ -148,6 +148,7 @@ TEST_F(ScheduleTest, rethrows_the_earliest_failure_and_drops_the_commands) {
     message = error.what();
   }
   EXPECT_EQ(message, "failed");
+  EXPECT_EQ(schedule_.failed_system(), "fail");
   EXPECT_EQ(world_.resource<Position>().x, 0);
   EXPECT_EQ(world_.entity_count(), 0u);
   schedule_.set_enabled("bad", false);

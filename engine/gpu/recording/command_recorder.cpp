@@ -53,6 +53,14 @@ std::vector<std::uint64_t> CommandRecorder::end_frame() {
   return std::move(timestamps_);
 }
 
+void CommandRecorder::abandon_frame() {
+  tracker_.abandon_frame();
+  while (tracker_.end_label()) {
+  }
+  rendering_ = false;
+  recording_ = false;
+}
+
 void CommandRecorder::fault(std::string_view command, const std::string& text) {
   objects_.fault(std::string(command) + ": " + text);
 }

@@ -19,6 +19,8 @@ class CommandRecorder final : public CommandList {
   void begin_frame(std::uint64_t frame);
   /// Ends the frame and returns its timestamps in nanoseconds, by index.
   [[nodiscard]] std::vector<std::uint64_t> end_frame();
+  /// Ends the frame, wherever it stands, and undoes what its commands did to the states of objects.
+  void abandon_frame();
   void idle() { tracker_.idle(); }
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] const std::vector<RecordedCommand>& commands() const { return commands_; }

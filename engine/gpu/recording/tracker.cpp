@@ -48,7 +48,16 @@ std::string text_of(AccessMask mask) {
   return text;
 }
 
+void Tracker::abandon_frame() {
+  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change) {
+    *change->sync = change->before;
+    if (change->memory != nullptr) change->memory->owner = change->owner;
+  }
+  changes_.clear();
+}
+
 void Tracker::idle() {
+  changes_.clear();
   objects_.buffers.for_each_alive([](Buffer& buffer) { buffer.sync = {}; });
   objects_.images.for_each_alive([](Image& image) {
     const AccessMask ready = image.memory->sync.ready;
@@ -73,6 +82,7 @@ void Tracker::pass_barrier(SyncState& sync, AccessMask before, AccessMask after,
     objects_.fault("barrier: " + object + " waits for " + text_of(before) + " but not for its earlier " +
                    text_of(sync.pending & ~waited));
   }
+  remember(sync);
   sync = {.ready = after, .pending = 0, .pending_frame = frame_, .writer = 0};
 }
 
@@ -115,6 +125,7 @@ void Tracker::image_barrier(const ImageBarrier& b) {
     objects_.fault("barrier: " + object + " is said to be in " + std::string(name_of(b.before)) +
                    " but its last barrier left it ready for " + text_of(ready));
   }
+  changes_.push_back({.sync = &memory.sync, .before = memory.sync, .memory = &memory, .owner = memory.owner});
   memory.owner = b.image.index;
   pass_barrier(memory.sync, mask_of(b.before) | b.also_before, after, object);
 }
@@ -141,6 +152,7 @@ void Tracker::note_use(SyncState& sync, AccessMask possible, const std::string& 
                    " was written under an earlier label and has had no barrier since");
   }
   // Without a barrier, the access of a binding is unknown. A command with only one possible access is known.
+  remember(sync);
   const AccessMask used = sync.ready != 0 ? (sync.ready & possible) : (possible & (possible - 1)) == 0 ? possible : 0;
   if (sync.ready == 0 && writes(used)) sync.ready = used;
   sync.pending |= used;

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/gpu/recording/objects.h"
 
@@ -22,7 +23,12 @@ class Tracker {
  public:
   explicit Tracker(Objects& objects) : objects_(objects) {}
 
-  void begin_frame(std::uint64_t frame) { frame_ = frame; }
+  void begin_frame(std::uint64_t frame) {
+    frame_ = frame;
+    changes_.clear();
+  }
+  /// Gives all objects the states that they had when the frame began.
+  void abandon_frame();
   /// Clears all pending accesses: the device is idle.
   void idle();
   void begin_label();
@@ -42,9 +48,19 @@ class Tracker {
   void pass_barrier(SyncState& sync, AccessMask before, AccessMask after, const std::string& object);
   void note_use(SyncState& sync, AccessMask possible, const std::string& object, std::string_view command);
 
+  /// A state before one change. Objects and their memory never move.
+  struct Change {
+    SyncState* sync = nullptr;
+    SyncState before;
+    ImageMemory* memory = nullptr;  ///< null: of a buffer
+    std::uint32_t owner = ImageMemory::kNobody;
+  };
+  void remember(SyncState& sync) { changes_.push_back({.sync = &sync, .before = sync}); }
+
   Objects& objects_;
   std::uint64_t frame_ = 0;
-  std::uint32_t label_ = 0;  ///< number of the outermost open label; 0: none
+  std::vector<Change> changes_;  ///< of this frame, in order
+  std::uint32_t label_ = 0;      ///< number of the outermost open label; 0: none
   std::uint32_t labels_ = 0;
   std::uint32_t label_depth_ = 0;
 };

@@ -42,6 +42,13 @@ void VulkanCommandList::start(VkCommandBuffer commands) {
   commands_ = commands;
   pipeline_ = {};
   fault_.reset();
+  earlier_accesses_.clear();
+}
+
+void VulkanCommandList::forget_barriers() {
+  for (auto change = earlier_accesses_.rbegin(); change != earlier_accesses_.rend(); ++change)
+    if (images_.alive(change->first)) images_.get(change->first).access = change->second;
+  earlier_accesses_.clear();
 }
 
 void VulkanCommandList::fail(const Error& error) {
@@ -75,6 +82,7 @@ void VulkanCommandList::barrier(std::span<const BufferBarrier> buffers, std::spa
   for (const ImageBarrier& b : images) {
     Image& image = images_.get(b.image);
     image_barriers_.push_back(to_vulkan(b, image.image, aspect_of(image.desc.format)));
+    earlier_accesses_.emplace_back(b.image, image.access);
     image.access = b.after;
   }
   const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/gpu/command_list.h"
@@ -32,6 +33,8 @@ class VulkanCommandList final : public CommandList {
         frames_(frames) {}
 
   void start(VkCommandBuffer commands);
+  /// Undoes Image::access of this frame's barriers: the frame's commands are dropped.
+  void forget_barriers();
   /// The first error of this frame's recording, if any.
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
 
@@ -91,6 +94,8 @@ class VulkanCommandList final : public CommandList {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   PipelineHandle pipeline_;
   std::optional<Error> fault_;
+  /// Image::access before each image barrier of the frame, in order.
+  std::vector<std::pair<ImageHandle, Access>> earlier_accesses_;
   std::vector<VkBufferMemoryBarrier2> buffer_barriers_;
   std::vector<VkImageMemoryBarrier2> image_barriers_;
 };

@@ -83,9 +83,14 @@ Result<CommandList*> VulkanDevice::begin_frame() {
 
 Status VulkanDevice::submit_frame() {
   const std::optional<Error>& fault = commands_->fault();
-  GLOAM_TRY(frames_->submit(fault.has_value()));
-  if (fault) return *fault;
-  return {};
+  if (!fault) return frames_->submit();
+  GLOAM_TRY(abandon_frame());
+  return *fault;
+}
+
+Status VulkanDevice::abandon_frame() {
+  commands_->forget_barriers();
+  return frames_->submit(true);
 }
 
 }  // namespace vulkan

@@ -58,6 +58,8 @@ class VulkanDevice final : public Device {
 
   [[nodiscard]] Result<CommandList*> begin_frame() override;
   [[nodiscard]] Status submit_frame() override;
+  [[nodiscard]] Status abandon_frame() override;
+  [[nodiscard]] Status wait_frame(std::uint64_t frame) override { return frames_->wait_frame(frame); }
   [[nodiscard]] std::uint64_t frame_number() const override { return frames_->number(); }
   [[nodiscard]] std::uint64_t completed_frames() const override { return frames_->completed(); }
   [[nodiscard]] std::vector<std::uint64_t> timestamps(std::uint64_t frame) override {

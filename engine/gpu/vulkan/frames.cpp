@@ -121,9 +121,11 @@ Status Frames::submit(bool discard) {
   GLOAM_ASSERT(recording_, "a frame is begun before it is submitted");
   Slot& slot = current();
   recording_ = false;
-  VkResult result = context_.vk.vkEndCommandBuffer(slot.commands);
+  // A discarded command buffer may be inside rendering, where it cannot be ended. begin() resets its pool.
+  VkResult result = discard ? VK_SUCCESS : context_.vk.vkEndCommandBuffer(slot.commands);
+  last_discarded_ = discard;
   if (discard) slot.written.assign(Device::kTimestampsPerFrame, false);
-  if (result == VK_SUCCESS || discard) result = submit_commands(slot, discard);
+  if (result == VK_SUCCESS) result = submit_commands(slot, discard);
   waits_.clear();
   signals_.clear();
   if (result != VK_SUCCESS) {
@@ -167,6 +169,12 @@ Status Frames::wait_idle() {
   if (number() > 0) GLOAM_TRY(wait_for_frames(number()));
   settle();
   return {};
+}
+
+Status Frames::wait_frame(std::uint64_t frame) {
+  GLOAM_ASSERT(frame < number(), "a frame is submitted before it is waited for");
+  if (lost_) return failure("Waiting for frame " + std::to_string(frame), VK_ERROR_DEVICE_LOST);
+  return wait_for_frames(frame + 1);
 }
 
 void Frames::settle() {

@@ -29,12 +29,17 @@ class Frames {
   Frames& operator=(const Frames&) = delete;
 
   [[nodiscard]] Result<VkCommandBuffer> begin();
-  /// `discard`: drops the recorded commands; the frame is still submitted and completes in order.
+  /// `discard`: drops the recorded commands, which may be incomplete; the frame is still submitted and completes in
+  /// order.
   [[nodiscard]] Status submit(bool discard = false);
+  /// Whether the newest submitted frame was discarded.
+  [[nodiscard]] bool last_discarded() const { return last_discarded_; }
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] std::uint64_t number() const { return number_.load(); }
   [[nodiscard]] std::uint64_t completed() const;
   [[nodiscard]] Status wait_idle();
+  /// Waits for a submitted frame.
+  [[nodiscard]] Status wait_frame(std::uint64_t frame);
 
   void write_timestamp(std::uint32_t index);
   [[nodiscard]] std::vector<std::uint64_t> timestamps(std::uint64_t frame);
@@ -78,6 +83,7 @@ class Frames {
   VkSemaphore timeline_ = VK_NULL_HANDLE;
   std::atomic<std::uint64_t> number_ = 0;
   bool recording_ = false;
+  bool last_discarded_ = false;
   std::atomic<bool> lost_ = false;
   std::vector<VkSemaphoreSubmitInfo> waits_;
   std::vector<VkSemaphoreSubmitInfo> signals_;

@@ -51,6 +51,7 @@ class Images {
   /// Adds an image owned by a window or a host. Destroying the handle destroys only the image's views.
   [[nodiscard]] ImageHandle adopt(const ImageDesc& desc, VkImage image);
   void destroy(ImageHandle handle);
+  [[nodiscard]] bool alive(ImageHandle handle) const { return table_.alive(handle); }
   [[nodiscard]] const Image& get(ImageHandle handle) const { return table_.get(handle); }
   [[nodiscard]] Image& get(ImageHandle handle) { return table_.get(handle); }
   /// Returns the view with this key. Each view is created once and lives as long as its image.

@@ -150,7 +150,13 @@ void VulkanSwapchain::forget_images() {
 Result<ImageHandle> VulkanSwapchain::acquire() {
   Frames& frames = device_.frames();
   GLOAM_ASSERT(frames.recording(), "a picture is acquired while a frame is recorded");
-  GLOAM_ASSERT(acquired_ == kNone, "a picture is presented before the next one is acquired");
+  if (acquired_ != kNone) {
+    GLOAM_ASSERT(frames.last_discarded(), "a picture is presented before the next one is acquired");
+    // The frame that acquired this picture was abandoned. Its empty submission has signalled the semaphore.
+    frames.wait_for(rendered_[acquired_]);
+    frames.signal(rendered_[acquired_]);
+    return images_[acquired_];
+  }
   if (stale_) return ImageHandle();
   Context& context = device_.context();
   const VkSemaphore available = available_[frames.number() % available_.size()];

@@ -18,19 +18,25 @@ using declare::StepKind;
 void begin_rendering(const FrameGraph& graph, const Recording& recording, PassContext& context) {
   gpu::RenderingDesc rendering;
   for (const declare::Target& target : recording.colors)
-    rendering.colors.push_back({.view = {.image = context.image(target.image)}, .load = target.load});
+    rendering.colors.push_back({.view = {.image = context.image(target.image),
+                                         .first_mip = target.mip,
+                                         .mip_count = 1,
+                                         .first_layer = target.layer,
+                                         .layer_count = 1},
+                                .load = target.load});
   if (recording.depth.image)
     rendering.depth = {.view = {.image = context.image(recording.depth.image)},
                        .load = recording.depth.load,
                        .read_only = recording.depth_read_only};
-  const gpu::ImageDesc& area =
-      graph.desc(recording.colors.empty() ? recording.depth.image : recording.colors.front().image);
-  rendering.width = area.width;
-  rendering.height = area.height;
+  const declare::Target& first = recording.colors.empty() ? recording.depth : recording.colors.front();
+  const gpu::ImageDesc& image = graph.desc(first.image);
+  const uvec2 area = glm::max(uvec2(image.width, image.height) >> first.mip, uvec2(1));
+  rendering.width = area.x;
+  rendering.height = area.y;
   gpu::CommandList& commands = context.commands();
   commands.begin_rendering(rendering);
-  commands.set_viewport(0.0f, 0.0f, static_cast<float>(area.width), static_cast<float>(area.height));
-  commands.set_scissor(0, 0, area.width, area.height);
+  commands.set_viewport(0.0f, 0.0f, static_cast<float>(area.x), static_cast<float>(area.y));
+  commands.set_scissor(0, 0, area.x, area.y);
 }
 
 void record_draws(FrameBuilder& frame, const Recording& recording, PassContext& context) {
@@ -49,9 +55,10 @@ void record_draws(FrameBuilder& frame, const Recording& recording, PassContext& 
         commands.draw_indirect(context.buffer(step.arguments), step.offset);
         break;
       case StepKind::surfaces:
-        // Cannot fail: the pipelines were compiled in declaration.
-        static_cast<void>(frame.draw_surfaces(context, step.draws, recording.surface_passes[step.surface_pass],
-                                              bindings_of(recording, step, context, storage)));
+        if (const Status drawn = frame.draw_surfaces(context, step.draws, recording.surface_passes[step.surface_pass],
+                                                     bindings_of(recording, step, context, storage));
+            !drawn.ok())
+          context.fail(drawn.error());
         break;
       default:
         recording.functions[step.function](context);
@@ -84,9 +91,9 @@ DrawPass::DrawPass(FrameBuilder& frame, std::string_view name) : ShaderPass(fram
       [&frame, recording = &recording()](PassContext& context) { record_draws(frame, *recording, context); });
 }
 
-ImageRef DrawPass::target(ImageRef image, gpu::LoadOp load) {
+ImageRef DrawPass::target(ImageRef image, gpu::LoadOp load, std::uint32_t mip, std::uint32_t layer) {
   image = graph_pass().write(image, gpu::Access::color_target);
-  recording().colors.push_back({image, load});
+  recording().colors.push_back({image, load, mip, layer});
   return image;
 }
 

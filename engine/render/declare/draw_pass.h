@@ -28,7 +28,7 @@ struct DrawProgram {
                                                       gpu::Format depth = gpu::Format::undefined);
 
 /// A pass that draws into images: full-screen triangles, lists of surfaces, indirect draws. See ShaderPass for
-/// bindings. The rendered area is the whole first target. Targets must be declared before the first draw.
+/// bindings. The rendered area is the whole first target (its mip). Targets must be declared before the first draw.
 class DrawPass : public ShaderPass {
  public:
   DrawPass(FrameBuilder& frame, std::string_view name);
@@ -38,7 +38,8 @@ class DrawPass : public ShaderPass {
 
   /// Adds the next colour target. Returns the version that later passes read. load: `load` keeps the content or blends
   /// over it; `clear` sets zeros; `discard`: the draws cover every pixel.
-  [[nodiscard]] ImageRef target(ImageRef image, gpu::LoadOp load = gpu::LoadOp::discard);
+  [[nodiscard]] ImageRef target(ImageRef image, gpu::LoadOp load = gpu::LoadOp::discard, std::uint32_t mip = 0,
+                                std::uint32_t layer = 0);
   /// A depth image that is tested and written. clear: to 0 (reversed depth: infinitely far).
   [[nodiscard]] ImageRef depth_target(ImageRef image, gpu::LoadOp load);
   /// A depth image that is only tested. The pass may also bind it.

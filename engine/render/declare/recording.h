@@ -57,6 +57,8 @@ struct Step {
 struct Target {
   ImageRef image;
   gpu::LoadOp load = gpu::LoadOp::discard;
+  std::uint32_t mip = 0;
+  std::uint32_t layer = 0;
 };
 
 /// Everything that a pass records. Memory is reused from frame to frame.

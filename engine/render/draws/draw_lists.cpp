@@ -52,17 +52,29 @@ float nearest_depth(const RenderView& view, const Aabb& relative) {
 
 Aabb relative_to(const WorldBox& box, const dvec3& origin) { return {vec3(box.min - origin), vec3(box.max - origin)}; }
 
+bool is_mirroring(const dmat4& matrix) { return glm::determinant(glm::dmat3(matrix)) < 0.0; }
+
+/// Conservative. relative: a box relative to the view's position.
+bool may_see(const RenderView& view, const Aabb& relative) {
+  if (!may_intersect(view.frustum, relative)) return false;
+  if (!view.clipped) return true;
+  const vec3 normal(view.clip_plane);
+  return glm::dot(normal, relative.center()) + glm::dot(glm::abs(normal), relative.half_extent()) + view.clip_plane.w >=
+         0.0f;
+}
+
 /// Adds the draws, deform jobs and casters of one instance to the lists.
 class InstanceDrawer {
  public:
-  InstanceDrawer(const World& world, const RenderView& view, const GpuScene& scene, bool with_casters)
-      : view_(view),
+  InstanceDrawer(const World& world, std::span<const RenderView* const> views, const GpuScene& scene, bool with_casters)
+      : views_(views),
         scene_(scene),
         joints_(world.resource<JointMatrices>()),
         weights_(world.resource<MorphWeights>().values),
         with_casters_(with_casters) {}
 
-  void draw(const Instance& instance, DrawLists& lists) const {
+  /// lists.views: one per view.
+  void draw(const Instance& instance, FrameDraws& lists) const {
     for (const GpuPrimitive& primitive : scene_.meshes()[instance.mesh]) {
       if (primitive.index_count == 0) continue;
       const bool skinned = primitive.skinned && instance.joints != nullptr;
@@ -80,7 +92,7 @@ class InstanceDrawer {
   }
 
   void cast(Entity entity, const GpuPrimitive& primitive, const dmat4& world_from_mesh, bool flipped,
-            const WorldBox& box, std::uint32_t deform, DrawLists& lists) const {
+            const WorldBox& box, std::uint32_t deform, FrameDraws& lists) const {
     const GpuMaterial& material = scene_.materials()[primitive.material];
     Caster caster;
     caster.entity = entity;
@@ -109,80 +121,87 @@ class InstanceDrawer {
     return world_box({primitive.bounds.min + reach.min, primitive.bounds.max + reach.max}, world_from_mesh);
   }
 
-  [[nodiscard]] Draw start(Entity entity, const GpuPrimitive& primitive, const shaders::DrawConstants& constants,
-                           bool flipped) const {
+  /// A draw in a view. flipped: the matrix mirrors, so front faces are clockwise. A mirrored view flips them again.
+  [[nodiscard]] Draw start(const RenderView& view, Entity entity, const GpuPrimitive& primitive,
+                           const shaders::DrawConstants& constants, bool flipped) const {
     const GpuMaterial& material = scene_.materials()[primitive.material];
     Draw draw;
     draw.entity = entity;
     draw.primitive = &primitive;
     draw.constants = constants;
-    draw.variant = surface_variant(material, primitive, flipped);
+    draw.variant = surface_variant(material, primitive, flipped != view.mirrored);
+    if (view.clipped) draw.variant.features |= GLOAM_SURFACE_CLIPPED;
     return draw;
   }
 
-  void add(Draw draw, const Aabb& relative_bounds, DrawLists& lists) const {
-    draw.depth_m = nearest_depth(view_, relative_bounds);
+  void add(const RenderView& view, Draw draw, const Aabb& relative_bounds, ViewDraws& draws) const {
+    draw.depth_m = nearest_depth(view, relative_bounds);
     const bool blended = scene_.materials()[draw.primitive->material].alpha_mode == AlphaMode::blend;
-    (blended ? lists.blended : lists.solid).push_back(draw);
+    (blended ? draws.blended : draws.solid).push_back(draw);
   }
 
-  void draw_rigid(const Instance& instance, const GpuPrimitive& primitive, DrawLists& lists) const {
-    const shaders::DrawConstants constants = draw_constants(instance.matrix, view_.position);
-    const bool flipped = (constants.flags & GLOAM_DRAW_MIRRORED) != 0;
+  void draw_rigid(const Instance& instance, const GpuPrimitive& primitive, FrameDraws& lists) const {
     if (casts(primitive))
-      cast(instance.entity, primitive, instance.matrix, flipped, world_box(primitive.bounds, instance.matrix), kNone,
-           lists);
+      cast(instance.entity, primitive, instance.matrix, is_mirroring(instance.matrix),
+           world_box(primitive.bounds, instance.matrix), kNone, lists);
+    for (std::size_t v = 0; v < views_.size(); ++v) draw_clusters(*views_[v], instance, primitive, lists.views[v]);
+  }
+
+  void draw_clusters(const RenderView& view, const Instance& instance, const GpuPrimitive& primitive,
+                     ViewDraws& draws) const {
+    const shaders::DrawConstants constants = draw_constants(instance.matrix, view.position);
     const mat4 matrix = affine(constants);
     const Aabb whole = transformed(primitive.bounds, matrix);
-    if (!may_intersect(view_.frustum, whole)) {
-      ++lists.culled_instances;
+    if (!may_see(view, whole)) {
+      ++draws.culled_instances;
       return;
     }
-    Draw draw = start(instance.entity, primitive, constants, flipped);
+    Draw draw = start(view, instance.entity, primitive, constants, (constants.flags & GLOAM_DRAW_MIRRORED) != 0);
     for (const Cluster& cluster : primitive.clusters) {
-      const bool visible =
-          primitive.clusters.size() == 1 || may_intersect(view_.frustum, transformed(cluster.bounds, matrix));
+      const bool visible = primitive.clusters.size() == 1 || may_see(view, transformed(cluster.bounds, matrix));
       if (!visible) continue;
       if (draw.index_count > 0 && draw.first_index + draw.index_count == primitive.first_index + cluster.first_index) {
         draw.index_count += cluster.index_count;
         continue;
       }
-      if (draw.index_count > 0) add(draw, whole, lists);
+      if (draw.index_count > 0) add(view, draw, whole, draws);
       draw.first_index = primitive.first_index + cluster.first_index;
       draw.index_count = cluster.index_count;
     }
-    if (draw.index_count > 0) add(draw, whole, lists);
+    if (draw.index_count > 0) add(view, draw, whole, draws);
   }
 
   void draw_deformed(const Instance& instance, const GpuPrimitive& primitive, bool skinned, bool morphed,
-                     DrawLists& lists) const {
+                     FrameDraws& lists) const {
     dmat4 matrix = instance.matrix;
-    bool flipped = false;
     if (skinned) {
       // Skinned vertices are in the world's axes, relative to the range's origin.
       matrix = dmat4(1.0);
       matrix[3] = dvec4(instance.joints->origin, 1.0);
-      flipped = instance.joints->mirrored;
     }
-    const shaders::DrawConstants constants = draw_constants(matrix, view_.position);
-    if (!skinned) flipped = (constants.flags & GLOAM_DRAW_MIRRORED) != 0;
+    const bool flipped = skinned ? instance.joints->mirrored : is_mirroring(matrix);
     const WorldBox box = deformed_box(instance, primitive, skinned, morphed, matrix);
-    // Without a known box the primitive is drawn; the box of its rest pose then only orders the draws.
-    const Aabb bounds =
-        box.known() ? relative_to(box, view_.position) : transformed(primitive.bounds, affine(constants));
-    const bool visible = !box.known() || may_intersect(view_.frustum, bounds);
-    if (!visible) ++lists.culled_instances;
-    const bool casts_too = casts(primitive);
-    if (!visible && !casts_too) return;
     const auto deform = static_cast<std::uint32_t>(lists.deforms.size());
-    lists.deforms.push_back(deform_job(instance, primitive, skinned, morphed));
-    if (casts_too) cast(instance.entity, primitive, matrix, flipped, box, deform, lists);
-    if (!visible) return;
-    Draw draw = start(instance.entity, primitive, constants, flipped);
-    draw.first_index = primitive.first_index;
-    draw.index_count = primitive.index_count;
-    draw.deform = deform;
-    add(draw, bounds, lists);
+    bool deformed = casts(primitive);
+    if (deformed) cast(instance.entity, primitive, matrix, flipped, box, deform, lists);
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      const RenderView& view = *views_[v];
+      const shaders::DrawConstants constants = draw_constants(matrix, view.position);
+      // Without a known box the primitive is drawn; the box of its rest pose then only orders the draws.
+      const Aabb bounds =
+          box.known() ? relative_to(box, view.position) : transformed(primitive.bounds, affine(constants));
+      if (box.known() && !may_see(view, bounds)) {
+        ++lists.views[v].culled_instances;
+        continue;
+      }
+      deformed = true;
+      Draw draw = start(view, instance.entity, primitive, constants, flipped);
+      draw.first_index = primitive.first_index;
+      draw.index_count = primitive.index_count;
+      draw.deform = deform;
+      add(view, draw, bounds, lists.views[v]);
+    }
+    if (deformed) lists.deforms.push_back(deform_job(instance, primitive, skinned, morphed));
   }
 
   [[nodiscard]] static DeformJob deform_job(const Instance& instance, const GpuPrimitive& primitive, bool skinned,
@@ -199,25 +218,36 @@ class InstanceDrawer {
     return job;
   }
 
-  const RenderView& view_;
+  std::span<const RenderView* const> views_;
   const GpuScene& scene_;
   const JointMatrices& joints_;
   std::span<const float> weights_;
   bool with_casters_;
 };
 
-void append(DrawLists& all, DrawLists& part) {
+void append(FrameDraws& all, FrameDraws& part) {
   const auto shift = static_cast<std::uint32_t>(all.deforms.size());
-  for (std::vector<Draw>* draws : {&part.solid, &part.blended})
-    for (Draw& draw : *draws)
-      if (draw.deform != kNone) draw.deform += shift;
+  for (std::size_t v = 0; v < all.views.size(); ++v) {
+    ViewDraws &to = all.views[v], &from = part.views[v];
+    for (std::vector<Draw>* draws : {&from.solid, &from.blended})
+      for (Draw& draw : *draws)
+        if (draw.deform != kNone) draw.deform += shift;
+    to.solid.insert(to.solid.end(), from.solid.begin(), from.solid.end());
+    to.blended.insert(to.blended.end(), from.blended.begin(), from.blended.end());
+    to.culled_instances += from.culled_instances;
+  }
   for (Caster& caster : part.casters.casters)
     if (caster.deform != kNone) caster.deform += shift;
-  all.solid.insert(all.solid.end(), part.solid.begin(), part.solid.end());
-  all.blended.insert(all.blended.end(), part.blended.begin(), part.blended.end());
   all.deforms.insert(all.deforms.end(), part.deforms.begin(), part.deforms.end());
   all.casters.casters.insert(all.casters.casters.end(), part.casters.casters.begin(), part.casters.casters.end());
-  all.culled_instances += part.culled_instances;
+}
+
+void sort(ViewDraws& draws) {
+  std::stable_sort(draws.solid.begin(), draws.solid.end(), [](const Draw& a, const Draw& b) {
+    return std::tie(a.variant, a.depth_m) < std::tie(b.variant, b.depth_m);
+  });
+  std::stable_sort(draws.blended.begin(), draws.blended.end(),
+                   [](const Draw& a, const Draw& b) { return a.depth_m > b.depth_m; });
 }
 
 }  // namespace
@@ -230,21 +260,24 @@ shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3&
   constants.row0 = rows[0];
   constants.row1 = rows[1];
   constants.row2 = rows[2];
-  if (glm::determinant(glm::dmat3(relative)) < 0.0) constants.flags |= GLOAM_DRAW_MIRRORED;
+  if (is_mirroring(relative)) constants.flags |= GLOAM_DRAW_MIRRORED;
   return constants;
 }
 
-DrawLists build_draw_lists(const World& world, const RenderView& view, const GpuScene& scene, JobExecutor& executor,
-                           bool with_casters) {
+FrameDraws build_frame_draws(const World& world, std::span<const RenderView* const> views, const GpuScene& scene,
+                             JobExecutor& executor, bool with_casters) {
   const std::vector<Instance> instances = gather_instances(world, scene);
-  const InstanceDrawer drawer(world, view, scene, with_casters);
+  const InstanceDrawer drawer(world, views, scene, with_casters);
   constexpr std::size_t kGrain = 64;
-  std::vector<DrawLists> parts((instances.size() + kGrain - 1) / kGrain);
+  std::vector<FrameDraws> parts((instances.size() + kGrain - 1) / kGrain);
   executor.parallel_for(instances.size(), kGrain, [&](JobRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) drawer.draw(instances[i], parts[range.ordinal]);
+    FrameDraws& part = parts[range.ordinal];
+    part.views.resize(views.size());
+    for (std::size_t i = range.begin; i < range.end; ++i) drawer.draw(instances[i], part);
   });
-  DrawLists lists;
-  for (DrawLists& part : parts) append(lists, part);
+  FrameDraws lists;
+  lists.views.resize(views.size());
+  for (FrameDraws& part : parts) append(lists, part);
   for (DeformJob& job : lists.deforms) {
     job.first_vertex = lists.deformed_vertices;
     lists.deformed_vertices += (job.primitive->vertex_count + 63) / 64 * 64;
@@ -252,11 +285,7 @@ DrawLists build_draw_lists(const World& world, const RenderView& view, const Gpu
   const auto index_of = [](const Caster& caster) { return caster.entity.index; };
   if (!std::ranges::is_sorted(lists.casters.casters, {}, index_of))
     std::ranges::stable_sort(lists.casters.casters, {}, index_of);
-  std::stable_sort(lists.solid.begin(), lists.solid.end(), [](const Draw& a, const Draw& b) {
-    return std::tie(a.variant, a.depth_m) < std::tie(b.variant, b.depth_m);
-  });
-  std::stable_sort(lists.blended.begin(), lists.blended.end(),
-                   [](const Draw& a, const Draw& b) { return a.depth_m > b.depth_m; });
+  for (ViewDraws& draws : lists.views) sort(draws);
   return lists;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/ecs/world.h"
@@ -24,7 +25,7 @@ struct Draw {
   shaders::DrawConstants constants{};
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
-  std::uint32_t deform = kNone;  ///< index into DrawLists::deforms, or kNone for rest vertices
+  std::uint32_t deform = kNone;  ///< index into FrameDraws::deforms, or kNone for rest vertices
   float depth_m = 0.0f;          ///< nearest view depth of the bounds
 };
 
@@ -33,26 +34,31 @@ struct DeformJob {
   Entity entity;
   const GpuPrimitive* primitive = nullptr;
   shaders::DeformConstants constants{};
-  std::uint32_t first_vertex = 0;  ///< in the view's deformed streams, a multiple of 64
+  std::uint32_t first_vertex = 0;  ///< in the frame's deformed streams, a multiple of 64
 };
 
 /// All draws of one view. `solid`: opaque and alpha-masked surfaces, by pipeline variant, then front to back.
-/// `blended`: back to front. `deforms`: the deformed primitives of draws and casters.
-struct DrawLists {
+/// `blended`: back to front.
+struct ViewDraws {
   std::vector<Draw> solid;
   std::vector<Draw> blended;
+  std::uint32_t culled_instances = 0;
+};
+
+/// All draws of one frame of a world. `deforms`: the deformed primitives of draws and casters of all views.
+struct FrameDraws {
+  std::vector<ViewDraws> views;
   std::vector<DeformJob> deforms;
   std::uint32_t deformed_vertices = 0;
-  std::uint32_t culled_instances = 0;
   CasterList casters;  ///< empty unless with_casters
 };
 
 /// Push constants that draw a mesh relative to `origin` (world). Composed in double.
 [[nodiscard]] shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3& origin);
 
-/// Culls every MeshInstance of the world against the view, in jobs. The result does not depend on the number of
-/// threads. `with_casters`: also lists all shadow casters, in the view or not, and deforms them.
-[[nodiscard]] DrawLists build_draw_lists(const World& world, const RenderView& view, const GpuScene& scene,
-                                         JobExecutor& executor, bool with_casters = false);
+/// Culls every MeshInstance of the world against each view, in jobs. The result does not depend on the number of
+/// threads. `with_casters`: also lists all shadow casters, in a view or not, and deforms them.
+[[nodiscard]] FrameDraws build_frame_draws(const World& world, std::span<const RenderView* const> views,
+                                           const GpuScene& scene, JobExecutor& executor, bool with_casters = false);
 
 }  // namespace gloam

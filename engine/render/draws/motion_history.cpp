@@ -86,7 +86,7 @@ void MotionHistory::begin_frame(const World& world, std::uint64_t slot, bool wit
                 [&](const DrawnInstance& item) { return is_listed(world, item.entity, teleports->entities); });
 }
 
-void MotionHistory::begin_view(RenderView& view, bool cut) {
+void MotionHistory::begin_view(RenderView& view) {
   WorldState& state = worlds_[slot_];
   const auto last = state.views.find(view.id.value);
   const bool known = last != state.views.end();
@@ -95,11 +95,9 @@ void MotionHistory::begin_view(RenderView& view, bool cut) {
     view.has_previous = known && last->second.has_previous;
     return;
   }
-  if (cut) state.open_cuts.insert(view.id.value);
-  view.has_previous = known && !state.open_cuts.contains(view.id.value) && last->second.entity == view.camera_entity &&
-                      last->second.camera.orthographic == view.camera.orthographic;
+  view.has_previous = known && !view.camera_cut();
   if (view.has_previous) view.previous = last->second.camera;
-  views_[view.id.value] = {view.view_camera(), view.camera_entity, view.previous, view.has_previous};
+  views_[view.id.value] = {view.view_camera(), view.previous, view.has_previous};
 }
 
 const DrawnInstances& MotionHistory::instances() const {
@@ -112,20 +110,16 @@ void MotionHistory::commit(World& world) {
   if (again_) return;
   WorldState& state = worlds_[slot_];
   state.views = std::move(views_);
-  state.open_cuts.clear();
   state.before_last = with_instances_ ? std::move(state.last) : DrawnInstances{};
   state.last = with_instances_ ? drawn_instances(world) : DrawnInstances{};
   if (Teleports* teleports = world.try_resource<Teleports>()) teleports->entities.clear();
 }
 
 void MotionHistory::forget_view(ViewId view) {
-  for (auto& [slot, state] : worlds_) {
-    state.views.erase(view.value);
-    state.open_cuts.erase(view.value);
-  }
+  for (auto& [slot, state] : worlds_) state.views.erase(view.value);
 }
 
-shaders::MotionDrawConstants motion_draw_constants(const Draw& draw, const DrawLists& lists, const RenderView& view,
+shaders::MotionDrawConstants motion_draw_constants(const Draw& draw, const FrameDraws& lists, const RenderView& view,
                                                    const DrawnInstance* drawn) {
   shaders::DrawConstants previous = draw.constants;
   const shaders::DeformConstants deform =

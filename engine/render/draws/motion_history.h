@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <map>
-#include <set>
 #include <vector>
 
 #include "engine/ecs/world.h"
@@ -51,8 +50,8 @@ class MotionHistory {
   /// Begins a frame. with_instances: some view needs motion. again: draws the world's last frame again, which then has
   /// the same previous frame; its commit does nothing.
   void begin_frame(const World& world, std::uint64_t slot, bool with_instances, bool again);
-  /// Sets the previous camera of a view of the frame. cut: there is none.
-  void begin_view(RenderView& view, bool cut);
+  /// Sets the previous camera of a view of the frame.
+  void begin_view(RenderView& view);
   /// The previous frame's instances; empty if it had none. Only between begin_frame(with_instances) and commit.
   [[nodiscard]] const DrawnInstances& instances() const;
   /// Ends a frame that was submitted. Clears Teleports.
@@ -64,13 +63,11 @@ class MotionHistory {
  private:
   struct DrawnView {
     ViewCamera camera;
-    Entity entity;
     ViewCamera previous;  ///< RenderView::previous
     bool has_previous = false;
   };
   struct WorldState {
     std::map<std::uint32_t, DrawnView> views;  ///< of the last frame, by id
-    std::set<std::uint32_t> open_cuts;         ///< views with a cut since the last frame
     DrawnInstances last;
     DrawnInstances before_last;
   };
@@ -83,7 +80,7 @@ class MotionHistory {
 };
 
 /// Push constants of a draw with motion. drawn: the instance in the previous frame; null: it was at rest.
-[[nodiscard]] shaders::MotionDrawConstants motion_draw_constants(const Draw& draw, const DrawLists& lists,
+[[nodiscard]] shaders::MotionDrawConstants motion_draw_constants(const Draw& draw, const FrameDraws& lists,
                                                                  const RenderView& view, const DrawnInstance* drawn);
 
 /// Where the previous frame's data begin in the buffers of a deform pass, behind those of the current frame.

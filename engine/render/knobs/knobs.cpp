@@ -69,13 +69,8 @@ Status KnobRegistry::set(std::string_view name, std::string_view value) {
   const Knob* knob = find(name);
   if (knob == nullptr) {
     std::vector<std::string> names;
-    std::string list;
-    for (const Knob& k : knobs_) {
-      names.push_back(k.name);
-      list += (list.empty() ? "" : ", ") + k.name;
-    }
-    return Error{ErrorKind::usage, "unknown knob " + std::string(name) + "; " + did_you_mean(name, names) +
-                                       "there are " + (list.empty() ? "none" : list)};
+    for (const Knob& k : knobs_) names.push_back(k.name);
+    return Error{ErrorKind::usage, "unknown knob " + std::string(name) + "; " + valid_names(name, names)};
   }
   const std::optional<double> parsed = parse_value(*knob, value);
   if (!parsed)

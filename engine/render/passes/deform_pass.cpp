@@ -27,7 +27,7 @@ gpu::Binding::BufferRange part(gpu::BufferHandle buffer, std::uint64_t first, st
   return {buffer, first * sizeof(T), count * sizeof(T)};
 }
 
-/// Streams of deformed vertices of the view.
+/// Streams of deformed vertices of the frame.
 struct Streams {
   BufferRef positions;
   BufferRef frames;
@@ -38,7 +38,7 @@ Streams create_streams(FrameBuilder& frame, const std::string& prefix) {
     gpu::BufferDesc desc;
     desc.name = prefix + name;
     desc.module = "engine";
-    desc.size = frame.draws().deformed_vertices * stride;
+    desc.size = frame.frame_draws().deformed_vertices * stride;
     return frame.graph().create_buffer(std::move(desc));
   };
   return {stream("_positions", sizeof(vec3)), stream("_frames", sizeof(PackedFrame))};
@@ -79,7 +79,7 @@ BufferRef add_previous_pass(FrameBuilder& frame, const DrawnInstances& drawn) {
   ComputePass pass(frame, "deform_previous", shaders::render::deform_comp);
   pass.items<vec4>("joint_rows", joint_rows(joints));
   pass.items<float>("morph_weights", uploaded_weights(std::move(weights)));
-  for (const DeformJob& job : frame.draws().deforms)
+  for (const DeformJob& job : frame.frame_draws().deforms)
     deform(pass, frame.scene(), job, previous_deform_constants(job, drawn.find(frame.world(), job.entity), offsets),
            previous);
   return previous.positions;
@@ -88,17 +88,19 @@ BufferRef add_previous_pass(FrameBuilder& frame, const DrawnInstances& drawn) {
 }  // namespace
 
 void add_deform_pass(FrameBuilder& frame) {
-  if (frame.draws().deforms.empty()) return;
-  Streams streams = create_streams(frame, "deformed");
-  {
+  if (frame.frame_draws().deforms.empty()) return;
+  FrameBuilder::Deformed* deformed = frame.shared().find<FrameBuilder::Deformed>();
+  if (deformed == nullptr) {
+    Streams streams = create_streams(frame, "deformed");
     ComputePass pass(frame, "deform", shaders::render::deform_comp);
     pass.items<vec4>("joint_rows", joint_rows(frame.world().resource<JointMatrices>().matrices));
     pass.items<float>("morph_weights", uploaded_weights(frame.world().resource<MorphWeights>().values));
-    for (const DeformJob& job : frame.draws().deforms) deform(pass, frame.scene(), job, job.constants, streams);
+    for (const DeformJob& job : frame.frame_draws().deforms) deform(pass, frame.scene(), job, job.constants, streams);
+    deformed = &frame.shared().put(FrameBuilder::Deformed{streams.positions, streams.frames, {}});
   }
-  FrameBuilder::Deformed& deformed = frame.put(FrameBuilder::Deformed{streams.positions, streams.frames, {}});
-  if (const DrawnInstances* drawn = frame.previous_instances())
-    deformed.previous_positions = add_previous_pass(frame, *drawn);
+  const DrawnInstances* drawn = frame.previous_instances();
+  if (drawn != nullptr && !deformed->previous_positions)
+    deformed->previous_positions = add_previous_pass(frame, *drawn);
 }
 
 }  // namespace gloam

@@ -9,8 +9,8 @@
 /// there.
 namespace gloam {
 
-/// Morphs and skins the vertices of deformed primitives that are drawn or cast shadows; puts FrameBuilder::Deformed.
-/// Does nothing if there are none.
+/// Morphs and skins the vertices of deformed primitives that any view draws or that cast shadows; puts
+/// FrameBuilder::Deformed on the shared board. Does nothing if there are none, or if an earlier view has done it.
 void add_deform_pass(FrameBuilder& frame);
 
 /// Draws solid surfaces into the geometry buffer; puts GeometryOutputs, with motion if the view has

@@ -105,14 +105,19 @@ void Captures::copy_item(std::string_view name, std::size_t offset, std::span<st
 Result<std::vector<std::byte>> read_image_now(gpu::Device& device, gpu::ImageHandle image) {
   auto capture = make_capture(device, device.desc(image));
   if (!capture.ok()) return capture.error();
-  auto commands = device.begin_frame();
-  if (!commands.ok()) return commands.error();
-  (*commands)->copy_image_to_buffer(image, 0, 0, capture->buffer, 0);
-  const gpu::BufferBarrier ready{capture->buffer, gpu::Access::transfer_write, gpu::Access::host_read};
-  (*commands)->barrier(std::span(&ready, 1), {});
-  GLOAM_TRY(device.submit_frame());
-  GLOAM_TRY(device.wait_idle());
-  return take_capture(device, *capture);
+  const auto copy = [&]() -> Status {
+    auto commands = device.begin_frame();
+    if (!commands.ok()) return commands.error();
+    (*commands)->copy_image_to_buffer(image, 0, 0, capture->buffer, 0);
+    const gpu::BufferBarrier ready{capture->buffer, gpu::Access::transfer_write, gpu::Access::host_read};
+    (*commands)->barrier(std::span(&ready, 1), {});
+    GLOAM_TRY(device.submit_frame());
+    return device.wait_idle();
+  };
+  const Status copied = copy();
+  std::vector<std::byte> bytes = take_capture(device, *capture);
+  if (!copied.ok()) return copied.error();
+  return bytes;
 }
 
 }  // namespace gloam

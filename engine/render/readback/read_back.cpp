@@ -16,13 +16,8 @@ const FrameBuilder::Exposed* find_exposed(const FrameBuilder& frame, std::string
 
 Error unknown_image(const FrameBuilder& frame, std::string_view name) {
   std::vector<std::string> names;
-  std::string list;
-  for (const FrameBuilder::Exposed& exposed : frame.exposed()) {
-    names.emplace_back(exposed.name);
-    list += (list.empty() ? "" : ", ") + names.back();
-  }
-  return {ErrorKind::usage,
-          "the last frame has no image " + std::string(name) + "; " + did_you_mean(name, names) + "there are " + list};
+  for (const FrameBuilder::Exposed& exposed : frame.exposed()) names.emplace_back(exposed.name);
+  return {ErrorKind::usage, "the last frame has no image " + std::string(name) + "; " + valid_names(name, names)};
 }
 
 template <class T>
@@ -45,7 +40,15 @@ Status Renderer::draw_again(World& world, ViewId view, std::function<Status(Fram
   again.settings.height = s.images.at(view.value).height;
   s.copies = std::make_unique<Captures>(*s.options.device);
   s.copy_request = CopyRequest{view, std::move(add_copies)};
-  Status drawn = render(world, std::span(&again, 1));
+  Status drawn;
+  try {
+    drawn = render(world, std::span(&again, 1));
+  } catch (...) {
+    s.copy_request.reset();
+    s.copies.reset();
+    s.last_requests = all;
+    throw;
+  }
   s.copy_request.reset();
   s.last_requests = all;
   if (drawn.ok()) drawn = wait();

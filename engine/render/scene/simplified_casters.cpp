@@ -105,7 +105,13 @@ Status GpuScene::replace_indices(std::vector<std::byte> bytes, JobExecutor& exec
   if (!buffer.ok()) return buffer.error();
   Uploader uploader(device_);
   uploader.buffer(*buffer, std::move(bytes), gpu::Access::vertex_input);
-  Status uploaded = uploader.flush(executor);
+  Status uploaded;
+  try {
+    uploaded = uploader.flush(executor);
+  } catch (...) {
+    device_.destroy(*buffer);
+    throw;
+  }
   device_.destroy(uploaded.ok() ? std::exchange(buffers_[3], *buffer) : *buffer);
   return uploaded;
 }

@@ -82,19 +82,16 @@ Result<std::optional<AnimationChannel>> import_channel(const Document& document,
 Result<std::vector<std::size_t>> claim_order(const Document& document, std::string_view preferred) {
   std::vector<std::size_t> order;
   std::vector<std::string> names;
-  std::string list;
   for (std::size_t i = 0; i < document.animations.size(); ++i) {
     order.push_back(i);
     names.push_back(one_line(document.animations[i].name));
-    list += (list.empty() ? "" : ", ") + names.back();
   }
   if (preferred.empty()) return order;
   const auto found =
       std::find_if(order.begin(), order.end(), [&](std::size_t i) { return document.animations[i].name == preferred; });
   if (found == order.end())
     return Error{ErrorKind::usage,
-                 "no animation is named " + in_quotes(preferred) + ", " +
-                     (names.empty() ? "there is none" : did_you_mean(preferred, names) + "there are: " + list)};
+                 "no animation is named " + in_quotes(preferred) + "; " + valid_names(preferred, names)};
   std::rotate(order.begin(), found, found + 1);
   return order;
 }

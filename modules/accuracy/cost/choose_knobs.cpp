@@ -9,19 +9,14 @@ namespace gloam {
 
 Result<std::vector<std::string>> choose_knobs(const KnobRegistry& knobs, std::string_view list) {
   std::vector<std::string> names;
-  std::string all;
-  for (const Knob& knob : knobs.knobs()) {
-    names.push_back(knob.name);
-    all += (all.empty() ? "" : ", ") + knob.name;
-  }
+  for (const Knob& knob : knobs.knobs()) names.push_back(knob.name);
   if (list.empty()) return names;
   std::vector<std::string> chosen;
   while (true) {
     const std::size_t comma = std::min(list.find(','), list.size());
     const std::string name(list.substr(0, comma));
     if (knobs.find(name) == nullptr)
-      return Error{ErrorKind::usage, "unknown knob '" + name + "'; " + did_you_mean(name, names) + "there are " +
-                                         (all.empty() ? "none" : all)};
+      return Error{ErrorKind::usage, "unknown knob '" + name + "'; " + valid_names(name, names)};
     if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) chosen.push_back(name);
     if (comma == list.size()) return chosen;
     list.remove_prefix(comma + 1);

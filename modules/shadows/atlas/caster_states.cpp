@@ -110,7 +110,7 @@ bool is_withheld(std::span<const Entity> withheld, Entity caster) {
   return !withheld.empty() && std::binary_search(withheld.begin(), withheld.end(), caster, by_entity);
 }
 
-std::vector<std::uint64_t> caster_poses(const World& world, const DrawLists& draws) {
+std::vector<std::uint64_t> caster_poses(const World& world, const FrameDraws& draws) {
   const std::vector<Caster>& casters = draws.casters.casters;
   std::vector<std::uint64_t> poses(casters.size(), 0);
   if (draws.deforms.empty()) return poses;

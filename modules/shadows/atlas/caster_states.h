@@ -35,7 +35,7 @@ struct CasterState {
 
 /// A hash of each caster's pose, in the order of draws.casters. 0: the GPU does not move its vertices, or its pose is
 /// unknown.
-[[nodiscard]] std::vector<std::uint64_t> caster_poses(const World& world, const DrawLists& draws);
+[[nodiscard]] std::vector<std::uint64_t> caster_poses(const World& world, const FrameDraws& draws);
 
 /// The state of each caster, in order. poses: result of caster_poses(), or empty.
 [[nodiscard]] std::vector<CasterState> caster_states(std::span<const Caster> casters,

@@ -107,7 +107,7 @@ PlacedFaces placed_faces(FrameBuilder& frame, ViewShadows& kept, const ShadowVie
   for (const ShadowFace& face : views.faces)
     if (face.square.size > 0) placed.faces.push_back(face);
   std::vector<CasterState> states =
-      caster_states(frame.casters().casters, caster_poses(frame.world(), frame.draws()), executor);
+      caster_states(frame.casters().casters, caster_poses(frame.world(), frame.frame_draws()), executor);
   kept.history.advance(std::move(states));
   placed.contents =
       face_contents(placed.faces, kept.history.states(), salt_of(frame, knobs), executor, kept.history.withheld());

@@ -10,6 +10,8 @@ namespace gloam {
 void add_ecs_benches(BenchRegistry& registry);
 /// Whole frames of the scene against the gather pass (48 gathers per pixel).
 void add_frame_benches(BenchRegistry& registry);
+/// Time from frame to frame with one and with two frames in flight.
+void add_frame_wall_benches(BenchRegistry& registry);
 /// CPU time of the frame graph: declaring passes with a cached plan.
 void add_frame_declaration_benches(BenchRegistry& registry);
 /// Time of the light searches and of shading with their lists: against brute force, against the gather pass, by number

@@ -104,6 +104,61 @@ TEST_F(FramesTest, an_object_that_no_frame_in_flight_can_use_goes_at_once) {
   EXPECT_EQ(bytes_of("test"), 0u);
 }
 
+TEST_F(FramesTest, an_abandoned_one_executes_nothing_and_completes_in_order) {
+  const BufferHandle words = test::make_storage(device(), 4);
+  const ImageHandle picture = test::value_of(device().create_image(
+      {.name = "picture",
+       .module = "test",
+       .format = Format::rgba8_unorm,
+       .width = 2,
+       .height = 2,
+       .usage = ImageUsage::color_target | ImageUsage::transfer_target | ImageUsage::transfer_source}));
+  test::run_frame(device(), [&](CommandList& commands) {
+    to(commands, words, Access::none, Access::transfer_write);
+    commands.fill_buffer(words, 0, 4, 7);
+    to(commands, words, Access::transfer_write, Access::transfer_read);
+    to(commands, picture, Access::none, Access::transfer_write);
+    commands.clear_color_image(picture, {0x3f800000u, 0x3f800000u, 0x3f800000u, 0x3f800000u});
+  });
+  for (int frame = 0; frame < 3; ++frame) {  // more than there are command buffers
+    CommandList& commands = begin();
+    commands.begin_label("half recorded");
+    commands.write_timestamp(0);
+    to(commands, words, Access::transfer_read, Access::transfer_write);
+    commands.fill_buffer(words, 0, 4, 8);
+    to(commands, picture, Access::transfer_write, Access::color_target);
+    RenderingDesc rendering{.width = 2, .height = 2};
+    rendering.colors.push_back({.view = {.image = picture}, .load = LoadOp::clear});
+    commands.begin_rendering(rendering);
+    const std::uint64_t number = device().frame_number();
+    ASSERT_TRUE(device().abandon_frame().ok());
+    EXPECT_EQ(device().frame_number(), number + 1);
+    ASSERT_TRUE(device().wait_frame(number).ok());
+    EXPECT_GT(device().completed_frames(), number);
+    EXPECT_TRUE(device().timestamps(number).empty());
+  }
+  BufferHandle texels, copy = test::make_readback(device(), 4);
+  test::run_frame(device(), [&](CommandList& commands) {
+    texels = read_layer(commands, picture, Access::transfer_write);
+    commands.copy_buffer(words, 0, copy, 0, 4);
+    to(commands, copy, Access::transfer_write, Access::host_read);
+  });
+  EXPECT_EQ(test::items_of<std::uint32_t>(device(), copy).at(0), 7u);
+  EXPECT_EQ(test::items_of<std::uint32_t>(device(), texels).at(0), 0xffffffffu);
+}
+
+TEST_F(FramesTest, can_be_waited_for_one_by_one) {
+  (void)begin();
+  submit();
+  (void)begin();
+  submit();
+  ASSERT_TRUE(device().wait_frame(0).ok());
+  EXPECT_GE(device().completed_frames(), 1u);
+  ASSERT_TRUE(device().wait_frame(1).ok());
+  EXPECT_EQ(device().completed_frames(), 2u);
+  EXPECT_ASSERT((void)device().wait_frame(2), "submitted before it is waited for");
+}
+
 TEST_F(FramesTest, misuse_asserts_with_a_sentence) {
   EXPECT_ASSERT((void)device().submit_frame(), "begun before it is submitted");
   CommandList& commands = begin();

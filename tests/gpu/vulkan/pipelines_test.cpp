@@ -115,7 +115,7 @@ TEST_F(Pipelines, bindings_that_do_not_fit_the_shader_assert) {
     EXPECT_ASSERT(commands.bind({}), "bound first");
     commands.bind_pipeline(pipeline);
     EXPECT_ASSERT(commands.bind(std::array{Binding{0, Binding::BufferRange{buffer}}}),
-                  "needs 1 resource(s) for \"Target\" (set 0, binding 1), and was given 0");
+                  "needs 1 resource(s) for \"target\" (set 0, binding 1), and was given 0");
     EXPECT_ASSERT(commands.bind(std::array{Binding{0, Binding::Storage{}}}), "is a storage buffer for the shader");
     EXPECT_ASSERT(commands.push_constants({}), "wants 4 bytes of push constants");
     EXPECT_ASSERT(commands.bind_set(1, {}), "has no prepared set 1");

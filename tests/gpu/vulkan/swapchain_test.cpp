@@ -82,6 +82,24 @@ TEST_F(WindowTest, shows_frame_after_frame_in_pictures_of_its_size) {
   }
 }
 
+TEST_F(WindowTest, shows_the_picture_of_an_abandoned_frame_in_the_next_one) {
+  ASSERT_TRUE(swapchain_->resize(200, 100).ok());
+  ASSERT_TRUE(show());
+  for (int round = 0; round < 4; ++round) {
+    ImageHandle image;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      ASSERT_TRUE(device_->begin_frame().ok());
+      const auto acquired = swapchain_->acquire();
+      ASSERT_TRUE(acquired.ok());
+      EXPECT_TRUE(attempt == 0 || *acquired == image);
+      image = *acquired;
+      ASSERT_TRUE(device_->abandon_frame().ok());
+    }
+    EXPECT_EQ(show(), image);
+    EXPECT_TRUE(show());
+  }
+}
+
 TEST_F(WindowTest, follows_a_new_size_and_gives_nothing_while_minimised) {
   EXPECT_FALSE(show());  // resize was never called
   ASSERT_TRUE(swapchain_->resize(200, 100).ok());

@@ -44,10 +44,10 @@ class ProbeModule final : public Module {
     seen_.casters = frame.casters().casters;
     for (const Caster& caster : seen_.casters) {
       seen_.first_vertices.push_back(caster.deform == kNone ? kNone
-                                                            : frame.draws().deforms[caster.deform].first_vertex);
+                                                            : frame.frame_draws().deforms[caster.deform].first_vertex);
       seen_.simplified = seen_.simplified || caster.primitive->simplified_index_count > 0;
     }
-    const FrameBuilder::Deformed* deformed = frame.find<FrameBuilder::Deformed>();
+    const FrameBuilder::Deformed* deformed = frame.shared().find<FrameBuilder::Deformed>();
     if (deformed == nullptr) return;
     auto capture = capture_buffer(frame.graph(), frame.services().device, deformed->positions);
     if (frame.check(capture)) seen_.capture = *capture;

@@ -15,6 +15,7 @@
 #include "engine/render/draws/draw_lists.h"
 #include "engine/scene/gltf_import.h"
 #include "tests/jobs/executors.h"
+#include "tests/render/draws/one_view.h"
 #include "tests/render/draws/small_scene.h"
 
 namespace gloam {
@@ -35,13 +36,13 @@ class Casters : public ::testing::Test {
   Casters() { prepare_scene_world(world_); }
   void TearDown() override { EXPECT_TRUE(device_->faults().empty()) << device_->faults().front(); }
 
-  [[nodiscard]] DrawLists lists(bool with_casters = true) {
+  [[nodiscard]] FrameDraws lists(bool with_casters = true) {
     const Status status = scene_.sync(maker_.assets(), *serial_);
     EXPECT_TRUE(status.ok());
-    return build_draw_lists(world_, view_, scene_, *serial_, with_casters);
+    return test::frame_draws(world_, view_, scene_, *serial_, with_casters);
   }
   [[nodiscard]] Caster only_caster() {
-    const DrawLists made = lists();
+    const FrameDraws made = lists();
     EXPECT_EQ(made.casters.casters.size(), 1u);
     return made.casters.casters.empty() ? Caster{} : made.casters.casters[0];
   }
@@ -71,9 +72,9 @@ class Casters : public ::testing::Test {
 TEST_F(Casters, are_listed_wherever_the_camera_looks) {
   const std::uint32_t mesh = maker_.mesh(test::box(vec3(1.0f, 2.0f, 3.0f)));
   const Entity behind = maker_.draw(mesh, at(5.0, 6.0, 50.0));
-  const DrawLists made = lists();
-  EXPECT_TRUE(made.solid.empty()) << "the camera does not see it";
-  EXPECT_EQ(made.culled_instances, 1u);
+  const FrameDraws made = lists();
+  EXPECT_TRUE(made.views[0].solid.empty()) << "the camera does not see it";
+  EXPECT_EQ(made.views[0].culled_instances, 1u);
   ASSERT_EQ(made.casters.casters.size(), 1u);
   const Caster& caster = made.casters.casters[0];
   EXPECT_EQ(caster.entity, behind);
@@ -87,22 +88,22 @@ TEST_F(Casters, are_listed_wherever_the_camera_looks) {
 TEST_F(Casters, are_not_listed_when_nobody_asks) {
   maker_.draw(maker_.mesh(test::box(vec3(1.0f))), at(0.0, 0.0, -5.0));
   draw_bar(dvec3(0.0, 0.0, 50.0), mat4(1.0f), mat4(1.0f));
-  const DrawLists made = lists(false);
+  const FrameDraws made = lists(false);
   EXPECT_TRUE(made.casters.casters.empty());
-  EXPECT_EQ(made.solid.size(), 1u);
+  EXPECT_EQ(made.views[0].solid.size(), 1u);
   EXPECT_TRUE(made.deforms.empty()) << "what nobody sees is not deformed";
 }
 
 TEST_F(Casters, do_not_change_what_is_drawn) {
   test::fill_small_scene(world_);
-  const DrawLists without = lists(false);
-  const DrawLists with = lists();
-  ASSERT_EQ(with.solid.size(), without.solid.size());
-  ASSERT_EQ(with.blended.size(), without.blended.size());
-  EXPECT_EQ(with.culled_instances, without.culled_instances);
-  for (std::size_t i = 0; i < with.solid.size(); ++i) {
-    EXPECT_EQ(with.solid[i].primitive, without.solid[i].primitive);
-    EXPECT_EQ(with.solid[i].index_count, without.solid[i].index_count);
+  const FrameDraws without = lists(false);
+  const FrameDraws with = lists();
+  ASSERT_EQ(with.views[0].solid.size(), without.views[0].solid.size());
+  ASSERT_EQ(with.views[0].blended.size(), without.views[0].blended.size());
+  EXPECT_EQ(with.views[0].culled_instances, without.views[0].culled_instances);
+  for (std::size_t i = 0; i < with.views[0].solid.size(); ++i) {
+    EXPECT_EQ(with.views[0].solid[i].primitive, without.views[0].solid[i].primitive);
+    EXPECT_EQ(with.views[0].solid[i].index_count, without.views[0].solid[i].index_count);
   }
 }
 
@@ -116,8 +117,8 @@ TEST_F(Casters, leave_blended_surfaces_out_and_know_cut_outs_and_subsurface) {
   maker_.draw(maker_.mesh(test::quad(1.0f, glass_material)), at(0.0, 0.0, -5.0));
   draw_bar(dvec3(0.0, 0.0, 50.0), mat4(1.0f), mat4(1.0f), glass_material);
   maker_.draw(leaf_mesh, at(0.0, 0.0, -6.0));
-  const DrawLists made = lists();
-  EXPECT_EQ(made.blended.size(), 1u);
+  const FrameDraws made = lists();
+  EXPECT_EQ(made.views[0].blended.size(), 1u);
   EXPECT_TRUE(made.deforms.empty()) << "glass out of sight is not deformed";
   ASSERT_EQ(made.casters.casters.size(), 1u);
   EXPECT_TRUE(made.casters.casters[0].subsurface);
@@ -160,8 +161,8 @@ TEST_F(Casters, a_posed_bar_is_bounded_where_its_joints_put_it) {
                      glm::rotate(mat4(1.0f), 1.5707964f, vec3(0.0f, 0.0f, 1.0f)) *
                      glm::translate(mat4(1.0f), vec3(0.0f, -2.0f, 0.0f));
   draw_bar(dvec3(0.0, 0.0, 1e5), mat4(1.0f), upper);
-  const DrawLists made = lists();
-  EXPECT_TRUE(made.solid.empty());
+  const FrameDraws made = lists();
+  EXPECT_TRUE(made.views[0].solid.empty());
   ASSERT_EQ(made.deforms.size(), 1u) << "it casts: it is deformed though nobody sees it";
   EXPECT_EQ(made.deformed_vertices, 64u);
   ASSERT_EQ(made.casters.casters.size(), 1u);
@@ -191,11 +192,11 @@ TEST_F(Casters, a_morphed_mesh_is_bounded_by_its_weights) {
 TEST_F(Casters, deformed_draws_and_casters_share_one_job) {
   draw_bar(dvec3(0.0, -2.0, -20.0), mat4(1.0f), mat4(1.0f));
   draw_bar(dvec3(0.0, -2.0, 20.0), mat4(1.0f), mat4(1.0f));
-  const DrawLists made = lists();
+  const FrameDraws made = lists();
   ASSERT_EQ(made.deforms.size(), 2u);
-  ASSERT_EQ(made.solid.size(), 1u);
+  ASSERT_EQ(made.views[0].solid.size(), 1u);
   ASSERT_EQ(made.casters.casters.size(), 2u);
-  EXPECT_EQ(made.solid[0].deform, made.casters.casters[0].deform);
+  EXPECT_EQ(made.views[0].solid[0].deform, made.casters.casters[0].deform);
   EXPECT_NE(made.casters.casters[0].deform, made.casters.casters[1].deform);
   for (const Caster& caster : made.casters.casters) EXPECT_EQ(made.deforms[caster.deform].primitive, caster.primitive);
 }
@@ -218,12 +219,12 @@ TEST_F(Casters, come_by_entity_and_primitive_whatever_the_executor) {
     const Entity entity = world_.create(WorldTransform{}, MeshInstance{bar, 0});
     joints.ranges.push_back({entity, 0, 2, dvec3(0.0, 0.0, z), false});
   }
-  const DrawLists first = lists();
+  const FrameDraws first = lists();
   const auto key = [](const Caster& c) { return std::pair(c.entity.index, c.primitive); };
   EXPECT_EQ(first.casters.casters.size(), 234u + 2u * 466u);
   EXPECT_TRUE(std::ranges::is_sorted(first.casters.casters, {}, key));
   for (const test::ExecutorCase& executor : test::all_executors()) {
-    const DrawLists again = build_draw_lists(world_, view_, scene_, *executor.make(), true);
+    const FrameDraws again = test::frame_draws(world_, view_, scene_, *executor.make(), true);
     const auto same = [](const Caster& a, const Caster& b) {
       return a.entity == b.entity && a.primitive == b.primitive && a.deform == b.deform &&
              a.bounds_min == b.bounds_min && a.bounds_max == b.bounds_max && a.world_from_mesh == b.world_from_mesh;

@@ -11,6 +11,7 @@
 #include "engine/gpu/recording_device.h"
 #include "engine/render/draws/draw_lists.h"
 #include "engine/scene/gltf_import.h"
+#include "tests/render/draws/one_view.h"
 #include "tests/render/draws/small_scene.h"
 #include "tests/render/draws/visible_points.h"
 #include "tests/support/render_scene.h"
@@ -46,7 +47,9 @@ class DeformedCulling : public ::testing::Test {
     joints.ranges = {{entity, 0, static_cast<std::uint32_t>(matrices.size()), origin, false}};
     joints.matrices = std::move(matrices);
   }
-  [[nodiscard]] DrawLists lists_of(const RenderView& view) { return build_draw_lists(world_, view, scene_, *serial_); }
+  [[nodiscard]] FrameDraws lists_of(const RenderView& view) {
+    return test::frame_draws(world_, view, scene_, *serial_);
+  }
 
   std::mt19937 random_{41};
   std::unique_ptr<gpu::RecordingDevice> device_ = gpu::make_recording_device();
@@ -74,17 +77,17 @@ TEST_F(DeformedCulling, morphed_meshes_are_culled_where_their_weights_move_them)
   sync();
   const Entity quad = draw(mesh, at({0.0, 0.0, 5.0}));  // behind the camera
   set_weights(quad, {0.0f, 0.0f});
-  EXPECT_EQ(lists_of(ahead_).culled_instances, 1u);
-  EXPECT_TRUE(lists_of(ahead_).solid.empty());
+  EXPECT_EQ(lists_of(ahead_).views[0].culled_instances, 1u);
+  EXPECT_TRUE(lists_of(ahead_).views[0].solid.empty());
   EXPECT_TRUE(lists_of(ahead_).deforms.empty()) << "what nobody sees is not deformed";
   world_.resource<MorphWeights>().values = {0.0f, 1.0f};  // 5 m before the camera
-  EXPECT_EQ(lists_of(ahead_).culled_instances, 0u);
-  ASSERT_EQ(lists_of(ahead_).solid.size(), 1u);
-  EXPECT_NEAR(lists_of(ahead_).solid[0].depth_m, 5.0f, 1e-4f);
+  EXPECT_EQ(lists_of(ahead_).views[0].culled_instances, 0u);
+  ASSERT_EQ(lists_of(ahead_).views[0].solid.size(), 1u);
+  EXPECT_NEAR(lists_of(ahead_).views[0].solid[0].depth_m, 5.0f, 1e-4f);
   world_.resource<MorphWeights>().values = {-1.0f, 0.0f};  // the same by a negative weight
-  EXPECT_EQ(lists_of(ahead_).solid.size(), 1u);
+  EXPECT_EQ(lists_of(ahead_).views[0].solid.size(), 1u);
   world_.resource<MorphWeights>().values = {1.0f, 1.0f};  // moved back to its place
-  EXPECT_EQ(lists_of(ahead_).culled_instances, 1u);
+  EXPECT_EQ(lists_of(ahead_).views[0].culled_instances, 1u);
 }
 
 TEST_F(DeformedCulling, no_visible_morphed_or_posed_vertex_is_ever_culled) {
@@ -114,9 +117,9 @@ TEST_F(DeformedCulling, no_visible_morphed_or_posed_vertex_is_ever_culled) {
     set_joints(entity, origin, joints);
     const dvec3 eye = origin + point(12.0);
     const RenderView view = make_view(test::look_at(eye, eye + glm::normalize(point(1.0)), 64, 48), 0);
-    const DrawLists lists = lists_of(view);
-    culled += lists.culled_instances;
-    ASSERT_EQ(lists.solid.size() + lists.culled_instances, 1u);
+    const FrameDraws lists = lists_of(view);
+    culled += lists.views[0].culled_instances;
+    ASSERT_EQ(lists.views[0].solid.size() + lists.views[0].culled_instances, 1u);
     for (std::size_t v = 0; v < morphed.positions.size(); ++v) {
       dvec3 vertex(morphed.positions[v]);
       for (std::size_t t = 0; t < kTargets; ++t)
@@ -126,8 +129,8 @@ TEST_F(DeformedCulling, no_visible_morphed_or_posed_vertex_is_ever_culled) {
       const dvec3 relative = dvec3(moved) + (skinned ? origin : dvec3(0.0)) - view.position;
       if (!test::surely_visible(view, relative)) continue;
       ++visible;
-      ASSERT_EQ(lists.solid.size(), 1u) << "a vertex is visible, round " << round << " vertex " << v;
-      ASSERT_LE(lists.solid[0].depth_m, test::view_depth(view, relative) + 1e-3);
+      ASSERT_EQ(lists.views[0].solid.size(), 1u) << "a vertex is visible, round " << round << " vertex " << v;
+      ASSERT_LE(lists.views[0].solid[0].depth_m, test::view_depth(view, relative) + 1e-3);
     }
   }
   EXPECT_GT(visible, 0u) << "the scenes show nothing";
@@ -140,10 +143,10 @@ TEST_F(DeformedCulling, a_mesh_with_joints_that_have_no_matrix_is_never_culled) 
   const Entity bar = draw(mesh, dmat4(1.0), 0);
   const dvec3 behind(0.0, 0.0, 20.0);
   set_joints(bar, behind, {mat4(1.0f), mat4(1.0f)});
-  EXPECT_EQ(lists_of(ahead_).culled_instances, 1u) << "all of it is behind the camera";
+  EXPECT_EQ(lists_of(ahead_).views[0].culled_instances, 1u) << "all of it is behind the camera";
   set_joints(bar, behind, {mat4(1.0f)});
-  EXPECT_EQ(lists_of(ahead_).culled_instances, 0u) << "where joint 1 is, is not known";
-  EXPECT_EQ(lists_of(ahead_).solid.size(), 1u);
+  EXPECT_EQ(lists_of(ahead_).views[0].culled_instances, 0u) << "where joint 1 is, is not known";
+  EXPECT_EQ(lists_of(ahead_).views[0].solid.size(), 1u);
 }
 
 TEST_F(DeformedCulling, a_mesh_with_unknown_or_infinite_weights_is_never_culled) {
@@ -152,10 +155,10 @@ TEST_F(DeformedCulling, a_mesh_with_unknown_or_infinite_weights_is_never_culled)
   const Entity quad = draw(mesh, at({0.0, 0.0, 5.0}));
   for (const float weight : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     set_weights(quad, {weight});
-    EXPECT_EQ(lists_of(ahead_).solid.size(), 1u) << weight;
+    EXPECT_EQ(lists_of(ahead_).views[0].solid.size(), 1u) << weight;
   }
   world_.resource<MorphWeights>().values.clear();  // the morph system has not run
-  EXPECT_EQ(lists_of(ahead_).solid.size(), 1u);
+  EXPECT_EQ(lists_of(ahead_).views[0].solid.size(), 1u);
 }
 
 }  // namespace

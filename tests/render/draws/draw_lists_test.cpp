@@ -17,6 +17,7 @@
 #include "engine/gpu/recording_device.h"
 #include "engine/scene/gltf_import.h"
 #include "tests/jobs/executors.h"
+#include "tests/render/draws/one_view.h"
 #include "tests/render/draws/visible_points.h"
 #include "tests/support/render_scene.h"
 #include "tests/support/scale.h"
@@ -119,7 +120,9 @@ class DrawListsTest : public ::testing::Test {
     joints.matrices.insert(joints.matrices.end(), matrices.begin(), matrices.end());
     return entity;
   }
-  [[nodiscard]] DrawLists lists_of(const RenderView& view) { return build_draw_lists(world_, view, scene_, *serial_); }
+  [[nodiscard]] FrameDraws lists_of(const RenderView& view) {
+    return test::frame_draws(world_, view, scene_, *serial_);
+  }
 
   std::unique_ptr<gpu::RecordingDevice> device_ = gpu::make_recording_device();
   std::unique_ptr<JobExecutor> serial_ = make_serial_executor();
@@ -158,9 +161,9 @@ Constants rows_of(const Draw& draw) {
   return rows;
 }
 
-std::vector<const Draw*> draws_of(const DrawLists& lists, const GpuPrimitive& primitive, const Constants& rows) {
+std::vector<const Draw*> draws_of(const FrameDraws& lists, const GpuPrimitive& primitive, const Constants& rows) {
   std::vector<const Draw*> found;
-  for (const std::vector<Draw>* list : {&lists.solid, &lists.blended})
+  for (const std::vector<Draw>* list : {&lists.views[0].solid, &lists.views[0].blended})
     for (const Draw& draw : *list)
       if (draw.primitive == &primitive && rows_of(draw) == rows) found.push_back(&draw);
   return found;
@@ -204,7 +207,7 @@ class RandomScenes : public DrawListsTest {
     sync();
   }
 
-  void check_instance(const DrawLists& lists, const RenderView& view, std::uint32_t mesh, const dmat4& matrix) {
+  void check_instance(const FrameDraws& lists, const RenderView& view, std::uint32_t mesh, const dmat4& matrix) {
     const GpuPrimitive& primitive = scene_.meshes()[mesh][0];
     const auto draws = draws_of(lists, primitive, expected_rows(matrix, view));
     const Primitive& source = maker_.assets().meshes[mesh].primitives[0];
@@ -246,8 +249,8 @@ TEST_F(RandomScenes, nothing_visible_is_ever_culled) {
       draw(instances.back().first, matrix);
     }
     const RenderView view = random_view(random_, around);
-    const DrawLists lists = lists_of(view);
-    culled += lists.culled_instances;
+    const FrameDraws lists = lists_of(view);
+    culled += lists.views[0].culled_instances;
     for (const auto& [mesh, matrix] : instances) {
       check_instance(lists, view, mesh, matrix);
       if (HasFatalFailure()) FAIL() << "in scene " << round;
@@ -264,24 +267,24 @@ TEST_F(RandomScenes, lists_are_ordered_by_pipeline_and_depth_whatever_the_execut
   }
   ViewSettings settings = test::look_at(dvec3(0.0, 5.0, 70.0), dvec3(0.0), 640, 360);
   const RenderView view = make_view(settings, 0);
-  const DrawLists first = lists_of(view);
-  EXPECT_GT(first.solid.size(), 500u);
-  EXPECT_GT(first.blended.size(), 50u);
-  EXPECT_TRUE(std::ranges::is_sorted(first.solid, [](const Draw& a, const Draw& b) {
+  const FrameDraws first = lists_of(view);
+  EXPECT_GT(first.views[0].solid.size(), 500u);
+  EXPECT_GT(first.views[0].blended.size(), 50u);
+  EXPECT_TRUE(std::ranges::is_sorted(first.views[0].solid, [](const Draw& a, const Draw& b) {
     return std::tie(a.variant, a.depth_m) < std::tie(b.variant, b.depth_m);
   }));
-  EXPECT_TRUE(
-      std::ranges::is_sorted(first.blended, [](const Draw& a, const Draw& b) { return a.depth_m > b.depth_m; }));
+  EXPECT_TRUE(std::ranges::is_sorted(first.views[0].blended,
+                                     [](const Draw& a, const Draw& b) { return a.depth_m > b.depth_m; }));
   const auto same = [](const Draw& a, const Draw& b) {
     return a.primitive == b.primitive && a.variant == b.variant &&
            std::memcmp(&a.constants, &b.constants, sizeof(a.constants)) == 0 && a.first_index == b.first_index &&
            a.index_count == b.index_count && a.deform == b.deform && a.depth_m == b.depth_m;
   };
   for (const test::ExecutorCase& executor : test::all_executors()) {
-    const DrawLists lists = build_draw_lists(world_, view, scene_, *executor.make());
-    EXPECT_TRUE(std::ranges::equal(lists.solid, first.solid, same)) << executor.name;
-    EXPECT_TRUE(std::ranges::equal(lists.blended, first.blended, same)) << executor.name;
-    EXPECT_EQ(lists.culled_instances, first.culled_instances) << executor.name;
+    const FrameDraws lists = test::frame_draws(world_, view, scene_, *executor.make());
+    EXPECT_TRUE(std::ranges::equal(lists.views[0].solid, first.views[0].solid, same)) << executor.name;
+    EXPECT_TRUE(std::ranges::equal(lists.views[0].blended, first.views[0].blended, same)) << executor.name;
+    EXPECT_EQ(lists.views[0].culled_instances, first.views[0].culled_instances) << executor.name;
   }
 }
 
@@ -289,15 +292,15 @@ TEST_F(DrawListsTest, a_mesh_seen_whole_is_one_draw_and_a_close_look_draws_few_c
   const std::uint32_t mesh = maker_.mesh(grid(64));
   sync();
   draw(mesh, placed(dvec3(-32.0, 0.0, -32.0), dvec3(0, 1, 0), 0.0, dvec3(1.0)));
-  const DrawLists whole = lists_of(make_view(test::look_at(dvec3(0.0, 200.0, 1.0), dvec3(0.0), 64, 64), 0));
-  ASSERT_EQ(whole.solid.size(), 1u);
-  EXPECT_EQ(whole.solid[0].index_count, 64u * 64u * 6u);
-  const DrawLists close = lists_of(make_view(test::look_at(dvec3(3.0, 2.0, 3.0), dvec3(3.0, 0.0, 3.1), 64, 64), 0));
+  const FrameDraws whole = lists_of(make_view(test::look_at(dvec3(0.0, 200.0, 1.0), dvec3(0.0), 64, 64), 0));
+  ASSERT_EQ(whole.views[0].solid.size(), 1u);
+  EXPECT_EQ(whole.views[0].solid[0].index_count, 64u * 64u * 6u);
+  const FrameDraws close = lists_of(make_view(test::look_at(dvec3(3.0, 2.0, 3.0), dvec3(3.0, 0.0, 3.1), 64, 64), 0));
   std::uint32_t drawn = 0;
-  for (const Draw& d : close.solid) drawn += d.index_count;
+  for (const Draw& d : close.views[0].solid) drawn += d.index_count;
   EXPECT_GT(drawn, 0u);
   EXPECT_LT(drawn, 64u * 64u * 6u / 4u);
-  EXPECT_EQ(close.culled_instances, 0u);
+  EXPECT_EQ(close.views[0].culled_instances, 0u);
 }
 
 TEST_F(DrawListsTest, mirrored_instances_cull_the_other_faces_and_two_sided_ones_none) {
@@ -310,9 +313,9 @@ TEST_F(DrawListsTest, mirrored_instances_cull_the_other_faces_and_two_sided_ones
   const auto only = [&](std::uint32_t mesh, const dvec3& scale) {
     clear();
     draw(mesh, placed(dvec3(0.0), dvec3(0, 1, 0), 0.5, scale));
-    const DrawLists lists = lists_of(view);
-    EXPECT_EQ(lists.solid.size(), 1u);
-    return lists.solid.empty() ? Draw{} : lists.solid[0];
+    const FrameDraws lists = lists_of(view);
+    EXPECT_EQ(lists.views[0].solid.size(), 1u);
+    return lists.views[0].solid.empty() ? Draw{} : lists.views[0].solid[0];
   };
   EXPECT_EQ(only(closed_mesh, dvec3(1.0)).variant.cull, gpu::CullMode::back);
   EXPECT_EQ(only(closed_mesh, dvec3(1.0)).constants.flags, 0u);
@@ -345,10 +348,10 @@ TEST_F(DrawListsTest, skinned_meshes_are_culled_where_they_are_posed) {
           mat4(placed(random.point(6.0), random.direction(), random.in(0.0, 6.0), dvec3(random.in(0.2, 2.0)))));
     draw_skinned(mesh, origin, matrices, round % 5 == 0);
     const RenderView view = random_view(random, origin);
-    const DrawLists lists = lists_of(view);
-    culled += lists.culled_instances;
-    ASSERT_EQ(lists.solid.size() + lists.culled_instances, 1u);
-    ASSERT_EQ(lists.deforms.size(), lists.solid.size());
+    const FrameDraws lists = lists_of(view);
+    culled += lists.views[0].culled_instances;
+    ASSERT_EQ(lists.views[0].solid.size() + lists.views[0].culled_instances, 1u);
+    ASSERT_EQ(lists.deforms.size(), lists.views[0].solid.size());
     for (std::size_t v = 0; v < source.positions.size(); ++v) {
       const PackedInfluence& p = influences[v];
       const std::uint32_t joints[] = {p.joints01 & 0xFFFFu, p.joints01 >> 16, p.joints23 & 0xFFFFu, p.joints23 >> 16};
@@ -360,13 +363,13 @@ TEST_F(DrawListsTest, skinned_meshes_are_culled_where_they_are_posed) {
       const dvec3 relative = origin + posed - view.position;
       if (!surely_visible(view, relative)) continue;
       ++visible;
-      ASSERT_EQ(lists.solid.size(), 1u) << "a posed vertex is visible, round " << round << " vertex " << v;
-      ASSERT_LE(lists.solid[0].depth_m, view_depth(view, relative) * (1.0 + 1e-5) + 1e-4);
+      ASSERT_EQ(lists.views[0].solid.size(), 1u) << "a posed vertex is visible, round " << round << " vertex " << v;
+      ASSERT_LE(lists.views[0].solid[0].depth_m, view_depth(view, relative) * (1.0 + 1e-5) + 1e-4);
     }
-    if (!lists.solid.empty()) {
-      ASSERT_EQ(lists.solid[0].variant.cull, round % 5 == 0 ? gpu::CullMode::front : gpu::CullMode::back);
-      ASSERT_EQ(lists.solid[0].constants.flags, 0u) << "the kernel has turned normals already";
-      ASSERT_EQ(rows_of(lists.solid[0]), expected_rows(glm::translate(dmat4(1.0), origin), view));
+    if (!lists.views[0].solid.empty()) {
+      ASSERT_EQ(lists.views[0].solid[0].variant.cull, round % 5 == 0 ? gpu::CullMode::front : gpu::CullMode::back);
+      ASSERT_EQ(lists.views[0].solid[0].constants.flags, 0u) << "the kernel has turned normals already";
+      ASSERT_EQ(rows_of(lists.views[0].solid[0]), expected_rows(glm::translate(dmat4(1.0), origin), view));
     }
   }
   EXPECT_GT(visible, 0u) << "the scenes show nothing";
@@ -388,9 +391,9 @@ TEST_F(DrawListsTest, deform_jobs_have_vertex_ranges_of_their_own) {
     const Entity cloth = draw(flag_mesh, placed(dvec3(0.0, 0.0, -20.0), dvec3(0, 1, 0), 0.1, dvec3(1.0)));
     world_.add<MorphInstance>(cloth, {static_cast<std::uint32_t>(2 * i), 2});
   }
-  const DrawLists lists = lists_of(make_view(test::look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0));
+  const FrameDraws lists = lists_of(make_view(test::look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0));
   ASSERT_EQ(lists.deforms.size(), 300u);
-  ASSERT_EQ(lists.solid.size(), 300u);
+  ASSERT_EQ(lists.views[0].solid.size(), 300u);
   std::set<std::uint32_t> deforms, weights, joints;
   std::uint32_t next = 0;
   for (const DeformJob& job : lists.deforms) {
@@ -411,7 +414,7 @@ TEST_F(DrawListsTest, deform_jobs_have_vertex_ranges_of_their_own) {
   EXPECT_EQ(lists.deformed_vertices, next);
   EXPECT_EQ(joints.size(), 150u);
   EXPECT_EQ(weights.size(), 150u);
-  for (const Draw& d : lists.solid) {
+  for (const Draw& d : lists.views[0].solid) {
     ASSERT_LT(d.deform, lists.deforms.size());
     EXPECT_EQ(lists.deforms[d.deform].primitive, d.primitive);
     EXPECT_TRUE(deforms.insert(d.deform).second);
@@ -426,9 +429,9 @@ TEST_F(DrawListsTest, a_morphed_mesh_is_drawn_even_where_its_rest_bounds_are_out
   const Entity cloth = draw(mesh, placed(dvec3(0.0, 0.0, 20.0), dvec3(0, 1, 0), 0.0, dvec3(1.0)));
   world_.add<MorphInstance>(cloth, {0, 1});
   const RenderView view = make_view(test::look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0);
-  EXPECT_EQ(lists_of(view).solid.size(), 1u);
+  EXPECT_EQ(lists_of(view).views[0].solid.size(), 1u);
   world_.get<MorphInstance>(cloth).count = 0;  // no weights: its rest pose is drawn
-  EXPECT_EQ(lists_of(view).solid.size(), 0u);
+  EXPECT_EQ(lists_of(view).views[0].solid.size(), 0u);
 }
 
 TEST_F(DrawListsTest, what_cannot_be_drawn_is_left_out) {
@@ -440,11 +443,11 @@ TEST_F(DrawListsTest, what_cannot_be_drawn_is_left_out) {
   draw(empty, ahead);
   draw(77, ahead);  // no such mesh
   const RenderView view = make_view(test::look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0);
-  EXPECT_TRUE(lists_of(view).solid.empty());
+  EXPECT_TRUE(lists_of(view).views[0].solid.empty());
   draw(bar, ahead, 0);  // skinned, but without joint matrices: its rest pose is drawn
-  const DrawLists lists = lists_of(view);
-  ASSERT_EQ(lists.solid.size(), 1u);
-  EXPECT_EQ(lists.solid[0].deform, kNone);
+  const FrameDraws lists = lists_of(view);
+  ASSERT_EQ(lists.views[0].solid.size(), 1u);
+  EXPECT_EQ(lists.views[0].solid[0].deform, kNone);
 }
 
 TEST_F(DrawListsTest, vertex_colours_are_a_feature_of_the_draw) {
@@ -453,9 +456,9 @@ TEST_F(DrawListsTest, vertex_colours_are_a_feature_of_the_draw) {
   const std::uint32_t mesh = maker_.mesh(colored);
   sync();
   draw(mesh, placed(dvec3(0.0, 0.0, -10.0), dvec3(0, 1, 0), 0.0, dvec3(1.0)));
-  const DrawLists lists = lists_of(make_view(test::look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0));
-  ASSERT_EQ(lists.solid.size(), 1u);
-  EXPECT_EQ(lists.solid[0].variant.features, GLOAM_SURFACE_VERTEX_COLOR);
+  const FrameDraws lists = lists_of(make_view(test::look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0));
+  ASSERT_EQ(lists.views[0].solid.size(), 1u);
+  EXPECT_EQ(lists.views[0].solid[0].variant.features, GLOAM_SURFACE_VERTEX_COLOR);
 }
 
 }  // namespace

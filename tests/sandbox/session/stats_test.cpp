@@ -115,5 +115,31 @@ TEST(Stats, pixels_that_are_not_numbers_are_counted_once) {
   EXPECT_EQ(count_nan_pixels(rgba), 2u);
 }
 
+TEST(Stats, name_the_frames_in_flight_only_if_there_are_several) {
+  EXPECT_FALSE(stats_of({frame(4.0)}).contains("in_flight"));
+  const RunDescription run = {.scene = "builtin:plain", .in_flight = 2};
+  const auto stats = nlohmann::json::parse(stats_json(run, std::vector{frame(4.0)}, {}, some_knobs()));
+  EXPECT_EQ(stats["in_flight"], 2);
+}
+
+TEST(Stats, count_overlapping_frames_from_end_to_end) {
+  std::vector<FrameSample> samples(4);
+  const std::uint64_t begin[] = {0, 1, 10, 60};
+  const std::uint64_t end[] = {10, 25, 42, 65};
+  for (std::size_t i = 0; i < 4; ++i) {
+    samples[i].begin_ns = begin[i] * kMs;
+    samples[i].end_ns = end[i] * kMs;
+    samples[i].previous_end_ns = i == 0 ? 0 : end[i - 1] * kMs;
+  }
+  EXPECT_DOUBLE_EQ(samples[0].wall_ms(), 10.0);
+  EXPECT_DOUBLE_EQ(samples[1].wall_ms(), 15.0) << "begun before the frame before it had ended";
+  EXPECT_DOUBLE_EQ(samples[2].wall_ms(), 17.0);
+  EXPECT_DOUBLE_EQ(samples[3].wall_ms(), 5.0) << "a pause between frames is in none";
+}
+
+TEST(Stats, hold_no_bytes_that_are_not_measured) {
+  for (const auto& row : stats_of({frame(4.0)})["memory"]) EXPECT_FALSE(row.contains("cpu_bytes"));
+}
+
 }  // namespace
 }  // namespace gloam

@@ -89,10 +89,10 @@ TEST(AnimationImport, an_unknown_name_is_a_usage_error_that_lists_the_clips) {
   test::import_text(gltf.text(), import, {.animation = "run"});
   ASSERT_FALSE(import.ok());
   EXPECT_EQ(import.result.error().kind, ErrorKind::usage);
-  EXPECT_EQ(import.fault(), "scene.gltf: no animation is named \"run\", there are: idle, walk");
+  EXPECT_EQ(import.fault(), "scene.gltf: no animation is named \"run\"; there are idle, walk");
   Import misspelt;
   test::import_text(gltf.text(), misspelt, {.animation = "wlak"});
-  EXPECT_EQ(misspelt.fault(), "scene.gltf: no animation is named \"wlak\", did you mean walk? there are: idle, walk");
+  EXPECT_EQ(misspelt.fault(), "scene.gltf: no animation is named \"wlak\"; did you mean walk? there are idle, walk");
 }
 
 TEST(AnimationImport, channels_of_other_scenes_sheared_nodes_and_extensions_are_left_out) {

@@ -168,7 +168,7 @@ TEST(KeyImport, a_finishers_fault_is_the_files) {
   });
   GltfText gltf;
   gltf.add("nodes", "{}");
-  EXPECT_EQ(fault_of(gltf, registry), "scene.gltf: no light is named \"moon\", there is none");
+  EXPECT_EQ(fault_of(gltf, registry), "scene.gltf: no light is named \"moon\"; there are none");
 }
 
 TEST(Extensions, unknown_ones_are_told_once_and_required_ones_refused) {

@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+
+// Copies the view's linear light texel by texel.
+
+layout(set = 0, binding = 0) uniform sampler2D lit_image;
+
+layout(location = 0) out vec4 out_light;
+
+void main() { out_light = texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0); }
