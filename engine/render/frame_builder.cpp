@@ -69,7 +69,12 @@ Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> d
       commands.bind_vertex_stream(1, context.buffer(deformed->frames), moved * sizeof(PackedFrame));
     }
     commands.bind_vertex_stream(2, scene_.surfaces(), first * sizeof(PackedSurface));
-    commands.push(draw.constants);
+    if (pass.motion) {
+      bind_previous_vertices(context, draw);
+      commands.push(motion_draw_constants(draw, draws_, view_, previous_instances_->find(world_, draw.entity)));
+    } else {
+      commands.push(draw.constants);
+    }
     commands.draw_indexed(draw.index_count, 1, draw.first_index, 0, 0);
   }
   return {};
@@ -87,8 +92,17 @@ std::span<const CasterSource* const> FrameBuilder::caster_sources() {
   return caster_source_list_;
 }
 
-void FrameBuilder::read_vertices(PassBuilder& pass) {
+void FrameBuilder::bind_previous_vertices(PassContext& context, const Draw& draw) const {
+  gpu::CommandList& commands = context.commands();
+  if (draw.deform == kNone)
+    return commands.bind_vertex_stream(3, scene_.positions(), draw.primitive->first_vertex * sizeof(vec3));
+  const std::uint64_t moved = draws_.deforms[draw.deform].first_vertex;
+  commands.bind_vertex_stream(3, context.buffer(shared_.find<Deformed>()->previous_positions), moved * sizeof(vec3));
+}
+
+void FrameBuilder::read_vertices(PassBuilder& pass, bool motion) {
   if (const Deformed* deformed = shared_.find<Deformed>()) {
+    if (motion) pass.read(deformed->previous_positions, gpu::Access::vertex_input);
     pass.read(deformed->positions, gpu::Access::vertex_input);
     pass.read(deformed->frames, gpu::Access::vertex_input);
   }

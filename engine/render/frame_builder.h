@@ -21,6 +21,7 @@
 #include "engine/render/board.h"
 #include "engine/render/draws/caster_source.h"
 #include "engine/render/draws/draw_lists.h"
+#include "engine/render/draws/motion_history.h"
 #include "engine/render/knobs/knobs.h"
 #include "engine/render/outputs.h"
 #include "engine/render/pipelines.h"
@@ -85,6 +86,9 @@ class FrameBuilder {
   void add_caster_source(CasterSource source);
   /// All caster sources, in the order in which they were added.
   [[nodiscard]] std::span<const CasterSource* const> caster_sources();
+  /// The world's instances in the previous frame; null if the view has no motion (GeometryOutputs::motion).
+  [[nodiscard]] const DrawnInstances* previous_instances() const { return previous_instances_; }
+  void set_previous_instances(const DrawnInstances* instances) { previous_instances_ = instances; }
   [[nodiscard]] const KnobRegistry& knobs() const { return services_.knobs; }
   [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
   void set_visualizer(std::string_view name) { visualizer_ = name; }
@@ -151,8 +155,9 @@ class FrameBuilder {
   [[nodiscard]] bool request_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
   /// Whether the pipelines of a list are ready; compiles none.
   [[nodiscard]] bool has_surfaces(std::span<const Draw> draws, const SurfacePass& pass) const;
-  /// Declares that a pass draws meshes or casters and so reads deformed vertices.
-  void read_vertices(PassBuilder& pass);
+  /// Declares that a pass draws meshes or casters and so reads deformed vertices. motion: also those of the previous
+  /// frame.
+  void read_vertices(PassBuilder& pass, bool motion = false);
   /// Binds the vertices of a caster: positions (vec3, deformed if the caster is) as stream 0 and, if `with_surfaces`,
   /// PackedSurface as stream 1. Both begin at the primitive's first vertex, like its indices (GpuScene::indices).
   void bind_caster_vertices(PassContext& context, const Caster& caster, bool with_surfaces) const;
@@ -202,9 +207,11 @@ class FrameBuilder {
   struct Deformed {
     BufferRef positions;
     BufferRef frames;
+    BufferRef previous_positions;  ///< null if no view so far has motion
   };
 
  private:
+  void bind_previous_vertices(PassContext& context, const Draw& draw) const;
   [[nodiscard]] HistoryView history_view() const;
 
   FrameServices services_;
@@ -218,6 +225,7 @@ class FrameBuilder {
   std::deque<CasterSource> caster_sources_;
   std::vector<const CasterSource*> caster_source_list_;
   bool caster_sources_read_ = false;
+  const DrawnInstances* previous_instances_ = nullptr;
   std::string_view visualizer_ = "none";
   std::string_view module_ = "engine";
   Status status_;

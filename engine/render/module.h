@@ -33,6 +33,7 @@ struct Demand {
 /// Phases of a frame in which modules add passes. Within a phase, modules come in list order.
 enum class PassPhase {
   announce,     ///< no passes: modules put data on the board that modules earlier in the list need
+  geometry,     ///< draws solid surfaces into the geometry buffer and its depth (geometry_targets)
   lists,        ///< after geometry and depth bounds: light lists, shadows
   shading,      ///< lights opaque surfaces and sky, into linear light
   translucent,  ///< forward-lit surfaces over them
@@ -40,9 +41,9 @@ enum class PassPhase {
   output,       ///< linear light → picture: metering (if no exposure is set), then tone mapping
   visualize,    ///< over the picture, if FrameBuilder::visualizer() is one of the module's
 };
-inline constexpr PassPhase kAllPhases[] = {PassPhase::announce,    PassPhase::lists, PassPhase::shading,
-                                           PassPhase::translucent, PassPhase::post,  PassPhase::output,
-                                           PassPhase::visualize};
+inline constexpr PassPhase kAllPhases[] = {PassPhase::announce, PassPhase::geometry,    PassPhase::lists,
+                                           PassPhase::shading,  PassPhase::translucent, PassPhase::post,
+                                           PassPhase::output,   PassPhase::visualize};
 
 /// A picture a module can show instead of the lit one.
 struct VisualizerInfo {
@@ -121,6 +122,13 @@ class Module {
     static_cast<void>(knobs);
     return false;
   }
+  /// Whether the module's passes read GeometryOutputs::motion. Called like needs_casters; views that do not demand the
+  /// module get no motion for it.
+  [[nodiscard]] virtual bool needs_motion(const World& world, const KnobRegistry& knobs) const {
+    static_cast<void>(world);
+    static_cast<void>(knobs);
+    return false;
+  }
   /// Whether a frame without the module makes no sense. Then frames wait for its pipelines even with
   /// Readiness::background.
   [[nodiscard]] virtual bool essential() const { return false; }
@@ -137,7 +145,8 @@ class Module {
     static_cast<void>(phase);
   }
   /// Reports counters that are known on the CPU. Called once per frame for each view, if the module took part in that
-  /// view (demanded by world and view, pipelines ready), after its passes were declared and before the frame is recorded.
+  /// view (demanded by world and view, pipelines ready), after its passes were declared and before the frame is
+  /// recorded.
   virtual void counters(const World& world, const RenderView& view, CounterSink& sink) const {
     static_cast<void>(world);
     static_cast<void>(view);

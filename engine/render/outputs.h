@@ -16,7 +16,20 @@ struct GeometryOutputs {
   ImageRef emissive;
   ImageRef depth;  ///< d32, reversed Z, 0 = sky
   /// rg32f, one texel per 8×8 tile: farthest and nearest depth, sky excluded; (1, 0) if the tile shows only sky.
+  /// Set from PassPhase::lists on.
   ImageRef depth_bounds;
+  /// rg32f: screen motion in pixels, the position of the surface point in this frame minus its position in the world's
+  /// previous frame, x to the right, y down. Null unless a module that the view demands needs it
+  /// (Module::needs_motion). The previous position is what RenderView::previous sees in a picture of the current size.
+  ///
+  /// Objects that the previous frame did not draw, whose mesh or skin has changed, or that are listed in Teleports have
+  /// the motion of objects at rest. So have all objects in the first frame with motion. Sky has the motion of
+  /// infinitely distant points, which only the camera's rotation moves; 0 if a camera is orthographic. Blended surfaces
+  /// leave the motion of the solid surface or the sky behind them. Each component is within ±65536; points that were
+  /// behind the previous camera have (65536, 65536), outside of any picture.
+  ///
+  /// 32-bit floats, because 16-bit floats would round motion of 64 pixels and more by up to 0.03 pixels.
+  ImageRef motion;
 };
 
 /// Linear light of the view, cd/m² before exposure, rgba16f. The renderer creates the image and shading fills it. Later

@@ -194,12 +194,22 @@ bool Renderer::State::any_needs(bool (Module::*question)(const World&, const Kno
   return false;
 }
 
+bool Renderer::State::may_draw(std::size_t index, const World& world, const FrameView& view) const {
+  const Module& module = *options.modules[index];
+  const std::vector<std::string>& without = view.request.settings.without;
+  return std::ranges::find(without, module.name()) == without.end() && module.built() &&
+         runtimes[index].demand.needed && module.demand(world, view.view.get()).needed;
+}
+
+bool Renderer::State::needs_motion(const World& world, const FrameView& view) const {
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (may_draw(i, world, view) && options.modules[i]->needs_motion(world, knobs_of(view))) return true;
+  return false;
+}
+
 bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder, const FrameView& view) {
   const Module& module = *options.modules[index];
-  if (std::ranges::find(view.request.settings.without, module.name()) != view.request.settings.without.end())
-    return false;
-  if (!module.built() || !runtimes[index].demand.needed) return false;
-  if (!module.demand(builder.world(), &builder.view()).needed) return false;
+  if (!may_draw(index, builder.world(), view)) return false;
   runtimes[index].in_view = true;
   if (options.readiness == Readiness::wait || module.essential()) return true;
   PipelineList needed;
@@ -222,8 +232,12 @@ Status Renderer::State::add_module_passes(FrameBuilder& builder, const FrameView
                           return builder.status();
                         }));
     }
+    builder.set_module("engine");
+    if (phase != PassPhase::geometry) continue;
+    add_sky_motion_pass(builder);
+    add_depth_bounds_pass(builder);
+    GLOAM_TRY(builder.status());
   }
-  builder.set_module("engine");
   return {};
 }
 
@@ -271,8 +285,7 @@ Status Renderer::State::add_light_copy(FrameBuilder& frame, const LightTarget& t
   }
   GLOAM_ASSERT(import.target.before == target.before && import.target.after == target.after,
                "views that capture into one image state the same accesses");
-  import.image =
-      add_copy_light_pass(frame, frame.get<LitOutput>().color, import.image, target.mip, target.layer);
+  import.image = add_copy_light_pass(frame, frame.get<LitOutput>().color, import.image, target.mip, target.layer);
   return frame.status();
 }
 
@@ -285,15 +298,16 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
                                                     draws, index, shared));
   FrameBuilder& frame = *builders.back();
   frame.set_visualizer(request.settings.visualizer);
+  if (needs_motion(world, own_view)) frame.set_previous_instances(&motion.instances());
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
   frame.upload_view_constants(code);
   add_deform_pass(frame);
   add_geometry_pass(frame);
-  add_depth_bounds_pass(frame);
   GLOAM_TRY(frame.status());
   const GeometryOutputs& geometry = frame.get<GeometryOutputs>();
   for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth})
     frame.expose(image);
+  if (geometry.motion) frame.expose(geometry.motion);
 
   const ImageRef lit = graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read);
   frame.put(LitOutput{lit});
@@ -364,6 +378,7 @@ Status Renderer::State::prepare_views(World& world) {
     follow_camera(world, settings);
     GLOAM_TRY(prepare_images(world, own.request));
     own.view = std::make_unique<RenderView>(make_view(settings, frame, cuts.declare(slot.value, settings, frame)));
+    motion.begin_view(*own.view);
     world.set_view_resource(settings.id, *own.view);
     for (std::size_t i = 0; i < options.modules.size(); ++i)
       if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs_of(own));
@@ -385,6 +400,8 @@ Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   shared.clear();
   light_imports.clear();
   declared_counters.clear();
+  motion.begin_frame(world, world.resource<RenderSlot>().value, any_needs(&Module::needs_motion, world),
+                     copy_request.has_value());
   GLOAM_TRY(prepare_views(world));
   std::vector<const RenderView*> views;
   for (const FrameView& view : frame_views) views.push_back(view.view.get());
@@ -424,6 +441,7 @@ void Renderer::State::commit_frame(World& world, std::span<const ViewRequest> re
   const bool again = copy_request.has_value();
   history.commit(graph, !again);
   cuts.commit();
+  motion.commit(world);
   if (!again) ++world.resource<RenderSlot>().frames;
   for (const ViewRequest& request : requests) images.at(request.settings.id.value).drawn = true;
   last_requests.assign(requests.begin(), requests.end());
@@ -531,12 +549,14 @@ void Renderer::release_world(const World& world) {
   if (slot == nullptr) return;
   state_->scenes.erase(slot->value);
   state_->results.forget_world(slot->value);
+  state_->motion.forget_world(slot->value);
   state_->history.release_world(slot->value);
   state_->cuts.forget_world(slot->value);
   state_->release_images([&](std::uint32_t, const ViewImages& view) { return view.world == slot->value; });
 }
 
 void Renderer::release_view(ViewId view) {
+  state_->motion.forget_view(view);
   state_->history.release_view(view.value);
   state_->cuts.forget_view(view);
   state_->release_images([&](std::uint32_t id, const ViewImages&) { return id == view.value; });

@@ -15,6 +15,7 @@
 #include "engine/frame/upload.h"
 #include "engine/render/camera_cuts.h"
 #include "engine/render/declare/recording.h"
+#include "engine/render/draws/motion_history.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/readback/capture.h"
 #include "engine/render/renderer.h"
@@ -97,6 +98,10 @@ struct Renderer::State {
   /// Whether `question` (e.g. &Module::needs_casters) is true for any demanded module.
   [[nodiscard]] bool any_needs(bool (Module::*question)(const World&, const KnobRegistry&) const,
                                const World& world) const;
+  /// Whether the module is built, demanded by the world and the view, and not left out by the view's settings.
+  [[nodiscard]] bool may_draw(std::size_t module, const World& world, const FrameView& view) const;
+  /// Whether a module that may draw in the view needs GeometryOutputs::motion.
+  [[nodiscard]] bool needs_motion(const World& world, const FrameView& view) const;
   /// Renderer::render, except for exceptions that it passes on after giving the frame up.
   [[nodiscard]] Status draw_frame(World& world, std::span<const ViewRequest> requests);
   /// Notes a submitted frame as drawn.
@@ -148,6 +153,7 @@ struct Renderer::State {
   UploadRing storage;
   FrameResults results;
   declare::State declared;
+  MotionHistory motion;
   History history;
   CameraCuts cuts;
   FrameGraph graph;
@@ -166,7 +172,7 @@ struct Renderer::State {
   std::map<std::string, double> counters;
   std::vector<ViewCounters> declared_counters;  ///< of the frame that is being declared
   std::vector<ViewCounters> view_counters;      ///< of the last frame
-  std::vector<ResultKey> counted_results;  ///< of the last view
+  std::vector<ResultKey> counted_results;       ///< of the last view
   std::optional<CopyRequest> copy_request;
   std::unique_ptr<Captures> copies;  ///< of a frame that Renderer::draw_again has drawn
   double cpu_ms = 0.0;

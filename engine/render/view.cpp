@@ -103,6 +103,7 @@ RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uin
   }
   view.clip_from_relative = view.clip_from_view * view.view_from_relative;
   view.frustum = frustum_from_clip(view.clip_from_relative);
+  view.previous = view.view_camera();
   return view;
 }
 

@@ -58,6 +58,15 @@ struct ViewSettings {
   bool camera_cut = false;
 };
 
+/// Pose and lens of a view in one frame, without jitter.
+struct ViewCamera {
+  dvec3 position = dvec3(0.0);          ///< world
+  mat4 view_from_relative = mat4(1.0);  ///< rotation only
+  mat4 clip_from_view = mat4(1.0);      ///< reversed Z
+  mat4 clip_from_relative = mat4(1.0);
+  bool orthographic = false;
+};
+
 /// One view of one frame, for systems and passes. A view resource. Positions on the GPU are relative to `position`.
 struct RenderView {
   ViewId id{0};
@@ -78,7 +87,14 @@ struct RenderView {
   bool clipped = false;   ///< only what is on the visible side of clip_plane is drawn
   vec4 clip_plane = vec4(0.0f);  ///< dot(xyz, p) + w ≥ 0 is visible; p: camera-relative
   Frustum frustum;               ///< in camera-relative space
+  /// The view's camera in the world's previous drawn frame. If there is none (has_previous), the current camera. There
+  /// is none after a camera cut, and if the world's previous frame did not draw the view.
+  ViewCamera previous;
+  bool has_previous = false;
 
+  [[nodiscard]] ViewCamera view_camera() const {
+    return {position, view_from_relative, clip_from_view, clip_from_relative, camera.orthographic};
+  }
   /// Whether the camera was cut between the view's last frame and this one.
   [[nodiscard]] bool camera_cut() const { return cut_frame == frame; }
   /// Camera-relative float position of a world position.

@@ -34,4 +34,13 @@ shaders::ViewConstants view_constants(const RenderView& view) {
   return constants;
 }
 
+shaders::MotionConstants motion_constants(const RenderView& view) {
+  shaders::MotionConstants constants{};
+  constants.previous_clip_from_relative = view.previous.clip_from_relative;
+  constants.moved = vec3(view.position - view.previous.position);
+  constants.half_size = 0.5f * vec2(static_cast<float>(view.width), -static_cast<float>(view.height));
+  constants.orthographic = view.camera.orthographic || view.previous.orthographic ? 1 : 0;
+  return constants;
+}
+
 }  // namespace gloam

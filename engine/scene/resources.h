@@ -40,6 +40,12 @@ struct MorphWeights {
   std::vector<float> values;
 };
 
+/// Entities that the host has put elsewhere since the last frame. They and their descendants (Parent) have the motion
+/// of objects at rest in the next frame. The renderer clears the list when a frame was drawn.
+struct Teleports {
+  std::vector<Entity> entities;
+};
+
 /// Entities by kind ("light", "camera", "mesh", "node", …) and name.
 class SceneNames {
  public:

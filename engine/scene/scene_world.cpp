@@ -24,6 +24,7 @@ void prepare_scene_world(World& world) {
   world.set_resource(SceneClock{});
   world.set_resource(JointMatrices{});
   world.set_resource(MorphWeights{});
+  world.set_resource(Teleports{});
   prepare_scene_systems(world);
 }
 

@@ -15,6 +15,15 @@ struct DrawConstants {
   uint flags;  // GLOAM_DRAW_… bits
 };
 
+/// Push constants of one draw with motion. The previous rows map the mesh's space to space relative to the previous
+/// camera.
+struct MotionDrawConstants {
+  DrawConstants draw;
+  vec4 previous_row0;
+  vec4 previous_row1;
+  vec4 previous_row2;
+};
+
 /// Constants of one material, in a uniform buffer (set 1, binding 0).
 struct MaterialConstants {
   vec4 base_color;

@@ -10,6 +10,14 @@
 //   material    rgba8_unorm  roughness, metallic, occlusion, reflectivity
 //   emissive    rgba16_float cd/m²
 //   depth       d32          reversed Z, 0 = sky
+//   motion      rg32f        pixels since the previous frame (motion_api.glsl); only in frames that need it
+//
+// A fragment shader of PassPhase::geometry writes locations 0 to 3, and location 4 if the frame has motion:
+//   layout(location = 0) out vec4 out_base_color;   encode_base_color(base_color, subsurface)
+//   layout(location = 1) out uvec4 out_normals;     encode_normals(normal, face_normal), both towards the viewer
+//   layout(location = 2) out vec4 out_material;     vec4(roughness, metallic, occlusion, reflectivity), each 0…1
+//   layout(location = 3) out vec4 out_emissive;     vec4(emissive, 0.0), emissive in cd/m²
+//   layout(location = 4) out vec2 out_motion;       screen_motion(…)
 
 #include "shaders/common/math.glsl"
 
@@ -23,6 +31,16 @@ struct GBufferTexel {
   float occlusion;
   float reflectivity;
 };
+
+// base_color: linear.
+vec4 encode_base_color(vec3 base_color, bool subsurface) {
+  return vec4(sqrt(max(base_color, vec3(0.0))), subsurface ? 1.0 : 0.0);
+}
+
+// Normals of any length above 0, in world axes.
+uvec4 encode_normals(vec3 normal, vec3 face_normal) {
+  return uvec4(pack_normal(normal), pack_normal(face_normal), 0u, 0u);
+}
 
 GBufferTexel decode_gbuffer(vec4 base_color, uvec2 normals, vec4 material) {
   GBufferTexel g;

@@ -18,6 +18,7 @@
 #include "shaders/render/caster_shared.h"
 #include "shaders/render/deform_shared.h"
 #include "shaders/render/draw_shared.h"
+#include "shaders/render/motion_shared.h"
 #include "shaders/render/shaders.h"
 #include "shaders/render/view_shared.h"
 #include "shaders/shadows/shaders.h"
@@ -77,6 +78,23 @@ TEST(SharedStructs, draw_constants) {
   expect_same_layout(shaders::render::surface_vert, "DrawConstants", sizeof(T),
                      {GLOAM_MEMBER(T, row0), GLOAM_MEMBER(T, row1), GLOAM_MEMBER(T, row2), GLOAM_MEMBER(T, flags)});
   EXPECT_LE(sizeof(T), 128u) << "push constants of 128 bytes are what every device has";
+}
+
+TEST(SharedStructs, motion_draw_constants) {
+  using T = shaders::MotionDrawConstants;
+  expect_same_layout(shaders::render::surface_motion_vert, "MotionDrawConstants", sizeof(T),
+                     {GLOAM_MEMBER(T, draw), GLOAM_MEMBER(T, previous_row0), GLOAM_MEMBER(T, previous_row1),
+                      GLOAM_MEMBER(T, previous_row2)});
+  EXPECT_LE(sizeof(T), 128u) << "push constants of 128 bytes are what every device has";
+}
+
+TEST(SharedStructs, motion_constants) {
+  using T = shaders::MotionConstants;
+  for (const gpu::ShaderCode& shader :
+       {shaders::render::surface_motion_vert, shaders::render::geometry_motion_frag, shaders::render::sky_motion_frag})
+    expect_same_layout(shader, "MotionConstants", sizeof(T),
+                       {GLOAM_MEMBER(T, previous_clip_from_relative), GLOAM_MEMBER(T, moved),
+                        GLOAM_MEMBER(T, half_size), GLOAM_MEMBER(T, orthographic)});
 }
 
 TEST(SharedStructs, material_constants) {

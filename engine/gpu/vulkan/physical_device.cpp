@@ -146,6 +146,7 @@ std::string_view find_queue_family(const InstanceFunctions& f, PhysicalDevice& d
 
 constexpr std::uint32_t kLeastUniformRange = 65536;
 constexpr std::uint32_t kLeastPushConstants = 128;
+constexpr std::uint32_t kLeastColorTargets = 5;  // of the geometry buffer with motion; Vulkan guarantees 4
 
 Candidate examine(const Instance& instance, VkPhysicalDevice handle, const WindowNeeds& window) {
   const InstanceFunctions& f = instance.functions();
@@ -166,6 +167,8 @@ Candidate examine(const Instance& instance, VkPhysicalDevice handle, const Windo
   // more.
   if (device.limits.maxUniformBufferRange < kLeastUniformRange) add(candidate.lacks, "uniform buffers of 64 KiB");
   if (device.limits.maxPushConstantsSize < kLeastPushConstants) add(candidate.lacks, "128 bytes of push constants");
+  if (std::min(device.limits.maxColorAttachments, device.limits.maxFragmentOutputAttachments) < kLeastColorTargets)
+    add(candidate.lacks, "5 colour targets");
   device.can_present = window.present && has_extension(f, handle, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   if (window.present && !device.can_present) add(candidate.lacks, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   if (const std::string_view queue = find_queue_family(f, device, window); !queue.empty()) add(candidate.lacks, queue);

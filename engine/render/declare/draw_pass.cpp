@@ -4,6 +4,8 @@
 
 #include "engine/core/assert.h"
 #include "engine/render/declare/recording.h"
+#include "engine/render/scene/material_packing.h"
+#include "engine/render/view_constants.h"
 #include "shaders/render/shaders.h"
 
 namespace gloam {
@@ -78,9 +80,9 @@ gpu::GraphicsPipelineDesc pipeline_desc(const DrawProgram& program, std::string_
   desc.color_formats.assign(colors.begin(), colors.end());
   desc.depth_format = depth;
   if (depth != gpu::Format::undefined) desc.depth_compare = program.depth_compare;
-  desc.cull = gpu::CullMode::none;
+  desc.cull = program.cull;
   desc.blend = program.blend;
-  desc.depth_write = false;
+  desc.depth_write = program.depth_write && depth != gpu::Format::undefined;
   return desc;
 }
 
@@ -118,7 +120,7 @@ void DrawPass::use(const DrawProgram& program) {
 
 void DrawPass::use(const SurfacePass& surfaces) {
   recording().surface_passes.push_back(surfaces);
-  auto interface = frame().services().declared.interfaces.of(shaders::render::surface_vert, surfaces.fragment);
+  auto interface = frame().services().declared.interfaces.of(surface_vertex_shader(surfaces), surfaces.fragment);
   if (!interface.ok()) return fail(interface.error());
   ShaderPass::use(*interface);
 }
@@ -130,6 +132,8 @@ bool DrawPass::make_pipeline() {
   for (const declare::Target& target : recording().colors) colors.push_back(frame().graph().desc(target.image).format);
   const ImageRef depth = recording().depth.image;
   GLOAM_ASSERT(depth || !colors.empty(), sentence("", "targets must be declared before the first draw"));
+  GLOAM_ASSERT(!program_.depth_write || (depth && !recording().depth_read_only),
+               sentence("", "a program that writes depth needs a depth target"));
   const gpu::Format depth_format = depth ? frame().graph().desc(depth).format : gpu::Format::undefined;
   auto made = frame().services().pipelines.get(pipeline_desc(program_, frame().module(), colors, depth_format));
   if (!made.ok()) {
@@ -160,10 +164,23 @@ void DrawPass::surfaces(std::span<const Draw> draws) {
   GLOAM_ASSERT(!recording().surface_passes.empty(), sentence("", "no surface pass was chosen"));
   if (const Status made = frame().prepare_surfaces(draws, recording().surface_passes.back()); !made.ok())
     return fail(made.error());
-  frame().read_vertices(graph_pass());
+  frame().read_vertices(graph_pass(), recording().surface_passes.back().motion);
   Step& step = add_step(StepKind::surfaces, {});
   step.draws = draws;
   step.surface_pass = recording().surface_passes.size() - 1;
+}
+
+void geometry_targets(DrawPass& pass, GeometryOutputs& geometry) {
+  for (ImageRef* image : {&geometry.base_color, &geometry.normals, &geometry.material, &geometry.emissive})
+    *image = pass.target(*image, gpu::LoadOp::load);
+  if (geometry.motion) geometry.motion = pass.target(geometry.motion, gpu::LoadOp::load);
+  geometry.depth = pass.depth_target(geometry.depth, gpu::LoadOp::load);
+}
+
+std::span<const gpu::Format> geometry_formats(bool motion) { return geometry_surface_pass(motion).color_formats; }
+
+void bind_motion(DrawPass& pass, const RenderView& view) {
+  if (pass.declares("motion")) pass.uniform("motion", motion_constants(view));
 }
 
 }  // namespace gloam

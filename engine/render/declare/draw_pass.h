@@ -16,9 +16,11 @@ struct DrawProgram {
   gpu::ShaderCode fragment;
   std::vector<gpu::SpecConstant> constants = {};
   gpu::BlendMode blend = gpu::BlendMode::opaque;
-  /// With a depth target: the test of the fragment's depth against the stored one. Depth is not written.
+  /// With a depth target: the test of the fragment's depth against the stored one.
   gpu::CompareOp depth_compare = gpu::CompareOp::greater_equal;
-  gpu::ShaderCode vertex = {};  ///< no words: one full-screen triangle at depth 0 (fullscreen.vert)
+  gpu::ShaderCode vertex = {};               ///< no words: one full-screen triangle at depth 0 (fullscreen.vert)
+  bool depth_write = false;                  ///< only with DrawPass::depth_target
+  gpu::CullMode cull = gpu::CullMode::none;  ///< front faces are counter-clockwise in the picture
 };
 /// For Module::pipelines. colors: formats of the colour targets. depth: format of the depth target, or undefined.
 [[nodiscard]] gpu::GraphicsPipelineDesc pipeline_desc(const DrawProgram& program, std::string_view module,
@@ -61,5 +63,18 @@ class DrawPass : public ShaderPass {
   DrawProgram program_;
   gpu::PipelineHandle pipeline_;
 };
+
+/// Declares the images of the geometry buffer as targets of a pass in PassPhase::geometry: base_color, normals,
+/// material, emissive, then motion if it is not null, and depth. Their contents are kept. The program must have
+/// depth_compare greater_equal and depth_write. The fragment shader must write every colour target, as
+/// gbuffer_api.glsl describes. Only frames with motion have the target at location 4, so a module needs a fragment
+/// shader for each case.
+void geometry_targets(DrawPass& pass, GeometryOutputs& geometry);
+/// Formats of the colour targets that geometry_targets declares, for pipeline_desc.
+[[nodiscard]] std::span<const gpu::Format> geometry_formats(bool motion);
+inline constexpr gpu::Format kGeometryDepthFormat = gpu::Format::d32_float;
+
+/// Uploads the constants of motion_api.glsl as the binding "motion", if the program in use declares it.
+void bind_motion(DrawPass& pass, const RenderView& view);
 
 }  // namespace gloam

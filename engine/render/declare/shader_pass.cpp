@@ -243,6 +243,7 @@ void read_geometry(ShaderPass& pass, const GeometryOutputs& geometry) {
   pass.read_if_declared("emissive_image", geometry.emissive);
   pass.read_if_declared("depth_image", geometry.depth);
   pass.read_if_declared("depth_bounds", geometry.depth_bounds);
+  pass.read_if_declared("motion_image", geometry.motion);
 }
 
 }  // namespace gloam

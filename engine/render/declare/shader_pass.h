@@ -120,7 +120,7 @@ class ShaderPass {
 };
 
 /// Binds images of the geometry buffer for nearest sampling: those of base_color_image, normal_image, material_image,
-/// emissive_image, depth_image and depth_bounds that the program in use declares.
+/// emissive_image, depth_image, depth_bounds and motion_image that the program in use declares.
 void read_geometry(ShaderPass& pass, const GeometryOutputs& geometry);
 
 }  // namespace gloam

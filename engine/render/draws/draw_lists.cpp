@@ -122,10 +122,11 @@ class InstanceDrawer {
   }
 
   /// A draw in a view. flipped: the matrix mirrors, so front faces are clockwise. A mirrored view flips them again.
-  [[nodiscard]] Draw start(const RenderView& view, const GpuPrimitive& primitive,
+  [[nodiscard]] Draw start(const RenderView& view, Entity entity, const GpuPrimitive& primitive,
                            const shaders::DrawConstants& constants, bool flipped) const {
     const GpuMaterial& material = scene_.materials()[primitive.material];
     Draw draw;
+    draw.entity = entity;
     draw.primitive = &primitive;
     draw.constants = constants;
     draw.variant = surface_variant(material, primitive, flipped != view.mirrored);
@@ -155,7 +156,7 @@ class InstanceDrawer {
       ++draws.culled_instances;
       return;
     }
-    Draw draw = start(view, primitive, constants, (constants.flags & GLOAM_DRAW_MIRRORED) != 0);
+    Draw draw = start(view, instance.entity, primitive, constants, (constants.flags & GLOAM_DRAW_MIRRORED) != 0);
     for (const Cluster& cluster : primitive.clusters) {
       const bool visible = primitive.clusters.size() == 1 || may_see(view, transformed(cluster.bounds, matrix));
       if (!visible) continue;
@@ -194,7 +195,7 @@ class InstanceDrawer {
         continue;
       }
       deformed = true;
-      Draw draw = start(view, primitive, constants, flipped);
+      Draw draw = start(view, instance.entity, primitive, constants, flipped);
       draw.first_index = primitive.first_index;
       draw.index_count = primitive.index_count;
       draw.deform = deform;
@@ -206,6 +207,7 @@ class InstanceDrawer {
   [[nodiscard]] static DeformJob deform_job(const Instance& instance, const GpuPrimitive& primitive, bool skinned,
                                             bool morphed) {
     DeformJob job;
+    job.entity = instance.entity;
     job.primitive = &primitive;
     job.constants.vertex_count = primitive.vertex_count;
     job.constants.skinned = skinned ? 1 : 0;

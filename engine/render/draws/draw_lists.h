@@ -19,6 +19,7 @@ namespace gloam {
 
 /// One indexed draw: consecutive triangles of one primitive of one instance.
 struct Draw {
+  Entity entity;
   const GpuPrimitive* primitive = nullptr;
   SurfaceVariant variant;
   shaders::DrawConstants constants{};
@@ -30,6 +31,7 @@ struct Draw {
 
 /// A primitive of an instance whose vertices the GPU morphs or skins in this frame.
 struct DeformJob {
+  Entity entity;
   const GpuPrimitive* primitive = nullptr;
   shaders::DeformConstants constants{};
   std::uint32_t first_vertex = 0;  ///< in the frame's deformed streams, a multiple of 64

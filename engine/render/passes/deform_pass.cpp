@@ -9,10 +9,10 @@ namespace gloam {
 namespace {
 
 /// Three matrix rows per joint, as the shader reads them.
-std::vector<vec4> joint_rows(const JointMatrices& joints) {
+std::vector<vec4> joint_rows(std::span<const mat4> matrices) {
   std::vector<vec4> rows;
-  rows.reserve(3 * joints.matrices.size() + 3);
-  for (const mat4& matrix : joints.matrices) {
+  rows.reserve(3 * matrices.size() + 3);
+  for (const mat4& matrix : matrices) {
     const mat4 transposed = glm::transpose(matrix);
     rows.insert(rows.end(), {transposed[0], transposed[1], transposed[2]});
   }
@@ -27,44 +27,80 @@ gpu::Binding::BufferRange part(gpu::BufferHandle buffer, std::uint64_t first, st
   return {buffer, first * sizeof(T), count * sizeof(T)};
 }
 
-void deform(ComputePass& pass, const GpuScene& scene, const DeformJob& job, FrameBuilder::Deformed& deformed) {
+/// Streams of deformed vertices of the frame.
+struct Streams {
+  BufferRef positions;
+  BufferRef frames;
+};
+
+Streams create_streams(FrameBuilder& frame, const std::string& prefix) {
+  const auto stream = [&](const char* name, std::size_t stride) {
+    gpu::BufferDesc desc;
+    desc.name = prefix + name;
+    desc.module = "engine";
+    desc.size = frame.frame_draws().deformed_vertices * stride;
+    return frame.graph().create_buffer(std::move(desc));
+  };
+  return {stream("_positions", sizeof(vec3)), stream("_frames", sizeof(PackedFrame))};
+}
+
+void deform(ComputePass& pass, const GpuScene& scene, const DeformJob& job, const shaders::DeformConstants& constants,
+            Streams& target) {
   const GpuPrimitive& p = *job.primitive;
   const std::uint64_t count = p.vertex_count;
-  const std::uint64_t morph_floats = 3ull * count * job.constants.morph_targets * (p.morph_has_normals ? 2 : 1);
+  const std::uint64_t morph_floats = 3ull * count * constants.morph_targets * (p.morph_has_normals ? 2 : 1);
   pass.read("rest_positions", part<vec3>(scene.positions(), p.first_vertex, count));
   pass.read("rest_frames", part<PackedFrame>(scene.frames(), p.first_vertex, count));
   pass.read("influences",
-            part<PackedInfluence>(scene.influences(), p.first_influence, job.constants.skinned != 0 ? count : 0));
+            part<PackedInfluence>(scene.influences(), p.first_influence, constants.skinned != 0 ? count : 0));
   pass.read("morph_offsets", part<float>(scene.morph_offsets(), p.first_morph, morph_floats));
-  deformed.positions =
-      pass.write_part("positions", deformed.positions, job.first_vertex * sizeof(vec3), count * sizeof(vec3));
-  deformed.frames =
-      pass.write_part("frames", deformed.frames, job.first_vertex * sizeof(PackedFrame), count * sizeof(PackedFrame));
-  pass.push(job.constants);
+  target.positions =
+      pass.write_part("positions", target.positions, job.first_vertex * sizeof(vec3), count * sizeof(vec3));
+  target.frames =
+      pass.write_part("frames", target.frames, job.first_vertex * sizeof(PackedFrame), count * sizeof(PackedFrame));
+  pass.push(constants);
   pass.dispatch_over(p.vertex_count);
+}
+
+/// Morph weights for the GPU; at least one, because a buffer range cannot be empty.
+std::vector<float> uploaded_weights(std::vector<float> weights) {
+  weights.resize(std::max<std::size_t>(weights.size(), 1));
+  return weights;
+}
+
+/// Deforms with the previous frame's joints and weights, into streams of the same layout. Returns the positions.
+BufferRef add_previous_pass(FrameBuilder& frame, const DrawnInstances& drawn) {
+  std::vector<mat4> joints = frame.world().resource<JointMatrices>().matrices;
+  std::vector<float> weights = frame.world().resource<MorphWeights>().values;
+  const DeformOffsets offsets{static_cast<std::uint32_t>(joints.size()), static_cast<std::uint32_t>(weights.size())};
+  joints.insert(joints.end(), drawn.joints.begin(), drawn.joints.end());
+  weights.insert(weights.end(), drawn.weights.begin(), drawn.weights.end());
+  Streams previous = create_streams(frame, "previous");
+  ComputePass pass(frame, "deform_previous", shaders::render::deform_comp);
+  pass.items<vec4>("joint_rows", joint_rows(joints));
+  pass.items<float>("morph_weights", uploaded_weights(std::move(weights)));
+  for (const DeformJob& job : frame.frame_draws().deforms)
+    deform(pass, frame.scene(), job, previous_deform_constants(job, drawn.find(frame.world(), job.entity), offsets),
+           previous);
+  return previous.positions;
 }
 
 }  // namespace
 
 void add_deform_pass(FrameBuilder& frame) {
-  const FrameDraws& draws = frame.frame_draws();
-  if (draws.deforms.empty() || frame.shared().find<FrameBuilder::Deformed>() != nullptr) return;
-  const auto stream = [&](const char* name, std::size_t stride) {
-    gpu::BufferDesc desc;
-    desc.name = name;
-    desc.module = "engine";
-    desc.size = draws.deformed_vertices * stride;
-    return frame.graph().create_buffer(std::move(desc));
-  };
-  FrameBuilder::Deformed deformed{stream("deformed_positions", sizeof(vec3)),
-                                  stream("deformed_frames", sizeof(PackedFrame))};
-  std::vector<float> weights = frame.world().resource<MorphWeights>().values;
-  weights.resize(std::max<std::size_t>(weights.size(), 1));
-  ComputePass pass(frame, "deform", shaders::render::deform_comp);
-  pass.items<vec4>("joint_rows", joint_rows(frame.world().resource<JointMatrices>()));
-  pass.items<float>("morph_weights", weights);
-  for (const DeformJob& job : draws.deforms) deform(pass, frame.scene(), job, deformed);
-  frame.shared().put(deformed);
+  if (frame.frame_draws().deforms.empty()) return;
+  FrameBuilder::Deformed* deformed = frame.shared().find<FrameBuilder::Deformed>();
+  if (deformed == nullptr) {
+    Streams streams = create_streams(frame, "deformed");
+    ComputePass pass(frame, "deform", shaders::render::deform_comp);
+    pass.items<vec4>("joint_rows", joint_rows(frame.world().resource<JointMatrices>().matrices));
+    pass.items<float>("morph_weights", uploaded_weights(frame.world().resource<MorphWeights>().values));
+    for (const DeformJob& job : frame.frame_draws().deforms) deform(pass, frame.scene(), job, job.constants, streams);
+    deformed = &frame.shared().put(FrameBuilder::Deformed{streams.positions, streams.frames, {}});
+  }
+  const DrawnInstances* drawn = frame.previous_instances();
+  if (drawn != nullptr && !deformed->previous_positions)
+    deformed->previous_positions = add_previous_pass(frame, *drawn);
 }
 
 }  // namespace gloam

@@ -9,7 +9,8 @@
 namespace gloam {
 
 void add_geometry_pass(FrameBuilder& frame) {
-  const SurfacePass& surfaces = geometry_surface_pass();
+  const bool with_motion = frame.previous_instances() != nullptr;
+  const SurfacePass& surfaces = geometry_surface_pass(with_motion);
   GeometryOutputs outputs;
   DrawPass pass(frame, "geometry");
   // Depth alone marks sky; colours are cleared only so that every texel is defined.
@@ -20,10 +21,23 @@ void add_geometry_pass(FrameBuilder& frame) {
   outputs.normals = target("normals", surfaces.color_formats[1]);
   outputs.material = target("material", surfaces.color_formats[2]);
   outputs.emissive = target("emissive", surfaces.color_formats[3]);
-  outputs.depth = pass.depth_target(create_view_image(frame, "depth", gpu::Format::d32_float), gpu::LoadOp::clear);
+  if (with_motion) outputs.motion = target("motion", surfaces.color_formats[4]);
+  outputs.depth = pass.depth_target(create_view_image(frame, "depth", kGeometryDepthFormat), gpu::LoadOp::clear);
   pass.use(surfaces);
+  bind_motion(pass, frame.view());
   pass.surfaces(frame.draws().solid);
   frame.put(outputs);
+}
+
+void add_sky_motion_pass(FrameBuilder& frame) {
+  GeometryOutputs& outputs = frame.get<GeometryOutputs>();
+  if (!outputs.motion) return;
+  // Depth 0 passes the test only where nothing was drawn.
+  DrawPass pass(frame, "sky_motion", {.fragment = shaders::render::sky_motion_frag});
+  outputs.motion = pass.target(outputs.motion, gpu::LoadOp::load);
+  pass.test_depth(outputs.depth);
+  bind_motion(pass, frame.view());
+  pass.draw_triangle();
 }
 
 void add_depth_bounds_pass(FrameBuilder& frame) {

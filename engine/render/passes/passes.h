@@ -13,8 +13,12 @@ namespace gloam {
 /// FrameBuilder::Deformed on the shared board. Does nothing if there are none, or if an earlier view has done it.
 void add_deform_pass(FrameBuilder& frame);
 
-/// Draws solid surfaces into the geometry buffer; puts GeometryOutputs.
+/// Draws solid surfaces into the geometry buffer; puts GeometryOutputs, with motion if the view has
+/// FrameBuilder::previous_instances.
 void add_geometry_pass(FrameBuilder& frame);
+
+/// Writes the motion of sky pixels, if GeometryOutputs has a motion image.
+void add_sky_motion_pass(FrameBuilder& frame);
 
 /// Computes the farthest and nearest depth of each 8×8 tile; sets GeometryOutputs::depth_bounds, which
 /// add_geometry_pass has put.

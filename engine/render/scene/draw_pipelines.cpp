@@ -7,10 +7,14 @@
 
 namespace gloam {
 
+const gpu::ShaderCode& surface_vertex_shader(const SurfacePass& pass) {
+  return pass.motion ? shaders::render::surface_motion_vert : shaders::render::surface_vert;
+}
+
 gpu::GraphicsPipelineDesc surface_pipeline_desc(const SurfacePass& pass, SurfaceVariant variant) {
   gpu::GraphicsPipelineDesc desc;
   desc.module = pass.module;
-  desc.vertex = shaders::render::surface_vert;
+  desc.vertex = surface_vertex_shader(pass);
   desc.fragment = pass.fragment;
   desc.constants = {{0, variant.features}};
   desc.constants.insert(desc.constants.end(), pass.constants.begin(), pass.constants.end());
@@ -19,6 +23,10 @@ gpu::GraphicsPipelineDesc surface_pipeline_desc(const SurfacePass& pass, Surface
                      {2, 2, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)},
                      {3, 2, gpu::Format::rgba8_unorm, offsetof(PackedSurface, color)}};
   desc.stream_strides = {sizeof(vec3), sizeof(PackedFrame), sizeof(PackedSurface)};
+  if (pass.motion) {
+    desc.attributes.push_back({4, 3, gpu::Format::rgb32_float, 0});
+    desc.stream_strides.push_back(sizeof(vec3));
+  }
   desc.color_formats = pass.color_formats;
   desc.depth_format = gpu::Format::d32_float;
   desc.cull = variant.cull;

@@ -20,7 +20,11 @@ struct SurfacePass {
   bool depth_write = true;
   /// Constants of the fragment shader, except constant 0.
   std::vector<gpu::SpecConstant> constants = {};
+  /// The fragment shader reads the positions in the previous frame (surface_motion.vert).
+  bool motion = false;
 };
+/// The vertex shader of a surface pass.
+[[nodiscard]] const gpu::ShaderCode& surface_vertex_shader(const SurfacePass& pass);
 
 /// Pipeline state that differs between the draws of a pass. `features`: GLOAM_SURFACE_… bits.
 struct SurfaceVariant {

@@ -67,16 +67,19 @@ gpu::SamplerDesc sampler_desc(const Texture& texture) {
   return desc;
 }
 
-const SurfacePass& geometry_surface_pass() {
-  static const SurfacePass pass = [] {
+const SurfacePass& geometry_surface_pass(bool motion) {
+  const auto make = [](bool with_motion) {
     SurfacePass p;
     p.module = "engine";
-    p.fragment = shaders::render::geometry_frag;
+    p.fragment = with_motion ? shaders::render::geometry_motion_frag : shaders::render::geometry_frag;
     p.color_formats = {gpu::Format::rgba8_unorm, gpu::Format::rg32_uint, gpu::Format::rgba8_unorm,
                        gpu::Format::rgba16_float};
+    if (with_motion) p.color_formats.push_back(gpu::Format::rg32_float);
+    p.motion = with_motion;
     return p;
-  }();
-  return pass;
+  };
+  static const SurfacePass passes[] = {make(false), make(true)};
+  return passes[motion ? 1 : 0];
 }
 
 }  // namespace gloam

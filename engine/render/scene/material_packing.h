@@ -17,7 +17,7 @@ inline constexpr std::size_t kMaterialStride = 256;  ///< bytes between material
 /// GLOAM_SURFACE_… bits of a material.
 [[nodiscard]] std::uint32_t surface_features(const Material& material);
 [[nodiscard]] gpu::SamplerDesc sampler_desc(const Texture& texture);
-/// The pass that fills the geometry buffer.
-[[nodiscard]] const SurfacePass& geometry_surface_pass();
+/// The pass that fills the geometry buffer, with GeometryOutputs::motion as the fifth target or without it.
+[[nodiscard]] const SurfacePass& geometry_surface_pass(bool motion = false);
 
 }  // namespace gloam

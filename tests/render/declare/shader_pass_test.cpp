@@ -248,6 +248,17 @@ TEST_F(DeclaredPass, a_draw_needs_targets_first) {
                 "targets must be declared before the first draw");
 }
 
+TEST_F(DeclaredPass, a_program_that_writes_depth_needs_a_depth_target) {
+  EXPECT_ASSERT((void)render([&](FrameBuilder& frame) {
+                  DrawPass pass(frame, "tested", {.fragment = shaders::render::debug_view_frag, .depth_write = true});
+                  static_cast<void>(pass.target(create_view_image(frame, "shown", gpu::Format::rgba8_unorm)));
+                  pass.test_depth(frame.get<GeometryOutputs>().depth);
+                  read_geometry(pass, frame.get<GeometryOutputs>());
+                  pass.draw_triangle();
+                }),
+                "a program that writes depth needs a depth target");
+}
+
 TEST_F(DeclaredPass, binds_the_view_constants_by_itself) {
   ASSERT_TRUE(render([&](FrameBuilder& frame) {
                 DrawPass pass(frame, "tested", {shaders::render::debug_view_frag});

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace gloam {
 namespace {
 
@@ -90,6 +93,14 @@ TEST(GeometrySurfacePass, writes_the_formats_the_decoder_reads) {
   EXPECT_EQ(pass.color_formats[3], gpu::Format::rgba16_float);
   EXPECT_TRUE(pass.depth_write);
   EXPECT_EQ(pass.blend, gpu::BlendMode::opaque);
+}
+
+TEST(GeometrySurfacePass, with_motion_has_one_more_target) {
+  const SurfacePass& pass = geometry_surface_pass(true);
+  const std::vector<gpu::Format>& plain = geometry_surface_pass().color_formats;
+  ASSERT_EQ(pass.color_formats.size(), plain.size() + 1);
+  EXPECT_TRUE(std::equal(plain.begin(), plain.end(), pass.color_formats.begin()));
+  EXPECT_EQ(pass.color_formats.back(), gpu::Format::rg32_float);
 }
 
 }  // namespace
