@@ -75,6 +75,8 @@ class CloseupsModule final : public Module {
     if (subjects == 0) return {false, "no close-up subject"};
     if (view == nullptr)
       return {true, std::to_string(subjects) + (subjects == 1 ? " close-up subject" : " close-up subjects")};
+    // Captures share standard maps, so subjects stay in them.
+    if (view->purpose == ViewPurpose::capture) return {false, "captures have no close-ups"};
     const CloseupViews& views = world.view_resource<CloseupViews>(view->id);
     return {views.in_view > 0, std::to_string(views.in_view) + " close-up pairs in view, " +
                                    std::to_string(views.pairs.size()) + " with close-up maps"};

@@ -39,6 +39,7 @@ class ShadowsModule final : public Module {
     world.register_component<ShadowCaster>("shadow_caster");
     world.register_component<CasterVolume>("caster_volume");
     world.set_resource(ShadowWorld{++worlds_});
+    world.set_resource(CapturePlaces{});
     world.set_resource(Cookies{});
   }
   void scene_keys(KeyRegistry& registry) const override { add_shadow_keys(registry); }
@@ -72,7 +73,7 @@ class ShadowsModule final : public Module {
   }
 
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
-    prepare_shadow_view(world, view);
+    prepare_shadow_view(world, view, shadow_knobs(knobs));
     world.view_resource<ShadowSettings>(view) = shadow_settings(shadow_knobs(knobs));
     // Cookies of lights added after the scene was loaded. The error of a bad file stays in Cookies::faults for the log.
     static_cast<void>(load_cookies(world));
@@ -122,7 +123,7 @@ class ShadowsModule final : public Module {
 
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
     const ShadowViews& views = world.view_resource<ShadowViews>(view.id);
-    const ViewShadows* kept = states_.find(world.resource<ShadowWorld>(), view.id);
+    const ViewShadows* kept = states_.find(world.resource<ShadowWorld>(), views.owner);
     const ShadowCounts counts = kept == nullptr ? ShadowCounts{} : kept->counts;
     const auto texels = static_cast<double>(views.atlas.size()) * views.atlas.size();
     sink.count("shadows.casting_lights", views.casting_lights);
@@ -135,6 +136,7 @@ class ShadowsModule final : public Module {
     sink.count("shadows.atlas_used", static_cast<double>(views.atlas.used_texels()) / std::max(texels, 1.0));
   }
 
+  void release_view(ViewId view) override { states_.release_view(view); }
   void release() override { states_.release(); }
 
  private:

@@ -43,7 +43,8 @@ void set_constants(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uin
 /// frame makes final lists (for_lists): otherwise no module would draw them.
 ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-  auto found = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  auto found =
+      states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id, knobs.atlas_size, knobs.d16);
   if (!frame.check(found)) return {};
   ViewShadows& kept = **found;
   const WithheldCasters* withheld = for_lists ? frame.find<WithheldCasters>() : nullptr;
@@ -59,11 +60,12 @@ ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs
 /// Adds the passes of final lists; with classification, the planes before them.
 void add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
                      ShadowsOutputs& outputs) {
-  auto kept = states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+  auto kept =
+      states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id, knobs.atlas_size, knobs.d16);
   if (!frame.check(kept)) return;
   ImageRef planes;
   if (knobs.classify) {
-    const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
     planes = add_shadow_planes_pass(frame, states, **kept, maps, views);
   }
   add_generate_passes(frame, knobs, planes, outputs);
@@ -88,7 +90,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   if (has_maps)
     maps = add_maps(frame, states, knobs, has_lists);
   else
-    states.rest(frame.world().resource<ShadowWorld>(), frame.view().id);
+    states.rest(frame.world().resource<ShadowWorld>(), views.owner);
   if (!frame.status().ok()) return;
   outputs.atlas = maps.atlas;
   outputs.pyramid = maps.pyramid;

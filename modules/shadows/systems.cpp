@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/systems.h"
 
+#include <bit>
+#include <memory>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "modules/shadows/atlas/find_faces.h"
 
 namespace gloam {
@@ -109,10 +112,37 @@ void add_shadow_systems(Schedule& schedule) {
   schedule.add_system("shadow_views", "shadows", Stage::view, &shadow_views_system);
 }
 
-void prepare_shadow_view(World& world, ViewId view) {
+namespace {
+
+/// Owner of the atlas that the world's captures with these knobs share; no view has such a number.
+ViewId owner_of_captures(const ShadowKnobs& knobs) {
+  const std::uint64_t hash = Hasher()
+                                 .value(knobs.atlas_size)
+                                 .value(knobs.d16)
+                                 .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
+                                 .value(knobs.mip_operator)
+                                 .value(knobs.simplified)
+                                 .digest();
+  return ViewId{0x80000000u | static_cast<std::uint32_t>(hash)};
+}
+
+}  // namespace
+
+void prepare_shadow_view(World& world, ViewId view, const ShadowKnobs& knobs) {
   if (world.try_view_resource<CasterBounds>(view) == nullptr) world.set_view_resource(view, CasterBounds{});
   if (world.try_view_resource<ShadowSettings>(view) == nullptr) world.set_view_resource(view, ShadowSettings{});
   if (world.try_view_resource<ShadowViews>(view) == nullptr) world.set_view_resource(view, ShadowViews{});
+  auto& views = world.view_resource<ShadowViews>(view);
+  const auto* render_view = world.try_view_resource<RenderView>(view);
+  const bool captures = render_view != nullptr && render_view->purpose == ViewPurpose::capture;
+  views.owner = captures ? owner_of_captures(knobs) : view;
+  if (!captures) {
+    views.shared = nullptr;
+    return;
+  }
+  std::weak_ptr<SharedPlaces>& known = world.resource<CapturePlaces>().by_owner[views.owner.value];
+  views.shared = known.lock();
+  if (views.shared == nullptr) known = views.shared = std::make_shared<SharedPlaces>();
 }
 
 }  // namespace gloam

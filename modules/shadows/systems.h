@@ -36,6 +36,6 @@ void shadow_views_system(ViewResource<const VisibleLights> visible, ViewResource
 void add_shadow_systems(Schedule& schedule);
 
 /// Creates the view resources that the systems need (CasterBounds, ShadowSettings, ShadowViews), unless they exist.
-void prepare_shadow_view(World& world, ViewId view);
+void prepare_shadow_view(World& world, ViewId view, const ShadowKnobs& knobs);
 
 }  // namespace gloam

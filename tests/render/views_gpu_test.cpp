@@ -279,6 +279,29 @@ TEST_F(Views, released_views_leave_no_memory_behind) {
   for (const auto& [module, bytes] : before) EXPECT_EQ(memory()[module], bytes) << module;
 }
 
+TEST_F(Views, captures_share_the_maps_of_local_lights_and_have_cascades_of_their_own) {
+  fill(stage->world, false);
+  const gpu::ImageHandle cube = make_cube(1);
+  const std::vector<ViewRequest> requests = captures_of(cube_faces(dvec3(0.3, 0.9, 0.2)), cube);
+  const auto sum = [&](const char* name) {
+    double all = 0.0;
+    for (const ViewCounters& view : stage->renderer->report().views) all += view.counters.at(name);
+    return all;
+  };
+  stage->render(requests);
+  const auto faces = [&] {
+    return sum("shadows.faces_drawn") + sum("shadows.faces_skipped") + sum("shadows.faces_cached");
+  };
+  const double all = faces();
+  EXPECT_GT(sum("shadows.faces_cached"), 0.0) << "maps that an earlier view of the frame draws are not drawn again";
+  EXPECT_GT(sum("shadows.faces_drawn"), 0.0);
+  stage->render(requests);
+  EXPECT_EQ(faces(), all);
+  // One atlas for six views.
+  EXPECT_LT(memory()["shadows"], std::uint64_t{200} << 20);
+  test::drawing_device()->destroy(cube);
+}
+
 /// Leaves a value for the later views of a frame.
 struct SeenViews {
   std::vector<std::uint32_t> ids;

@@ -44,7 +44,7 @@ std::uint64_t place_of(const AtlasSquare& square) {
   return spread_bits(square.origin.x) | spread_bits(square.origin.y) << 1;
 }
 
-FaceKey key_of(const ShadowFace& face) { return {face.light, face.index}; }
+FaceKey key_of(const ShadowFace& face) { return {face.light, face.index, face.view}; }
 
 /// Adjacent faces of one light with one origin and range, or one orthographic face: [begin, end).
 struct FaceGroup {

@@ -119,10 +119,12 @@ PlacedFaces place_faces(const MapInputs& inputs, ViewShadows& kept, JobExecutor&
   PlacedFaces placed;
   for (const ShadowFace& face : inputs.faces)
     if (face.square.size > 0) placed.faces.push_back(face);
-  std::vector<CasterState> states = caster_states(inputs.casters, inputs.poses, executor);
-  const std::vector<CasterState> sources = source_states(inputs.sources);
-  states.insert(states.end(), sources.begin(), sources.end());
-  kept.history.advance(std::move(states), sources.size());
+  if (!inputs.again) {
+    std::vector<CasterState> states = caster_states(inputs.casters, inputs.poses, executor);
+    const std::vector<CasterState> sources = source_states(inputs.sources);
+    states.insert(states.end(), sources.begin(), sources.end());
+    kept.history.advance(std::move(states), sources.size());
+  }
   placed.contents = face_contents(placed.faces, kept.history.states(), inputs.salt, executor, kept.history.withheld());
   placed.stale.resize(placed.faces.size());
   executor.parallel_for(placed.faces.size(), 8, [&](JobRange range) {
@@ -146,10 +148,17 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& exe
   std::vector<DrawnFace>& drawn = maps.faces;
   std::vector<std::uint8_t> on_backgrounds;  // by index into `drawn`
   kept.counts = {};
-  kept.drawn.clear();
+  if (!inputs.again) kept.drawn.clear();
+  const std::size_t drawn_by_others = kept.drawn.size();
   for (std::size_t i = 0; i < placed.faces.size(); ++i) {
     const ShadowFace& face = placed.faces[i];
     const FaceContent& content = placed.contents[i];
+    const FaceKey key{face.light, face.index, face.view};
+    const auto others = std::span(kept.drawn).first(drawn_by_others);
+    if (std::ranges::find(others, key) != others.end()) {
+      ++kept.counts.cached;
+      continue;
+    }
     if (placed.stale[i].regions.empty()) {
       kept.cache.keep(face, content, kept.history.frame());
       ++kept.counts.cached;
@@ -161,7 +170,7 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& exe
       kept.counts.texels += texels.texels();
     }
     on_backgrounds.push_back(wants_backgrounds(added, placed.stale[i].held) ? 1 : 0);
-    kept.drawn.push_back({face.light, face.index});
+    kept.drawn.push_back(key);
     if (content.casters == 0) ++kept.counts.skipped;
   }
   kept.counts.drawn = static_cast<std::uint32_t>(drawn.size()) - kept.counts.skipped;
@@ -189,7 +198,9 @@ DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowView
                          .poses = poses,
                          .sources = frame.caster_sources(),
                          .salt = salt_of(frame, knobs),
-                         .simplified = knobs.simplified};
+                         .simplified = knobs.simplified,
+                         .again = kept.planned_in == frame.graph().frame()};
+  kept.planned_in = frame.graph().frame();
   return plan_maps(inputs, kept, frame.services().executor);
 }
 

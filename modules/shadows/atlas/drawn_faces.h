@@ -52,6 +52,8 @@ struct MapInputs {
   std::span<const CasterSource* const> sources;  ///< in any order
   std::uint64_t salt = 0;                        ///< as in face_contents()
   bool simplified = false;                       ///< as in face_draws()
+  /// Another view of the frame that shares the atlas has planned its maps already: what it draws is up to date.
+  bool again = false;
 };
 
 /// Decides which of the faces are drawn in this frame: all faces whose map the atlas does not hold. If only casters

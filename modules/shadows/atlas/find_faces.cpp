@@ -119,7 +119,13 @@ float local_density(const ShadowSettings& settings, const Plans& plans, float pr
   });
 }
 
-void request_directional(std::span<const ShadowLight> lights, ShadowViews& shadows, Plans& plans) {
+/// FaceKey::view of cascades.
+std::uint32_t view_of_cascades(const RenderView& view, const ShadowViews& shadows) {
+  return shadows.shared == nullptr ? 0 : view.id.value + 1;
+}
+
+void request_directional(std::span<const ShadowLight> lights, const RenderView& view, ShadowViews& shadows,
+                         Plans& plans) {
   for (std::size_t i = 0; i < plans.directional.size(); ++i) {
     DirectionalPlan& plan = plans.directional[i];
     plan.first_request = plans.requests.size();
@@ -128,7 +134,7 @@ void request_directional(std::span<const ShadowLight> lights, ShadowViews& shado
     ++shadows.casting_lights;
     // Outer cascades show less of the picture.
     for (const CascadeSphere& sphere : plans.spheres)
-      plans.requests.push_back({{lights[i].entity, sphere.slice},
+      plans.requests.push_back({{lights[i].entity, sphere.slice, view_of_cascades(view, shadows)},
                                 plan.size,
                                 brightness_of(lights[i].light) / static_cast<float>(sphere.slice + 1)});
   }
@@ -194,6 +200,7 @@ void fill_directional(std::span<const ShadowLight> lights, const FacePlaces& pla
       ShadowFace face = cascade_face(lights[i].entity, plan.axes, plans.spheres[c], casters, places.squares[request],
                                      settings.kernel_rim);
       face.importance = plans.requests[request].importance;
+      face.view = plans.requests[request].key.view;
       directional.cascades[directional.cascade_count++] = cascade_constants(face, view.position, settings.kernel_rim);
       shadows.faces.push_back(face);
     }
@@ -215,8 +222,11 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
   plan_directional(directional, view, settings, casters, plans);
   shadows.texels_per_pixel = local_density(settings, plans, shadows.texels_per_pixel);
   request_local(local, shadows, plans);
-  request_directional(directional, shadows, plans);
-  const FacePlaces places = shadows.atlas.place(settings.atlas_size, plans.requests);
+  request_directional(directional, view, shadows, plans);
+  const FacePlaces places = shadows.shared == nullptr
+                                ? shadows.atlas.place(settings.atlas_size, plans.requests)
+                                : shadows.shared->place(view.frame, settings.atlas_size, plans.requests);
+  if (shadows.shared != nullptr) shadows.atlas = shadows.shared->atlas();
   shadows.faces_shrunk = places.shrunk;
   shadows.faces_left_out = places.left_out;
   fill_local(local, places, jobs, plans, shadows);

@@ -14,16 +14,18 @@
 
 namespace gloam {
 
-/// Identifies a face: a light and the face's index.
+/// Identifies a face: a light, the face's index and, if the face belongs to one of several views that share an atlas
+/// (a cascade), that view.
 struct FaceKey {
   Entity light;
   std::uint32_t index = 0;
+  std::uint32_t view = 0;  ///< number of the view + 1; 0: of all views
   bool operator==(const FaceKey&) const = default;
 };
 
 struct FaceKeyHash {
   std::size_t operator()(const FaceKey& key) const noexcept {
-    return (std::hash<Entity>()(key.light) * 8 + key.index) * std::size_t{0x9E3779B97F4A7C15u};
+    return ((std::hash<Entity>()(key.light) * 8 + key.index) * std::size_t{0x9E3779B97F4A7C15u}) ^ key.view;
   }
 };
 

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "engine/ecs/entity.h"
+#include "engine/ecs/world.h"
 #include "engine/math/types.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/atlas/placement.h"
+#include "modules/shadows/atlas/shared_places.h"
 #include "modules/shadows/outputs.h"
 #include "shaders/shadows/shadows_shared.h"
 
@@ -32,8 +35,10 @@ struct ShadowViews {
   std::uint32_t faces_left_out = 0;  ///< faces without a place, even at the smallest size: their lights cast no shadow
   std::uint32_t casting_lights = 0;  ///< lights that requested faces
   ShadowAtlas atlas;                 ///< places of the faces; kept from frame to frame
-  float texels_per_pixel = 0.0f;     ///< density of local lights' maps; kept from frame to frame; 0: no frame yet
-  std::vector<WantedSize> wanted;    ///< ordered by entity index; kept from frame to frame
+  ViewId owner{0};                   ///< of the atlas: the view itself, or a number that captures share
+  std::shared_ptr<SharedPlaces> shared;  ///< null: the view has an atlas of its own
+  float texels_per_pixel = 0.0f;         ///< density of local lights' maps; kept from frame to frame; 0: no frame yet
+  std::vector<WantedSize> wanted;        ///< ordered by entity index; kept from frame to frame
 };
 
 }  // namespace gloam

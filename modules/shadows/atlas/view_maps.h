@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <vector>
 
+#include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
 #include "modules/shadows/atlas/cache.h"
 #include "modules/shadows/atlas/caster_states.h"
@@ -24,9 +26,14 @@ struct ShadowCounts {
 struct KeptImage {
   gpu::ImageHandle image;
   bool filled = false;  ///< a frame that writes it has been recorded
+  ImageRef imported;    ///< first version in the frame that imported it last
 };
 
-/// State that one view of one world keeps between frames: its images, and the data about their content.
+/// The image in this frame, imported by the frame's first call; later calls return the newest version.
+[[nodiscard]] ImageRef import_kept(FrameGraph& graph, const char* name, KeptImage& image);
+
+/// State that one view of one world, or its captures together, keep between frames: images, and the data about their
+/// content.
 struct ViewShadows {
   KeptImage atlas;
   KeptImage pyramid;
@@ -39,8 +46,10 @@ struct ViewShadows {
   ShadowCache cache;
   CasterHistory history;  ///< its frames are the frames of this view
   ShadowCounts counts;
-  std::vector<FaceKey> drawn;    ///< faces drawn in the newest frame
-  std::uint64_t last_frame = 0;  ///< Device::frame_number of its last use
+  std::vector<FaceKey> drawn;     ///< faces drawn in the newest frame, by all views that share the images
+  std::uint32_t planned_in = 0;   ///< FrameGraph::frame of the newest frame that planned maps
+  std::set<std::uint32_t> users;  ///< numbers of the views that share the images
+  std::uint64_t last_frame = 0;   ///< Device::frame_number of its last use
 };
 
 }  // namespace gloam

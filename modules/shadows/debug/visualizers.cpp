@@ -52,7 +52,7 @@ std::vector<shaders::AtlasFaceConstants> atlas_squares(const ShadowViews& views,
     square.size = static_cast<float>(face.square.size);
     square.near_m = face.tan_half > 0.0f ? face.near_m : 0.0f;
     square.far_m = face.far_m;
-    const FaceKey key{face.light, face.index};
+    const FaceKey key{face.light, face.index, face.view};
     square.drawn = std::find(kept.drawn.begin(), kept.drawn.end(), key) != kept.drawn.end() ? 1.0f : 0.0f;
     square.corner = glm::floor(square.origin * scale);
     square.pixels = std::max(1.0f, std::floor(square.size * scale));
@@ -116,7 +116,8 @@ void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states) {
   const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
   if (shadows == nullptr) return;
   if (stem == "shadow_atlas") {
-    const ViewShadows* kept = states.find(frame.world().resource<ShadowWorld>(), frame.view().id);
+    const ViewShadows* kept = states.find(frame.world().resource<ShadowWorld>(),
+                                          frame.world().view_resource<ShadowViews>(frame.view().id).owner);
     const bool has_maps = shadows->atlas && shadows->atlas.resource != shadows->rows.resource;
     if (kept != nullptr && has_maps) add_atlas_view(frame, *shadows, *kept);
   } else if (const auto light = shown_light_or_warn(frame)) {

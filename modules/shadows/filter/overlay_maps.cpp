@@ -127,7 +127,9 @@ bool OverlayMaps::d16() const { return tools_->knobs.d16; }
 
 OverlayCopies OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFace> faces) const {
   const ShadowKnobs& knobs = tools_->knobs;
-  auto found = tools_->states.view(frame.world().resource<ShadowWorld>(), frame.view().id, knobs.atlas_size, knobs.d16);
+  auto found = tools_->states.view(frame.world().resource<ShadowWorld>(),
+                                   frame.world().view_resource<ShadowViews>(frame.view().id).owner, frame.view().id,
+                                   knobs.atlas_size, knobs.d16);
   if (!frame.check(found)) return {};
   OverlayCopies copies{{faces.begin(), faces.end()}, knobs.d16};
   if (knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) copies.depth_bits = ~GLOAM_SHADOW_FREE_BITS;

@@ -100,11 +100,8 @@ ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, View
   work->backgrounds = plan_faces(std::move(drawn.backgrounds));
   work->faces = plan_faces(std::move(drawn.faces));
   FrameGraph& graph = frame.graph();
-  const auto import = [&](const char* name, const KeptImage& image) {
-    return graph.import_image(name, image.image, image.filled ? gpu::Access::fragment_read : gpu::Access::none,
-                              gpu::Access::fragment_read);
-  };
-  ShadowMaps maps{import("shadow_atlas", kept.atlas), import("shadow_pyramid", kept.pyramid), {}};
+  ShadowMaps maps{
+      import_kept(graph, "shadow_atlas", kept.atlas), import_kept(graph, "shadow_pyramid", kept.pyramid), {}};
   frame.expose(maps.pyramid);
   if (work->faces.faces.empty()) return maps;
   for (const DrawnFace& face : work->faces.faces)

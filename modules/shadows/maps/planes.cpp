@@ -72,9 +72,7 @@ ImageRef add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& states, ViewS
                                 const ShadowViews& views) {
   if (!frame.check(states.reserve_planes(kept))) return {};
   const bool all = !kept.planes.filled;
-  ImageRef planes =
-      frame.graph().import_image("shadow_planes", kept.planes.image,
-                                 all ? gpu::Access::none : gpu::Access::fragment_read, gpu::Access::fragment_read);
+  ImageRef planes = import_kept(frame.graph(), "shadow_planes", kept.planes);
   const std::vector<FacePart> parts = parts_of(maps, views, all);
   if (parts.empty()) return planes;
   const PlaneWork work = work_of(parts);

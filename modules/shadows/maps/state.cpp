@@ -41,10 +41,7 @@ void ShadowStates::begin(gpu::Device& device) {
       ++at;
       continue;
     }
-    destroy(at->second.atlas);
-    destroy(at->second.pyramid);
-    destroy(at->second.planes);
-    destroy(at->second.backgrounds);
+    destroy_images(at->second);
     at = views_.erase(at);
   }
   for (auto at = cookies_.begin(); at != cookies_.end();) {
@@ -64,14 +61,24 @@ void ShadowStates::destroy(KeptImage& image) {
   image = {};
 }
 
-Result<ViewShadows*> ShadowStates::view(ShadowWorld world, ViewId view, std::uint32_t atlas_size, bool d16) {
-  ViewShadows& found = views_[{world.number, view.value}];
+void ShadowStates::destroy_images(ViewShadows& view) {
+  for (KeptImage* image : {&view.atlas, &view.pyramid, &view.planes, &view.backgrounds}) destroy(*image);
+}
+
+ImageRef import_kept(FrameGraph& graph, const char* name, KeptImage& image) {
+  if (image.imported && image.imported.frame == graph.frame()) return graph.newest(image.imported);
+  const gpu::Access before = image.filled ? gpu::Access::fragment_read : gpu::Access::none;
+  image.imported = graph.import_image(name, image.image, before, gpu::Access::fragment_read);
+  return image.imported;
+}
+
+Result<ViewShadows*> ShadowStates::view(ShadowWorld world, ViewId owner, ViewId user, std::uint32_t atlas_size,
+                                        bool d16) {
+  ViewShadows& found = views_[{world.number, owner.value}];
+  found.users.insert(user.value);
   found.last_frame = device_->frame_number();
   if (found.atlas.image && found.pyramid.image && found.atlas_size == atlas_size && found.d16 == d16) return &found;
-  destroy(found.atlas);
-  destroy(found.pyramid);
-  destroy(found.planes);
-  destroy(found.backgrounds);
+  destroy_images(found);
   found.cache.clear();
   found.atlas_size = atlas_size;
   found.d16 = d16;
@@ -112,11 +119,19 @@ const ViewShadows* ShadowStates::find(ShadowWorld world, ViewId view) const {
   return found == views_.end() ? nullptr : &found->second;
 }
 
-void ShadowStates::rest(ShadowWorld world, ViewId view) {
-  const auto found = views_.find({world.number, view.value});
+void ShadowStates::rest(ShadowWorld world, ViewId owner) {
+  const auto found = views_.find({world.number, owner.value});
   if (found == views_.end()) return;
   found->second.counts = {};
-  found->second.drawn.clear();
+  if (found->second.users.size() <= 1) found->second.drawn.clear();
+}
+
+void ShadowStates::release_view(ViewId view) {
+  for (auto at = views_.begin(); at != views_.end();) {
+    const bool last = at->second.users.erase(view.value) > 0 && at->second.users.empty();
+    if (last) destroy_images(at->second);
+    at = last ? views_.erase(at) : std::next(at);
+  }
 }
 
 Result<WorldCookies*> ShadowStates::cookies(ShadowWorld world, std::uint32_t layers, std::uint32_t side) {
@@ -158,12 +173,7 @@ Result<const ShadowScratch*> ShadowStates::scratch(std::uint64_t texels) {
 
 void ShadowStates::release() {
   if (device_ != nullptr) scratch_.release(*device_);
-  for (auto& [key, view] : views_) {
-    destroy(view.atlas);
-    destroy(view.pyramid);
-    destroy(view.planes);
-    destroy(view.backgrounds);
-  }
+  for (auto& [key, view] : views_) destroy_images(view);
   for (auto& [key, cookies] : cookies_) destroy(cookies.images);
   views_.clear();
   cookies_.clear();

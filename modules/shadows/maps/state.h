@@ -43,15 +43,19 @@ class ShadowStates {
   void begin(gpu::Device& device);
   /// The view's images and cache. When size or format differ from the last call, the images are created anew and the
   /// cache is empty.
-  [[nodiscard]] Result<ViewShadows*> view(ShadowWorld world, ViewId view, std::uint32_t atlas_size, bool d16);
+  /// owner: ShadowViews::owner, under which several views share one state. user: the view.
+  [[nodiscard]] Result<ViewShadows*> view(ShadowWorld world, ViewId owner, ViewId user, std::uint32_t atlas_size,
+                                          bool d16);
   /// Creates the view's image of planes, in the size of its atlas, unless it exists.
   [[nodiscard]] Status reserve_planes(ViewShadows& view);
   /// Creates the view's image of backgrounds, in the size of its atlas, unless it exists.
   [[nodiscard]] Status reserve_backgrounds(ViewShadows& view);
   /// The view's state; null if view() was never called for it, or if its images have been destroyed since.
-  [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId view) const;
+  [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId owner) const;
   /// Resets the view's counters and its list of drawn faces. For frames of the view that draw no maps.
-  void rest(ShadowWorld world, ViewId view);
+  void rest(ShadowWorld world, ViewId owner);
+  /// Destroys the images that only this view uses.
+  void release_view(ViewId view);
   /// The world's cookies: an rgba8_srgb array of `layers` layers with side × side texels. If the number of layers
   /// differs from the last call, the array is created anew and is not filled.
   [[nodiscard]] Result<WorldCookies*> cookies(ShadowWorld world, std::uint32_t layers, std::uint32_t side);
@@ -70,6 +74,7 @@ class ShadowStates {
   using Key = std::pair<std::uint64_t, std::uint32_t>;
   [[nodiscard]] Result<gpu::ImageHandle> make(const gpu::ImageDesc& desc);
   void destroy(KeptImage& image);
+  void destroy_images(ViewShadows& view);
 
   gpu::Device* device_ = nullptr;
   std::map<Key, ViewShadows> views_;

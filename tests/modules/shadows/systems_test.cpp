@@ -83,7 +83,7 @@ struct ShadowWorld {
     schedule.run(Stage::world, world, executor);
     world.set_view_resource(settings.id, make_view(settings, 0));
     lights->prepare_view(world, settings.id, knobs);
-    prepare_shadow_view(world, settings.id);
+    prepare_shadow_view(world, settings.id, ShadowKnobs{});
     schedule.run_view(settings.id, world, executor);
   }
   const ShadowViews& run() {
@@ -92,7 +92,7 @@ struct ShadowWorld {
   }
   [[nodiscard]] const ShadowViews& shadows() const { return world.view_resource<ShadowViews>(settings.id); }
   [[nodiscard]] ShadowSettings& shadow_settings() {
-    prepare_shadow_view(world, settings.id);
+    prepare_shadow_view(world, settings.id, ShadowKnobs{});
     return world.view_resource<ShadowSettings>(settings.id);
   }
 };

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "modules/shadows/atlas/placement.h"
+
+namespace gloam {
+
+/// Places in an atlas that several views of a frame share, one view after another. A face that an earlier view of the
+/// frame has placed keeps its square for later ones, at that view's size. Faces of the frame before keep their squares
+/// while there is room. Faces that find no room beside those of earlier views get no square and are counted.
+class SharedPlaces {
+ public:
+  /// Places the faces of one view. frame: a number that differs from frame to frame. size: texels of the atlas' side.
+  [[nodiscard]] FacePlaces place(std::uint64_t frame, std::uint32_t size, std::span<const FaceRequest> requests);
+  [[nodiscard]] const ShadowAtlas& atlas() const { return atlas_; }
+
+ private:
+  struct Placed {
+    FaceRequest request;  ///< of the size that the face got
+    AtlasSquare square;
+  };
+  [[nodiscard]] const Placed* find(const FaceKey& key) const;
+  /// Places `fresh` beside the faces of earlier views, and those of the last frame if `with_last`. False if an earlier
+  /// view's face would have to move, or if anything would have to shrink for the last frame's faces.
+  [[nodiscard]] bool try_place(std::uint32_t size, std::span<const FaceRequest> fresh, bool with_last);
+
+  ShadowAtlas atlas_;
+  std::uint64_t frame_ = ~0ull;
+  std::uint32_t shrunk_ = 0;
+  std::vector<Placed> placed_;     ///< in this frame, in order
+  std::vector<FaceRequest> last_;  ///< of the frame before
+};
+
+/// The places that captures of a world share, by ShadowViews::owner; a resource of the world. The views own them.
+struct CapturePlaces {
+  std::map<std::uint32_t, std::weak_ptr<SharedPlaces>> by_owner;
+};
+
+}  // namespace gloam
