@@ -80,6 +80,8 @@ void FrameGraph::execute(gpu::CommandList& commands) {
   s.record_barriers(commands, plan.first_final_barrier, static_cast<std::uint32_t>(plan.barriers.size()));
 }
 
+void FrameGraph::give_up_frame() { state_->cache.give_up_execution(); }
+
 const Status& FrameGraph::recorded() const { return state_->recorded; }
 
 std::string_view FrameGraph::recording() const {

@@ -128,6 +128,9 @@ class FrameGraph {
   /// The name of the pass that is recorded now, or whose function stopped the last execute; otherwise empty.
   [[nodiscard]] std::string_view recording() const;
 
+  /// Call it if the GPU does not execute the commands of the last execute().
+  void give_up_frame();
+
   /// The newest version of the resource after all passes declared so far.
   [[nodiscard]] ImageRef newest(ImageRef image) const;
   [[nodiscard]] BufferRef newest(BufferRef buffer) const;

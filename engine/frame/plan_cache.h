@@ -49,6 +49,8 @@ class PlanCache {
   /// Call it when the plan is recorded. Returns the accesses for which the first barriers of its transients must wait
   /// in addition: those of other plans that used the memory since this one did.
   [[nodiscard]] gpu::AccessMask begin_execution(const CachedPlan& plan);
+  /// Call it when the GPU does not execute the last recorded plan: the next one waits for all plans before it.
+  void give_up_execution() { executed_ = 0; }
   /// Shrinks the memory to the needs of `kept`, the plan of this declaration; null: to nothing. If the device cannot
   /// create the smaller memory, the memory stays.
   void free_memory_except(CachedPlan* kept, const Declaration& declaration);
@@ -84,7 +86,7 @@ class PlanCache {
   std::uint64_t uses_ = 0;
   std::uint64_t plans_compiled_ = 0;
   std::uint64_t accounted_ = 0;       ///< serial of the plan whose modules the heaps are accounted to
-  std::uint64_t executed_ = 0;        ///< serial of the plan that was executed last
+  std::uint64_t executed_ = 0;        ///< serial of the plan that was executed last; 0: none
   gpu::AccessMask past_endings_ = 0;  ///< of all plans that were executed
 };
 

@@ -158,6 +158,14 @@ void FrameBuilder::reset_history(std::string_view module, std::string_view name)
 
 void FrameBuilder::on_commit(std::function<void()> function) { services_.history.on_commit(std::move(function)); }
 
+ImageRef FrameBuilder::captured_light(gpu::ImageHandle image, gpu::Access ready) {
+  CapturedLight* captured = shared_.find<CapturedLight>();
+  if (captured == nullptr) captured = &shared_.put(CapturedLight{});
+  ImageRef& newest = captured->images[image];
+  if (!newest) newest = graph_.import_image("light_target", image, ready, ready);
+  return newest;
+}
+
 gpu::SamplerHandle FrameBuilder::sampler(Sampling sampling) {
   gpu::SamplerDesc desc;
   if (sampling == Sampling::nearest) desc.min_filter = desc.mag_filter = desc.mip_filter = gpu::Filter::nearest;

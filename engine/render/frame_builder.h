@@ -141,6 +141,11 @@ class FrameBuilder {
   [[nodiscard]] Board& shared() { return shared_; }
   [[nodiscard]] const Board& shared() const { return shared_; }
 
+  /// An image that views of this or of earlier frames capture light into (ViewTarget::light): with what earlier views
+  /// of this frame have captured, otherwise as it was. ready: the access that the image is left ready for between
+  /// frames (LightTarget::before and after).
+  [[nodiscard]] ImageRef captured_light(gpu::ImageHandle image, gpu::Access ready);
+
   /// The view's constants (ViewConstants) as binding 0 of set 0.
   [[nodiscard]] gpu::Binding view_binding() const { return {0, view_range_}; }
   void upload_view_constants(std::uint32_t visualizer_code);

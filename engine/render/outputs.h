@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
+
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
@@ -45,6 +47,11 @@ struct LitOutput {
 struct TargetOutput {
   ImageRef color;
   gpu::Format format = gpu::Format::rgba8_srgb;
+};
+
+/// Images of callers that views capture light into (ViewTarget::light), on the frame's shared board; newest versions.
+struct CapturedLight {
+  std::map<gpu::ImageHandle, ImageRef> images;
 };
 
 /// Side of a shadow tile and of a depth_bounds tile, in pixels.

@@ -69,12 +69,6 @@ struct FrameView {
   std::unique_ptr<RenderView> view;
 };
 
-/// A caller's image that views of the current frame capture light into.
-struct LightImport {
-  LightTarget target;
-  ImageRef image;  ///< newest version
-};
-
 struct Renderer::State {
   explicit State(RendererOptions given);
   ~State();
@@ -165,7 +159,7 @@ struct Renderer::State {
   FrameDraws draws;
   Board shared;
   std::vector<std::unique_ptr<FrameBuilder>> builders;
-  std::map<gpu::ImageHandle, LightImport> light_imports;  ///< targets of captures
+  std::map<gpu::ImageHandle, LightTarget> light_targets;  ///< of captures, by image; the first one of each
   std::vector<ModuleRuntime> runtimes;                    ///< by module
   std::set<std::string> told;                             ///< warnings that were given; each is given once
   std::vector<ViewRequest> last_requests;

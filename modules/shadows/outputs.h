@@ -42,7 +42,6 @@ struct ShadowFace {
   LightKind kind = LightKind::spot;  ///< directional: orthographic; spot: perspective; point: a cube face (also of spot
                                      ///< lights wider than 120°)
   std::uint32_t index = 0;  ///< cube face 0 … 5 in the order of shadows_shared.h, or cascade 0 … GLOAM_MAX_CASCADES − 1
-  std::uint32_t view = 0;     ///< as FaceKey::view
   dvec3 origin = dvec3(0.0);  ///< world position of the light; orthographic: centre of the near side of the box
   /// World axes of the face: unit vectors at right angles. For a mirrored spot light they are left-handed.
   vec3 right = vec3(1.0f, 0.0f, 0.0f);
@@ -54,6 +53,7 @@ struct ShadowFace {
   float far_m = 0.0f;  ///< perspective: range of the light, a distance from `origin`; orthographic: depth of the box
   AtlasSquare square;  ///< place in the atlas
   float importance = 0.0f;  ///< ≥ 0; when the atlas is full, the least important faces halve first
+  std::uint32_t view = 0;  ///< as FaceKey::view
 };
 
 /// A rectangle of a face's texels: x from the left edge, y from the upper edge. `end` is one past the last texel.

@@ -69,7 +69,8 @@ TEST(SharedStructs, view_constants) {
                        {GLOAM_MEMBER(T, clip_from_relative), GLOAM_MEMBER(T, ray_base), GLOAM_MEMBER(T, ray_dx),
                         GLOAM_MEMBER(T, ray_dy), GLOAM_MEMBER(T, ray_forward), GLOAM_MEMBER(T, view_row_z),
                         GLOAM_MEMBER(T, size), GLOAM_MEMBER(T, inverse_size), GLOAM_MEMBER(T, near_m),
-                        GLOAM_MEMBER(T, orthographic), GLOAM_MEMBER(T, frame), GLOAM_MEMBER(T, visualizer)});
+                        GLOAM_MEMBER(T, orthographic), GLOAM_MEMBER(T, frame), GLOAM_MEMBER(T, visualizer),
+                        GLOAM_MEMBER(T, clip_plane)});
   }
 }
 

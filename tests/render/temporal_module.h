@@ -39,8 +39,7 @@ class TemporalModule final : public Module {
     return {control_.demanded, "as the test says"};
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase == PassPhase::visualize && control_.fail)
-      return frame.fail({ErrorKind::failed, "given up for the test"});
+    if (phase == PassPhase::visualize && control_.fail) return frame.fail({ErrorKind::failed, "given up for the test"});
     if (phase != PassPhase::post) return;
     control_.view = frame.view();
     frame.on_commit([this] { ++control_.commits; });

@@ -3,6 +3,7 @@
 #include "veil_module.h"
 
 #include "engine/ecs/view.h"
+#include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
 #include "engine/scene/key_table.h"
 #include "shaders/veil/shaders.h"
@@ -15,6 +16,8 @@ using namespace gloam;
 
 class VeilModule final : public Module {
  public:
+  explicit VeilModule(gpu::ImageHandle surroundings) : surroundings_(surroundings) {}
+
   [[nodiscard]] std::string_view name() const override { return "veil"; }
 
   void register_components(World& world) const override { world.register_component<Veil>("veil"); }
@@ -24,24 +27,30 @@ class VeilModule final : public Module {
                             &Veil::density));
   }
 
-  // Without a view: whether any view may need it. This module's answer is the same for all views.
-  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
+  // Without a view: whether any view may need it. Captures are drawn without mist: it takes its light from them.
+  [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     const Veil* veil = find(world);
-    return veil != nullptr && veil->density > 0.0f ? Demand{true, "the scene has a veil"} : Demand{false, "no veil"};
+    if (veil == nullptr || !(veil->density > 0.0f)) return {false, "no veil"};
+    if (view != nullptr && view->purpose == ViewPurpose::capture) return {false, "captures have no veil"};
+    return {true, "the scene has a veil"};
   }
 
   // What add_passes will ask for: made in the background under Readiness::background.
   void pipelines(const KnobRegistry&, const gpu::DeviceInfo&, PipelineList& list) const override {
     const gpu::Format light[] = {gpu::Format::rgba16_float};
-    list.push_back(pipeline_desc(program(), name(), light));
+    list.push_back(pipeline_desc(ComputeProgram{shaders::veil::average_comp}, name()));
+    list.push_back(pipeline_desc(veil_program(), name(), light));
   }
 
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase != PassPhase::post) return;
     const Veil& veil = *find(frame.world());
-    DrawPass pass(frame, "veil", program());
+    const ImageRef glow = add_average_pass(frame);
+    if (!glow) return;
+    DrawPass pass(frame, "veil", veil_program());
     pass.read("depth_image", frame.get<GeometryOutputs>().depth);
-    pass.push(shaders::VeilConstants{veil.radiance, veil.density});
+    pass.read("glow", glow);
+    pass.push(shaders::VeilConstants{veil.albedo, veil.density});
     // A write gives a new version of the handle. It goes back to the board: later passes must not name the old one.
     LitOutput& lit = frame.get<LitOutput>();
     lit.color = pass.target(lit.color, gpu::LoadOp::load);  // blended over the light
@@ -53,6 +62,25 @@ class VeilModule final : public Module {
   }
 
  private:
+  // The mean light of the captured surroundings, averaged over frames in one texel. Null if the frame was given up.
+  [[nodiscard]] ImageRef add_average_pass(FrameBuilder& frame) {
+    gpu::ImageDesc desc;
+    desc.name = "veil_glow";
+    desc.module = name();
+    desc.format = gpu::Format::rgba16_float;
+    desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::storage;
+    // Two images that swap roles from frame to frame; a camera cut begins the average anew.
+    const auto glow = frame.history_image_pair(desc, {.reset = {.camera_cut = true}});
+    if (!frame.check(glow)) return {};
+    ComputePass pass(frame, "veil_average", {shaders::veil::average_comp});
+    pass.read("surroundings", frame.captured_light(surroundings_, gpu::Access::compute_read));
+    pass.read("previous", glow->previous);
+    const ImageRef current = pass.write("current", glow->current);
+    pass.push(shaders::VeilAverage{glow->valid() ? 0.1f : 1.0f});
+    pass.dispatch(1);
+    return current;
+  }
+
   [[nodiscard]] static const Veil* find(const World& world) {
     const Veil* found = nullptr;
     world.view<const Veil>().each([&](const Veil& veil) { found = &veil; });
@@ -60,13 +88,17 @@ class VeilModule final : public Module {
   }
 
   // One function describes the pipeline, so that list and use agree.
-  [[nodiscard]] static DrawProgram program() {
+  [[nodiscard]] static DrawProgram veil_program() {
     return {.fragment = shaders::veil::veil_frag, .blend = gpu::BlendMode::premultiplied};
   }
+
+  gpu::ImageHandle surroundings_;
 };
 
 }  // namespace
 
-std::unique_ptr<gloam::Module> make_veil_module() { return std::make_unique<VeilModule>(); }
+std::unique_ptr<gloam::Module> make_veil_module(gloam::gpu::ImageHandle surroundings) {
+  return std::make_unique<VeilModule>(surroundings);
+}
 
 }  // namespace host

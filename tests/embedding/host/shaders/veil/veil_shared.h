@@ -8,8 +8,12 @@
 GLOAM_SHARED_BEGIN
 
 struct VeilConstants {
-  vec3 radiance;  // cd/m²
+  vec3 albedo;    // share of the surroundings' light that the mist scatters
   float density;  // 1/m
+};
+
+struct VeilAverage {
+  float share;  // of this frame in the average; 1: `previous` has no content
 };
 
 GLOAM_SHARED_END

@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+//
+// One frame of a renderer: its views, their passes, recording and submission.
+#include <algorithm>
+#include <utility>
+
+#include "engine/render/attempt.h"
+#include "engine/render/passes/passes.h"
+#include "engine/render/renderer_state.h"
+#include "engine/scene/resources.h"
+
+namespace gloam {
+namespace {
+
+/// The renderer's own visualizers of the geometry buffer; index + 1 is the code in debug_view.frag.
+constexpr const char* kEngineVisualizers[] = {"albedo", "normal", "depth"};
+
+std::uint32_t engine_visualizer_code(std::string_view name) {
+  for (std::uint32_t i = 0; i < std::size(kEngineVisualizers); ++i)
+    if (name == kEngineVisualizers[i]) return i + 1;
+  return 0;
+}
+
+bool is_picture(gpu::Format format) {
+  using enum gpu::Format;
+  return format == rgba8_unorm || format == rgba8_srgb || format == bgra8_unorm || format == bgra8_srgb;
+}
+
+/// Acquires a target that exists only while a frame is recorded. The view takes its size.
+Status acquire_target(const gpu::Device& device, ViewRequest& request) {
+  if (!request.target.acquire) return {};
+  const auto image = request.target.acquire();
+  if (!image.ok()) return image.error();
+  request.target.image = *image;
+  if (!*image) return {};
+  const gpu::ImageDesc& desc = device.desc(*image);
+  request.settings.width = desc.width;
+  request.settings.height = desc.height;
+  return {};
+}
+
+void check_target(const gpu::Device& device, const ViewRequest& request) {
+  if (!request.target.image) return;
+  const gpu::ImageDesc& desc = device.desc(request.target.image);
+  GLOAM_ASSERT(desc.width == request.settings.width && desc.height == request.settings.height,
+               "a target image has the size of its view");
+  GLOAM_ASSERT(is_picture(desc.format), "a target image is rgba8 or bgra8, UNORM or sRGB");
+  GLOAM_ASSERT(gpu::has(desc.usage, gpu::ImageUsage::color_target), "a target image was made to be a color_target");
+}
+
+}  // namespace
+
+Status Renderer::State::add_light_copy(FrameBuilder& frame, const LightTarget& target) {
+  const gpu::ImageDesc& desc = options.device->desc(target.image);
+  const uvec2 size = glm::max(uvec2(desc.width, desc.height) >> target.mip, uvec2(1));
+  GLOAM_ASSERT(size == uvec2(frame.view().width, frame.view().height),
+               "the mip of a light target has the size of its view");
+  const LightTarget& first = light_targets.try_emplace(target.image, target).first->second;
+  GLOAM_ASSERT(first.before == target.before && first.after == target.after,
+               "views that capture into one image state the same accesses");
+  CapturedLight* captured = shared.find<CapturedLight>();
+  if (captured == nullptr) captured = &shared.put(CapturedLight{});
+  ImageRef& image = captured->images[target.image];
+  if (!image) image = graph.import_image("light_target", target.image, target.before, target.after);
+  image = add_copy_light_pass(frame, frame.get<LitOutput>().color, image, target.mip, target.layer);
+  return frame.status();
+}
+
+Status Renderer::State::add_view(World& world, std::size_t index) {
+  const FrameView& own_view = frame_views[index];
+  const ViewRequest& request = own_view.request;
+  const RenderView& view = *own_view.view;
+  const ViewImages& own = images.at(view.id.value);
+  builders.push_back(std::make_unique<FrameBuilder>(services(knobs_of(own_view)), graph, world, view, scene_of(world),
+                                                    draws, index, shared));
+  FrameBuilder& frame = *builders.back();
+  frame.set_visualizer(request.settings.visualizer);
+  if (needs_motion(world, own_view)) frame.set_previous_instances(&motion.instances());
+  const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
+  frame.upload_view_constants(code);
+  add_deform_pass(frame);
+  add_geometry_pass(frame);
+  GLOAM_TRY(frame.status());
+  const GeometryOutputs& geometry = frame.get<GeometryOutputs>();
+  for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth})
+    frame.expose(image);
+  if (geometry.motion) frame.expose(geometry.motion);
+
+  const ImageRef lit = graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read);
+  frame.put(LitOutput{lit});
+  if (request.target.light) {
+    GLOAM_TRY(add_module_passes(frame, own_view));
+    keep_linear(frame, lit, request.keep_linear);
+    GLOAM_TRY(add_light_copy(frame, *request.target.light));
+    count_view(world, frame);
+    return {};
+  }
+  const bool external = static_cast<bool>(request.target.image);
+  const gpu::ImageHandle picture = external ? request.target.image : own.picture;
+  const gpu::Access after = external ? request.target.after : gpu::Access::transfer_read;
+  const ImageRef target = graph.import_image("picture", picture, gpu::Access::none, after);
+  frame.put(TargetOutput{target, options.device->desc(picture).format});
+  GLOAM_TRY(add_module_passes(frame, own_view));
+  if (code == 0 && frame.visualizer() != "none") warn_of_idle_visualizer(frame);
+  keep_linear(frame, lit, request.keep_linear);
+  GLOAM_ASSERT(frame.get<TargetOutput>().color.resource == target.resource,
+               "TargetOutput is written in place: a module has put another image there");
+  if (code != 0) add_debug_view_pass(frame, code);
+  GLOAM_TRY(frame.status());
+  if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
+  if (copy_request && copy_request->view == view.id) GLOAM_TRY(copy_request->add_copies(frame));
+  count_view(world, frame);
+  return {};
+}
+
+void Renderer::State::keep_linear(FrameBuilder& frame, ImageRef lit, bool wanted) {
+  const ImageRef last = frame.get<LitOutput>().color;
+  const gpu::ImageDesc &from = graph.desc(last), &to = graph.desc(lit);
+  GLOAM_ASSERT(from.format == to.format && from.width == to.width && from.height == to.height,
+               "LitOutput may move only to an image of the same size and format");
+  const bool moved = last.resource != lit.resource;
+  images.at(frame.view().id.value).lit_is_last = !moved || wanted;
+  if (moved && wanted) static_cast<void>(add_copy_light_pass(frame, last, graph.newest(lit)));
+}
+
+void Renderer::State::hand_out_results(World& world, ViewId view) {
+  results.for_each_settled(world.resource<RenderSlot>().value, view.value,
+                           [&](const ResultKey& key, const FrameResult& result) {
+                             for (std::size_t i = 0; i < options.modules.size(); ++i)
+                               if (runtimes[i].demand.needed && options.modules[i]->name() == key.module)
+                                 options.modules[i]->take_result(world, view, key.name, result);
+                           });
+}
+
+Status Renderer::State::begin_views(std::span<const ViewRequest> requests) {
+  frame_views.clear();
+  for (const ViewRequest& request : requests) {
+    FrameView& own = frame_views.emplace_back();
+    own.request = request;
+    if (request.settings.knobs.empty()) continue;
+    auto overridden = std::make_unique<KnobRegistry>(knobs);
+    for (const KnobOverride& knob : request.settings.knobs) GLOAM_TRY(overridden->set(knob.name, knob.value));
+    own.knobs = std::move(overridden);
+  }
+  return {};
+}
+
+Status Renderer::State::prepare_views(World& world) {
+  const RenderSlot slot = world.resource<RenderSlot>();
+  const std::uint64_t frame = copy_request && slot.frames > 0 ? slot.frames - 1 : slot.frames;
+  for (FrameView& own : frame_views) {
+    GLOAM_TRY(acquire_target(*options.device, own.request));
+    ViewSettings& settings = own.request.settings;
+    check_target(*options.device, own.request);
+    follow_camera(world, settings);
+    GLOAM_TRY(prepare_images(world, own.request));
+    own.view = std::make_unique<RenderView>(make_view(settings, frame, cuts.declare(slot.value, settings, frame)));
+    motion.begin_view(*own.view);
+    world.set_view_resource(settings.id, *own.view);
+    for (std::size_t i = 0; i < options.modules.size(); ++i)
+      if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs_of(own));
+    hand_out_results(world, settings.id);
+    GLOAM_TRY(run_systems(world, settings.id));
+  }
+  return {};
+}
+
+Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
+  uniforms.begin_frame();
+  storage.begin_frame();
+  results.begin_frame();
+  graph.begin();
+  declared.recordings.begin_frame();
+  history.begin_frame();
+  cuts.begin_frame();
+  builders.clear();
+  shared.clear();
+  light_targets.clear();
+  declared_counters.clear();
+  motion.begin_frame(world, world.resource<RenderSlot>().value, any_needs(&Module::needs_motion, world),
+                     copy_request.has_value());
+  GLOAM_TRY(prepare_views(world));
+  std::vector<const RenderView*> views;
+  for (const FrameView& view : frame_views) views.push_back(view.view.get());
+  GpuScene& scene = scene_of(world);
+  draws = build_frame_draws(world, views, scene, *options.executor, any_needs(&Module::needs_casters, world));
+  for (std::size_t i = 0; i < frame_views.size(); ++i) GLOAM_TRY(add_view(world, i));
+  GLOAM_TRY(results.add_pass(graph));
+  {
+    const ScopedZone zone(options.zones, "compile_frame_graph", "engine");
+    GLOAM_TRY(graph.compile());
+  }
+  {
+    const ScopedZone zone(options.zones, "record_passes", "engine");
+    const auto place = [&] { return "pass '" + std::string(graph.recording()) + "'"; };
+    GLOAM_TRY(attempt(place, [&]() -> Status {
+      graph.execute(commands);
+      if (graph.recorded().ok()) return {};
+      return Error{graph.recorded().error().kind, place() + " failed: " + graph.recorded().error().message};
+    }));
+  }
+  return {};
+}
+
+Status Renderer::State::run_systems(World& world, std::optional<ViewId> view) {
+  return attempt([&] { return "system '" + std::string(schedule.failed_system()) + "'"; },
+                 [&]() -> Status {
+                   if (view) {
+                     schedule.run_view(*view, world, *options.executor, options.zones);
+                   } else {
+                     schedule.run(Stage::world, world, *options.executor, options.zones);
+                   }
+                   return {};
+                 });
+}
+
+void Renderer::State::commit_frame(World& world, std::span<const ViewRequest> requests) {
+  const bool again = copy_request.has_value();
+  history.commit(graph, !again);
+  cuts.commit();
+  motion.commit(world);
+  if (!again) ++world.resource<RenderSlot>().frames;
+  for (const ViewRequest& request : requests) images.at(request.settings.id.value).drawn = true;
+  last_requests.assign(requests.begin(), requests.end());
+  collect_counters();
+  release_idle_modules();
+  release_idle_views();
+}
+
+void Renderer::State::give_up_frame(std::uint64_t frame) {
+  graph.give_up_frame();
+  results.give_up_frame();
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (runtimes[i].in_view) options.modules[i]->give_up_frame(frame);
+}
+
+Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> requests) {
+  update_demand(world);
+  GLOAM_TRY(run_systems(world, std::nullopt));
+  GLOAM_TRY(begin_views(requests));
+  const SceneAssets& assets = world.resource<SceneAssets>();
+  GLOAM_TRY(scene_of(world).sync(assets, *options.executor));
+  if (any_needs(&Module::needs_simplified_casters, world))
+    GLOAM_TRY(scene_of(world).simplify_casters(assets, *options.executor));
+
+  gpu::Device& device = *options.device;
+  auto commands = device.begin_frame();
+  if (!commands.ok()) return commands.error();
+  const std::uint64_t frame = device.frame_number();
+  Status drawn;
+  try {
+    drawn = record_frame(world, **commands);
+  } catch (...) {
+    static_cast<void>(device.abandon_frame());
+    give_up_frame(frame);
+    throw;
+  }
+  if (drawn.ok()) {
+    submitted_ns = options.zones == nullptr ? 0 : options.zones->now_ns();
+    drawn = device.submit_frame();
+  } else {
+    static_cast<void>(device.abandon_frame());  // if the device is lost, the next begin_frame says so
+  }
+  if (drawn.ok()) {
+    commit_frame(world, requests);
+  } else {
+    give_up_frame(frame);
+  }
+  return drawn;
+}
+
+}  // namespace gloam
