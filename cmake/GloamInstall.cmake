@@ -56,4 +56,4 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION ${gloam_include_dir}
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING REGEX "_(shared\\.h|api\\.glsl)$|/shaders/common/[a-z_]+\\.(h|glsl)$" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
-  FILES_MATCHING PATTERN "shaders.h" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)
+  FILES_MATCHING PATTERN "shaders.h" PATTERN "*_test" EXCLUDE PATTERN "every" EXCLUDE PATTERN "sandbox" EXCLUDE)

@@ -53,7 +53,7 @@ struct ShadowFace {
   float far_m = 0.0f;  ///< perspective: range of the light, a distance from `origin`; orthographic: depth of the box
   AtlasSquare square;  ///< place in the atlas
   float importance = 0.0f;  ///< ≥ 0; when the atlas is full, the least important faces halve first
-  std::uint32_t view = 0;  ///< as FaceKey::view
+  std::uint32_t view = 0;   ///< as FaceKey::view
 };
 
 /// A rectangle of a face's texels: x from the left edge, y from the upper edge. `end` is one past the last texel.

@@ -65,12 +65,12 @@ TEST(SharedStructs, view_constants) {
   for (const gpu::ShaderCode& shader :
        {shaders::render::surface_vert, shaders::render::geometry_frag, shaders::render::debug_view_frag,
         shaders::lights::find_lights_approx_comp, shaders::lighting::deferred_frag}) {
-    expect_same_layout(shader, "ViewConstants", sizeof(T),
-                       {GLOAM_MEMBER(T, clip_from_relative), GLOAM_MEMBER(T, ray_base), GLOAM_MEMBER(T, ray_dx),
-                        GLOAM_MEMBER(T, ray_dy), GLOAM_MEMBER(T, ray_forward), GLOAM_MEMBER(T, view_row_z),
-                        GLOAM_MEMBER(T, size), GLOAM_MEMBER(T, inverse_size), GLOAM_MEMBER(T, near_m),
-                        GLOAM_MEMBER(T, orthographic), GLOAM_MEMBER(T, frame), GLOAM_MEMBER(T, visualizer),
-                        GLOAM_MEMBER(T, clip_plane)});
+    expect_same_layout(
+        shader, "ViewConstants", sizeof(T),
+        {GLOAM_MEMBER(T, clip_from_relative), GLOAM_MEMBER(T, ray_base), GLOAM_MEMBER(T, ray_dx),
+         GLOAM_MEMBER(T, ray_dy), GLOAM_MEMBER(T, ray_forward), GLOAM_MEMBER(T, view_row_z), GLOAM_MEMBER(T, size),
+         GLOAM_MEMBER(T, inverse_size), GLOAM_MEMBER(T, near_m), GLOAM_MEMBER(T, orthographic), GLOAM_MEMBER(T, frame),
+         GLOAM_MEMBER(T, visualizer), GLOAM_MEMBER(T, clip_plane)});
   }
 }
 

@@ -5,8 +5,8 @@
 #include "shaders/render/view_api.glsl"
 #include "shaders/veil/veil_shared.h"
 
-// Attenuates light by exp(-density · distance) and adds light of the surroundings for the lost share. Premultiplied blending
-// keeps the rest of the target.
+// Attenuates light by exp(-density · distance) and adds light of the surroundings for the lost share. Premultiplied
+// blending keeps the rest of the target.
 
 layout(push_constant, scalar) uniform Veil { VeilConstants veil; };
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
