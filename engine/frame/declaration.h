@@ -48,6 +48,7 @@ struct DeclaredUse {
 struct DeclaredPass {
   std::string name;
   std::string module;
+  std::uint32_t view = 0;
   std::uint32_t first_use = 0;
   std::uint32_t use_count = 0;
   bool keep = false;

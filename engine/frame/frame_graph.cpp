@@ -114,6 +114,7 @@ void FrameGraph::begin() {
   s.stage = State::Stage::declaring;
   s.plan = nullptr;
   s.recording_pass = frame::kNone;
+  s.view = 0;
   s.recorded = {};
   ++s.frame_number;
 }
@@ -185,11 +186,14 @@ BufferRef FrameGraph::import_buffer(std::string_view name, gpu::BufferHandle buf
   return {state_->declaration.resources.size() - 1, 0, state_->frame_number};
 }
 
+void FrameGraph::set_view(std::uint32_t view) { state_->view = view; }
+
 PassBuilder FrameGraph::add_pass(std::string_view name, std::string_view module) {
   state_->check_declaring();
   DeclaredPass& pass = state_->declaration.passes.add();
   pass.name = name;
   pass.module = module;
+  pass.view = state_->view;
   pass.first_use = static_cast<std::uint32_t>(state_->declaration.uses.size());
   pass.use_count = 0;
   pass.keep = false;

@@ -71,7 +71,8 @@ class PassBuilder {
 struct PassTime {
   std::string name;
   std::string module;
-  double ms = 0.0;  ///< from begin_ns to end_ns; 0 if the pass was not timed
+  std::uint32_t view = 0;  ///< FrameGraph::set_view
+  double ms = 0.0;         ///< from begin_ns to end_ns; 0 if the pass was not timed
   std::uint32_t dispatches = 0;
   std::uint32_t draws = 0;
   /// Times of gpu::Device::timestamps; both 0 if the pass was not timed. Begin: after the barriers of the pass.
@@ -114,6 +115,8 @@ class FrameGraph {
                                         gpu::Access after);
 
   [[nodiscard]] PassBuilder add_pass(std::string_view name, std::string_view module);
+  /// Passes that are added from now on in this frame belong to the view of this number (PassTime::view). 0 at begin().
+  void set_view(std::uint32_t view);
 
   /// Culls passes, places barriers and creates transient memory; a cached plan of the same structure is reused. Fails
   /// if the device cannot create the memory.

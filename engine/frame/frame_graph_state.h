@@ -56,7 +56,8 @@ struct FrameGraph::State {
   frame::CachedPlan* plan = nullptr;  ///< plan of this frame; null before compile
   gpu::AccessMask other_plans = 0;    ///< what the first barriers of transients wait for besides their plan's users
   std::uint32_t recording_pass = frame::kNone;
-  Status recorded;  ///< of the last execute
+  std::uint32_t view = 0;  ///< of the passes that are being added
+  Status recorded;         ///< of the last execute
   std::vector<gpu::BufferBarrier> buffer_barriers;
   std::vector<gpu::ImageBarrier> image_barriers;
 };

@@ -35,6 +35,7 @@ void PassTimer::end_pass(gpu::CommandList& commands, const DeclaredPass& pass, s
   PassRecord& record = records_[current_].passes.add();
   record.name = pass.name;
   record.module = pass.module;
+  record.view = pass.view;
   record.begin = pass_begin_;
   record.end = kNone;
   record.dispatches = dispatches;
@@ -66,8 +67,11 @@ GpuFrameTimes PassTimer::times_of(const FrameRecord& record, const std::vector<s
   std::uint64_t last = 0;
   for (std::size_t i = 0; i < record.passes.size(); ++i) {
     const PassRecord& pass = record.passes[i];
-    PassTime& time = times.passes.emplace_back(
-        PassTime{.name = pass.name, .module = pass.module, .dispatches = pass.dispatches, .draws = pass.draws});
+    PassTime& time = times.passes.emplace_back(PassTime{.name = pass.name,
+                                                        .module = pass.module,
+                                                        .view = pass.view,
+                                                        .dispatches = pass.dispatches,
+                                                        .draws = pass.draws});
     if (pass.end >= timestamps.size()) continue;  // kNone as well
     const std::uint64_t begin = timestamps[pass.begin];
     const std::uint64_t end = timestamps[pass.end];

@@ -37,6 +37,7 @@ class PassTimer {
   struct PassRecord {
     std::string name;
     std::string module;
+    std::uint32_t view = 0;
     std::uint32_t begin = kNone;  ///< index of its timestamp; kNone: not timed
     std::uint32_t end = kNone;
     std::uint32_t dispatches = 0;

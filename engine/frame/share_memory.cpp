@@ -91,6 +91,12 @@ class MemorySharer {
     std::vector<std::pair<std::uint64_t, gpu::AccessMask>> stack_;  ///< {bytes, ending}, sizes decreasing
   };
 
+  /// Bytes that barriers of the resource act on: without the padding at the end of its memory.
+  [[nodiscard]] std::uint64_t content_bytes(std::uint32_t resource) const {
+    const DeclaredResource& declared = declaration_.resources[resource];
+    return declared.is_image ? gpu::image_bytes(declared.image_desc) : declared.buffer_desc.size;
+  }
+
   [[nodiscard]] Result<gpu::MemoryNeeds> needs_of_transient(std::uint32_t resource) const {
     if (declaration_.resources[resource].is_image) {
       return needs_of(device_, image_desc_of(declaration_, plan_, resource));
@@ -135,7 +141,7 @@ class MemorySharer {
       for (const bool this_frame : {false, true}) {
         for (std::uint32_t resource : slot.resources) {
           if (this_frame) earlier[resource] = predecessors.endings();
-          predecessors.add(needs_[resource].size, plan_.lives[resource].ending);
+          predecessors.add(content_bytes(resource), plan_.lives[resource].ending);
         }
       }
     }

@@ -75,6 +75,7 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
   builders.push_back(std::make_unique<FrameBuilder>(services(knobs_of(own_view)), graph, world, view, scene_of(world),
                                                     draws, index, shared));
   FrameBuilder& frame = *builders.back();
+  graph.set_view(view.id.value);
   frame.set_visualizer(request.settings.visualizer);
   if (needs_motion(world, own_view)) frame.set_previous_instances(&motion.instances());
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
@@ -133,13 +134,25 @@ void Renderer::State::hand_out_results(World& world, ViewId view) {
                            });
 }
 
+const KnobRegistry& Renderer::State::settled_knobs() {
+  if (options.readiness == Readiness::wait) return knobs;
+  if (settled && settled->version() == knobs.version()) return *settled;
+  PipelineList needed;
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (options.modules[i]->built() && runtimes[i].demand.needed && runtimes[i].idle_frames == 0)
+      options.modules[i]->pipelines(knobs, options.device->info(), needed);
+  if (!settled || pipelines.request(needed, *options.log)) settled = knobs;
+  return *settled;
+}
+
 Status Renderer::State::begin_views(std::span<const ViewRequest> requests) {
   frame_views.clear();
+  frame_knobs = &settled_knobs();
   for (const ViewRequest& request : requests) {
     FrameView& own = frame_views.emplace_back();
     own.request = request;
     if (request.settings.knobs.empty()) continue;
-    auto overridden = std::make_unique<KnobRegistry>(knobs);
+    auto overridden = std::make_unique<KnobRegistry>(*frame_knobs);
     for (const KnobOverride& knob : request.settings.knobs) GLOAM_TRY(overridden->set(knob.name, knob.value));
     own.knobs = std::move(overridden);
   }
@@ -186,6 +199,7 @@ Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   GpuScene& scene = scene_of(world);
   draws = build_frame_draws(world, views, scene, *options.executor, any_needs(&Module::needs_casters, world));
   for (std::size_t i = 0; i < frame_views.size(); ++i) GLOAM_TRY(add_view(world, i));
+  graph.set_view(0);
   GLOAM_TRY(results.add_pass(graph));
   {
     const ScopedZone zone(options.zones, "compile_frame_graph", "engine");

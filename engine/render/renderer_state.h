@@ -75,8 +75,11 @@ struct Renderer::State {
 
   [[nodiscard]] FrameServices services(const KnobRegistry& view_knobs);
   [[nodiscard]] const KnobRegistry& knobs_of(const FrameView& view) const {
-    return view.knobs == nullptr ? knobs : *view.knobs;
+    return view.knobs == nullptr ? *frame_knobs : *view.knobs;
   }
+  /// The knobs that frames are drawn with. With Readiness::background, changed values wait until the pipelines of all
+  /// modules that the last frame showed are ready: until then the old ones stay.
+  [[nodiscard]] const KnobRegistry& settled_knobs();
   [[nodiscard]] GpuScene& scene_of(const World& world);
   /// Creates the view's images if they are missing or of another size. Frees its picture if the caller provides a
   /// target.
@@ -141,6 +144,8 @@ struct Renderer::State {
 
   RendererOptions options;
   KnobRegistry knobs;
+  std::optional<KnobRegistry> settled;       ///< the last values whose pipelines were ready; background only
+  const KnobRegistry* frame_knobs = &knobs;  ///< of the current frame
   Schedule schedule;
   Pipelines pipelines;
   UploadRing uniforms;

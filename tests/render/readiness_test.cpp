@@ -123,6 +123,32 @@ TEST_F(ReadinessFrames, a_module_waits_for_the_last_of_its_pipelines) {
   EXPECT_EQ(seen("fog").passes, 4u);
 }
 
+TEST_F(ReadinessFrames, a_knob_waits_for_its_pipelines_and_the_old_variant_stays) {
+  gate_->open();
+  static_cast<void>(call_for("fog"));
+  frames();
+  frames_until_there_are_passes_of("fog");
+  frames_until_nothing_is_pending();
+  const auto reduces_to = [&](const char* divisor) {
+    return std::ranges::any_of(last_commands(), [&](const std::string& line) {
+      return line.find("fog/reduce.frag 0=" + std::string(divisor)) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(reduces_to("4"));
+  gate_->close();
+  ASSERT_TRUE(renderer_->knobs().set("fog.resolution", "half").ok());
+  frames(5);
+  ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
+  EXPECT_EQ(seen("fog").passes, 4u) << "the module stays in the frame";
+  EXPECT_TRUE(reduces_to("4"));
+  gate_->open();
+  frames_until_nothing_is_pending();
+  frames();
+  EXPECT_EQ(seen("fog").passes, 4u);
+  EXPECT_TRUE(reduces_to("2"));
+  EXPECT_EQ(gate_->asked_here("fog"), 0u);
+}
+
 TEST_F(ReadinessFrames, essential_modules_are_in_the_first_frame) {
   frames();
   EXPECT_GE(seen("lighting").passes, 2u);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -340,6 +341,10 @@ TEST_F(Views, a_frame_deforms_vertices_once_for_all_views) {
   std::size_t deforms = 0;
   for (const PassTime& pass : stage->renderer->report().passes) deforms += pass.name == "deform" ? 1 : 0;
   EXPECT_EQ(deforms, 1u);
+  for (const std::uint32_t view : {1u, 2u, 3u}) {
+    const auto is_own = [&](const PassTime& pass) { return pass.name == "geometry" && pass.view == view; };
+    EXPECT_EQ(std::ranges::count_if(stage->renderer->report().passes, is_own), 1) << "times name the view";
+  }
   EXPECT_EQ(stage->renderer->report().views.size(), 3u);
 }
 
