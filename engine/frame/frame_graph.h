@@ -71,13 +71,13 @@ class PassBuilder {
 struct PassTime {
   std::string name;
   std::string module;
-  std::uint32_t view = 0;  ///< FrameGraph::set_view
-  double ms = 0.0;         ///< from begin_ns to end_ns; 0 if the pass was not timed
+  double ms = 0.0;  ///< from begin_ns to end_ns; 0 if the pass was not timed
   std::uint32_t dispatches = 0;
   std::uint32_t draws = 0;
   /// Times of gpu::Device::timestamps; both 0 if the pass was not timed. Begin: after the barriers of the pass.
   std::uint64_t begin_ns = 0;
   std::uint64_t end_ns = 0;
+  std::uint32_t view = 0;  ///< FrameGraph::set_view
 };
 
 /// The passes of one completed frame in order of execution.

@@ -69,9 +69,9 @@ GpuFrameTimes PassTimer::times_of(const FrameRecord& record, const std::vector<s
     const PassRecord& pass = record.passes[i];
     PassTime& time = times.passes.emplace_back(PassTime{.name = pass.name,
                                                         .module = pass.module,
-                                                        .view = pass.view,
                                                         .dispatches = pass.dispatches,
-                                                        .draws = pass.draws});
+                                                        .draws = pass.draws,
+                                                        .view = pass.view});
     if (pass.end >= timestamps.size()) continue;  // kNone as well
     const std::uint64_t begin = timestamps[pass.begin];
     const std::uint64_t end = timestamps[pass.end];

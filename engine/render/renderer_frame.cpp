@@ -173,8 +173,10 @@ Status Renderer::State::prepare_views(World& world) {
     world.set_view_resource(settings.id, *own.view);
     for (std::size_t i = 0; i < options.modules.size(); ++i)
       if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs_of(own));
-    hand_out_results(world, settings.id);
-    GLOAM_TRY(run_systems(world, settings.id));
+  }
+  for (const FrameView& own : frame_views) {
+    hand_out_results(world, own.view->id);
+    GLOAM_TRY(run_systems(world, own.view->id));
   }
   return {};
 }

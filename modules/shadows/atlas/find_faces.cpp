@@ -73,13 +73,19 @@ struct DirectionalPlan {
   std::uint32_t size = 0;  ///< texels of each cascade's side
 };
 
+/// Number of views that share the atlas. Each plans for its part, so that all find room.
+std::uint32_t sharers_of(const ShadowViews& shadows) {
+  return shadows.shared == nullptr ? 1u : static_cast<std::uint32_t>(std::max(shadows.shared.use_count(), 1l));
+}
+
 /// Size of each cascade of a light whose ShadowCaster sets none. The cascades of one light fill at most a quarter of
 /// the atlas, those of all lights at most half of it.
-std::uint32_t cascade_size(std::size_t lights, const RenderView& view, const ShadowSettings& settings) {
+std::uint32_t cascade_size(std::size_t lights, const RenderView& view, const ShadowSettings& settings,
+                           std::uint32_t sharers) {
   const float pixels = static_cast<float>(std::max(view.width, view.height));
   std::uint32_t most = settings.atlas_size / 4;
   const auto side = static_cast<std::size_t>(settings.atlas_size);
-  while (most > 0 && lights * GLOAM_MAX_CASCADES * most * most > side * side / 2) most /= 2;
+  while (most > 0 && lights * GLOAM_MAX_CASCADES * most * most > side * side / 2 / sharers) most /= 2;
   return std::max<std::uint32_t>(GLOAM_SHADOW_SMALLEST_FACE,
                                  std::min(wanted_size(pixels * settings.texels_per_pixel, 0), most));
 }
@@ -92,11 +98,11 @@ struct Plans {
 };
 
 void plan_directional(std::span<const ShadowLight> lights, const RenderView& view, const ShadowSettings& settings,
-                      const CasterBounds& casters, Plans& plans) {
+                      const CasterBounds& casters, std::uint32_t sharers, Plans& plans) {
   plans.directional.resize(std::min(lights.size(), kMostDirectional));
   if (lights.empty() || !settings.enabled) return;
   plans.spheres = cascade_spheres(view, casters, std::min<std::uint32_t>(settings.cascades, GLOAM_MAX_CASCADES));
-  const std::uint32_t size = cascade_size(plans.directional.size(), view, settings);
+  const std::uint32_t size = cascade_size(plans.directional.size(), view, settings, sharers);
   for (std::size_t i = 0; i < plans.directional.size(); ++i) {
     const std::uint32_t asked = lights[i].caster.resolution;
     plans.directional[i].count = lights[i].caster.enabled ? plans.spheres.size() : 0;
@@ -109,8 +115,8 @@ double texels_of(std::size_t faces, std::uint32_t size) {
 }
 
 /// The density for local lights' maps, in the part of the atlas that cascades leave.
-float local_density(const ShadowSettings& settings, const Plans& plans, float previous) {
-  double room = texels_of(1, settings.atlas_size);
+float local_density(const ShadowSettings& settings, const Plans& plans, std::uint32_t sharers, float previous) {
+  double room = texels_of(1, settings.atlas_size) / sharers;
   for (const DirectionalPlan& plan : plans.directional) room -= texels_of(plan.count, plan.size);
   return fitting_density(settings.texels_per_pixel, previous, room, [&](float density) {
     double texels = 0.0;
@@ -219,8 +225,9 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
     for (std::size_t i = range.begin; i < range.end; ++i)
       plans.local[i] = plan_local(local[i], view, settings, shadows.wanted);
   });
-  plan_directional(directional, view, settings, casters, plans);
-  shadows.texels_per_pixel = local_density(settings, plans, shadows.texels_per_pixel);
+  const std::uint32_t sharers = sharers_of(shadows);
+  plan_directional(directional, view, settings, casters, sharers, plans);
+  shadows.texels_per_pixel = local_density(settings, plans, sharers, shadows.texels_per_pixel);
   request_local(local, shadows, plans);
   request_directional(directional, view, shadows, plans);
   const FacePlaces places = shadows.shared == nullptr

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "shaders/shadows/shadows_shared.h"
+
 namespace gloam {
 
 const SharedPlaces::Placed* SharedPlaces::find(const FaceKey& key) const {
@@ -28,7 +30,6 @@ bool SharedPlaces::try_place(std::uint32_t size, std::span<const FaceRequest> fr
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     Placed placed{fresh[i], places.squares[before + i]};
     if (placed.square.size == 0) continue;
-    if (placed.square.size < placed.request.size) ++shrunk_;
     placed.request.size = placed.square.size;
     placed_.push_back(placed);
   }
@@ -46,10 +47,26 @@ FacePlaces SharedPlaces::place(std::uint64_t frame, std::uint32_t size, std::spa
   std::vector<FaceRequest> fresh;
   for (const FaceRequest& request : requests)
     if (find(request.key) == nullptr) fresh.push_back(request);
-  shrunk_ = 0;
-  if (!try_place(size, fresh, true)) static_cast<void>(try_place(size, fresh, false));
+  if (!try_place(size, fresh, true)) {
+    // Earlier views keep their squares, so the fresh faces halve together until they fit.
+    std::vector<FaceRequest> smaller = fresh;
+    const auto halve = [&] {
+      bool any = false;
+      for (FaceRequest& request : smaller) {
+        if (request.size <= GLOAM_SHADOW_SMALLEST_FACE) continue;
+        request.size /= 2;
+        any = true;
+      }
+      return any;
+    };
+    while (!try_place(size, smaller, false) && halve()) {
+    }
+  }
   FacePlaces places;
-  places.shrunk = shrunk_;
+  for (const FaceRequest& request : fresh) {
+    const Placed* placed = find(request.key);
+    if (placed != nullptr && placed->request.size < request.size) ++places.shrunk;
+  }
   for (const FaceRequest& request : requests) {
     const Placed* placed = find(request.key);
     places.squares.push_back(placed == nullptr ? AtlasSquare{} : placed->square);

@@ -14,7 +14,8 @@ namespace gloam {
 
 /// Places in an atlas that several views of a frame share, one view after another. A face that an earlier view of the
 /// frame has placed keeps its square for later ones, at that view's size. Faces of the frame before keep their squares
-/// while there is room. Faces that find no room beside those of earlier views get no square and are counted.
+/// while there is room. If a view's new faces find no room beside those of earlier views, they halve together; those
+/// that still find none get no square. Both are counted.
 class SharedPlaces {
  public:
   /// Places the faces of one view. frame: a number that differs from frame to frame. size: texels of the atlas' side.
@@ -33,7 +34,6 @@ class SharedPlaces {
 
   ShadowAtlas atlas_;
   std::uint64_t frame_ = ~0ull;
-  std::uint32_t shrunk_ = 0;
   std::vector<Placed> placed_;     ///< in this frame, in order
   std::vector<FaceRequest> last_;  ///< of the frame before
 };

@@ -71,6 +71,19 @@ TEST(SharedPlaces, what_finds_no_room_beside_earlier_views_is_counted) {
   EXPECT_EQ(second.squares[1], first.squares[0]);
 }
 
+TEST(SharedPlaces, faces_of_later_views_halve_until_they_fit) {
+  SharedPlaces places;
+  const FaceRequest first[] = {request_of(1, 0, 512), request_of(2, 0, 512), request_of(3, 0, 512)};
+  const FaceRequest second[] = {request_of(4, 0, 512), request_of(5, 0, 512), request_of(1, 0, 512)};
+  const FacePlaces before = places.place(0, 1024, first);
+  const FacePlaces after = places.place(0, 1024, second);
+  EXPECT_EQ(after.squares[0].size, 256u);
+  EXPECT_EQ(after.squares[1].size, 256u);
+  EXPECT_EQ(after.squares[2], before.squares[0]);
+  EXPECT_EQ(after.shrunk, 2u);
+  EXPECT_EQ(after.left_out, 0u);
+}
+
 TEST(SharedPlaces, faces_that_nobody_asks_for_any_more_make_room) {
   SharedPlaces places;
   const FaceRequest old[] = {request_of(1, 0, 1024)}, fresh[] = {request_of(2, 0, 1024)};
