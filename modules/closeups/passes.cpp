@@ -88,7 +88,7 @@ void compose_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, cons
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_shadows(pass, shadows);
   pass.read("light_texels", frame.get<LightsOutputs>().texels);
-  pass.read("grid", lists.grid);
+  pass.read("final_grid", lists.grid);
   write_final_lists(pass, lists);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const CloseupView& pair = pairs[i];

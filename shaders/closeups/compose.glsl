@@ -18,7 +18,7 @@
 #include "shaders/shadows/pair_pixels_api.glsl"
 
 layout(set = 0, binding = 1, scalar) uniform Closeup { CloseupConstants closeup; };
-layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid grid; };
+layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid final_grid; };
 layout(set = 0, binding = 7, rgba32ui) uniform uimage2D final_tiles;
 layout(set = 0, binding = 8, scalar) buffer Entries { uint entries[]; };
 layout(set = 0, binding = 9, scalar) buffer Visibilities0 { uint visibilities_0[]; };
@@ -179,7 +179,7 @@ uint changed_slot(uvec2 tile, uint some) {
   if ((some & kSomeSeeAny) == 0u) return GLOAM_ALL_UNLIT;
   if (slot < GLOAM_NO_ROOM) return slot;
   uint taken = atomicAdd(counters.slots, 1u);
-  if (taken < grid.slot_capacity) return taken;
+  if (taken < final_grid.slot_capacity) return taken;
   give_tile_up(tile);
   return GLOAM_NO_ROOM;
 }

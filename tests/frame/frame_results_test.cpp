@@ -30,6 +30,10 @@ struct FrameResultsTest : GraphFixture {
       ASSERT_TRUE(results.add_pass(g).ok());
     });
   }
+  /// A buffer of four words that a pass of the graph writes.
+  [[nodiscard]] BufferRef add_words() {
+    return graph.add_pass("fill", "test").write(graph.create_buffer(buffer_desc("words", 16)), Access::transfer_write);
+  }
   [[nodiscard]] std::uint32_t settled_word(const ResultKey& k) const {
     const FrameResult* result = results.settled(k);
     return result == nullptr ? 0 : result->value<std::uint32_t>();
@@ -108,9 +112,7 @@ TEST_F(FrameResultsTest, of_a_frame_that_was_given_up_are_none) {
   ASSERT_TRUE(commands.ok());
   results.begin_frame();
   graph.begin();
-  const BufferRef words =
-      graph.add_pass("fill", "test").write(graph.create_buffer(buffer_desc("words", 16)), Access::transfer_write);
-  results.keep(key(), words, 0, 4);
+  results.keep(key(), add_words(), 0, 4);
   ASSERT_TRUE(device->submit_frame().ok());
   EXPECT_FALSE(results.newest(key()).has_value());
   for (std::uint32_t i = 0; i < 3; ++i) frame(i, {});
@@ -123,9 +125,7 @@ TEST_F(FrameResultsTest, of_a_frame_that_was_given_up_after_its_copies_were_reco
   ASSERT_TRUE(commands.ok());
   results.begin_frame();
   graph.begin();
-  const BufferRef words =
-      graph.add_pass("fill", "test").write(graph.create_buffer(buffer_desc("words", 16)), Access::transfer_write);
-  results.keep(key(), words, 0, 4);
+  results.keep(key(), add_words(), 0, 4);
   ASSERT_TRUE(results.add_pass(graph).ok());
   ASSERT_TRUE(graph.compile().ok());
   graph.execute(**commands);
@@ -139,10 +139,9 @@ TEST_F(FrameResultsTest, of_a_frame_that_was_given_up_after_its_copies_were_reco
 }
 
 TEST_F(FrameResultsTest, are_asked_for_once_a_key_and_in_words) {
-  run_frame([&](FrameGraph& g) {
+  run_frame([&](FrameGraph&) {
     results.begin_frame();
-    const BufferRef words =
-        g.add_pass("fill", "test").write(g.create_buffer(buffer_desc("words", 16)), Access::transfer_write);
+    const BufferRef words = add_words();
     results.keep(key(), words, 0, 4);
     EXPECT_ASSERT(results.keep(key(), words, 0, 4), "one result a key");
     EXPECT_ASSERT(results.keep(key("other"), words, 0, 3), "some words of a buffer");

@@ -65,7 +65,7 @@ void add_classify_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, Image
   read_light_lists(pass, frame.get<LightsOutputs>());
   read_shadows(pass, shadows);
   pass.read("shadow_planes", planes);
-  pass.read("grid", lists.grid);  // not the LightGrid that read_light_lists() binds under this name
+  pass.read("final_grid", lists.grid);
   lists.tiles = pass.write("final_tiles", lists.tiles);
   lists.entries = pass.write("entries", lists.entries);
   buffers.pairs = pass.write("pairs", buffers.pairs);
@@ -86,7 +86,7 @@ void add_pairs_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, FinalLis
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_light_lists(pass, lights);
   read_shadows(pass, shadows);
-  pass.read("grid", lists.grid);  // as above
+  pass.read("final_grid", lists.grid);
   pass.read("pairs", buffers.pairs);
   pass.read("commands", lists.commands);
   lists.entries = pass.write("entries", lists.entries);
@@ -102,7 +102,7 @@ void add_pairs_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, FinalLis
 
 void add_finish_pass(FrameBuilder& frame, FinalLists& lists) {
   ComputePass pass(frame, "finish_lists", shaders::shadows::finish_comp);
-  pass.read("grid", lists.grid);
+  pass.read("final_grid", lists.grid);
   lists.tiles = pass.write("final_tiles", lists.tiles);
   lists.entries = pass.write("entries", lists.entries);
   lists.fallback_tiles = pass.write("fallback_tiles", lists.fallback_tiles);

@@ -22,7 +22,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
-layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid grid; };
+layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid final_grid; };
 layout(set = 0, binding = 3) uniform sampler2D depth_bounds;
 layout(set = 0, binding = 4) uniform usampler2D tile_lists;
 layout(set = 0, binding = 6) uniform sampler2D light_texels;
@@ -60,9 +60,9 @@ uint unshadowed, lit_at_once, unlit_at_once;
 // Makes a tile-light pair of an entry. Returns the slot that the entry holds until the pair is filtered: the tile's
 // index, or GLOAM_NO_ROOM when the buffer of pairs is full.
 uint add_pair(uint entry, uint tile_index, uint kind) {
-  if (atomicAdd(counters.pairs, 1u) >= grid.pair_capacity) return GLOAM_NO_ROOM;
+  if (atomicAdd(counters.pairs, 1u) >= final_grid.pair_capacity) return GLOAM_NO_ROOM;
   uint pair = atomicAdd(commands.pairs[kind].w, 1u);
-  pairs[pair_place(grid, kind, pair)] = entry;
+  pairs[pair_place(final_grid, kind, pair)] = entry;
   if (pair % GLOAM_PAIRS_ROW == 0u) atomicMax(commands.pairs[kind].y, pair / GLOAM_PAIRS_ROW + 1u);
   return tile_index;
 }
@@ -70,7 +70,7 @@ uint add_pair(uint entry, uint tile_index, uint kind) {
 // Classifies the light and writes its entry at index `entry`, which is then incremented, unless the light is unlit.
 void add_light(TileBounds tile, uint tile_index, bool directional, uint light, int most_turns, inout uint entry) {
   bool in_face = directional || local_kind(light) == GLOAM_SHADOW_SPOT;
-  uint verdict = grid.classify != 0u         ? classify(tile, directional, light, most_turns, in_face)
+  uint verdict = final_grid.classify != 0u         ? classify(tile, directional, light, most_turns, in_face)
                  : casts(directional, light) ? kUnknown
                                              : kCastsNone;
   unshadowed += uint(verdict == kCastsNone);
@@ -96,27 +96,27 @@ void count_tile(uint candidates) {
 
 void main() {
   uvec2 at = gl_GlobalInvocationID.xy;
-  if (any(greaterThanEqual(at, grid.tiles))) return;
+  if (any(greaterThanEqual(at, final_grid.tiles))) return;
   vec2 bounds = texelFetch(depth_bounds, ivec2(at), 0).xy;
   if (bounds.y <= 0.0) {
     imageStore(final_tiles, ivec2(at), uvec4(0u));
     return;
   }
-  uvec2 list = grid.has_early_lists != 0u ? texelFetch(tile_lists, ivec2(at), 0).xy : uvec2(0u);
-  uint tile_index = at.y * grid.tiles.x + at.x;
-  uint count = list_count(list), shared_entries = grid.tiles.x * grid.tiles.y * grid.directional_count;
+  uvec2 list = final_grid.has_early_lists != 0u ? texelFetch(tile_lists, ivec2(at), 0).xy : uvec2(0u);
+  uint tile_index = at.y * final_grid.tiles.x + at.x;
+  uint count = list_count(list), shared_entries = final_grid.tiles.x * final_grid.tiles.y * final_grid.directional_count;
   // Two comparisons, because the sum could overflow.
-  if (!has_list(list) || shared_entries > grid.entry_capacity || list.x > grid.entry_capacity - shared_entries ||
-      count > grid.entry_capacity - shared_entries - list.x) {
+  if (!has_list(list) || shared_entries > final_grid.entry_capacity || list.x > final_grid.entry_capacity - shared_entries ||
+      count > final_grid.entry_capacity - shared_entries - list.x) {
     imageStore(final_tiles, ivec2(at), uvec4(GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0u, 0u));
     return;
   }
   unshadowed = lit_at_once = unlit_at_once = 0u;
   TileBounds tile = make_tile_bounds(view, depth_image, normal_image, base_color_image, at, bounds);
-  int most_turns = count + grid.directional_count * uint(GLOAM_MAX_CASCADES) <= kMostFaces ? kMostTurns : 0;
-  uvec2 first = uvec2(tile_index * grid.directional_count, shared_entries + list.x), end = first;
-  for (uint i = 0u; i < grid.directional_count; ++i) add_light(tile, tile_index, true, i, most_turns, end.x);
+  int most_turns = count + final_grid.directional_count * uint(GLOAM_MAX_CASCADES) <= kMostFaces ? kMostTurns : 0;
+  uvec2 first = uvec2(tile_index * final_grid.directional_count, shared_entries + list.x), end = first;
+  for (uint i = 0u; i < final_grid.directional_count; ++i) add_light(tile, tile_index, true, i, most_turns, end.x);
   for (uint i = 0u; i < count; ++i) add_light(tile, tile_index, false, list_light(list.x, i), most_turns, end.y);
   imageStore(final_tiles, ivec2(at), uvec4(first, (end.x - first.x) << 16 | (end.y - first.y), 0u));
-  count_tile(grid.directional_count + count);
+  count_tile(final_grid.directional_count + count);
 }

@@ -8,7 +8,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, scalar) uniform Grid { FinalGrid grid; };
+layout(set = 0, binding = 0, scalar) uniform Grid { FinalGrid final_grid; };
 layout(set = 0, binding = 1, rgba32ui) uniform uimage2D final_tiles;
 layout(set = 0, binding = 2, scalar) buffer Entries { uint entries[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer FallbackTiles { uint fallback_tiles[]; };
@@ -31,7 +31,7 @@ uint pack_run(uint first, uint count, inout bool complete) {
 
 void main() {
   uvec2 at = gl_GlobalInvocationID.xy;
-  if (any(greaterThanEqual(at, grid.tiles))) return;
+  if (any(greaterThanEqual(at, final_grid.tiles))) return;
   uvec3 list = imageLoad(final_tiles, ivec2(at)).xyz;
   bool complete = list.y != GLOAM_NO_FINAL_LIST;
   uint directional = pack_run(list.x, list.z >> 16, complete);

@@ -20,7 +20,7 @@
 #include "shaders/shadows/pair_pixels_api.glsl"
 #include "shaders/shadows/final_lists/pair_places.glsl"
 
-layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid grid; };
+layout(set = 0, binding = 2, scalar) uniform Grid { FinalGrid final_grid; };
 layout(set = 0, binding = 7, scalar) readonly buffer Pairs { uint pairs[]; };
 layout(set = 0, binding = 8, scalar) buffer Entries { uint entries[]; };
 layout(set = 0, binding = 9, scalar) writeonly buffer Visibilities0 { uint visibilities_0[]; };
@@ -78,7 +78,7 @@ uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps
 uint take_slot(uint some) {
   if (some == (kSomeSeeLess | kSomeSeeAny)) {
     uint taken = atomicAdd(counters.slots, 1u);
-    return taken < grid.slot_capacity ? taken : GLOAM_NO_ROOM;
+    return taken < final_grid.slot_capacity ? taken : GLOAM_NO_ROOM;
   }
   // If no flag is set, the light illuminates no pixel of the tile: unlit.
   bool lit = some == kSomeSeeAny;
@@ -96,9 +96,9 @@ void main() {
   uint lane = gl_LocalInvocationIndex;
   start_pixels(lane);
   barrier();
-  uint at = pairs[pair_place(grid, kPairKind, pair)];
+  uint at = pairs[pair_place(final_grid, kPairKind, pair)];
   uint entry = entries[at], light = entry & 1023u, tile_index = entry >> 10;
-  ask_pixels(light_of_pair(light), uvec2(tile_index % grid.tiles.x, tile_index / grid.tiles.x), lane);
+  ask_pixels(light_of_pair(light), uvec2(tile_index % final_grid.tiles.x, tile_index / final_grid.tiles.x), lane);
   barrier();
   if (lane == 0u) {
     slot = take_slot(found);
