@@ -143,6 +143,7 @@ void prepare_shadow_view(World& world, ViewId view, const ShadowKnobs& knobs) {
   std::weak_ptr<SharedPlaces>& known = world.resource<CapturePlaces>().by_owner[views.owner.value];
   views.shared = known.lock();
   if (views.shared == nullptr) known = views.shared = std::make_shared<SharedPlaces>();
+  views.shared->join(render_view->frame, view.value);
 }
 
 }  // namespace gloam

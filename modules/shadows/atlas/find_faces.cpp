@@ -73,13 +73,9 @@ struct DirectionalPlan {
   std::uint32_t size = 0;  ///< texels of each cascade's side
 };
 
-/// Number of views that share the atlas. Each plans for its part, so that all find room.
-std::uint32_t sharers_of(const ShadowViews& shadows) {
-  return shadows.shared == nullptr ? 1u : static_cast<std::uint32_t>(std::max(shadows.shared.use_count(), 1l));
-}
-
 /// Size of each cascade of a light whose ShadowCaster sets none. The cascades of one light fill at most a quarter of
 /// the atlas, those of all lights at most half of it.
+/// sharers: views that share the atlas. Each plans for its part, so that all find room.
 std::uint32_t cascade_size(std::size_t lights, const RenderView& view, const ShadowSettings& settings,
                            std::uint32_t sharers) {
   const float pixels = static_cast<float>(std::max(view.width, view.height));
@@ -225,7 +221,7 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
     for (std::size_t i = range.begin; i < range.end; ++i)
       plans.local[i] = plan_local(local[i], view, settings, shadows.wanted);
   });
-  const std::uint32_t sharers = sharers_of(shadows);
+  const std::uint32_t sharers = shadows.shared == nullptr ? 1 : shadows.shared->sharers();
   plan_directional(directional, view, settings, casters, sharers, plans);
   shadows.texels_per_pixel = local_density(settings, plans, sharers, shadows.texels_per_pixel);
   request_local(local, shadows, plans);

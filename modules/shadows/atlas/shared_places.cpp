@@ -8,6 +8,16 @@
 
 namespace gloam {
 
+void SharedPlaces::join(std::uint64_t frame, std::uint32_t view) {
+  if (frame != joined_frame_) joined_.clear();
+  joined_frame_ = frame;
+  if (std::ranges::find(joined_, view) == joined_.end()) joined_.push_back(view);
+}
+
+std::uint32_t SharedPlaces::sharers() const {
+  return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(joined_.size()));
+}
+
 const SharedPlaces::Placed* SharedPlaces::find(const FaceKey& key) const {
   const auto found = std::ranges::find_if(placed_, [&](const Placed& placed) { return placed.request.key == key; });
   return found == placed_.end() ? nullptr : &*found;

@@ -18,6 +18,10 @@ namespace gloam {
 /// that still find none get no square. Both are counted.
 class SharedPlaces {
  public:
+  /// Announces a view that will place its faces in `frame`. A view counts once a frame.
+  void join(std::uint64_t frame, std::uint32_t view);
+  /// Number of views that joined the newest frame, at least 1.
+  [[nodiscard]] std::uint32_t sharers() const;
   /// Places the faces of one view. frame: a number that differs from frame to frame. size: texels of the atlas' side.
   [[nodiscard]] FacePlaces place(std::uint64_t frame, std::uint32_t size, std::span<const FaceRequest> requests);
   [[nodiscard]] const ShadowAtlas& atlas() const { return atlas_; }
@@ -33,6 +37,8 @@ class SharedPlaces {
   [[nodiscard]] bool try_place(std::uint32_t size, std::span<const FaceRequest> fresh, bool with_last);
 
   ShadowAtlas atlas_;
+  std::uint64_t joined_frame_ = ~0ull;
+  std::vector<std::uint32_t> joined_;
   std::uint64_t frame_ = ~0ull;
   std::vector<Placed> placed_;     ///< in this frame, in order
   std::vector<FaceRequest> last_;  ///< of the frame before
