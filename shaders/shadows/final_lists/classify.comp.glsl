@@ -70,7 +70,7 @@ uint add_pair(uint entry, uint tile_index, uint kind) {
 // Classifies the light and writes its entry at index `entry`, which is then incremented, unless the light is unlit.
 void add_light(TileBounds tile, uint tile_index, bool directional, uint light, int most_turns, inout uint entry) {
   bool in_face = directional || local_kind(light) == GLOAM_SHADOW_SPOT;
-  uint verdict = final_grid.classify != 0u         ? classify(tile, directional, light, most_turns, in_face)
+  uint verdict = final_grid.classify != 0u   ? classify(tile, directional, light, most_turns, in_face)
                  : casts(directional, light) ? kUnknown
                                              : kCastsNone;
   unshadowed += uint(verdict == kCastsNone);
@@ -104,9 +104,11 @@ void main() {
   }
   uvec2 list = final_grid.has_early_lists != 0u ? texelFetch(tile_lists, ivec2(at), 0).xy : uvec2(0u);
   uint tile_index = at.y * final_grid.tiles.x + at.x;
-  uint count = list_count(list), shared_entries = final_grid.tiles.x * final_grid.tiles.y * final_grid.directional_count;
+  uint count = list_count(list),
+       shared_entries = final_grid.tiles.x * final_grid.tiles.y * final_grid.directional_count;
   // Two comparisons, because the sum could overflow.
-  if (!has_list(list) || shared_entries > final_grid.entry_capacity || list.x > final_grid.entry_capacity - shared_entries ||
+  if (!has_list(list) || shared_entries > final_grid.entry_capacity ||
+      list.x > final_grid.entry_capacity - shared_entries ||
       count > final_grid.entry_capacity - shared_entries - list.x) {
     imageStore(final_tiles, ivec2(at), uvec4(GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0u, 0u));
     return;
