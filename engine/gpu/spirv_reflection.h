@@ -59,6 +59,7 @@ struct SpirvReflection {
   /// Specialisation constants that replace parts of local_size; kNoConstant where there is none.
   std::array<std::uint32_t, 3> local_size_constants = {kNoConstant, kNoConstant, kNoConstant};
   std::uint32_t push_constant_bytes = 0;
+  std::uint32_t selections = 0;  ///< branches in the code: if, switch and conditional expressions; functions count once
   std::vector<ReflectedBinding> bindings;  ///< ordered by set, then binding
   std::vector<ReflectedStruct> structs;
 

@@ -10,6 +10,7 @@
 #include "tests/golden/whole_pictures.h"
 
 // Draws one frame of each built-in scene on SwiftShader and on lavapipe: two drivers, compilers and subgroup widths.
+// Only the shaders of shadow filters are left out.
 
 namespace gloam::test {
 namespace {
@@ -28,12 +29,33 @@ TEST_P(SecondDevice, draws_the_picture_of_the_first) {
   if (first == nullptr || second == nullptr)
     GTEST_SKIP()
         << "there is no usable Vulkan device of SwiftShader and lavapipe (Debian's chromium brings SwiftShader)";
-  const Picture expected = draw_scene(std::move(first), GetParam(), {});
-  const Picture picture = draw_scene(std::move(second), GetParam(), {});
+  // Shadow filters have more branches than SwiftShader compiles; see the next test.
+  const Picture expected = draw_scene(std::move(first), GetParam(), {"shadows.mode=off"});
+  const Picture picture = draw_scene(std::move(second), GetParam(), {"shadows.mode=off"});
   ASSERT_EQ(picture.rgba.size(), expected.rgba.size());
   ASSERT_FALSE(picture.rgba.empty());
-  // Edges of triangles and of shadows may fall on either side of a pixel's centre.
-  EXPECT_LT(root_mean_square(picture.rgba, expected.rgba), 0.01);
+  // The devices place edges of triangles on grids of different subpixels, and builtin:many_lights has hundreds of lamps
+  // about one pixel wide, which one grid hits and the other misses.
+  const int width = static_cast<int>(picture.width), height = static_cast<int>(picture.height);
+  EXPECT_LE(share_unlike_neighbours(picture.rgba, expected.rgba, width, height, 3), 0.005);
+  EXPECT_LE(share_unlike_neighbours(expected.rgba, picture.rgba, width, height, 3), 0.005);
+}
+
+TEST(SecondDeviceRefuses, shaders_that_its_compiler_does_not_end_at) {
+  auto device = device_named("swiftshader");
+  if (device == nullptr) GTEST_SKIP() << "there is no usable Vulkan device of SwiftShader";
+  Options options;
+  options.scene = "builtin:shadows";
+  options.width = 480;
+  options.height = 270;
+  auto session = open_session_on(std::move(device), options, gpu_log());
+  ASSERT_TRUE(session.ok()) << session.error().message;
+  Session& s = **session;
+  const ViewRequest request{s.view_settings(options.width, options.height, options.view), {}};
+  const auto sample = s.render_frame(request);
+  ASSERT_FALSE(sample.ok());
+  EXPECT_EQ(sample.error().kind, ErrorKind::no_device);
+  EXPECT_NE(sample.error().message.find("does not end at shader"), std::string::npos) << sample.error().message;
 }
 
 std::vector<std::string> scenes() {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -51,6 +52,31 @@ namespace gloam::test {
     sum += difference * difference;
   }
   return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+/// Share of a picture's pixels with a channel outside the range of the 3×3 pixels around its place in the other
+/// picture, widened by `steps` of 255. An edge that falls on the other side of a pixel's centre is not counted; a
+/// surface of another colour is. Both are RGBA of this size.
+[[nodiscard]] inline double share_unlike_neighbours(std::span<const std::uint8_t> picture,
+                                                    std::span<const std::uint8_t> other, int width, int height,
+                                                    int steps) {
+  const auto unlike = [&](int x, int y, int channel) {
+    int low = 255;
+    int high = 0;
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+        const int value = other[static_cast<std::size_t>((v * width + u) * 4 + channel)];
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+    }
+    const int value = picture[static_cast<std::size_t>((y * width + x) * 4 + channel)];
+    return value < low - steps || value > high + steps;
+  };
+  int count = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) count += unlike(x, y, 0) || unlike(x, y, 1) || unlike(x, y, 2) ? 1 : 0;
+  return static_cast<double>(count) / (static_cast<double>(width) * height);
 }
 
 }  // namespace gloam::test

@@ -51,6 +51,7 @@ enum Op : std::uint32_t {
   op_atomic_load = 227,
   op_atomic_store = 228,
   op_atomic_last = 242,
+  op_selection_merge = 247,
   op_execution_mode_id = 331,
 };
 
@@ -147,6 +148,9 @@ class Parser {
         return constant_composite(o);
       case op_variable:
         return variable(o);
+      case op_selection_merge:
+        ++module_.selections;
+        return true;
       default:
         return use(op, o);
     }

@@ -23,6 +23,12 @@ Result<Pipeline> Pipelines::prepare(std::string_view name, std::string_view modu
       return Error{ErrorKind::failed, "Pipeline \"" + std::string(name) + "\": " + reflection.error().message};
     }
     GLOAM_ASSERT(reflection->stage == stages[i], "a shader is used as the stage it was written for");
+    if (reflection->selections > context_.physical.max_selections) {
+      return Error{ErrorKind::no_device, "The compiler of " + context_.physical.info.name +
+                                             " does not end at shader \"" + std::string(shaders[i].name) +
+                                             "\", which has " + std::to_string(reflection->selections) +
+                                             " branches: use another device"};
+    }
     reflections.push_back(std::move(*reflection));
   }
   Result<ShaderInterface> shader = merge_stages(context_, name, reflections);
