@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -14,10 +15,11 @@
 namespace gloam {
 namespace {
 
-/// Times of one system or pass, identified by module and name, over all frames.
+/// Times of one system or pass over all frames, identified by module, name and, for passes, view.
 struct TimedRow {
   std::string name;
   std::string module;
+  std::uint32_t view = 0;  ///< ViewId
   std::vector<double> frame_ms;  ///< one per frame in which it ran
   std::size_t last_frame = 0;
   std::uint64_t calls = 0;  ///< in the last frame in which it ran; so are dispatches and draws
@@ -29,9 +31,9 @@ struct TimedRow {
 class RowTable {
  public:
   void add(std::size_t frame, const std::string& name, const std::string& module, double ms, std::uint32_t dispatches,
-           std::uint32_t draws) {
-    const auto [found, is_new] = index_.try_emplace({module, name}, rows_.size());
-    if (is_new) rows_.push_back({.name = name, .module = module});
+           std::uint32_t draws, std::uint32_t view = 0) {
+    const auto [found, is_new] = index_.try_emplace({module, name, view}, rows_.size());
+    if (is_new) rows_.push_back({.name = name, .module = module, .view = view});
     TimedRow& row = rows_[found->second];
     if (is_new || row.last_frame != frame) {
       row.frame_ms.push_back(0.0);
@@ -47,7 +49,7 @@ class RowTable {
 
  private:
   std::vector<TimedRow> rows_;
-  std::map<std::pair<std::string, std::string>, std::size_t> index_;
+  std::map<std::tuple<std::string, std::string, std::uint32_t>, std::size_t> index_;
 };
 
 Json summary_json(const Summary& summary) {
@@ -91,13 +93,14 @@ Json passes_json(std::span<const FrameSample> measured) {
   RowTable table;
   for (std::size_t frame = 0; frame < measured.size(); ++frame) {
     for (const PassTime& pass : measured[frame].report.passes)
-      table.add(frame, pass.name, pass.module, pass.ms, pass.dispatches, pass.draws);
+      table.add(frame, pass.name, pass.module, pass.ms, pass.dispatches, pass.draws, pass.view);
   }
   Json passes = Json::array();
   for (const TimedRow& row : table.rows()) {
     passes.push_back(row_json(row));
     passes.back()["dispatches"] = row.dispatches;
     passes.back()["draws"] = row.draws;
+    passes.back()["view"] = row.view;
   }
   return passes;
 }

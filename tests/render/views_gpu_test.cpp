@@ -21,11 +21,10 @@
 #include "modules/fog/components.h"
 #include "modules/shadows/components.h"
 #include "tests/render/draws/drawn_scene.h"
+#include "tests/support/cube_capture.h"
 
 namespace gloam {
 namespace {
-
-constexpr std::uint32_t kCubeSide = 32;
 
 /// The small scene with lamps, a sun, shadows and, on demand, fog.
 void fill(World& world, bool fog) {
@@ -34,79 +33,15 @@ void fill(World& world, bool fog) {
   if (fog) world.create(WorldTransform{}, Fog{.density = 0.05f, .color = vec3(2.0f, 3.0f, 4.0f)});
 }
 
-/// Settings of the six faces of a cube at `eye`, in the order of layers: +x, -x, +y, -y, +z, -z.
-std::array<ViewSettings, 6> cube_faces(const dvec3& eye) {
-  std::array<ViewSettings, 6> faces;
-  for (std::uint32_t i = 0; i < 6; ++i) {
-    dvec3 forward(0.0);
-    forward[static_cast<int>(i / 2)] = i % 2 == 0 ? 1.0 : -1.0;
-    const dvec3 up = i / 2 == 1 ? dvec3(0.0, 0.0, 1.0) : dvec3(0.0, 1.0, 0.0);
-    ViewSettings& face = faces[i];
-    face.width = face.height = kCubeSide;
-    face.camera.fov_y = std::numbers::pi_v<float> / 2.0f;
-    face.world_from_camera = glm::inverse(glm::lookAt(dvec3(0.0), forward, up));
-    face.world_from_camera[3] = dvec4(eye, 1.0);
-    face.id = ViewId{100 + i};
-  }
-  return faces;
-}
-
-class Views : public test::DrawingTest {
- protected:
-  [[nodiscard]] gpu::ImageHandle make_cube(std::uint32_t mips) {
-    gpu::ImageDesc desc;
-    desc.name = "test cube";
-    desc.module = "test";
-    desc.format = gpu::Format::rgba16_float;
-    desc.width = desc.height = kCubeSide;
-    desc.layers = 6;
-    desc.mips = mips;
-    desc.shape = gpu::ImageShape::cube;
-    desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_source;
-    return test::value_of(test::drawing_device()->create_image(desc));
-  }
-  /// Texels of one layer of mip 0, which the last frame left ready for transfer_read.
-  [[nodiscard]] std::vector<std::uint16_t> layer_of(gpu::ImageHandle image, std::uint32_t layer) {
-    gpu::Device& device = *test::drawing_device();
-    std::vector<std::uint16_t> texels(std::size_t{kCubeSide} * kCubeSide * 4);
-    const auto buffer = test::value_of(device.create_buffer({.name = "test readback",
-                                                             .module = "test",
-                                                             .size = texels.size() * 2,
-                                                             .usage = gpu::BufferUsage::transfer_target,
-                                                             .memory = gpu::MemoryKind::readback}));
-    test::run_frame(device,
-                    [&](gpu::CommandList& commands) { commands.copy_image_to_buffer(image, 0, layer, buffer, 0); });
-    std::memcpy(texels.data(), device.mapped(buffer).data(), texels.size() * 2);
-    device.destroy(buffer);
-    return texels;
-  }
-};
-
-std::vector<ViewRequest> captures_of(const std::array<ViewSettings, 6>& faces, gpu::ImageHandle cube) {
-  std::vector<ViewRequest> requests;
-  for (std::uint32_t i = 0; i < 6; ++i) {
-    ViewRequest& request = requests.emplace_back();
-    request.settings = faces[i];
-    request.settings.purpose = ViewPurpose::capture;
-    request.target.light = LightTarget{.image = cube, .layer = i, .after = gpu::Access::transfer_read};
-  }
-  return requests;
-}
-
-float float_of(std::uint16_t half) {
-  const int exponent = half >> 10 & 31;
-  const float mantissa = static_cast<float>(half & 1023) / 1024.0f;
-  const float value = exponent == 0 ? std::ldexp(mantissa, -14) : std::ldexp(1.0f + mantissa, exponent - 15);
-  return (half & 0x8000) != 0 ? -value : value;
-}
+class Views : public test::DrawingTest {};
 
 TEST_F(Views, a_cube_capture_equals_six_renders_to_the_bit_and_has_no_fog) {
   fill(stage->world, true);
-  const std::array<ViewSettings, 6> faces = cube_faces(dvec3(0.3, 0.9, 0.2));
-  const gpu::ImageHandle cube = make_cube(1);
-  stage->render(captures_of(faces, cube));
+  const std::array<ViewSettings, 6> faces = test::cube_faces(dvec3(0.3, 0.9, 0.2));
+  const gpu::ImageHandle cube = test::make_cube(*test::drawing_device(), 1);
+  stage->render(test::captures_of(faces, cube));
   std::array<std::vector<std::uint16_t>, 6> captured;
-  for (std::uint32_t i = 0; i < 6; ++i) captured[i] = layer_of(cube, i);
+  for (std::uint32_t i = 0; i < 6; ++i) captured[i] = test::layer_of(*test::drawing_device(), cube, i);
 
   test::Stage clear;
   fill(clear.world, false);
@@ -119,7 +54,7 @@ TEST_F(Views, a_cube_capture_equals_six_renders_to_the_bit_and_has_no_fog) {
     ASSERT_EQ(rendered.rgba.size(), captured[i].size());
     std::size_t different = 0;
     for (std::size_t t = 0; t < rendered.rgba.size(); ++t) {
-      different += float_of(captured[i][t]) != rendered.rgba[t] ? 1 : 0;
+      different += test::float_of(captured[i][t]) != rendered.rgba[t] ? 1 : 0;
       lit = lit || (t % 4 == 0 && rendered.rgba[t] > 0.1f);
     }
     EXPECT_EQ(different, 0u) << "face " << i;
@@ -130,18 +65,18 @@ TEST_F(Views, a_cube_capture_equals_six_renders_to_the_bit_and_has_no_fog) {
 
 TEST_F(Views, a_capture_keeps_the_layers_that_it_does_not_draw) {
   fill(stage->world, false);
-  const std::array<ViewSettings, 6> faces = cube_faces(dvec3(0.3, 0.9, 0.2));
-  const gpu::ImageHandle cube = make_cube(1);
-  const std::vector<ViewRequest> all = captures_of(faces, cube);
+  const std::array<ViewSettings, 6> faces = test::cube_faces(dvec3(0.3, 0.9, 0.2));
+  const gpu::ImageHandle cube = test::make_cube(*test::drawing_device(), 1);
+  const std::vector<ViewRequest> all = test::captures_of(faces, cube);
   stage->render(all);
-  const std::vector<std::uint16_t> first = layer_of(cube, 1);
+  const std::vector<std::uint16_t> first = test::layer_of(*test::drawing_device(), cube, 1);
   ViewRequest other = all[0];
   other.settings.world_from_camera[3].y += 0.5;
   other.target.light->before = gpu::Access::transfer_read;
-  const std::vector<std::uint16_t> changed = layer_of(cube, 0);
+  const std::vector<std::uint16_t> changed = test::layer_of(*test::drawing_device(), cube, 0);
   stage->render({other});
-  EXPECT_EQ(layer_of(cube, 1), first);
-  EXPECT_NE(layer_of(cube, 0), changed);
+  EXPECT_EQ(test::layer_of(*test::drawing_device(), cube, 1), first);
+  EXPECT_NE(test::layer_of(*test::drawing_device(), cube, 0), changed);
   test::drawing_device()->destroy(cube);
 }
 
@@ -270,8 +205,8 @@ TEST_F(Views, released_views_leave_no_memory_behind) {
   };
   settle();
   const auto before = memory();
-  const gpu::ImageHandle cube = make_cube(1);
-  std::vector<ViewRequest> requests = captures_of(cube_faces(dvec3(0.3, 0.9, 0.2)), cube);
+  const gpu::ImageHandle cube = test::make_cube(*test::drawing_device(), 1);
+  std::vector<ViewRequest> requests = test::captures_of(test::cube_faces(dvec3(0.3, 0.9, 0.2)), cube);
   requests.push_back(stage->request());
   for (int i = 0; i < 3; ++i) stage->render(requests);
   for (std::uint32_t i = 0; i < 6; ++i) stage->renderer->release_view(stage->world, ViewId{100 + i});
@@ -282,8 +217,8 @@ TEST_F(Views, released_views_leave_no_memory_behind) {
 
 TEST_F(Views, captures_share_the_maps_of_local_lights_and_have_cascades_of_their_own) {
   fill(stage->world, false);
-  const gpu::ImageHandle cube = make_cube(1);
-  const std::vector<ViewRequest> requests = captures_of(cube_faces(dvec3(0.3, 0.9, 0.2)), cube);
+  const gpu::ImageHandle cube = test::make_cube(*test::drawing_device(), 1);
+  const std::vector<ViewRequest> requests = test::captures_of(test::cube_faces(dvec3(0.3, 0.9, 0.2)), cube);
   const auto sum = [&](const char* name) {
     double all = 0.0;
     for (const ViewCounters& view : stage->renderer->report().views) all += view.counters.at(name);

@@ -80,13 +80,27 @@ TEST(Stats, calls_of_one_name_in_a_frame_add_up) {
                                                 {"median_ms", 4.0},
                                                 {"p90_ms", 4.0},
                                                 {"dispatches", 0},
-                                                {"draws", 12}}));
+                                                {"draws", 12},
+                                                {"view", 0}}));
   EXPECT_EQ(stats["passes"][1]["median_ms"], 3.0);
   EXPECT_EQ(stats["passes"][1]["dispatches"], 3);
   ASSERT_EQ(stats["systems"].size(), 1u);
   EXPECT_EQ(stats["systems"][0],
             nlohmann::json(
                 {{"name", "transforms"}, {"module", "engine"}, {"median_ms", 4.0}, {"p90_ms", 4.0}, {"calls", 2}}));
+}
+
+TEST(Stats, a_pass_has_a_row_for_each_view) {
+  FrameSample sample = frame(4.0);
+  sample.report.passes.push_back(sample.report.passes[0]);
+  sample.report.passes.back().view = 7;
+  sample.report.passes.back().ms = 1.5;
+  const auto stats = stats_of({sample});
+  ASSERT_EQ(stats["passes"].size(), 3u);
+  EXPECT_EQ(stats["passes"][0]["median_ms"], 4.0);
+  EXPECT_EQ(stats["passes"][2]["name"], stats["passes"][0]["name"]);
+  EXPECT_EQ(stats["passes"][2]["view"], 7);
+  EXPECT_EQ(stats["passes"][2]["median_ms"], 1.5);
 }
 
 TEST(Stats, the_first_of_several_frames_is_left_out_of_the_times) {
