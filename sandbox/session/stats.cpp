@@ -19,7 +19,7 @@ namespace {
 struct TimedRow {
   std::string name;
   std::string module;
-  std::uint32_t view = 0;  ///< ViewId
+  std::uint32_t view = 0;        ///< ViewId
   std::vector<double> frame_ms;  ///< one per frame in which it ran
   std::size_t last_frame = 0;
   std::uint64_t calls = 0;  ///< in the last frame in which it ran; so are dispatches and draws
