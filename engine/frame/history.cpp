@@ -104,7 +104,8 @@ void History::release_world(std::uint64_t world) {
   state_->release_if([&](const frame::HistoryKey& key) { return key.world == world; });
 }
 void History::release_view(std::uint32_t view) {
-  state_->release_if([&](const frame::HistoryKey& key) { return key.view == view; });
+  state_->images.release_view(view);
+  state_->buffers.release_view(view);
 }
 void History::release_module(std::string_view module) {
   state_->release_if([&](const frame::HistoryKey& key) { return key.module == module; });

@@ -15,8 +15,9 @@
 
 namespace gloam {
 
-/// Owner of a history resource: one view of one world, or the world with all its views.
-enum class HistoryScope { view, world };
+/// Owner of a history resource, in one world. shared: the views that use the same HistoryUse::instance of it; it is
+/// destroyed with the last of them.
+enum class HistoryScope { view, shared, world };
 
 /// Reason why the contents of a history resource are undefined; none: they are defined.
 enum class HistoryReset {
@@ -137,7 +138,8 @@ class History {
 
   /// Invalidates all resources of this name in a world, from the next use on that has not been made yet.
   void reset(std::uint64_t world, std::string_view module, std::string_view name);
-  /// Destroy the resources of a world, of a view (in all worlds), or of a module.
+  /// Destroy the resources of a world, of a view (in all worlds; shared ones if no other view uses them), or of a
+  /// module.
   void release_world(std::uint64_t world);
   void release_view(std::uint32_t view);
   void release_module(std::string_view module);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -22,7 +23,7 @@ namespace gloam::frame {
 
 struct HistoryKey {
   std::uint64_t world = 0;
-  std::optional<std::uint32_t> view;  ///< none: HistoryScope::world
+  std::optional<std::uint32_t> view;  ///< only with HistoryScope::view
   std::string module;
   std::string name;
   std::uint64_t instance = 0;
@@ -93,6 +94,7 @@ class HistoryPool {
   void give_up();
   void release_unused(std::uint64_t now);
   void release_if(const std::function<bool(const HistoryKey&)>& unwanted);
+  void release_view(std::uint32_t view);
   void reset(std::uint64_t world, std::string_view module, std::string_view name);
   [[nodiscard]] std::size_t size() const { return items_.size(); }
 
@@ -125,6 +127,7 @@ class HistoryPool {
     std::optional<Pending> pending;
     std::uint64_t resets = 0;  ///< calls of reset
     std::uint64_t last_used = 0;
+    std::set<std::uint32_t> sharers;  ///< views that use it with HistoryScope::shared
   };
 
   [[nodiscard]] Status create(Contents& contents);
@@ -214,13 +217,14 @@ Result<typename HistoryPool<Kind>::Used> HistoryPool<Kind>::use(FrameGraph& grap
                                                                 std::uint32_t sides) {
   const bool of_view = use.scope == HistoryScope::view;
   GLOAM_ASSERT(of_view || !use.reset.camera_cut,
-               "history '" + desc.name + "': a world has no camera that could be cut");
+               "history '" + desc.name + "': only a view has a camera that could be cut");
   GLOAM_ASSERT(use.rest != gpu::Access::none && !gpu::is_write(use.rest),
                "history '" + desc.name + "' rests in an access that reads");
   const HistoryKey key{view.world, of_view ? std::optional(view.view) : std::nullopt, desc.module, desc.name,
                        use.instance};
   const auto [at, added] = items_.try_emplace(key);
   Item& item = at->second;
+  if (use.scope == HistoryScope::shared) item.sharers.insert(view.view);
   if (item.pending) {
     const Pending& pending = *item.pending;
     GLOAM_ASSERT(pending.contents.sides == sides && Kind::same(pending.contents.desc, desc) &&
@@ -296,6 +300,15 @@ void HistoryPool<Kind>::release_if(const std::function<bool(const HistoryKey&)>&
     destroy(item.contents);
     at = items_.erase(at);
   }
+}
+
+template <class Kind>
+void HistoryPool<Kind>::release_view(std::uint32_t view) {
+  release_if([&](const HistoryKey& key) {
+    if (key.view) return key.view == view;
+    std::set<std::uint32_t>& sharers = items_.at(key).sharers;
+    return sharers.erase(view) > 0 && sharers.empty();
+  });
 }
 
 template <class Kind>

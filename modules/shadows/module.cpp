@@ -137,6 +137,7 @@ class ShadowsModule final : public Module {
   }
 
   void release_view(ViewId view) override { states_.release_view(view); }
+  void give_up_frame(std::uint64_t) override {}  // what the module notes about maps changes in commits only
   void release() override { states_.release(); }
 
  private:

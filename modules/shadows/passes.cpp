@@ -43,16 +43,16 @@ void set_constants(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uin
 /// frame makes final lists (for_lists): otherwise no module would draw them.
 ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-  auto found =
-      states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id, knobs.atlas_size, knobs.d16);
-  if (!frame.check(found)) return {};
-  ViewShadows& kept = **found;
+  ViewShadows& kept = states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id);
   const WithheldCasters* withheld = for_lists ? frame.find<WithheldCasters>() : nullptr;
   kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
   ShadowMaps maps = add_shadow_map_passes(frame, states, kept, views, knobs);
   if (!frame.status().ok()) return {};
   // Planes follow the atlas only in frames that read them; after others that draw maps they are out of date.
-  if (!maps.drawn.empty() && !(for_lists && knobs.classify)) kept.planes.filled = false;
+  if (!maps.drawn.empty() && !(for_lists && knobs.classify)) {
+    kept.frame.planes_outdated = true;
+    frame.on_commit([&kept] { kept.has_planes = false; });
+  }
   frame.expose(maps.atlas, "shadow_atlas");
   return maps;
 }
@@ -61,13 +61,9 @@ ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs
 void add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
                      ShadowsOutputs& outputs) {
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-  auto kept =
-      states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id, knobs.atlas_size, knobs.d16);
-  if (!frame.check(kept)) return;
+  ViewShadows& kept = states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id);
   ImageRef planes;
-  if (knobs.classify) {
-    planes = add_shadow_planes_pass(frame, states, **kept, maps, views);
-  }
+  if (knobs.classify) planes = add_shadow_planes_pass(frame, kept, maps, views, knobs);
   add_generate_passes(frame, knobs, planes, outputs);
 }
 

@@ -452,6 +452,21 @@ TEST_F(HistoryTest, a_release_destroys_what_it_names_only) {
   EXPECT_EQ(bytes_of_module("test"), 0u);
 }
 
+TEST_F(HistoryTest, what_views_share_goes_with_the_last_of_them) {
+  use.scope = HistoryScope::shared;
+  frame([&] {
+    for (const auto& [id, instance] : {std::pair(1u, 5u), {2u, 5u}, {3u, 6u}}) {
+      view.view = id;
+      use.instance = instance;
+      EXPECT_EQ(use_knots(1).written, id == 2);
+    }
+  });
+  for (const auto& [released, left] : {std::pair(2u, 2u), {2u, 2u}, {1u, 1u}, {3u, 0u}}) {
+    history.release_view(released);
+    EXPECT_EQ(history.size(), left) << released;
+  }
+}
+
 TEST_F(HistoryTest, a_release_in_the_middle_of_a_frame_forgets_the_use) {
   (void)pair_frame();
   graph.begin();
@@ -472,7 +487,7 @@ TEST_F(HistoryTest, misuse_asserts) {
   EXPECT_ASSERT((void)history.image(graph, view, temporal_desc(), use), "one description");
   use.scope = HistoryScope::world;
   use.reset.camera_cut = true;
-  EXPECT_ASSERT((void)history.buffer(graph, view, knots_desc(), use), "no camera");
+  EXPECT_ASSERT((void)history.buffer(graph, view, knots_desc(), use), "only a view");
   use = {.rest = Access::transfer_write};
   EXPECT_ASSERT((void)history.buffer(graph, view, knots_desc(), use), "access that reads");
 }

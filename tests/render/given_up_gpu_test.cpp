@@ -28,10 +28,11 @@ using ::testing::HasSubstr;
 
 constexpr std::uint32_t kFramesCompared = 4;
 
-/// What two views show: pictures and linear light.
+/// What two views show: pictures, linear light, and how much of their shadow maps was drawn.
 struct ShownViews {
   std::vector<std::vector<std::uint8_t>> pictures;
   std::vector<std::vector<float>> light;
+  std::vector<double> shadow_texels;
   bool operator==(const ShownViews&) const = default;
 };
 
@@ -108,6 +109,8 @@ struct FailingSet {
       shown.pictures.push_back(test::value_of(renderer->read_picture(ViewId{v})).rgba);
       shown.light.push_back(test::value_of(renderer->read_linear(ViewId{v})).rgba);
     }
+    for (const ViewCounters& view : renderer->report().views)
+      shown.shadow_texels.push_back(view.counters.at("shadows.texels_drawn"));
     return shown;
   }
 

@@ -238,6 +238,33 @@ TEST_F(Views, captures_share_the_maps_of_local_lights_and_have_cascades_of_their
   test::drawing_device()->destroy(cube);
 }
 
+TEST_F(Views, captures_keep_their_maps_over_a_frame_that_is_given_up) {
+  fill(stage->world, false);
+  const gpu::ImageHandle cube = make_cube(1);
+  const std::vector<ViewRequest> requests = captures_of(cube_faces(dvec3(0.3, 0.9, 0.2)), cube);
+  std::vector<ViewRequest> lost = requests;
+  lost.push_back(stage->request());
+  lost.back().target.overlay = [](FrameGraph&, ImageRef&) -> Status { return Error{ErrorKind::failed, "given up"}; };
+  const auto drawn = [](const test::Stage& of) {
+    double faces = 0.0;
+    for (const ViewCounters& view : of.renderer->report().views)
+      faces += view.counters.at("shadows.faces_drawn") + view.counters.at("shadows.faces_skipped");
+    return faces;
+  };
+  stage->render(requests);
+  const double all = drawn(*stage);
+  EXPECT_GT(all, 0.0);
+  EXPECT_FALSE(stage->renderer->render(stage->world, lost).ok());
+  stage->render(requests);
+  EXPECT_EQ(drawn(*stage), 0.0);
+  test::Stage first_is_lost;
+  fill(first_is_lost.world, false);
+  EXPECT_FALSE(first_is_lost.renderer->render(first_is_lost.world, lost).ok());
+  first_is_lost.render(requests);
+  EXPECT_EQ(drawn(first_is_lost), all);
+  test::drawing_device()->destroy(cube);
+}
+
 /// Leaves a value for the later views of a frame.
 struct SeenViews {
   std::vector<std::uint32_t> ids;

@@ -123,10 +123,11 @@ bool ShadowCache::held(const ShadowFace& face, const FaceContent& content, std::
          found->second.frame == frame && frame > 0;
 }
 
-void ShadowCache::keep(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) {
-  Map& map = maps_.at(key_of(face));
-  map.content = content;
-  map.frame = frame;
+void ShadowCache::keep(const FaceKey& face, const FaceContent& content, std::uint64_t frame) {
+  const auto found = maps_.find(face);
+  if (found == maps_.end()) return;
+  found->second.content = content;
+  found->second.frame = frame;
 }
 
 void ShadowCache::forget_overlapping(const AtlasSquare& square) {

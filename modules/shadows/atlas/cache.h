@@ -51,8 +51,9 @@ class ShadowCache {
   /// Records that the face's map was drawn at face.square with the casters of that frame. Maps that overlap the square
   /// are forgotten.
   void set_drawn(const ShadowFace& face, const FaceContent& content, std::uint64_t frame = 0);
-  /// Records that the face's map is right for that frame as well, and its content. The atlas must hold the map.
-  void keep(const ShadowFace& face, const FaceContent& content, std::uint64_t frame);
+  /// Records that the face's map is right for that frame as well, and its content. Without effect if the map has been
+  /// forgotten.
+  void keep(const FaceKey& face, const FaceContent& content, std::uint64_t frame);
   /// The face's backgrounds; empty when the atlas does not hold its map.
   [[nodiscard]] std::span<const FaceBackground> backgrounds(const ShadowFace& face) const;
   /// Replaces the face's backgrounds. The atlas must hold the face's map.

@@ -153,20 +153,15 @@ std::vector<CasterState> source_states(std::span<const CasterSource* const> sour
   return states;
 }
 
-/// The casters of the frame before the newest one.
-struct CasterHistory::Before {
-  std::span<const CasterState> states;
-  std::size_t sources = 0;
-};
-
-void CasterHistory::advance(std::vector<CasterState> states, std::size_t sources) {
+CasterHistory CasterHistory::advanced(std::vector<CasterState> states, std::size_t sources) const {
+  CasterHistory next;
+  next.frame_ = frame_ + 1;
+  next.since_.assign(states.size(), next.frame_);
   // Most casters are unchanged and at the same index.
   std::vector<const CasterState*> gone, come;
-  ++frame_;
-  std::vector<std::uint64_t> since(states.size(), frame_);
   for (std::size_t i = 0; i < std::max(states.size(), states_.size()); ++i) {
     if (i < states.size() && i < states_.size() && same(states[i], states_[i])) {
-      since[i] = since_[i];
+      next.since_[i] = since_[i];
       continue;
     }
     if (i < states_.size()) gone.push_back(&states_[i]);
@@ -174,37 +169,35 @@ void CasterHistory::advance(std::vector<CasterState> states, std::size_t sources
   }
   std::sort(gone.begin(), gone.end(), by_hash);
   std::sort(come.begin(), come.end(), by_hash);
-  changed_.clear();
-  changed_casters_.clear();
   const auto add_changed = [&](const CasterState& state) {
-    changed_.push_back(state.box);
-    changed_casters_.push_back(state.entity);
+    next.changed_.push_back(state.box);
+    next.changed_casters_.push_back(state.entity);
   };
   for_each_pair(gone, come, [&](const CasterState* state, const CasterState* equal) {
     if (equal == nullptr) add_changed(*state);
   });
-  gone_ = changed_.size();
+  next.gone_ = next.changed_.size();
   for_each_pair(come, gone, [&](const CasterState* state, const CasterState* equal) {
     if (equal == nullptr) add_changed(*state);
     if (equal != nullptr)
-      since[static_cast<std::size_t>(state - states.data())] = since_[static_cast<std::size_t>(equal - states_.data())];
+      next.since_[static_cast<std::size_t>(state - states.data())] =
+          since_[static_cast<std::size_t>(equal - states_.data())];
   });
-  std::swap(states_, states);
-  since_ = std::move(since);
-  const std::size_t sources_before = std::exchange(sources_, sources);
-  withheld_before_ = std::exchange(withheld_, next_withheld_);
-  changed_of_.clear();
-  for (const Entity light : lights_of(withheld_before_, withheld_))
-    changed_of_.push_back({light, find_changed(light, {states, sources_before})});
+  next.states_ = std::move(states);
+  next.sources_ = sources;
+  next.next_withheld_ = next.withheld_ = next_withheld_;
+  for (const Entity light : lights_of(withheld_, next.withheld_))
+    next.changed_of_.push_back({light, next.find_changed(light, *this)});
+  return next;
 }
 
-std::vector<CasterBox> CasterHistory::find_changed(Entity light, const Before& before) const {
-  const std::span<const Entity> left_before = withheld_before_.of(light), left_now = withheld_.of(light);
+std::vector<CasterBox> CasterHistory::find_changed(Entity light, const CasterHistory& before) const {
+  const std::span<const Entity> left_before = before.withheld_.of(light), left_now = withheld_.of(light);
   std::vector<CasterBox> boxes;
   for (std::size_t i = 0; i < changed_.size(); ++i)
     if (!is_withheld(i < gone_ ? left_before : left_now, changed_casters_[i])) boxes.push_back(changed_[i]);
   // A caster that becomes withheld was in the map before; one that is no longer withheld is in it now.
-  append_boxes(left_now, left_before, before.states, before.sources, boxes);
+  append_boxes(left_now, left_before, before.states_, before.sources_, boxes);
   append_boxes(left_before, left_now, states_, sources_, boxes);
   return boxes;
 }

@@ -48,11 +48,11 @@ struct CasterState {
 /// Tracks how casters change from frame to frame. Frames are numbered from 1.
 class CasterHistory {
  public:
-  /// Sets the casters that maps leave out, from the frame that the next advance() begins.
+  /// Sets the casters that maps leave out, from the next frame on.
   void withhold(WithheldCasters withheld) { next_withheld_ = std::move(withheld); }
-  /// Begins a frame with these casters. The last `sources` states are those of caster sources, in any order; the states
-  /// before them are ordered by Entity::index.
-  void advance(std::vector<CasterState> states, std::size_t sources = 0);
+  /// The history with one more frame, which has these casters. The last `sources` states are those of caster sources,
+  /// in any order; the states before them are ordered by Entity::index.
+  [[nodiscard]] CasterHistory advanced(std::vector<CasterState> states, std::size_t sources = 0) const;
   /// Number of the newest frame.
   [[nodiscard]] std::uint64_t frame() const { return frame_; }
   /// The casters of the newest frame.
@@ -78,8 +78,7 @@ class CasterHistory {
     Entity light;
     std::vector<CasterBox> boxes;
   };
-  struct Before;
-  [[nodiscard]] std::vector<CasterBox> find_changed(Entity light, const Before& before) const;
+  [[nodiscard]] std::vector<CasterBox> find_changed(Entity light, const CasterHistory& before) const;
 
   std::uint64_t frame_ = 0;
   std::vector<std::uint64_t> since_;  ///< by caster: the frame since which it has not changed
@@ -90,7 +89,6 @@ class CasterHistory {
   std::size_t gone_ = 0;                 ///< the first gone_ boxes of changed_ are old boxes, of the frame before
   WithheldCasters next_withheld_;
   WithheldCasters withheld_;         ///< of the newest frame
-  WithheldCasters withheld_before_;  ///< of the frame before
   std::vector<Changed> changed_of_;  ///< ascending by light
 };
 

@@ -33,22 +33,23 @@ struct Stale {
 };
 
 Stale find_stale(const ViewShadows& kept, const ShadowFace& face, const FaceContent& content) {
-  const CasterHistory& history = kept.history;
+  const CasterHistory& history = kept.frame.history;
+  if (kept.frame.anew) return {{whole_face(face)}, false};
   if (kept.cache.holds(face, content)) return {};
-  if (!kept.cache.held(face, content, history.frame() - 1)) return {{whole_face(face)}, false};
+  if (!kept.cache.held(face, content, kept.history.frame())) return {{whole_face(face)}, false};
   const std::span<const CasterBox> changed = history.changed(face.light);
   if (changed.size() > kMostChanges) return {{whole_face(face)}, true};
   return {covered_regions(face, changed), true};
 }
 
 /// Hash of a background: the resting casters that this part of the face may see.
-std::uint64_t hash_of_resting(const ViewShadows& kept, const ShadowFace& face, const TexelRect& texels) {
+std::uint64_t hash_of_resting(const CasterHistory& history, const ShadowFace& face, const TexelRect& texels) {
   const FaceVolume volume = face_volume(face, texels);
-  const std::span<const CasterState> states = kept.history.states();
-  const std::span<const Entity> withheld = kept.history.withheld(face.light);
+  const std::span<const CasterState> states = history.states();
+  const std::span<const Entity> withheld = history.withheld(face.light);
   Hasher hasher;
   for (std::size_t i = 0; i < states.size(); ++i)
-    if (kept.history.rests(i) && may_see(volume, states[i].box) && !is_withheld(withheld, states[i].entity))
+    if (history.rests(i) && may_see(volume, states[i].box) && !is_withheld(withheld, states[i].entity))
       hasher.value(states[i].hash);
   return hasher.digest();
 }
@@ -66,7 +67,8 @@ void find_backgrounds(const ViewShadows& kept, DrawnFace& face, DrawnFace& made)
   constexpr std::size_t kMost = 2 * kMostRegions;
   std::vector<FaceBackground>& there = face.backgrounds;
   for (const FaceBackground& background : kept.cache.backgrounds(face.face))
-    if (background.hash == hash_of_resting(kept, face.face, background.texels)) there.push_back(background);
+    if (background.hash == hash_of_resting(kept.frame.history, face.face, background.texels))
+      there.push_back(background);
   for (DrawnRegion& region : face.regions) {
     region.on_background = true;
     const auto holds = [&](const FaceBackground& background) { return background.texels.contains(region.texels); };
@@ -76,7 +78,7 @@ void find_backgrounds(const ViewShadows& kept, DrawnFace& face, DrawnFace& made)
       continue;
     }
     const TexelRect texels = widened(face.face, region.texels);
-    there.push_back({texels, hash_of_resting(kept, face.face, texels)});
+    there.push_back({texels, hash_of_resting(kept.frame.history, face.face, texels)});
     made.regions.push_back({texels, {}, {}});
   }
   if (there.size() > kMost) there.erase(there.begin(), there.end() - kMost);
@@ -123,15 +125,23 @@ PlacedFaces place_faces(const MapInputs& inputs, ViewShadows& kept, JobExecutor&
     std::vector<CasterState> states = caster_states(inputs.casters, inputs.poses, executor);
     const std::vector<CasterState> sources = source_states(inputs.sources);
     states.insert(states.end(), sources.begin(), sources.end());
-    kept.history.advance(std::move(states), sources.size());
+    kept.frame.history = kept.history.advanced(std::move(states), sources.size());
   }
-  placed.contents = face_contents(placed.faces, kept.history.states(), inputs.salt, executor, kept.history.withheld());
+  const CasterHistory& history = kept.frame.history;
+  placed.contents = face_contents(placed.faces, history.states(), inputs.salt, executor, history.withheld());
   placed.stale.resize(placed.faces.size());
   executor.parallel_for(placed.faces.size(), 8, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
       placed.stale[i] = find_stale(kept, placed.faces[i], placed.contents[i]);
   });
   return placed;
+}
+
+void begin_frame(const MapInputs& inputs, ViewShadows& kept) {
+  kept.frame.anew = inputs.anew;
+  kept.frame.planes_outdated = inputs.anew || !kept.has_planes;
+  kept.frame.committed = false;
+  kept.frame.drawn.clear();
 }
 
 /// Whether the regions of a face are drawn over backgrounds. A whole face would have to be drawn twice, which pays only
@@ -143,24 +153,24 @@ bool wants_backgrounds(const DrawnFace& face, bool held) {
 }  // namespace
 
 DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& executor) {
+  if (!inputs.again) begin_frame(inputs, kept);
   const PlacedFaces placed = place_faces(inputs, kept, executor);
   DrawnMaps maps;
   std::vector<DrawnFace>& drawn = maps.faces;
   std::vector<std::uint8_t> on_backgrounds;  // by index into `drawn`
   kept.counts = {};
-  if (!inputs.again) kept.drawn.clear();
-  const std::size_t drawn_by_others = kept.drawn.size();
+  const std::size_t drawn_by_others = kept.frame.drawn.size();
   for (std::size_t i = 0; i < placed.faces.size(); ++i) {
     const ShadowFace& face = placed.faces[i];
     const FaceContent& content = placed.contents[i];
     const FaceKey key{face.light, face.index, face.view};
-    const auto others = std::span(kept.drawn).first(drawn_by_others);
+    const auto others = std::span(kept.frame.drawn).first(drawn_by_others);
     if (std::ranges::find(others, key) != others.end()) {
       ++kept.counts.cached;
       continue;
     }
     if (placed.stale[i].regions.empty()) {
-      kept.cache.keep(face, content, kept.history.frame());
+      maps.held.push_back({key, content});
       ++kept.counts.cached;
       continue;
     }
@@ -170,7 +180,7 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& exe
       kept.counts.texels += texels.texels();
     }
     on_backgrounds.push_back(wants_backgrounds(added, placed.stale[i].held) ? 1 : 0);
-    kept.drawn.push_back(key);
+    kept.frame.drawn.push_back(key);
     if (content.casters == 0) ++kept.counts.skipped;
   }
   kept.counts.drawn = static_cast<std::uint32_t>(drawn.size()) - kept.counts.skipped;
@@ -180,9 +190,9 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& exe
       DrawnFace &face = drawn[i], &background = maps.backgrounds[i];
       if (on_backgrounds[i] != 0) find_backgrounds(kept, face, background);
       for (DrawnRegion& region : face.regions)
-        find_draws(kept.history, inputs, face, region, region.on_background ? Casters::restless : Casters::all);
+        find_draws(kept.frame.history, inputs, face, region, region.on_background ? Casters::restless : Casters::all);
       for (DrawnRegion& region : background.regions)
-        find_draws(kept.history, inputs, background, region, Casters::resting);
+        find_draws(kept.frame.history, inputs, background, region, Casters::resting);
     }
   });
   std::erase_if(maps.backgrounds, [](const DrawnFace& face) { return face.regions.empty(); });
@@ -191,7 +201,24 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& exe
   return maps;
 }
 
-DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views, const ShadowKnobs& knobs) {
+void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> held, ViewShadows& kept) {
+  if (!kept.frame.committed) {
+    if (kept.frame.anew) {
+      kept.cache.clear();
+      kept.has_planes = kept.has_backgrounds = false;
+    }
+    kept.history = std::move(kept.frame.history);
+    kept.frame.committed = true;
+  }
+  for (const HeldFace& face : held) kept.cache.keep(face.face, face.content, kept.history.frame());
+  for (const DrawnFace& face : drawn) {
+    kept.cache.set_drawn(face.face, face.content, kept.history.frame());
+    kept.cache.set_backgrounds(face.face, face.backgrounds);
+  }
+}
+
+DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views, const ShadowKnobs& knobs,
+                        bool anew) {
   const std::vector<std::uint64_t> poses = caster_poses(frame.world(), frame.frame_draws());
   const MapInputs inputs{.faces = views.faces,
                          .casters = frame.casters().casters,
@@ -199,8 +226,9 @@ DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowView
                          .sources = frame.caster_sources(),
                          .salt = salt_of(frame, knobs),
                          .simplified = knobs.simplified,
-                         .again = kept.planned_in == frame.graph().frame()};
-  kept.planned_in = frame.graph().frame();
+                         .again = kept.frame.number == frame.graph().frame(),
+                         .anew = anew};
+  kept.frame.number = frame.graph().frame();
   return plan_maps(inputs, kept, frame.services().executor);
 }
 

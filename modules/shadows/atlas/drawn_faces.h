@@ -37,11 +37,18 @@ struct DrawnFace {
   std::vector<FaceBackground> backgrounds;  ///< content of the image of backgrounds for the face, after the frame
 };
 
+/// A face whose map the atlas holds, and its content in this frame.
+struct HeldFace {
+  FaceKey face;
+  FaceContent content;
+};
+
 /// All shadow-map draws of one frame.
 struct DrawnMaps {
   std::vector<DrawnFace> faces;
   /// Parts of faces whose resting casters are drawn into the image of backgrounds, before `faces`.
   std::vector<DrawnFace> backgrounds;
+  std::vector<HeldFace> held;  ///< faces that are not drawn
 };
 
 /// Everything that the maps of a view depend on in one frame.
@@ -54,17 +61,22 @@ struct MapInputs {
   bool simplified = false;                       ///< as in face_draws()
   /// Another view of the frame that shares the atlas has planned its maps already: what it draws is up to date.
   bool again = false;
+  bool anew = false;  ///< the atlas has no contents. Without effect if `again`
 };
 
 /// Decides which of the faces are drawn in this frame: all faces whose map the atlas does not hold. If only casters
 /// changed since the last frame, only the regions around the changed casters are drawn, otherwise the whole face.
 /// Resting casters of a region come from the image of backgrounds, except in whole faces that see no unsteady caster.
-/// Advances the view's CasterHistory and sets kept.counts and kept.drawn. Casters withheld from a light are left out of
-/// its faces. The caller records what is drawn: ShadowCache::set_drawn and set_backgrounds.
+/// Casters withheld from a light are left out of its faces. Sets kept.frame and kept.counts, and leaves what describes
+/// the last committed frame as it is.
 [[nodiscard]] DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& executor);
 
-/// plan_maps() for the view that the frame draws.
+/// Records that the frame with these maps was committed: once for each plan_maps() of the frame, in the same order.
+/// drawn: DrawnMaps::faces. held: DrawnMaps::held.
+void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> held, ViewShadows& kept);
+
+/// plan_maps() for the view that the frame draws. anew: as in MapInputs.
 [[nodiscard]] DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
-                                      const ShadowKnobs& knobs);
+                                      const ShadowKnobs& knobs, bool anew);
 
 }  // namespace gloam

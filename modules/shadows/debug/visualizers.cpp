@@ -53,7 +53,7 @@ std::vector<shaders::AtlasFaceConstants> atlas_squares(const ShadowViews& views,
     square.near_m = face.tan_half > 0.0f ? face.near_m : 0.0f;
     square.far_m = face.far_m;
     const FaceKey key{face.light, face.index, face.view};
-    square.drawn = std::find(kept.drawn.begin(), kept.drawn.end(), key) != kept.drawn.end() ? 1.0f : 0.0f;
+    square.drawn = std::ranges::find(kept.frame.drawn, key) != kept.frame.drawn.end() ? 1.0f : 0.0f;
     square.corner = glm::floor(square.origin * scale);
     square.pixels = std::max(1.0f, std::floor(square.size * scale));
     squares.push_back(square);

@@ -127,10 +127,9 @@ bool OverlayMaps::d16() const { return tools_->knobs.d16; }
 
 OverlayCopies OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFace> faces) const {
   const ShadowKnobs& knobs = tools_->knobs;
-  auto found = tools_->states.view(frame.world().resource<ShadowWorld>(),
-                                   frame.world().view_resource<ShadowViews>(frame.view().id).owner, frame.view().id,
-                                   knobs.atlas_size, knobs.d16);
-  if (!frame.check(found)) return {};
+  ViewShadows& kept =
+      tools_->states.view(frame.world().resource<ShadowWorld>(),
+                          frame.world().view_resource<ShadowViews>(frame.view().id).owner, frame.view().id);
   OverlayCopies copies{{faces.begin(), faces.end()}, knobs.d16};
   if (knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) copies.depth_bits = ~GLOAM_SHADOW_FREE_BITS;
   const std::vector<shaders::ShadowCopyGroup> groups = copy_groups(faces);
@@ -139,8 +138,8 @@ OverlayCopies OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFac
   ComputePass pass(frame, "shadow_overlay_copy", copy_program(knobs.d16));
   atlas = pass.write("atlas", atlas);
   pass.items<shaders::ShadowCopyGroup>("groups", groups);
-  pass.record([&kept = **found, faces = copies.faces](PassContext&) { forget_what_lay_there(kept.cache, faces); });
   dispatch_groups(pass, shaders::ShadowCopyConstants{}, {0, static_cast<std::uint32_t>(groups.size())});
+  frame.on_commit([&kept, faces = copies.faces] { forget_what_lay_there(kept.cache, faces); });
   return frame.status().ok() ? copies : OverlayCopies{};
 }
 

@@ -99,26 +99,27 @@ Copy add_rows(FrameBuilder& frame, ShadowStates& states, std::span<const shaders
   return {frame.graph().create_image(desc), stage(frame, states.staging(), std::as_bytes(rows))};
 }
 
-/// The world's cookies, with a copy into their image when it is not up to date. Imported once per frame, for all views.
-/// Null, and the frame is given up, if the image cannot be created.
-WorldCookies* add_cookies(FrameBuilder& frame, ShadowStates& states, std::vector<Copy>& copies) {
+/// The world's cookies, with a copy into their image when it is not up to date: one layer per cookie. Null, and the
+/// frame is given up, if the image cannot be created.
+ImageRef add_cookies(FrameBuilder& frame, ShadowStates& states, std::vector<Copy>& copies) {
   const Cookies& cookies = frame.world().resource<Cookies>();
-  const auto layers = static_cast<std::uint32_t>(cookies.texels.size());
-  auto found =
-      states.cookies(frame.world().resource<ShadowWorld>(), std::max(layers, 1u), layers == 0 ? 1 : kCookieSide);
-  if (!frame.check(found)) return nullptr;
-  WorldCookies& kept = **found;
-  if (kept.imported && kept.imported.frame == frame.graph().frame()) return &kept;
-  const bool there = kept.images.filled && kept.version == cookies.version;
-  const gpu::Access before = kept.images.filled ? gpu::Access::fragment_read : gpu::Access::none;
-  kept.imported = frame.graph().import_image("shadow_cookies", kept.images.image, before, gpu::Access::fragment_read);
-  if (there) return &kept;
+  gpu::ImageDesc desc;
+  desc.name = "shadow_cookies";
+  desc.module = "shadows";
+  desc.format = gpu::Format::rgba8_srgb;
+  desc.width = desc.height = cookies.texels.empty() ? 1 : kCookieSide;
+  desc.layers = std::max(static_cast<std::uint32_t>(cookies.texels.size()), 1u);
+  desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
+  desc.shape = gpu::ImageShape::array;
+  const auto kept = frame.history_image(
+      desc, {.scope = HistoryScope::world, .rest = gpu::Access::fragment_read, .reset = {.key = cookies.version}});
+  if (!frame.check(kept)) return {};
+  if (kept->filled()) return kept->image;
   std::vector<std::uint8_t> texels;
   for (const auto& layer : cookies.texels) texels.insert(texels.end(), layer.begin(), layer.end());
   if (texels.empty()) texels.assign(4, 255);
-  copies.push_back(
-      {kept.imported, stage(frame, states.staging(), std::as_bytes(std::span(texels))), std::max(layers, 1u)});
-  return &kept;
+  copies.push_back({kept->image, stage(frame, states.staging(), std::as_bytes(std::span(texels))), desc.layers});
+  return kept->image;
 }
 
 Copy add_traced(FrameBuilder& frame, ShadowStates& states, const TracedVisibility& traced) {
@@ -166,24 +167,18 @@ void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowV
 
   outputs.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(rows_now));
   std::vector<Copy> copies = {add_rows(frame, states, *outputs.row_values)};
-  WorldCookies* kept = add_cookies(frame, states, copies);
-  if (kept == nullptr) return;
+  outputs.cookies = add_cookies(frame, states, copies);
+  if (!outputs.cookies) return;
   const bool has_traced = traced != nullptr && !traced->lights.empty();
   if (has_traced) copies.push_back(add_traced(frame, states, *traced));
 
   PassBuilder pass = frame.graph().add_pass("shadow_rows", frame.module());
-  for (Copy& copy : copies) {
-    const bool is_cookies = copy.target.resource == kept->imported.resource;
-    copy.target = pass.write(copy.target, gpu::Access::transfer_write);
-    if (is_cookies) kept->imported = copy.target;
-  }
+  for (Copy& copy : copies) copy.target = pass.write(copy.target, gpu::Access::transfer_write);
   outputs.rows = copies.front().target;
-  outputs.cookies = kept->imported;
+  outputs.cookies = frame.graph().newest(outputs.cookies);
   if (has_traced) outputs.traced = copies.back().target;
-  pass.execute([copies, kept, version = frame.world().resource<Cookies>().version](PassContext& context) {
+  pass.execute([copies](PassContext& context) {
     for (const Copy& copy : copies) record_copy(context, copy);
-    kept->images.filled = true;
-    kept->version = version;
   });
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/render/declare/compute_pass.h"
+#include "modules/shadows/maps/images.h"
 #include "modules/shadows/maps/work_groups.h"
 #include "shaders/shadows/maps/planes_shared.h"
 #include "shaders/shadows/shaders.h"
@@ -68,23 +69,23 @@ void list_shadow_plane_pipelines(PipelineList& list) {
   list.push_back(pipeline_desc({shaders::shadows::planes_comp}, "shadows"));
 }
 
-ImageRef add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept, const ShadowMaps& maps,
-                                const ShadowViews& views) {
-  if (!frame.check(states.reserve_planes(kept))) return {};
-  const bool all = !kept.planes.filled;
-  ImageRef planes = import_kept(frame.graph(), "shadow_planes", kept.planes);
-  const std::vector<FacePart> parts = parts_of(maps, views, all);
+ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewShadows& kept, const ShadowMaps& maps,
+                                const ShadowViews& views, const ShadowKnobs& knobs) {
+  const HistoryImage used = use_map_image(frame, views, knobs, MapImage::planes);
+  if (!used.image) return {};
+  if (!used.filled()) kept.frame.planes_outdated = true;
+  ImageRef planes = used.image;
+  const std::vector<FacePart> parts = parts_of(maps, views, kept.frame.planes_outdated);
   if (parts.empty()) return planes;
   const PlaneWork work = work_of(parts);
   ComputePass pass(frame, "shadow_planes", shaders::shadows::planes_comp);
   pass.read("atlas", maps.atlas);
   planes = pass.write("planes", planes);
   pass.items<shaders::ShadowPlaneGroup>("groups", work.groups);
-  dispatch_groups(pass, shaders::ShadowPlaneConstants{0, kept.atlas_size, 0}, work.ranges[0]);
+  dispatch_groups(pass, shaders::ShadowPlaneConstants{0, knobs.atlas_size, 0}, work.ranges[0]);
   pass.barrier();
-  dispatch_groups(pass, shaders::ShadowPlaneConstants{1, kept.atlas_size, 0}, work.ranges[1]);
-  // Set in recording: a frame that ends before has made none.
-  pass.record([&kept](PassContext&) { kept.planes.filled = true; });
+  dispatch_groups(pass, shaders::ShadowPlaneConstants{1, knobs.atlas_size, 0}, work.ranges[1]);
+  frame.on_commit([&kept] { kept.has_planes = true; });
   return planes;
 }
 

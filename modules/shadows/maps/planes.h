@@ -12,9 +12,9 @@ namespace gloam {
 void list_shadow_plane_pipelines(PipelineList& list);
 
 /// Updates the view's planes (shaders/shadows/maps/planes_shared.h) for the parts of faces that this frame draws: pass
-/// shadow_planes. If the planes were out of date (ViewShadows::planes is not filled), updates them for all faces.
+/// shadow_planes. If the planes were out of date (ViewShadows::Frame::planes_outdated), updates them for all faces.
 /// Returns the image of planes; a null ref if it cannot be created, and the frame is given up.
-[[nodiscard]] ImageRef add_shadow_planes_pass(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
-                                              const ShadowMaps& maps, const ShadowViews& views);
+[[nodiscard]] ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewShadows& kept, const ShadowMaps& maps,
+                                              const ShadowViews& views, const ShadowKnobs& knobs);
 
 }  // namespace gloam

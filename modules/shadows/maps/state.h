@@ -6,10 +6,8 @@
 #include <map>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "engine/core/result.h"
-#include "engine/frame/frame_graph.h"
 #include "engine/frame/upload.h"
 #include "engine/gpu/device.h"
 #include "modules/shadows/atlas/view_maps.h"
@@ -22,16 +20,8 @@ struct ShadowWorld {
   std::uint64_t number = 0;
 };
 
-/// The GPU images of one world's cookies.
-struct WorldCookies {
-  KeptImage images;
-  std::uint32_t layers = 0;
-  std::uint64_t version = 0;     ///< version of the uploaded Cookies
-  ImageRef imported;             ///< import of the image in the frame that is being declared
-  std::uint64_t last_frame = 0;  ///< Device::frame_number of its last use
-};
-
-/// GPU memory of the module, by world and view. Worlds share no images of maps or cookies.
+/// What the module knows about the maps of each view, and its GPU memory that no frame hands on to the next one:
+/// staging memory and scratch images.
 class ShadowStates {
  public:
   ShadowStates() = default;
@@ -39,26 +29,18 @@ class ShadowStates {
   ShadowStates(const ShadowStates&) = delete;
   ShadowStates& operator=(const ShadowStates&) = delete;
 
-  /// Call once per view and frame, before the other functions. Destroys images that no frame has used for 120 frames.
+  /// Call once per view and frame, before the other functions. Forgets views, and destroys scratch images, that no
+  /// frame has used for 120 frames.
   void begin(gpu::Device& device);
-  /// The view's images and cache. When size or format differ from the last call, the images are created anew and the
-  /// cache is empty.
-  /// owner: ShadowViews::owner, under which several views share one state. user: the view.
-  [[nodiscard]] Result<ViewShadows*> view(ShadowWorld world, ViewId owner, ViewId user, std::uint32_t atlas_size,
-                                          bool d16);
-  /// Creates the view's image of planes, in the size of its atlas, unless it exists.
-  [[nodiscard]] Status reserve_planes(ViewShadows& view);
-  /// Creates the view's image of backgrounds, in the size of its atlas, unless it exists.
-  [[nodiscard]] Status reserve_backgrounds(ViewShadows& view);
-  /// The view's state; null if view() was never called for it, or if its images have been destroyed since.
+  /// The view's state, empty at the first call. owner: ShadowViews::owner, under which several views share one state.
+  /// user: the view.
+  [[nodiscard]] ViewShadows& view(ShadowWorld world, ViewId owner, ViewId user);
+  /// The view's state; null if view() was never called for it, or if it has been forgotten since.
   [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId owner) const;
   /// Resets the view's counters and its list of drawn faces. For frames of the view that draw no maps.
   void rest(ShadowWorld world, ViewId owner);
-  /// Destroys the images that only this view uses.
+  /// Forgets what only this view uses.
   void release_view(ViewId view);
-  /// The world's cookies: an rgba8_srgb array of `layers` layers with side × side texels. If the number of layers
-  /// differs from the last call, the array is created anew and is not filled.
-  [[nodiscard]] Result<WorldCookies*> cookies(ShadowWorld world, std::uint32_t layers, std::uint32_t side);
   /// Staging memory of this frame for copies into images.
   [[nodiscard]] UploadRing& staging() { return *staging_; }
   /// The same for traced visibilities, which may need many bytes. Its memory is released in the first frame that does
@@ -67,18 +49,14 @@ class ShadowStates {
   /// The scratch images, with room for a batch of `texels` texels. All worlds and views share them. Later calls in the
   /// same frame may replace the images: look them up while recording, not before.
   [[nodiscard]] Result<const ShadowScratch*> scratch(std::uint64_t texels);
-  /// Destroys everything.
+  /// Forgets and destroys everything.
   void release();
 
  private:
   using Key = std::pair<std::uint64_t, std::uint32_t>;
-  [[nodiscard]] Result<gpu::ImageHandle> make(const gpu::ImageDesc& desc);
-  void destroy(KeptImage& image);
-  void destroy_images(ViewShadows& view);
 
   gpu::Device* device_ = nullptr;
   std::map<Key, ViewShadows> views_;
-  std::map<std::uint64_t, WorldCookies> cookies_;
   std::unique_ptr<UploadRing> staging_;
   std::unique_ptr<UploadRing> traced_staging_;
   bool has_traced_ = false;  ///< the newest frame used traced_staging()

@@ -23,16 +23,16 @@ using Changed = std::vector<double>;
 
 TEST(CasterHistory, tells_what_came_went_and_changed) {
   CasterHistory history;
-  history.advance({state(1), state(2), state(3)});
+  history = history.advanced({state(1), state(2), state(3)});
   EXPECT_EQ(history.frame(), 1u);
   EXPECT_EQ(changed(history), (Changed{1, 2, 3}));
-  history.advance({state(1), state(2), state(3)});
+  history = history.advanced({state(1), state(2), state(3)});
   EXPECT_EQ(changed(history), Changed{});
-  history.advance({state(1), state(7), state(3)});
+  history = history.advanced({state(1), state(7), state(3)});
   EXPECT_EQ(changed(history), (Changed{2, 7})) << "where it was and where it is";
-  history.advance({state(7), state(3)});
+  history = history.advanced({state(7), state(3)});
   EXPECT_EQ(changed(history), Changed{1}) << "others have moved up in the list, that is all";
-  history.advance({state(9), state(7), state(3)});
+  history = history.advanced({state(9), state(7), state(3)});
   EXPECT_EQ(changed(history), Changed{9});
   EXPECT_EQ(history.frame(), 5u);
 }
@@ -54,31 +54,31 @@ Changed changed_of(const CasterHistory& history, Entity light = kLight) {
 TEST(CasterHistory, withheld_casters_that_change_are_no_news_for_their_light) {
   CasterHistory history;
   history.withhold(withheld({{2, 1}, {3, 1}}));
-  history.advance({state_of(1, 10), state_of(2, 20), state_of(3, 30)});
+  history = history.advanced({state_of(1, 10), state_of(2, 20), state_of(3, 30)});
   EXPECT_EQ(changed_of(history), Changed{10});
-  history.advance({state_of(1, 10), state_of(2, 21), state_of(3, 30, true)});
+  history = history.advanced({state_of(1, 10), state_of(2, 21), state_of(3, 30, true)});
   EXPECT_EQ(changed_of(history), Changed{});
   EXPECT_EQ(changed_of(history, {51, 1}), (Changed{20, 30, 21, 30}));
   EXPECT_EQ(changed(history), (Changed{20, 30, 21, 30}));
-  history.advance({state_of(1, 11), state_of(3, 31)});
+  history = history.advanced({state_of(1, 11), state_of(3, 31)});
   EXPECT_EQ(changed_of(history), (Changed{10, 11}));
 }
 
 TEST(CasterHistory, casters_are_news_where_they_go_from_when_they_are_withheld_and_where_they_come_back) {
   CasterHistory history;
-  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 25)});
-  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 25)});
+  history = history.advanced({state_of(1, 10), state_of(2, 20), state_of(2, 25)});
+  history = history.advanced({state_of(1, 10), state_of(2, 20), state_of(2, 25)});
   EXPECT_EQ(changed_of(history), Changed{});
   history.withhold(withheld({{2, 1}}));
-  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 25)});
+  history = history.advanced({state_of(1, 10), state_of(2, 20), state_of(2, 25)});
   EXPECT_EQ(changed_of(history), (Changed{20, 25})) << "all its primitives";
   EXPECT_EQ(changed(history), Changed{});
-  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 26)});
+  history = history.advanced({state_of(1, 10), state_of(2, 20), state_of(2, 26)});
   EXPECT_EQ(changed_of(history), Changed{});
   history.withhold({});
-  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 26)});
+  history = history.advanced({state_of(1, 10), state_of(2, 20), state_of(2, 26)});
   EXPECT_EQ(changed_of(history), (Changed{20, 26}));
-  history.advance({state_of(1, 10), state_of(2, 20), state_of(2, 26)});
+  history = history.advanced({state_of(1, 10), state_of(2, 20), state_of(2, 26)});
   EXPECT_EQ(changed_of(history), Changed{});
 }
 
@@ -89,47 +89,48 @@ TEST(CasterHistory, casters_that_move_while_they_are_withheld_or_come_back_are_n
     return found;
   };
   CasterHistory history;
-  history.advance({state_of(2, 20)});
+  history = history.advanced({state_of(2, 20)});
   history.withhold(withheld({{2, 1}}));
-  history.advance({state_of(2, 21)});
+  history = history.advanced({state_of(2, 21)});
   EXPECT_EQ(places(changed_of(history)), Changed{20});
   history.withhold({});
-  history.advance({state_of(2, 22)});
+  history = history.advanced({state_of(2, 22)});
   EXPECT_EQ(places(changed_of(history)), Changed{22});
 }
 
 TEST(CasterHistory, of_two_that_change_places_only_the_one_that_is_withheld_is_no_news) {
   CasterHistory history;
   history.withhold(withheld({{2, 1}}));
-  history.advance({state_of(1, 10), state_of(2, 20)});
-  history.advance({state_of(1, 20), state_of(2, 10)});
+  history = history.advanced({state_of(1, 10), state_of(2, 20)});
+  history = history.advanced({state_of(1, 20), state_of(2, 10)});
   EXPECT_EQ(changed_of(history), (Changed{10, 20}));
 }
 
 TEST(CasterHistory, unsteady_casters_change_every_frame) {
   CasterHistory history;
-  for (int i = 0; i < 3; ++i) history.advance({state(1), state(2, true)});
+  for (int i = 0; i < 3; ++i) history = history.advanced({state(1), state(2, true)});
   EXPECT_EQ(changed(history), (Changed{2, 2}));
 }
 
 TEST(CasterHistory, one_of_two_equal_casters_goes) {
   CasterHistory history;
-  history.advance({state(4), state(4), state(5)});
-  history.advance({state(4), state(5)});
+  history = history.advanced({state(4), state(4), state(5)});
+  history = history.advanced({state(4), state(5)});
   EXPECT_EQ(changed(history), Changed{4});
 }
 
 TEST(CasterHistory, casters_rest_that_have_not_changed_for_long) {
   CasterHistory history;
-  history.advance({state(1), state(2), state(3, true)});
-  history.advance({state(1), state(9), state(3, true)});
+  history = history.advanced({state(1), state(2), state(3, true)});
+  history = history.advanced({state(1), state(9), state(3, true)});
   EXPECT_TRUE(history.rests(0)) << "it has never changed";
   EXPECT_FALSE(history.rests(1));
   EXPECT_FALSE(history.rests(2));
-  for (std::uint64_t i = 1; i < CasterHistory::kRestFrames; ++i) history.advance({state(9), state(1), state(3, true)});
+  for (std::uint64_t i = 1; i < CasterHistory::kRestFrames; ++i)
+    history = history.advanced({state(9), state(1), state(3, true)});
   EXPECT_FALSE(history.rests(0)) << "wherever in the list it is";
   EXPECT_TRUE(history.rests(1));
-  history.advance({state(9), state(1), state(3, true)});
+  history = history.advanced({state(9), state(1), state(3, true)});
   EXPECT_TRUE(history.rests(0));
   EXPECT_FALSE(history.rests(2)) << "unsteady ones never do";
 }

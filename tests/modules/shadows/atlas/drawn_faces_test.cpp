@@ -50,16 +50,13 @@ class DrawnFaces : public ::testing::Test {
     return made;
   }
 
-  /// One frame of the view, with everything drawn that is planned.
-  DrawnMaps frame() {
+  /// One frame of the view. given_up: nothing of it is drawn.
+  DrawnMaps frame(bool given_up = false) {
     std::vector<const CasterSource*> list;
     for (const auto& made : sources) list.push_back(made.get());
-    const MapInputs inputs{.faces = faces, .casters = casters, .poses = {}, .sources = list, .salt = 1};
+    const MapInputs inputs{.faces = faces, .casters = casters, .poses = {}, .sources = list, .salt = 1, .anew = anew};
     DrawnMaps maps = plan_maps(inputs, kept, *executor);
-    for (const DrawnFace& face : maps.faces) {
-      kept.cache.set_drawn(face.face, face.content, kept.history.frame());
-      kept.cache.set_backgrounds(face.face, face.backgrounds);
-    }
+    if (!given_up) commit_maps(maps.faces, maps.held, kept);
     return maps;
   }
   void frames(std::uint64_t count) {
@@ -90,6 +87,7 @@ class DrawnFaces : public ::testing::Test {
   std::vector<Caster> casters;
   std::vector<std::unique_ptr<CasterSource>> sources;
   ViewShadows kept;
+  bool anew = false;  ///< of the next frame
   std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
 };
 
@@ -135,6 +133,35 @@ TEST_F(DrawnFaces, bounds_that_move_cost_the_old_and_the_new_rectangle) {
   ASSERT_EQ(maps.faces.size(), 1u);
   ASSERT_EQ(maps.faces[0].regions.size(), 1u);
   expect_around(maps.faces[0].regions[0].texels, kLow, kHigh + step);
+}
+
+TEST_F(DrawnFaces, a_frame_that_is_given_up_costs_nothing_in_the_next) {
+  CasterSource& field = source(kLow, kHigh);
+  frames(2);
+  const dvec3 step(0.2, 0.0, 0.0);
+  field.bounds = {kLow + step, kHigh + step};
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(frame(true).faces.size(), 1u);
+  field.bounds = {kLow, kHigh};
+  EXPECT_TRUE(frame().faces.empty()) << "the source is back where the map shows it";
+  field.bounds = {kLow + step, kHigh + step};
+  EXPECT_EQ(frame(true).faces.size(), 1u);
+  field.bounds = {kLow - step, kHigh - step};
+  const DrawnMaps maps = frame();
+  ASSERT_EQ(maps.faces.size(), 1u);
+  ASSERT_EQ(maps.faces[0].regions.size(), 1u);
+  expect_around(maps.faces[0].regions[0].texels, kLow - step, kHigh);
+}
+
+TEST_F(DrawnFaces, maps_that_are_made_anew_in_a_frame_given_up_are_still_held) {
+  frames(2);
+  anew = true;
+  EXPECT_EQ(frame(true).faces.size(), 2u);
+  anew = false;
+  EXPECT_TRUE(frame().faces.empty());
+  anew = true;
+  EXPECT_EQ(frame().faces.size(), 2u);
+  anew = false;
+  EXPECT_TRUE(frame().faces.empty());
 }
 
 TEST_F(DrawnFaces, a_moving_source_is_drawn_every_frame_over_casters_that_are_drawn_once) {

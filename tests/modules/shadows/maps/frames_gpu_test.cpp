@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <tuple>
 
 #include "modules/shadows/filter/cookies.h"
 #include "modules/shadows/filter/traced_visibility.h"
@@ -90,6 +91,56 @@ TEST_F(ShadowFrames, kept_maps_equal_maps_drawn_anew) {
   const LinearPicture anew = drawn("shadows.atlas", "4096");
   EXPECT_EQ(drawn_faces(), 6.0);
   EXPECT_EQ(kept.rgba, anew.rgba);
+}
+
+TEST_F(ShadowFrames, frames_that_are_given_up_leave_the_maps_as_they_were) {
+  ViewRequest lost{settings, {}};
+  lost.target.overlay = [](FrameGraph&, ImageRef&) -> Status { return Error{ErrorKind::failed, "given up"}; };
+  const auto give_up = [&] { EXPECT_FALSE(renderer->render(world, std::span(&lost, 1)).ok()); };
+  give_up();
+  draw();
+  EXPECT_EQ(drawn_faces(), 6.0) << "there were no maps before";
+  move(right, dvec3(0.25, 0.35, 0.8));
+  give_up();
+  draw();
+  EXPECT_EQ(drawn_faces(), 1.0);
+  move(right, dvec3(0.2, 0.3, 0.8));
+  give_up();
+  move(right, dvec3(0.25, 0.35, 0.8));
+  draw();
+  EXPECT_EQ(drawn_faces(), 0.0) << "the box is back where the maps show it";
+  for (const auto& [knob, other, back] : {std::tuple{"shadows.atlas", "2048", "4096"},
+                                          {"shadows.depth", "d16", "d32"},
+                                          {"shadows.bias_units", "4000", "2000"}}) {
+    set(knob, back);
+    draw();
+    set(knob, other);
+    give_up();
+    set(knob, back);
+    draw();
+    EXPECT_EQ(drawn_faces(), 0.0) << knob;
+  }
+}
+
+TEST_F(ShadowFrames, maps_kept_over_frames_that_are_given_up_equal_maps_drawn_anew) {
+  ViewRequest lost{settings, {}};
+  lost.target.overlay = [](FrameGraph&, ImageRef&) -> Status { return Error{ErrorKind::failed, "given up"}; };
+  for (int i = 0; i < 24; ++i) {
+    // After 16 frames the other casters rest and have backgrounds.
+    move(right, dvec3(0.2 - 0.01 * i, 0.3, 0.8));
+    if (i % 3 == 0) {
+      EXPECT_FALSE(renderer->render(world, std::span(&lost, 1)).ok());
+    }
+    if (i % 5 == 0) move(right, dvec3(0.2, 0.3 + 0.01 * i, 0.8));
+    draw();
+    EXPECT_GE(drawn_faces(), 1.0);
+    EXPECT_LE(drawn_faces(), i == 0 ? 6.0 : 2.0);
+  }
+  const LinearPicture kept = drawn();
+  EXPECT_EQ(drawn_faces(), 0.0);
+  static_cast<void>(drawn("shadows.atlas", "2048"));
+  EXPECT_EQ(kept.rgba, drawn("shadows.atlas", "4096").rgba);
+  EXPECT_EQ(drawn_faces(), 6.0);
 }
 
 TEST_F(ShadowFrames, a_box_that_moves_draws_the_faces_that_see_it) {
@@ -201,6 +252,8 @@ TEST_F(ShadowFrames, plans_are_met_again_whatever_faces_are_drawn) {
   world.get<ShadowCaster>(large).resolution = 512;
   const Entity lamps[] = {small, large, made};
   draw();
+  move(left, dvec3(-0.3, 0.01, 0.8));
+  draw();  // from here on the view has backgrounds, which its plans declare in every frame
   draw();
   const std::uint64_t before = renderer->report().plans_compiled;
   std::set<double> drawn_counts;

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "engine/render/frame_builder.h"
+#include "modules/shadows/atlas/view_faces.h"
+#include "modules/shadows/knobs.h"
+
+namespace gloam {
+
+/// The images of a view's maps. They are kept from frame to frame in place (History), ready for fragment shaders,
+/// backgrounds for compute shaders. Captures of a world share theirs.
+enum class MapImage : std::uint8_t {
+  atlas,
+  pyramid,
+  planes,
+  /// Depth of resting casters, in parts of faces where others move: an array of one layer, laid out as mip 0 of the
+  /// atlas.
+  backgrounds,
+};
+
+/// The image in this frame; created on first use, anew if its size or format has changed. Null, and the frame is given
+/// up, if it cannot be created.
+[[nodiscard]] HistoryImage use_map_image(FrameBuilder& frame, const ShadowViews& views, const ShadowKnobs& knobs,
+                                         MapImage image);
+
+}  // namespace gloam
