@@ -240,8 +240,8 @@ TEST_F(Views, captures_share_the_maps_of_local_lights_and_have_cascades_of_their
 
 TEST_F(Views, captures_keep_their_maps_over_a_frame_that_is_given_up) {
   fill(stage->world, false);
-  const gpu::ImageHandle cube = make_cube(1);
-  const std::vector<ViewRequest> requests = captures_of(cube_faces(dvec3(0.3, 0.9, 0.2)), cube);
+  const gpu::ImageHandle cube = test::make_cube(*test::drawing_device(), 1);
+  const std::vector<ViewRequest> requests = test::captures_of(test::cube_faces(dvec3(0.3, 0.9, 0.2)), cube);
   std::vector<ViewRequest> lost = requests;
   lost.push_back(stage->request());
   lost.back().target.overlay = [](FrameGraph&, ImageRef&) -> Status { return Error{ErrorKind::failed, "given up"}; };
