@@ -51,6 +51,13 @@ void add_shadow_knobs(KnobRegistry& registry) {
   Knob kernel = choice_knob("kernel", "width of the filter kernel", {"4", "8", "12", "16"}, 1);
   kernel.unit = "texels";
   registry.add(kernel);
+  Knob near = choice_knob(
+      "near",
+      "where blockers are about as near to a lamp as it is wide, project them onto the lamp in place of one kernel "
+      "(shadows.filter=chs): never; only where they hide wide parts of the view from the lamp; or always",
+      {"off", "wide", "all"}, 1);
+  near.exact = "all";
+  registry.add(near);
   registry.add(choice_knob("mips", "filter wide penumbrae in mips of the shadow maps", {"off", "on"}, 1));
   registry.add(
       choice_knob("mip_operator",
@@ -127,6 +134,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.atlas_size = kSmallestAtlas << registry.choice("shadows.atlas");
   knobs.texels_per_pixel = static_cast<float>(registry.number("shadows.texels_per_pixel"));
   knobs.simplified = registry.is("shadows.casters", "simplified");
+  knobs.near = registry.choice("shadows.near");
   knobs.early_outs = registry.is("shadows.early_outs", "on");
   knobs.deferred = registry.is("shadows.mode", "deferred");
   knobs.classify = registry.is("shadows.classify", "on");
@@ -152,7 +160,8 @@ std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::u
           {GLOAM_SHADOWS_KERNEL_SHAPE_ID, knobs.square ? 1u : 0u},
           {GLOAM_SHADOWS_LEVELS_ID, knobs.levels},
           {GLOAM_SHADOWS_FULL_PENUMBRA_ID, knobs.early_outs ? 0u : 1u},
-          {GLOAM_SHADOWS_COVERAGE_ID, knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u}};
+          {GLOAM_SHADOWS_COVERAGE_ID, knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u},
+          {GLOAM_SHADOWS_NEAR_ID, knobs.near}};
 }
 
 }  // namespace gloam

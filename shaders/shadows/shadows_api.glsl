@@ -36,6 +36,7 @@ layout(constant_id = GLOAM_SHADOWS_KERNEL_SHAPE_ID) const uint kKernelShape = 0u
 layout(constant_id = GLOAM_SHADOWS_LEVELS_ID) const uint kLevels = 255u;
 layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 0u;
 layout(constant_id = GLOAM_SHADOWS_COVERAGE_ID) const uint kCoverage = 0u;
+layout(constant_id = GLOAM_SHADOWS_NEAR_ID) const uint kNear = 1u;
 // A pipeline may be restricted to some kinds of lights. Software devices would otherwise execute the code of all kinds
 // for every light. GLOAM_SHADOWS_KINDS_ID restricts the kinds when the pipeline is created. Shaders for fixed kinds
 // define GLOAM_SHADOWS_KINDS, which shortens their code as well. Shaders that define GLOAM_SHADOWS_IN_FACE promise that

@@ -126,6 +126,7 @@ GLOAM_SHARED_END
 #define GLOAM_SHADOWS_KINDS_ID 16           // kinds of lights that are evaluated: GLOAM_SHADOWS_SPOTS | …
 // 1: the atlas holds coverage mips, whose depths hold counts in their 6 lowest bits (GLOAM_SHADOW_MIPS_COVERAGE)
 #define GLOAM_SHADOWS_COVERAGE_ID 17
+#define GLOAM_SHADOWS_NEAR_ID 21  // near_blockers.glsl: 0 off, 1 for wide blockers, 2 always where it may matter
 
 // Lights whose cookies are read before the light loop; above GLOAM_COOKIE_LIGHTS: none (arriving_light.glsl)
 #define GLOAM_COOKIE_LIGHTS_ID 18

@@ -5,6 +5,7 @@
 
 #include "shaders/shadows/filter/blocker_search.glsl"
 #include "shaders/shadows/filter/kernels.glsl"
+#include "shaders/shadows/filter/near_blockers.glsl"
 
 // The contact-hardening filter (Thief §1.3.3). It blends two mips, in which the penumbra is 4 to 8 and 2 to 4 texels
 // wide.
@@ -132,8 +133,9 @@ float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
 }
 #endif
 
-// Filtered visibility for a penumbra of this width, in texels of mip 0.
+// Filtered visibility for a penumbra of this width, in texels of mip 0. Negative: near_visibility() with this tangent.
 float filtered_visibility(ShadowPoint p, float width) {
+  float near = near_visibility(p, -width, width < 0.0);
   FilterMips mips = filter_mips(p, width);
   float share = 0.0;
   int turns = mips.blend > 0.0 || kFullPenumbra != 0u ? 2 : 1;
@@ -152,23 +154,35 @@ float filtered_visibility(ShadowPoint p, float width) {
 #ifdef GLOAM_SHADOWS_CROSSING
   share += blocked_share_across(p, mips, width);
 #endif
-  return 1.0 - share;
+  return width < 0.0 ? near : 1.0 - share;
 }
 
 // Whether a receiver's visibility is known without the filter. If so, it is `visibility`; otherwise
-// filtered_visibility() gives it, for a penumbra of `width` texels of mip 0.
+// filtered_visibility() gives it, for a penumbra of `width`.
 bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
   SearchRegion region = SearchRegion(0.0, 0.0, 0.0);
   if (p.live) do {
       region = find_region(p);
     } while (never(p));
-  float reach = slope_per_texel(p) * (0.5 * region.width + 2.0);
-  bool unlit = region.farthest > p.threshold + reach && kFullPenumbra == 0u;
+  float slope = slope_per_texel(p) * (0.5 * region.width + 2.0);
+  bool unlit = region.farthest > p.threshold + slope && kFullPenumbra == 0u;
   bool unsure = region.nearest > p.threshold || kFullPenumbra != 0u;
   visibility = unlit && p.live ? 0.0 : 1.0;
   width = 0.0;
   bool known = true;
-  if (p.live && unsure && !unlit) do {
+  float tangent = region.width * p.tan_half / p.size;  // half of the region
+  bool wide =
+      kNear != 0u && !p.orthographic && tangent > kNearTangent && kFullPenumbra == 0u && p.live && unsure && !unlit;
+  // Off the face's axis, tangents to the receiver's direction are up to twice as large.
+  float reach = near_reach(p, 2.0 * tangent, wide);
+  bool near = wide && reach > kNearTangent;
+  unsure = unsure && (!wide || reach > 0.0);
+  if (near) {
+    known = false;
+    width = -min(2.0 * tangent, reach);
+  }
+  if (wide) region.width = min(region.width, 2.0 * reach * p.size / p.tan_half);
+  if (!near && p.live && unsure && !unlit) do {
       Blockers blockers = region_blockers(p, region);
       width = penumbra_width(p, blockers.depth);
       known = blockers.count <= 1e-3 && kFullPenumbra == 0u;

@@ -135,11 +135,11 @@ std::vector<float> draw_face(const FacePose& pose, std::uint32_t size, const Ray
 }
 
 std::vector<gpu::SpecConstant> ProbeSettings::constants() const {
-  return {{GLOAM_SHADOWS_FILTER_ID, filter},    {GLOAM_SHADOWS_KERNEL_ID, kernel},
-          {GLOAM_SHADOWS_MIPS_ID, mips},        {GLOAM_SHADOWS_RECEIVER_PLANE_ID, receiver_plane},
-          {GLOAM_SHADOWS_BIAS_ID, bias},        {GLOAM_SHADOWS_KERNEL_SHAPE_ID, shape},
-          {GLOAM_SHADOWS_LEVELS_ID, levels},    {GLOAM_SHADOWS_FULL_PENUMBRA_ID, full_penumbra},
-          {GLOAM_SHADOWS_COVERAGE_ID, coverage}};
+  return {{GLOAM_SHADOWS_FILTER_ID, filter},     {GLOAM_SHADOWS_KERNEL_ID, kernel},
+          {GLOAM_SHADOWS_MIPS_ID, mips},         {GLOAM_SHADOWS_RECEIVER_PLANE_ID, receiver_plane},
+          {GLOAM_SHADOWS_BIAS_ID, bias},         {GLOAM_SHADOWS_KERNEL_SHAPE_ID, shape},
+          {GLOAM_SHADOWS_LEVELS_ID, levels},     {GLOAM_SHADOWS_FULL_PENUMBRA_ID, full_penumbra},
+          {GLOAM_SHADOWS_COVERAGE_ID, coverage}, {GLOAM_SHADOWS_NEAR_ID, near}};
 }
 
 ShadowMaps::ShadowMaps(gpu::Device& device, std::uint32_t atlas_size, gpu::Format format)
