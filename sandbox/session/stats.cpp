@@ -15,6 +15,8 @@
 namespace gloam {
 namespace {
 
+constexpr std::uint32_t kMainView = 0;
+
 /// Times of one system or pass over all frames, identified by module, name and, for passes, view.
 struct TimedRow {
   std::string name;
@@ -100,7 +102,7 @@ Json passes_json(std::span<const FrameSample> measured) {
     passes.push_back(row_json(row));
     passes.back()["dispatches"] = row.dispatches;
     passes.back()["draws"] = row.draws;
-    passes.back()["view"] = row.view;
+    if (row.view != kMainView) passes.back()["view"] = row.view;
   }
   return passes;
 }
