@@ -54,7 +54,7 @@ void add_shadow_knobs(KnobRegistry& registry) {
   Knob near = choice_knob(
       "near",
       "where blockers are about as near to a lamp as it is wide, project them onto the lamp in place of one kernel "
-      "(shadows.filter=chs): never; only where they hide wide parts of the view from the lamp; or always",
+      "(shadows.filter=chs): never; only where the lamp sees them far off the receiver's direction; or always",
       {"off", "wide", "all"}, 1);
   near.exact = "all";
   registry.add(near);

@@ -53,19 +53,34 @@ NearFrame near_frame(ShadowPoint p) {
   return f;
 }
 
+// Where a direction falls on the light's faces.
+struct NearPlace {
+  mat3 axes;    // of the face
+  vec2 origin;  // corner of the face in the atlas
+  vec3 local;   // the direction, in the face's axes
+  vec2 at;      // texels of mip 0 from the face's corner
+};
+
+NearPlace near_place(ShadowPoint p, NearFrame f, vec3 v) {
+  int face = cube_face_of(v);
+  bool cube = p.face >= 0;
+  NearPlace place;
+  place.axes = cube ? cube_face_axes(face) : mat3(1.0);
+  place.origin = cube ? origin_of_face(face) : p.origin;
+  place.local = v * place.axes;
+  place.at = vec2(place.local.x, -place.local.y) / place.local.z * f.to_texel + 0.5 * p.size;
+  return place;
+}
+
 // Depth along w of the map's texel in direction v; v becomes the direction of the texel's centre. 0 outside a spot's
 // map.
 float near_depth(ShadowPoint p, NearFrame f, inout vec3 v) {
-  int face = p.face >= 0 ? cube_face_of(v) : -1;
-  mat3 axes = p.face >= 0 ? cube_face_axes(face) : mat3(1.0);
-  vec3 local = v * axes;
-  vec2 there = vec2(local.x, -local.y) / local.z * f.to_texel + 0.5 * p.size;
-  vec2 cell = clamp(floor(there), vec2(0.0), vec2(p.size - 1.0));
-  bool inside = p.face >= 0 || all(equal(cell, floor(there)));
-  vec2 origin = p.face >= 0 ? origin_of_face(face) : p.origin;
-  float depth = texelFetch(shadow_atlas, ivec2(origin + cell), 0).x;
+  NearPlace place = near_place(p, f, v);
+  vec2 cell = clamp(floor(place.at), vec2(0.0), vec2(p.size - 1.0));
+  bool inside = p.face >= 0 || all(equal(cell, floor(place.at)));
+  float depth = texelFetch(shadow_atlas, ivec2(place.origin + cell), 0).x;
   vec2 center = (cell + 0.5 - 0.5 * p.size) / f.to_texel;
-  vec3 toward = axes * vec3(center.x, -center.y, 1.0);
+  vec3 toward = place.axes * vec3(center.x, -center.y, 1.0);
   float along = p.face >= 0 ? dot(toward, f.axes[2]) : 1.0;
   v = toward / along;
   return inside ? depth / along : 0.0;
@@ -74,15 +89,13 @@ float near_depth(ShadowPoint p, NearFrame f, inout vec3 v) {
 // The pyramid's nearest depth, along w, of 2×2 texels around direction v that reach at least `reach` from it, as a
 // tangent. Texels beyond the border of the face of v are left out.
 float nearest_around(ShadowPoint p, NearFrame f, vec3 v, float reach) {
-  mat3 axes = p.face >= 0 ? cube_face_axes(cube_face_of(v)) : mat3(1.0);
-  vec2 origin = p.face >= 0 ? origin_of_face(cube_face_of(v)) : p.origin;
-  vec3 local = v * axes;
-  vec2 there = vec2(local.x, -local.y) / local.z * f.to_texel + 0.5 * p.size;
+  NearPlace place = near_place(p, f, v);
+  vec3 local = place.local;
   // Off the axes, a face's tangents are wider than tangents to w.
   float texels = 2.0 * reach * f.to_texel * dot(local, local) / (local.z * local.z * dot(v, v));
   int level = pyramid_level(texels, floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1);
-  MipSquare square = mip_square(origin * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
-  vec2 corner = clamp(floor(there * 0.25 / square.texel - 0.5) + 1.0, vec2(1.0), vec2(square.size - 1.0));
+  MipSquare square = mip_square(place.origin * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
+  vec2 corner = clamp(floor(place.at * 0.25 / square.texel - 0.5) + 1.0, vec2(1.0), vec2(square.size - 1.0));
   return gather_nearest(square.corner + corner) * (p.face >= 0 ? local.z : 1.0);
 }
 

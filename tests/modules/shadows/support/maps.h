@@ -53,7 +53,7 @@ struct ProbeSettings {
   std::uint32_t shape = 0;
   std::uint32_t levels = 0;
   std::uint32_t full_penumbra = 0;
-  std::uint32_t near = 1;
+  std::uint32_t near = 1;      ///< values of the knob shadows.near
   std::uint32_t coverage = 0;  ///< faces were added with GLOAM_SHADOW_MIPS_COVERAGE
   bool standard = false;       ///< compiled with GLOAM_SHADOWS_STANDARD, which supports filter 3 and kernel 8 only
   [[nodiscard]] std::vector<gpu::SpecConstant> constants() const;
