@@ -112,11 +112,14 @@ std::optional<LocalLights> ready_source(const FrameServices& services, const Sha
   return std::nullopt;
 }
 
+PipelineList final_list_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
+  PipelineList list = {pipeline_of(shading_program(LocalLights::final_lists, inputs, &shadows), inputs)};
+  if (!shadows.final_lists->always_complete) list.push_back(pipeline_of(fallback_program(inputs, shadows), inputs));
+  return list;
+}
+
 bool final_lists_ready(const FrameServices& services, const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
-  if (services.wait_for_pipelines) return true;
-  PipelineList wanted = {pipeline_of(shading_program(LocalLights::final_lists, inputs, &shadows), inputs)};
-  if (!shadows.final_lists->always_complete) wanted.push_back(pipeline_of(fallback_program(inputs, shadows), inputs));
-  return services.pipelines.request(wanted, services.log);
+  return services.wait_for_pipelines || services.pipelines.request(final_list_pipelines(inputs, shadows), services.log);
 }
 
 struct Variant {
@@ -155,6 +158,13 @@ void draw_fallback_tiles(FrameBuilder& frame, DrawPass& pass, const ShadingInput
 }
 
 }  // namespace
+
+void list_deferred_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows, PipelineList& list) {
+  const PipelineList needed =
+      shadows.final_lists ? final_list_pipelines(inputs, shadows)
+                          : PipelineList{pipeline_of(shading_program(best_source(inputs), inputs, &shadows), inputs)};
+  list.insert(list.end(), needed.begin(), needed.end());
+}
 
 void add_deferred_pass(FrameBuilder& frame) {
   const ShadingInputs& inputs = shading_inputs(frame);

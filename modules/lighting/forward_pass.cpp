@@ -52,6 +52,12 @@ SurfacePass choose_version(FrameBuilder& frame) {
 
 }  // namespace
 
+void list_forward_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows,
+                            std::span<const SurfaceVariant> variants, PipelineList& list) {
+  const SurfacePass pass = forward_surface_pass(forward_lighting(&inputs.outputs, &shadows));
+  for (const SurfaceVariant& variant : variants) list.push_back(surface_pipeline_desc(pass, variant));
+}
+
 void add_forward_pass(FrameBuilder& frame) {
   if (frame.draws().blended.empty()) return;
   LitOutput& lit = frame.get<LitOutput>();

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/module.h"
 
+#include <optional>
+#include <vector>
+
 #include "modules/lighting/passes.h"
 #include "modules/lighting/tone_reference.h"
 
@@ -41,11 +44,41 @@ class LightingModule final : public Module {
 
   [[nodiscard]] bool essential() const override { return true; }
 
+  /// While these are made, frames keep the last knobs, so that changing a knob of shadows never shows a frame without
+  /// them.
+  void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo&, PipelineList& list) const override {
+    if (!last_) return;
+    const ShadowsOutputs shadows = with_knobs(last_->shadows, knobs);
+    list_deferred_pipelines(last_->inputs, shadows, list);
+    list_forward_pipelines(last_->inputs, shadows, last_->blended, list);
+  }
+
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::shading) keep_inputs(frame);
     if (phase == PassPhase::shading) add_deferred_pass(frame);
     if (phase == PassPhase::translucent) add_forward_pass(frame);
     if (phase == PassPhase::output) add_tone_map_passes(frame);
   }
+
+  void release() override { last_.reset(); }
+
+ private:
+  void keep_inputs(FrameBuilder& frame) {
+    last_.reset();
+    const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
+    if (shadows == nullptr) return;
+    last_ = LastInputs{shading_inputs(frame), *shadows, {}};
+    for (const Draw& draw : frame.draws().blended)
+      if (last_->blended.empty() || last_->blended.back() != draw.variant) last_->blended.push_back(draw.variant);
+  }
+
+  /// Of the last declared view with shadows. They select the pipelines that other knobs would need.
+  struct LastInputs {
+    ShadingInputs inputs;
+    ShadowsOutputs shadows;
+    std::vector<SurfaceVariant> blended;
+  };
+  std::optional<LastInputs> last_;
 };
 
 }  // namespace

@@ -21,15 +21,18 @@ vec3 decode_diffuse_light(uvec2 texel) {
   return {half(texel.x), half(texel.x >> 16), half(texel.y)};
 }
 
-ForwardLighting forward_lighting(const FrameBuilder& frame) {
+ForwardLighting forward_lighting(const LightsOutputs* lights, const ShadowsOutputs* shadows) {
   ForwardLighting version;
-  const LightsOutputs* lights = frame.find<LightsOutputs>();
   version.tiled = lights != nullptr && lights->has_lists();
-  if (const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>()) {
+  if (shadows != nullptr) {
     version.shadows = version_of(*shadows);
     version.constants = shadows->constants;
   }
   return version;
+}
+
+ForwardLighting forward_lighting(const FrameBuilder& frame) {
+  return forward_lighting(frame.find<LightsOutputs>(), frame.find<ShadowsOutputs>());
 }
 
 void read_lighting(ShaderPass& pass, FrameBuilder& frame) {

@@ -10,6 +10,8 @@
 #include "engine/math/types.h"
 #include "engine/render/declare/shader_pass.h"
 #include "engine/render/frame_builder.h"
+#include "modules/lights/outputs.h"
+#include "modules/shadows/outputs.h"
 
 namespace gloam {
 
@@ -50,6 +52,9 @@ struct ForwardLighting {
   ForwardShadows shadows = ForwardShadows::none;
   std::vector<gpu::SpecConstant> constants = {};  ///< of versions with shadows or cookies
 };
+
+/// The version that these inputs call for; either may be null.
+[[nodiscard]] ForwardLighting forward_lighting(const LightsOutputs* lights, const ShadowsOutputs* shadows);
 
 /// The functions below may be called from PassPhase::shading on.
 [[nodiscard]] ForwardLighting forward_lighting(const FrameBuilder& frame);

@@ -2,15 +2,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "engine/render/frame_builder.h"
+#include "engine/render/scene/draw_pipelines.h"
+#include "modules/lighting/environment.h"
+#include "modules/shadows/outputs.h"
 
 namespace gloam {
 
 /// Shades the surfaces in the geometry buffer and fills the sky; writes LitOutput.
 void add_deferred_pass(FrameBuilder& frame);
+/// Appends the pipelines that add_deferred_pass() wants with these inputs.
+void list_deferred_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows, PipelineList& list);
 
 /// Draws blended surfaces over LitOutput, back to front. Does nothing if there are none.
 void add_forward_pass(FrameBuilder& frame);
+/// Appends the pipelines that add_forward_pass() wants for blended surfaces of these variants.
+void list_forward_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows,
+                            std::span<const SurfaceVariant> variants, PipelineList& list);
 
 /// Maps LitOutput to TargetOutput. Meters first, in the first frame of a camera without a set exposure.
 void add_tone_map_passes(FrameBuilder& frame);

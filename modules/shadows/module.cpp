@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "modules/shadows/debug/visualizers.h"
 #include "modules/shadows/filter/cookies.h"
 #include "modules/shadows/final_lists/buffers.h"
+#include "modules/shadows/final_lists/generate.h"
 #include "modules/shadows/keys.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/maps/draw_passes.h"
@@ -60,9 +62,12 @@ class ShadowsModule final : public Module {
     return shadow_knobs(knobs).simplified;
   }
 
-  void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo&, PipelineList& list) const override {
+  void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
     const ShadowKnobs settings = shadow_knobs(knobs);
     if (settings.enabled) list_shadow_map_pipelines(settings, list);
+    if (!last_) return;
+    const ShadowsOutputs shadows = with_knobs(last_->shadows, knobs);
+    if (shadows.final_lists) list_generate_pipelines(settings, shadows, last_->lights, device, list);
   }
 
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
@@ -90,6 +95,8 @@ class ShadowsModule final : public Module {
     warn(frame);
     add_shadow_passes(frame, states_);
     if (!frame.status().ok()) return;
+    if (const LightsOutputs* lights = frame.find<LightsOutputs>())
+      last_ = LastInputs{frame.get<ShadowsOutputs>(), *lights};
     if (const auto& outputs = frame.get<ShadowsOutputs>(); outputs.final_lists) {
       const auto tools =
           std::make_shared<ShadowMapTools>(ShadowMapTools{states_, shadow_knobs(frame.knobs()), outputs.block_values});
@@ -138,7 +145,10 @@ class ShadowsModule final : public Module {
 
   void release_view(ViewId view) override { states_.release_view(view); }
   void give_up_frame(std::uint64_t) override {}  // what the module notes about maps changes in commits only
-  void release() override { states_.release(); }
+  void release() override {
+    states_.release();
+    last_.reset();
+  }
 
  private:
   /// Called in PassPhase::shading, because later modules may take slots after PassPhase::lists.
@@ -161,7 +171,14 @@ class ShadowsModule final : public Module {
     for (const std::string& fault : frame.world().resource<Cookies>().faults) warn_once(frame, fault);
   }
 
+  /// Of the last declared view. They select the pipelines that other knobs would need.
+  struct LastInputs {
+    ShadowsOutputs shadows;
+    LightsOutputs lights;
+  };
+
   ShadowStates states_;
+  std::optional<LastInputs> last_;
   std::set<std::string> told_;
   mutable std::atomic<std::uint64_t> worlds_ = 0;
 };

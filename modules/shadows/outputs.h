@@ -132,6 +132,9 @@ struct ShadowsOutputs {
   std::optional<FinalLists> final_lists;
 };
 
+/// Returns a copy with the constants and shader versions (final_lists->constants included) that the view would have with
+/// other knobs: for Module::pipelines. Images and buffers are those of `now`.
+[[nodiscard]] ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& knobs);
 /// Returns a copy whose constants select shadows.filter=pcss instead of chs: the same penumbrae, computed by single
 /// fetches from mip 0. Outputs with any other filter keep their filter. `standard` becomes false when the filter
 /// changes.

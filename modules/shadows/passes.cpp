@@ -6,6 +6,7 @@
 
 #include "modules/shadows/filter/cookies.h"
 #include "modules/shadows/filter/uploads.h"
+#include "modules/shadows/final_lists/buffers.h"
 #include "modules/shadows/final_lists/generate.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/maps/draw_passes.h"
@@ -28,15 +29,13 @@ bool has_placed_face(const ShadowViews& views) {
                      [](const ShadowFace& face) { return face.square.size > 0; });
 }
 
-/// Sets the specialisation constants of the frame's shaders. filter: GLOAM_SHADOWS_FILTER_ID.
-void set_constants(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutputs& outputs) {
+/// Sets the specialisation constants of shaders that read `outputs`. filter: GLOAM_SHADOWS_FILTER_ID.
+void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutputs& outputs) {
   outputs.cookies_only = filter == kNoShadows;
   outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
   // Cookies do not depend on knobs: default values avoid further pipelines.
   outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
-  const std::size_t cookie_lights = count_cookie_lights(frame.world());
-  outputs.cookie_lights = static_cast<std::uint32_t>(cookie_lights);
-  outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(cookie_lights)});
+  outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(outputs.cookie_lights)});
 }
 
 /// Updates the maps of the view's faces, of which at least one has a place. Withheld casters are left out only when the
@@ -69,6 +68,18 @@ void add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps
 
 }  // namespace
 
+ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& registry) {
+  const ShadowKnobs knobs = shadow_knobs(registry);
+  ShadowsOutputs other = now;
+  set_constants(knobs, knobs.enabled ? knobs.filter : kNoShadows, other);
+  if (other.cookies_only || !knobs.deferred || knobs.levels == 0)
+    other.final_lists.reset();
+  else if (!other.final_lists)
+    other.final_lists.emplace();
+  if (other.final_lists) set_list_constants(knobs, *other.final_lists);
+  return other;
+}
+
 void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   const ShadowKnobs knobs = shadow_knobs(frame.knobs());
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
@@ -80,7 +91,8 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   const TracedVisibility* found = traced_visibility_of(frame.world(), frame.view());
   const bool traced = knobs.enabled && found != nullptr && found->shades;
   const bool has_maps = knobs.enabled && !traced && has_placed_face(views);
-  set_constants(frame, knobs, traced ? kTracedShadows : has_maps ? knobs.filter : kNoShadows, outputs);
+  outputs.cookie_lights = static_cast<std::uint32_t>(count_cookie_lights(frame.world()));
+  set_constants(knobs, traced ? kTracedShadows : has_maps ? knobs.filter : kNoShadows, outputs);
   const bool has_lists = has_maps && can_generate(frame, knobs) && generate_pipelines_ready(frame, knobs, outputs);
   ShadowMaps maps;
   if (has_maps)

@@ -235,6 +235,13 @@ class ShadowReadiness : public BackgroundRenderer {
              (line.find("shadowed") != std::string::npos || line.find("final") != std::string::npos);
     });
   }
+  /// The pipelines of a list of commands, in their order.
+  [[nodiscard]] static std::vector<std::string> work_of(const std::vector<std::string>& commands) {
+    std::vector<std::string> pipelines;
+    for (const std::string& line : commands)
+      if (line.starts_with("bind_pipeline")) pipelines.push_back(line);
+    return pipelines;
+  }
   void frames_until_shadowed() {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!shadowed()) {
@@ -291,6 +298,48 @@ TEST_F(ShadowReadiness, shadows_stay_while_the_pipeline_of_shorter_lists_is_made
   frames_until_nothing_is_pending();
   frames();
   EXPECT_TRUE(shadowed());
+  EXPECT_EQ(gate_->asked_here("shadows"), 0u);
+}
+
+struct KnobStep {
+  const char* test;
+  const char* knob;
+  const char* value;
+};
+
+class ShadowsOverKnobSteps : public ShadowReadiness, public ::testing::WithParamInterface<KnobStep> {};
+INSTANTIATE_TEST_SUITE_P(Steps, ShadowsOverKnobSteps,
+                         ::testing::Values(KnobStep{"another_filter", "shadows.filter", "pcf"},
+                                           KnobStep{"a_wider_kernel", "shadows.kernel", "12"},
+                                           KnobStep{"visibilities_of_four_bits", "shadows.visibility_bits", "4"},
+                                           KnobStep{"without_mips", "shadows.mips", "off"}),
+                         [](const auto& instance) { return instance.param.test; });
+
+TEST_P(ShadowsOverKnobSteps, the_old_pipelines_draw_until_the_new_ones_are_made) {
+  static_cast<void>(call_for("lights"));
+  gate_->open();
+  frames();
+  frames_until_there_are_passes_of("shadows");
+  frames_until_shadowed();
+  frames_until_nothing_is_pending();
+  frames();
+  const std::vector<std::string> before = last_commands();
+  gate_->close();
+  ASSERT_TRUE(renderer_->knobs().set(GetParam().knob, GetParam().value).ok());
+  for (int i = 0; i < 5; ++i) {
+    frames();
+    EXPECT_EQ(work_of(last_commands()), work_of(before)) << i;
+  }
+  EXPECT_GT(renderer_->report().pipelines_pending, 0u);
+  gate_->open();
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (renderer_->report().pipelines_pending > 0 && std::chrono::steady_clock::now() < deadline) {
+    frames();
+    EXPECT_TRUE(shadowed());
+  }
+  frames(2);
+  EXPECT_TRUE(shadowed());
+  EXPECT_NE(work_of(last_commands()), work_of(before));
   EXPECT_EQ(gate_->asked_here("shadows"), 0u);
 }
 

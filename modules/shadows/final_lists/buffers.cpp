@@ -72,6 +72,15 @@ void create_visibilities(FrameGraph& graph, FinalLists& lists) {
 
 }  // namespace
 
+void set_list_constants(const ShadowKnobs& knobs, FinalLists& lists) {
+  const bool split = lists.visibilities[1].resource != lists.visibilities[0].resource;
+  lists.visibility_bits = visibility_bits_of(knobs);
+  lists.constants = {{GLOAM_FINAL_BITS_ID, lists.visibility_bits}, {GLOAM_FINAL_BUFFERS_ID, split ? 2u : 1u}};
+  const ShadowKnobs unlimited;
+  if (knobs.slot_limit != unlimited.slot_limit || knobs.pair_limit != unlimited.pair_limit)
+    lists.always_complete = false;
+}
+
 std::uint32_t kept_capacity(std::uint32_t there, std::uint32_t asked, std::uint32_t least, std::uint32_t most) {
   const std::uint32_t needed = std::max(least, at_most(std::uint64_t{asked} * 5 / 4, most));
   const bool keeps = there >= asked && there >= least && there / 4 <= needed;

@@ -66,6 +66,9 @@ struct FinalListBuffers {
 /// Bits of a visibility in a slot: 4 or 8.
 [[nodiscard]] std::uint32_t visibility_bits_of(const ShadowKnobs& knobs);
 
+/// Sets what other knobs change in the constants of `lists`, and in visibility_bits and always_complete.
+void set_list_constants(const ShadowKnobs& knobs, FinalLists& lists);
+
 /// Creates the view's images and buffers, with capacities from its FinalListFeedback. LightsOutputs must be on the
 /// board. If there is no memory for the grid, the frame is given up.
 [[nodiscard]] FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs);

@@ -119,15 +119,21 @@ bool can_generate(const FrameBuilder& frame, const ShadowKnobs& knobs) {
   return knobs.deferred && knobs.levels != 0 && lights != nullptr && (lights->local_count == 0 || lights->has_lists());
 }
 
+void list_generate_pipelines(const ShadowKnobs& knobs, const ShadowsOutputs& shadows, const LightsOutputs& lights,
+                             const gpu::DeviceInfo& device, PipelineList& list) {
+  const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "shadows")); };
+  add(classify_program(shadows));
+  add({shaders::shadows::finish_comp});
+  for (const std::uint32_t kind : kinds_of(lights))
+    add(generate_program(shadows, visibility_bits_of(knobs), kind, device));
+  if (knobs.classify) list_shadow_plane_pipelines(list);
+}
+
 bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows) {
   const FrameServices& services = frame.services();
   if (services.wait_for_pipelines) return true;
-  PipelineList list = {pipeline_desc(classify_program(shadows), "shadows"),
-                       pipeline_desc({shaders::shadows::finish_comp}, "shadows")};
-  for (const std::uint32_t kind : kinds_of(*frame.find<LightsOutputs>()))
-    list.push_back(
-        pipeline_desc(generate_program(shadows, visibility_bits_of(knobs), kind, services.device.info()), "shadows"));
-  if (knobs.classify) list_shadow_plane_pipelines(list);
+  PipelineList list;
+  list_generate_pipelines(knobs, shadows, *frame.find<LightsOutputs>(), services.device.info(), list);
   return services.pipelines.request(list, services.log);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/render/frame_builder.h"
+#include "modules/lights/outputs.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/outputs.h"
 
@@ -12,6 +13,9 @@ namespace gloam {
 /// have early lists.
 [[nodiscard]] bool can_generate(const FrameBuilder& frame, const ShadowKnobs& knobs);
 
+/// Appends the pipelines of add_generate_passes().
+void list_generate_pipelines(const ShadowKnobs& knobs, const ShadowsOutputs& shadows, const LightsOutputs& lights,
+                             const gpu::DeviceInfo& device, PipelineList& list);
 /// Whether the pipelines of add_generate_passes() are ready. If not, they are made in the background, and the frame
 /// must do without final lists. Always true when the services wait for pipelines.
 [[nodiscard]] bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knobs,
