@@ -47,11 +47,6 @@ ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs
   kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
   ShadowMaps maps = add_shadow_map_passes(frame, states, kept, views, knobs);
   if (!frame.status().ok()) return {};
-  // Planes follow the atlas only in frames that read them; after others that draw maps they are out of date.
-  if (!maps.drawn.empty() && !(for_lists && knobs.classify)) {
-    kept.frame.planes_outdated = true;
-    frame.on_commit([&kept] { kept.has_planes = false; });
-  }
   frame.expose(maps.atlas, "shadow_atlas");
   return maps;
 }

@@ -159,4 +159,17 @@ void ShadowCache::set_backgrounds(const ShadowFace& face, std::vector<FaceBackgr
   maps_.at(key_of(face)).backgrounds = std::move(backgrounds);
 }
 
+bool ShadowCache::has_planes(const ShadowFace& face) const {
+  const auto found = maps_.find(key_of(face));
+  return found != maps_.end() && found->second.square == face.square && found->second.has_planes;
+}
+
+void ShadowCache::set_planes(const FaceKey& face) {
+  if (const auto found = maps_.find(face); found != maps_.end()) found->second.has_planes = true;
+}
+
+void ShadowCache::forget_planes() {
+  for (auto& [key, map] : maps_) map.has_planes = false;
+}
+
 }  // namespace gloam

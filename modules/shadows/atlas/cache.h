@@ -58,6 +58,13 @@ class ShadowCache {
   [[nodiscard]] std::span<const FaceBackground> backgrounds(const ShadowFace& face) const;
   /// Replaces the face's backgrounds. The atlas must hold the face's map.
   void set_backgrounds(const ShadowFace& face, std::vector<FaceBackground> backgrounds);
+  /// Whether the planes of the face's map (shaders/shadows/maps/planes_shared.h) are those of the map. False after
+  /// set_drawn().
+  [[nodiscard]] bool has_planes(const ShadowFace& face) const;
+  /// Records that the planes of the face's map were made. Without effect if the map has been forgotten.
+  void set_planes(const FaceKey& face);
+  /// Records that no map has planes.
+  void forget_planes();
   void clear() {
     maps_.clear();
     places_.clear();
@@ -70,6 +77,7 @@ class ShadowCache {
     FaceContent content;
     std::uint64_t frame = 0;  ///< the newest frame whose casters the map shows
     std::vector<FaceBackground> backgrounds;
+    bool has_planes = false;
   };
   void forget_overlapping(const AtlasSquare& square);
 

@@ -139,9 +139,9 @@ PlacedFaces place_faces(const MapInputs& inputs, ViewShadows& kept, JobExecutor&
 
 void begin_frame(const MapInputs& inputs, ViewShadows& kept) {
   kept.frame.anew = inputs.anew;
-  kept.frame.planes_outdated = inputs.anew || !kept.has_planes;
   kept.frame.committed = false;
   kept.frame.drawn.clear();
+  kept.frame.planes.clear();
 }
 
 /// Whether the regions of a face are drawn over backgrounds. A whole face would have to be drawn twice, which pays only
@@ -205,7 +205,7 @@ void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> hel
   if (!kept.frame.committed) {
     if (kept.frame.anew) {
       kept.cache.clear();
-      kept.has_planes = kept.has_backgrounds = false;
+      kept.has_backgrounds = false;
     }
     kept.history = std::move(kept.frame.history);
     kept.frame.committed = true;

@@ -26,17 +26,16 @@ struct ViewShadows {
   // After the last committed frame; changed only when a frame is committed:
   ShadowCache cache;
   CasterHistory history;         ///< its frames are the frames of this view
-  bool has_planes = false;       ///< the image of planes is up to date with the atlas for all faces
   bool has_backgrounds = false;  ///< the image of backgrounds exists
 
   /// The newest frame that planned maps. It may be given up.
   struct Frame {
     CasterHistory history;
-    bool anew = false;             ///< the atlas has no contents: what `cache` holds does not count
-    bool planes_outdated = false;  ///< a view without planes has drawn maps, or no frame before has made planes
+    bool anew = false;  ///< the atlas has no contents: what `cache` holds does not count
     bool committed = true;
-    std::uint32_t number = 0;    ///< FrameGraph::frame
-    std::vector<FaceKey> drawn;  ///< faces drawn by all views that share the images
+    std::uint32_t number = 0;     ///< FrameGraph::frame
+    std::vector<FaceKey> drawn;   ///< faces drawn by all views that share the images
+    std::vector<FaceKey> planes;  ///< faces whose planes these views have made, or found up to date
   };
   Frame frame;
   ShadowCounts counts;

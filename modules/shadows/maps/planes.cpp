@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/maps/planes.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "engine/render/declare/compute_pass.h"
@@ -16,11 +18,24 @@ namespace {
 constexpr std::uint32_t kCoarsest = GLOAM_SHADOW_PLANE_BLOCK
                                     << (GLOAM_SHADOW_PLANE_LEVELS - 1);  // texels of a block's side, last level
 
-std::vector<FacePart> parts_of(const ShadowMaps& maps, const ShadowViews& views, bool all) {
-  if (!all) return maps.drawn;
+/// The parts of the view's faces whose planes must be made. kept_planes: the image holds the planes of earlier frames.
+std::vector<FacePart> parts_of(const ShadowMaps& maps, const ShadowViews& views, const ViewShadows& kept,
+                               bool kept_planes) {
+  const ViewShadows::Frame& frame = kept.frame;
   std::vector<FacePart> parts;
-  for (const ShadowFace& face : views.faces)
-    if (face.square.size > 0) parts.push_back({face.square, whole_face(face)});
+  for (const ShadowFace& face : views.faces) {
+    if (face.square.size == 0) continue;
+    const FaceKey key{face.light, face.index, face.view};
+    if (std::ranges::find(frame.planes, key) != frame.planes.end()) continue;
+    const std::size_t before = parts.size();
+    for (const FacePart& part : maps.drawn)
+      if (part.square == face.square) parts.push_back(part);
+    const bool own = parts.size() > before;
+    const bool by_another = !own && std::ranges::find(frame.drawn, key) != frame.drawn.end();
+    if (kept_planes && !frame.anew && !by_another && kept.cache.has_planes(face)) continue;
+    parts.resize(before);
+    parts.push_back({face.square, whole_face(face)});
+  }
   return parts;
 }
 
@@ -73,9 +88,16 @@ ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewShadows& kept, const Sh
                                 const ShadowViews& views, const ShadowKnobs& knobs) {
   const HistoryImage used = use_map_image(frame, views, knobs, MapImage::planes);
   if (!used.image) return {};
-  if (!used.filled()) kept.frame.planes_outdated = true;
   ImageRef planes = used.image;
-  const std::vector<FacePart> parts = parts_of(maps, views, kept.frame.planes_outdated);
+  const std::vector<FacePart> parts = parts_of(maps, views, kept, used.valid());
+  std::vector<FaceKey> made;
+  for (const ShadowFace& face : views.faces)
+    if (face.square.size > 0) made.push_back({face.light, face.index, face.view});
+  kept.frame.planes.insert(kept.frame.planes.end(), made.begin(), made.end());
+  frame.on_commit([&kept, made = std::move(made), all_new = !used.filled()] {
+    if (all_new) kept.cache.forget_planes();
+    for (const FaceKey& face : made) kept.cache.set_planes(face);
+  });
   if (parts.empty()) return planes;
   const PlaneWork work = work_of(parts);
   ComputePass pass(frame, "shadow_planes", shaders::shadows::planes_comp);
@@ -85,7 +107,6 @@ ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewShadows& kept, const Sh
   dispatch_groups(pass, shaders::ShadowPlaneConstants{0, knobs.atlas_size, 0}, work.ranges[0]);
   pass.barrier();
   dispatch_groups(pass, shaders::ShadowPlaneConstants{1, knobs.atlas_size, 0}, work.ranges[1]);
-  frame.on_commit([&kept] { kept.has_planes = true; });
   return planes;
 }
 

@@ -12,7 +12,7 @@ namespace gloam {
 void list_shadow_plane_pipelines(PipelineList& list);
 
 /// Updates the view's planes (shaders/shadows/maps/planes_shared.h) for the parts of faces that this frame draws: pass
-/// shadow_planes. If the planes were out of date (ViewShadows::Frame::planes_outdated), updates them for all faces.
+/// shadow_planes. Faces whose planes were not made after their map was drawn are updated as a whole.
 /// Returns the image of planes; a null ref if it cannot be created, and the frame is given up.
 [[nodiscard]] ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewShadows& kept, const ShadowMaps& maps,
                                               const ShadowViews& views, const ShadowKnobs& knobs);

@@ -143,6 +143,30 @@ TEST_F(ShadowFrames, maps_kept_over_frames_that_are_given_up_equal_maps_drawn_an
   EXPECT_EQ(drawn_faces(), 6.0);
 }
 
+TEST_F(ShadowFrames, a_map_drawn_without_planes_is_classified_right_when_its_light_comes_back) {
+  set("shadows.visibility_bits", "8");
+  const Entity other = lamp("other", LightKind::point, dvec3(0.0, 0.0, 1.5));
+  world.get<ShadowCaster>(other).resolution = 128;
+  world.get<Light>(made).range_m = 1.8f;
+  move(right, dvec3(3.0, 3.0, 0.8));
+  for (int i = 0; i < 3; ++i) draw();  // counters are two frames late
+  ASSERT_GT(counter("shadows.classified_share"), 0.0);
+  set("shadows.mode", "monolithic");
+  move(right, dvec3(0.2, 0.3, 0.8));
+  draw();
+  EXPECT_EQ(drawn_faces(), 3.0) << "without planes";
+  for (int i = 0; i < 20; ++i) draw();  // until the box counts as resting
+  set("shadows.mode", "deferred");
+  const auto here = settings;
+  settings = test::look_at(dvec3(3.4, 0.3, 1.0), dvec3(3.4, 0.0, 0.0), 95, 63);
+  draw();
+  EXPECT_EQ(counter("shadows.casting_lights"), 1.0) << "the other lamp alone, with planes";
+  settings = here;
+  const LinearPicture classified = drawn();
+  EXPECT_EQ(drawn_faces(), 0.0);
+  EXPECT_EQ(classified.rgba, drawn("shadows.classify", "off").rgba);
+}
+
 TEST_F(ShadowFrames, a_box_that_moves_draws_the_faces_that_see_it) {
   draw();
   move(right, dvec3(0.25, 0.35, 0.8));
