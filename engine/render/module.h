@@ -109,6 +109,11 @@ class Module {
     static_cast<void>(view);
     static_cast<void>(knobs);
   }
+  /// Sentences about things in a loaded scene that are likely mistakes, without a full stop. For `inspect`.
+  [[nodiscard]] virtual std::vector<std::string> warnings(const World& world) const {
+    static_cast<void>(world);
+    return {};
+  }
   /// Whether the module's passes read FrameBuilder::casters(). Called in every frame, if the world demands the module.
   [[nodiscard]] virtual bool needs_casters(const World& world, const KnobRegistry& knobs) const {
     static_cast<void>(world);

@@ -72,6 +72,11 @@ struct Material {
   float reflectivity = -1.0f;  ///< < 0: derived from metallic and roughness
 };
 
+/// Whether surfaces of this material give light of their own.
+[[nodiscard]] inline bool is_emissive(const Material& material) {
+  return material.emissive.x > 0.0f || material.emissive.y > 0.0f || material.emissive.z > 0.0f;
+}
+
 enum class WrapMode : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
 /// An 8-bit RGBA image and its sampler settings. `srgb`: the image holds colours, not data.

@@ -37,6 +37,7 @@ struct WorldTransform {
 struct MeshInstance {
   std::uint32_t mesh = 0;
   std::uint32_t skin = ~0u;
+  bool casts_shadows = true;
 };
 
 /// Current morph weights: `count` floats from `first` in MorphWeights.

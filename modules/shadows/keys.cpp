@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/ecs/view.h"
+#include "engine/scene/components.h"
 #include "engine/scene/key_table.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/atlas/view_faces.h"
@@ -59,6 +60,10 @@ void add_shadow_keys(KeyRegistry& registry) {
           "shadows", KeyElement::light_node, "gloam.light.shadow_resolution", "0", "texels",
           "side of each shadow map face, rounded up to a power of two, at least 16; 0: chosen from screen coverage"),
       0, kMostFace, &ShadowCaster::resolution));
+  registry.add(boolean_key(key_line("shadows", KeyElement::mesh_node, "gloam.shadow.cast", "true", "",
+                                    "whether the mesh casts shadows; an emissive mesh never casts into the maps of a "
+                                    "lamp that it belongs to"),
+                           &MeshInstance::casts_shadows));
   registry.add_finish("shadows", &load_cookies);
 }
 

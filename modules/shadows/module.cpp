@@ -12,6 +12,7 @@
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/components.h"
+#include "modules/shadows/debug/enclosed_lights.h"
 #include "modules/shadows/debug/final_list_views.h"
 #include "modules/shadows/debug/measures.h"
 #include "modules/shadows/debug/pick.h"
@@ -53,6 +54,8 @@ class ShadowsModule final : public Module {
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     return shadow_demand(world, view);
   }
+
+  [[nodiscard]] std::vector<std::string> warnings(const World& world) const override { return enclosed_lights(world); }
 
   [[nodiscard]] bool needs_casters(const World&, const KnobRegistry& knobs) const override {
     return shadow_knobs(knobs).enabled;

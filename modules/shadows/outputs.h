@@ -51,7 +51,8 @@ struct ShadowFace {
   float half_extent_m = 0.0f;  ///< orthographic: half the width of the box, rim included
   float near_m = 0.05f;        ///< perspective: depth of the near plane; orthographic: 0
   float far_m = 0.0f;  ///< perspective: range of the light, a distance from `origin`; orthographic: depth of the box
-  AtlasSquare square;  ///< place in the atlas
+  float emitter_m = -1.0f;  ///< radius of a local light's emitter; directional: −1
+  AtlasSquare square;       ///< place in the atlas
   float importance = 0.0f;  ///< ≥ 0; when the atlas is full, the least important faces halve first
   std::uint32_t view = 0;   ///< as FaceKey::view
 };
@@ -132,8 +133,8 @@ struct ShadowsOutputs {
   std::optional<FinalLists> final_lists;
 };
 
-/// Returns a copy with the constants and shader versions (final_lists->constants included) that the view would have with
-/// other knobs: for Module::pipelines. Images and buffers are those of `now`.
+/// Returns a copy with the constants and shader versions (final_lists->constants included) that the view would have
+/// with other knobs: for Module::pipelines. Images and buffers are those of `now`.
 [[nodiscard]] ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& knobs);
 /// Returns a copy whose constants select shadows.filter=pcss instead of chs: the same penumbrae, computed by single
 /// fetches from mip 0. Outputs with any other filter keep their filter. `standard` becomes false when the filter

@@ -82,6 +82,7 @@ SceneSummary summarize_scene(const std::string& scene, const World& world, const
                            .built = module->built(),
                            .needed = demand.needed,
                            .reason = std::move(demand.reason)});
+    for (std::string& warning : module->warnings(world)) out.warnings.push_back(std::move(warning));
   }
   return out;
 }
@@ -108,6 +109,7 @@ std::string summary_text(const SceneSummary& summary) {
     const std::string reason = module.reason.empty() ? "" : ": " + module.reason;
     text += "  " + padded(module.name, kColumn - 2) + verdict(module) + reason + "\n";
   }
+  for (const std::string& warning : summary.warnings) text += "warning: " + warning + "\n";
   return text;
 }
 
@@ -121,6 +123,7 @@ std::string summary_json(const SceneSummary& summary) {
     json["modules"].push_back(
         {{"name", module.name}, {"built", module.built}, {"demanded", module.needed}, {"reason", module.reason}});
   }
+  json["warnings"] = summary.warnings;
   return json_text(json);
 }
 

@@ -37,6 +37,7 @@ struct SceneSummary {
     std::string reason;
   };
   std::vector<ModuleDemand> modules;
+  std::vector<std::string> warnings;  ///< Module::warnings() of all modules
 };
 
 [[nodiscard]] SceneSummary summarize_scene(const std::string& scene, const World& world, const SceneInfo& info,
@@ -49,7 +50,7 @@ struct SceneSummary {
 /// The summary as readable text.
 [[nodiscard]] std::string summary_text(const SceneSummary& summary);
 /// The summary as JSON: {"version": 1, "scene", counts…, "cameras": […], "animations": […], "modules": [{"name",
-/// "built", "demanded", "reason"}]}
+/// "built", "demanded", "reason"}], "warnings": […]}
 [[nodiscard]] std::string summary_json(const SceneSummary& summary);
 
 }  // namespace gloam

@@ -19,6 +19,7 @@ struct Instance {
   const JointMatrices::Range* joints = nullptr;
   std::uint32_t first_weight = 0;
   std::uint32_t weight_count = 0;
+  bool casts = true;
 };
 
 std::vector<Instance> gather_instances(const World& world, const GpuScene& scene) {
@@ -27,7 +28,7 @@ std::vector<Instance> gather_instances(const World& world, const GpuScene& scene
   world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
       [&](Entity entity, const MeshInstance& mesh, const WorldTransform& transform, const MorphInstance* morph) {
         if (mesh.mesh >= scene.meshes().size()) return;
-        Instance instance{entity, mesh.mesh, transform.matrix};
+        Instance instance{.entity = entity, .mesh = mesh.mesh, .matrix = transform.matrix, .casts = mesh.casts_shadows};
         if (mesh.skin != kNone) {
           const auto range = std::lower_bound(
               ranges.begin(), ranges.end(), entity.index,
@@ -87,8 +88,8 @@ class InstanceDrawer {
   }
 
  private:
-  [[nodiscard]] bool casts(const GpuPrimitive& primitive) const {
-    return with_casters_ && scene_.materials()[primitive.material].alpha_mode != AlphaMode::blend;
+  [[nodiscard]] bool casts(const Instance& instance, const GpuPrimitive& primitive) const {
+    return with_casters_ && instance.casts && scene_.materials()[primitive.material].alpha_mode != AlphaMode::blend;
   }
 
   void cast(Entity entity, const GpuPrimitive& primitive, const dmat4& world_from_mesh, bool flipped,
@@ -105,6 +106,8 @@ class InstanceDrawer {
     const WorldBox bounds = box.known() ? box : WorldBox{};
     caster.bounds_min = bounds.min;
     caster.bounds_max = bounds.max;
+    if (material.emissive && deform == kNone)
+      caster.emissive_reach_m = half_diagonal(primitive.bounds, world_from_mesh);
     lists.casters.casters.push_back(caster);
   }
 
@@ -141,7 +144,7 @@ class InstanceDrawer {
   }
 
   void draw_rigid(const Instance& instance, const GpuPrimitive& primitive, FrameDraws& lists) const {
-    if (casts(primitive))
+    if (casts(instance, primitive))
       cast(instance.entity, primitive, instance.matrix, is_mirroring(instance.matrix),
            world_box(primitive.bounds, instance.matrix), kNone, lists);
     for (std::size_t v = 0; v < views_.size(); ++v) draw_clusters(*views_[v], instance, primitive, lists.views[v]);
@@ -182,7 +185,7 @@ class InstanceDrawer {
     const bool flipped = skinned ? instance.joints->mirrored : is_mirroring(matrix);
     const WorldBox box = deformed_box(instance, primitive, skinned, morphed, matrix);
     const auto deform = static_cast<std::uint32_t>(lists.deforms.size());
-    bool deformed = casts(primitive);
+    bool deformed = casts(instance, primitive);
     if (deformed) cast(instance.entity, primitive, matrix, flipped, box, deform, lists);
     for (std::size_t v = 0; v < views_.size(); ++v) {
       const RenderView& view = *views_[v];

@@ -31,6 +31,12 @@ WorldBox world_box(const Aabb& box, const dmat4& m) {
   return {center - reach, center + reach};
 }
 
+double half_diagonal(const Aabb& box, const dmat4& m) {
+  const dvec3 half = (dvec3(box.max) - dvec3(box.min)) * 0.5;
+  const dvec3 x = dvec3(m[0]) * half.x, y = dvec3(m[1]) * half.y, z = dvec3(m[2]) * half.z;
+  return std::sqrt(glm::dot(x, x) + glm::dot(y, y) + glm::dot(z, z));
+}
+
 std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primitive,
                                                          std::span<const PackedInfluence> influences) {
   std::map<std::uint32_t, Aabb> bounds;

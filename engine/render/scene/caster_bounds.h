@@ -27,6 +27,10 @@ struct WorldBox {
 /// World-space bounds of a transformed box. The matrix must be affine.
 [[nodiscard]] WorldBox world_box(const Aabb& box, const dmat4& world_from_box);
 
+/// Length of half the diagonal of a transformed box, in metres; exact if the matrix does not shear. It does not change
+/// when the box turns.
+[[nodiscard]] double half_diagonal(const Aabb& box, const dmat4& world_from_box);
+
 /// Computes GpuPrimitive::joint_bounds. `influences`: one per position. Uses the packed weights, because the GPU skins
 /// with them.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds(const Primitive& primitive,

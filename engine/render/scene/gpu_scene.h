@@ -46,6 +46,7 @@ struct GpuMaterial {
   AlphaMode alpha_mode = AlphaMode::opaque;
   bool double_sided = false;
   bool subsurface = false;
+  bool emissive = false;
 };
 
 /// Pipeline variant that draws a primitive with a material. `flipped`: its front faces are clockwise.

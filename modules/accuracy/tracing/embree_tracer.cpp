@@ -36,14 +36,27 @@ struct CutOutMesh {
   }
 };
 
-/// Embree filter: rejects hits in holes.
-void pass_holes(const RTCFilterFunctionNArguments* args) {
-  const auto& mesh = *static_cast<const CutOutMesh*>(args->geometryUserPtr);
+/// What the filters know about a call. Embree passes the pointer to `embree` on.
+struct TraceContext {
+  RTCIntersectContext embree;  // the first member
+  std::span<const std::uint32_t> without;
+};
+
+/// Embree filter: rejects hits on meshes that the rays pass through and, on cut-outs, hits in holes. The user data is
+/// null for meshes without holes.
+void filter_hits(const RTCFilterFunctionNArguments* args) {
+  const auto* mesh = static_cast<const CutOutMesh*>(args->geometryUserPtr);
+  const std::span<const std::uint32_t> without = reinterpret_cast<const TraceContext*>(args->context)->without;
   for (unsigned int i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
+    if (std::ranges::binary_search(without, RTCHitN_geomID(args->hit, args->N, i))) {
+      args->valid[i] = 0;
+      continue;
+    }
+    if (mesh == nullptr) continue;
     const float u = RTCHitN_u(args->hit, args->N, i);
     const float v = RTCHitN_v(args->hit, args->N, i);
-    if (mesh.is_hole(RTCHitN_primID(args->hit, args->N, i), u, v)) args->valid[i] = 0;
+    if (mesh->is_hole(RTCHitN_primID(args->hit, args->N, i), u, v)) args->valid[i] = 0;
   }
 }
 
@@ -88,11 +101,14 @@ class EmbreeTracer final : public SceneTracer {
   [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
   [[nodiscard]] std::uint64_t version() const override { return version_; }
 
-  void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked) const override {
+  [[nodiscard]] std::span<const EmissiveMesh> emissive_meshes() const override { return emissive_; }
+
+  void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked,
+                std::span<const std::uint32_t> without) const override {
     GLOAM_ASSERT(rays.size() == blocked.size(), "one answer a ray");
     for (std::size_t first = 0; first < rays.size(); first += kBatch) {
       const std::size_t count = std::min(kBatch, rays.size() - first);
-      trace(rays.subspan(first, count), blocked.subspan(first, count));
+      trace(rays.subspan(first, count), blocked.subspan(first, count), without);
     }
   }
 
@@ -103,17 +119,21 @@ class EmbreeTracer final : public SceneTracer {
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     fill_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, std::span<const vec3>(mesh.positions), 1);
     fill_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, std::span<const std::uint32_t>(mesh.indices), 3);
+    if (mesh.emissive_reach_m > 0.0) {
+      rtcSetGeometryOccludedFilterFunction(geometry, filter_hits);
+      emissive_.push_back({attached_, mesh.min, mesh.max, mesh.emissive_reach_m});
+    }
     if (mesh.cut_out != kNone) {
       auto data = std::make_unique<CutOutMesh>();
       data->cut_out = &cut_outs_[mesh.cut_out];
       data->mesh = std::move(mesh);
       data->mesh.positions = {};
       rtcSetGeometryUserData(geometry, data.get());
-      rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
+      rtcSetGeometryOccludedFilterFunction(geometry, filter_hits);
       cut_out_meshes_.push_back(std::move(data));
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
+    rtcAttachGeometryByID(scene_, geometry, attached_++);
     rtcReleaseGeometry(geometry);
   }
 
@@ -125,7 +145,8 @@ class EmbreeTracer final : public SceneTracer {
     if (buffer != nullptr) std::memcpy(buffer, values.data(), values.size_bytes());
   }
 
-  void trace(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked) const {
+  void trace(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked,
+             std::span<const std::uint32_t> without) const {
     std::array<RTCRay, kBatch> batch;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const ShadowRay& ray = rays[i];
@@ -142,10 +163,10 @@ class EmbreeTracer final : public SceneTracer {
                   .id = 0,
                   .flags = 0};
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcOccluded1M(scene_, &context, batch.data(), static_cast<unsigned int>(rays.size()), sizeof(RTCRay));
+    TraceContext context{.embree = {}, .without = without};
+    rtcInitIntersectContext(&context.embree);
+    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded1M(scene_, &context.embree, batch.data(), static_cast<unsigned int>(rays.size()), sizeof(RTCRay));
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const bool is_segment = rays[i].from < rays[i].to;
       blocked[i] = is_segment && batch[i].tfar == -std::numeric_limits<float>::infinity() ? 1 : 0;
@@ -157,6 +178,8 @@ class EmbreeTracer final : public SceneTracer {
   const std::uint64_t version_;
   const std::vector<CutOut> cut_outs_;
   std::vector<std::unique_ptr<CutOutMesh>> cut_out_meshes_;
+  std::vector<EmissiveMesh> emissive_;
+  std::uint32_t attached_ = 0;
   std::string error_;
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;

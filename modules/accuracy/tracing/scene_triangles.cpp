@@ -8,6 +8,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
+#include "engine/render/scene/caster_bounds.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 
@@ -40,7 +41,7 @@ std::vector<Instance> gather_instances(const World& world) {
   std::vector<Instance> instances;
   world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
       [&](Entity entity, const MeshInstance& drawn, const WorldTransform& transform, const MorphInstance* morph) {
-        if (drawn.mesh >= assets.meshes.size()) return;
+        if (drawn.mesh >= assets.meshes.size() || !drawn.casts_shadows) return;
         Instance instance;
         instance.entity = entity;
         instance.mesh = &assets.meshes[drawn.mesh];
@@ -141,6 +142,14 @@ TriangleMesh make_mesh(const Instance& instance, const Primitive& primitive, con
       mesh.indices.insert(mesh.indices.end(), corners.begin(), corners.end());
   }
   if (primitive.material >= assets.materials.size()) return mesh;
+  const bool morphed = !primitive.morph_targets.empty() && instance.weights.size() >= primitive.morph_targets.size();
+  const bool skinned = !instance.joints.empty() && has_influences;
+  if (!morphed && !skinned && is_emissive(assets.materials[primitive.material])) {
+    const WorldBox box = world_box(primitive.bounds, instance.world_from_mesh);
+    mesh.min = box.min;
+    mesh.max = box.max;
+    mesh.emissive_reach_m = half_diagonal(primitive.bounds, instance.world_from_mesh);
+  }
   mesh.cut_out = cut_out_of_material[primitive.material];
   if (mesh.cut_out != kNone) add_cut_out_data(primitive, assets.materials[primitive.material].base_color_texture, mesh);
   return mesh;
@@ -212,6 +221,7 @@ std::uint64_t SceneTriangles::hash() const {
   for (const TriangleMesh& mesh : meshes) {
     hasher.value(mesh.positions.size()).value(mesh.indices.size()).value(mesh.cut_out);
     hasher.bytes(std::as_bytes(std::span(mesh.positions))).bytes(std::as_bytes(std::span(mesh.indices)));
+    hasher.bytes(std::as_bytes(std::span(&mesh.emissive_reach_m, 1)));
     hasher.bytes(std::as_bytes(std::span(mesh.uvs))).bytes(std::as_bytes(std::span(mesh.alphas)));
   }
   for (const CutOut& cut_out : cut_outs) {

@@ -37,6 +37,9 @@ struct TriangleMesh {
   std::uint32_t cut_out = kNone;       ///< index in SceneTriangles::cut_outs; kNone: no holes
   std::vector<vec2> uvs;               ///< for cut-outs: one per position
   std::vector<float> alphas;           ///< for cut-outs with vertex colours: one per position
+  dvec3 min = dvec3(0.0);              ///< emissive meshes: bounds, world
+  dvec3 max = dvec3(0.0);
+  double emissive_reach_m = 0.0;  ///< emissive meshes: half the diagonal of the mesh's own box; 0 for all others
 };
 
 /// The triangles of a world that cast shadows.
@@ -51,8 +54,8 @@ struct SceneTriangles {
 };
 
 /// The triangles of all MeshInstances as a frame shows them after its systems: WorldTransform in double, morphed by
-/// MorphWeights, skinned by JointMatrices with up to four joints per vertex. Blended surfaces are left out. `origin`:
-/// world position; none: the middle of all instances.
+/// MorphWeights, skinned by JointMatrices with up to four joints per vertex. Blended surfaces and meshes that cast no
+/// shadows are left out. `origin`: world position; none: the middle of all instances.
 [[nodiscard]] SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& origin,
                                               JobExecutor& executor);
 

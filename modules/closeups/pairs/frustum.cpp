@@ -98,6 +98,7 @@ std::optional<CloseupFrustum> local_frustum(const CloseupLight& light, const Wor
   frustum.face.tan_half = static_cast<float>(outer);
   frustum.face.near_m = static_cast<float>(std::max(kNearestMeter, extent.low.z * (1.0 - kRounded)));
   frustum.face.far_m = static_cast<float>(light.range_m);
+  frustum.face.emitter_m = static_cast<float>(light.radius_m);
   frustum.tan_inner = static_cast<float>(inner);
   if (!(extent.high.z > frustum.face.near_m) || !(frustum.face.near_m < frustum.face.far_m)) return std::nullopt;
   return frustum;

@@ -133,7 +133,7 @@ std::vector<CasterState> caster_states(std::span<const Caster> casters, std::spa
       const std::uint64_t pose = poses.empty() ? 0 : poses[i];
       states[i].hash = hash_of(casters[i], pose);
       states[i].unsteady = casters[i].moving && pose == 0;
-      states[i].box = {casters[i].bounds_min, casters[i].bounds_max};
+      states[i].box = {casters[i].bounds_min, casters[i].bounds_max, casters[i].emissive_reach_m};
       states[i].entity = casters[i].entity;
     }
   });

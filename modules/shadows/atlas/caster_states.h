@@ -20,6 +20,7 @@ namespace gloam {
 struct CasterBox {
   dvec3 low = dvec3(0.0);
   dvec3 high = dvec3(0.0);
+  double emissive_reach_m = 0.0;  ///< Caster::emissive_reach_m
   [[nodiscard]] bool known() const { return low.x <= high.x && low.y <= high.y && low.z <= high.z; }
 };
 

@@ -19,7 +19,8 @@ namespace gloam {
 struct FaceVolume {
   dvec3 origin = dvec3(0.0);  ///< world
   Frustum frustum;
-  float reach_m = 0.0f;  ///< radius around the origin beyond which nothing is lit; 0: unlimited
+  float reach_m = 0.0f;     ///< radius around the origin beyond which nothing is lit; 0: unlimited
+  float emitter_m = -1.0f;  ///< ShadowFace::emitter_m
 };
 [[nodiscard]] FaceVolume face_volume(const ShadowFace& face);
 /// The part of the volume that is drawn into these texels, widened by one texel on each side.
@@ -28,7 +29,8 @@ struct FaceVolume {
 /// The box relative to `origin`, widened by the rounding of GPU and CPU transforms.
 [[nodiscard]] CasterBox relative_box(const dvec3& origin, const CasterBox& box);
 
-/// Whether a caster may be drawn into the face. Conservative: false only when it certainly is not.
+/// Whether a caster may be drawn into the face. Conservative: false only when it certainly is not. False for the bulbs
+/// of the face's light (is_bulb()).
 [[nodiscard]] bool may_see(const FaceVolume& volume, const Caster& caster);
 [[nodiscard]] bool may_see(const FaceVolume& volume, const CasterBox& box);
 

@@ -16,6 +16,7 @@
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"
 #include "modules/shadows/reference/emitter_samples.h"
+#include "modules/shadows/views/bulbs.h"
 
 namespace gloam {
 namespace {
@@ -27,8 +28,9 @@ struct Emitter {
   dvec3 position = dvec3(0.0);
   dvec3 axis = dvec3(0.0, 0.0, -1.0);  ///< unit, the way it shines
   double range_m = 0.0;
-  double cos_outer = -1.0;  ///< cosine of a spot's outer half angle
-  double radius = 0.0;      ///< radius of the disc in metres; directional: at distance 1
+  double cos_outer = -1.0;           ///< cosine of a spot's outer half angle
+  double radius = 0.0;               ///< radius of the disc in metres; directional: at distance 1
+  std::vector<std::uint32_t> bulbs;  ///< numbers of the meshes that do not block it
 
   [[nodiscard]] bool reaches(const dvec3& point) const {
     if (kind == LightKind::directional) return true;
@@ -76,6 +78,16 @@ std::vector<Emitter> casting_lights(const World& world, const dvec3& camera) {
   return emitters;
 }
 
+/// The meshes that are bulbs of the light; see is_bulb().
+std::vector<std::uint32_t> bulbs_of(const Emitter& emitter, const dvec3& camera, const SceneTracer& tracer) {
+  std::vector<std::uint32_t> bulbs;
+  if (emitter.kind == LightKind::directional) return bulbs;
+  for (const EmissiveMesh& mesh : tracer.emissive_meshes())
+    if (is_bulb(emitter.position + camera, emitter.radius, mesh.min, mesh.max, mesh.half_diagonal_m))
+      bulbs.push_back(mesh.mesh);
+  return bulbs;
+}
+
 /// The surface under a pixel's centre, camera-relative.
 struct SurfacePoint {
   dvec3 position = dvec3(0.0);
@@ -115,7 +127,7 @@ class RowTracer {
     const std::uint32_t count = samples.count();
     if (!aim(point, emitter, samples.pattern(pixel, emitter.entity.index))) return {count, count / 2, count};
     blocked_.resize(rays_.size());
-    input_.tracer.occluded(rays_, blocked_);
+    input_.tracer.occluded(rays_, blocked_, emitter.bulbs);
     Seen seen{.all = count, .first_half = count / 2, .of = count};
     for (std::uint32_t i = 0; i < count; ++i) {
       seen.all -= blocked_[i];
@@ -179,6 +191,7 @@ std::vector<Emitter> reaching_lights(const VisibilityInput& input) {
   std::vector<Emitter> kept;
   for (std::size_t light = 0; light < all.size(); ++light)
     if (reached[light] != 0) kept.push_back(all[light]);
+  for (Emitter& emitter : kept) emitter.bulbs = bulbs_of(emitter, geometry.view.position, input.tracer);
   return kept;
 }
 
@@ -289,7 +302,7 @@ std::string visibility_identity(const VisibilityInput& input) {
         .bytes(bytes_of(e.axis));
     hasher.bytes(bytes_of(e.range_m)).bytes(bytes_of(e.cos_outer)).bytes(bytes_of(e.radius));
   }
-  constexpr int kMethod = 1;  // increase when the same input gives other visibilities
+  constexpr int kMethod = 2;  // increase when the same input gives other visibilities
   return "visibility " + std::to_string(kMethod) + " of triangles " + std::to_string(input.tracer.version()) +
          " frame and lights " + std::to_string(hasher.digest()) + " size " + std::to_string(geometry.view.width) + "x" +
          std::to_string(geometry.view.height) + " samples " + std::to_string(input.samples);

@@ -23,6 +23,7 @@ namespace gloam {
 /// - Rays begin at the surface under a pixel's centre, offset by kRayStart along its face normal to the visible side
 ///   (subsurface materials: to the light's side). They end kEmitterClearance_m before the disc: a lamp's bulb does not
 ///   block its light, as shadow maps hold nothing nearer than their near plane.
+/// - Bulbs (modules/shadows/views/bulbs.h) do not block the light that they belong to.
 /// - The part of the emitter below the plane of the receiver's surface is hidden.
 inline constexpr double kEmitterClearance_m = 0.05;
 /// Offset of ray starts in metres, and per metre of distance from the camera: several times the rounding error of depth

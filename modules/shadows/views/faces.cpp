@@ -107,6 +107,7 @@ ShadowFace local_face(Entity light, const LocalShadow& shadow, std::uint32_t ind
   face.tan_half = shadow.tan_half;
   face.near_m = shadow.near_m;
   face.far_m = shadow.range_m;
+  face.emitter_m = 0.5f * shadow.width_m;
   return face;
 }
 
