@@ -130,8 +130,10 @@ class RowTracer {
     input_.tracer.occluded(rays_, blocked_, emitter.bulbs);
     Seen seen{.all = count, .first_half = count / 2, .of = count};
     for (std::uint32_t i = 0; i < count; ++i) {
-      seen.all -= blocked_[i];
-      if (i < count / 2) seen.first_half -= blocked_[i];
+      // The receiver's own mesh need not block what is below the surface: it may be a bulb of the light.
+      const std::uint32_t hidden = blocked_[i] | below_[i];
+      seen.all -= hidden;
+      if (i < count / 2) seen.first_half -= hidden;
     }
     return seen;
   }
@@ -154,10 +156,13 @@ class RowTracer {
     const float end =
         local ? static_cast<float>(1.0 - kEmitterClearance_m / distance) : std::numeric_limits<float>::infinity();
     const vec3 origin(start + camera_from_tracer_);
+    const vec3 out(point.normal * side);
     rays_.resize(pattern.points.size());
+    below_.resize(rays_.size());
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       const vec2 at = emitter.radius > 0.0 ? pattern.point(i) : vec2(0.0f);
       rays_[i] = {.origin = origin, .direction = center + at.x * disc_u + at.y * disc_v, .from = 0.0f, .to = end};
+      below_[i] = glm::dot(rays_[i].direction, out) <= 0.0f ? 1 : 0;
     }
     return true;
   }
@@ -168,6 +173,7 @@ class RowTracer {
   const dvec3 camera_from_tracer_;
   std::vector<ShadowRay> rays_;
   std::vector<std::uint8_t> blocked_;
+  std::vector<std::uint8_t> below_;  ///< the ray leaves through the receiver's surface
 };
 
 /// The casting lights that reach any pixel.
