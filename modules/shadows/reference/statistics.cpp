@@ -32,6 +32,8 @@ ShadowError& ShadowError::operator+=(const ShadowError& other) {
   penumbra_pairs += other.penumbra_pairs;
   difference += other.difference;
   penumbra_difference += other.penumbra_difference;
+  off += other.off;
+  faint_leaks += other.faint_leaks;
   wrong += other.wrong;
   acne += other.acne;
   leaks += other.leaks;
@@ -60,7 +62,11 @@ ShadowError compare_visibility(const TracedVisibility& traced, std::uint32_t lay
         ++error.penumbra_pairs;
         error.penumbra_difference += difference;
       }
-      if (!(difference > 0.5) || at_silhouette(traced, layer, x, y)) continue;
+      if (!(difference > 0.1)) continue;
+      ++error.off;
+      if (at_silhouette(traced, layer, x, y)) continue;
+      if (traced.visibility[at] == 0) ++error.faint_leaks;
+      if (!(difference > 0.5)) continue;
       ++error.wrong;
       if (traced.visibility[at] == 255) ++error.acne;
       if (traced.visibility[at] == 0) ++error.leaks;

@@ -19,15 +19,19 @@ struct ShadowError {
   std::uint64_t penumbra_pairs = 0;  ///< traced visibility 0.05…0.95
   double difference = 0.0;           ///< sum of absolute differences over `pairs`
   double penumbra_difference = 0.0;  ///< the same over `penumbra_pairs`
+  std::uint64_t off = 0;             ///< off by more than 0.1
   std::uint64_t wrong = 0;           ///< off by more than 0.5, away from silhouettes
   std::uint64_t acne = 0;            ///< traced fully lit, drawn below 0.5, away from silhouettes
   std::uint64_t leaks = 0;           ///< traced unlit, drawn above 0.5, away from silhouettes
+  std::uint64_t faint_leaks = 0;     ///< traced unlit, drawn above 0.1, away from silhouettes
   /// Pixels with traced rays that shading finds out of the light's reach, because floats round differently from
   /// doubles. They are in no pair.
   std::uint64_t unreached = 0;
 
   [[nodiscard]] double mean() const { return share(difference, pairs); }
   [[nodiscard]] double penumbra_mean() const { return share(penumbra_difference, penumbra_pairs); }
+  [[nodiscard]] double off_share() const { return share(static_cast<double>(off), pairs); }
+  [[nodiscard]] double faint_leak_share() const { return share(static_cast<double>(faint_leaks), pairs); }
   [[nodiscard]] double wrong_share() const { return share(static_cast<double>(wrong), pairs); }
   [[nodiscard]] double acne_share() const { return share(static_cast<double>(acne), pairs); }
   [[nodiscard]] double leak_share() const { return share(static_cast<double>(leaks), pairs); }

@@ -25,6 +25,9 @@ void add_light_cpu_benches(BenchRegistry& registry);
 void add_light_false_positive_benches(BenchRegistry& registry);
 /// Time of the shadow filters, and their error against traced shadows.
 void add_shadow_benches(BenchRegistry& registry);
+/// Error of shadows against traced ones for every camera of every built-in scene with shadows, and against that of
+/// simpler filters.
+void add_shadow_error_benches(BenchRegistry& registry);
 /// FF table 2: oriented bias against hardware bias.
 void add_shadow_bias_benches(BenchRegistry& registry);
 /// Widths of penumbrae against the analytic ones.

@@ -173,6 +173,7 @@ void add_shadow_benches(BenchRegistry& registry) {
   const auto shared = std::make_shared<Shared>();
   add_error_rows(registry, shared);
   add_lookup_rows(registry, shared);
+  add_shadow_error_benches(registry);
   add_shadow_bias_benches(registry);
   add_shadow_gather_benches(registry);
   add_shadow_penumbra_benches(registry);
