@@ -205,30 +205,38 @@ vec4 cone_depths(SearchCone cone, vec4 off) {
   return max(cone.apex + (abs(off) - cone.reach) * cone.depth_per_texel, vec4(cone.least));
 }
 
+// Shares of the emitter that texels with these depths hide: a texel is the smaller on the emitter, the nearer its
+// surface is to the light. a_texel: difference of depths at which a texel hides all of it.
+vec4 hidden_shares(ShadowPoint p, vec4 depth, float a_texel) {
+  vec4 ratio = a_texel / max(depth - p.depth, vec4(a_texel));
+  return ratio * ratio;
+}
+
 // Adds the blockers of one gather. threshold: of each texel. rows: least depths of the cone in the lower and upper row;
 // columns: in the left and right column. left, right: weights of the columns.
 void add_blockers(inout BlockerSums sums, ShadowPoint p, vec2 at, vec4 threshold, vec2 rows, vec2 columns, float left,
-                  float right) {
+                  float right, float a_texel) {
   vec4 depth = textureGather(shadow_atlas, at);
-  vec4 distance = p.orthographic ? depth : 1.0 / depth;
+  vec4 share = hidden_shares(p, depth, a_texel) * vec4(left, right, right, left);
+  vec4 distance = share * (p.orthographic ? depth : 1.0 / depth);
   bvec4 blocks = is_nearer(depth, threshold, rows.xxyy, columns.xyyx);
-  sums.count.x = blocks.x ? sums.count.x + left : sums.count.x;
-  sums.count.x = blocks.y ? sums.count.x + right : sums.count.x;
-  sums.count.y = blocks.z ? sums.count.y + right : sums.count.y;
-  sums.count.y = blocks.w ? sums.count.y + left : sums.count.y;
-  sums.distance.x = blocks.x ? sums.distance.x + left * distance.x : sums.distance.x;
-  sums.distance.x = blocks.y ? sums.distance.x + right * distance.y : sums.distance.x;
-  sums.distance.y = blocks.z ? sums.distance.y + right * distance.z : sums.distance.y;
-  sums.distance.y = blocks.w ? sums.distance.y + left * distance.w : sums.distance.y;
+  sums.count.x = blocks.x ? sums.count.x + share.x : sums.count.x;
+  sums.count.x = blocks.y ? sums.count.x + share.y : sums.count.x;
+  sums.count.y = blocks.z ? sums.count.y + share.z : sums.count.y;
+  sums.count.y = blocks.w ? sums.count.y + share.w : sums.count.y;
+  sums.distance.x = blocks.x ? sums.distance.x + distance.x : sums.distance.x;
+  sums.distance.x = blocks.y ? sums.distance.x + distance.y : sums.distance.x;
+  sums.distance.y = blocks.z ? sums.distance.y + distance.z : sums.distance.y;
+  sums.distance.y = blocks.w ? sums.distance.y + distance.w : sums.distance.y;
 }
 
 // Two gathers side by side. rows: least depths of the lower and upper texel row; shares: weights of these rows; ends:
 // weights of the outermost columns.
 void add_blocker_row(inout vec2 sums, ShadowPoint p, vec2 u, float v, vec2 columns, float row, vec4 corner, vec2 rows,
-                     vec2 left, vec2 right, vec2 shares, vec2 ends) {
+                     vec2 left, vec2 right, vec2 shares, vec2 ends, float a_texel) {
   BlockerSums s = BlockerSums(vec2(0.0), vec2(0.0));
-  add_blockers(s, p, vec2(u.x, v), columns.x + row + corner, rows, vec2(left.x, right.x), ends.x, 1.0);
-  add_blockers(s, p, vec2(u.y, v), columns.y + row + corner, rows, vec2(left.y, right.y), 1.0, ends.y);
+  add_blockers(s, p, vec2(u.x, v), columns.x + row + corner, rows, vec2(left.x, right.x), ends.x, 1.0, a_texel);
+  add_blockers(s, p, vec2(u.y, v), columns.y + row + corner, rows, vec2(left.y, right.y), 1.0, ends.y, a_texel);
   sums += vec2(dot(s.count, shares), dot(s.distance, shares));
 }
 
@@ -247,6 +255,7 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
   vec2 beyond = min(k.fraction, 1.0 - k.fraction),
        sums = vec2(0.0);  // the middles of outer texels are at least 2 + beyond away
   bool inner_only = !whole_plane && kFullPenumbra == 0u && half_width <= kLeastHalfWidth + min(beyond.x, beyond.y);
+  float a_texel = whole_plane ? 1e9 : k.square.texel / max(p.scale, 1e-6);
   int turn = 0, turns = inner_only ? 1 : 4;
   do {
     bool outer_x = (turn & 1) != 0, outer_y = turn > 1;
@@ -256,9 +265,9 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
     vec2 lefts = outer_x ? left.xw : left.yz, rights = outer_x ? right.xw : right.yz;
     vec2 uppers = outer_y ? upper.xw : upper.yz, lowers = outer_y ? lower.xw : lower.yz;
     add_blocker_row(sums, p, u, v.x, columns, rows.x, g.corner, vec2(lowers.x, uppers.x), lefts, rights,
-                    vec2(1.0, outer_y ? first.y : 1.0), ends);
+                    vec2(1.0, outer_y ? first.y : 1.0), ends, a_texel);
     add_blocker_row(sums, p, u, v.y, columns, rows.y, g.corner, vec2(lowers.y, uppers.y), lefts, rights,
-                    vec2(outer_y ? last.y : 1.0, 1.0), ends);
+                    vec2(outer_y ? last.y : 1.0, 1.0), ends, a_texel);
   } while (++turn < turns);
   return blockers_of(p, sums.x, sums.y);
 }
@@ -283,8 +292,9 @@ Blockers find_blockers(ShadowPoint p, int mip, int texels, bool whole_plane, flo
       vec4 depth = gather_depth(k, corner);
       vec4 threshold = max(gather_threshold(k, corner, cone.least), least);
       vec4 weight = share_x.xyyx * share_y.yyxx * vec4(greaterThan(depth, threshold));
-      count += weight;
+      weight *= hidden_shares(p, depth, whole_plane ? 1e9 : k.square.texel / max(p.scale, 1e-6));
       sum += weight * (p.orthographic ? depth : 1.0 / max(depth, threshold));
+      count += weight;
     }
   }
   return blockers_of(p, dot(count, vec4(1.0)), dot(sum, vec4(1.0)));
@@ -306,6 +316,7 @@ Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_pla
     float depth = cube_depth(p, at, mip, rise, covered_share);
     float threshold = max(tap_threshold(p, k, at, cone.least, rise), max(least.x, least.y));
     float weight = depth > threshold ? share.x * share.y : 0.0;
+    weight *= hidden_shares(p, vec4(depth), whole_plane ? 1e9 : k.square.texel / max(p.scale, 1e-6)).x;
     count += weight;
     sum += weight / max(depth, threshold);
   }
