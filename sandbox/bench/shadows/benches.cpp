@@ -135,6 +135,8 @@ void add_error_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shar
                             [](const JudgedShadows& e) { return single_value(e.penumbra_mean(), e.hash); });
   penumbra.bar = 0.08;
   registry.add(std::move(penumbra));
+  registry.add(row_of<JudgedShadows>("error_traced_off", "share of pairs", measure,
+                                     [](const JudgedShadows& e) { return single_value(e.off_share(), e.hash); }));
   registry.add(row_of<JudgedShadows>("acne", "share of pairs", measure,
                                      [](const JudgedShadows& e) { return single_value(e.acne_share(), e.hash); }));
   registry.add(row_of<JudgedShadows>("leaks", "share of pairs", measure,

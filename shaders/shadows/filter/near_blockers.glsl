@@ -14,12 +14,12 @@
 // directions ρ = e · k · (d − r), where d is its depth there (inverse distance along w) and k the radius in these
 // units. So a surface of depth d > r in direction ρ covers the point e = ρ / (k · (d − r)).
 
-const int kNearDirections = 12;
+const int kNearDirections = 16;
 const int kNearSteps = 16;
 const float kNearJoin = 0.4;    // least ratio of depths, beyond the receiver's, of neighbouring samples of one surface
 const float kNearFirst = 0.05;  // tangent of the first ring of near_reach()
 // Tangent at the receiver's direction from which a blocker in the cone is near.
-const float kNearTangent = kNear == 2u ? 0.3 : 0.8;
+const float kNearTangent = kNear == 2u ? 0.3 : 0.45;
 
 // The frame in which directions are taken: w, a, b. A direction is w + ρ (cos a + sin b).
 struct NearFrame {
@@ -155,9 +155,9 @@ void add_near_sample(inout NearLine line, float at, float over, float k) {
   line.over = over;
 }
 
-// The surface of the last sample goes on.
+// The surface of the last two samples goes on.
 void end_near_line(inout NearLine line, float k) {
-  if (line.over > 0.0) line.covered |= ring_bits(line.radius, 1.0 / max(k * line.rise, 1e-6));
+  if (line.over > 0.0 && line.rise > 0.0) line.covered |= ring_bits(line.radius, 1.0 / (k * line.rise));
 }
 
 // Share of the emitter's part above the receiver plane that the receiver sees. widest: tangent of the widest direction
