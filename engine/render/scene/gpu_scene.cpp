@@ -187,9 +187,12 @@ Status GpuScene::upload_materials(const std::vector<Material>& sources, Uploader
     const auto bytes = std::as_bytes(std::span(&packed, 1));
     constants.insert(constants.end(), bytes.begin(), bytes.end());
     constants.resize((constants.size() + kMaterialStride - 1) / kMaterialStride * kMaterialStride);
-    materials_.push_back(
-        {{}, surface_features(material), material.alpha_mode, material.double_sided, material.subsurface,
-         is_emissive(material)});
+    materials_.push_back({{},
+                          surface_features(material),
+                          material.alpha_mode,
+                          material.double_sided,
+                          material.subsurface,
+                          is_emissive(material)});
   }
   gpu::BufferDesc desc{.name = "scene.materials", .module = "engine", .size = constants.size()};
   desc.usage = gpu::BufferUsage::uniform | gpu::BufferUsage::transfer_target;

@@ -130,7 +130,7 @@ class RowTracer {
     input_.tracer.occluded(rays_, blocked_, emitter.bulbs);
     Seen seen{.all = count, .first_half = count / 2, .of = count};
     for (std::uint32_t i = 0; i < count; ++i) {
-      // The receiver's own mesh need not block what is below the surface: it may be a bulb of the light.
+      // The receiver's own mesh does not block what is below its surface if it is a bulb of the light.
       const std::uint32_t hidden = blocked_[i] | below_[i];
       seen.all -= hidden;
       if (i < count / 2) seen.first_half -= hidden;
@@ -162,7 +162,7 @@ class RowTracer {
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       const vec2 at = emitter.radius > 0.0 ? pattern.point(i) : vec2(0.0f);
       rays_[i] = {.origin = origin, .direction = center + at.x * disc_u + at.y * disc_v, .from = 0.0f, .to = end};
-      below_[i] = glm::dot(rays_[i].direction, out) <= 0.0f ? 1 : 0;
+      below_[i] = !emitter.bulbs.empty() && glm::dot(rays_[i].direction, out) <= 0.0f ? 1 : 0;
     }
     return true;
   }

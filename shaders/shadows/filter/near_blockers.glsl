@@ -17,6 +17,9 @@
 const int kNearDirections = 16;
 const int kNearSteps = 16;
 const float kNearJoin = 0.4;    // least ratio of depths, beyond the receiver's, of neighbouring samples of one surface
+// Place of an edge between two samples, as a share: with it the mean area is right, wherever the edge lies on the
+// logarithmic scale.
+const float kNearEdge = 0.43;
 const float kNearFirst = 0.05;  // tangent of the first ring of near_reach()
 // Tangent at the receiver's direction from which a blocker in the cone is near.
 const float kNearTangent = kNear == 2u ? 0.3 : 0.45;
@@ -138,9 +141,9 @@ struct NearLine {
 };
 
 // Adds a sample. over: as in NearLine. Neighbouring samples of one surface cover what lies between their points.
-// Otherwise the edge of a surface is taken to be half-way.
+// Otherwise the edge of a surface is taken to be between them.
 void add_near_sample(inout NearLine line, float at, float over, float k) {
-  float middle = 0.5 * (line.at + at), radius = at / (k * max(over, 1e-20));
+  float middle = mix(line.at, at, kNearEdge), radius = at / (k * max(over, 1e-20));
   float less = min(over, line.over), more = max(over, line.over);
   bool joined = less > kNearJoin * more;
   if (joined) {
@@ -165,7 +168,7 @@ void end_near_line(inout NearLine line, float k) {
 float near_visibility(ShadowPoint p, float widest, bool needed) {
   NearFrame f = near_frame(p);
   NearLine line = NearLine(0u, 0.0, 0.0, 0.0, 0.0);
-  float first = 0.5 / f.to_texel, octaves = max(log2(widest / first), 1.0);
+  float first = max(0.5 / f.to_texel, widest / 64.0), octaves = max(log2(widest / first), 1.0);
   int seen = 0, all = 0, n = 0, end = needed ? kNearDirections * (kNearSteps + 1) : 0;
   while (n < end) {  // not do … while: a repeated body would change the sums, see never()
     int direction = n / (kNearSteps + 1), s = n - direction * (kNearSteps + 1);
