@@ -128,17 +128,26 @@ class RowTracer {
     if (!aim(point, emitter, samples.pattern(pixel, emitter.entity.index))) return {count, count / 2, count};
     blocked_.resize(rays_.size());
     input_.tracer.occluded(rays_, blocked_, emitter.bulbs);
+    if (!emitter.bulbs.empty()) block_below(point, emitter);
     Seen seen{.all = count, .first_half = count / 2, .of = count};
     for (std::uint32_t i = 0; i < count; ++i) {
-      // The receiver's own mesh does not block what is below its surface if it is a bulb of the light.
-      const std::uint32_t hidden = blocked_[i] | below_[i];
-      seen.all -= hidden;
-      if (i < count / 2) seen.first_half -= hidden;
+      seen.all -= blocked_[i];
+      if (i < count / 2) seen.first_half -= blocked_[i];
     }
     return seen;
   }
 
  private:
+  /// Traces the rays that leave through the receiver's surface again, with the bulbs: the receiver may lie on one,
+  /// which hides what is behind its own surface.
+  void block_below(const SurfacePoint& point, const Emitter& emitter) {
+    const dvec3 to_light = emitter.position - point.position;
+    const vec3 out(point.subsurface && glm::dot(point.normal, to_light) < 0.0 ? -point.normal : point.normal);
+    for (std::size_t i = 0; i < rays_.size(); ++i)
+      if (blocked_[i] == 0 && glm::dot(rays_[i].direction, out) <= 0.0f)
+        input_.tracer.occluded(std::span(rays_).subspan(i, 1), std::span(blocked_).subspan(i, 1));
+  }
+
   /// Sets up the rays. Returns false when the point is within kEmitterClearance_m of the light, so that nothing can
   /// block.
   bool aim(const SurfacePoint& point, const Emitter& emitter, const EmitterSamples::Pattern& pattern) {
@@ -156,13 +165,10 @@ class RowTracer {
     const float end =
         local ? static_cast<float>(1.0 - kEmitterClearance_m / distance) : std::numeric_limits<float>::infinity();
     const vec3 origin(start + camera_from_tracer_);
-    const vec3 out(point.normal * side);
     rays_.resize(pattern.points.size());
-    below_.resize(rays_.size());
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       const vec2 at = emitter.radius > 0.0 ? pattern.point(i) : vec2(0.0f);
       rays_[i] = {.origin = origin, .direction = center + at.x * disc_u + at.y * disc_v, .from = 0.0f, .to = end};
-      below_[i] = !emitter.bulbs.empty() && glm::dot(rays_[i].direction, out) <= 0.0f ? 1 : 0;
     }
     return true;
   }
@@ -173,7 +179,6 @@ class RowTracer {
   const dvec3 camera_from_tracer_;
   std::vector<ShadowRay> rays_;
   std::vector<std::uint8_t> blocked_;
-  std::vector<std::uint8_t> below_;  ///< the ray leaves through the receiver's surface
 };
 
 /// The casting lights that reach any pixel.
