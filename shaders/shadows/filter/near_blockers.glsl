@@ -22,7 +22,7 @@ const float kNearJoin = 0.4;    // least ratio of depths, beyond the receiver's,
 const float kNearEdge = 0.43;
 const float kNearFirst = 0.05;  // tangent of the first ring of near_reach()
 // Tangent at the receiver's direction from which a blocker in the cone is near.
-const float kNearTangent = kNear == 2u ? 0.3 : 0.45;
+const float kNearTangent = kNear == 2u ? 0.3 : 0.55;
 
 // The frame in which directions are taken: w, a, b. A direction is w + ρ (cos a + sin b).
 struct NearFrame {
