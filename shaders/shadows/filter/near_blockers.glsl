@@ -16,7 +16,7 @@
 
 const int kNearDirections = 16;
 const int kNearSteps = 16;
-const float kNearJoin = 0.4;    // least ratio of depths, beyond the receiver's, of neighbouring samples of one surface
+const float kNearJoin = 0.4;  // least ratio of depths, beyond the receiver's, of neighbouring samples of one surface
 // Place of an edge between two samples, as a share: with it the mean area is right, wherever the edge lies on the
 // logarithmic scale.
 const float kNearEdge = 0.43;
