@@ -24,8 +24,8 @@ namespace gloam {
 ///   (subsurface materials: to the light's side). They end kEmitterClearance_m before the disc: a lamp's bulb does not
 ///   block its light, as shadow maps hold nothing nearer than their near plane.
 /// - Bulbs (modules/shadows/views/bulbs.h) do not block the light that they belong to.
-/// - What lies behind the receiver's surface is hidden by the receiver's own mesh, also if that is a bulb. Near the edge
-///   of a facet, a ray may pass above the edge although it leaves below the facet's plane.
+/// - What lies behind the receiver's surface is hidden by the receiver's own mesh, also if that is a bulb. Near a
+///   facet's edge, a ray may pass above the edge although it leaves below the facet's plane.
 inline constexpr double kEmitterClearance_m = 0.05;
 /// Offset of ray starts in metres, and per metre of distance from the camera: several times the rounding error of depth
 /// buffer and transforms.
