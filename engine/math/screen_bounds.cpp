@@ -20,6 +20,7 @@
 #include <limits>
 
 #include "engine/core/assert.h"
+#include "engine/math/finite.h"
 
 namespace gloam {
 namespace {
@@ -40,8 +41,6 @@ constexpr double kTouch = 1e-14;
 
 const NdcRect kWholeScreen{};
 const NdcRect kNothing{vec2(0.0f), vec2(0.0f), true};
-
-bool is_finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool is_usable(const PerspectiveScale& projection) {
   GLOAM_ASSERT(!(projection.scale.x <= 0.0f) && !(projection.scale.y <= 0.0f), "a projection's scale is positive");

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 
+#include "engine/math/finite.h"
+
 namespace gloam {
 namespace {
-
-bool finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Minkowski sum of two boxes; an empty `reach` adds nothing.
 Aabb sum_of(const Aabb& box, const Aabb& reach) {
@@ -20,7 +20,7 @@ Aabb sum_of(const Aabb& box, const Aabb& reach) {
 }  // namespace
 
 bool WorldBox::known() const {
-  return finite(min) && finite(max) && min.x <= max.x && min.y <= max.y && min.z <= max.z;
+  return is_finite(min) && is_finite(max) && min.x <= max.x && min.y <= max.y && min.z <= max.z;
 }
 
 WorldBox world_box(const Aabb& box, const dmat4& m) {

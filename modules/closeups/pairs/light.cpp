@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/finite.h"
+
 namespace gloam {
 namespace {
 
@@ -27,15 +29,13 @@ dvec3 across(const dvec3& wish, const dvec3& forward) {
   return glm::normalize(glm::cross(forward, other));
 }
 
-bool finite_point(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 }  // namespace
 
 std::optional<CloseupLight> closeup_light(const Light& light, const dmat4& world_from_node) {
   CloseupLight placed;
   placed.kind = light.kind;
   placed.position = dvec3(world_from_node[3]);
-  if (light.kind != LightKind::directional && !finite_point(placed.position)) return std::nullopt;
+  if (light.kind != LightKind::directional && !is_finite(placed.position)) return std::nullopt;
   const dvec3 forward = -unit_or_zero(dvec3(world_from_node[2]));
   if (forward != dvec3(0.0)) placed.forward = forward;
   placed.right = across(unit_or_zero(dvec3(world_from_node[0])), placed.forward);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/finite.h"
+
 namespace gloam {
 namespace {
 
@@ -30,8 +32,7 @@ float effective_range(const Light& light) {
 
 vec3 unusual_light_direction(const dvec3& node_z) {
   const double greatest = std::max({std::abs(node_z.x), std::abs(node_z.y), std::abs(node_z.z)});
-  const bool finite = std::isfinite(node_z.x) && std::isfinite(node_z.y) && std::isfinite(node_z.z);
-  return finite && greatest > 0.0 ? vec3(glm::normalize(-node_z / greatest)) : vec3(0.0f, 0.0f, -1.0f);
+  return is_finite(node_z) && greatest > 0.0 ? vec3(glm::normalize(-node_z / greatest)) : vec3(0.0f, 0.0f, -1.0f);
 }
 
 PlacedLight place_light(Entity entity, const Light& light, const dmat4& world_from_node) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/finite.h"
 #include "modules/lights/selection/light_list.h"
 
 namespace gloam {
@@ -15,8 +16,6 @@ constexpr double kHalfPi = 3.14159265358979323846 / 2;
 /// A spot's bound grows by this share: its axis and cosine are rounded to floats, so a lit pixel may lie outside the
 /// exact cone by as much.
 constexpr double kSpotRounding = 1e-6;
-
-bool is_finite(const vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 float brightest_channel(const Light& light) {
   return light.intensity * std::max({light.color.r, light.color.g, light.color.b, 0.0f});

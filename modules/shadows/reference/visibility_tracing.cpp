@@ -12,6 +12,7 @@
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
+#include "engine/math/finite.h"
 #include "engine/scene/components.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"
@@ -40,8 +41,6 @@ struct Emitter {
     return kind == LightKind::point || glm::dot(away, axis) > cos_outer * distance;
   }
 };
-
-bool is_finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool shines(const Light& light) {
   const vec3 strength = light.color * light.intensity;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/assert.h"
+#include "engine/math/finite.h"
 
 namespace gloam {
 namespace {
@@ -18,8 +19,6 @@ constexpr float kNarrowestSpot = kPi / 180.0f;       // half angle in radians
 constexpr float kWidestCookie = kPi * 0.47f;         // half angle in radians: below 90°, which has no tangent
 /// Boxes are enlarged by this share of the lengths involved, as axes are floats.
 constexpr double kRounding = 1e-6;
-
-bool is_finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// The unit vector of v; zero when v is zero or not finite.
 dvec3 direction_of(const dvec3& v) {
