@@ -24,13 +24,15 @@ namespace gloam {
 ///   (subsurface materials: to the light's side). They end kEmitterClearance_m before the disc: a lamp's bulb does not
 ///   block its light, as shadow maps hold nothing nearer than their near plane.
 /// - Bulbs (modules/shadows/views/bulbs.h) do not block the light that they belong to.
-/// - What lies behind the receiver's surface is hidden by the receiver's own mesh, also if that is a bulb. Near a
-///   facet's edge, a ray may pass above the edge although it leaves below the facet's plane.
+/// - A ray that leaves below the receiver's surface, by more than kBehindSine, is blocked, unless the material is
+///   subsurface: the surface is opaque, whatever the mesh behind it is like.
 inline constexpr double kEmitterClearance_m = 0.05;
 /// Offset of ray starts in metres, and per metre of distance from the camera: several times the rounding error of depth
 /// buffer and transforms.
 inline constexpr double kRayStart_m = 1e-4;
 inline constexpr double kRayStartPerMetre = 2e-5;
+/// Sine of an angle below the surface, several times the rounding error of face normals, which have 16 bits a component.
+inline constexpr double kBehindSine = 2e-4;
 /// Default number of rays per light and pixel.
 inline constexpr std::uint32_t kVisibilitySamples = 256;
 
