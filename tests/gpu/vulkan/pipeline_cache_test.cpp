@@ -3,11 +3,13 @@
 #include "engine/gpu/vulkan/pipeline_cache.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
 
 #include "shaders/gpu_test/shaders.h"
 #include "tests/support/gpu_device.h"
@@ -20,12 +22,13 @@ namespace fs = std::filesystem;
 class PipelineCacheFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    directory_ = fs::path(GLOAM_BINARY_DIR) / "test_output" / "pipeline_cache" /
+    // Several processes may run this suite at the same time.
+    directory_ = fs::path(GLOAM_BINARY_DIR) / "test_output" / ("pipeline_cache_" + std::to_string(::getpid())) /
                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(directory_);
     GLOAM_REQUIRE_GPU(test::make_test_device(false));
   }
-  void TearDown() override { fs::remove_all(directory_); }
+  void TearDown() override { fs::remove_all(directory_.parent_path()); }
 
   std::unique_ptr<Device> open() {
     auto device = create_vulkan_device({.cache_directory = directory_.string(), .log = &log_});
