@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "engine/core/assert.h"
+#include "modules/lights/masks/mask_population.h"
 #include "modules/lights/selection/light_list.h"
 #include "shaders/lights/lights_shared.h"
 
@@ -35,6 +36,10 @@ void read_light_lists(ShaderPass& pass, const LightsOutputs& lights) {
   pass.read_if_declared("group_masks", lights.group_masks);
   pass.read_if_declared("mask_tiles", lights.mask_tiles);
   pass.read_if_declared("z_bin_words", lights.z_bins);
+}
+
+std::uint64_t most_tile_lights(const LightsOutputs& lights, uvec2 shadow_tiles, std::span<const std::uint32_t> chosen) {
+  return lights.masks == nullptr ? 0 : mask_population(*lights.masks, shadow_tiles, chosen, 1);
 }
 
 std::span<const std::byte> empty_light_block() {

@@ -15,6 +15,8 @@
 
 namespace gloam {
 
+struct TileLightMasks;
+
 /// What the lights module provides for a view; later modules read it from the board.
 struct LightsOutputs {
   gpu::Binding::BufferRange lights;  ///< a LightBlock (shaders/lights/lights_shared.h), uniform
@@ -31,16 +33,23 @@ struct LightsOutputs {
   ImageRef tile_lists;  ///< rg32ui, one texel per shadow tile. x: slot (first list entry, a multiple of 3) or
                         ///< GLOAM_NO_SLOT. y: light count of the accurate search in the low 16 bits, of the approximate
                         ///< search in the high 16
-  BufferRef early_lists;            ///< list entry e: 10 bits at bit 10 · (e % 3) of word e / 3
-  BufferRef counters;               ///< a LightCounters
-  std::uint32_t slot_capacity = 0;  ///< list entries that early_lists holds
-  bool lists_always_fit = false;    ///< every tile has room to list every light, so every tile gets a list
+  BufferRef early_lists;                  ///< list entry e: 10 bits at bit 10 · (e % 3) of word e / 3
+  BufferRef counters;                     ///< a LightCounters
+  std::uint32_t slot_capacity = 0;        ///< list entries that early_lists holds
+  std::uint64_t entry_bound = 0;          ///< the most list entries that the view's tiles can need
+  const TileLightMasks* masks = nullptr;  ///< for most_tile_lights(); valid while the frame is declared
+  bool lists_always_fit = false;          ///< every tile has room to list every light, so every tile gets a list
   [[nodiscard]] bool has_lists() const { return static_cast<bool>(tile_lists); }
 };
 
 /// Binds the light data that the program in use declares: lights, grid (a LightGrid), light_texels, tile_lists,
 /// early_lists, group_masks, mask_tiles and z_bin_words. What the view does not have becomes a placeholder.
 void read_light_lists(ShaderPass& pass, const LightsOutputs& lights);
+
+/// The most pairs of a shadow tile and one of the `chosen` local lights that the early lists can hold, by the tile
+/// masks of the CPU. chosen: bit i % 32 of word i / 32 for light i; empty: all. 0 if the view has no lists.
+[[nodiscard]] std::uint64_t most_tile_lights(const LightsOutputs& lights, uvec2 shadow_tiles,
+                                             std::span<const std::uint32_t> chosen);
 
 /// A later module puts this on the board, before PassPhase::visualize, if it draws the visualizer light_list of the
 /// view's lights itself, to show the final use of the early lists.

@@ -6,6 +6,10 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+
+#include "engine/render/readback/item_need.h"
+#include "modules/lights/masks/mask_population.h"
 
 namespace gloam {
 namespace {
@@ -22,6 +26,13 @@ uvec2 shadow_tiles_of(const RenderView& view) {
   return (uvec2(view.width, view.height) + uvec2(GLOAM_SHADOW_TILE - 1)) / uvec2(GLOAM_SHADOW_TILE);
 }
 
+/// Entries that the view's frame should have room for; entry_bound: the most that it can need.
+std::uint32_t room_for_entries(const LightFeedback* feedback, std::uint64_t entry_bound, const RenderView& view) {
+  std::optional<ItemNeed> known;
+  if (feedback != nullptr) known = ItemNeed{feedback->entries_asked, feedback->entry_bound, feedback->frame};
+  return to_whole_words(room_for_items(known, entry_bound, words_to_entries(kCheapListBytes / 4), view));
+}
+
 gpu::BufferDesc lists_buffer(const char* name, std::uint64_t words) {
   gpu::BufferDesc desc;
   desc.name = name;
@@ -34,7 +45,10 @@ gpu::BufferDesc lists_buffer(const char* name, std::uint64_t words) {
 
 LightFeedback light_feedback(const shaders::LightCounters& counters, const LightCountersNote& note,
                              const LightFeedback* last) {
-  LightFeedback feedback{counters.slots, last == nullptr ? note.slot_capacity : last->slot_capacity, 0.0f};
+  LightFeedback feedback{.entries_asked = counters.slots,
+                         .slot_capacity = last == nullptr ? note.slot_capacity : last->slot_capacity,
+                         .entry_bound = note.entry_bound,
+                         .frame = note.view.frame};
   const uvec2 tiles = shadow_tiles_of(note.view);
   feedback.slot_capacity = list_capacity(tiles.x * tiles.y, 0, feedback);
   if (counters.farthest_depth != kNoSurface) {
@@ -61,10 +75,10 @@ void count_lights(const shaders::LightCounters& counters, const LightCountersNot
 std::uint32_t list_capacity(std::uint32_t tiles, std::uint32_t fixed_slots, const LightFeedback& feedback) {
   if (fixed_slots > 0) return to_whole_words(std::uint64_t{tiles} * fixed_slots);
   const std::uint32_t asked = to_whole_words(std::uint64_t{feedback.entries_asked} * 5 / 4);
-  const std::uint32_t needed = std::max(to_whole_words(std::uint64_t{tiles} * kFirstEntriesPerTile), asked);
+  const std::uint32_t needed = std::max(to_whole_words(std::uint64_t{tiles} * kLeastEntriesPerTile), asked);
   const std::uint32_t there = feedback.slot_capacity;
   const bool keeps = there >= feedback.entries_asked &&
-                     there >= to_whole_words(std::uint64_t{tiles} * kFirstEntriesPerTile) && there / 4 <= needed;
+                     there >= to_whole_words(std::uint64_t{tiles} * kLeastEntriesPerTile) && there / 4 <= needed;
   return keeps ? there : needed;
 }
 
@@ -85,10 +99,12 @@ void upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightM
   grid.z_scale = bins.params.scale();
   grid.fixed_slots = fixed_slots_of(static_cast<std::uint32_t>(frame.knobs().number("lights.fixed_slots")));
   grid.slot_capacity = list_capacity(tile_count, grid.fixed_slots, feedback == nullptr ? LightFeedback{} : *feedback);
+  outputs.masks = &masks;
+  outputs.entry_bound = mask_population(masks, tiles, {}, 3);
   if (grid.fixed_slots == 0)
     grid.slot_capacity =
-        std::max(grid.slot_capacity,
-                 to_whole_words(std::uint64_t{tile_count} * entries_that_fit_all(grid.local_count, tile_count)));
+        std::max({grid.slot_capacity, room_for_entries(feedback, outputs.entry_bound, view),
+                  to_whole_words(std::uint64_t{tile_count} * entries_that_fit_all(grid.local_count, tile_count))});
   outputs.lists_always_fit = grid.slot_capacity >= std::uint64_t{tile_count} * ((grid.local_count + 2) / 3 * 3);
   outputs.slot_capacity = grid.slot_capacity;
 

@@ -19,14 +19,17 @@ namespace gloam {
 struct LightFeedback {
   std::uint32_t entries_asked = 0;  ///< list entries the frame needed
   std::uint32_t slot_capacity = 0;  ///< list entries to allocate, shared by all frames in flight (see light_feedback)
-  float farthest_m = 0.0f;  ///< view depth of the farthest opaque surface; 0: unknown, or no surface was visible
+  float farthest_m = 0.0f;        ///< view depth of the farthest opaque surface; 0: unknown, or no surface was visible
+  std::uint64_t entry_bound = 0;  ///< the most entries that the frame could have needed
+  std::uint64_t frame = 0;        ///< RenderView::frame of the frame
 };
 
 /// Recorded with a frame's counters when its passes are declared, and read when the counters come back.
 struct LightCountersNote {
   RenderView view;
   std::uint32_t slot_capacity = 0;
-  bool checked = false;  ///< culling errors were counted (lights.check)
+  bool checked = false;           ///< culling errors were counted (lights.check)
+  std::uint64_t entry_bound = 0;  ///< the most entries that the frame can need
 };
 
 /// Name of the result (FrameBuilder::keep_result) that holds the LightCounters.
@@ -43,8 +46,10 @@ void count_lights(const shaders::LightCounters& counters, const LightCountersNot
 
 /// Upper limit of a view's lists, in bytes.
 inline constexpr std::uint64_t kMostListBytes = std::uint64_t{128} << 20;
-/// List entries per tile that a view starts with.
-inline constexpr std::uint32_t kFirstEntriesPerTile = 3;
+/// Lists of at most this many bytes have room for all that the CPU's tile masks allow.
+inline constexpr std::uint64_t kCheapListBytes = std::uint64_t{8} << 20;
+/// Least list entries per tile.
+inline constexpr std::uint32_t kLeastEntriesPerTile = 3;
 /// Upper limit, in bytes, of lists sized to hold every light in every tile (entries_that_fit_all).
 inline constexpr std::uint64_t kListBytesThatFitAll = std::uint64_t{512} << 10;
 
@@ -60,13 +65,14 @@ inline constexpr std::uint64_t kListBytesThatFitAll = std::uint64_t{512} << 10;
 [[nodiscard]] constexpr std::uint32_t fixed_slots_of(std::uint32_t knob) { return (knob + 2) / 3 * 3; }
 
 /// List entries to allocate, a multiple of 3. With `fixed_slots`: that many per tile. Otherwise: 1.25 times the entries
-/// an earlier frame needed, at least kFirstEntriesPerTile per tile. Shrinks only if the capacity is more than four
+/// an earlier frame needed, at least kLeastEntriesPerTile per tile. Shrinks only if the capacity is more than four
 /// times too large, so that a moving camera does not reallocate all the time.
 [[nodiscard]] std::uint32_t list_capacity(std::uint32_t tiles, std::uint32_t fixed_slots,
                                           const LightFeedback& feedback);
 
-/// Uploads the inputs of the searches and of shading, and declares the list buffers. `outputs`: local_count must be
-/// set; fills grid and all fields after it.
+/// Uploads the inputs of the searches and of shading, and declares the list buffers. They have room for list_capacity()
+/// entries, and by room_for_items(), whose bound comes from the CPU's tile masks, so that no list overflows. `outputs`:
+/// local_count must be set; fills grid and all fields after it.
 void upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks, LightsOutputs& outputs);
 
 /// Writes the initial values of a view's LightCounters. Record it in a pass that writes the buffer with transfer_write.

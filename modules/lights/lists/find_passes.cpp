@@ -112,7 +112,7 @@ void add_find_lights_passes(FrameBuilder& frame, const VisibleLights& visible, c
     const bool checks = frame.knobs().is("lights.check", "on");
     if (checks) add_check_pass(frame, outputs);
     frame.keep_result("lights", kLightCountersResult, outputs.counters,
-                      LightCountersNote{frame.view(), outputs.slot_capacity, checks});
+                      LightCountersNote{frame.view(), outputs.slot_capacity, checks, outputs.entry_bound});
   }
   frame.put(outputs);
 }

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
+#include "engine/render/readback/item_need.h"
 #include "modules/lights/outputs.h"
 
 namespace gloam {
@@ -40,20 +43,43 @@ struct Capacities {
   bool fit_all = false;
 };
 
-Capacities capacities(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uint32_t bits, std::uint32_t tiles) {
+/// The most tile-light pairs that the view's tiles can need.
+std::uint64_t bound_of_pairs(const LightsOutputs& lights, std::span<const shaders::ShadowRow> rows, uvec2 tiles) {
+  std::vector<std::uint32_t> casting((lights.local_count + 31) / 32, 0);
+  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), lights.local_count); ++i)
+    if (rows[i].kind != static_cast<float>(GLOAM_SHADOW_NONE)) casting[i / 32] |= 1u << (i % 32);
+  return most_tile_lights(lights, tiles, casting) + std::uint64_t{tiles.x} * tiles.y * lights.directional_count;
+}
+
+Capacities capacities(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uint32_t bits, std::uint32_t tiles,
+                      std::uint64_t pair_bound) {
   const LightsOutputs& lights = *frame.find<LightsOutputs>();
   const std::uint64_t all = std::uint64_t{tiles} * (rounded_lights(lights.local_count) + lights.directional_count);
   Capacities c;
   c.fit_all = all * slot_bytes(bits) <= kBytesThatFitAll && all <= knobs.slot_limit && all <= knobs.pair_limit;
   const FinalListFeedback* feedback = frame.world().try_view_resource<FinalListFeedback>(frame.view().id);
   const FinalListFeedback asked = feedback == nullptr ? FinalListFeedback{} : *feedback;
-  const std::uint32_t least = at_most(std::uint64_t{tiles} * kFirstSlotsPerTile, kMostSlots);
-  const std::uint32_t least_pairs =
-      at_most(std::uint64_t{tiles} * (feedback == nullptr ? kFirstPairsPerTile : kLeastPairsPerTile), kMostPairs);
-  c.pairs = c.fit_all ? static_cast<std::uint32_t>(all)
-                      : kept_capacity(asked.pair_capacity, asked.pairs_asked, least_pairs, kMostPairs);
-  c.slots = c.fit_all ? static_cast<std::uint32_t>(all)
-                      : kept_capacity(asked.slot_capacity, asked.slots_asked, least, kMostSlots);
+  const std::uint32_t least = at_most(std::uint64_t{tiles} * kLeastSlotsPerTile, kMostSlots);
+  const std::uint32_t least_pairs = at_most(std::uint64_t{tiles} * kLeastPairsPerTile, kMostPairs);
+  std::optional<ItemNeed> pairs, slots;
+  if (feedback != nullptr) {
+    pairs = ItemNeed{asked.pairs_asked, asked.pair_bound, asked.frame};
+    slots = ItemNeed{asked.slots_asked, asked.pair_bound, asked.frame};
+  }
+  if (c.fit_all) {
+    c.pairs = c.slots = static_cast<std::uint32_t>(all);
+  } else {
+    const RenderView& view = frame.view();
+    const std::uint64_t room_for_pairs =
+        room_for_items(pairs, pair_bound, kCheapPairBytes / sizeof(std::uint32_t), view);
+    const std::uint64_t room_for_slots =
+        std::min(room_for_items(slots, pair_bound, kCheapSlotBytes / slot_bytes(bits), view),
+                 kMostBoundBytes / slot_bytes(bits));
+    c.pairs = std::max(kept_capacity(asked.pair_capacity, asked.pairs_asked, least_pairs, kMostPairs),
+                       at_most(room_for_pairs, kMostPairs));
+    c.slots = std::max(kept_capacity(asked.slot_capacity, asked.slots_asked, least, kMostSlots),
+                       at_most(room_for_slots, kMostSlots));
+  }
   c.pairs = std::min(c.pairs, knobs.pair_limit);
   c.slots = std::min(c.slots, knobs.slot_limit);
   return c;
@@ -96,13 +122,15 @@ FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counter
   const std::uint64_t share =
       pairs_full ? std::uint64_t{counters.slots} * counters.pairs / std::max(note.pair_capacity, 1u) : counters.slots;
   feedback.slots_asked = at_most(std::max<std::uint64_t>(share, counters.slots), kMostSlots);
-  const std::uint32_t least = at_most(std::uint64_t{note.tiles} * kFirstSlotsPerTile, kMostSlots);
+  const std::uint32_t least = at_most(std::uint64_t{note.tiles} * kLeastSlotsPerTile, kMostSlots);
   const std::uint32_t least_pairs = at_most(std::uint64_t{note.tiles} * kLeastPairsPerTile, kMostPairs);
-  // The first pair capacity was a guess and is not kept.
+  // The first capacities are bounds and are not kept.
   feedback.pair_capacity =
       kept_capacity(last == nullptr ? 0 : last->pair_capacity, feedback.pairs_asked, least_pairs, kMostPairs);
-  feedback.slot_capacity = kept_capacity(last == nullptr ? note.slot_capacity : last->slot_capacity,
-                                         feedback.slots_asked, least, kMostSlots);
+  feedback.slot_capacity =
+      kept_capacity(last == nullptr ? 0 : last->slot_capacity, feedback.slots_asked, least, kMostSlots);
+  feedback.pair_bound = note.pair_bound;
+  feedback.frame = note.frame;
   return feedback;
 }
 
@@ -128,7 +156,8 @@ void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote
 
 std::uint32_t visibility_bits_of(const ShadowKnobs& knobs) { return knobs.levels == 15 ? 4 : 8; }
 
-FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs) {
+FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs,
+                                         std::span<const shaders::ShadowRow> rows) {
   FrameGraph& graph = frame.graph();
   const LightsOutputs& lights = *frame.find<LightsOutputs>();
   const uvec2 tiles = (uvec2(frame.view().width, frame.view().height) + uvec2(kShadowTile - 1)) / uvec2(kShadowTile);
@@ -136,7 +165,8 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   FinalListBuffers made;
   FinalLists& lists = made.lists;
   lists.visibility_bits = visibility_bits_of(knobs);
-  const Capacities c = capacities(frame, knobs, lists.visibility_bits, tile_count);
+  const std::uint64_t pair_bound = bound_of_pairs(lights, rows, tiles);
+  const Capacities c = capacities(frame, knobs, lists.visibility_bits, tile_count, pair_bound);
   lists.pair_capacity = c.pairs;
   lists.slot_capacity = c.slots;
 
@@ -178,7 +208,9 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
                kWord * (std::uint64_t{grid.entry_capacity} + pairs) +
                    (lights.has_lists() ? std::uint64_t{lights.slot_capacity} / 3 * kWord : 0),
                std::uint64_t{c.slots} * slot_bytes(lists.visibility_bits),
-               lists.visibility_bits};
+               lists.visibility_bits,
+               pair_bound,
+               frame.view().frame};
   return made;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
@@ -18,6 +19,8 @@ struct FinalListFeedback {
   std::uint32_t slots_asked = 0;
   std::uint32_t pair_capacity = 0;  ///< capacity of the next frames; the same for all frames in flight
   std::uint32_t slot_capacity = 0;
+  std::uint64_t pair_bound = 0;  ///< the most pairs that the frame could have needed
+  std::uint64_t frame = 0;       ///< RenderView::frame of the frame
 };
 
 /// Values recorded when a frame is declared, for the later readback of its counters.
@@ -28,6 +31,8 @@ struct FinalListNote {
   std::uint64_t list_bytes = 0;        ///< bytes of final entries, early lists and pairs
   std::uint64_t visibility_bytes = 0;  ///< bytes of visibility slots
   std::uint32_t visibility_bits = 8;
+  std::uint64_t pair_bound = 0;  ///< the most pairs that the frame can need
+  std::uint64_t frame = 0;       ///< RenderView::frame
 };
 
 /// Name of the frame result (FrameBuilder::keep_result) that holds a ShadowListCounters.
@@ -37,12 +42,14 @@ inline constexpr const char* kShadowListResult = "shadow_list_counters";
 /// shadows.pair_limit allow it, the view gets buffers for all of them from its first frame on, regardless of feedback.
 /// All lists then fit, and shading needs no fallback (FinalLists::always_complete).
 inline constexpr std::uint64_t kBytesThatFitAll = std::uint64_t{8} << 20;
-/// Least visibility slots per tile.
-inline constexpr std::uint32_t kFirstSlotsPerTile = 2;
-/// kFirstPairsPerTile: tile-light pairs per tile until the first feedback. It is large, because the first picture of a
-/// view may be its only one. kLeastPairsPerTile: least pairs per tile afterwards.
-inline constexpr std::uint32_t kFirstPairsPerTile = 4;
+/// Least visibility slots and tile-light pairs per tile.
+inline constexpr std::uint32_t kLeastSlotsPerTile = 2;
 inline constexpr std::uint32_t kLeastPairsPerTile = 1;
+/// Pairs and slots of at most this many bytes have room for all that the CPU's tile masks allow.
+inline constexpr std::uint64_t kCheapPairBytes = std::uint64_t{8} << 20;
+inline constexpr std::uint64_t kCheapSlotBytes = std::uint64_t{256} << 10;
+/// The most memory that slots get because of a bound, before the need is known, in bytes.
+inline constexpr std::uint64_t kMostBoundBytes = std::uint64_t{64} << 20;
 
 /// The next capacity of a buffer that has room for `there` items, of which a frame needed `asked`: asked × 1.25,
 /// between `least` and `most`. The capacity stays `there` while that is at least `asked` and `least`, and at most about
@@ -69,8 +76,10 @@ struct FinalListBuffers {
 /// Sets what other knobs change in the constants of `lists`, and in visibility_bits and always_complete.
 void set_list_constants(const ShadowKnobs& knobs, FinalLists& lists);
 
-/// Creates the view's images and buffers, with capacities from its FinalListFeedback. LightsOutputs must be on the
-/// board. If there is no memory for the grid, the frame is given up.
-[[nodiscard]] FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs);
+/// Creates the view's images and buffers. They have room for the capacities of its FinalListFeedback, and
+/// by room_for_items(), whose bound is the CPU's tile masks of casting lights. LightsOutputs must be on the board.
+/// rows: one per local light. If there is no memory for the grid, the frame is given up.
+[[nodiscard]] FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs,
+                                                       std::span<const shaders::ShadowRow> rows);
 
 }  // namespace gloam

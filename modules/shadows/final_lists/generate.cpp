@@ -138,7 +138,7 @@ bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knob
 }
 
 void add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes, ShadowsOutputs& shadows) {
-  FinalListBuffers buffers = make_final_list_buffers(frame, knobs);
+  FinalListBuffers buffers = make_final_list_buffers(frame, knobs, *shadows.row_values);
   add_start_pass(frame, buffers.lists);
   add_classify_pass(frame, shadows, planes, buffers);
   if (!frame.status().ok()) return;  // nothing has written the pairs that the next pass reads

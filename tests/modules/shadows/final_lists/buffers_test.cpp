@@ -86,7 +86,7 @@ TEST(FinalListFeedback, of_no_room_at_all_is_a_number) {
   const FinalListNote note{.tiles = 10, .slot_capacity = 0, .pair_capacity = 0};
   const FinalListFeedback feedback = final_list_feedback(counters_of(5000, 0), note, nullptr);
   EXPECT_GE(feedback.pair_capacity, 5000u);
-  EXPECT_GE(feedback.slot_capacity, 10 * kFirstSlotsPerTile);
+  EXPECT_GE(feedback.slot_capacity, 10 * kLeastSlotsPerTile);
   const FinalListFeedback most = final_list_feedback(counters_of(~0u, ~0u), note, &feedback);
   EXPECT_LE(most.slot_capacity, kMost);
   EXPECT_LE(most.slots_asked, kMost);
@@ -120,7 +120,7 @@ TEST(FinalListFeedback, makes_room_for_any_need_in_a_few_frames_and_then_changes
     const std::uint32_t pairs = below(1 + 16 * tiles) / (1 + below(16));
     const double share = std::uniform_real_distribution<double>(0.0, 1.0)(random);
     const std::uint32_t need = std::min(kMost, static_cast<std::uint32_t>(pairs * share));
-    const std::uint32_t first = std::min(kMost, tiles * kFirstSlotsPerTile);
+    const std::uint32_t first = std::min(kMost, tiles * kLeastSlotsPerTile);
     std::optional<FinalListFeedback> known;
     std::vector<std::pair<shaders::ShadowListCounters, FinalListNote>> results;
     for (std::size_t frame = 0; frame < 14; ++frame) {
@@ -142,7 +142,7 @@ TEST(FinalListFeedback, makes_room_for_any_need_in_a_few_frames_and_then_changes
     }
     const std::uint32_t last_slots = results.back().second.slot_capacity;
     // The capacity is at most five times the need.
-    EXPECT_LE(last_slots, std::max(tiles * kFirstSlotsPerTile, need * 5u)) << tiles << ' ' << pairs << ' ' << share;
+    EXPECT_LE(last_slots, std::max(tiles * kLeastSlotsPerTile, need * 5u)) << tiles << ' ' << pairs << ' ' << share;
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include "tests/modules/shadows/support/deferred_scene.h"
 
-// Buffers of deferred shadows grow with what frames ask for.
+// Buffers of deferred shadows begin with a bound from the CPU and then follow what frames ask for.
 
 namespace gloam {
 namespace {
@@ -13,7 +13,7 @@ using test::Dice;
 using DeferredShadowsGrowth = test::DeferredShadowsTest;
 
 // More tile lights than kBytesThatFitAll allows, so that capacities follow what frames ask for.
-TEST_F(DeferredShadowsGrowth, whose_buffers_are_too_small_are_the_same_and_soon_fit) {
+TEST_F(DeferredShadowsGrowth, of_many_lights_have_room_from_the_first_frame_on_and_shrink_to_the_need) {
   put_pillars();
   Dice dice(30);
   set("shadows.filter", "hard");
@@ -31,22 +31,23 @@ TEST_F(DeferredShadowsGrowth, whose_buffers_are_too_small_are_the_same_and_soon_
   }
   settings = test::look_at(dvec3(0.0, 1.4, 2.2), dvec3(0.0, 0.4, -0.5), 320, 200);
   const Drawn monolithic = frame("monolithic");
-  std::vector<double> fallbacks;
+  double first_capacity = 0.0;
   for (int i = 0; i < 7 && !HasFailure(); ++i) {
     expect_same(frame("deferred"), monolithic, "frame " + std::to_string(i));
-    fallbacks.push_back(counter("shadows.fallback_tiles"));
+    EXPECT_EQ(counter("shadows.fallback_tiles"), 0.0) << "frame " << i;
+    if (i == 0) first_capacity = counter("shadows.slot_capacity");
   }
-  EXPECT_GT(fallbacks.front(), 0.0) << "the first frames cannot know the need";
-  EXPECT_EQ(fallbacks[5], 0.0);
-  EXPECT_EQ(fallbacks[6], 0.0);
+  EXPECT_GT(first_capacity, counter("shadows.slot_capacity")) << "a bound is larger than the need";
   EXPECT_GE(counter("shadows.slot_capacity"), counter("shadows.slots"));
-  EXPECT_LE(counter("shadows.slot_capacity"), 1.5 * counter("shadows.slots") + 2000.0);
+  EXPECT_LE(counter("shadows.slot_capacity"), 1.5 * counter("shadows.slots") + 4096.0);
   EXPECT_EQ(counter("shadows.visibility_bytes"), 64.0 * counter("shadows.slot_capacity"));
   // A view with a different need.
   settings = test::look_at(dvec3(0.0, 2.6, 0.4), dvec3(0.0, 0.0, -0.2), 320, 200);
   const Drawn from_above = frame("monolithic");
-  for (int i = 0; i < 6 && !HasFailure(); ++i) expect_same(frame("deferred"), from_above, "from above");
-  EXPECT_EQ(counter("shadows.fallback_tiles"), 0.0);
+  for (int i = 0; i < 6 && !HasFailure(); ++i) {
+    expect_same(frame("deferred"), from_above, "from above");
+    EXPECT_EQ(counter("shadows.fallback_tiles"), 0.0) << "from above, frame " << i;
+  }
   EXPECT_GE(counter("shadows.slot_capacity"), counter("shadows.slots"));
   // Frames that are submitted without waiting for their counters.
   set("shadows.mode", "deferred");
