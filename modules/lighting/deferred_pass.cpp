@@ -119,7 +119,13 @@ PipelineList final_list_pipelines(const ShadingInputs& inputs, const ShadowsOutp
 }
 
 bool final_lists_ready(const FrameServices& services, const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
-  return services.wait_for_pipelines || services.pipelines.request(final_list_pipelines(inputs, shadows), services.log);
+  if (services.wait_for_pipelines) return true;
+  const bool ready = services.pipelines.request(final_list_pipelines(inputs, shadows), services.log);
+  // A later frame may need the fallback although this one does not.
+  if (ready)
+    static_cast<void>(
+        services.pipelines.request({pipeline_of(fallback_program(inputs, shadows), inputs)}, services.log));
+  return ready;
 }
 
 struct Variant {

@@ -23,8 +23,8 @@ std::uint64_t room_for_items(const std::optional<ItemNeed>& known, std::uint64_t
 }
 
 std::uint64_t coarse_capacity(std::uint64_t items) {
-  if (items < 8) return items;
-  const std::uint64_t step = std::bit_floor(items) / 8;
+  if (items < 2) return items;
+  const std::uint64_t step = std::bit_floor(items) / 2;
   return (items + step - 1) / step * step;
 }
 

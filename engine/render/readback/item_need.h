@@ -29,7 +29,8 @@ struct ItemNeed {
 [[nodiscard]] std::uint64_t room_for_items(const std::optional<ItemNeed>& known, std::uint64_t bound,
                                            std::uint64_t cheap, const RenderView& view);
 
-/// `items` rounded up to one of eight steps per power of two, so that a buffer is rarely resized while bounds change.
+/// `items` rounded up to a power of two or one and a half times one, so that a buffer is rarely resized while bounds
+/// change.
 [[nodiscard]] std::uint64_t coarse_capacity(std::uint64_t items);
 
 }  // namespace gloam

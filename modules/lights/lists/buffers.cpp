@@ -105,7 +105,9 @@ void upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightM
     grid.slot_capacity =
         std::max({grid.slot_capacity, room_for_entries(feedback, outputs.entry_bound, view),
                   to_whole_words(std::uint64_t{tile_count} * entries_that_fit_all(grid.local_count, tile_count))});
-  outputs.lists_always_fit = grid.slot_capacity >= std::uint64_t{tile_count} * ((grid.local_count + 2) / 3 * 3);
+  const std::uint64_t most =
+      grid.fixed_slots == 0 ? outputs.entry_bound : std::uint64_t{tile_count} * ((grid.local_count + 2) / 3 * 3);
+  outputs.lists_always_fit = grid.slot_capacity >= most;
   outputs.slot_capacity = grid.slot_capacity;
 
   outputs.grid = frame.upload_uniform(grid);

@@ -34,55 +34,18 @@ BufferRef create(FrameGraph& graph, const char* name, std::uint64_t bytes) {
   return graph.create_buffer(desc);
 }
 
-/// The number of local lights in coarse steps, so that buffers keep their size while single lights come and go.
-std::uint32_t rounded_lights(std::uint32_t count) { return (count + 23) / 24 * 24; }
-
-struct Capacities {
-  std::uint32_t pairs = 0;
-  std::uint32_t slots = 0;
-  bool fit_all = false;
-};
-
-/// The most tile-light pairs that the view's tiles can need.
-std::uint64_t bound_of_pairs(const LightsOutputs& lights, std::span<const shaders::ShadowRow> rows, uvec2 tiles) {
-  std::vector<std::uint32_t> casting((lights.local_count + 31) / 32, 0);
-  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), lights.local_count); ++i)
-    if (rows[i].kind != static_cast<float>(GLOAM_SHADOW_NONE)) casting[i / 32] |= 1u << (i % 32);
-  return most_tile_lights(lights, tiles, casting) + std::uint64_t{tiles.x} * tiles.y * lights.directional_count;
-}
-
-Capacities capacities(const FrameBuilder& frame, const ShadowKnobs& knobs, std::uint32_t bits, std::uint32_t tiles,
-                      std::uint64_t pair_bound) {
+/// The most tile-light pairs that the view's tiles can need. Each takes at most one slot, of whichever module.
+std::uint64_t bound_of_pairs(const FrameBuilder& frame, std::span<const shaders::ShadowRow> rows, uvec2 tiles) {
   const LightsOutputs& lights = *frame.find<LightsOutputs>();
-  const std::uint64_t all = std::uint64_t{tiles} * (rounded_lights(lights.local_count) + lights.directional_count);
-  Capacities c;
-  c.fit_all = all * slot_bytes(bits) <= kBytesThatFitAll && all <= knobs.slot_limit && all <= knobs.pair_limit;
-  const FinalListFeedback* feedback = frame.world().try_view_resource<FinalListFeedback>(frame.view().id);
-  const FinalListFeedback asked = feedback == nullptr ? FinalListFeedback{} : *feedback;
-  const std::uint32_t least = at_most(std::uint64_t{tiles} * kLeastSlotsPerTile, kMostSlots);
-  const std::uint32_t least_pairs = at_most(std::uint64_t{tiles} * kLeastPairsPerTile, kMostPairs);
-  std::optional<ItemNeed> pairs, slots;
-  if (feedback != nullptr) {
-    pairs = ItemNeed{asked.pairs_asked, asked.pair_bound, asked.frame};
-    slots = ItemNeed{asked.slots_asked, asked.pair_bound, asked.frame};
+  const std::span<const Entity> entities = local_lights(frame.world().view_resource<VisibleLights>(frame.view().id));
+  const WithheldCasters* withheld = frame.find<WithheldCasters>();
+  std::vector<std::uint32_t> casting((lights.local_count + 31) / 32, 0);
+  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), lights.local_count); ++i) {
+    const bool has_map = rows[i].kind != static_cast<float>(GLOAM_SHADOW_NONE);
+    const bool drawn_elsewhere = withheld != nullptr && !withheld->of(entities[i]).empty();
+    if (has_map || drawn_elsewhere) casting[i / 32] |= 1u << (i % 32);
   }
-  if (c.fit_all) {
-    c.pairs = c.slots = static_cast<std::uint32_t>(all);
-  } else {
-    const RenderView& view = frame.view();
-    const std::uint64_t room_for_pairs =
-        room_for_items(pairs, pair_bound, kCheapPairBytes / sizeof(std::uint32_t), view);
-    const std::uint64_t room_for_slots =
-        std::min(room_for_items(slots, pair_bound, kCheapSlotBytes / slot_bytes(bits), view),
-                 kMostBoundBytes / slot_bytes(bits));
-    c.pairs = std::max(kept_capacity(asked.pair_capacity, asked.pairs_asked, least_pairs, kMostPairs),
-                       at_most(room_for_pairs, kMostPairs));
-    c.slots = std::max(kept_capacity(asked.slot_capacity, asked.slots_asked, least, kMostSlots),
-                       at_most(room_for_slots, kMostSlots));
-  }
-  c.pairs = std::min(c.pairs, knobs.pair_limit);
-  c.slots = std::min(c.slots, knobs.slot_limit);
-  return c;
+  return most_tile_lights(lights, tiles, casting) + std::uint64_t{tiles.x} * tiles.y * lights.directional_count;
 }
 
 void create_visibilities(FrameGraph& graph, FinalLists& lists) {
@@ -134,6 +97,31 @@ FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counter
   return feedback;
 }
 
+FinalListCapacities final_list_capacities(const FinalListFeedback* feedback, std::uint64_t pair_bound,
+                                          std::uint32_t tiles, const ShadowKnobs& knobs, const RenderView& view) {
+  const std::uint32_t bits = visibility_bits_of(knobs);
+  const FinalListFeedback asked = feedback == nullptr ? FinalListFeedback{} : *feedback;
+  const std::uint32_t least_slots = at_most(std::uint64_t{tiles} * kLeastSlotsPerTile, kMostSlots);
+  const std::uint32_t least_pairs = at_most(std::uint64_t{tiles} * kLeastPairsPerTile, kMostPairs);
+  std::optional<ItemNeed> pairs, slots;
+  if (feedback != nullptr) {
+    pairs = ItemNeed{asked.pairs_asked, asked.pair_bound, asked.frame};
+    slots = ItemNeed{asked.slots_asked, asked.pair_bound, asked.frame};
+  }
+  const std::uint64_t room_for_pairs = room_for_items(pairs, pair_bound, kCheapPairBytes / sizeof(std::uint32_t), view);
+  const std::uint64_t room_for_slots = std::min(
+      room_for_items(slots, pair_bound, kCheapSlotBytes / slot_bytes(bits), view), kMostBoundBytes / slot_bytes(bits));
+  FinalListCapacities c;
+  c.pairs = std::max(kept_capacity(asked.pair_capacity, asked.pairs_asked, least_pairs, kMostPairs),
+                     at_most(room_for_pairs, kMostPairs));
+  c.slots = std::max(kept_capacity(asked.slot_capacity, asked.slots_asked, least_slots, kMostSlots),
+                     at_most(room_for_slots, kMostSlots));
+  c.pairs = std::min(c.pairs, knobs.pair_limit);
+  c.slots = std::min(c.slots, knobs.slot_limit);
+  c.complete = c.pairs >= pair_bound && c.slots >= pair_bound;
+  return c;
+}
+
 void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote& note, CounterSink& sink) {
   const double candidates = std::max(1.0, static_cast<double>(c.candidates));
   sink.count("shadows.tile_lights", c.candidates);
@@ -165,8 +153,9 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   FinalListBuffers made;
   FinalLists& lists = made.lists;
   lists.visibility_bits = visibility_bits_of(knobs);
-  const std::uint64_t pair_bound = bound_of_pairs(lights, rows, tiles);
-  const Capacities c = capacities(frame, knobs, lists.visibility_bits, tile_count, pair_bound);
+  const std::uint64_t pair_bound = bound_of_pairs(frame, rows, tiles);
+  const auto* feedback = frame.world().try_view_resource<FinalListFeedback>(frame.view().id);
+  const FinalListCapacities c = final_list_capacities(feedback, pair_bound, tile_count, knobs, frame.view());
   lists.pair_capacity = c.pairs;
   lists.slot_capacity = c.slots;
 
@@ -181,7 +170,7 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   grid.slot_capacity = c.slots;
   grid.classify = knobs.classify && knobs.early_outs ? 1 : 0;
   lists.always_complete =
-      c.fit_all && grid.entry_capacity == entries && (!lights.has_lists() || lights.lists_always_fit);
+      c.complete && grid.entry_capacity == entries && (!lights.has_lists() || lights.lists_always_fit);
   auto range = frame.services().uniforms.write_value(grid);
   if (frame.check(range)) lists.grid = *range;
 

@@ -38,16 +38,13 @@ struct FinalListNote {
 /// Name of the frame result (FrameBuilder::keep_result) that holds a ShadowListCounters.
 inline constexpr const char* kShadowListResult = "shadow_list_counters";
 
-/// If the visibilities of all lights in all tiles need at most this many bytes, and shadows.slot_limit and
-/// shadows.pair_limit allow it, the view gets buffers for all of them from its first frame on, regardless of feedback.
-/// All lists then fit, and shading needs no fallback (FinalLists::always_complete).
-inline constexpr std::uint64_t kBytesThatFitAll = std::uint64_t{8} << 20;
+/// Pairs and slots of at most this many bytes have room for all that the CPU's tile masks allow, regardless of
+/// feedback. All lists then fit, and shading needs no fallback (FinalLists::always_complete).
+inline constexpr std::uint64_t kCheapPairBytes = std::uint64_t{8} << 20;
+inline constexpr std::uint64_t kCheapSlotBytes = std::uint64_t{16} << 20;
 /// Least visibility slots and tile-light pairs per tile.
 inline constexpr std::uint32_t kLeastSlotsPerTile = 2;
 inline constexpr std::uint32_t kLeastPairsPerTile = 1;
-/// Pairs and slots of at most this many bytes have room for all that the CPU's tile masks allow.
-inline constexpr std::uint64_t kCheapPairBytes = std::uint64_t{8} << 20;
-inline constexpr std::uint64_t kCheapSlotBytes = std::uint64_t{256} << 10;
 /// The most memory that slots get because of a bound, before the need is known, in bytes.
 inline constexpr std::uint64_t kMostBoundBytes = std::uint64_t{64} << 20;
 
@@ -60,6 +57,19 @@ inline constexpr std::uint64_t kMostBoundBytes = std::uint64_t{64} << 20;
 /// The feedback from a frame's counters. note: of the same frame. last: the view's feedback so far, or null.
 [[nodiscard]] FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counters,
                                                     const FinalListNote& note, const FinalListFeedback* last);
+
+/// Pairs and slots that a frame's buffers have room for.
+struct FinalListCapacities {
+  std::uint32_t pairs = 0;
+  std::uint32_t slots = 0;
+  bool complete = false;  ///< there is room for all that the view can need
+};
+/// feedback: of the view, or null. pair_bound: the most pairs that the frame can need, each with at most one slot.
+/// tiles: shadow tiles of the view. Below the limits of the knobs there is room for the capacities of the feedback, and
+/// by room_for_items().
+[[nodiscard]] FinalListCapacities final_list_capacities(const FinalListFeedback* feedback, std::uint64_t pair_bound,
+                                                        std::uint32_t tiles, const ShadowKnobs& knobs,
+                                                        const RenderView& view);
 
 /// Writes the counters shadows.… of final lists into the sink.
 void count_final_lists(const shaders::ShadowListCounters& counters, const FinalListNote& note, CounterSink& sink);
@@ -76,9 +86,9 @@ struct FinalListBuffers {
 /// Sets what other knobs change in the constants of `lists`, and in visibility_bits and always_complete.
 void set_list_constants(const ShadowKnobs& knobs, FinalLists& lists);
 
-/// Creates the view's images and buffers. They have room for the capacities of its FinalListFeedback, and
-/// by room_for_items(), whose bound is the CPU's tile masks of casting lights. LightsOutputs must be on the board.
-/// rows: one per local light. If there is no memory for the grid, the frame is given up.
+/// Creates the view's images and buffers, with final_list_capacities() for the lights that cast by the CPU's tile
+/// masks. LightsOutputs must be on the board. rows: one per local light. If there is no memory for the grid, the frame
+/// is given up.
 [[nodiscard]] FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs,
                                                        std::span<const shaders::ShadowRow> rows);
 

@@ -47,16 +47,16 @@ TEST(RoomForItems, is_the_bound_where_that_is_cheap_and_half_more_than_expected_
   EXPECT_EQ(room_for_items(std::nullopt, 10000, 128, view_at(3, 0)), coarse_capacity(10000));
 }
 
-TEST(CoarseCapacity, holds_the_items_in_eight_steps_a_power_of_two) {
+TEST(CoarseCapacity, holds_the_items_in_two_steps_a_power_of_two) {
   for (std::uint64_t items = 0; items < 5000; ++items) {
     const std::uint64_t capacity = coarse_capacity(items);
     EXPECT_GE(capacity, items);
-    EXPECT_LE(capacity, items + items / 8 + 1);
+    EXPECT_LE(capacity, items + items / 2 + 1);
     EXPECT_EQ(coarse_capacity(capacity), capacity);
   }
-  EXPECT_EQ(coarse_capacity(1025), 1152u);
-  EXPECT_EQ(coarse_capacity(1152), 1152u);
-  EXPECT_EQ(coarse_capacity(1153), 1280u);
+  EXPECT_EQ(coarse_capacity(1025), 1536u);
+  EXPECT_EQ(coarse_capacity(1536), 1536u);
+  EXPECT_EQ(coarse_capacity(1537), 2048u);
 }
 
 }  // namespace

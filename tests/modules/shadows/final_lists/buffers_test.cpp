@@ -146,6 +146,53 @@ TEST(FinalListFeedback, makes_room_for_any_need_in_a_few_frames_and_then_changes
   }
 }
 
+RenderView view_at(std::uint64_t frame, std::uint64_t cut_frame) {
+  RenderView view;
+  view.frame = frame;
+  view.cut_frame = cut_frame;
+  return view;
+}
+
+TEST(FinalListCapacities, hold_all_that_a_frame_can_need_until_a_need_is_known) {
+  const FinalListCapacities few = final_list_capacities(nullptr, 100000, 3600, {}, view_at(0, 0));
+  EXPECT_TRUE(few.complete);
+  EXPECT_GE(few.slots, 100000u);
+  EXPECT_LE(few.slots, 150000u);
+  const FinalListCapacities many = final_list_capacities(nullptr, 900000, 14400, {}, view_at(0, 0));
+  EXPECT_TRUE(many.complete) << "57 MB";
+  const FinalListCapacities too_many = final_list_capacities(nullptr, 5000000, 14400, {}, view_at(0, 0));
+  EXPECT_FALSE(too_many.complete);
+  EXPECT_EQ(too_many.slots * std::uint64_t{64}, kMostBoundBytes);
+}
+
+TEST(FinalListCapacities, of_costly_bounds_follow_the_need) {
+  const FinalListFeedback known{.pairs_asked = 30000,
+                                .slots_asked = 20000,
+                                .pair_capacity = 37500,
+                                .slot_capacity = 28800,
+                                .pair_bound = 600000,
+                                .frame = 5};
+  const FinalListCapacities c = final_list_capacities(&known, 600000, 14400, {}, view_at(7, 0));
+  EXPECT_FALSE(c.complete);
+  EXPECT_EQ(c.slots * std::uint64_t{64}, kCheapSlotBytes) << "the bound asks for 38 MB";
+  EXPECT_GE(c.pairs, 600000u) << "pairs are small";
+  const FinalListCapacities cut = final_list_capacities(&known, 600000, 14400, {}, view_at(7, 6));
+  EXPECT_TRUE(cut.complete) << "what was known before a camera cut tells nothing";
+}
+
+TEST(FinalListCapacities, stay_below_the_limits_of_the_knobs) {
+  ShadowKnobs knobs;
+  knobs.slot_limit = 10;
+  const FinalListCapacities slots = final_list_capacities(nullptr, 1000, 100, knobs, view_at(0, 0));
+  EXPECT_EQ(slots.slots, 10u);
+  EXPECT_FALSE(slots.complete);
+  knobs.slot_limit = 2000;
+  knobs.pair_limit = 20;
+  const FinalListCapacities pairs = final_list_capacities(nullptr, 1000, 100, knobs, view_at(0, 0));
+  EXPECT_EQ(pairs.pairs, 20u);
+  EXPECT_FALSE(pairs.complete);
+}
+
 struct Counted final : CounterSink {
   void count(std::string_view name, double value) override { values[std::string(name)] = value; }
   std::map<std::string, double> values;
