@@ -15,11 +15,11 @@ const std::string& module_of(const AnyDesc& desc) {
 }
 
 template <class Desc>
-std::uint64_t key_of(const Desc& desc) {
+std::uint64_t hash_of(const Desc& desc) {
   return Hasher().text(desc.module).value(gpu::description_hash(desc, gpu::ShaderIdentity::address)).digest();
 }
-std::uint64_t key_of(const AnyDesc& desc) {
-  return std::visit([](const auto& d) { return key_of(d); }, desc);
+std::uint64_t key_of_any(const AnyDesc& desc) {
+  return std::visit([](const auto& d) { return hash_of(d); }, desc);
 }
 
 std::string_view shader_of(const gpu::ComputePipelineDesc& desc) { return desc.shader.name; }
@@ -38,6 +38,9 @@ std::string name_of(const Desc& desc) {
 }
 
 }  // namespace
+
+std::uint64_t Pipelines::key_of(const gpu::ComputePipelineDesc& desc) { return hash_of(desc); }
+std::uint64_t Pipelines::key_of(const gpu::GraphicsPipelineDesc& desc) { return hash_of(desc); }
 
 Pipelines::~Pipelines() {
   worker_ = std::jthread();  // stops the worker and waits for it
@@ -78,7 +81,7 @@ bool Pipelines::request(const PipelineList& list, LogSink& log) {
   const std::lock_guard lock(mutex_);
   bool ready = true;
   for (const AnyDesc& desc : list) {
-    const std::uint64_t key = key_of(desc);
+    const std::uint64_t key = key_of_any(desc);
     if (entries_.contains(key) || failed_.contains(key)) continue;
     ready = false;
     if (begun_.insert(key).second) queue_.push_back(desc);
@@ -104,15 +107,15 @@ void Pipelines::run_worker(const std::stop_token& stop, LogSink& log) {
     const std::string name = std::visit([](const auto& d) { return name_of(d); }, desc);
     if (!made.ok()) log.warning("pipeline " + name + " failed in the background: " + made.error().message);
     lock.lock();
-    begun_.erase(key_of(desc));
-    if (!made.ok()) failed_.insert_or_assign(key_of(desc), module_of(desc));
+    begun_.erase(key_of_any(desc));
+    if (!made.ok()) failed_.insert_or_assign(key_of_any(desc), module_of(desc));
   }
 }
 
 void Pipelines::release(std::string_view module) {
   const std::lock_guard lock(mutex_);
   for (const AnyDesc& desc : queue_)
-    if (module_of(desc) == module) begun_.erase(key_of(desc));
+    if (module_of(desc) == module) begun_.erase(key_of_any(desc));
   std::erase_if(queue_, [&](const AnyDesc& desc) { return module_of(desc) == module; });
   std::erase_if(failed_, [&](const auto& failed) { return failed.second == module; });
   for (auto it = entries_.begin(); it != entries_.end();) {

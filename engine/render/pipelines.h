@@ -41,6 +41,10 @@ class Pipelines {
   [[nodiscard]] gpu::PipelineHandle find(const gpu::ComputePipelineDesc& desc) const;
   [[nodiscard]] gpu::PipelineHandle find(const gpu::GraphicsPipelineDesc& desc) const;
 
+  /// Identifies module and description.
+  [[nodiscard]] static std::uint64_t key_of(const gpu::ComputePipelineDesc& desc);
+  [[nodiscard]] static std::uint64_t key_of(const gpu::GraphicsPipelineDesc& desc);
+
   /// Whether all pipelines of a list are compiled. Missing ones are compiled in the background, each once. If one fails
   /// there, the error is logged and the pipeline counts as ready, so that `get` returns the error.
   [[nodiscard]] bool request(const PipelineList& list, LogSink& log);

@@ -187,6 +187,7 @@ Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   results.begin_frame();
   graph.begin();
   declared.recordings.begin_frame();
+  declared.due_pipelines.begin_frame();
   history.begin_frame();
   cuts.begin_frame();
   builders.clear();
@@ -203,6 +204,10 @@ Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   for (std::size_t i = 0; i < frame_views.size(); ++i) GLOAM_TRY(add_view(world, i));
   graph.set_view(0);
   GLOAM_TRY(results.add_pass(graph));
+  {
+    const ScopedZone zone(options.zones, "make_pipelines", "engine");
+    GLOAM_TRY(declared.due_pipelines.make_all(pipelines, *options.executor));
+  }
   {
     const ScopedZone zone(options.zones, "compile_frame_graph", "engine");
     GLOAM_TRY(graph.compile());

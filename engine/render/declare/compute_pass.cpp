@@ -73,16 +73,14 @@ ComputePass::ComputePass(FrameBuilder& frame, std::string_view name, const Compu
 void ComputePass::use(const ComputeProgram& program) {
   constants_ = program.constants;
   auto interface = frame().services().declared.interfaces.of(program.shader);
-  auto pipeline = frame().services().pipelines.get(pipeline_desc(program, frame().module()));
   if (!interface.ok()) return fail(interface.error());
-  if (!pipeline.ok()) return fail(pipeline.error());
-  pipeline_ = *pipeline;
+  use_pipeline(pipeline_desc(program, frame().module()));
   ShaderPass::use(*interface);
 }
 
 void ComputePass::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   if (!has_program()) return;
-  Step& step = add_step(StepKind::dispatch, pipeline_);
+  Step& step = add_step(StepKind::dispatch);
   step.counts[0] = x;
   step.counts[1] = y;
   step.counts[2] = z;
@@ -105,7 +103,7 @@ void ComputePass::dispatch_over(std::uint32_t x, std::uint32_t y, std::uint32_t 
 void ComputePass::dispatch_indirect(BufferRef arguments, std::uint64_t offset) {
   if (!has_program()) return;
   graph_pass().read(arguments, gpu::Access::indirect_read);
-  Step& step = add_step(StepKind::dispatch_indirect, pipeline_);
+  Step& step = add_step(StepKind::dispatch_indirect);
   step.arguments = arguments;
   step.offset = offset;
 }

@@ -42,7 +42,6 @@ class ComputePass : public ShaderPass {
 
  private:
   [[nodiscard]] std::uint32_t local_size(std::size_t axis) const;
-  gpu::PipelineHandle pipeline_;
   std::vector<gpu::SpecConstant> constants_;
 };
 

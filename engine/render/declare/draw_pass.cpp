@@ -111,7 +111,7 @@ void DrawPass::test_depth(ImageRef image) {
 
 void DrawPass::use(const DrawProgram& program) {
   program_ = program;
-  pipeline_ = {};
+  forget_pipeline();
   const gpu::ShaderCode& vertex = program.vertex.words.empty() ? shaders::render::fullscreen_vert : program.vertex;
   auto interface = frame().services().declared.interfaces.of(vertex, program.fragment);
   if (!interface.ok()) return fail(interface.error());
@@ -125,9 +125,9 @@ void DrawPass::use(const SurfacePass& surfaces) {
   ShaderPass::use(*interface);
 }
 
-bool DrawPass::make_pipeline() {
+bool DrawPass::choose_pipeline() {
   if (!has_program() || recording().failed) return false;
-  if (pipeline_) return true;
+  if (has_pipeline()) return true;
   std::vector<gpu::Format> colors;
   for (const declare::Target& target : recording().colors) colors.push_back(frame().graph().desc(target.image).format);
   const ImageRef depth = recording().depth.image;
@@ -135,26 +135,21 @@ bool DrawPass::make_pipeline() {
   GLOAM_ASSERT(!program_.depth_write || (depth && !recording().depth_read_only),
                sentence("", "a program that writes depth needs a depth target"));
   const gpu::Format depth_format = depth ? frame().graph().desc(depth).format : gpu::Format::undefined;
-  auto made = frame().services().pipelines.get(pipeline_desc(program_, frame().module(), colors, depth_format));
-  if (!made.ok()) {
-    fail(made.error());
-    return false;
-  }
-  pipeline_ = *made;
+  use_pipeline(pipeline_desc(program_, frame().module(), colors, depth_format));
   return true;
 }
 
 void DrawPass::draw(std::uint32_t vertices, std::uint32_t instances) {
-  if (!make_pipeline()) return;
-  Step& step = add_step(StepKind::draw, pipeline_);
+  if (!choose_pipeline()) return;
+  Step& step = add_step(StepKind::draw);
   step.counts[0] = vertices;
   step.counts[1] = instances;
 }
 
 void DrawPass::draw_indirect(BufferRef arguments, std::uint64_t offset) {
-  if (!make_pipeline()) return;
+  if (!choose_pipeline()) return;
   graph_pass().read(arguments, gpu::Access::indirect_read);
-  Step& step = add_step(StepKind::draw_indirect, pipeline_);
+  Step& step = add_step(StepKind::draw_indirect);
   step.arguments = arguments;
   step.offset = offset;
 }
@@ -165,7 +160,7 @@ void DrawPass::surfaces(std::span<const Draw> draws) {
   if (const Status made = frame().prepare_surfaces(draws, recording().surface_passes.back()); !made.ok())
     return fail(made.error());
   frame().read_vertices(graph_pass(), recording().surface_passes.back().motion);
-  Step& step = add_step(StepKind::surfaces, {});
+  Step& step = add_step(StepKind::surfaces);
   step.draws = draws;
   step.surface_pass = recording().surface_passes.size() - 1;
 }

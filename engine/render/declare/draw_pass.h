@@ -59,9 +59,8 @@ class DrawPass : public ShaderPass {
   void surfaces(std::span<const Draw> draws);
 
  private:
-  [[nodiscard]] bool make_pipeline();
+  [[nodiscard]] bool choose_pipeline();
   DrawProgram program_;
-  gpu::PipelineHandle pipeline_;
 };
 
 /// Declares the images of the geometry buffer as targets of a pass in PassPhase::geometry: base_color, normals,

@@ -64,7 +64,7 @@ std::span<const gpu::Binding> bindings_of(const Recording& recording, const Step
 void begin_step(const Recording& recording, const Step& step, PassContext& context,
                 std::vector<gpu::Binding>& storage) {
   gpu::CommandList& commands = context.commands();
-  commands.bind_pipeline(step.pipeline);
+  commands.bind_pipeline(step.due == nullptr ? step.pipeline : *step.due);
   commands.bind(bindings_of(recording, step, context, storage));
   if (step.push_bytes > 0)
     commands.push_constants(std::span(recording.pushes).subspan(step.first_push, step.push_bytes));

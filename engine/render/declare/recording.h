@@ -11,6 +11,7 @@
 
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
+#include "engine/render/declare/due_pipelines.h"
 #include "engine/render/declare/placeholders.h"
 #include "engine/render/declare/shader_interface.h"
 #include "engine/render/draws/draw_lists.h"
@@ -42,7 +43,8 @@ enum class StepKind : std::uint8_t { dispatch, dispatch_indirect, draw, draw_ind
 
 struct Step {
   StepKind kind = StepKind::custom;
-  gpu::PipelineHandle pipeline;
+  gpu::PipelineHandle pipeline;              ///< null: *due
+  const gpu::PipelineHandle* due = nullptr;  ///< of DuePipelines
   std::uint32_t first_bound = 0;
   std::uint32_t bound_count = 0;
   std::uint32_t first_push = 0;  ///< bytes
@@ -100,6 +102,7 @@ struct State {
   ShaderInterfaces interfaces;
   Placeholders placeholders;
   Recordings recordings;
+  DuePipelines due_pipelines;
 };
 
 /// The bindings of a step. The span is valid until the next call with the same storage.

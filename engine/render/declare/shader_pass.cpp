@@ -212,12 +212,28 @@ void ShaderPass::bind_view_constants() {
   set(*slot, item);
 }
 
-declare::Step& ShaderPass::add_step(declare::StepKind kind, gpu::PipelineHandle pipeline) {
+void ShaderPass::forget_pipeline() {
+  pipeline_ = {};
+  due_pipeline_ = nullptr;
+}
+
+template <class Desc>
+void ShaderPass::use_or_await(const Desc& desc) {
+  const FrameServices& services = frame_.services();
+  forget_pipeline();
+  pipeline_ = services.pipelines.find(desc);
+  if (!pipeline_) due_pipeline_ = services.declared.due_pipelines.add(desc);
+}
+template void ShaderPass::use_or_await(const gpu::ComputePipelineDesc&);
+template void ShaderPass::use_or_await(const gpu::GraphicsPipelineDesc&);
+
+declare::Step& ShaderPass::add_step(declare::StepKind kind) {
   GLOAM_ASSERT(interface_ != nullptr, sentence("", "a program must be chosen before it is dispatched or drawn"));
   bind_view_constants();
   declare::Step& step = recording_.steps.emplace_back();
   step.kind = kind;
-  step.pipeline = pipeline;
+  step.pipeline = pipeline_;
+  step.due = due_pipeline_;
   step.first_push = recording_.first_push;
   step.push_bytes = recording_.push_bytes;
   // Each surface has its own push constants.

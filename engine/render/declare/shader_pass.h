@@ -95,13 +95,21 @@ class ShaderPass {
   [[nodiscard]] bool has_program() const { return interface_ != nullptr; }
   [[nodiscard]] const ShaderInterface& interface() const { return *interface_; }
   /// Adds a dispatch or draw with the bindings and push constants in force. Asserts that every used binding is bound.
-  declare::Step& add_step(declare::StepKind kind, gpu::PipelineHandle pipeline);
+  declare::Step& add_step(declare::StepKind kind);
+  /// Later dispatches or draws use this pipeline. If it does not exist, it is compiled before the frame is recorded,
+  /// together with all others that the frame needs.
+  void use_pipeline(const gpu::ComputePipelineDesc& desc) { use_or_await(desc); }
+  void use_pipeline(const gpu::GraphicsPipelineDesc& desc) { use_or_await(desc); }
+  void forget_pipeline();
+  [[nodiscard]] bool has_pipeline() const { return pipeline_ || due_pipeline_ != nullptr; }
   [[nodiscard]] FrameBuilder& frame() { return frame_; }
   [[nodiscard]] declare::Recording& recording() { return recording_; }
   [[nodiscard]] std::string sentence(std::string_view binding, std::string_view fault) const;
   void fail(Error error);
 
  private:
+  template <class Desc>
+  void use_or_await(const Desc& desc);
   [[nodiscard]] const InterfaceBinding* expect(std::string_view binding, bool image, bool write);
   void set(const InterfaceBinding& slot, const declare::Item& item);
   void bind_image(const InterfaceBinding& slot, ImageRef image, gpu::SamplerHandle sampler,
@@ -117,6 +125,8 @@ class ShaderPass {
   PassBuilder graph_pass_;
   declare::Recording& recording_;
   const ShaderInterface* interface_ = nullptr;
+  gpu::PipelineHandle pipeline_;                       ///< null: the one that is due
+  const gpu::PipelineHandle* due_pipeline_ = nullptr;  ///< of DuePipelines
 };
 
 /// Binds images of the geometry buffer for nearest sampling: those of base_color_image, normal_image, material_image,
