@@ -14,6 +14,7 @@ find_package(embree 3 REQUIRED)
 find_library(GLOAM_LIBDEFLATE deflate REQUIRED)  # has no CMake package: targets link it by name
 find_path(GLOAM_XXHASH_HEADERS xxhash.h REQUIRED)  # header only, has no CMake package
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+find_program(SPIRV_OPT spirv-opt REQUIRED)
 if(GLOAM_SANDBOX)
   find_package(glfw3 REQUIRED)
   find_package(CLI11 REQUIRED)

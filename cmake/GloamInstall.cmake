@@ -43,7 +43,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/gloamConfig.cmake.in $
 # Below 1.0 a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/gloamConfig.cmake ${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/GloamShaders.cmake DESTINATION ${gloam_package_dir} COMPONENT gloam)
+  ${PROJECT_SOURCE_DIR}/cmake/GloamShaders.cmake ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake DESTINATION ${gloam_package_dir} COMPONENT gloam)
 
 # Headers keep their paths relative to the root, below include/gloam. Targets add that folder to the include path, so
 # that `#include "engine/…"` works and nothing else in include/ is shadowed. Of modules only the public headers are

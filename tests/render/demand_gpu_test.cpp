@@ -100,7 +100,7 @@ class DemandOnGpu : public ::testing::Test {
     device_ = test::make_test_device();
     GLOAM_REQUIRE_GPU(device_);
     gate_ = std::make_unique<test::GatedDevice>(*device_);
-    executor_ = make_pool_executor(2);
+    executor_ = make_serial_executor();  // a pipeline that a frame makes itself is made on this thread
   }
   void TearDown() override {
     if (gate_) gate_->open();  // a thread that waits at the gate would never end

@@ -277,6 +277,7 @@ TEST_F(ShadowReadiness, frames_come_without_shadows_and_then_with_them_and_none_
 
 TEST_F(ShadowReadiness, shadows_stay_while_the_pipeline_of_shorter_lists_is_made) {
   ASSERT_TRUE(renderer_->knobs().set("shadows.mode", "monolithic").ok());
+  ASSERT_TRUE(renderer_->knobs().set("lights.fixed_slots", "30").ok());
   std::vector<Entity> lamps;
   for (int i = 0; i < 60; ++i) {  // too many for every list to hold all lamps
     lamps.push_back(call_for("lights"));

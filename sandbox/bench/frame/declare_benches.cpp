@@ -67,6 +67,7 @@ class HundredPasses {
   [[nodiscard]] Status declare() {
     graph_.begin();
     declared_.recordings.begin_frame();
+    declared_.due_pipelines.begin_frame();
     uniforms_.begin_frame();
     shared_.clear();
     frame_.emplace(services_, graph_, world_, view_, scene_, draws_, 0, shared_);
@@ -91,6 +92,7 @@ class HundredPasses {
       pass.record([this](PassContext&) { ++recorded_; });
     }
     GLOAM_TRY(frame_->status());
+    GLOAM_TRY(declared_.due_pipelines.make_all(pipelines_, *executor_));
     return graph_.compile();
   }
 
