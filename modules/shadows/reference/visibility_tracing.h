@@ -31,7 +31,8 @@ inline constexpr double kEmitterClearance_m = 0.05;
 /// buffer and transforms.
 inline constexpr double kRayStart_m = 1e-4;
 inline constexpr double kRayStartPerMetre = 2e-5;
-/// Sine of an angle below the surface, several times the rounding error of face normals, which have 16 bits a component.
+/// Sine of an angle below the surface, several times the rounding error of face normals, which have 16 bits a
+/// component.
 inline constexpr double kBehindSine = 2e-4;
 /// Default number of rays per light and pixel.
 inline constexpr std::uint32_t kVisibilitySamples = 256;

@@ -281,6 +281,7 @@ TEST_F(DeclaredPass, a_pipeline_that_cannot_be_made_gives_the_frame_up_with_its_
       ComputePass pass(frame, "tested", code::double_numbers_comp);
       pass.read("source", source);
       doubled = pass.write("target", buffer_of(frame, "doubled", 1024));
+      pass.uniform("uniforms", std::uint32_t{3});
       pass.push(std::uint32_t{100});
       pass.dispatch_over(100);
     }
