@@ -88,6 +88,7 @@ class CloseupsModule final : public Module {
 
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
     prepare_closeup_view(world, view);
+    world.set_view_resource(view, OverlayRoom{.wanted = closeup_knobs(knobs).max_pairs > 0});
     world.view_resource<CloseupSettings>(view) =
         closeup_settings(closeup_knobs(knobs), knobs.is("shadows.mode", "deferred"));
   }

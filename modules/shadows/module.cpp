@@ -102,7 +102,7 @@ class ShadowsModule final : public Module {
       last_ = LastInputs{frame.get<ShadowsOutputs>(), *lights};
     if (const auto& outputs = frame.get<ShadowsOutputs>(); outputs.final_lists) {
       const auto tools =
-          std::make_shared<ShadowMapTools>(ShadowMapTools{states_, shadow_knobs(frame.knobs()), outputs.block_values});
+          std::make_shared<ShadowMapTools>(ShadowMapTools{states_, knobs_of(frame), outputs.block_values});
       frame.put(ShadowMapDrawer(tools));
       frame.put(OverlayMaps(tools));
     }

@@ -254,6 +254,12 @@ struct OverlayFace {
   }
 };
 
+/// Whether later modules want to make overlays; a view resource. The shadows module resets it in Module::prepare_view;
+/// a later module sets it in its own. The atlas then keeps as much free room as faces take.
+struct OverlayRoom {
+  bool wanted = false;
+};
+
 struct ShadowViews;
 class FreeSquares;
 

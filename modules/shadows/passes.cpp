@@ -63,6 +63,12 @@ void add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps
 
 }  // namespace
 
+ShadowKnobs knobs_of(const FrameBuilder& frame) {
+  ShadowKnobs knobs = shadow_knobs(frame.knobs());
+  knobs.atlas_size = frame.world().view_resource<ShadowViews>(frame.view().id).atlas.size();
+  return knobs;
+}
+
 ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& registry) {
   const ShadowKnobs knobs = shadow_knobs(registry);
   ShadowsOutputs other = now;
@@ -76,8 +82,8 @@ ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& registr
 }
 
 void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
-  const ShadowKnobs knobs = shadow_knobs(frame.knobs());
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+  const ShadowKnobs knobs = knobs_of(frame);
   states.begin(frame.services().device);
   ShadowsOutputs outputs;
   add_shadow_uploads(frame, states, views, knobs, outputs);

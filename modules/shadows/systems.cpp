@@ -100,8 +100,10 @@ void shadow_bounds_system(ViewResource<const VisibleLights> visible,
 }
 
 void shadow_views_system(ViewResource<const VisibleLights> visible, ViewResource<const RenderView> view,
-                         ViewResource<const ShadowSettings> settings, ViewResource<const CasterBounds> casters,
-                         ShadowLights lights, ViewResource<ShadowViews> shadows, JobExecutor& jobs) {
+                         ViewResource<const ShadowSettings> settings, ViewResource<const OverlayRoom> overlays,
+                         ViewResource<const CasterBounds> casters, ShadowLights lights,
+                         ViewResource<ShadowViews> shadows, JobExecutor& jobs) {
+  shadows->spare_for_overlays = overlays->wanted;
   const std::vector<ShadowLight> local = gather(local_lights(*visible), lights, jobs);
   const std::vector<ShadowLight> directional = gather(directional_lights(*visible), lights, jobs);
   find_shadows(local, directional, *view, *settings, *casters, jobs, *shadows);
@@ -131,6 +133,7 @@ ViewId owner_of_captures(const ShadowKnobs& knobs) {
 void prepare_shadow_view(World& world, ViewId view, const ShadowKnobs& knobs) {
   if (world.try_view_resource<CasterBounds>(view) == nullptr) world.set_view_resource(view, CasterBounds{});
   if (world.try_view_resource<ShadowSettings>(view) == nullptr) world.set_view_resource(view, ShadowSettings{});
+  world.set_view_resource(view, OverlayRoom{});
   if (world.try_view_resource<ShadowViews>(view) == nullptr) world.set_view_resource(view, ShadowViews{});
   auto& views = world.view_resource<ShadowViews>(view);
   const auto* render_view = world.try_view_resource<RenderView>(view);

@@ -226,8 +226,9 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
   shadows.texels_per_pixel = local_density(settings, plans, sharers, shadows.texels_per_pixel);
   request_local(local, shadows, plans);
   request_directional(directional, view, shadows, plans);
+  const std::uint32_t side = shadows.side.next(plans.requests, shadows.spare_for_overlays, settings.atlas_size);
   const FacePlaces places = shadows.shared == nullptr
-                                ? shadows.atlas.place(settings.atlas_size, plans.requests)
+                                ? shadows.atlas.place(side, plans.requests)
                                 : shadows.shared->place(view.frame, settings.atlas_size, plans.requests);
   if (shadows.shared != nullptr) shadows.atlas = shadows.shared->atlas();
   shadows.faces_shrunk = places.shrunk;

@@ -208,6 +208,23 @@ void add_free(std::uint32_t level, std::uint32_t block, std::span<const BlockStr
 
 }  // namespace
 
+std::uint32_t AtlasSide::next(std::span<const FaceRequest> requests, bool spare, std::uint32_t most) {
+  std::uint64_t texels = 0;
+  std::uint32_t needed = kLeast;
+  for (const FaceRequest& request : requests) {
+    texels += area(request.size) * (spare ? 2 : 1);
+    needed = std::max(needed, request.size);
+  }
+  needed = std::min(needed, most);
+  while (area(needed) < texels && needed < most) needed *= 2;
+  frames_too_large_ = needed < side_ && side_ <= most ? frames_too_large_ + 1 : 0;
+  if (needed > side_ || side_ > most || frames_too_large_ > kFramesKept) {
+    side_ = needed;
+    frames_too_large_ = 0;
+  }
+  return side_;
+}
+
 FreeSquares::FreeSquares(std::uint32_t size, std::span<const AtlasSquare> taken) {
   GLOAM_ASSERT(std::has_single_bit(size) && size >= kSmallest && level_of(size) < kMostLevels,
                "an atlas' side is a power of two, at least the smallest face's");

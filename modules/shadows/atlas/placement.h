@@ -36,6 +36,20 @@ struct FaceRequest {
   float importance = 0.0f;  ///< ≥ 0
 };
 
+/// Chooses the side of an atlas by what the faces of each frame ask for.
+class AtlasSide {
+ public:
+  /// Texels of the side for a frame with these requests: the smallest power of two that holds them (twice their texels,
+  /// if `spare`), at most `most`. Grows at once, and shrinks after kFramesKept frames that needed less.
+  [[nodiscard]] std::uint32_t next(std::span<const FaceRequest> requests, bool spare, std::uint32_t most);
+  static constexpr std::uint32_t kFramesKept = 120;
+  static constexpr std::uint32_t kLeast = 256;  ///< texels
+
+ private:
+  std::uint32_t side_ = 0;
+  std::uint32_t frames_too_large_ = 0;
+};
+
 /// The places of the requests.
 struct FacePlaces {
   std::vector<AtlasSquare> squares;  ///< in the order of the requests; size 0: no place

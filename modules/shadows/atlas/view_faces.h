@@ -35,6 +35,8 @@ struct ShadowViews {
   std::uint32_t faces_left_out = 0;  ///< faces without a place, even at the smallest size: their lights cast no shadow
   std::uint32_t casting_lights = 0;  ///< lights that requested faces
   ShadowAtlas atlas;                 ///< places of the faces; kept from frame to frame
+  AtlasSide side;                    ///< texels of the atlas' side; kept from frame to frame
+  bool spare_for_overlays = false;   ///< the atlas keeps room for overlays
   ViewId owner{0};                   ///< of the atlas: the view itself, or a number that captures share
   std::shared_ptr<SharedPlaces> shared;  ///< null: the view has an atlas of its own
   float texels_per_pixel = 0.0f;         ///< density of local lights' maps; kept from frame to frame; 0: no frame yet

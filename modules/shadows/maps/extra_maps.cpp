@@ -15,6 +15,8 @@
 namespace gloam {
 namespace {
 
+constexpr std::uint32_t kExtraTexels = 2048 * 2048;  // texels of the maps that one call of draw() accepts
+
 struct ExtraWork : MapWork {
   std::vector<Caster> casters;  ///< draws point to these
 };
@@ -108,7 +110,7 @@ ExtraAtlas ShadowMapDrawer::create(FrameBuilder& frame, std::uint32_t size) cons
 }
 
 std::size_t ShadowMapDrawer::most_maps(std::uint32_t size) {
-  return std::min(std::max(kScratchTexels / size / size, 1u), kMostScratchLayers);
+  return std::min(std::max(kExtraTexels / size / size, 1u), kMostScratchLayers);
 }
 
 void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<const ExtraMap> maps,

@@ -12,8 +12,8 @@ namespace gloam {
 
 /// The scratch images that faces are drawn into: one depth array per face size, all in the same memory, so only one of
 /// them holds data at a time. The frame graph does not track them: if it did, each different set of drawn faces would
-/// need another frame-graph plan. Memory: 4 bytes per texel, that is 16 MiB (kScratchTexels), or 64 MiB when a face has
-/// a side of kMostFace texels.
+/// need another frame-graph plan. Memory: 4 bytes per texel, that is 4 MiB (kScratchTexels) with faces of up to 1024²
+/// texels, 64 MiB when a face has a side of kMostFace texels, and 16 MiB for maps outside the standard atlas.
 class ShadowScratch {
  public:
   /// Makes room for a batch of faces of one size with `texels` texels together. May replace all images, so call it

@@ -21,7 +21,7 @@ struct ScratchPlan {
 };
 
 /// Most texels of a batch, unless a single face has more.
-inline constexpr std::uint32_t kScratchTexels = 2048 * 2048;
+inline constexpr std::uint32_t kScratchTexels = 1024 * 1024;
 inline constexpr std::uint32_t kMostScratchLayers = 256;
 
 /// Sorts faces into batches of one size, the largest size first. sizes: texels of each face's side, powers of two.

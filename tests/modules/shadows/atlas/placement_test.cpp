@@ -255,5 +255,46 @@ TEST(ShadowAtlas, keeps_every_square_of_unchanged_requests_when_nothing_has_to_s
   }
 }
 
+std::vector<FaceRequest> requests_of(std::size_t count, std::uint32_t size) {
+  std::vector<FaceRequest> requests;
+  for (std::size_t i = 0; i < count; ++i) requests.push_back({{Entity{static_cast<std::uint32_t>(i), 1}}, size, 1.0f});
+  return requests;
+}
+
+TEST(AtlasSide, is_the_smallest_that_holds_the_faces_up_to_the_most) {
+  const auto first = [](std::size_t count, std::uint32_t size, bool spare, std::uint32_t most) {
+    AtlasSide side;
+    return side.next(requests_of(count, size), spare, most);
+  };
+  EXPECT_EQ(first(0, 0, false, 4096), AtlasSide::kLeast);
+  EXPECT_EQ(first(4, 1024, false, 4096), 2048u);
+  EXPECT_EQ(first(5, 1024, false, 4096), 4096u);
+  EXPECT_EQ(first(1, 2048, false, 4096), 2048u);
+  EXPECT_EQ(first(1000, 1024, false, 4096), 4096u);
+  EXPECT_EQ(first(1, 2048, false, 1024), 1024u) << "a face larger than the atlas is shrunk";
+  EXPECT_EQ(first(4, 1024, true, 4096), 4096u) << "with room for a copy of each face";
+  EXPECT_EQ(first(2, 1024, true, 4096), 2048u);
+}
+
+TEST(AtlasSide, grows_at_once_and_shrinks_after_120_frames) {
+  AtlasSide side;
+  EXPECT_EQ(side.next(requests_of(1, 512), false, 4096), 512u);
+  EXPECT_EQ(side.next(requests_of(5, 1024), false, 4096), 4096u);
+  for (std::uint32_t frame = 0; frame < AtlasSide::kFramesKept; ++frame)
+    ASSERT_EQ(side.next(requests_of(1, 512), false, 4096), 4096u) << frame;
+  EXPECT_EQ(side.next(requests_of(1, 512), false, 4096), 512u);
+  // A frame that needs the large atlas begins the wait anew.
+  EXPECT_EQ(side.next(requests_of(5, 1024), false, 4096), 4096u);
+  for (int frame = 0; frame < 100; ++frame) static_cast<void>(side.next(requests_of(1, 512), false, 4096));
+  EXPECT_EQ(side.next(requests_of(5, 1024), false, 4096), 4096u);
+  for (int frame = 0; frame < 100; ++frame) EXPECT_EQ(side.next(requests_of(1, 512), false, 4096), 4096u);
+}
+
+TEST(AtlasSide, follows_a_smaller_limit_at_once) {
+  AtlasSide side;
+  EXPECT_EQ(side.next(requests_of(9, 1024), false, 4096), 4096u);
+  EXPECT_EQ(side.next(requests_of(9, 1024), false, 2048), 2048u);
+}
+
 }  // namespace
 }  // namespace gloam
