@@ -62,11 +62,11 @@ std::vector<CloseupView> placed(std::span<const CloseupView> batch) {
   return pairs;
 }
 
-void draw_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, ExtraAtlas& map) {
+void draw_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, MapMips mips, ExtraAtlas& map) {
   const auto& subjects = frame.world().resource<CloseupSubjects>();
   std::vector<ExtraMap> maps;
   for (const CloseupView& pair : pairs) maps.push_back({pair.face, subjects.subjects[pair.subject_index].casters});
-  frame.get<ShadowMapDrawer>().draw(frame, "closeup", maps, map);
+  frame.get<ShadowMapDrawer>().draw(frame, "closeup", maps, map, mips);
 }
 
 void write_final_lists(ComputePass& pass, FinalLists& lists) {
@@ -129,6 +129,7 @@ bool closeup_pipelines_ready(const FrameBuilder& frame, const CloseupKnobs& knob
   PipelineList list;
   for (const bool directional : {false, true})
     list.push_back(pipeline_desc(compose_program(looked, directional, services.device.info()), frame.module()));
+  list_bounds_pipelines(maps->d16(), list);
   list_closeup_overlay_pipelines(maps->d16(), list);
   return services.pipelines.request(list, services.log);
 }
@@ -143,12 +144,14 @@ void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
   if (seen && !closeups->copies) add_late_copies(frame, *closeups);
   CloseupOverlay overlay(knobs.draws_standard);
   if (seen) overlay.start(frame, closeups->overlay);
+  // Overlays read coarser mips of the close-up map.
+  const MapMips mips = knobs.single_fetches && !seen ? MapMips::bounds_only : MapMips::all;
   ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
   looked.block = drawer->block(frame, map.size);
   for (std::span<const CloseupView> left = closeups->pairs; !left.empty();) {
     const std::size_t count = std::min<std::size_t>(knobs.batch, left.size());
     const std::vector<CloseupView> pairs = placed(left.first(count));
-    draw_batch(frame, pairs, map);
+    draw_batch(frame, pairs, mips, map);
     looked.atlas = map.atlas;
     looked.pyramid = map.pyramid;
     compose_batch(frame, pairs, looked);

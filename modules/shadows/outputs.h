@@ -211,6 +211,12 @@ struct ExtraAtlas {
 /// device that is a CPU, else 64.
 [[nodiscard]] std::uint32_t threads_a_tile(const gpu::DeviceInfo& device);
 
+/// The mips that maps of an ExtraAtlas get.
+enum class MapMips : std::uint8_t {
+  all,
+  bounds_only,  ///< the pyramid only: for by_single_fetches(), which reads no coarser mip of the atlas
+};
+
 struct ShadowMapTools;  ///< internal to the shadows module
 
 /// Draws shadow maps outside the standard atlas for later modules, with the same knobs, bias and mips as standard maps.
@@ -228,7 +234,8 @@ class ShadowMapDrawer {
   /// towards the module that is adding passes. maps: 1 … most_maps(size), all with the same square.size. Afterwards
   /// `into` refers to the written images. If a pipeline or memory cannot be created, the frame is given up
   /// (FrameBuilder::fail).
-  void draw(FrameBuilder& frame, const char* name, std::span<const ExtraMap> maps, ExtraAtlas& into) const;
+  void draw(FrameBuilder& frame, const char* name, std::span<const ExtraMap> maps, ExtraAtlas& into,
+            MapMips mips = MapMips::all) const;
   /// Uploads the ShadowBlock that shadows_api.glsl needs for maps of an ExtraAtlas, and returns its range in the
   /// frame's uniform memory. It equals the standard maps' ShadowBlock except for atlas_size. size: ExtraAtlas::size.
   /// If there is no memory, the range is empty and the frame is given up.
@@ -311,6 +318,8 @@ class OverlayMaps {
   std::shared_ptr<const ShadowMapTools> tools_;
 };
 
+/// Appends the pipelines that only maps with MapMips::bounds_only use. d16: as OverlayMaps::d16().
+void list_bounds_pipelines(bool d16, PipelineList& list);
 /// Appends the pipelines that only overlays use. d16: as OverlayMaps::d16().
 void list_overlay_map_pipelines(bool d16, PipelineList& list);
 

@@ -113,8 +113,8 @@ std::size_t ShadowMapDrawer::most_maps(std::uint32_t size) {
   return std::min(std::max(kExtraTexels / size / size, 1u), kMostScratchLayers);
 }
 
-void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<const ExtraMap> maps,
-                           ExtraAtlas& into) const {
+void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<const ExtraMap> maps, ExtraAtlas& into,
+                           MapMips mips) const {
   auto work = std::make_shared<ExtraWork>();
   std::vector<std::size_t> counts;
   for (const ExtraMap& map : maps) {
@@ -132,8 +132,12 @@ void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<cons
   GLOAM_ASSERT(work->faces.plan.batches.size() == 1, "maps of one size, few enough for one image, are drawn at a time");
   ShadowKnobs knobs = tools_->knobs;
   knobs.atlas_size = into.size;
-  prepare_maps(frame, tools_->states, knobs, kSteepestSubject, *work);
+  prepare_maps(frame, tools_->states, knobs, kSteepestSubject, *work, mips);
   add_passes(frame, std::string("shadow_map_") + name, work, into);
+}
+
+void list_bounds_pipelines(bool d16, PipelineList& list) {
+  list.push_back(pipeline_desc(shadow_mips_program(d16, MapMips::bounds_only), "shadows"));
 }
 
 gpu::Binding::BufferRange ShadowMapDrawer::block(FrameBuilder& frame, std::uint32_t size) const {

@@ -112,7 +112,8 @@ shaders::ShadowMipConstants constants_of(const ShadowKnobs& knobs) {
 
 }  // namespace
 
-ComputeProgram shadow_mips_program(bool d16) {
+ComputeProgram shadow_mips_program(bool d16, MapMips mips) {
+  if (mips == MapMips::bounds_only) return {d16 ? shaders::shadows::bounds_r16_comp : shaders::shadows::bounds_comp};
   return {d16 ? shaders::shadows::mips_r16_comp : shaders::shadows::mips_comp};
 }
 
@@ -129,7 +130,7 @@ FacePlan plan_faces(std::vector<DrawnFace> faces) {
 }
 
 ShadowMipWork plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,
-                               const ShadowKnobs& knobs, float steepest) {
+                               const ShadowKnobs& knobs, float steepest, MapMips mips) {
   ShadowMipWork work;
   GroupList list(steepest);
   work.backgrounds = list.add_batches(backgrounds);
@@ -138,7 +139,7 @@ ShadowMipWork plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds,
   work.constants = constants_of(knobs);
   auto groups = frame.services().storage.write(std::as_bytes(std::span(list.groups())));
   if (frame.check(groups)) work.groups = *groups;
-  work.pipeline = pipeline_of(frame, pipeline_desc(shadow_mips_program(knobs.d16), "shadows"));
+  work.pipeline = pipeline_of(frame, pipeline_desc(shadow_mips_program(knobs.d16, mips), "shadows"));
   if (!work.backgrounds.empty())
     work.backgrounds_pipeline = pipeline_of(frame, pipeline_desc(shadow_backgrounds_program(), "shadows"));
   work.sampler = frame.sampler(Sampling::nearest);

@@ -18,7 +18,7 @@ namespace gloam {
 
 // Plans and records the dispatches that move drawn faces into the atlas and make their mips and pyramid. They read
 // scratch images, which the frame graph does not track, so their passes record commands themselves.
-[[nodiscard]] ComputeProgram shadow_mips_program(bool d16);
+[[nodiscard]] ComputeProgram shadow_mips_program(bool d16, MapMips mips = MapMips::all);
 [[nodiscard]] ComputeProgram shadow_mips_in_place_program(bool d16);
 [[nodiscard]] ComputeProgram shadow_backgrounds_program();
 
@@ -59,7 +59,7 @@ inline constexpr float kSteepestSubject = 25.0f;
 /// Plans the mips of drawn faces: uploads the workgroups and gets the pipelines. backgrounds and faces: as drawn by
 /// record_draws(). steepest: see kSteepestSurface. On an error the frame is given up.
 [[nodiscard]] ShadowMipWork plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,
-                                             const ShadowKnobs& knobs, float steepest);
+                                             const ShadowKnobs& knobs, float steepest, MapMips mips);
 
 /// Makes mips and pyramids of faces whose mip 0 is already in the atlas: pass `name`.
 void add_shadow_mips_in_place(FrameBuilder& frame, std::string_view name, std::span<const ShadowFace> faces,

@@ -132,12 +132,13 @@ void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& map,
   }
 }
 
-void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work) {
+void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work,
+                  MapMips mips) {
   work.bias_units = knobs.bias_units;
   work.opaque = pipeline_of(frame, map_pipeline(false));
   if (draws_cut_outs(work.backgrounds) || draws_cut_outs(work.faces))
     work.cut_out = pipeline_of(frame, map_pipeline(true));
-  work.mips = plan_shadow_mips(frame, work.backgrounds, work.faces, knobs, steepest);
+  work.mips = plan_shadow_mips(frame, work.backgrounds, work.faces, knobs, steepest, mips);
   auto scratch = states.scratch(std::max(work.backgrounds.plan.texels(), work.faces.plan.texels()));
   if (frame.check(scratch)) work.scratch = *scratch;
 }

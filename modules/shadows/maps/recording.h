@@ -28,7 +28,8 @@ struct MapWork {
 
 /// Sets the other members of `work` from backgrounds and faces. knobs: with the size of the atlas that the faces go
 /// to. steepest: see kSteepestSurface. If a pipeline or memory cannot be created, the frame is given up.
-void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work);
+void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work,
+                  MapMips mips = MapMips::all);
 
 /// Declares what the caster sources in these plans read.
 void declare_source_reads(PassBuilder& pass, std::initializer_list<const FacePlan*> plans);

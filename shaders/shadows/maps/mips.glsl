@@ -11,7 +11,8 @@
 // processes a block of 8 × 8 texels of its source; all threads of a workgroup belong to one face. Before including
 // this, define GLOAM_SHADOW_ATLAS_FORMAT. If the atlas format is coarser than the scratch image, also define
 // GLOAM_SHADOW_ATLAS_STEPS: mips are then made from the rounded depths. With GLOAM_SHADOW_MIPS_IN_PLACE there is no
-// scratch image: mip 0 is in the atlas already.
+// scratch image: mip 0 is in the atlas already. With GLOAM_SHADOW_BOUNDS_ONLY the atlas gets mip 0 only, and the
+// coarser mips exist only in the pyramid.
 
 layout(local_size_x = GLOAM_SHADOW_MIP_GROUP, local_size_y = GLOAM_SHADOW_MIP_GROUP) in;
 #ifndef GLOAM_SHADOW_MIPS_IN_PLACE
@@ -59,6 +60,8 @@ void add_covered(inout Texels t, float texel, float gap) {
 
 // gap: as in add_covered(), for texels of the mip that is being made.
 void add(inout Texels t, float depth, vec2 bounds, float gap) {
+  t.bounds = vec2(min(t.bounds.x, bounds.x), max(t.bounds.y, bounds.y));
+#ifndef GLOAM_SHADOW_BOUNDS_ONLY
   bool occupied = depth > 0.0;
   if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE))
     add_covered(t, depth, gap);
@@ -66,10 +69,13 @@ void add(inout Texels t, float depth, vec2 bounds, float gap) {
     t.nearest = max(t.nearest, depth);
   t.sum += occupied ? (face.orthographic != 0u ? depth : 1.0 / depth) : 0.0;
   t.count += occupied ? 1.0 : 0.0;
-  t.bounds = vec2(min(t.bounds.x, bounds.x), max(t.bounds.y, bounds.y));
+#endif
 }
 
 float depth_of(Texels t) {
+#ifdef GLOAM_SHADOW_BOUNDS_ONLY
+  return 0.0;
+#endif
   if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) {
     uint free = uint(clamp(floor((1.0 - 0.25 * t.covered) * 64.0 + 0.5), 0.0, float(kFreeBits)));
     // The mean depth of a plane is its depth in the middle.
@@ -84,6 +90,9 @@ ivec2 mip_corner(uint mip, uint atlas_size) {
 }
 
 void store_depth(uint mip, uvec2 at, float depth) {
+#ifdef GLOAM_SHADOW_BOUNDS_ONLY
+  if (mip > 0u) return;
+#endif
   imageStore(atlas, mip_corner(mip, run.atlas_size) + ivec2((face.origin >> mip) + at), vec4(depth));
 }
 
@@ -175,6 +184,9 @@ float source_texel(uvec2 at, out vec2 bounds) {
   at = min(at, uvec2((face.size >> run.first) - 1u));
   ivec2 place = nearest_place(run.first, at);
   bounds = vec2(imageLoad(pyramid, place + below_nearest()).x, imageLoad(pyramid, place).x);
+#ifdef GLOAM_SHADOW_BOUNDS_ONLY
+  return 0.0;
+#endif
   return imageLoad(atlas, mip_corner(run.first, run.atlas_size) + ivec2((face.origin >> run.first) + at)).x;
 }
 

@@ -1,0 +1,7 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define GLOAM_SHADOW_ATLAS_FORMAT r32f
+#define GLOAM_SHADOW_BOUNDS_ONLY
+#include "shaders/shadows/maps/mips.glsl"
