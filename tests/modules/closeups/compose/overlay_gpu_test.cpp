@@ -91,8 +91,9 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
     std::memcpy(texels.data(), image.bytes.data(), image.bytes.size());
     return texels;
   }
-  [[nodiscard]] static FaceDepths face_in(const std::vector<float>& atlas, const AtlasSquare& square,
-                                          std::uint32_t side = 1024) {
+  /// atlas: read while it had the size that it has now.
+  [[nodiscard]] FaceDepths face_in(const std::vector<float>& atlas, const AtlasSquare& square) const {
+    const std::uint32_t side = world.view_resource<ShadowViews>(ViewId{0}).atlas.size();
     FaceDepths face{square.size, {}};
     for (std::uint32_t i = 0; i < square.size * square.size; ++i) {
       const uvec2 texel = square.origin + uvec2(i % square.size, i / square.size);
@@ -245,7 +246,7 @@ TEST_F(CloseupOverlayFrames, standard_faces_are_kept_without_the_subject) {
   draw_twice();
   EXPECT_FALSE(has_pass("closeup_transfer")) << "nobody looks at standard maps";
   EXPECT_FALSE(has_pass("shadow_overlay_copy"));
-  const std::vector<FaceTexels> before = held_faces(*renderer, world, 2048);
+  const std::vector<FaceTexels> before = held_faces(*renderer, world);
   put_pane();
   for (int i = 0; i < 4; ++i) {
     world.get<WorldTransform>(subject_).matrix[3].x += 0.03;
@@ -255,7 +256,7 @@ TEST_F(CloseupOverlayFrames, standard_faces_are_kept_without_the_subject) {
     EXPECT_EQ(counter("shadows.faces_drawn"), 0.0) << i;
     EXPECT_EQ(counter("shadows.texels_drawn"), 0.0) << i;
   }
-  const std::vector<FaceTexels> after = held_faces(*renderer, world, 2048);
+  const std::vector<FaceTexels> after = held_faces(*renderer, world);
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t f = 0; f < before.size(); ++f) EXPECT_TRUE(before[f] == after[f]) << f;
 }
@@ -325,7 +326,7 @@ TEST_F(CloseupOverlayFrames, a_face_that_comes_back_to_where_a_copy_lay_is_drawn
   for (int i = 0; i < 3; ++i)
     others.push_back(put_light(spot(20.0), dvec3(-1.2 + 0.1 * i, 0.6, 0.4), dvec3(-0.5, -1.0, -0.8), 512));
   draw_twice();
-  const std::vector<FaceTexels> before = held_faces(*renderer, world, 1024);
+  const std::vector<FaceTexels> before = held_faces(*renderer, world);
   ASSERT_EQ(before.size(), 4u);
   for (const Entity other : others) world.get<ShadowCaster>(other).enabled = false;
   put_pane();
@@ -337,7 +338,7 @@ TEST_F(CloseupOverlayFrames, a_face_that_comes_back_to_where_a_copy_lay_is_drawn
   draw();
   EXPECT_EQ(counter("shadows.faces_drawn"), 1.0) << "where the copy lay";
   EXPECT_EQ(counter("shadows.faces_cached"), 3.0);
-  const std::vector<FaceTexels> after = held_faces(*renderer, world, 1024);
+  const std::vector<FaceTexels> after = held_faces(*renderer, world);
   ASSERT_EQ(after.size(), 4u);
   for (std::size_t f = 0; f < after.size(); ++f) EXPECT_TRUE(before[f] == after[f]) << f;
 }

@@ -23,7 +23,6 @@ struct WalkedFrame {
 
 class ShadowRegions : public test::ShadowedScene {
  protected:
-  static constexpr std::uint32_t kAtlas = 1024;
 
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(ShadowedScene::SetUp());
@@ -97,7 +96,7 @@ class ShadowRegions : public test::ShadowedScene {
   [[nodiscard]] WalkedFrame held() {
     WalkedFrame frame;
     frame.texels = counter("shadows.texels_drawn");  // first, because reading images draws frames
-    frame.faces = test::held_faces(*renderer, world, kAtlas);
+    frame.faces = test::held_faces(*renderer, world);
     return frame;
   }
 

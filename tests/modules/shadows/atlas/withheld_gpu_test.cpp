@@ -46,7 +46,6 @@ using Faces = std::vector<test::FaceTexels>;
 /// A wall, resting boxes, casters that the tests move, and a spot, a point light or a directional light.
 class ShadowWithheld : public test::HardShadows {
  protected:
-  static constexpr std::uint32_t kAtlas = 1024;
 
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(HardShadows::SetUp());
@@ -134,7 +133,7 @@ class ShadowWithheld : public test::HardShadows {
     set("shadows.casters", "full");
     draw();
   }
-  [[nodiscard]] Faces held() { return test::held_faces(*renderer, world, kAtlas); }
+  [[nodiscard]] Faces held() { return test::held_faces(*renderer, world); }
   [[nodiscard]] Faces held_anew() {
     draw_anew();
     return held();

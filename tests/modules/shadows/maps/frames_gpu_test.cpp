@@ -86,9 +86,9 @@ TEST_F(ShadowFrames, kept_maps_equal_maps_drawn_anew) {
   move(left, dvec3(-0.35, 0.2, 0.8));
   const LinearPicture kept = drawn();
   EXPECT_EQ(drawn_faces(), 1.0);
-  // Changing the atlas' size and back discards all maps.
-  static_cast<void>(drawn("shadows.atlas", "2048"));
-  const LinearPicture anew = drawn("shadows.atlas", "4096");
+  // Changing the atlas' format and back discards all maps.
+  static_cast<void>(drawn("shadows.depth", "d16"));
+  const LinearPicture anew = drawn("shadows.depth", "d32");
   EXPECT_EQ(drawn_faces(), 6.0);
   EXPECT_EQ(kept.rgba, anew.rgba);
 }
@@ -109,9 +109,8 @@ TEST_F(ShadowFrames, frames_that_are_given_up_leave_the_maps_as_they_were) {
   move(right, dvec3(0.25, 0.35, 0.8));
   draw();
   EXPECT_EQ(drawn_faces(), 0.0) << "the box is back where the maps show it";
-  for (const auto& [knob, other, back] : {std::tuple{"shadows.atlas", "2048", "4096"},
-                                          {"shadows.depth", "d16", "d32"},
-                                          {"shadows.bias_units", "4000", "2000"}}) {
+  for (const auto& [knob, other, back] :
+       {std::tuple{"shadows.depth", "d16", "d32"}, {"shadows.bias_units", "4000", "2000"}}) {
     set(knob, back);
     draw();
     set(knob, other);
@@ -138,8 +137,8 @@ TEST_F(ShadowFrames, maps_kept_over_frames_that_are_given_up_equal_maps_drawn_an
   }
   const LinearPicture kept = drawn();
   EXPECT_EQ(drawn_faces(), 0.0);
-  static_cast<void>(drawn("shadows.atlas", "2048"));
-  EXPECT_EQ(kept.rgba, drawn("shadows.atlas", "4096").rgba);
+  static_cast<void>(drawn("shadows.depth", "d16"));
+  EXPECT_EQ(kept.rgba, drawn("shadows.depth", "d32").rgba);
   EXPECT_EQ(drawn_faces(), 6.0);
 }
 
@@ -188,8 +187,7 @@ TEST_F(ShadowFrames, knobs_that_change_maps_draw_them_anew) {
                                     {"shadows.bias_units", "4000"},
                                     {"shadows.mip_operator", "average"},
                                     {"shadows.depth", "d16"},
-                                    {"shadows.casters", "simplified"},
-                                    {"shadows.atlas", "1024"}}) {
+                                    {"shadows.casters", "simplified"}}) {
     set(knob, value);
     draw();
     EXPECT_EQ(drawn_faces(), 6.0) << knob;
@@ -321,9 +319,9 @@ TEST_F(ShadowFrames, two_views_of_a_frame_are_as_each_alone) {
   for (std::uint32_t i = 0; i < 2; ++i) {
     draw(world, views[i].settings);
     EXPECT_EQ(linear(i).rgba, together[i].rgba) << "with kept maps";
-    set("shadows.atlas", "2048");
+    set("shadows.depth", "d16");
     draw(world, views[i].settings);
-    set("shadows.atlas", "4096");
+    set("shadows.depth", "d32");
     draw(world, views[i].settings);
     EXPECT_EQ(drawn_faces(), 7.0);
     EXPECT_EQ(linear(i).rgba, together[i].rgba) << "with new maps";
@@ -335,10 +333,9 @@ TEST_F(ShadowFrames, two_views_of_a_frame_are_as_each_alone) {
 
 TEST_F(ShadowFrames, the_atlas_view_shows_every_face) {
   settings.visualizer = "shadow_atlas";
-  set("shadows.atlas", "1024");
   draw();
   const Picture p = picture();
-  // Six faces of 128 texels in an atlas of 1024: each is an eighth of the picture's height. Orange borders: drawn in
+  // Six faces of 128 texels in an atlas of 512: each is a quarter of the picture's height. Orange borders: drawn in
   // this frame.
   int orange = 0;
   for (std::size_t i = 0; i < p.rgba.size(); i += 4)

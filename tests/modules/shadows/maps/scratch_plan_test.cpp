@@ -36,9 +36,9 @@ TEST(ScratchPlan, nothing_takes_no_batch) {
   EXPECT_EQ(plan_scratch({}).texels(), 0u);
 }
 
-TEST(ScratchPlan, sixteen_faces_of_512_fill_one_batch_and_the_next_begins_another) {
-  EXPECT_EQ(plan_scratch(std::vector<std::uint32_t>(16, 512)).batches.size(), 1u);
-  EXPECT_EQ(plan_scratch(std::vector<std::uint32_t>(17, 512)).batches.size(), 2u);
+TEST(ScratchPlan, four_faces_of_512_fill_one_batch_and_the_next_begins_another) {
+  EXPECT_EQ(plan_scratch(std::vector<std::uint32_t>(4, 512)).batches.size(), 1u);
+  EXPECT_EQ(plan_scratch(std::vector<std::uint32_t>(5, 512)).batches.size(), 2u);
 }
 
 TEST(ScratchPlan, the_largest_face_has_an_image_of_its_own) {

@@ -26,8 +26,6 @@ using Faces = std::vector<test::FaceTexels>;
 
 class CasterSources : public test::ShadowedScene {
  protected:
-  static constexpr std::uint32_t kAtlas = 1024;
-
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(ShadowedScene::SetUp());
     if (IsSkipped()) return;
@@ -127,7 +125,7 @@ class CasterSources : public test::ShadowedScene {
         std::ranges::count_if(report.passes, [&](const PassTime& pass) { return pass.name == name; }));
   }
 
-  [[nodiscard]] Faces held() { return test::held_faces(*renderer, world, kAtlas); }
+  [[nodiscard]] Faces held() { return test::held_faces(*renderer, world); }
   /// The maps in the next frame, all drawn whole and without anything kept.
   [[nodiscard]] Faces held_from_scratch() {
     set("shadows.casters", "simplified");  // no mesh here has simplified triangles, but maps count as different

@@ -28,11 +28,11 @@ inline void append_texels(FaceTexels& texels, std::span<const std::byte> image, 
   }
 }
 
-/// The contents of the first view's faces, in the order of its ShadowViews. size: texels of the atlas' side. Draws the
-/// view once more.
-[[nodiscard]] inline std::vector<FaceTexels> held_faces(Renderer& renderer, World& world, std::uint32_t size) {
+/// The contents of the first view's faces, in the order of its ShadowViews. Draws the view once more.
+[[nodiscard]] inline std::vector<FaceTexels> held_faces(Renderer& renderer, World& world) {
   constexpr std::string_view kNames[] = {"shadow_atlas", "shadow_pyramid"};
   const std::vector<ImageBytes> images = value_of(renderer.read_images(world, ViewId{0}, kNames));
+  const std::uint32_t size = world.view_resource<ShadowViews>(ViewId{0}).atlas.size();
   std::vector<FaceTexels> faces;
   for (const ShadowFace& face : world.view_resource<ShadowViews>(ViewId{0}).faces) {
     FaceTexels& texels = faces.emplace_back();
