@@ -122,9 +122,7 @@ bool final_lists_ready(const FrameServices& services, const ShadingInputs& input
   if (services.wait_for_pipelines) return true;
   const bool ready = services.pipelines.request(final_list_pipelines(inputs, shadows), services.log);
   // A later frame may need the fallback although this one does not.
-  if (ready)
-    static_cast<void>(
-        services.pipelines.request({pipeline_of(fallback_program(inputs, shadows), inputs)}, services.log));
+  static_cast<void>(services.pipelines.request({pipeline_of(fallback_program(inputs, shadows), inputs)}, services.log));
   return ready;
 }
 
