@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/render/scene/caster_bounds.h"
+#include "engine/render/scene/closed_surface.h"
 #include "engine/render/scene/material_packing.h"
 #include "engine/render/scene/mip_chain.h"
 #include "shaders/render/shaders.h"
@@ -62,6 +63,7 @@ struct GpuScene::Streams {
     primitive.morph_targets = static_cast<std::uint32_t>(source.morph_targets.size());
     primitive.skinned = !influences.empty();
     primitive.colored = !source.colors.empty();
+    primitive.closed = is_closed_surface(source.positions, indices);
     primitive.bounds = source.bounds;
     primitive.joint_bounds = joint_bounds(source, influences);
     primitive.morph_bounds = morph_bounds(source);

@@ -32,6 +32,7 @@ struct GpuPrimitive {
   bool morph_has_normals = false;
   bool skinned = false;
   bool colored = false;  ///< has vertex colours
+  bool closed = false;   ///< is_closed_surface()
   Aabb bounds;
   std::vector<Cluster> clusters;
   /// Joint index and rest bounds of the vertices that follow the joint. The union of the posed boxes bounds the posed

@@ -3,6 +3,7 @@
 #include "modules/shadows/atlas/face_casters.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/math/bounds.h"
 #include "engine/scene/assets.h"
@@ -32,20 +33,32 @@ bool may_see(const FaceVolume& volume, Aabb relative) {
   return may_intersect(volume.frustum, relative);
 }
 
+/// Whether fronts alone give the same map: the caster is closed, not mirrored, without holes, and all of it is beyond
+/// the near plane. Where the near plane opens a caster, its inside is seen.
+bool fronts_suffice(const FaceVolume& volume, const Caster& caster) {
+  if (!caster.primitive->closed || is_cut_out(caster) || glm::determinant(glm::dmat3(caster.world_from_mesh)) <= 0.0)
+    return false;
+  if (!(caster.bounds_min.x <= caster.bounds_max.x)) return false;
+  Aabb relative{vec3(caster.bounds_min - volume.origin), vec3(caster.bounds_max - volume.origin)};
+  widen(relative);
+  return volume.clear_m <= 0.0f || distance_squared(relative) > volume.clear_m * volume.clear_m;
+}
+
 void add_clusters(const FaceVolume& volume, const Caster& caster, bool simplified, std::vector<FaceDraw>& draws) {
   const GpuPrimitive& primitive = *caster.primitive;
+  const bool fronts = fronts_suffice(volume, caster);
   if (simplified && caster.deform == kNone && primitive.simplified_index_count > 0) {
-    draws.push_back({&caster, primitive.simplified_first_index, primitive.simplified_index_count});
+    draws.push_back({&caster, primitive.simplified_first_index, primitive.simplified_index_count, fronts});
     return;
   }
   if (caster.deform != kNone || primitive.clusters.size() <= 1) {
-    draws.push_back({&caster, primitive.first_index, primitive.index_count});
+    draws.push_back({&caster, primitive.first_index, primitive.index_count, fronts});
     return;
   }
   dmat4 relative = caster.world_from_mesh;
   relative[3] -= dvec4(volume.origin, 0.0);
   const mat4 matrix(relative);
-  FaceDraw draw{&caster, 0, 0};
+  FaceDraw draw{&caster, 0, 0, fronts};
   for (const Cluster& cluster : primitive.clusters) {
     if (!may_see(volume, transformed(cluster.bounds, matrix))) continue;
     const std::uint32_t first = primitive.first_index + cluster.first_index;
@@ -77,6 +90,8 @@ FaceVolume face_volume(const ShadowFace& face) {
   volume.frustum.planes[4] = perspective ? Plane{face.forward, -face.near_m} : Plane{vec3(0.0f), 1.0f};
   if (face.far_m > 0.0f) volume.frustum.planes[5] = {-face.forward, face.far_m};
   if (perspective) volume.reach_m = face.far_m;
+  // In a corner of the face, the near plane is farthest from the light.
+  if (perspective) volume.clear_m = face.near_m * std::sqrt(1.0f + 2.0f * face.tan_half * face.tan_half);
   return volume;
 }
 

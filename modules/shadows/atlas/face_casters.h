@@ -21,6 +21,7 @@ struct FaceVolume {
   Frustum frustum;
   float reach_m = 0.0f;     ///< radius around the origin beyond which nothing is lit; 0: unlimited
   float emitter_m = -1.0f;  ///< ShadowFace::emitter_m
+  float clear_m = 0.0f;     ///< the near plane cuts nothing that is farther from the origin; orthographic: 0
 };
 [[nodiscard]] FaceVolume face_volume(const ShadowFace& face);
 /// The part of the volume that is drawn into these texels, widened by one texel on each side.
@@ -44,6 +45,7 @@ struct FaceDraw {
   const Caster* caster = nullptr;
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
+  bool fronts_only = false;  ///< the map is the same without the triangles that face away from the light
 };
 /// The draws of all clusters that the face may see; adjacent clusters share a draw. Opaque casters come before cut-out
 /// ones. simplified: casters with simplified triangles (GpuPrimitive::simplified_index_count) are drawn with those,

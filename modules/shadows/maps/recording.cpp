@@ -14,8 +14,10 @@ constexpr float kSlopeBias = 1.0f;
 
 }  // namespace
 
-gpu::GraphicsPipelineDesc map_pipeline(bool cut_out) {
+gpu::GraphicsPipelineDesc map_pipeline(MapDraw draw) {
+  const bool cut_out = draw == MapDraw::cut_out;
   CasterProgram program;
+  if (draw == MapDraw::fronts) program.cull = gpu::CullMode::back;
   program.vertex = cut_out ? shaders::shadows::map_mask_vert : shaders::shadows::map_vert;
   program.attributes = {{0, 0, gpu::Format::rgb32_float, 0}};
   program.stream_strides = {sizeof(vec3)};
@@ -47,7 +49,7 @@ class FaceRecorder {
       const FaceDraw& draw = region.draws[i];
       const Caster& caster = *draw.caster;
       const bool cut_out = is_cut_out(caster);
-      bind(cut_out ? map_.cut_out : map_.opaque);
+      bind(cut_out ? map_.cut_out : draw.fronts_only ? map_.fronts : map_.whole);
       frame_.bind_caster_vertices(context_, caster, cut_out);
       if (cut_out) commands_.bind_set(1, frame_.scene().materials()[caster.primitive->material].set);
       commands_.push(shaders::CasterConstants{region.matrices[i], face.face.tan_half > 0.0f ? 0u : 1u});
@@ -94,6 +96,13 @@ void begin_region(gpu::CommandList& commands, const gpu::ImageView& layer, std::
                        extent.y);
 }
 
+bool draws_fronts(const FacePlan& plan) {
+  for (const DrawnFace& face : plan.faces)
+    for (const DrawnRegion& region : face.regions)
+      if (std::ranges::any_of(region.draws, [](const FaceDraw& draw) { return draw.fronts_only; })) return true;
+  return false;
+}
+
 bool draws_cut_outs(const FacePlan& plan) {
   for (const DrawnFace& face : plan.faces)
     for (const DrawnRegion& region : face.regions)  // cut-out casters come last
@@ -135,9 +144,11 @@ void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& map,
 void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work,
                   MapMips mips) {
   work.bias_units = knobs.bias_units;
-  work.opaque = pipeline_of(frame, map_pipeline(false));
+  work.whole = pipeline_of(frame, map_pipeline(MapDraw::whole));
+  if (draws_fronts(work.faces) || draws_fronts(work.backgrounds))
+    work.fronts = pipeline_of(frame, map_pipeline(MapDraw::fronts));
   if (draws_cut_outs(work.backgrounds) || draws_cut_outs(work.faces))
-    work.cut_out = pipeline_of(frame, map_pipeline(true));
+    work.cut_out = pipeline_of(frame, map_pipeline(MapDraw::cut_out));
   work.mips = plan_shadow_mips(frame, work.backgrounds, work.faces, knobs, steepest, mips);
   auto scratch = states.scratch(std::max(work.backgrounds.plan.texels(), work.faces.plan.texels()));
   if (frame.check(scratch)) work.scratch = *scratch;

@@ -12,8 +12,14 @@
 
 namespace gloam {
 
-/// The pipeline that draws casters into the scratch image. cut_out: with an alpha test.
-[[nodiscard]] gpu::GraphicsPipelineDesc map_pipeline(bool cut_out);
+/// How a caster is drawn into a map.
+enum class MapDraw : std::uint8_t {
+  whole,
+  fronts,   ///< without triangles that face away from the light
+  cut_out,  ///< with an alpha test
+};
+/// The pipeline that draws casters into the scratch image.
+[[nodiscard]] gpu::GraphicsPipelineDesc map_pipeline(MapDraw draw);
 
 /// What the maps of a frame need in recording. Outlives the declaration, because pass functions run later.
 struct MapWork {
@@ -21,7 +27,8 @@ struct MapWork {
   FacePlan faces;
   const ShadowScratch* scratch = nullptr;
   float bias_units = 0.0f;  ///< ShadowKnobs::bias_units
-  gpu::PipelineHandle opaque;
+  gpu::PipelineHandle whole;
+  gpu::PipelineHandle fronts;   ///< null when no caster is drawn so
   gpu::PipelineHandle cut_out;  ///< null when no cut-out caster is drawn
   ShadowMipWork mips;
 };

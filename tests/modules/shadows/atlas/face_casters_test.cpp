@@ -121,5 +121,34 @@ TEST(FaceCasters, draws_are_runs_of_clusters_that_may_be_seen_and_cut_outs_come_
   EXPECT_EQ(draws[2].caster, &casters[0]);
 }
 
+TEST(FaceCasters, fronts_alone_are_drawn_only_of_closed_casters_beyond_the_near_plane) {
+  GpuPrimitive open, closed;
+  open.index_count = closed.index_count = 12;
+  closed.closed = true;
+  const FaceVolume lamp = face_volume(perspective_face(dvec3(0.0))), sun = face_volume(orthographic_face(dvec3(0.0)));
+  const auto fronts = [](const FaceVolume& volume, const Caster& caster) {
+    const auto draws = face_draws(volume, std::span(&caster, 1));
+    EXPECT_EQ(draws.size(), 1u);
+    return !draws.empty() && draws.front().fronts_only;
+  };
+  const dvec3 low(2.0, -0.5, -0.5), high(3.0, 0.5, 0.5);
+  EXPECT_TRUE(fronts(lamp, caster_of(closed, low, high)));
+  EXPECT_FALSE(fronts(lamp, caster_of(open, low, high)));
+  EXPECT_FALSE(fronts(lamp, caster_of(closed, dvec3(-1.0), dvec3(1.0)))) << "the lamp is inside";
+  EXPECT_FALSE(fronts(lamp, caster_of(closed, dvec3(0.06, -0.5, -0.5), high)))
+      << "the near plane may cut it in a corner";
+  EXPECT_TRUE(fronts(lamp, caster_of(closed, dvec3(0.11, -0.5, -0.5), high)));
+  EXPECT_TRUE(fronts(sun, caster_of(closed, dvec3(-1.0), dvec3(1.0)))) << "a sun has no near plane";
+  EXPECT_FALSE(fronts(lamp, caster_of(closed, dvec3(1.0), dvec3(0.0)))) << "it may be anywhere";
+  Caster mirrored = caster_of(closed, low, high);
+  mirrored.world_from_mesh[0][0] = -1.0;
+  EXPECT_FALSE(fronts(lamp, mirrored));
+  mirrored.world_from_mesh[1][1] = -1.0;
+  EXPECT_TRUE(fronts(lamp, mirrored)) << "mirrored twice";
+  Caster cut_out = caster_of(closed, low, high);
+  cut_out.variant.features = GLOAM_SURFACE_MASK;
+  EXPECT_FALSE(fronts(lamp, cut_out));
+}
+
 }  // namespace
 }  // namespace gloam
