@@ -23,7 +23,6 @@ struct WalkedFrame {
 
 class ShadowRegions : public test::ShadowedScene {
  protected:
-
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(ShadowedScene::SetUp());
     if (IsSkipped()) return;

@@ -46,7 +46,6 @@ using Faces = std::vector<test::FaceTexels>;
 /// A wall, resting boxes, casters that the tests move, and a spot, a point light or a directional light.
 class ShadowWithheld : public test::HardShadows {
  protected:
-
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(HardShadows::SetUp());
     if (IsSkipped()) return;
