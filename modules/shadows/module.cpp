@@ -142,6 +142,7 @@ class ShadowsModule final : public Module {
     sink.count("shadows.faces_skipped", counts.skipped);
     sink.count("shadows.texels_drawn", static_cast<double>(counts.texels));
     sink.count("shadows.faces_shrunk", views.faces_shrunk);
+    sink.count("shadows.faces_at_limit", views.faces_at_limit);
     sink.count("shadows.faces_left_out", views.faces_left_out);
     sink.count("shadows.atlas_used", static_cast<double>(views.atlas.used_texels()) / std::max(texels, 1.0));
   }

@@ -34,6 +34,8 @@ struct LocalPlan {
   std::uint32_t before = 0;  ///< face size that it wanted in the last frame
   std::uint32_t size = 0;    ///< face size
   float importance = 0.0f;
+  bool fills_view =
+      false;  ///< the camera is so near to what the light lights that `pixels` is the picture's longer side
   std::size_t first_request = 0;
   std::size_t first_face = 0;
   bool placed = false;
@@ -56,7 +58,9 @@ LocalPlan plan_local(const ShadowLight& light, const RenderView& view, const Sha
   // Texels are spread across the light's direction: the length of a narrow cone does not matter.
   const bool cube = plan.shadow.kind == GLOAM_SHADOW_CUBE;
   const float share = cube ? kCubeShare : std::min(1.0f, plan.shadow.range_m * plan.shadow.tan_inner / radius);
-  plan.pixels = std::max(1.0f, pixels_across(view, center, radius) * share);
+  const float across = pixels_across(view, center, radius);
+  plan.fills_view = across >= static_cast<float>(std::max(view.width, view.height));
+  plan.pixels = std::max(1.0f, across * share);
   plan.before = size_before(wanted, light.entity);
   return plan;
 }
@@ -158,6 +162,16 @@ void request_local(std::span<const ShadowLight> lights, ShadowViews& shadows, Pl
   std::sort(shadows.wanted.begin(), shadows.wanted.end(), earlier);
 }
 
+/// Faces with fewer texels than shadows.texels_per_pixel asks for: surfaces may be nearer than the plan assumes, or the
+/// density was lowered so that all maps fit.
+std::uint32_t count_at_limit(const Plans& plans, const ShadowSettings& settings, float density) {
+  std::uint32_t count = 0;
+  for (const LocalPlan& plan : plans.local)
+    if (plan.placed && plan.pixels > 0.0f && (plan.fills_view || density < 0.99f * settings.texels_per_pixel))
+      count += static_cast<std::uint32_t>(plan.shadow.face_count());
+  return count;
+}
+
 /// Fills the faces and rows of local lights, in parallel over lights.
 void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, JobExecutor& jobs, Plans& plans,
                 ShadowViews& shadows) {
@@ -234,6 +248,7 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
   shadows.faces_shrunk = places.shrunk;
   shadows.faces_left_out = places.left_out;
   fill_local(local, places, jobs, plans, shadows);
+  shadows.faces_at_limit = count_at_limit(plans, settings, shadows.texels_per_pixel);
   fill_directional(directional, places, view, settings, casters, plans, shadows);
 }
 

@@ -32,6 +32,7 @@ struct ShadowViews {
   std::vector<shaders::ShadowRow> rows;  ///< by index of the view's local lights
   shaders::ShadowBlock block{};          ///< the system sets `directional`; the passes set the other members
   std::uint32_t faces_shrunk = 0;        ///< faces smaller than requested, because the atlas was full
+  std::uint32_t faces_at_limit = 0;  ///< faces of local lights with fewer texels than their nearest surfaces ask for
   std::uint32_t faces_left_out = 0;  ///< faces without a place, even at the smallest size: their lights cast no shadow
   std::uint32_t casting_lights = 0;  ///< lights that requested faces
   ShadowAtlas atlas;                 ///< places of the faces; kept from frame to frame
