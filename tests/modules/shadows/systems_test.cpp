@@ -229,6 +229,35 @@ TEST(ShadowSystems, give_lights_as_many_texels_as_the_atlas_has_room_for) {
   }
 }
 
+TEST(ShadowSystems, count_the_faces_that_have_fewer_texels_than_asked_for) {
+  ShadowWorld scene;
+  const Entity light = scene.add_point();
+  scene.world.get<WorldTransform>(light).matrix[3].z = -300.0;
+  EXPECT_EQ(scene.run().faces_at_limit, 0u) << "small in the picture";
+  scene.world.get<WorldTransform>(light).matrix[3].z = -1.0;
+  EXPECT_EQ(scene.run().faces_at_limit, 6u) << "the camera is among the surfaces that it lights";
+  scene.world.add(light, ShadowCaster{.resolution = 64});
+  EXPECT_EQ(scene.run().faces_at_limit, 0u) << "the scene says how many texels it wants";
+  ShadowWorld full;
+  full.add_random(60);
+  full.shadow_settings().texels_per_pixel = 8.0f;
+  const ShadowViews& shadows = full.run();
+  EXPECT_EQ(shadows.faces_at_limit, shadows.faces.size()) << "the density was lowered";
+}
+
+TEST(ShadowSystems, take_an_atlas_as_large_as_the_faces_need) {
+  ShadowWorld scene;
+  const Entity light = scene.add_point();
+  scene.world.add(light, ShadowCaster{.resolution = 128});
+  EXPECT_EQ(scene.run().atlas.size(), 512u) << "six faces of 128²";
+  scene.world.get<ShadowCaster>(light).resolution = 1024;
+  EXPECT_EQ(scene.run().atlas.size(), 4096u);
+  scene.world.get<ShadowCaster>(light).resolution = 128;
+  for (std::uint32_t frame = 0; frame < AtlasSide::kFramesKept; ++frame) ASSERT_EQ(scene.run().atlas.size(), 4096u);
+  EXPECT_EQ(scene.run().atlas.size(), 512u);
+  expect_sound(scene.shadows());
+}
+
 TEST(ShadowSystems, change_no_map_when_lights_leave_the_view_of_a_full_atlas) {
   ShadowWorld scene;
   scene.add_random(60);
