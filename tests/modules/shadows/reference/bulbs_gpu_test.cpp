@@ -101,6 +101,18 @@ TEST_F(LampParts, a_bulb_that_moves_out_of_its_lamp_casts_and_back_again_does_no
   EXPECT_EQ(visibility(bulb_lamp), inside);
 }
 
+// Half of each lamp is below the floor, and the floor's face lies inside the emitter.
+TEST_F(LampParts, a_lamp_two_centimetres_above_a_plane_gives_the_light_that_rays_give) {
+  const Entity low = lamp(point(0.0f), dvec3(0.1, 0.02, 0.2));
+  for (const float width : {0.05f, 0.1f, 0.2f}) {
+    world.get<gloam::Light>(low).width_m = width;
+    world.mark_changed<gloam::Light>(low);
+    const Light light = light_of(low);
+    EXPECT_GT(light.share(), 0.1) << width;
+    EXPECT_NEAR(light.drawn, light.traced, 0.02 * light.traced) << width;
+  }
+}
+
 TEST_F(LampParts, a_mesh_that_casts_no_shadow_blocks_neither_maps_nor_rays) {
   const std::vector<float> bare = visibility(bulb_lamp);
   const TracedVisibility bare_rays = trace();

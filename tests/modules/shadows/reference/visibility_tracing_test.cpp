@@ -273,6 +273,23 @@ TEST(VisibilityTracing, a_surface_does_not_shadow_itself_and_hides_what_is_behin
   }
 }
 
+// Nothing is under the floor that a ray could hit: the floor's own plane hides what is below it.
+TEST(VisibilityTracing, a_surface_hides_the_part_of_a_lamp_that_is_below_its_plane) {
+  VisibilityScene scene;
+  const dvec3 lamp(0.0, 0.05, -8.0);
+  constexpr double kRadius = 0.3;
+  scene.light({.kind = LightKind::point, .intensity = 100.0f, .width_m = static_cast<float>(2.0 * kRadius)}, lamp);
+  const TracedVisibility traced = scene.trace(256);
+  const Deviation found = deviation(scene, traced, [&](const dvec3& p) {
+    const dvec3 to = lamp - p;
+    const double across = std::sqrt(1.0 - std::pow(to.y / glm::length(to), 2));
+    return segment_share(-to.y / (across * kRadius));
+  });
+  EXPECT_GT(found.partly, 1000);
+  EXPECT_LE(found.mean, traced.noise + 2e-3);
+  EXPECT_LT(found.worst, 0.03);
+}
+
 TEST(VisibilityTracing, light_reaches_subsurface_materials_from_either_side) {
   VisibilityScene scene;
   scene.look_from({0.0, 3.0, 0.001}, true);
