@@ -4,15 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/view_frames.h"
+
 namespace gloam {
 namespace {
 
-RenderView view_at(std::uint64_t frame, std::uint64_t cut_frame) {
-  RenderView view;
-  view.frame = frame;
-  view.cut_frame = cut_frame;
-  return view;
-}
+using test::view_at;
 
 TEST(ExpectedItems, is_the_bound_while_nothing_is_known) {
   EXPECT_EQ(expected_items(std::nullopt, 1000, view_at(7, 7)), 1000u);

@@ -13,8 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/view_frames.h"
+
 namespace gloam {
 namespace {
+
+using test::view_at;
 
 constexpr std::uint32_t kMost = 4194301;  // slots that 22 bits can number beside the three special values
 
@@ -144,13 +148,6 @@ TEST(FinalListFeedback, makes_room_for_any_need_in_a_few_frames_and_then_changes
     // The capacity is at most five times the need.
     EXPECT_LE(last_slots, std::max(tiles * kLeastSlotsPerTile, need * 5u)) << tiles << ' ' << pairs << ' ' << share;
   }
-}
-
-RenderView view_at(std::uint64_t frame, std::uint64_t cut_frame) {
-  RenderView view;
-  view.frame = frame;
-  view.cut_frame = cut_frame;
-  return view;
 }
 
 TEST(FinalListCapacities, hold_all_that_a_frame_can_need_until_a_need_is_known) {
