@@ -141,6 +141,30 @@ SearchRegion find_region_of_cube(ShadowPoint p, out bool across) {
 }
 #endif
 
+// The nearest depth among texels of the pyramid that may hold blockers: those that the cone between receiver and
+// emitter meets. 4×4 texels of the level around the receiver are looked at; three texels in a row are at least `width`
+// wide.
+float nearest_in_cone(ShadowPoint p, float width) {
+  const float margin = 2.0;  // texels of mip 0 by which the cone is widened
+  int level = pyramid_level(width / 3.0, floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1);
+  MipSquare square = mip_square(p.origin * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
+  float texel = 4.0 * square.texel, a_texel = 2.0 / max(p.scale, 1e-6);
+  vec2 at = p.at / texel, first = floor(at - 1.5) + 1.0;
+  float nearest = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    vec2 corner = clamp(first + 2.0 * vec2(i & 1, i >> 1), vec2(1.0), vec2(square.size - 1.0));
+    vec4 depth = textureGather(shadow_pyramid, (square.corner + corner) * shadow_texel_size() * vec2(4.0, 2.0));
+    // Distances from the receiver to the two columns and rows of texels, then the least depth of a blocker in each.
+    vec2 off = at - corner;
+    vec4 beyond = vec4(max(off.x, -1.0 - off.x), max(-off.x, off.x - 1.0), max(off.y, -1.0 - off.y),
+                       max(-off.y, off.y - 1.0));  // left, right, upper, lower
+    vec4 least = p.depth + a_texel * max(beyond * texel - margin, 0.0);
+    vec4 blocks = mix(vec4(0.0), depth, greaterThan(depth, max(least.xyyx, least.wwzz)));
+    nearest = max(nearest, nearest_of(blocks));
+  }
+  return nearest;
+}
+
 // Finds the search region from coarse to fine: the nearest depth in a square that is too large gives a smaller square
 // that still holds all blockers.
 SearchRegion find_region(ShadowPoint p) {
@@ -151,14 +175,12 @@ SearchRegion find_region(ShadowPoint p) {
   if ((kKinds & GLOAM_SHADOWS_CUBES) != 0u) region = find_region_of_cube(p, across);
 #endif
   if (!across) do {
-      vec2 corner = pyramid_corner(p, last);
+      region.width = penumbra_width(p, gather_nearest(pyramid_corner(p, last)));
       for (int step = 0; step < 2; ++step) {
-        region.width = penumbra_width(p, gather_nearest(corner));
-        corner = pyramid_corner(p, pyramid_level(region.width, last));
+        region.nearest = nearest_in_cone(p, region.width);
+        region.width = min(region.width, penumbra_width(p, region.nearest));
       }
-      region.nearest = gather_nearest(corner);
-      region.farthest = gather_farthest(corner);
-      region.width = penumbra_width(p, region.nearest);
+      region.farthest = gather_farthest(pyramid_corner(p, pyramid_level(region.width, last)));
     } while (never(p));
   return region;
 }

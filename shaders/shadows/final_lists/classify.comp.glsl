@@ -41,12 +41,27 @@ bool casts(bool directional, uint light) {
   return directional ? fetch_sun(light).x > 0.0 : local_kind(light) != GLOAM_SHADOW_NONE;
 }
 
-uint classify(TileBounds tile, bool directional, uint light, int most_turns, out bool in_face) {
-  in_face = false;
+uint classify_group(TileBounds t, bool directional, uint light, int most_turns, inout bool in_face) {
   if (directional)
-    return classify_directional(tile, light, texelFetch(shadow_rows, ivec2(6, cascade_row(light, 0u)), 0).xyz,
-                                most_turns);
-  return classify_local(tile, light, texelFetch(light_texels, ivec2(0, light), 0).xyz, most_turns, in_face);
+    return classify_directional(t, light, texelFetch(shadow_rows, ivec2(6, cascade_row(light, 0u)), 0).xyz, most_turns);
+  bool here;
+  uint verdict = classify_local(t, light, texelFetch(light_texels, ivec2(0, light), 0).xyz, most_turns, here);
+  in_face = in_face && (here || verdict == kNotAsked);
+  return verdict;
+}
+
+// The verdict on which the groups of the tile's pixels agree. in_face: all taps of the pixels are in one face.
+uint classify(TileGroups tile, bool directional, uint light, int most_turns, out bool in_face) {
+  uint verdict = kNotAsked;
+  in_face = !directional;
+  int group = 0;
+  do {
+    TileBounds t = tile.one;
+    if (group == 1) t = tile.two;
+    uint here = classify_group(t, directional, light, most_turns, in_face);
+    verdict = verdict == kNotAsked || verdict == here ? here : here == kNotAsked ? verdict : kUnknown;
+  } while (++group < (tile.has_two ? 2 : 1));
+  return verdict == kNotAsked ? kUnlit : verdict;
 }
 
 // Most blocks of planes that are tested per face of a light. If the tile has more than kMostFaces faces of lights, none
@@ -68,7 +83,7 @@ uint add_pair(uint entry, uint tile_index, uint kind) {
 }
 
 // Classifies the light and writes its entry at index `entry`, which is then incremented, unless the light is unlit.
-void add_light(TileBounds tile, uint tile_index, bool directional, uint light, int most_turns, inout uint entry) {
+void add_light(TileGroups tile, uint tile_index, bool directional, uint light, int most_turns, inout uint entry) {
   bool in_face = directional || local_kind(light) == GLOAM_SHADOW_SPOT;
   uint verdict = final_grid.classify != 0u   ? classify(tile, directional, light, most_turns, in_face)
                  : casts(directional, light) ? kUnknown
@@ -114,7 +129,7 @@ void main() {
     return;
   }
   unshadowed = lit_at_once = unlit_at_once = 0u;
-  TileBounds tile = make_tile_bounds(view, depth_image, normal_image, base_color_image, at, bounds);
+  TileGroups tile = make_tile_groups(view, depth_image, normal_image, base_color_image, at);
   int most_turns = count + final_grid.directional_count * uint(GLOAM_MAX_CASCADES) <= kMostFaces ? kMostTurns : 0;
   uvec2 first = uvec2(tile_index * final_grid.directional_count, shared_entries + list.x), end = first;
   for (uint i = 0u; i < final_grid.directional_count; ++i) add_light(tile, tile_index, true, i, most_turns, end.x);

@@ -14,6 +14,12 @@ void set_facing(inout TileInFace f, vec2 sines, vec2 emitter, bool subsurface) {
   f.turned_away = kBias != 0u && !subsurface && sines.x - slack > kFacingSine + emitter.x;
 }
 
+// Whether a local light is behind the shading normal of each pixel.
+bool is_dark(TileBounds t, vec3 light_position) {
+  float height = dot(t.normal, light_position), farthest = distance(t.center, light_position) + t.radius;
+  return height - t.offsets.x + t.shading_spread * farthest < -1e-5 * (abs(height) + farthest);
+}
+
 // Sets the least and greatest bias. depth_per_m: least and greatest depth per metre.
 void set_biases(inout TileInFace f, vec2 depth_per_m, bool subsurface) {
   float relative = f.nearest * shadow_block.relative_quantum;
@@ -25,15 +31,30 @@ void set_biases(inout TileInFace f, vec2 depth_per_m, bool subsurface) {
                             : shadow_block.depth_quantum;
 }
 
-// Sets the tile's bounds in the face of a local light. Returns false when pixels of the tile are in several faces or in
-// none, and when the light has no face.
-bool tile_in_local_face(TileBounds t, uint light, vec3 light_position, out TileInFace f) {
-  vec4 first = texelFetch(shadow_rows, ivec2(0, light), 0);  // kind, near, width, size
-  vec4 right = texelFetch(shadow_rows, ivec2(1, light), 0);  // right, tan_half
-  vec4 up = texelFetch(shadow_rows, ivec2(2, light), 0);     // up, tan_inner
-  f.cube = first.x == float(GLOAM_SHADOW_CUBE);
-  int face = f.cube ? cube_face_of((t.center - light_position) * kCube) : 0;
-  mat3 axes = mat3(right.xyz, up.xyz, spot_forward(light, right.xyz, up.xyz));
+// What classification needs of a local light.
+struct LocalFaces {
+  uint light;
+  vec3 position;
+  vec4 first;  // kind, near, width, size
+  vec4 right;  // right, tan_half
+  vec4 up;     // up, tan_inner
+  bool cube;
+};
+
+LocalFaces fetch_local_faces(uint light, vec3 light_position) {
+  vec4 first = texelFetch(shadow_rows, ivec2(0, light), 0);
+  return LocalFaces(light, light_position, first, texelFetch(shadow_rows, ivec2(1, light), 0),
+                    texelFetch(shadow_rows, ivec2(2, light), 0), first.x == float(GLOAM_SHADOW_CUBE));
+}
+
+// Sets the tile's bounds in a face of a local light. In the six faces of a cube, a plane, a distance and a cone differ
+// a little; margins: the bounds hold for pixels whose own face is another one, too. Returns false when the face cannot
+// hold the bounds: pixels are beside it, too near to the light, or it does not exist.
+bool tile_in_local_face(TileBounds t, LocalFaces l, int face, bool margins, out TileInFace f) {
+  vec3 light_position = l.position;
+  vec4 first = l.first, right = l.right, up = l.up;
+  f.cube = l.cube;
+  mat3 axes = mat3(right.xyz, up.xyz, spot_forward(l.light, right.xyz, up.xyz));
   if (f.cube) axes = kCube * cube_face_axes(face);
   float near = first.y, texel = 2.0 * right.w / first.w, width = max(first.z, 0.0);
   vec2 texels[8];
@@ -51,9 +72,7 @@ bool tile_in_local_face(TileBounds t, uint light, vec3 light_position, out TileI
     most_r = max(most_r, distance);
   }
   least_r = max(length(t.center - light_position) - t.radius, 1e-9);
-  f.face = face;
-  f.tan_half = right.w;
-  f.origin = cube_face_origin(light, face);
+  f.origin = cube_face_origin(l.light, face);
   f.size = first.w;
   set_texels(texels, 1.0 / 16.0, f);
   const float slack = 4e-6;
@@ -85,7 +104,17 @@ bool tile_in_local_face(TileBounds t, uint light, vec3 light_position, out TileI
   f.plane.yz = kReceiverPlane == 0u ? vec2(0.0) : f.plane.yz;
   f.faces_light = f.faces_light && one_side;
   f.slope = one_side ? f.slope : 1e30;
-  return first.x != float(GLOAM_SHADOW_NONE) && least_z > near * 1.0001 && most_z < 1e18 && (!f.cube || f.surrounded);
+  if (margins) {
+    const float more = 1.5, less = 0.6;
+    f.scale *= more;
+    f.slope *= more;
+    f.tilt *= more;
+    f.most_bias *= more;
+    f.least_bias *= less;
+  }
+  const float most_tangent = 4.0;  // beside a face, bounds in it become arbitrarily loose
+  return first.x != float(GLOAM_SHADOW_NONE) && least_z > near * 1.0001 && most_z < 1e18 &&
+         most_r < most_tangent * least_z;
 }
 
 // The texel (xy) and depth (z) of a point in an orthographic face.
@@ -144,6 +173,7 @@ void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, 
 uint classify_directional(TileBounds t, uint light, vec3 direction, int most_turns) {
   uint count = min(uint(fetch_sun(light).x), uint(GLOAM_MAX_CASCADES));
   if (count == 0u) return kCastsNone;
+  if (dot(t.normal, direction) > t.shading_spread + 1e-5) return kNotAsked;
   uint verdict = kUnknown, i = 0u;
   bool first = true, done = false;
   do {
@@ -153,8 +183,7 @@ uint classify_directional(TileBounds t, uint light, vec3 direction, int most_tur
     bool surrounded = f.surrounded;
     // Pixels outside this cascade do not count for its verdict.
     f.surrounded = f.nearest < 0.9999;
-    bool in_face;
-    uint here = classify_in_face(f, most_turns, in_face);
+    uint here = classify_in_face(f, most_turns, widest_region(f), 1.0, f.surrounded);
     verdict = outside ? verdict : first || here == verdict ? here : kUnknown;
     first = first && outside;
     done = surrounded || (!outside && here == kUnknown);
@@ -163,37 +192,110 @@ uint classify_directional(TileBounds t, uint light, vec3 direction, int most_tur
   return done ? verdict : verdict == kLit || first ? kLit : kUnknown;
 }
 
-// Whether a pixel's search region may leave the tile's cube face while another face may hold a blocker for it.
-bool other_faces_matter(TileInFace f, uint light) {
-  int last = floor_log2(f.size) - GLOAM_SHADOW_PYRAMID_MIP;
-  float to_tangent = 2.0 * f.tan_half / f.size;
-  float nearest = 0.0;
-  bool matter = false;
-  for (int i = 0; i < 6; ++i) {
-    MipSquare square =
-        mip_square(cube_face_origin(light, i) * 0.25, f.size * 0.25, last, shadow_block.atlas_size * 0.25);
-    float held = texelFetch(shadow_pyramid, ivec2(square.corner), 0).x;
-    float off = min(texels_to_face(f.face, i, f.low, f.size, to_tangent),
-                    texels_to_face(f.face, i, f.high, f.size, to_tangent));
-    bool other = i != f.face && may_block_from_other_face(held * 1.00001, f.farthest, off - 0.1, f.scale, to_tangent);
-    matter = matter || other;
-    nearest = max(nearest, i == f.face ? held : other ? 2.0 * held : 0.0);
-  }
-  return matter && leaves_face(f, 0.5 * widest(f, nearest) + 1.0);
+// Texels between the tile and the border of its cube face with another face; negative: pixels are beyond it.
+float texels_to_face(TileInFace f, int own, int face, float to_tangent) {
+  return min(texels_to_face(own, face, f.low, f.size, to_tangent),
+             texels_to_face(own, face, f.high, f.size, to_tangent));
 }
 
-// in_face: all taps of the tile's pixels are in one face.
+// Nearest depth in the half of a neighbouring face that is in front of the plane through the light that is parallel to
+// face `own`.
+float nearest_of_front_half(LocalFaces l, int own, int face) {
+  float size = l.first.w;
+  MipSquare square = mip_square(cube_face_origin(l.light, face) * 0.25, size * 0.25,
+                                floor_log2(size) - GLOAM_SHADOW_PYRAMID_MIP - 1, shadow_block.atlas_size * 0.25);
+  vec4 held = textureGather(shadow_pyramid, (square.corner + 1.0) * shadow_texel_size() * vec2(4.0, 2.0));
+  vec3 ahead = cube_face_axes(own)[2] * cube_face_axes(face);  // right, up
+  vec4 right = vec4(-1.0, 1.0, 1.0, -1.0), up = vec4(-1.0, -1.0, 1.0, 1.0);
+  return nearest_of(mix(vec4(0.0), held, greaterThan(right * ahead.x + up * ahead.y, vec4(0.0))));
+}
+
+// Faces of a cube, as bits, that decide about the tile: they hold pixels, or blockers for pixels. f: the tile in face
+// `own`. A surface of a neighbouring face at the tangent t ≥ 1 has t times its depth in face `own`, and blocks only if
+// that is in the cone of a pixel. Both are linear in t, and no kernel reaches beyond t = 2. The opposite face is out of
+// reach. width: of the search regions, as far as face `own` decides it.
+uint deciding_faces(TileInFace f, LocalFaces l, int own, float width) {
+  float coarse;
+  kernels_reach(width, coarse);
+  float slack = max(2.0 + coarse, 4.0);
+  float to_tangent = 2.0 * l.right.w / f.size, a_texel = 2.0 / max(f.scale * (f.surrounded ? 1.0 : 1.5), 1e-6);
+  uint faces = 1u << own;
+  for (int i = 0; i < 6; ++i) {
+    if (i >> 1 == own >> 1) continue;
+    float off = texels_to_face(f, own, i, to_tangent);
+    float held = nearest_of_front_half(l, own, i) * 1.00001;
+    float at_border = f.farthest + a_texel * max(off - slack, 0.0);
+    bool blocks = (held > at_border || 2.0 * held > at_border + a_texel / to_tangent) &&
+                  leaves_face(f, 0.5 * widest(f, 2.0 * held) + 1.0);
+    faces |= off < 0.1 || blocks ? 1u << i : 0u;
+  }
+  return faces;
+}
+
+// Whether kernels that reach this far beyond the tile read a face other than these.
+bool reads_other_faces(TileInFace f, LocalFaces l, int own, uint faces, float reach) {
+  float to_tangent = 2.0 * l.right.w / f.size;
+  bool others = false;
+  for (int i = 0; i < 6; ++i)
+    others = others || ((faces >> i & 1u) == 0u && texels_to_face(f, own, i, to_tangent) < reach);
+  return others && leaves_face(f, reach);
+}
+
+// Classifies the tile in each face that decides about it: first the width of the pixels' search regions, then the
+// verdict. in_face: all taps of the tile's pixels are in one face.
+uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face) {
+  const int most_faces = 3;
+  const float most_stretch = 1.6;  // of texels beside a face that kernels leave by an eighth of its side
+  int own = cube_face_of((t.center - l.position) * kCube);
+  TileInFace of_own, f;
+  in_face = false;
+  bool fits = tile_in_local_face(t, l, own, false, of_own);
+  // Surfaces that face away are unlit in any face, provided that every pixel is beyond the cube's near planes.
+  if (of_own.turned_away && (fits || of_own.clear)) return kUnlit;
+  if (!fits) return kUnknown;
+  float width = widest_region(of_own), coarse;
+  uint faces = deciding_faces(of_own, l, own, width);
+  bool several = bitCount(faces) > 1;
+  if (bitCount(faces) > most_faces) return kUnknown;
+  float stretch = several ? most_stretch : 1.0;
+  uint left = several ? faces : 0u;
+  if (several) do {
+      fits = tile_in_local_face(t, l, findLSB(left), true, f) && fits;
+      width = max(width, widest_region(f));
+      left &= left - 1u;
+    } while (left != 0u);
+  float reach = kernels_reach(width, coarse);
+  // A texel of the filter's coarser mip is up to half as wide as the penumbra, and the kernel is eight texels wide: it
+  // reaches up to two penumbra widths from the receiver.
+  in_face = !several && !leaves_face(of_own, max(reach, 2.0 * width + 2.0));
+  if (!fits || (several && reach > 0.125 * of_own.size)) return kUnknown;
+  bool whole = !reads_other_faces(of_own, l, own, faces, reach * stretch + 1.0);
+  uint verdict = kNotAsked;
+  left = faces;
+  do {
+    tile_in_local_face(t, l, findLSB(left), several, f);
+    uint here =
+        touches_face(f, reach * stretch + 1.0) ? classify_in_face(f, most_turns, width, stretch, whole) : kNotAsked;
+    verdict = verdict == kNotAsked || verdict == here ? here : here == kNotAsked ? verdict : kUnknown;
+    left &= left - 1u;
+  } while (left != 0u && verdict != kUnknown);
+  return verdict == kNotAsked ? kUnknown : verdict;
+}
+
 uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turns, out bool in_face) {
-  TileInFace f;
-  float kind = texelFetch(shadow_rows, ivec2(0, light), 0).x;
-  bool inside = tile_in_local_face(t, light, light_position, f);
-  bool alone = inside && (!f.cube || !other_faces_matter(f, light));
-  in_face = kind == float(GLOAM_SHADOW_SPOT);
-  if (kind == float(GLOAM_SHADOW_NONE)) return kCastsNone;
-  // Surfaces that face away are unlit in any face, provided that each pixel is in some face: the tile is inside one
-  // face, or every pixel is beyond the cube's near planes.
-  if (!alone) return f.turned_away && (inside || (f.cube && f.clear)) ? kUnlit : kUnknown;
-  return classify_in_face(f, most_turns, in_face);
+  LocalFaces l = fetch_local_faces(light, light_position);
+  in_face = l.first.x == float(GLOAM_SHADOW_SPOT);
+  if (l.first.x == float(GLOAM_SHADOW_NONE)) return kCastsNone;
+  if (is_dark(t, light_position)) return kNotAsked;
+  uint verdict = kUnknown;
+  if (l.cube)
+    verdict = classify_cube(t, l, most_turns, in_face);
+  else {
+    TileInFace f;
+    if (tile_in_local_face(t, l, 0, false, f))
+      verdict = classify_in_face(f, most_turns, widest_region(f), 1.0, f.surrounded);
+  }
+  return verdict;
 }
 
 #endif

@@ -24,6 +24,7 @@ const uint kUnknown = 0u;
 const uint kLit = 1u;
 const uint kUnlit = 2u;
 const uint kCastsNone = 3u;
+const uint kNotAsked = 4u;  // no pixel asks: the light would illuminate none of them without shadows
 
 const int kMostBlocks = 6;        // most blocks along a side of the tested area, at its coarsest level
 const float kPlaneMargin = 0.75;  // share of the bias that a block may exceed the pixels' planes by
@@ -43,8 +44,6 @@ struct TileInFace {
   float least_bias;  // least and greatest bias of the pixels, depth
   float most_bias;
   bool cube;         // kernels that leave the face continue in others
-  int face;          // cube face
-  float tan_half;    // tangent of half the face's field of view, for local lights
   mat2 sides;        // columns: normals of the tile's two sides, in texels of mip 0, scaled to |x| + |y| = 1
   vec4 side_ranges;  // least and greatest dot product of the pixels with the first, then with the second
   bool surrounded;   // all pixels use this face
@@ -85,8 +84,37 @@ float nearest_in(TileInFace f, vec2 low, vec2 high, out float farthest) {
 
 float widest(TileInFace f, float nearest) { return clamp(f.scale * (nearest - f.farthest), 0.0, f.size); }
 
-// Distance from a pixel, in texels of mip 0, up to which find_region() reads the pyramid for a penumbra of this width.
-float footprint(float width) { return 4.0 * max(width, 2.0); }
+// Nearest depth among texels of the pyramid that the cone of a pixel may meet; the bound on nearest_in_cone() of the
+// pixels. width: of their search regions, so far.
+float nearest_in_cones(TileInFace f, float width) {
+  const float margin = 2.0;  // as in nearest_in_cone()
+  vec2 low = clamp(f.low - 0.5 * width - margin, vec2(0.0), vec2(f.size)) * 0.25;
+  vec2 high = clamp(f.high + 0.5 * width + margin, vec2(0.0), vec2(f.size)) * 0.25;
+  int last = floor_log2(f.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
+  int level = clamp(ceil_log2(max(max(high.x - low.x, high.y - low.y) / 3.0, 1.0)), 0, last);
+  MipSquare square = mip_square(f.origin * 0.25, f.size * 0.25, level, shadow_block.atlas_size * 0.25);
+  float texel = 4.0 * square.texel, a_texel = 2.0 / max(f.scale, 1e-6);
+  vec2 first = floor(low / square.texel) + 1.0;
+  float nearest = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    vec2 corner = clamp(first + 2.0 * vec2(i & 1, i >> 1), vec2(1.0), vec2(square.size - 1.0));
+    vec4 depth = textureGather(shadow_pyramid, (square.corner + corner) * shadow_texel_size() * vec2(4.0, 2.0));
+    vec2 from_low = f.low - corner * texel, from_high = corner * texel - f.high;
+    vec2 before = max(from_low, from_high - texel),
+         after = max(from_low - texel, from_high);  // left, upper; right, lower
+    vec2 least_before = f.farthest + a_texel * max(before - margin, 0.0);
+    vec2 least_after = f.farthest + a_texel * max(after - margin, 0.0);
+    vec4 columns = vec4(least_before.x, least_after.x, least_after.x, least_before.x);
+    vec4 rows = vec4(least_after.y, least_after.y, least_before.y, least_before.y);
+    nearest = max(nearest, nearest_of(mix(vec4(0.0), depth, greaterThan(depth, max(columns, rows)))));
+  }
+  return nearest;
+}
+
+// Whether pixels read texels of the face when they look this far beyond the tile.
+bool touches_face(TileInFace f, float look) {
+  return all(greaterThan(f.high + look, vec2(0.0))) && all(lessThan(f.low - look, vec2(f.size)));
+}
 
 // Reach of the filter's kernels from a pixel, in texels of mip 0, for search regions up to this width. coarse: texels
 // of mip 0 per texel of the coarsest mip that they may use.
@@ -225,25 +253,29 @@ bool leaves_face(TileInFace f, float reach) {
   return f.cube && (min(f.low.x, f.low.y) < reach || max(f.high.x, f.high.y) > f.size - reach);
 }
 
-// Classifies the tile in one face. in_face: the kernels of all pixels stay in the face.
-uint classify_in_face(TileInFace f, int most_turns, out bool in_face) {
+// Greatest width of the pixels' search regions as far as this face decides it: as find_region() does.
+float widest_region(TileInFace f) {
+  int last = floor_log2(f.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
+  MipSquare square = mip_square(f.origin * 0.25, f.size * 0.25, last, shadow_block.atlas_size * 0.25);
+  float width = widest(f, gather_nearest(square.corner + 1.0));
+  for (int step = 0; step < 2; ++step) width = min(width, widest(f, nearest_in_cones(f, width)));
+  return width;
+}
+
+// Classifies the tile in one face. width: greatest width of the pixels' search regions. stretch: a texel in the face of
+// a pixel is at most this many texels wide here. whole: all pixels use this face, or other faces that are classified,
+// too.
+uint classify_in_face(TileInFace f, int most_turns, float width, float stretch, bool whole) {
   float farthest, coarse;
-  float width = widest(f, nearest_in(f, vec2(0.0), vec2(f.size), farthest));
-  for (int step = 0; step < 2; ++step) {
-    // Filters without a search region read every texel of their kernel.
-    float look = max(footprint(width), kernels_reach(width, coarse));
-    width = widest(f, nearest_in(f, f.low - look, f.high + look, farthest));
-  }
-  float reach = kernels_reach(width, coarse);
-  // A texel of the filter's coarser mip is up to half as wide as the penumbra, and the kernel is eight texels wide: it
-  // reaches up to two penumbra widths from the receiver.
-  in_face = !leaves_face(f, max(reach, 2.0 * width + 2.0));
-  bool unlit = f.turned_away || farthest > f.nearest + f.most_bias + f.slope * max(0.5 * width + 2.0, reach);
-  if (unlit) return f.surrounded ? kUnlit : kUnknown;
-  if (!f.faces_light || leaves_face(f, reach) || most_turns == 0) return kUnknown;
+  float reach = kernels_reach(width, coarse) * stretch;
+  nearest_in(f, f.low - reach, f.high + reach, farthest);
+  bool unlit =
+      f.turned_away || farthest > f.nearest + f.most_bias + f.slope * max((0.5 * width + 2.0) * stretch, reach);
+  if (unlit) return whole ? kUnlit : kUnknown;
+  if (!f.faces_light || most_turns == 0) return kUnknown;
   // Reasons for the slack: a texel of a mip may hold a depth from half a texel farther out, and a SearchCone begins to
   // rise only at its reach.
-  Looks looks = Looks(f.low - reach, f.high + reach, reach, max(2.0 + 0.5 * coarse, coarse));
+  Looks looks = Looks(f.low - reach, f.high + reach, reach, stretch * max(2.0 + 0.5 * coarse, coarse));
   return all_harmless(f, looks, most_turns) ? kLit : kUnknown;
 }
 
