@@ -33,6 +33,13 @@
 #define GLOAM_PAIRS_DIRECTIONAL 2
 #define GLOAM_PAIR_KINDS 3
 #define GLOAM_PAIRS_ROW 256  // workgroups in a row of the dispatch over pairs
+// Kinds of candidates: tile lights whose light casts a shadow, before classification. Local and directional ones, of
+// tiles with one and with two groups of pixels.
+#define GLOAM_CANDIDATES_LOCAL 0
+#define GLOAM_CANDIDATES_DIRECTIONAL 2
+#define GLOAM_CANDIDATES_TWO_GROUPS 1  // is added
+#define GLOAM_CANDIDATE_KINDS 4
+#define GLOAM_CANDIDATE_GROUP 64  // candidates of a workgroup
 
 GLOAM_SHARED_BEGIN
 
@@ -42,6 +49,7 @@ struct FinalGrid {
   uint directional_count;  // directional lights; the first tiles.x · tiles.y · directional_count entries are theirs
   uint has_early_lists;    // 0: the view has no local lights
   uint entry_capacity;
+  uint candidate_capacity;  // of local candidates, and again of directional ones
   uint pair_capacity;
   uint slot_capacity;
   uint classify;  // 0: no classification; every casting light is evaluated at every pixel
@@ -52,6 +60,23 @@ struct ShadowListCommands {
   uvec4 pairs[GLOAM_PAIR_KINDS];  // by kind: workgroups (GLOAM_PAIRS_ROW, rows, 1) and the number of pairs
   uvec4 fallback_draw;            // 6 vertices, one instance per fallback tile, 0, 0
 };
+
+/// The same for the dispatches over candidates.
+struct ShadowCandidateCommands {
+  uvec4 candidates[GLOAM_CANDIDATE_KINDS];  // by kind: workgroups (count, 1, 1) and the number of candidates
+  uvec4 asked;                              // local and directional candidates asked for, 0, 0
+};
+
+/// Bounds of a group of pixels of a shadow tile (tile_bounds.glsl), as stored for classification.
+struct ShadowTileGroup {
+  vec3 normal;           // face normal of a few of the pixels, unit
+  float spread;          // greatest length of the difference between `normal` and a pixel's face normal
+  float shading_spread;  // the same for shading normals
+  vec2 offsets;          // least and greatest dot(normal, position) of the pixels
+  vec2 depths;           // least and greatest depth of the pixels (reversed Z)
+  uint pixels;           // 3 bits each: least x and y of the pixels in the tile, greatest x and y; then GLOAM_GROUP_…
+};
+#define GLOAM_GROUP_SUBSURFACE 0x1000u  // any pixel has a subsurface material
 
 /// Counters of one view, summed by the GPU. Tiles that show only sky are not counted.
 struct ShadowListCounters {

@@ -16,6 +16,9 @@ namespace {
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} * GLOAM_BUFFER_WORDS;  // bytes of one buffer
 constexpr std::uint32_t kMostSlots = GLOAM_NO_ROOM;  // slot numbers are 0 … GLOAM_NO_ROOM − 1
 constexpr std::uint32_t kMostRows = 65535;           // the least maxComputeWorkGroupCount that Vulkan allows
+/// More tile lights than this are filtered without classification.
+constexpr std::uint32_t kMostCandidates = 2u << 20;
+static_assert(kMostCandidates <= kMostRows * GLOAM_CANDIDATE_GROUP, "they are dispatched in one row of workgroups");
 constexpr std::uint32_t kMostPairs = kMostRows * GLOAM_PAIRS_ROW;
 static_assert(2 * sizeof(std::uint32_t) * kMostPairs <= kMostBytes, "local and directional pairs share one buffer");
 
@@ -166,6 +169,7 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   const std::uint64_t entries =
       std::uint64_t{tile_count} * lights.directional_count + (lights.has_lists() ? lights.slot_capacity : 0);
   grid.entry_capacity = at_most(entries, kMostBytes / sizeof(std::uint32_t));
+  grid.candidate_capacity = at_most(pair_bound, kMostCandidates);
   grid.pair_capacity = c.pairs;
   grid.slot_capacity = c.slots;
   grid.classify = knobs.classify && knobs.early_outs ? 1 : 0;
@@ -183,9 +187,15 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   lists.tiles = graph.create_image(image);
   constexpr std::uint64_t kWord = sizeof(std::uint32_t);
   lists.entries = create(graph, "final_light_entries", kWord * grid.entry_capacity);
-  const std::uint64_t pairs =
-      std::uint64_t{c.pairs} + std::min<std::uint64_t>(c.pairs, std::uint64_t{tile_count} * lights.directional_count);
+  const std::uint64_t directional = std::uint64_t{tile_count} * lights.directional_count;
+  const std::uint64_t pairs = c.pairs + std::min<std::uint64_t>(c.pairs, directional);
+  const std::uint64_t candidates =
+      grid.candidate_capacity + std::min<std::uint64_t>(grid.candidate_capacity, directional);
   made.pairs = create(graph, "shadow_pairs", kWord * pairs);
+  made.candidates = create(graph, "shadow_candidates", kWord * candidates);
+  made.candidate_commands = create(graph, "shadow_candidate_commands", sizeof(shaders::ShadowCandidateCommands));
+  const std::uint64_t group_bytes = grid.classify != 0 ? 2 * sizeof(shaders::ShadowTileGroup) * tile_count : 0;
+  made.tile_groups = create(graph, "shadow_tile_groups", group_bytes);
   lists.fallback_tiles = create(graph, "shadow_fallback_tiles", kWord * tile_count);
   lists.commands = create(graph, "shadow_list_commands", sizeof(shaders::ShadowListCommands));
   lists.counters = create(graph, "shadow_list_counters", sizeof(shaders::ShadowListCounters));
@@ -194,7 +204,7 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   made.note = {tile_count,
                c.slots,
                c.pairs,
-               kWord * (std::uint64_t{grid.entry_capacity} + pairs) +
+               kWord * (std::uint64_t{grid.entry_capacity} + pairs + candidates) + group_bytes +
                    (lights.has_lists() ? std::uint64_t{lights.slot_capacity} / 3 * kWord : 0),
                std::uint64_t{c.slots} * slot_bytes(lists.visibility_bits),
                lists.visibility_bits,

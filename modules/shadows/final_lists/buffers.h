@@ -78,6 +78,9 @@ void count_final_lists(const shaders::ShadowListCounters& counters, const FinalL
 struct FinalListBuffers {
   FinalLists lists;
   BufferRef pairs;
+  BufferRef candidates;  ///< entries of tile lights that may cast, before classification; places as in pair_places.glsl
+  BufferRef candidate_commands;  ///< one ShadowCandidateCommands
+  BufferRef tile_groups;         ///< two ShadowTileGroup per shadow tile
   FinalListNote note;
 };
 /// Bits of a visibility in a slot: 4 or 8.

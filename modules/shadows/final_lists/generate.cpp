@@ -15,8 +15,17 @@
 namespace gloam {
 namespace {
 
-ComputeProgram classify_program(const ShadowsOutputs& shadows) {
-  return {shaders::shadows::classify_comp, shadows.constants};
+ComputeProgram list_program(const ShadowsOutputs& shadows) {
+  return {shaders::shadows::list_tile_lights_comp, shadows.constants};
+}
+
+ComputeProgram classify_program(const ShadowsOutputs& shadows, bool directional) {
+  return {directional ? shaders::shadows::classify_suns_comp : shaders::shadows::classify_local_comp,
+          shadows.constants};
+}
+
+bool has_lights(const LightsOutputs& lights, bool directional) {
+  return (directional ? lights.directional_count : lights.local_count) > 0;
 }
 
 gpu::ShaderCode generate_code(std::uint32_t kind, bool standard) {
@@ -38,41 +47,82 @@ ComputeProgram generate_program(const ShadowsOutputs& shadows, std::uint32_t vis
 std::vector<std::uint32_t> kinds_of(const LightsOutputs& lights) {
   std::vector<std::uint32_t> kinds;
   for (std::uint32_t kind = 0; kind < GLOAM_PAIR_KINDS; ++kind)
-    if ((kind == GLOAM_PAIRS_DIRECTIONAL ? lights.directional_count : lights.local_count) > 0) kinds.push_back(kind);
+    if (has_lights(lights, kind == GLOAM_PAIRS_DIRECTIONAL)) kinds.push_back(kind);
   return kinds;
 }
 
-void add_start_pass(FrameBuilder& frame, FinalLists& lists) {
+/// Sets a buffer of commands word by word.
+template <std::size_t kWords>
+void fill_commands(PassContext& context, BufferRef buffer, const std::uint32_t (&words)[kWords]) {
+  constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+  for (std::size_t i = 0; i < kWords; ++i)
+    context.commands().fill_buffer(context.buffer(buffer), i * kWord, kWord, words[i]);
+}
+
+void add_start_pass(FrameBuilder& frame, FinalListBuffers& buffers) {
+  FinalLists& lists = buffers.lists;
   PassBuilder pass = frame.graph().add_pass("shadow_list_start", frame.module());
   lists.commands = pass.write(lists.commands, gpu::Access::transfer_write);
+  buffers.candidate_commands = pass.write(buffers.candidate_commands, gpu::Access::transfer_write);
   lists.counters = pass.write(lists.counters, gpu::Access::transfer_write);
-  pass.execute([commands_ref = lists.commands, counters = lists.counters](PassContext& context) {
-    constexpr std::uint64_t kWord = sizeof(std::uint32_t);
-    constexpr std::uint32_t kStart[] = {
+  pass.execute([commands = lists.commands, candidates = buffers.candidate_commands,
+                counters = lists.counters](PassContext& context) {
+    constexpr std::uint32_t kPairs[] = {
         GLOAM_PAIRS_ROW, 0, 1, 0, GLOAM_PAIRS_ROW, 0, 1, 0, GLOAM_PAIRS_ROW, 0, 1, 0, 6, 0, 0, 0};
-    static_assert(sizeof(kStart) == sizeof(shaders::ShadowListCommands));
-    gpu::CommandList& commands = context.commands();
-    commands.fill_buffer(context.buffer(counters), 0, sizeof(shaders::ShadowListCounters), 0);
-    for (std::size_t i = 0; i < std::size(kStart); ++i)
-      commands.fill_buffer(context.buffer(commands_ref), i * kWord, kWord, kStart[i]);
+    constexpr std::uint32_t kCandidates[] = {0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0};
+    static_assert(sizeof(kPairs) == sizeof(shaders::ShadowListCommands) &&
+                  sizeof(kCandidates) == sizeof(shaders::ShadowCandidateCommands));
+    context.commands().fill_buffer(context.buffer(counters), 0, sizeof(shaders::ShadowListCounters), 0);
+    fill_commands(context, commands, kPairs);
+    fill_commands(context, candidates, kCandidates);
   });
 }
 
-void add_classify_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, ImageRef planes, FinalListBuffers& buffers) {
+void add_list_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, FinalListBuffers& buffers) {
   FinalLists& lists = buffers.lists;
-  ComputePass pass(frame, "classify_shadows", classify_program(shadows));
+  ComputePass pass(frame, "list_tile_lights", list_program(shadows));
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_light_lists(pass, frame.get<LightsOutputs>());
   read_shadows(pass, shadows);
-  pass.read("shadow_planes", planes);
   pass.read("final_grid", lists.grid);
   lists.tiles = pass.write("final_tiles", lists.tiles);
   lists.entries = pass.write("entries", lists.entries);
   buffers.pairs = pass.write("pairs", buffers.pairs);
+  buffers.candidates = pass.write("candidates", buffers.candidates);
+  buffers.candidate_commands = pass.write("candidate_commands", buffers.candidate_commands);
+  buffers.tile_groups = pass.write("tile_groups", buffers.tile_groups);
   lists.counters = pass.write("counters", lists.counters);
   lists.commands = pass.write("commands", lists.commands);
   const gpu::ImageDesc& tiles = frame.graph().desc(lists.tiles);
   pass.dispatch_over(tiles.width, tiles.height);
+}
+
+void add_classify_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, ImageRef planes, FinalListBuffers& buffers) {
+  FinalLists& lists = buffers.lists;
+  const LightsOutputs& lights = frame.get<LightsOutputs>();
+  ComputePass pass(frame, "classify_shadows", classify_program(shadows, !has_lights(lights, false)));
+  read_light_lists(pass, lights);
+  read_shadows(pass, shadows);
+  pass.read("shadow_planes", planes);
+  pass.read("final_grid", lists.grid);
+  pass.read("candidates", buffers.candidates);
+  pass.read("candidate_commands", buffers.candidate_commands);
+  pass.read("tile_groups", buffers.tile_groups);
+  lists.entries = pass.write("entries", lists.entries);
+  buffers.pairs = pass.write("pairs", buffers.pairs);
+  lists.counters = pass.write("counters", lists.counters);
+  lists.commands = pass.write("commands", lists.commands);
+  bool first = true;
+  for (std::uint32_t kind = 0; kind < GLOAM_CANDIDATE_KINDS; ++kind) {
+    const bool directional = (kind & GLOAM_CANDIDATES_DIRECTIONAL) != 0;
+    if (!has_lights(lights, directional)) continue;
+    if (!first) pass.barrier();
+    first = false;
+    pass.use(classify_program(shadows, directional));
+    pass.push(kind);
+    pass.dispatch_indirect(buffers.candidate_commands,
+                           offsetof(shaders::ShadowCandidateCommands, candidates) + kind * sizeof(uvec4));
+  }
 }
 
 void add_pairs_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, FinalListBuffers& buffers) {
@@ -122,7 +172,9 @@ bool can_generate(const FrameBuilder& frame, const ShadowKnobs& knobs) {
 void list_generate_pipelines(const ShadowKnobs& knobs, const ShadowsOutputs& shadows, const LightsOutputs& lights,
                              const gpu::DeviceInfo& device, PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "shadows")); };
-  add(classify_program(shadows));
+  add(list_program(shadows));
+  for (const bool directional : {false, true})
+    if (has_lights(lights, directional)) add(classify_program(shadows, directional));
   add({shaders::shadows::finish_comp});
   for (const std::uint32_t kind : kinds_of(lights))
     add(generate_program(shadows, visibility_bits_of(knobs), kind, device));
@@ -139,7 +191,8 @@ bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knob
 
 void add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes, ShadowsOutputs& shadows) {
   FinalListBuffers buffers = make_final_list_buffers(frame, knobs, *shadows.row_values);
-  add_start_pass(frame, buffers.lists);
+  add_start_pass(frame, buffers);
+  add_list_pass(frame, shadows, buffers);
   add_classify_pass(frame, shadows, planes, buffers);
   if (!frame.status().ok()) return;  // nothing has written the pairs that the next pass reads
   add_pairs_pass(frame, shadows, buffers);

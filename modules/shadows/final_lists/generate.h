@@ -21,9 +21,9 @@ void list_generate_pipelines(const ShadowKnobs& knobs, const ShadowsOutputs& sha
 [[nodiscard]] bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knobs,
                                             const ShadowsOutputs& shadows);
 
-/// Makes final lists from early lists: passes shadow_list_start, classify_shadows, generate_shadows, finish_lists. Sets
-/// shadows.final_lists, and puts a FinalListNote on the board. planes: from add_shadow_planes_pass(), or null when
-/// tiles are not classified.
+/// Makes final lists from early lists: passes shadow_list_start, list_tile_lights, classify_shadows, generate_shadows,
+/// finish_lists. Sets shadows.final_lists, and puts a FinalListNote on the board. planes: from
+/// add_shadow_planes_pass(), or null when tiles are not classified.
 void add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes, ShadowsOutputs& shadows);
 
 }  // namespace gloam

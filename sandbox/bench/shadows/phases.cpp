@@ -19,8 +19,9 @@ struct NamedPhase {
 constexpr NamedPhase kPasses[] = {
     {"depth_bounds", ShadowPhase::prepare},      {"results", ShadowPhase::prepare},
     {"find_lights_approx", ShadowPhase::approx}, {"find_lights_accurate", ShadowPhase::accurate},
-    {"classify_shadows", ShadowPhase::classify}, {"generate_shadows", ShadowPhase::generate},
-    {"finish_lists", ShadowPhase::finish},       {"deferred", ShadowPhase::lighting}};
+    {"list_tile_lights", ShadowPhase::classify}, {"classify_shadows", ShadowPhase::classify},
+    {"generate_shadows", ShadowPhase::generate}, {"finish_lists", ShadowPhase::finish},
+    {"deferred", ShadowPhase::lighting}};
 
 double tile_count(std::uint32_t width, std::uint32_t height) {
   return static_cast<double>((width + kTile - 1) / kTile) * ((height + kTile - 1) / kTile);

@@ -14,12 +14,6 @@ void set_facing(inout TileInFace f, vec2 sines, vec2 emitter, bool subsurface) {
   f.turned_away = kBias != 0u && !subsurface && sines.x - slack > kFacingSine + emitter.x;
 }
 
-// Whether a local light is behind the shading normal of each pixel.
-bool is_dark(TileBounds t, vec3 light_position) {
-  float height = dot(t.normal, light_position), farthest = distance(t.center, light_position) + t.radius;
-  return height - t.offsets.x + t.shading_spread * farthest < -1e-5 * (abs(height) + farthest);
-}
-
 // Sets the least and greatest bias. depth_per_m: least and greatest depth per metre.
 void set_biases(inout TileInFace f, vec2 depth_per_m, bool subsurface) {
   float relative = f.nearest * shadow_block.relative_quantum;
@@ -29,6 +23,88 @@ void set_biases(inout TileInFace f, vec2 depth_per_m, bool subsurface) {
                              : shadow_block.depth_quantum;
   f.most_bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * depth_per_m.y, quantum)
                             : shadow_block.depth_quantum;
+}
+
+#ifdef GLOAM_CLASSIFY_SUNS
+// The texel (xy) and depth (z) of a point in an orthographic face.
+vec3 cascade_texel(ShadowCascade c, vec3 point) {
+  vec4 p = vec4(point, 1.0);
+  return vec3(dot(c.row_u, p), dot(c.row_v, p), dot(c.row_depth, p));
+}
+
+// Sets the tile's bounds in a cascade. outside: no pixel is in the cascade.
+void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, out TileInFace f, out bool outside) {
+  vec3 low = vec3(1e30), high = vec3(-1e30);
+  vec2 texels[8];
+  for (int i = 0; i < 8; ++i) {
+    vec3 at = cascade_texel(c, t.corners[i]);
+    texels[i] = at.xy;
+    low = min(low, at);
+    high = max(high, at);
+  }
+  const float slack = 1.0 / 16.0;
+  float inner = c.size - c.rim, texel_depth = 1.0 / c.depth_m;
+  outside = high.x < c.rim - slack || high.y < c.rim - slack || low.x > inner + slack || low.y > inner + slack;
+  f.surrounded = low.x > c.rim + slack && low.y > c.rim + slack && high.x < inner - slack && high.y < inner - slack &&
+                 high.z < 0.9999;
+  f.cube = false;
+  f.origin = c.origin;
+  f.size = c.size;
+  set_texels(texels, slack, f);
+  float rounding = 1e-6 + 4e-7 * max(abs(low.z), abs(high.z));
+  f.nearest = high.z + rounding;
+  f.farthest = low.z - rounding;
+  float penumbra = max(fetch_sun(light).y, 0.0);
+  f.scale = penumbra * c.depth_m / c.texel_m * 1.00001;
+  float along = dot(t.normal, direction);
+  set_facing(f, vec2(along - t.spread, along + t.spread), vec2(0.5 * penumbra), t.subsurface);
+  set_biases(f, vec2(texel_depth), t.subsurface);
+  bool one_side = abs(along) > 2.0 * t.spread + 1e-5;
+  along = one_side ? along : 1.0;
+  float scale = c.texel_m * c.texel_m * texel_depth / along;
+  // A point on the pixels' plane that is farthest from the light; all these planes have the tile's normal.
+  vec3 lowest = t.center + t.normal * ((along < 0.0 ? t.offsets.x : t.offsets.y) - dot(t.normal, t.center));
+  vec3 at = cascade_texel(c, lowest);
+  vec2 slope = kReceiverPlane == 0u ? vec2(0.0) : vec2(dot(t.normal, c.row_u.xyz), dot(t.normal, c.row_v.xyz)) * scale;
+  f.plane = vec3(kReceiverPlane == 0u ? f.farthest : at.z - rounding - dot(slope, at.xy), slope);
+  float clear = max(abs(along) - t.spread, 1e-5);
+  f.tilt =
+      kReceiverPlane == 0u ? 0.0 : 2.0 * c.texel_m * texel_depth * t.spread * (abs(along) + 1.0) / (abs(along) * clear);
+  f.slope = kReceiverPlane == 0u
+                ? 0.0
+                : (abs(slope.x) + abs(slope.y)) * abs(along) / clear + 2.0 * c.texel_m * texel_depth * t.spread / clear;
+  f.faces_light = f.faces_light && one_side;
+  f.slope = one_side ? f.slope : 1e30;
+}
+
+// Each pixel uses the first cascade that it is in. So a verdict holds for the tile when all cascades that may be the
+// first one of a pixel agree on it.
+uint classify_directional(TileBounds t, uint light, vec3 direction, int most_turns) {
+  uint count = min(uint(fetch_sun(light).x), uint(GLOAM_MAX_CASCADES));
+  if (count == 0u) return kCastsNone;
+  if (dot(t.normal, direction) > t.shading_spread + 1e-5) return kNotAsked;
+  uint verdict = kUnknown, i = 0u;
+  bool first = true, done = false;
+  do {
+    TileInFace f;
+    bool outside;
+    tile_in_cascade(t, light, direction, fetch_cascade(cascade_row(light, i)), f, outside);
+    bool surrounded = f.surrounded;
+    // Pixels outside this cascade do not count for its verdict.
+    f.surrounded = f.nearest < 0.9999;
+    uint here = classify_in_face(f, most_turns, widest_region(f), 1.0, f.surrounded);
+    verdict = outside ? verdict : first || here == verdict ? here : kUnknown;
+    first = first && outside;
+    done = surrounded || (!outside && here == kUnknown);
+  } while (!done && ++i < count);
+  // Pixels in no cascade are lit.
+  return done ? verdict : verdict == kLit || first ? kLit : kUnknown;
+}
+#else
+// Whether a local light is behind the shading normal of each pixel.
+bool is_dark(TileBounds t, vec3 light_position) {
+  float height = dot(t.normal, light_position), farthest = distance(t.center, light_position) + t.radius;
+  return height - t.offsets.x + t.shading_spread * farthest < -1e-5 * (abs(height) + farthest);
 }
 
 // What classification needs of a local light.
@@ -115,81 +191,6 @@ bool tile_in_local_face(TileBounds t, LocalFaces l, int face, bool margins, out 
   const float most_tangent = 4.0;  // beside a face, bounds in it become arbitrarily loose
   return first.x != float(GLOAM_SHADOW_NONE) && least_z > near * 1.0001 && most_z < 1e18 &&
          most_r < most_tangent * least_z;
-}
-
-// The texel (xy) and depth (z) of a point in an orthographic face.
-vec3 cascade_texel(ShadowCascade c, vec3 point) {
-  vec4 p = vec4(point, 1.0);
-  return vec3(dot(c.row_u, p), dot(c.row_v, p), dot(c.row_depth, p));
-}
-
-// Sets the tile's bounds in a cascade. outside: no pixel is in the cascade.
-void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, out TileInFace f, out bool outside) {
-  vec3 low = vec3(1e30), high = vec3(-1e30);
-  vec2 texels[8];
-  for (int i = 0; i < 8; ++i) {
-    vec3 at = cascade_texel(c, t.corners[i]);
-    texels[i] = at.xy;
-    low = min(low, at);
-    high = max(high, at);
-  }
-  const float slack = 1.0 / 16.0;
-  float inner = c.size - c.rim, texel_depth = 1.0 / c.depth_m;
-  outside = high.x < c.rim - slack || high.y < c.rim - slack || low.x > inner + slack || low.y > inner + slack;
-  f.surrounded = low.x > c.rim + slack && low.y > c.rim + slack && high.x < inner - slack && high.y < inner - slack &&
-                 high.z < 0.9999;
-  f.cube = false;
-  f.origin = c.origin;
-  f.size = c.size;
-  set_texels(texels, slack, f);
-  float rounding = 1e-6 + 4e-7 * max(abs(low.z), abs(high.z));
-  f.nearest = high.z + rounding;
-  f.farthest = low.z - rounding;
-  float penumbra = max(fetch_sun(light).y, 0.0);
-  f.scale = penumbra * c.depth_m / c.texel_m * 1.00001;
-  float along = dot(t.normal, direction);
-  set_facing(f, vec2(along - t.spread, along + t.spread), vec2(0.5 * penumbra), t.subsurface);
-  set_biases(f, vec2(texel_depth), t.subsurface);
-  bool one_side = abs(along) > 2.0 * t.spread + 1e-5;
-  along = one_side ? along : 1.0;
-  float scale = c.texel_m * c.texel_m * texel_depth / along;
-  // A point on the pixels' plane that is farthest from the light; all these planes have the tile's normal.
-  vec3 lowest = t.center + t.normal * ((along < 0.0 ? t.offsets.x : t.offsets.y) - dot(t.normal, t.center));
-  vec3 at = cascade_texel(c, lowest);
-  vec2 slope = kReceiverPlane == 0u ? vec2(0.0) : vec2(dot(t.normal, c.row_u.xyz), dot(t.normal, c.row_v.xyz)) * scale;
-  f.plane = vec3(kReceiverPlane == 0u ? f.farthest : at.z - rounding - dot(slope, at.xy), slope);
-  float clear = max(abs(along) - t.spread, 1e-5);
-  f.tilt =
-      kReceiverPlane == 0u ? 0.0 : 2.0 * c.texel_m * texel_depth * t.spread * (abs(along) + 1.0) / (abs(along) * clear);
-  f.slope = kReceiverPlane == 0u
-                ? 0.0
-                : (abs(slope.x) + abs(slope.y)) * abs(along) / clear + 2.0 * c.texel_m * texel_depth * t.spread / clear;
-  f.faces_light = f.faces_light && one_side;
-  f.slope = one_side ? f.slope : 1e30;
-}
-
-// Each pixel uses the first cascade that it is in. So a verdict holds for the tile when all cascades that may be the
-// first one of a pixel agree on it.
-uint classify_directional(TileBounds t, uint light, vec3 direction, int most_turns) {
-  uint count = min(uint(fetch_sun(light).x), uint(GLOAM_MAX_CASCADES));
-  if (count == 0u) return kCastsNone;
-  if (dot(t.normal, direction) > t.shading_spread + 1e-5) return kNotAsked;
-  uint verdict = kUnknown, i = 0u;
-  bool first = true, done = false;
-  do {
-    TileInFace f;
-    bool outside;
-    tile_in_cascade(t, light, direction, fetch_cascade(cascade_row(light, i)), f, outside);
-    bool surrounded = f.surrounded;
-    // Pixels outside this cascade do not count for its verdict.
-    f.surrounded = f.nearest < 0.9999;
-    uint here = classify_in_face(f, most_turns, widest_region(f), 1.0, f.surrounded);
-    verdict = outside ? verdict : first || here == verdict ? here : kUnknown;
-    first = first && outside;
-    done = surrounded || (!outside && here == kUnknown);
-  } while (!done && ++i < count);
-  // Pixels in no cascade are lit.
-  return done ? verdict : verdict == kLit || first ? kLit : kUnknown;
 }
 
 // Texels between the tile and the border of its cube face with another face; negative: pixels are beyond it.
@@ -297,5 +298,6 @@ uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turn
   }
   return verdict;
 }
+#endif
 
 #endif
