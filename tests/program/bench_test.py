@@ -10,7 +10,8 @@ class Bench(ProgramCase):
     def test_ids_are_listed_once_each(self):
         ids = self.expect(0, "bench", "--list").stdout.split()
         self.assertEqual(len(ids), len(set(ids)))
-        for an_id in ("jobs.empty", "jobs.empty.one_thread", "ecs.iterate2.1e4", "ecs.random_get_over_bare", "frame.scene"):
+        for an_id in ("jobs.empty", "jobs.empty.one_thread", "ecs.iterate2.1e4", "ecs.random_get_over_bare", "frame.scene",
+                      "shadows.table1.deferred_8_closeups", "shadows.table1.deferred_8_closeups_all_over_monolithic"):
             self.assertIn(an_id, ids)
 
     def test_rows_have_the_documented_fields(self):

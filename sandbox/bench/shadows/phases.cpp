@@ -42,6 +42,12 @@ bool makes_shadow_maps(const PassTime& pass) {
   return pass.name.starts_with("shadow_map") || pass.name == "shadow_planes";
 }
 
+double closeup_map_ms(const FrameReport& report) {
+  double ms = 0.0;
+  for (const PassTime& pass : report.passes) ms += pass.name.starts_with("shadow_map_closeup") ? pass.ms : 0.0;
+  return ms;
+}
+
 double PhaseTimes::total() const { return std::accumulate(ms.begin(), ms.end(), 0.0); }
 
 PhaseTimes phase_times(const FrameReport& report) {

@@ -32,8 +32,12 @@ inline constexpr std::array<const char*, kShadowPhases> kShadowPhaseNames = {
 /// and shadows count as `prepare`, so that none is left out by mistake.
 [[nodiscard]] std::optional<ShadowPhase> shadow_phase_of(const PassTime& pass);
 /// Whether a pass makes shadow maps or the data kept with them (mips, planes). These passes run only for faces that are
-/// redrawn.
+/// redrawn, and for close-up pairs (closeup_map_ms).
 [[nodiscard]] bool makes_shadow_maps(const PassTime& pass);
+
+/// Milliseconds that a frame spends on maps of close-up pairs: drawing, and resolving into mips and pyramids. These
+/// maps are made anew in every frame.
+[[nodiscard]] double closeup_map_ms(const FrameReport& report);
 
 /// Milliseconds of one frame by phase.
 struct PhaseTimes {

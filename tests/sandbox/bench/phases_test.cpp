@@ -40,6 +40,18 @@ TEST(ShadowPhases, a_frame_is_added_up_by_phase) {
   EXPECT_DOUBLE_EQ(times.total(), 8.25);
 }
 
+TEST(ShadowPhases, maps_of_closeups_are_added_up_apart_from_the_phases) {
+  FrameReport report;
+  report.passes = {
+      pass("shadow_map_draw", "shadows", 40.0),         pass("shadow_map_closeup", "closeups", 1.0),
+      pass("shadow_map_closeup_mips", "closeups", 2.0), pass("shadow_map_closeup_standard", "closeups", 0.5),
+      pass("closeup_compose", "closeups", 4.0),         pass("closeup_transfer", "closeups", 8.0),
+      pass("shadow_overlay_copy", "shadows", 16.0)};
+  EXPECT_DOUBLE_EQ(closeup_map_ms(report), 3.5);
+  EXPECT_DOUBLE_EQ(phase_times(report).of(ShadowPhase::closeups), 12.0);
+  EXPECT_DOUBLE_EQ(phase_times(report).total(), 28.0);
+}
+
 TEST(ShadowPhases, lists_had_room_unless_a_tile_overflowed) {
   FrameReport report;
   EXPECT_TRUE(lists_had_room(report));

@@ -131,14 +131,19 @@ TEST(BenchRegistry, has_the_rows_of_deferred_shadows) {
   for (const BenchRow& each : registry.rows()) rows[each.id] = each;
   EXPECT_EQ(rows["shadows.table1.deferred_over_monolithic"].bar, 0.5);
   EXPECT_EQ(rows["shadows.table1.deferred_difference"].bar, 1.0);
+  // With close-ups, the bar is for the row that includes their maps.
+  EXPECT_EQ(rows["shadows.table1.deferred_8_closeups_all_over_monolithic"].bar, 0.9);
+  EXPECT_FALSE(rows["shadows.table1.deferred_8_closeups_over_monolithic"].bar.has_value());
   EXPECT_EQ(rows["shadows.frame.over_gather48"].bar, 3.7);
   for (const char* id : {"lists_over_fixed.1080p", "lists_over_fixed.4k", "visibility_over_fixed.1080p",
                          "visibility_over_fixed.4k", "32_lights.lists_over_fixed.4k"}) {
     EXPECT_EQ(rows["shadows.memory." + std::string(id)].bar, 0.25) << id;
     EXPECT_EQ(rows["shadows.memory." + std::string(id)].unit, "ratio") << id;
   }
-  for (const char* id : {"table1.monolithic", "table1.deferred", "table1.deferred_unclassified", "figure13.classify",
-                         "curve.lights.8.generate", "curve.size.1920x1080.monolithic", "frame.maps_share"})
+  for (const char* id :
+       {"table1.monolithic", "table1.deferred", "table1.deferred_unclassified", "table1.deferred_8_closeups",
+        "table1.deferred_8_closeups_all", "table1.deferred_8_closeups_over_monolithic", "figure13.classify",
+        "curve.lights.8.generate", "curve.size.1920x1080.monolithic", "frame.maps_share"})
     EXPECT_TRUE(rows.contains("shadows." + std::string(id))) << id;
 }
 
