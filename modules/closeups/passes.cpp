@@ -62,6 +62,14 @@ std::vector<CloseupView> placed(std::span<const CloseupView> batch) {
   return pairs;
 }
 
+/// The pairs whose flag is set.
+std::vector<CloseupView> chosen(std::span<const CloseupView> pairs, std::span<const std::uint8_t> flags) {
+  std::vector<CloseupView> found;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (flags[i] != 0) found.push_back(pairs[i]);
+  return found;
+}
+
 void draw_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, MapMips mips, ExtraAtlas& map) {
   const auto& subjects = frame.world().resource<CloseupSubjects>();
   std::vector<ExtraMap> maps;
@@ -140,23 +148,22 @@ void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
   auto* drawer = frame.find<ShadowMapDrawer>();
   if (closeups == nullptr || closeups->pairs.empty() || shadows == nullptr || drawer == nullptr) return;
   ExtraAtlas map = drawer->create(frame, frame.world().view_resource<CloseupSettings>(frame.view().id).map_size);
-  const bool seen = standard_maps_are_seen(frame, shadows->final_lists->always_complete);
-  if (seen && !closeups->copies) add_late_copies(frame, *closeups);
+  if (may_have_fallback_tiles(shadows->final_lists->always_complete)) add_late_copies(frame, *closeups);
   CloseupOverlay overlay(knobs.draws_standard);
-  if (seen) overlay.start(frame, closeups->overlay);
-  // Overlays read coarser mips of the close-up map.
-  const MapMips mips = knobs.single_fetches && !seen ? MapMips::bounds_only : MapMips::all;
+  overlay.start(frame, closeups->overlay);
   ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
   looked.block = drawer->block(frame, map.size);
-  for (std::span<const CloseupView> left = closeups->pairs; !left.empty();) {
-    const std::size_t count = std::min<std::size_t>(knobs.batch, left.size());
-    const std::vector<CloseupView> pairs = placed(left.first(count));
+  for (std::size_t first = 0; first < closeups->pairs.size(); first += knobs.batch) {
+    const std::size_t count = std::min<std::size_t>(knobs.batch, closeups->pairs.size() - first);
+    const std::vector<CloseupView> pairs = placed(std::span(closeups->pairs).subspan(first, count));
+    const std::vector<CloseupView> copied = chosen(pairs, std::span(closeups->in_overlay).subspan(first, count));
+    // The overlay reads coarser mips of the close-up map.
+    const MapMips mips = knobs.single_fetches && copied.empty() ? MapMips::bounds_only : MapMips::all;
     draw_batch(frame, pairs, mips, map);
     looked.atlas = map.atlas;
     looked.pyramid = map.pyramid;
     compose_batch(frame, pairs, looked);
-    overlay.add(frame, pairs, map);
-    left = left.subspan(count);
+    overlay.add(frame, copied, map);
   }
   overlay.finish(frame);
 }

@@ -17,8 +17,8 @@ namespace gloam {
 [[nodiscard]] bool closeup_pipelines_ready(const FrameBuilder& frame, const CloseupKnobs& knobs);
 
 /// For the pairs of the CloseupFrame on the board, batch after batch: draws them into the close-up map, and lowers the
-/// visibilities in the final lists on the board by what the subjects hide. If the frame reads standard maps, also adds
-/// the subjects to the overlay. Does nothing in a frame without final lists.
+/// visibilities in the final lists on the board by what the subjects hide. Also adds
+/// the subjects of pairs with CloseupFrame::in_overlay to the overlay. Does nothing in a frame without final lists.
 void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs);
 
 }  // namespace gloam

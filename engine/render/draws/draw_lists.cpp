@@ -160,6 +160,7 @@ class InstanceDrawer {
       return;
     }
     Draw draw = start(view, instance.entity, primitive, constants, (constants.flags & GLOAM_DRAW_MIRRORED) != 0);
+    draw.bounds = whole;
     for (const Cluster& cluster : primitive.clusters) {
       const bool visible = primitive.clusters.size() == 1 || may_see(view, transformed(cluster.bounds, matrix));
       if (!visible) continue;
@@ -202,6 +203,7 @@ class InstanceDrawer {
       draw.first_index = primitive.first_index;
       draw.index_count = primitive.index_count;
       draw.deform = deform;
+      if (box.known()) draw.bounds = bounds;
       add(view, draw, bounds, lists.views[v]);
     }
     if (deformed) lists.deforms.push_back(deform_job(instance, primitive, skinned, morphed));

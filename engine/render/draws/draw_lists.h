@@ -8,6 +8,7 @@
 
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
+#include "engine/math/bounds.h"
 #include "engine/render/draws/casters.h"
 #include "engine/render/scene/draw_pipelines.h"
 #include "engine/render/scene/gpu_scene.h"
@@ -27,6 +28,7 @@ struct Draw {
   std::uint32_t index_count = 0;
   std::uint32_t deform = kNone;  ///< index into FrameDraws::deforms, or kNone for rest vertices
   float depth_m = 0.0f;          ///< nearest view depth of the bounds
+  Aabb bounds;                   ///< of the drawn vertices, relative to the view's position; empty: unknown
 };
 
 /// A primitive of an instance whose vertices the GPU morphs or skins in this frame.

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "modules/closeups/compose/frame.h"
 
+#include <limits>
+
+#include "modules/closeups/umbra/umbra_projection.h"
+
 namespace gloam {
 namespace {
 
@@ -12,36 +16,69 @@ bool add_copies(const FrameBuilder& frame, const CloseupView& pair, OverlayPlan&
 
 OverlayPlan empty_plan(const FrameBuilder& frame) { return OverlayPlan(frame.world(), frame.view().id); }
 
+/// Surfaces that are shaded from standard maps in every frame.
+class ForwardLit {
+ public:
+  explicit ForwardLit(const FrameBuilder& frame) : view_(frame.view()) {
+    for (const Draw& draw : frame.draws().blended) {
+      WorldBox box;
+      if (!draw.bounds.empty())
+        box = {dvec3(draw.bounds.min) + view_.position, dvec3(draw.bounds.max) + view_.position};
+      surfaces_.push_back({box, std::nullopt});
+    }
+  }
+
+  /// Whether one of them may be in the shadow of the pair's subject: it meets the beam behind the near side of the
+  /// pair's face, and the tiles of the pair.
+  [[nodiscard]] bool may_be_shadowed_by(const CloseupView& pair) {
+    ShadowFace beam = pair.face;
+    beam.far_m = std::numeric_limits<float>::infinity();
+    for (Surface& surface : surfaces_) {
+      if (surface.box.known() && !face_may_see(beam, surface.box.min, surface.box.max)) continue;
+      if (!surface.tiles) surface.tiles = box_tiles(surface.box, view_);
+      if (surface.tiles->overlaps(pair.tiles)) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Surface {
+    WorldBox box;
+    std::optional<TileRange> tiles;  ///< found when first needed
+  };
+  const RenderView& view_;
+  std::vector<Surface> surfaces_;
+};
+
 }  // namespace
 
-bool standard_maps_are_seen(const FrameBuilder& frame, std::optional<bool> complete) {
-  return !frame.draws().blended.empty() || !complete.value_or(false);
-}
+bool may_have_fallback_tiles(std::optional<bool> complete) { return !complete.value_or(false); }
 
 CloseupFrame plan_closeup_frame(const FrameBuilder& frame, std::optional<bool> complete) {
   const CloseupViews& views = frame.world().view_resource<CloseupViews>(frame.view().id);
   CloseupFrame closeups;
   closeups.skipped = views.skipped;
-  closeups.copies = standard_maps_are_seen(frame, complete);
-  if (!closeups.copies) {
-    closeups.pairs = views.pairs;
-    return closeups;
-  }
   closeups.overlay = empty_plan(frame);
+  ForwardLit forward_lit(frame);
   for (const CloseupView& pair : views.pairs) {
-    if (add_copies(frame, pair, closeups.overlay))
-      closeups.pairs.push_back(pair);
-    else
+    const bool needed = may_have_fallback_tiles(complete) || forward_lit.may_be_shadowed_by(pair);
+    if (needed && !add_copies(frame, pair, closeups.overlay)) {
       ++closeups.skipped;
+      continue;
+    }
+    closeups.pairs.push_back(pair);
+    closeups.in_overlay.push_back(needed ? 1 : 0);
   }
   return closeups;
 }
 
 void add_late_copies(const FrameBuilder& frame, CloseupFrame& closeups) {
-  closeups.copies = true;
-  closeups.overlay = empty_plan(frame);
-  // A pair without room for its copies loses the subject's shadow in the overlay for this one frame.
-  for (const CloseupView& pair : closeups.pairs) static_cast<void>(add_copies(frame, pair, closeups.overlay));
+  for (std::size_t i = 0; i < closeups.pairs.size(); ++i) {
+    if (closeups.in_overlay[i] != 0) continue;
+    closeups.in_overlay[i] = 1;
+    // A pair without room for its copies loses the subject's shadow in the overlay for this one frame.
+    static_cast<void>(add_copies(frame, closeups.pairs[i], closeups.overlay));
+  }
 }
 
 }  // namespace gloam

@@ -17,6 +17,9 @@ struct TileRange {
   uvec2 end = uvec2(0);
   [[nodiscard]] bool empty() const { return begin.x >= end.x || begin.y >= end.y; }
   [[nodiscard]] std::uint64_t tiles() const { return empty() ? 0 : std::uint64_t{end.x - begin.x} * (end.y - begin.y); }
+  [[nodiscard]] bool overlaps(const TileRange& other) const {
+    return begin.x < other.end.x && begin.y < other.end.y && other.begin.x < end.x && other.begin.y < end.y;
+  }
   bool operator==(const TileRange&) const = default;
 };
 

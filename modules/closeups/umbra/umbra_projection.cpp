@@ -284,4 +284,13 @@ TileRange umbra_tiles(const CloseupLight& light, const WorldBox& subject, const 
                                               : local_tiles(light, subject, camera);
 }
 
+TileRange box_tiles(const WorldBox& box, const RenderView& view) {
+  const dvec3 sum = box.min + box.max + view.position;
+  if (!box.known() || !std::isfinite(sum.x + sum.y + sum.z)) return whole_view(view);
+  const CameraFrame camera(view);
+  std::array<dvec3, 8> corners = corners_of(box);
+  for (dvec3& corner : corners) corner = camera.seen(corner);
+  return tiles_of(hull_on_screen(corners, view, screen_with_slack(view)), view);
+}
+
 }  // namespace gloam

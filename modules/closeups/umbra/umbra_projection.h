@@ -19,4 +19,7 @@ namespace gloam {
 [[nodiscard]] TileRange umbra_tiles(const CloseupLight& light, const WorldBox& subject, const WorldBox& receivers,
                                     const RenderView& view);
 
+/// The tiles of all pixels that a world-space box may cover. The whole view if the box is unknown or not finite.
+[[nodiscard]] TileRange box_tiles(const WorldBox& box, const RenderView& view);
+
 }  // namespace gloam

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -181,9 +182,103 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
     return static_cast<double>(off) / (static_cast<double>(a.rgba.size()) / 4.0);
   }
 
+  /// World box of the subject.
+  struct SubjectBox {
+    dvec3 low;
+    dvec3 high;
+    /// Whether the segment from `from` to `to` passes through the box.
+    [[nodiscard]] bool cuts(const dvec3& from, const dvec3& to) const {
+      double begin = 0.0, end = 1.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double way = to[axis] - from[axis];
+        if (std::abs(way) < 1e-12) {
+          if (from[axis] < low[axis] || from[axis] > high[axis]) return false;
+          continue;
+        }
+        const double a = (low[axis] - from[axis]) / way, b = (high[axis] - from[axis]) / way;
+        begin = std::max(begin, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+      }
+      return begin <= end;
+    }
+  };
+  static constexpr SubjectBox kSubject{dvec3(-0.05, 0.4, 0.05), dvec3(0.45, 1.1, 0.55)};
+
+  /// Whether the camera sees the point, by its matrices in double precision.
+  [[nodiscard]] bool in_view(const dvec3& point) const {
+    const RenderView view = make_view(settings, 0);
+    const dvec4 clip = dmat4(view.clip_from_relative) * dvec4(point - view.position, 1.0);
+    return clip.w > static_cast<double>(view.near_m) && std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w;
+  }
+  /// Whether the subject's box is between the light and a point of the pane that the camera sees and the light reaches.
+  [[nodiscard]] bool shades_pane(const dmat4& pane, Entity lamp) const {
+    const Light& what = world.get<Light>(lamp);
+    const dmat4& node = world.get<WorldTransform>(lamp).matrix;
+    const dvec3 forward = -glm::normalize(dvec3(node[2]));
+    for (int i = 0; i < 21 * 21; ++i) {
+      const dvec3 point = dvec3(pane * dvec4(-0.5 + 0.05 * (i % 21), -0.5 + 0.05 * (i / 21), 0.0, 1.0));
+      const dvec3 from = what.kind == LightKind::directional ? point - 20.0 * forward : dvec3(node[3]);
+      const double cosine = glm::dot(glm::normalize(point - from), forward);
+      if (what.kind == LightKind::spot && cosine < std::cos(static_cast<double>(what.outer_angle))) continue;
+      if (in_view(point) && kSubject.cuts(point, from)) return true;
+    }
+    return false;
+  }
+
   CopyReader* copies_ = nullptr;
   Entity subject_, pane_entity_;
 };
+
+// Against points of the pane and the box of the subject: the overlay must be there if the box is between such a point
+// and the light.
+TEST_F(CloseupOverlayFrames, copies_are_made_only_for_surfaces_that_the_subject_may_shade) {
+  settings.width = 48, settings.height = 40;
+  put_pane();
+  for (const LightKind kind : {LightKind::point, LightKind::spot, LightKind::directional}) {
+    for (const Entity lamp : std::exchange(lamps, {})) world.remove<Light>(lamp);
+    put_lamp(kind);
+    draw_twice();
+    Dice dice(41);
+    int shaded = 0, spared = 0;
+    for (int i = 0; i < 24; ++i) {
+      // Every second one near the subject.
+      const dvec3 center = i % 2 == 0 ? dice.in_box(dvec3(-1.6, 0.05, -1.6), dvec3(1.6, 2.0, 2.0))
+                                      : dice.in_box(dvec3(-0.6, 0.05, -0.5), dvec3(0.9, 0.8, 0.9));
+      const dmat4 turned = glm::rotate(glm::translate(dmat4(1.0), center), dice.between(0.0, 3.1), dice.direction());
+      const dmat4 pane = glm::scale(turned, dvec3(dice.between(0.1, 0.6)));
+      place(pane_entity_, pane);
+      draw();
+      const bool needed = shades_pane(pane, lamps.back()), there = has_pass("closeup_transfer");
+      EXPECT_TRUE(!needed || there) << "pane " << i;
+      EXPECT_EQ(there, has_pass("shadow_overlay_copy"));
+      EXPECT_EQ(there, !copies_->copies.empty());
+      EXPECT_EQ(counter("closeups.pairs"), 1.0);
+      shaded += needed ? 1 : 0;
+      spared += there ? 0 : 1;
+    }
+    std::printf("shaded %d, spared %d of 24\n", shaded, spared);
+    EXPECT_GT(shaded, 2);
+    EXPECT_GT(spared, 5);
+  }
+}
+
+TEST_F(CloseupOverlayFrames, copies_are_made_only_for_pairs_whose_shadow_a_surface_may_show) {
+  settings.width = 160, settings.height = 120;
+  const Entity near = put_light(spot(45.0), dvec3(-0.5, 2.0, 1.0), dvec3(0.3, -1.0, -0.4), 128);
+  put_light(spot(45.0), dvec3(1.5, 2.0, 1.0), dvec3(-0.6, -1.0, -0.4), 128);
+  pane_entity_ = put(pane_, glm::scale(at(0.65, 0.1, -0.2) * flat(0.0), dvec3(0.35)));
+  draw();
+  const LinearPicture monolithic = frame("monolithic").light;
+  for (const char* batch : {"1", "2"}) {
+    set("closeups.batch", batch);
+    static_cast<void>(frame("deferred"));
+    const LinearPicture deferred = frame("deferred").light;
+    EXPECT_EQ(counter("closeups.pairs"), 2.0);
+    ASSERT_FALSE(copies_->copies.empty());
+    for (const OverlayFace& copy : copies_->copies) EXPECT_EQ(copy.face.light, near);
+    EXPECT_LT(differing(deferred, monolithic), 0.02) << batch;
+  }
+}
 
 TEST_F(CloseupOverlayFrames, a_lamps_faces_hold_what_drawing_the_subject_gives) {
   expect_transferred_as_drawn(LightKind::point, "transfer");
