@@ -32,7 +32,7 @@ Renderer::State::State(RendererOptions given)
     : options(std::move(given)),
       pipelines(*options.device),
       uniforms(*options.device, "engine", gpu::BufferUsage::uniform),
-      storage(*options.device, "engine", gpu::BufferUsage::storage),
+      storage(*options.device, "engine", gpu::BufferUsage::storage | gpu::BufferUsage::transfer_source),
       results(*options.device),
       declared(*options.device),
       history(*options.device),

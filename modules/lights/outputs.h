@@ -26,10 +26,10 @@ struct LightsOutputs {
                     ///< without local lights
 
   /// The following fields are set only with local lights and lights.culling = tiled.
-  gpu::Binding::BufferRange grid;        ///< a LightGrid, uniform
-  gpu::Binding::BufferRange z_bins;      ///< storage; one word per bin: the standard set, then the ranged set
-  gpu::Binding::BufferRange mask_tiles;  ///< storage; GLOAM_MASK_WORDS per tile of 32×32 pixels, built on the CPU
-  BufferRef group_masks;                 ///< GLOAM_MASK_WORDS per tile group: lights found by the approximate search
+  gpu::Binding::BufferRange grid;  ///< a LightGrid, uniform
+  BufferRef z_bins;                ///< one word per bin: the standard set, then the ranged set
+  BufferRef mask_tiles;            ///< GLOAM_MASK_WORDS per tile of 32×32 pixels, built on the CPU
+  BufferRef group_masks;           ///< GLOAM_MASK_WORDS per tile group: lights found by the approximate search
   ImageRef tile_lists;  ///< rg32ui, one texel per shadow tile. x: slot (first list entry, a multiple of 3) or
                         ///< GLOAM_NO_SLOT. y: light count of the accurate search in the low 16 bits, of the approximate
                         ///< search in the high 16

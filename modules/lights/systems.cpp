@@ -11,6 +11,8 @@
 #include <numeric>
 #include <type_traits>
 
+#include "modules/lights/lists/uploads.h"
+
 namespace gloam {
 namespace {
 
@@ -237,6 +239,7 @@ void prepare_light_view(World& world, ViewId view) {
   if (world.try_view_resource<ZBins>(view) == nullptr) world.set_view_resource(view, ZBins{});
   if (world.try_view_resource<TileBound>(view) == nullptr) world.set_view_resource(view, TileBound::cone);
   if (world.try_view_resource<TileLightMasks>(view) == nullptr) world.set_view_resource(view, TileLightMasks{});
+  if (world.try_view_resource<TileMaskHash>(view) == nullptr) world.set_view_resource(view, TileMaskHash{});
 }
 
 }  // namespace gloam

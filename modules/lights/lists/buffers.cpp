@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/render/readback/item_need.h"
+#include "modules/lights/lists/uploads.h"
 #include "modules/lights/masks/mask_population.h"
 
 namespace gloam {
@@ -111,8 +112,7 @@ void upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightM
   outputs.slot_capacity = grid.slot_capacity;
 
   outputs.grid = frame.upload_uniform(grid);
-  outputs.z_bins = frame.upload_items(std::span(bins.bins));
-  outputs.mask_tiles = frame.upload_items(std::span(masks.words));
+  add_light_uploads(frame, bins, masks, outputs);
 
   FrameGraph& graph = frame.graph();
   outputs.group_masks =
