@@ -57,7 +57,8 @@ struct VisibleLights {
   shaders::LightBlock block{};
   std::vector<Entity> local_entities;  ///< in the order of block.local
   std::vector<Entity> directional_entities;
-  std::vector<LightDepth> depths;  ///< in the order of block.local: view depths of the bound, from the near plane on
+  std::vector<LightDepth> depths;      ///< in the order of block.local: view depths of what the light may light (its
+                                       ///< sphere, for a spot also its cone), from the near plane on
   std::vector<MaskLight> mask_lights;  ///< in the order of block.local
   std::uint32_t total = 0;             ///< lights in the world
   std::uint32_t dropped = 0;           ///< lights left out because the capacity was exceeded
@@ -81,7 +82,7 @@ struct VisibleLights {
 /// Selects the lights whose bounds may touch the view's frustum. If too many are visible, local lights with the largest
 /// solid angle × intensity stay, and the brightest directional lights; ties go to the lower index in `lights`. Lights
 /// that emit nothing, or are made unusable by NaN or infinity, are left out. Local lights are sorted by the nearest
-/// view depth of their bounds, ties by index in `lights` (a LightSet is sorted by entity).
+/// view depth of VisibleLights::depths, ties by index in `lights` (a LightSet is sorted by entity).
 void select_lights(std::span<const PlacedLight> lights, const RenderView& view, VisibleLights& visible);
 /// The same with prepared lights: `table` must describe `lights`, in the same order. Allocates only when there are more
 /// lights than in any call before.

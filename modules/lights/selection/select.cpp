@@ -119,6 +119,41 @@ void find_visible(const LightTable& table, const RenderView& view, JobExecutor& 
     if (selection.kind[i] == kDirectional) selection.directional.push_back(i);
 }
 
+/// The directions of a spot's light: all unit vectors whose dot product with `axis` is at least `cosine`.
+struct SpotDirections {
+  vec3 axis;
+  float cosine;
+};
+
+/// Greatest dot product of the directions with a unit vector.
+float farthest_along(const SpotDirections& spot, vec3 forward) {
+  const float cosine = glm::dot(spot.axis, forward);
+  if (cosine >= spot.cosine) return 1.0f;
+  // The cross product is exact where both vectors are almost parallel, unlike √(1 − cosine²).
+  const float sine = glm::length(glm::cross(spot.axis, forward));
+  return cosine * spot.cosine + sine * std::sqrt(std::max(1.0f - spot.cosine * spot.cosine, 0.0f));
+}
+
+/// Narrows the view depths of a spot from those of its sphere to those of its cone: a spherical sector extends from its
+/// apex to the points of its cap that are nearest and farthest along the view.
+void narrow_to_cone(const LightRecord& record, const PlacedLight& placed, const RenderView& view, float& nearest,
+                    float& farthest) {
+  // Shading rounds the cosine of the angle to the axis, so that it lights a slightly wider cone.
+  constexpr float kCosineRounding = 1e-6f;
+  const vec3 forward =
+      -vec3(view.view_from_relative[0][2], view.view_from_relative[1][2], view.view_from_relative[2][2]);
+  const vec3 apex = view.relative(placed.position);
+  const SpotDirections spot{placed.direction, record.cos_outer - kCosineRounding};
+  const float depth = glm::dot(forward, apex), range = record.range_m;
+  const float rounding = 3.0f * kRounding * (std::abs(apex.x) + std::abs(apex.y) + std::abs(apex.z) + range);
+  const float ahead = range * std::max(farthest_along(spot, forward), 0.0f);
+  const float behind = range * std::max(farthest_along(spot, -forward), 0.0f);
+  const float low = depth - behind - rounding, high = depth + ahead + rounding;
+  if (low > nearest) nearest = low;
+  if (high < farthest) farthest = high;
+  farthest = std::max(farthest, nearest);
+}
+
 /// Keeps the `capacity` indices of greatest importance (ties: lower index), in ascending order. Returns the number of
 /// dropped indices.
 template <class Importance>
@@ -257,6 +292,9 @@ void select_lights(std::span<const PlacedLight> lights, const LightTable& table,
                                         [&](std::uint32_t i) { return importance_of(table, view, i); });
   visible.dropped += keep_most_important(selection.directional, GLOAM_MAX_DIRECTIONAL_LIGHTS, selection.keys,
                                          [&](std::uint32_t i) { return table.records[i].brightness; });
+  for (const std::uint32_t i : selection.local)
+    if (table.records[i].cos_outer >= 0.0f)
+      narrow_to_cone(table.records[i], lights[i], view, selection.nearest[i], selection.farthest[i]);
   selection.keys.resize(selection.local.size());
   std::uint64_t* const keys = selection.keys.data();
   const float* const nearest = selection.nearest.data();

@@ -22,6 +22,7 @@
 namespace gloam {
 namespace {
 
+constexpr double kHalfPi = 1.5707963267948966;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct CrowdedScene {
@@ -97,6 +98,12 @@ Facts facts_of(const PlacedLight& placed, const RenderView& view) {
   facts.importance = radius * radius / (distance * distance) * brightest * static_cast<double>(light.intensity);
   const dvec3 forward = -dvec3(glm::transpose(view.view_from_relative)[2]);
   facts.nearest = std::max<double>(view.near_m, glm::dot(forward, center) - radius);
+  if (light.kind != LightKind::spot) return facts;
+  // The nearest point of a cone is its apex or the point of its cap whose direction is nearest to the camera's back.
+  const double from_back =
+      std::acos(std::clamp(glm::dot(glm::normalize(dvec3(placed.direction)), -forward), -1.0, 1.0));
+  const double behind = std::cos(std::clamp<double>(from_back - light.outer_angle, 0.0, kHalfPi));
+  facts.nearest = std::max(facts.nearest, glm::dot(forward, placed.position - view.position) - range * behind);
   return facts;
 }
 

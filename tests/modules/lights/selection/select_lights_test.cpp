@@ -150,8 +150,14 @@ TEST(SelectLights, orders_by_nearest_view_depth_then_by_entity) {
     for (std::uint32_t i = 0; i < visible->block.local_count; ++i) {
       const PlacedLight& light = scene.lights[visible->local_entities[i].index];
       const Sphere bounds = light_bounds(light, scene.view.position);
-      const double depth = std::max<double>(scene.view.near_m, glm::dot(forward, dvec3(bounds.center)) - bounds.radius);
-      ASSERT_GE(depth, last - 1e-4) << "seed " << seed;
+      const double sphere =
+          std::max<double>(scene.view.near_m, glm::dot(forward, dvec3(bounds.center)) - bounds.radius);
+      const double depth = visible->depths[i].nearest;
+      ASSERT_GE(depth, sphere - 1e-4) << "seed " << seed;
+      if (light.light.kind != LightKind::spot) {
+        ASSERT_NEAR(depth, sphere, 1e-4) << "seed " << seed;
+      }
+      ASSERT_GE(depth, last) << "seed " << seed;
       if (depth == static_cast<double>(scene.view.near_m) && last == depth) {
         ASSERT_GT(light.entity.index, last_entity);
       }
