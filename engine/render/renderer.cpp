@@ -252,7 +252,7 @@ std::vector<VisualizerInfo> Renderer::visualizers() const {
   std::vector<VisualizerInfo> all = {
       {"none", "engine", "", "the lit picture"},
       {"albedo", "engine", "", "base colour without light"},
-      {"normal", "engine", "", "shading normal, -1 to 1 of x, y, z as 0 to 1 of red, green, blue"},
+      {"normal", "engine", "", "shading normal: x, y, z as red, green, blue; -1 is 0, 0 is 128 and 1 is 255"},
       {"depth", "engine", "", "distance: white near, grey far, black sky"}};
   for (const auto& module : state_->options.modules)
     for (VisualizerInfo& info : module->visualizers()) all.push_back(std::move(info));

@@ -7,6 +7,7 @@
 #include "sandbox/commands/commands.h"
 #include "sandbox/session/frame_run.h"
 #include "sandbox/session/frame_tracing.h"
+#include "sandbox/session/list_room.h"
 #include "sandbox/session/run_output.h"
 #include "sandbox/session/scene_loading.h"
 #include "sandbox/session/session.h"
@@ -46,6 +47,9 @@ Status run_render(const CommandContext& context) {
   if (traced) drawn.visualizer = "none";
   auto samples = render_frames(*session.value(), options, drawn);
   if (!samples) return samples.error();
+  if (shows_lists(*session.value()->renderer, options.view))
+    GLOAM_TRY(draw_until_lists_fit([&] { return session.value()->render_frame({.settings = view, .target = {}}); },
+                                   samples->back()));
   if (traced) GLOAM_TRY(show_traced_view(*session.value(), context, *traced, view, samples->back()));
 
   const DrawnRun run = {.session = *session.value(), .view = view, .samples = *samples};

@@ -16,6 +16,10 @@ layout(constant_id = 0) const uint kEncode = 0u;  // 1: the target does not enco
 
 layout(location = 0) out vec4 out_color;
 
+vec3 srgb_to_linear(vec3 c) {
+  return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045)));
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_image, pixel, 0).r;
@@ -23,8 +27,8 @@ void main() {
   if (depth > 0.0) {
     if (view.visualizer == 1u) shown = pow(texelFetch(base_color_image, pixel, 0).rgb, vec3(2.0));
     if (view.visualizer == 2u) {
-      vec3 coded = unpack_normal(texelFetch(normal_image, pixel, 0).x) * 0.5 + 0.5;
-      shown = coded * coded;  // squared, so that the sRGB-encoded picture shows it nearly linearly
+      // Decoded, so that the sRGB-encoded picture holds -1 as 0, 0 as 128 and 1 as 255.
+      shown = srgb_to_linear(unpack_normal(texelFetch(normal_image, pixel, 0).x) * 0.5 + 0.5);
     }
     if (view.visualizer == 3u) {
       float metres = view_depth(view, relative_position(view, gl_FragCoord.xy - 0.5, depth));

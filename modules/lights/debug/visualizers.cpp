@@ -72,6 +72,7 @@ std::vector<VisualizerInfo> light_visualizers() {
   for (VisualizerInfo& view : views) {
     view.knob = "lights.culling";
     view.value = "tiled";
+    view.shows_lists = true;
   }
   return views;
 }

@@ -54,6 +54,7 @@ std::vector<VisualizerInfo> final_list_visualizers() {
   for (VisualizerInfo& view : views) {
     view.knob = "shadows.mode";
     view.value = "deferred";
+    view.shows_lists = true;
   }
   return views;
 }

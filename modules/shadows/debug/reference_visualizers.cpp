@@ -16,12 +16,14 @@
 namespace gloam {
 
 std::vector<VisualizerInfo> shadow_reference_visualizers() {
-  std::vector<VisualizerInfo> views = {
-      {"shadow_reference", "shadows", "LIGHT",
-       "traced visibility of the light at each pixel: black unlit, white fully lit, blue out of the light's reach"},
-      {"error", "shadows", "",
-       "difference between drawn and traced visibility, mean over the lights that reach the pixel: black 0, blue 0.1, "
-       "cyan 0.2, green 0.3, yellow 0.4, red 0.5, white more"}};
+  std::vector<VisualizerInfo> views = {{"shadow_reference", "shadows", "LIGHT",
+                                        "traced visibility of the light at each pixel: black unlit, white fully lit, "
+                                        "grey between (linear: 0.5 is 188 in "
+                                        "the picture), blue out of the light's reach"},
+                                       {"error", "shadows", "",
+                                        "difference between drawn and traced visibility, mean over the lights that "
+                                        "reach and face the pixel: black 0, blue 0.1, "
+                                        "cyan 0.2, green 0.3, yellow 0.4, red 0.5, white more"}};
   for (VisualizerInfo& view : views) {
     view.knob = "shadows.mode";
     view.value = "monolithic|deferred";
@@ -42,7 +44,8 @@ void add_shadow_reference_view_pass(FrameBuilder& frame) {
   if (stem == "error") {
     draw_shadow_picture(frame, {.pass = "shadow_error_view",
                                 .values = "shadow_error",
-                                .program = {shaders::shadows::error_view_frag, shadows->constants}});
+                                .program = drawn_visibility_program(*shadows, shaders::shadows::error_view_frag,
+                                                                    shaders::shadows::final_error_view_frag)});
   } else if (const auto light = shown_light_or_warn(frame)) {
     // The shader of visualizer "shadow", with the constants for traced visibility.
     const auto constants = shadow_constants(shadow_knobs(frame.knobs()), kTracedShadows);

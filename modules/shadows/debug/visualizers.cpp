@@ -27,18 +27,6 @@ std::uint32_t kind_of(const FrameBuilder& frame, const shaders::ShownLightConsta
   return kind == static_cast<float>(GLOAM_SHADOW_CUBE) ? GLOAM_SHADOWS_CUBES : GLOAM_SHADOWS_SPOTS;
 }
 
-/// From final lists if the frame has them; their fallback tiles from shadow maps.
-DrawProgram visibility_program(const ShadowsOutputs& shadows, std::uint32_t kind) {
-  DrawProgram program{.fragment = shaders::shadows::visibility_view_frag, .constants = shadows.constants};
-  program.constants.push_back({GLOAM_SHADOWS_KINDS_ID, kind});
-  if (!shadows.final_lists) return program;
-  const FinalLists& lists = *shadows.final_lists;
-  program.fragment = shaders::shadows::final_visibility_view_frag;
-  program.constants.insert(program.constants.end(), lists.constants.begin(), lists.constants.end());
-  program.constants.push_back({1, lists.always_complete ? 0u : 1u});
-  return program;
-}
-
 /// The square of each placed face in the picture; the atlas fills the picture's shorter side.
 std::vector<shaders::AtlasFaceConstants> atlas_squares(const ShadowViews& views, const RenderView& view,
                                                        const ViewShadows& kept) {
@@ -78,6 +66,17 @@ void add_atlas_view(FrameBuilder& frame, const ShadowsOutputs& shadows, const Vi
 
 }  // namespace
 
+DrawProgram drawn_visibility_program(const ShadowsOutputs& shadows, const gpu::ShaderCode& from_maps,
+                                     const gpu::ShaderCode& from_lists) {
+  DrawProgram program{.fragment = from_maps, .constants = shadows.constants};
+  if (!shadows.final_lists) return program;
+  const FinalLists& lists = *shadows.final_lists;
+  program.fragment = from_lists;
+  program.constants.insert(program.constants.end(), lists.constants.begin(), lists.constants.end());
+  program.constants.push_back({1, lists.always_complete ? 0u : 1u});
+  return program;
+}
+
 void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture) {
   const ShadowsOutputs& shadows = frame.get<ShadowsOutputs>();
   const bool over = picture.program.blend != gpu::BlendMode::opaque;
@@ -96,9 +95,9 @@ void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture) {
 std::vector<VisualizerInfo> shadow_visualizers() {
   std::vector<VisualizerInfo> views = {
       {"shadow", "shadows", "LIGHT",
-       "visibility of the light at each pixel: black unlit, white fully lit, blue out of the light's reach. With "
-       "shadows.mode=deferred, read from the tile's final list: surfaces that face away from the light are black too, "
-       "unless the whole tile is lit"},
+       "visibility of the light at each pixel: black unlit, white fully lit, grey between (linear: 0.5 is 188 in the "
+       "picture), blue out of the light's reach. With shadows.mode=deferred, read from the tile's final list: surfaces "
+       "that face away from the light are black"},
       {"shadow_atlas", "shadows", "",
        "the shadow maps at their places in the atlas: white near the light, dark far from it, blue no caster; border: "
        "orange drawn in this frame, green kept from an earlier frame"}};
@@ -121,9 +120,12 @@ void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states) {
     const bool has_maps = shadows->atlas && shadows->atlas.resource != shadows->rows.resource;
     if (kept != nullptr && has_maps) add_atlas_view(frame, *shadows, *kept);
   } else if (const auto light = shown_light_or_warn(frame)) {
+    DrawProgram program = drawn_visibility_program(*shadows, shaders::shadows::visibility_view_frag,
+                                                   shaders::shadows::final_visibility_view_frag);
+    program.constants.push_back({GLOAM_SHADOWS_KINDS_ID, kind_of(frame, *light)});
     draw_shadow_picture(frame, {.pass = "shadow_view",
                                 .values = "shadow_visibility",
-                                .program = visibility_program(*shadows, kind_of(frame, *light)),
+                                .program = std::move(program),
                                 .push = std::as_bytes(std::span(&*light, 1))});
   }
 }

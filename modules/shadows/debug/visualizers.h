@@ -11,6 +11,7 @@
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
 #include "modules/shadows/maps/state.h"
+#include "modules/shadows/outputs.h"
 
 namespace gloam {
 
@@ -27,6 +28,11 @@ struct ShadowPicture {
 /// Adds the visualizer's pass. Binds what its shaders declare of the view's geometry, lights, shadows and final lists.
 /// ShadowsOutputs must be on the board.
 void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture);
+
+/// A program that shows visibilities as they are drawn (shaders/shadows/debug/drawn_visibility.glsl): `from_lists` if
+/// the frame has final lists, with their constants, otherwise `from_maps`.
+[[nodiscard]] DrawProgram drawn_visibility_program(const ShadowsOutputs& shadows, const gpu::ShaderCode& from_maps,
+                                                   const gpu::ShaderCode& from_lists);
 
 /// Names and legends of the visualizers of shadow maps.
 [[nodiscard]] std::vector<VisualizerInfo> shadow_visualizers();

@@ -4,7 +4,7 @@
 #define GLOAM_SHADERS_SHADOWS_SHADOW_VISIBILITY_VIEW_GLSL
 
 // Visualizer shadow: the visibility of one light at each pixel. Black: unlit, white: fully lit, blue: the light does
-// not reach the pixel. Evaluated from shadow maps, or, with GLOAM_FINAL_LISTS_BINDING, read from the tile's final list.
+// not reach the pixel. See drawn_visibility.glsl.
 
 #define GLOAM_SHADOWS_BINDING 6
 #include "shaders/lights/lights_api.glsl"
@@ -12,11 +12,7 @@
 #include "shaders/render/view_api.glsl"
 #include "shaders/shadows/maps/map_shared.h"
 #include "shaders/shadows/shadows_api.glsl"
-#ifdef GLOAM_FINAL_LISTS_BINDING
-#include "shaders/shadows/final_lists/entry.glsl"
-
-layout(constant_id = 1) const uint kFallback = 0u;  // 1: there may be fallback tiles
-#endif
+#include "shaders/shadows/debug/drawn_visibility.glsl"
 
 layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture's format does not encode sRGB
 
@@ -31,21 +27,13 @@ layout(set = 0, binding = 5) uniform sampler2D light_texels;
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_visibility;
 
-float shown_visibility(uvec2 pixel, bool directional, vec3 light_vector, ShadowReceiver r) {
-#ifdef GLOAM_FINAL_LISTS_BINDING
-  FinalList list = final_list(pixel);
-  float listed = entry_visibility(entry_of(list, directional, shown.light), slot_pixel(pixel));
-  if (kFallback == 0u || list.complete) return listed;
-#endif
-  return light_visibility(directional, shown.light, light_vector, r);
-}
-
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_image, pixel, 0).r;
   ShadowReceiver r;
   r.position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
-  r.face_normal = unpack_normal(texelFetch(normal_image, pixel, 0).y);
+  uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
+  r.face_normal = unpack_normal(normals.y);
   r.subsurface = texelFetch(base_color_image, pixel, 0).a > 0.5;
   bool directional = shown.directional != 0u;
   LocalLight local = fetch_light(light_texels, directional ? 0u : shown.light);
@@ -53,7 +41,9 @@ void main() {
   vec3 to_light;
   bool reaches = directional || local_illuminance(local, r.position, to_light).x > 0.0;
   vec3 light_vector = directional ? lights.directional[directional ? shown.light : 0u].direction : local.position;
-  float visibility = depth > 0.0 && reaches ? shown_visibility(uvec2(pixel), directional, light_vector, r) : -1.0;
+  bool faces = dot(unpack_normal(normals.x), directional ? -light_vector : to_light) > 0.0;
+  float visibility =
+      depth > 0.0 && reaches ? drawn_visibility(uvec2(pixel), directional, shown.light, light_vector, r, faces) : -1.0;
   vec3 color = visibility < 0.0 ? vec3(0.0, 0.0, 0.04) : vec3(visibility);
   out_color = vec4(kEncodeSrgb != 0u ? linear_to_srgb(color) : color, 1.0);
   out_visibility = vec4(visibility, 0.0, 0.0, 1.0);

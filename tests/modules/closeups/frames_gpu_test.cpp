@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstring>
+#include <optional>
 
 #include "tests/modules/closeups/scene.h"
 
@@ -264,6 +266,44 @@ TEST_F(CloseupFrames, of_subjects_half_in_the_light_are_right) {
   const Entity lamp = put_light(made, dvec3(0.3, 1.3, 0.1), dvec3(0.0, -1.0, 0.0), 1024);
   set("shadows.atlas", "4096");
   EXPECT_GT(expect_right_closeup("half in reach", lamp).darker, 10u);
+}
+
+// Standard maps lack the subjects of pairs, but shading has their shadows.
+TEST_F(CloseupFrames, the_view_of_errors_judges_them_as_they_are_shaded) {
+  put_scene();
+  const Entity lamp = put_light(point(0.12f), dvec3(0.8, 1.7, 1.0), dvec3(0.0, -1.0, 0.0), 512);
+  set("shadows.atlas", "4096");
+  draw();
+  TracedVisibility traced = trace();
+  traced.shades = false;
+  const std::optional<std::size_t> layer = traced.layer_of(lamp);
+  ASSERT_TRUE(layer);
+  double means[2] = {};
+  for (const bool with : {false, true}) {
+    set("closeups.max_pairs", with ? "8" : "0");
+    const CloseupShot close = second_shot();
+    EXPECT_EQ(close.views.pairs.size(), with ? 1u : 0u);
+    const SeenLight drawn = seen(close.lists, lamp);
+    world.set_resource(traced);
+    settings.visualizer = "error";
+    draw();
+    settings.visualizer = "none";
+    const ImageBytes image = value_of(renderer->read_image(world, settings.id, "shadow_error"));
+    world.remove_resource<TracedVisibility>();
+    std::vector<float> error(image.bytes.size() / sizeof(float));
+    std::memcpy(error.data(), image.bytes.data(), image.bytes.size());
+    std::size_t judged = 0;
+    for (std::size_t i = 0; i < error.size(); ++i) {
+      if (error[i] >= 0.0f) means[with ? 1 : 0] += static_cast<double>(error[i]) / static_cast<double>(error.size());
+      const float right = static_cast<float>(traced.visibility[*layer * traced.pixels() + i]) / 255.0f;
+      if (!gives(close.geometry, i, lamp) || !traced.is_judged(*layer * traced.pixels() + i)) continue;
+      ASSERT_NEAR(error[i], std::abs(drawn.pixels[i] - right), 2e-3) << i;
+      ++judged;
+    }
+    EXPECT_GT(judged, 2000u);
+  }
+  std::printf("mean error %.5f without and %.5f with close-ups\n", means[0], means[1]);
+  EXPECT_LT(means[1], 1.2 * means[0]);
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST_F(Pictures, views_of_albedo_normal_and_depth_show_their_channel) {
   };
   const auto srgb = [](double linear) { return static_cast<double>(linear_to_srgb(static_cast<float>(linear))); };
   expect_within(middle("albedo"), {srgb(0.5), srgb(0.25), srgb(0.75)}, 1.01);
-  expect_within(middle("normal"), {srgb(0.25), srgb(0.25), 1.0}, 1.01);
+  expect_within(middle("normal"), dvec3(0.5, 0.5, 1.0), 1.01);
   expect_within(middle("depth"), dvec3(srgb(1.0 / 1.5)), 1.01);
 }
 

@@ -138,14 +138,30 @@ class FinalListViews : public test::FinalListScene {
     EXPECT_EQ(wrong, 0) << name;
     EXPECT_EQ(unreached, 0) << name;
   }
-  /// Compares visualizer "shadow:NAME" with the final lists.
+  /// Cosine between the surface's normal and the way to the light.
+  [[nodiscard]] double cosine_to(const std::string& name, const GeometryPicture& geometry, std::uint32_t x,
+                                 std::uint32_t y) {
+    const Entity lamp = named(name);
+    const dmat4& node = world.get<WorldTransform>(lamp).matrix;
+    const dvec3 to_light = world.get<Light>(lamp).kind == LightKind::directional
+                               ? dvec3(node[2])
+                               : dvec3(node[3]) - geometry.position(x, y) - geometry.view.position;
+    const std::size_t at = std::size_t{y} * settings.width + x;
+    return glm::dot(dvec3(geometry.texel(at).normal), glm::normalize(to_light));
+  }
+  /// Compares visualizer "shadow:NAME" with the final lists where the surface faces the light; elsewhere it must be
+  /// dark.
   void expect_visibility_of_lists(const std::string& name) {
     const test::ReadFinalLists read = lists();
     const std::vector<float> shown = visibility(name);
-    int wrong = 0, seen = 0;
+    const GeometryPicture geometry = test::value_of(renderer->read_geometry(world, settings.id));
+    int wrong = 0, seen = 0, lit_behind = 0;
     for_pixels([&](std::uint32_t x, std::uint32_t y) {
       const std::size_t at = std::size_t{y} * settings.width + x;
       if (shown[at] < 0.0f) return;
+      const double cosine = cosine_to(name, geometry, x, y);
+      if (cosine < -1e-3) lit_behind += shown[at] == 0.0f ? 0 : 1;
+      if (cosine < 1e-3) return;
       const auto entry = entry_of(read, tile_of(x, y), name);
       const test::TileVisibility held = entry ? read.visibility(*entry) : test::TileVisibility{};
       const float steps = static_cast<float>(held.steps[y % 8 * 8 + x % 8]) / static_cast<float>(read.most());
@@ -153,6 +169,7 @@ class FinalListViews : public test::FinalListScene {
       seen += shown[at] > 0.0f ? 1 : 0;
     });
     EXPECT_EQ(wrong, 0) << name;
+    EXPECT_EQ(lit_behind, 0) << name;
     EXPECT_GT(seen, 100) << name;
   }
 };
