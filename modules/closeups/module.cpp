@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "engine/render/frame_builder.h"
@@ -17,6 +16,7 @@
 #include "modules/closeups/passes.h"
 #include "modules/closeups/systems.h"
 #include "modules/lights/components.h"
+#include "modules/lights/outputs.h"
 
 namespace gloam {
 namespace {
@@ -35,6 +35,12 @@ Status check_light_names(World& world) {
 struct CloseupWorld {
   std::uint64_t number = 0;
 };
+
+bool has_subjects(const World& world) {
+  bool found = false;
+  world.view<const CloseupSubject>().each([&](const CloseupSubject& subject) { found = found || subject.enabled; });
+  return found;
+}
 
 class CloseupsModule final : public Module {
  public:
@@ -89,6 +95,9 @@ class CloseupsModule final : public Module {
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
     prepare_closeup_view(world, view);
     world.set_view_resource(view, OverlayRoom{.wanted = closeup_knobs(knobs).max_pairs > 0});
+    const auto* seen = world.try_view_resource<RenderView>(view);
+    const bool captures = seen != nullptr && seen->purpose == ViewPurpose::capture;
+    world.set_view_resource(view, ListRoom{.all = !captures && needs_casters(world, knobs) && has_subjects(world)});
     world.view_resource<CloseupSettings>(view) =
         closeup_settings(closeup_knobs(knobs), knobs.is("shadows.mode", "deferred"));
   }
@@ -103,7 +112,6 @@ class CloseupsModule final : public Module {
     }
     if (phase == PassPhase::visualize) views_.add_pass(frame);
     if (phase != PassPhase::lists) return;
-    keep_completeness(frame);
     if (frame.find<CloseupFrame>() == nullptr)
       ready_ = closeup_pipelines_ready(frame, closeup_knobs(frame.knobs()));
     else
@@ -126,7 +134,6 @@ class CloseupsModule final : public Module {
  private:
   /// State of a view's last frame.
   struct LastFrame {
-    std::optional<bool> complete;  ///< FinalLists::always_complete
     std::uint32_t pairs = 0;
     std::uint32_t skipped = 0;
     std::uint64_t tiles = 0;
@@ -142,18 +149,13 @@ class CloseupsModule final : public Module {
     const std::uint64_t number = frame.services().device.frame_number();
     std::erase_if(last_, [&](const auto& item) { return item.second.number + kFramesKept < number; });
     LastFrame& last = last_[key_of(frame.world(), frame.view())];
-    CloseupFrame closeups = plan_closeup_frame(frame, last.complete);
-    last = {last.complete, static_cast<std::uint32_t>(closeups.pairs.size()), closeups.skipped, 0, number};
+    auto reserved = reserve_umbra(frame, frame.world().view_resource<CloseupViews>(frame.view().id).pairs);
+    CloseupFrame closeups = plan_closeup_frame(frame, reserved.has_value());
+    last = {static_cast<std::uint32_t>(closeups.pairs.size()), closeups.skipped, 0, number};
+    if (reserved) frame.put(std::move(*reserved));
     for (const CloseupView& pair : closeups.pairs) last.tiles += pair.tiles.tiles();
     frame.put(withheld_casters(closeups.pairs, frame.world().resource<CloseupSubjects>()));
     frame.put(std::move(closeups));
-  }
-  void keep_completeness(const FrameBuilder& frame) {
-    const auto found = last_.find(key_of(frame.world(), frame.view()));
-    if (found == last_.end()) return;
-    const auto* shadows = frame.find<ShadowsOutputs>();
-    const bool has_lists = shadows != nullptr && shadows->final_lists;
-    found->second.complete = has_lists ? std::optional(shadows->final_lists->always_complete) : std::nullopt;
   }
 
   std::map<Key, LastFrame> last_;

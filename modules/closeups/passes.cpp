@@ -148,7 +148,6 @@ void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
   auto* drawer = frame.find<ShadowMapDrawer>();
   if (closeups == nullptr || closeups->pairs.empty() || shadows == nullptr || drawer == nullptr) return;
   ExtraAtlas map = drawer->create(frame, frame.world().view_resource<CloseupSettings>(frame.view().id).map_size);
-  if (may_have_fallback_tiles(shadows->final_lists->always_complete)) add_late_copies(frame, *closeups);
   CloseupOverlay overlay(knobs.draws_standard);
   overlay.start(frame, closeups->overlay);
   ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;

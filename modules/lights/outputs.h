@@ -12,6 +12,7 @@
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
 #include "engine/render/declare/shader_pass.h"
+#include "engine/render/frame_builder.h"
 
 namespace gloam {
 
@@ -50,6 +51,19 @@ void read_light_lists(ShaderPass& pass, const LightsOutputs& lights);
 /// masks of the CPU. chosen: bit i % 32 of word i / 32 for light i; empty: all. 0 if the view has no lists.
 [[nodiscard]] std::uint64_t most_tile_lights(const LightsOutputs& lights, uvec2 shadow_tiles,
                                              std::span<const std::uint32_t> chosen);
+
+/// Whether a later module wants room for all lists of a view; a view resource. The lights module resets it in
+/// Module::prepare_view; a later module sets it in its own. The early lists then have room for every light of the tile
+/// masks, up to 128 MiB.
+struct ListRoom {
+  bool all = false;
+};
+/// Whether the view's early lists will have room for every light in this frame. Can be asked in PassPhase::announce.
+[[nodiscard]] bool light_lists_will_fit(const FrameBuilder& frame);
+/// most_tile_lights() of some shadow tiles, which can be asked in PassPhase::announce. tiles: bit i % 32 of word i / 32
+/// for the tile of index i = row · columns + column.
+[[nodiscard]] std::uint64_t most_tile_lights_of(const FrameBuilder& frame, std::span<const std::uint32_t> tiles,
+                                                std::span<const std::uint32_t> chosen);
 
 /// A later module puts this on the board, before PassPhase::visualize, if it draws the visualizer light_list of the
 /// view's lights itself, to show the final use of the early lists.

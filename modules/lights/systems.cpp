@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "modules/lights/lists/uploads.h"
+#include "modules/lights/outputs.h"
 
 namespace gloam {
 namespace {
@@ -239,6 +240,7 @@ void prepare_light_view(World& world, ViewId view) {
   if (world.try_view_resource<ZBins>(view) == nullptr) world.set_view_resource(view, ZBins{});
   if (world.try_view_resource<TileBound>(view) == nullptr) world.set_view_resource(view, TileBound::cone);
   if (world.try_view_resource<TileLightMasks>(view) == nullptr) world.set_view_resource(view, TileLightMasks{});
+  world.set_view_resource(view, ListRoom{});
   if (world.try_view_resource<TileMaskHash>(view) == nullptr) world.set_view_resource(view, TileMaskHash{});
 }
 

@@ -189,6 +189,18 @@ struct FinalEntry {
 [[nodiscard]] float decode_visibility(FinalEntry entry, std::uint32_t pixel, std::span<const std::uint32_t> words,
                                       std::uint32_t visibility_bits);
 
+/// Reserved tiles: shadow tiles whose final lists are complete, whatever the other tiles need. A later module that adds
+/// to final lists puts this on the board in PassPhase::announce; it can then rely on lists in these tiles.
+struct ReservedTiles {
+  std::vector<std::uint32_t> tiles;  ///< bit i % 32 of word i / 32 for the tile of index i = row · columns + column
+  std::uint32_t slots = 0;           ///< visibility slots that are kept free for them
+};
+/// The reservation for these tiles of the view, of all directional lights and of the local lights that cast there:
+/// those with maps, and `lights`, whose casters later modules draw. None if there may not be room: because of knobs
+/// that limit lists, or because it would take more than 64 MiB.
+[[nodiscard]] std::optional<ReservedTiles> reserve_tiles(const FrameBuilder& frame, std::vector<std::uint32_t> tiles,
+                                                         std::span<const Entity> lights);
+
 /// A shadow map outside the standard atlas: one face and the casters that are drawn into it.
 struct ExtraMap {
   ShadowFace face;  ///< face.square is the place in the ExtraAtlas

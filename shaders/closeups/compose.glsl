@@ -28,6 +28,8 @@ layout(set = 0, binding = 18, scalar) buffer Commands { ShadowListCommands comma
 layout(set = 0, binding = 20) uniform sampler2D depth_bounds;
 layout(set = 0, binding = 19, scalar) writeonly buffer FallbackTiles { uint fallback_tiles[]; };
 
+#include "shaders/shadows/slots_api.glsl"
+
 const uint kSomeChanged = 4u;
 const uint kNoEntry = 0xFFFFFFFFu;
 const uint kWords = 2u * kVisibilityBits;
@@ -178,10 +180,10 @@ uint changed_slot(uvec2 tile, uint some) {
   if ((some & kSomeChanged) == 0u) return GLOAM_NO_ROOM;
   if ((some & kSomeSeeAny) == 0u) return GLOAM_ALL_UNLIT;
   if (slot < GLOAM_NO_ROOM) return slot;
-  uint taken = atomicAdd(counters.slots, 1u);
-  if (taken < final_grid.slot_capacity) return taken;
-  give_tile_up(tile);
-  return GLOAM_NO_ROOM;
+  // All tiles of umbra ranges are reserved, if any are.
+  uint taken = take_free_slot(final_grid.reserved_slots != 0u);
+  if (taken == GLOAM_NO_ROOM) give_tile_up(tile);
+  return taken;
 }
 
 void main() {

@@ -52,7 +52,8 @@ struct FinalGrid {
   uint candidate_capacity;  // of local candidates, and again of directional ones
   uint pair_capacity;
   uint slot_capacity;
-  uint classify;  // 0: no classification; every casting light is evaluated at every pixel
+  uint classify;        // 0: no classification; every casting light is evaluated at every pixel
+  uint reserved_slots;  // the first slots, which only reserved tiles take (slots_api.glsl); 0: no tile is reserved
 };
 
 /// Arguments of indirect commands, written by the GPU.
@@ -90,6 +91,8 @@ struct ShadowListCounters {
   uint unlit_by_filter;  // pairs that the filter finds unlit in all pixels
   uint slots;            // visibility slots needed; above slot_capacity when the buffer is full
   uint fallback_tiles;   // fallback tiles
+  uint reserved_slots;   // of `slots`: those of reserved tiles, in frames with reserved slots
+  uint other_slots;      // of `slots`: those of other tiles, in frames with reserved slots
 };
 
 GLOAM_SHARED_END

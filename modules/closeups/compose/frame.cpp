@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "modules/closeups/compose/frame.h"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "modules/closeups/umbra/umbra_projection.h"
+#include "modules/lights/outputs.h"
 
 namespace gloam {
 namespace {
@@ -52,16 +55,27 @@ class ForwardLit {
 
 }  // namespace
 
-bool may_have_fallback_tiles(std::optional<bool> complete) { return !complete.value_or(false); }
+std::optional<ReservedTiles> reserve_umbra(const FrameBuilder& frame, std::span<const CloseupView> pairs) {
+  const uvec2 size = (uvec2(frame.view().width, frame.view().height) + uvec2(kShadowTile - 1)) / uvec2(kShadowTile);
+  std::vector<std::uint32_t> tiles((std::size_t{size.x} * size.y + 31) / 32, 0);
+  std::vector<Entity> lights;
+  for (const CloseupView& pair : pairs) {
+    if (std::ranges::find(lights, pair.light) == lights.end()) lights.push_back(pair.light);
+    for (std::uint32_t y = pair.tiles.begin.y; y < pair.tiles.end.y; ++y)
+      for (std::uint32_t tile = y * size.x + pair.tiles.begin.x; tile < y * size.x + pair.tiles.end.x; ++tile)
+        tiles[tile / 32] |= 1u << (tile % 32);
+  }
+  return reserve_tiles(frame, std::move(tiles), lights);
+}
 
-CloseupFrame plan_closeup_frame(const FrameBuilder& frame, std::optional<bool> complete) {
+CloseupFrame plan_closeup_frame(const FrameBuilder& frame, bool reserved) {
   const CloseupViews& views = frame.world().view_resource<CloseupViews>(frame.view().id);
   CloseupFrame closeups;
   closeups.skipped = views.skipped;
   closeups.overlay = empty_plan(frame);
   ForwardLit forward_lit(frame);
   for (const CloseupView& pair : views.pairs) {
-    const bool needed = may_have_fallback_tiles(complete) || forward_lit.may_be_shadowed_by(pair);
+    const bool needed = !reserved || forward_lit.may_be_shadowed_by(pair);
     if (needed && !add_copies(frame, pair, closeups.overlay)) {
       ++closeups.skipped;
       continue;
@@ -70,15 +84,6 @@ CloseupFrame plan_closeup_frame(const FrameBuilder& frame, std::optional<bool> c
     closeups.in_overlay.push_back(needed ? 1 : 0);
   }
   return closeups;
-}
-
-void add_late_copies(const FrameBuilder& frame, CloseupFrame& closeups) {
-  for (std::size_t i = 0; i < closeups.pairs.size(); ++i) {
-    if (closeups.in_overlay[i] != 0) continue;
-    closeups.in_overlay[i] = 1;
-    // A pair without room for its copies loses the subject's shadow in the overlay for this one frame.
-    static_cast<void>(add_copies(frame, closeups.pairs[i], closeups.overlay));
-  }
 }
 
 }  // namespace gloam

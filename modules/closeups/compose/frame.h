@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/render/frame_builder.h"
@@ -21,15 +22,12 @@ struct CloseupFrame {
   OverlayPlan overlay;        ///< the faces of that overlay
 };
 
-/// Whether fallback tiles may read the view's standard maps. `complete`: FinalLists::always_complete, if known.
-[[nodiscard]] bool may_have_fallback_tiles(std::optional<bool> complete);
+/// The reservation for the umbra ranges of these pairs, so that no tile in which a subject hides light becomes a
+/// fallback tile; none if there is no room for it.
+[[nodiscard]] std::optional<ReservedTiles> reserve_umbra(const FrameBuilder& frame, std::span<const CloseupView> pairs);
 
-/// Plans the view's close-up pairs for this frame. `complete`: FinalLists::always_complete of the view's last frame, if
-/// known.
-[[nodiscard]] CloseupFrame plan_closeup_frame(const FrameBuilder& frame, std::optional<bool> complete);
-
-/// Adds all pairs of `closeups` to the overlay. For a frame that turns out to have fallback tiles only after
-/// PassPhase::announce.
-void add_late_copies(const FrameBuilder& frame, CloseupFrame& closeups);
+/// Plans the view's close-up pairs for this frame. reserved: their umbra ranges are reserved; otherwise fallback tiles
+/// may need all pairs in the overlay.
+[[nodiscard]] CloseupFrame plan_closeup_frame(const FrameBuilder& frame, bool reserved);
 
 }  // namespace gloam

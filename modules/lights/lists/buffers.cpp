@@ -83,6 +83,26 @@ std::uint32_t list_capacity(std::uint32_t tiles, std::uint32_t fixed_slots, cons
   return keeps ? there : needed;
 }
 
+bool light_lists_will_fit(const FrameBuilder& frame) {
+  const World& world = frame.world();
+  const ViewId view = frame.view().id;
+  if (local_lights(world.view_resource<VisibleLights>(view)).empty()) return true;
+  const bool flexible =
+      frame.knobs().is("lights.culling", "tiled") && frame.knobs().number("lights.fixed_slots") == 0.0;
+  if (!flexible || !world.view_resource<ListRoom>(view).all) return false;
+  const std::uint64_t bound =
+      mask_population(world.view_resource<TileLightMasks>(view), shadow_tiles_of(frame.view()), {}, 3);
+  return bound <= words_to_entries(kMostListBytes / 4);
+}
+
+std::uint64_t most_tile_lights_of(const FrameBuilder& frame, std::span<const std::uint32_t> tiles,
+                                  std::span<const std::uint32_t> chosen) {
+  const World& world = frame.world();
+  if (local_lights(world.view_resource<VisibleLights>(frame.view().id)).empty()) return 0;
+  return mask_population_of(world.view_resource<TileLightMasks>(frame.view().id), shadow_tiles_of(frame.view()), tiles,
+                            chosen);
+}
+
 void upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks, LightsOutputs& outputs) {
   const RenderView& view = frame.view();
   const uvec2 tiles = shadow_tiles_of(view);
@@ -106,6 +126,8 @@ void upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightM
     grid.slot_capacity =
         std::max({grid.slot_capacity, room_for_entries(feedback, outputs.entry_bound, view),
                   to_whole_words(std::uint64_t{tile_count} * entries_that_fit_all(grid.local_count, tile_count))});
+  if (grid.fixed_slots == 0 && frame.world().view_resource<ListRoom>(view.id).all)
+    grid.slot_capacity = std::max(grid.slot_capacity, to_whole_words(coarse_capacity(outputs.entry_bound)));
   const std::uint64_t most =
       grid.fixed_slots == 0 ? outputs.entry_bound : std::uint64_t{tile_count} * ((grid.local_count + 2) / 3 * 3);
   outputs.lists_always_fit = grid.slot_capacity >= most;

@@ -20,6 +20,27 @@ std::uint32_t lights_in(std::span<const std::uint32_t> mask, std::span<const std
 
 }  // namespace
 
+std::uint64_t mask_population_of(const TileLightMasks& masks, uvec2 shadow_tiles,
+                                 std::span<const std::uint32_t> counted, std::span<const std::uint32_t> chosen) {
+  constexpr std::uint32_t kAcross = GLOAM_LIGHT_TILE / GLOAM_SHADOW_TILE;
+  std::uint64_t sum = 0;
+  for (std::uint32_t i = 0; i < masks.tiles.x * masks.tiles.y; ++i) {
+    const uvec2 first = uvec2(i % masks.tiles.x, i / masks.tiles.x) * kAcross;
+    const uvec2 end = glm::min(first + kAcross, shadow_tiles);
+    std::uint32_t tiles = 0;
+    for (std::uint32_t y = first.y; y < end.y; ++y) {
+      for (std::uint32_t x = first.x; x < end.x; ++x) {
+        const std::uint32_t tile = y * shadow_tiles.x + x;
+        tiles += counted[tile / 32] >> (tile % 32) & 1u;
+      }
+    }
+    if (tiles == 0) continue;
+    const auto mask = std::span(masks.words).subspan(std::size_t{i} * GLOAM_MASK_WORDS, GLOAM_MASK_WORDS);
+    sum += std::uint64_t{tiles} * lights_in(mask, chosen);
+  }
+  return sum;
+}
+
 std::uint64_t mask_population(const TileLightMasks& masks, uvec2 shadow_tiles, std::span<const std::uint32_t> chosen,
                               std::uint32_t step) {
   constexpr std::uint32_t kAcross = GLOAM_LIGHT_TILE / GLOAM_SHADOW_TILE;

@@ -16,4 +16,10 @@ namespace gloam {
 [[nodiscard]] std::uint64_t mask_population(const TileLightMasks& masks, uvec2 shadow_tiles,
                                             std::span<const std::uint32_t> chosen, std::uint32_t step);
 
+/// The same sum over some shadow tiles only, not rounded up. counted: bit i % 32 of word i / 32 for the tile of index
+/// i = row · columns + column.
+[[nodiscard]] std::uint64_t mask_population_of(const TileLightMasks& masks, uvec2 shadow_tiles,
+                                               std::span<const std::uint32_t> counted,
+                                               std::span<const std::uint32_t> chosen);
+
 }  // namespace gloam

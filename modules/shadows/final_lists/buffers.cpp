@@ -3,12 +3,15 @@
 #include "modules/shadows/final_lists/buffers.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/render/readback/item_need.h"
 #include "modules/lights/outputs.h"
+#include "modules/shadows/atlas/view_faces.h"
 
 namespace gloam {
 namespace {
@@ -49,6 +52,13 @@ std::uint64_t bound_of_pairs(const FrameBuilder& frame, std::span<const shaders:
     if (has_map || drawn_elsewhere) casting[i / 32] |= 1u << (i % 32);
   }
   return most_tile_lights(lights, tiles, casting) + std::uint64_t{tiles.x} * tiles.y * lights.directional_count;
+}
+
+/// Gives the reserved tiles their slots, and room for the pairs of all tiles. reserve_tiles() has checked the limits.
+void add_reserved(const ReservedTiles& reserved, std::uint64_t pair_bound, const ShadowKnobs& knobs,
+                  FinalListCapacities& c) {
+  c.pairs = std::max(c.pairs, at_most(coarse_capacity(pair_bound), std::min(kMostPairs, knobs.pair_limit)));
+  c.slots = at_most(std::uint64_t{reserved.slots} + c.slots, std::min(kMostSlots, knobs.slot_limit));
 }
 
 void create_visibilities(FrameGraph& graph, FinalLists& lists) {
@@ -136,6 +146,7 @@ void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote
   sink.count("shadows.tile_lights_filtered_unlit", c.unlit_by_filter);
   sink.count("shadows.classified_share", 1.0 - c.pairs / candidates);
   sink.count("shadows.slots", c.slots);
+  sink.count("shadows.slots_reserved", c.reserved_slots);
   sink.count("shadows.slot_capacity", note.slot_capacity);
   sink.count("shadows.pair_capacity", note.pair_capacity);
   sink.count("shadows.fallback_tiles", c.fallback_tiles);
@@ -146,6 +157,35 @@ void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote
 }
 
 std::uint32_t visibility_bits_of(const ShadowKnobs& knobs) { return knobs.levels == 15 ? 4 : 8; }
+
+std::optional<ReservedTiles> reserve_tiles(const FrameBuilder& frame, std::vector<std::uint32_t> tiles,
+                                           std::span<const Entity> lights) {
+  if (!light_lists_will_fit(frame)) return std::nullopt;
+  const ShadowKnobs knobs = shadow_knobs(frame.knobs());
+  const VisibleLights& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
+  const std::vector<shaders::ShadowRow>& rows = frame.world().view_resource<ShadowViews>(frame.view().id).rows;
+  const std::span<const Entity> local = local_lights(visible);
+  std::vector<std::uint32_t> casting((local.size() + 31) / 32, 0);
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    const bool has_map = i < rows.size() && rows[i].kind != static_cast<float>(GLOAM_SHADOW_NONE);
+    if (has_map || std::ranges::find(lights, local[i]) != lights.end()) casting[i / 32] |= 1u << (i % 32);
+  }
+  const uvec2 size = (uvec2(frame.view().width, frame.view().height) + uvec2(kShadowTile - 1)) / uvec2(kShadowTile);
+  const std::uint64_t all_tiles = std::uint64_t{size.x} * size.y, suns = directional_lights(visible).size();
+  std::uint64_t count = 0;
+  for (const std::uint32_t word : tiles) count += static_cast<std::uint64_t>(std::popcount(word));
+  const std::vector<std::uint32_t> every((all_tiles + 31) / 32, ~0u);
+  const std::uint64_t pairs = most_tile_lights_of(frame, every, casting) + all_tiles * suns;
+  const std::uint64_t slots = most_tile_lights_of(frame, tiles, casting) + count * suns;
+  // Early lists have at most three entries a light and tile.
+  const bool entries_fit =
+      all_tiles * suns + 2 * most_tile_lights_of(frame, every, {}) + 3 * all_tiles <= kMostBytes / 4;
+  const std::uint64_t most_slots =
+      std::min<std::uint64_t>({kMostSlots, knobs.slot_limit, kMostBoundBytes / slot_bytes(visibility_bits_of(knobs))});
+  if (!entries_fit || pairs > std::min(kMostPairs, knobs.pair_limit) || slots > most_slots) return std::nullopt;
+  return ReservedTiles{std::move(tiles), at_most(coarse_capacity(std::max<std::uint64_t>(slots, 1)),
+                                                 static_cast<std::uint32_t>(most_slots))};
+}
 
 FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs,
                                          std::span<const shaders::ShadowRow> rows) {
@@ -158,7 +198,12 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   lists.visibility_bits = visibility_bits_of(knobs);
   const std::uint64_t pair_bound = bound_of_pairs(frame, rows, tiles);
   const auto* feedback = frame.world().try_view_resource<FinalListFeedback>(frame.view().id);
-  const FinalListCapacities c = final_list_capacities(feedback, pair_bound, tile_count, knobs, frame.view());
+  FinalListCapacities c = final_list_capacities(feedback, pair_bound, tile_count, knobs, frame.view());
+  const auto* reserved = c.complete ? nullptr : frame.find<ReservedTiles>();
+  if (reserved != nullptr) {
+    add_reserved(*reserved, pair_bound, knobs, c);
+    made.reserved_tiles = reserved->tiles;
+  }
   lists.pair_capacity = c.pairs;
   lists.slot_capacity = c.slots;
 
@@ -172,6 +217,7 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   grid.candidate_capacity = at_most(pair_bound, kMostCandidates);
   grid.pair_capacity = c.pairs;
   grid.slot_capacity = c.slots;
+  grid.reserved_slots = reserved == nullptr ? 0 : reserved->slots;
   grid.classify = knobs.classify && knobs.early_outs ? 1 : 0;
   lists.always_complete =
       c.complete && grid.entry_capacity == entries && (!lights.has_lists() || lights.lists_always_fit);

@@ -79,8 +79,9 @@ struct FinalListBuffers {
   FinalLists lists;
   BufferRef pairs;
   BufferRef candidates;  ///< entries of tile lights that may cast, before classification; places as in pair_places.glsl
-  BufferRef candidate_commands;  ///< one ShadowCandidateCommands
-  BufferRef tile_groups;         ///< two ShadowTileGroup per shadow tile
+  BufferRef candidate_commands;                     ///< one ShadowCandidateCommands
+  BufferRef tile_groups;                            ///< two ShadowTileGroup per shadow tile
+  std::vector<std::uint32_t> reserved_tiles = {0};  ///< ReservedTiles::tiles, or one word if no tile is reserved
   FinalListNote note;
 };
 /// Bits of a visibility in a slot: 4 or 8.

@@ -139,6 +139,7 @@ void add_pairs_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, FinalLis
   pass.read("final_grid", lists.grid);
   pass.read("pairs", buffers.pairs);
   pass.read("commands", lists.commands);
+  pass.items<std::uint32_t>("reserved_tiles", buffers.reserved_tiles);
   lists.entries = pass.write("entries", lists.entries);
   lists.counters = pass.write("counters", lists.counters);
   write_visibilities(pass, lists);

@@ -27,6 +27,10 @@ layout(set = 0, binding = 9, scalar) writeonly buffer Visibilities0 { uint visib
 layout(set = 0, binding = 10, scalar) writeonly buffer Visibilities1 { uint visibilities_1[]; };
 layout(set = 0, binding = 11, scalar) buffer Counters { ShadowListCounters counters; };
 layout(set = 0, binding = 18, scalar) readonly buffer Commands { ShadowListCommands commands; };
+// Bit i % 32 of word i / 32: tile i is reserved. One word if no tile is.
+layout(set = 0, binding = 19, scalar) readonly buffer ReservedTiles { uint reserved_tiles[]; };
+
+#include "shaders/shadows/slots_api.glsl"
 
 #if GLOAM_SHADOWS_KINDS == 4
 const uint kPairKind = uint(GLOAM_PAIRS_DIRECTIONAL);
@@ -74,12 +78,14 @@ uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps
 
 #include "shaders/shadows/pair_pixels_asked_api.glsl"
 
+bool is_reserved(uint tile_index) {
+  bool any_is = final_grid.reserved_slots != 0u;
+  return any_is && (reserved_tiles[any_is ? tile_index >> 5 : 0u] >> (tile_index & 31u) & 1u) != 0u;
+}
+
 // Takes the final slot of the pair's entry and counts the result. some: combined flags of all pixels.
-uint take_slot(uint some) {
-  if (some == (kSomeSeeLess | kSomeSeeAny)) {
-    uint taken = atomicAdd(counters.slots, 1u);
-    return taken < final_grid.slot_capacity ? taken : GLOAM_NO_ROOM;
-  }
+uint take_slot(uint some, uint tile_index) {
+  if (some == (kSomeSeeLess | kSomeSeeAny)) return take_free_slot(is_reserved(tile_index));
   // If no flag is set, the light illuminates no pixel of the tile: unlit.
   bool lit = some == kSomeSeeAny;
   if (lit)
@@ -101,7 +107,7 @@ void main() {
   ask_pixels(light_of_pair(light), uvec2(tile_index % final_grid.tiles.x, tile_index / final_grid.tiles.x), lane);
   barrier();
   if (lane == 0u) {
-    slot = take_slot(found);
+    slot = take_slot(found, tile_index);
     entries[at] = light | slot << 10;
   }
   barrier();

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "tests/modules/closeups/scene.h"
 
@@ -86,6 +88,69 @@ TEST_F(CloseupLimits, tiles_without_a_list_show_subjects_from_standard_maps) {
   EXPECT_GT(counter("shadows.fallback_tiles"), 0.0);
   expect_fallback_listed_once(limited.lists, "one pair");
   EXPECT_LE(differing(limited.light, all.light), 0.01);
+}
+
+/// Whether the frame copied standard faces, or transferred subjects into them.
+bool made_an_overlay(const FrameReport& report) {
+  return std::ranges::any_of(report.passes, [](const PassTime& pass) {
+    return pass.name == "closeup_transfer" || pass.name.starts_with("shadow_overlay");
+  });
+}
+
+// The tiles of the umbra ranges have their slots whatever other tiles need. Slots are limited so that lists of other
+// tiles do not fit: these fall back, and nobody needs the subject in standard maps.
+TEST_F(CloseupLimits, slots_of_umbra_tiles_are_reserved) {
+  settings.width = 320, settings.height = 200;
+  put_room();
+  put(shapes_[0], glm::scale(glm::rotate(at(-0.9, 0.25, -0.7), 0.5, dvec3(0.0, 1.0, 0.0)), dvec3(0.4, 0.5, 0.4)));
+  put_far_boxes();
+  first = put_figure(dvec3(1.0, 0.0, 0.6), 0.6);
+  put_light(point(0.08f), dvec3(1.4, 1.9, 0.9), dvec3(0.0, -1.0, 0.0), 256);
+  put_light(spot(45.0, 0.06f), dvec3(-0.7, 2.0, 1.2), dvec3(0.3, -1.0, -0.5), 512);
+  put_light(spot(55.0, 0.1f), dvec3(0.4, 1.4, 0.2), dvec3(-0.3, -1.0, -0.5), 512);
+  set("shadows.atlas", "2048");
+  const CloseupShot all = second_shot();
+  ASSERT_GT(counted("closeups.pairs"), 0.0);
+  ASSERT_EQ(counter("shadows.fallback_tiles"), 0.0);
+  EXPECT_EQ(counter("shadows.slots_reserved"), 0.0) << "all lists fit anyway";
+  EXPECT_FALSE(made_an_overlay(renderer->report()));
+  const double need = counter("shadows.slots");
+  const TileRange umbra = all.views.pairs.front().tiles;
+  // The least number of slots that holds the reservation.
+  int too_few = static_cast<int>(need), least = 4000;
+  while (least - too_few > 1) {
+    const int middle = (too_few + least) / 2;
+    set("shadows.slot_limit", std::to_string(middle));
+    draw();
+    (made_an_overlay(renderer->report()) ? too_few : least) = middle;
+  }
+  std::size_t fell_back = 0;
+  for (const int more : {-1, 0, 5, 1000}) {
+    const std::string what = std::to_string(least + more) + " slots";
+    set("shadows.slot_limit", std::to_string(least + more));
+    const CloseupShot limited = second_shot();
+    expect_fallback_listed_once(limited.lists, what);
+    EXPECT_EQ(counted("closeups.pairs"), static_cast<double>(all.views.pairs.size())) << what;
+    EXPECT_EQ(made_an_overlay(renderer->report()), more < 0) << what;
+    if (more < 0) continue;
+    EXPECT_EQ(counter("shadows.slots"), need) << what << ": all that is needed is counted";
+    EXPECT_GT(counter("shadows.slots_reserved"), 0.0) << what;
+    EXPECT_EQ(counter("shadows.fallback_tiles"), static_cast<double>(limited.lists.fallback_tiles.size())) << what;
+    fell_back += limited.lists.fallback_tiles.size();
+    std::set<std::uint32_t> taken;
+    for (std::uint32_t tile = 0; tile < limited.lists.texels.size(); ++tile) {
+      const uvec2 at(tile % limited.lists.tiles.x, tile / limited.lists.tiles.x);
+      const bool inside = at.x >= umbra.begin.x && at.y >= umbra.begin.y && at.x < umbra.end.x && at.y < umbra.end.y;
+      EXPECT_TRUE(!inside || limited.lists.complete(tile)) << what << ", tile " << tile;
+      for (const bool directional : {false, true})
+        for (const std::uint32_t entry : limited.lists.run(tile, directional))
+          EXPECT_TRUE(entry >> 10 >= GLOAM_NO_ROOM || taken.insert(entry >> 10).second) << what << ", tile " << tile;
+    }
+    // Fallback tiles evaluate the same filter, so the picture is the same.
+    expect_same({limited.light, limited.picture}, {all.light, all.picture}, what);
+    std::printf("%s: %zu tiles fall back\n", what.c_str(), limited.lists.fallback_tiles.size());
+  }
+  EXPECT_GT(fell_back, 0u) << "tiles beside the umbra fall back";
 }
 
 TEST_F(CloseupLimits, buffers_grow_to_hold_what_closeups_take) {
