@@ -53,6 +53,26 @@ TEST(MaskPopulation, is_the_sum_over_all_shadow_tiles) {
   }
 }
 
+TEST(MaskPopulation, of_some_shadow_tiles_is_the_sum_over_these) {
+  const RandomMasks random(uvec2(3, 2), 6);
+  std::vector<std::uint32_t> chosen(32, 0);
+  for (std::uint32_t light = 0; light < 1024; light += 3) chosen[light / 32] |= 1u << (light % 32);
+  const uvec2 shadow_tiles(10, 7);
+  std::vector<std::uint32_t> counted(3, 0);
+  std::uint64_t all = 0, some = 0;
+  for (std::uint32_t tile = 0; tile < 70; ++tile) {
+    if (tile % 5 == 0 || tile % 7 == 3) continue;
+    counted[tile / 32] |= 1u << (tile % 32);
+    for (const std::uint32_t light : random.sets[tile / 10 / 4 * 3 + tile % 10 / 4]) {
+      ++all;
+      some += light % 3 == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(mask_population_of(random.masks, shadow_tiles, counted, {}), all);
+  EXPECT_EQ(mask_population_of(random.masks, shadow_tiles, counted, chosen), some);
+  EXPECT_EQ(mask_population_of(random.masks, shadow_tiles, std::vector<std::uint32_t>(3, 0), {}), 0u);
+}
+
 TEST(MaskPopulation, counts_no_light_beyond_the_chosen_words) {
   const RandomMasks random(uvec2(1, 1), 9);
   const std::vector<std::uint32_t> first = {~0u};
