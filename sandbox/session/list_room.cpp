@@ -10,7 +10,7 @@ namespace gloam {
 namespace {
 
 constexpr int kMostFramesMore = 10;
-constexpr int kPatience = 3;  // frames until a change of the buffers shows in the counters
+constexpr int kFramesInVain = 3;  // frames until a change of the buffers shows in the counters
 
 double overflowing_tiles(const FrameReport& report) {
   double tiles = 0.0;
@@ -33,7 +33,7 @@ bool shows_lists(const Renderer& renderer, std::string_view name) {
 Status draw_until_lists_fit(const std::function<Result<FrameSample>()>& draw, FrameSample& last) {
   double least = overflowing_tiles(last.report);
   int in_vain = 0;
-  for (int i = 0; i < kMostFramesMore && in_vain < kPatience && overflowing_tiles(last.report) > 0.0; ++i) {
+  for (int i = 0; i < kMostFramesMore && in_vain < kFramesInVain && overflowing_tiles(last.report) > 0.0; ++i) {
     auto sample = draw();
     if (!sample) return sample.error();
     last = std::move(sample).value();
