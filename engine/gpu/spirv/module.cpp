@@ -6,54 +6,14 @@
 #include <cstring>
 #include <limits>
 
+#include "engine/gpu/spirv/opcodes.h"
+
 namespace gloam::gpu::spirv {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x07230203;
 constexpr std::uint32_t kHeaderWords = 5;
 constexpr std::uint32_t kMaxBound = 1u << 22;  // the specification's universal limit for the id bound
-
-enum Op : std::uint32_t {
-  op_name = 5,
-  op_member_name = 6,
-  op_entry_point = 15,
-  op_execution_mode = 16,
-  op_type_bool = 20,
-  op_type_int = 21,
-  op_type_float = 22,
-  op_type_vector = 23,
-  op_type_matrix = 24,
-  op_type_image = 25,
-  op_type_sampler = 26,
-  op_type_sampled_image = 27,
-  op_type_array = 28,
-  op_type_runtime_array = 29,
-  op_type_struct = 30,
-  op_type_pointer = 32,
-  op_constant = 43,
-  op_constant_composite = 44,
-  op_spec_constant = 50,
-  op_spec_constant_composite = 51,
-  op_function = 54,
-  op_function_call = 57,
-  op_variable = 59,
-  op_image_texel_pointer = 60,
-  op_load = 61,
-  op_store = 62,
-  op_copy_memory = 63,
-  op_access_chain = 65,
-  op_in_bounds_access_chain = 66,
-  op_ptr_access_chain = 67,
-  op_array_length = 68,
-  op_decorate = 71,
-  op_member_decorate = 72,
-  op_copy_object = 83,
-  op_atomic_load = 227,
-  op_atomic_store = 228,
-  op_atomic_last = 242,
-  op_selection_merge = 247,
-  op_execution_mode_id = 331,
-};
 
 enum Decoration : std::uint32_t {
   decoration_spec_id = 1,

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "engine/gpu/spirv/specialize.h"
 #include "engine/gpu/vulkan/errors.h"
 
 namespace gloam::gpu::vulkan {
@@ -23,7 +24,8 @@ VkShaderStageFlagBits to_vulkan(ShaderStage stage) {
 
 }  // namespace
 
-ShaderStages::ShaderStages(Context& context, std::span<const SpecConstant> constants) : context_(context) {
+ShaderStages::ShaderStages(Context& context, std::span<const SpecConstant> constants)
+    : context_(context), constants_(constants) {
   for (const SpecConstant& constant : constants) {
     const auto offset = static_cast<std::uint32_t>(values_.size() * sizeof(std::uint32_t));
     entries_.push_back({constant.id, offset, sizeof(std::uint32_t)});
@@ -38,9 +40,11 @@ ShaderStages::~ShaderStages() {
 }
 
 Status ShaderStages::add(const ShaderCode& code, ShaderStage stage) {
-  const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                         .codeSize = code.words.size_bytes(),
-                                         .pCode = code.words.data()};
+  // Disabled code is left out before the driver sees it: drivers translate all code first.
+  const std::vector<std::uint32_t> specialized = spirv::specialize(code.words, constants_);
+  const std::span<const std::uint32_t> words = specialized.empty() ? code.words : std::span(specialized);
+  const VkShaderModuleCreateInfo info = {
+      .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = words.size_bytes(), .pCode = words.data()};
   VkShaderModule module = VK_NULL_HANDLE;
   const VkResult result = context_.vk.vkCreateShaderModule(context_.device, &info, nullptr, &module);
   if (result != VK_SUCCESS) return failure("Shader \"" + std::string(code.name) + "\" was refused", result);

@@ -15,6 +15,7 @@ namespace gloam::gpu::vulkan {
 /// The shader modules and specialisation constants of one pipeline while it is being compiled.
 class ShaderStages {
  public:
+  /// constants: must outlive this.
   ShaderStages(Context& context, std::span<const SpecConstant> constants);
   ~ShaderStages();
   ShaderStages(const ShaderStages&) = delete;
@@ -25,6 +26,7 @@ class ShaderStages {
 
  private:
   Context& context_;
+  std::span<const SpecConstant> constants_;
   std::vector<VkSpecializationMapEntry> entries_;
   std::vector<std::uint32_t> values_;
   VkSpecializationInfo specialization_ = {};

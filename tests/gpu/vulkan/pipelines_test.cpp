@@ -3,6 +3,7 @@
 #include "engine/gpu/vulkan/pipelines.h"
 
 #include <array>
+#include <bit>
 #include <numeric>
 #include <thread>
 
@@ -56,6 +57,60 @@ TEST_F(Pipelines, a_kernel_sees_buffers_uniforms_and_push_constants) {
 TEST_F(Pipelines, specialisation_constants_reach_the_kernel) {
   const auto result = run(test::value_of(device().create_pipeline(doubling({{.id = 0, .value = 5}}))));
   EXPECT_EQ(result[3], 1015u);
+}
+
+/// The results of disabled_code.comp for the sources 0 … 63.
+std::vector<std::uint32_t> without_disabled_code(std::uint32_t mode, bool twice, int steps, float factor) {
+  const auto steps_to_one = [](std::uint32_t v) {
+    std::uint32_t count = 0;
+    for (; v > 1; ++count) v = v % 2 == 0 ? v / 2 : 3 * v + 1;
+    return count;
+  };
+  std::vector<std::uint32_t> results;
+  for (std::uint32_t v = 0; v < 64; ++v) {
+    std::uint32_t sum = 0;
+    for (int step = 0; step < steps; ++step) {
+      sum += v + static_cast<std::uint32_t>(step);
+      if (mode == 1 && sum > 50) break;
+      if (mode != 2) sum ^= 5u;
+    }
+    ++sum;
+    while (mode != 3 && sum % 7 != 0) ++sum;
+    if (mode == 4) sum += v % 2 == 0 ? steps_to_one(v) : 3;
+    for (std::uint32_t step = 0; mode == 5 && step < v % 4; ++step) sum = sum * 3 + 1;
+    if (twice) sum = mode > 2 ? sum * 2 + 1 : sum * 2;
+    results.push_back(sum + static_cast<std::uint32_t>(static_cast<float>(v) * factor));
+  }
+  return results;
+}
+
+TEST_F(Pipelines, kernels_compute_the_same_without_disabled_code) {
+  std::vector<std::uint32_t> numbers(64);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  const BufferHandle source = test::make_upload(device(), numbers);
+  for (std::uint32_t mode = 0; mode < 6; ++mode) {
+    for (const std::uint32_t twice : {0u, 1u}) {
+      const int steps = static_cast<int>(mode + twice) % 4;
+      const float factor = 0.5f + static_cast<float>(mode);
+      const auto pipeline = test::value_of(device().create_pipeline(
+          ComputePipelineDesc{.name = "disabled code",
+                              .module = "test",
+                              .shader = shaders::gpu_test::disabled_code_comp,
+                              .constants = {{.id = 0, .value = mode},
+                                            {.id = 1, .value = twice},
+                                            {.id = 2, .value = static_cast<std::uint32_t>(steps)},
+                                            {.id = 3, .value = std::bit_cast<std::uint32_t>(factor)}}}));
+      const BufferHandle target = test::make_readback(device(), 256);
+      test::run_frame(device(), [&](CommandList& commands) {
+        commands.bind_pipeline(pipeline);
+        commands.bind(std::array{Binding{0, Binding::BufferRange{source}}, Binding{1, Binding::BufferRange{target}}});
+        commands.dispatch(1, 1, 1);
+        to(commands, target, Access::compute_write, Access::host_read);
+      });
+      EXPECT_EQ(test::items_of<std::uint32_t>(device(), target), without_disabled_code(mode, twice != 0, steps, factor))
+          << "mode " << mode << ", twice " << twice;
+    }
+  }
 }
 
 TEST_F(Pipelines, dispatches_read_their_size_from_a_buffer) {

@@ -1,0 +1,392 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+//
+// Sparse conditional constant propagation (Wegman, Zadeck 1991), reduced to one pass in reverse postorder: control flow
+// of shaders is structured, so all branches to a block but back edges are known when the pass comes to it. A value that
+// a loop carries counts as unknown.
+#include "engine/gpu/spirv/specialize.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "engine/gpu/spirv/control_flow.h"
+#include "engine/gpu/spirv/opcodes.h"
+
+namespace gloam::gpu::spirv {
+namespace {
+
+constexpr std::uint32_t kSpecId = 1;
+constexpr std::size_t kModuleHeaderWords = 5;
+constexpr std::size_t kBoundWord = 3;
+
+/// Whether an instruction of a function body has a result, which is then its second operand (a label's is its first).
+bool has_result(std::uint32_t op) {
+  // No result: OpNop, lines, stores, barriers, merges, terminators.
+  static constexpr std::array<std::uint32_t, 22> kWithout = {0,   8,   62,  63,  64,  99,  218, 219, 220,  221,  224,
+                                                             225, 228, 246, 247, 249, 250, 251, 317, 4416, 5380, 319};
+  return std::ranges::find(kWithout, op) == kWithout.end() && !(op >= 252 && op <= op_unreachable);
+}
+
+/// Values of scalars of booleans and 32-bit integers.
+class Constants {
+ public:
+  void set(std::uint32_t id, std::uint32_t value) { values_.insert_or_assign(id, value); }
+  [[nodiscard]] std::optional<std::uint32_t> of(std::uint32_t id) const {
+    const auto found = values_.find(id);
+    return found == values_.end() ? std::nullopt : std::optional(found->second);
+  }
+  /// The result of an instruction with these operands; nullopt if it is not known.
+  [[nodiscard]] std::optional<std::uint32_t> evaluate(std::uint32_t op, std::span<const std::uint32_t> operands) const;
+
+ private:
+  std::unordered_map<std::uint32_t, std::uint32_t> values_;
+};
+
+std::optional<std::uint32_t> evaluate_pair(std::uint32_t op, std::uint32_t a, std::uint32_t b) {
+  const auto s = static_cast<std::int32_t>(a), t = static_cast<std::int32_t>(b);
+  switch (op) {
+    case op_i_add:
+      return a + b;
+    case op_i_sub:
+      return a - b;
+    case op_i_mul:
+      return a * b;
+    case op_logical_equal:
+    case op_i_equal:
+      return a == b;
+    case op_logical_not_equal:
+    case op_i_not_equal:
+      return a != b;
+    case op_logical_or:
+    case op_bitwise_or:
+      return a | b;
+    case op_logical_and:
+    case op_bitwise_and:
+      return a & b;
+    case op_bitwise_xor:
+      return a ^ b;
+    case op_u_greater_than:
+      return a > b;
+    case op_s_greater_than:
+      return s > t;
+    case op_u_greater_than_equal:
+      return a >= b;
+    case op_s_greater_than_equal:
+      return s >= t;
+    case op_u_less_than:
+      return a < b;
+    case op_s_less_than:
+      return s < t;
+    case op_u_less_than_equal:
+      return a <= b;
+    case op_s_less_than_equal:
+      return s <= t;
+    case op_shift_right_logical:
+      return b < 32 ? std::optional(a >> b) : std::nullopt;
+    case op_shift_left_logical:
+      return b < 32 ? std::optional(a << b) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<std::uint32_t> Constants::evaluate(std::uint32_t op, std::span<const std::uint32_t> operands) const {
+  if (operands.empty()) return std::nullopt;
+  const auto first = of(operands[0]);
+  if (op == op_copy_object) return first;
+  if (op == op_logical_not && first) return *first ^ 1u;
+  if (op == op_not && first) return ~*first;
+  if (op == op_select && operands.size() == 3 && first) return of(operands[*first != 0 ? 1 : 2]);
+  if (operands.size() != 2) return std::nullopt;
+  const auto second = of(operands[1]);
+  if (first && second) return evaluate_pair(op, *first, *second);
+  if (!first && !second) return std::nullopt;
+  const std::uint32_t known = first ? *first : *second;
+  if (op == op_logical_and && known == 0) return 0u;
+  if (op == op_logical_or && known == 1) return 1u;
+  return std::nullopt;
+}
+
+/// Which part of a function can run.
+struct LiveCode {
+  FunctionBlocks function;
+  std::vector<std::vector<std::uint32_t>> from;     ///< by block: live blocks that branch to it
+  std::vector<bool> live;                           ///< by block
+  std::vector<std::optional<std::uint32_t>> taken;  ///< by block: label that its conditional branch always takes
+  std::vector<std::uint32_t> called;                ///< functions that live blocks call
+  /// By block that is not live but must remain: 0, or the label of the loop header that it continues.
+  std::unordered_map<std::uint32_t, std::uint32_t> stubs;
+};
+
+class Specializer {
+ public:
+  Specializer(std::span<const std::uint32_t> words, std::span<const SpecConstant> given)
+      : words_(words), given_(given), bound_(words[kBoundWord]) {}
+
+  std::vector<std::uint32_t> run() {
+    const std::vector<Instruction> all = instructions_of(words_.subspan(kModuleHeaderWords));
+    if (all.empty()) return {};
+    const auto first = std::ranges::find(all, std::uint32_t{op_function}, &Instruction::op);
+    const std::span<const Instruction> globals{all.begin(), first};
+    if (!read_constants(globals)) return {};
+    std::vector<std::span<const Instruction>> functions;
+    for (auto at = first; at != all.end();) {
+      const auto end = std::find_if(at, all.end(), [](const auto& i) { return i.op == op_function_end; });
+      if (end == all.end()) return {};
+      functions.emplace_back(at, end);
+      at = end + 1;
+    }
+    if (!find_live_functions(functions)) return {};
+    for (const auto& function : functions) collect_removed(function);
+    std::vector<std::uint32_t> bodies;
+    for (const auto& function : functions)
+      if (const auto found = live_.find(function.front().words[2]); found != live_.end()) write(found->second, bodies);
+    out_.assign(words_.begin(), words_.begin() + kModuleHeaderWords);
+    for (const Instruction& instruction : globals) write_global(instruction);
+    for (const auto& [type, id] : undefined_) append(out_, op_undef, {type, id});
+    out_.insert(out_.end(), bodies.begin(), bodies.end());
+    out_[kBoundWord] = bound_;
+    return std::move(out_);
+  }
+
+ private:
+  static void append(std::vector<std::uint32_t>& to, std::uint32_t op, std::initializer_list<std::uint32_t> operands) {
+    to.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << 16 | op);
+    to.insert(to.end(), operands);
+  }
+  static void append(std::vector<std::uint32_t>& to, const Instruction& instruction) {
+    to.insert(to.end(), instruction.words.begin(), instruction.words.end());
+  }
+
+  [[nodiscard]] std::uint32_t value_of(std::uint32_t id, std::uint32_t default_value) const {
+    const auto spec = spec_ids_.find(id);
+    if (spec == spec_ids_.end()) return default_value;
+    const auto found = std::ranges::find(given_, spec->second, &SpecConstant::id);
+    return found == given_.end() ? default_value : found->value;
+  }
+
+  /// Reads the values of all constants. Returns false if none is a specialisation constant.
+  bool read_constants(std::span<const Instruction> globals) {
+    for (const Instruction& i : globals) {
+      const auto& w = i.words;
+      if (i.op == op_entry_point) entries_.push_back(w[2]);
+      if (i.op == op_decorate && w[2] == kSpecId && w.size() > 3) spec_ids_.emplace(w[1], w[3]);
+      if (i.op == op_type_bool) bool_type_ = w[1];
+      if (i.op == op_type_bool || (i.op == op_type_int && w[2] == 32)) scalar_types_.push_back(w[1]);
+      if (w.size() < 3 || std::ranges::find(scalar_types_, w[1]) == scalar_types_.end()) continue;
+      if (i.op == op_constant) constants_.set(w[2], w[3]);
+      if (i.op == op_constant_true || i.op == op_constant_false) constants_.set(w[2], i.op == op_constant_true);
+      if (i.op == op_spec_constant) constants_.set(w[2], value_of(w[2], w[3]));
+      if (i.op == op_spec_constant_true || i.op == op_spec_constant_false)
+        constants_.set(w[2], value_of(w[2], i.op == op_spec_constant_true) != 0);
+      if (i.op == op_spec_constant_op)
+        if (const auto value = constants_.evaluate(w[3], w.subspan(4))) constants_.set(w[2], *value);
+    }
+    return !spec_ids_.empty();
+  }
+
+  bool find_live_functions(std::span<const std::span<const Instruction>> functions) {
+    std::vector<std::uint32_t> waiting = entries_;
+    while (!waiting.empty()) {
+      const std::uint32_t id = waiting.back();
+      waiting.pop_back();
+      if (live_.contains(id)) continue;
+      const auto found = std::ranges::find_if(functions, [&](const auto& f) { return f.front().words[2] == id; });
+      if (found == functions.end()) return false;
+      LiveCode& code = live_[id];
+      if (!divide_into_blocks(*found, code.function)) return false;
+      find_live_blocks(code);
+      if (!find_stubs(code)) return false;
+      waiting.insert(waiting.end(), code.called.begin(), code.called.end());
+    }
+    return true;
+  }
+
+  void find_live_blocks(LiveCode& code) {
+    const std::size_t count = code.function.blocks.size();
+    code.from.resize(count);
+    code.live.resize(count, false);
+    code.taken.resize(count);
+    std::vector<bool> passed(count, false);
+    code.live[0] = true;
+    for (const std::uint32_t at : code.function.order) {
+      const Block& block = code.function.blocks[at];
+      passed[at] = true;
+      if (!code.live[at]) continue;
+      for (const Instruction& i : block.instructions) {
+        if (i.op == op_function_call) code.called.push_back(i.words[3]);
+        if (!has_result(i.op) || i.words.size() < 4) continue;
+        const auto value =
+            i.op == op_phi ? joined_value(code, at, i, passed) : constants_.evaluate(i.op, i.words.subspan(3));
+        if (value) constants_.set(i.words[2], *value);
+      }
+      const Instruction& last = block.instructions.back();
+      if (last.op == op_branch_conditional)
+        if (const auto condition = constants_.of(last.words[1])) code.taken[at] = last.words[*condition != 0 ? 2 : 3];
+      for (const std::uint32_t target : block.targets) {
+        if (code.taken[at] && code.function.blocks[target].label != *code.taken[at]) continue;
+        code.live[target] = true;
+        code.from[target].push_back(at);
+      }
+    }
+  }
+
+  /// The value of an OpPhi if all live branches bring the same one and none is a back edge.
+  std::optional<std::uint32_t> joined_value(const LiveCode& code, std::uint32_t at, const Instruction& phi,
+                                            const std::vector<bool>& passed) const {
+    std::optional<std::uint32_t> joined;
+    for (std::size_t i = 3; i + 1 < phi.words.size(); i += 2) {
+      const std::uint32_t from = code.function.block_of_label.at(phi.words[i + 1]);
+      if (!passed[from] || from == at) return std::nullopt;
+      if (std::ranges::find(code.from[at], from) == code.from[at].end()) continue;
+      const auto value = constants_.of(phi.words[i]);
+      if (!value || (joined && *joined != *value)) return std::nullopt;
+      joined = value;
+    }
+    return joined;
+  }
+
+  /// Finds the merge blocks and continue targets that live code names but does not reach. Returns false if a loop would
+  /// be left without its back edge.
+  static bool find_stubs(LiveCode& code) {
+    const auto& function = code.function;
+    std::vector<std::size_t> rank(function.blocks.size(), 0);
+    for (std::size_t i = 0; i < function.order.size(); ++i) rank[function.order[i]] = i;
+    for (const std::uint32_t at : function.order) {
+      const Block& block = function.blocks[at];
+      if (!code.live[at] || block.merge == nullptr) continue;
+      const bool loop = block.merge->op == op_loop_merge;
+      if (!loop && code.taken[at]) continue;
+      const auto merge = function.block_of_label.find(block.merge->words[1]);
+      if (merge == function.block_of_label.end()) return false;
+      if (!code.live[merge->second]) code.stubs.emplace(merge->second, 0);
+      if (!loop) continue;
+      const auto next = function.block_of_label.find(block.merge->words[2]);
+      if (next == function.block_of_label.end()) return false;
+      const bool continues = code.live[next->second];
+      const bool repeats = std::ranges::any_of(code.from[at], [&](std::uint32_t f) { return rank[f] >= rank[at]; });
+      if (continues != repeats) return false;
+      if (!continues) code.stubs.emplace(next->second, block.label);
+    }
+    return true;
+  }
+
+  /// Collects the results of the code that is left out.
+  void collect_removed(std::span<const Instruction> function) {
+    const auto found = live_.find(function.front().words[2]);
+    const auto remove = [&](std::span<const Instruction> instructions) {
+      for (const Instruction& i : instructions)
+        if (i.op == op_label) {
+          removed_.emplace(i.words[1], true);
+        } else if (has_result(i.op) && i.words.size() > 2) {
+          removed_.emplace(i.words[2], true);
+        }
+    };
+    if (found == live_.end()) return remove(function);
+    const LiveCode& code = found->second;
+    for (std::uint32_t at = 0; at < code.function.blocks.size(); ++at) {
+      if (code.live[at]) continue;
+      remove(code.function.blocks[at].instructions);
+      if (!code.stubs.contains(at)) removed_.emplace(code.function.blocks[at].label, true);
+    }
+  }
+
+  void write_global(const Instruction& i) {
+    const auto& w = i.words;
+    if (i.op == op_decorate && w[2] == kSpecId) return;
+    if ((i.op == op_name || i.op == op_decorate) && removed_.contains(w[1])) return;
+    const bool spec = i.op >= op_spec_constant_true && i.op <= op_spec_constant_op;
+    if (!spec) return append(out_, i);
+    if (i.op == op_spec_constant_composite) {
+      append(out_, i);
+      out_[out_.size() - w.size()] = static_cast<std::uint32_t>(w.size()) << 16 | op_constant_composite;
+      return;
+    }
+    if (const auto value = constants_.of(w[2])) {
+      if (w[1] == bool_type_) return append(out_, *value != 0 ? op_constant_true : op_constant_false, {w[1], w[2]});
+      return append(out_, op_constant, {w[1], w[2], *value});
+    }
+    append(out_, i);
+    // Not a boolean or 32-bit integer: the given value replaces the first word.
+    if (i.op != op_spec_constant) return;
+    const std::size_t at = out_.size() - w.size();
+    out_[at] = static_cast<std::uint32_t>(w.size()) << 16 | op_constant;
+    out_[at + 3] = value_of(w[2], w[3]);
+  }
+
+  void write(const LiveCode& code, std::vector<std::uint32_t>& to) {
+    for (const Instruction& i : code.function.head) append(to, i);
+    for (std::uint32_t at = 0; at < code.function.blocks.size(); ++at) {
+      const Block& block = code.function.blocks[at];
+      if (code.live[at]) {
+        append(to, op_label, {block.label});
+        write_block(code, at, to);
+      } else if (const auto stub = code.stubs.find(at); stub != code.stubs.end()) {
+        append(to, op_label, {block.label});
+        if (stub->second != 0) {
+          append(to, op_branch, {stub->second});
+        } else {
+          append(to, op_unreachable, {});
+        }
+      }
+    }
+    append(to, op_function_end, {});
+  }
+
+  void write_block(const LiveCode& code, std::uint32_t at, std::vector<std::uint32_t>& to) {
+    const Block& block = code.function.blocks[at];
+    for (const Instruction& i : block.instructions) {
+      if (i.op == op_phi) {
+        write_phi(code, at, i, to);
+      } else if (code.taken[at] && &i == &block.instructions.back()) {
+        append(to, op_branch, {*code.taken[at]});
+      } else if (!(code.taken[at] && i.op == op_selection_merge)) {
+        append(to, i);
+      }
+    }
+  }
+
+  void write_phi(const LiveCode& code, std::uint32_t at, const Instruction& phi, std::vector<std::uint32_t>& to) {
+    const std::size_t start = to.size();
+    to.insert(to.end(), phi.words.begin(), phi.words.begin() + 3);
+    const auto& from = code.from[at];
+    for (std::size_t i = 3; i + 1 < phi.words.size(); i += 2)
+      if (std::ranges::find(from, code.function.block_of_label.at(phi.words[i + 1])) != from.end())
+        to.insert(to.end(), {phi.words[i], phi.words[i + 1]});
+    for (const auto& [stub, header] : code.stubs)
+      if (header == code.function.blocks[at].label)
+        to.insert(to.end(), {undefined(phi.words[1]), code.function.blocks[stub].label});
+    to[start] = static_cast<std::uint32_t>(to.size() - start) << 16 | op_phi;
+  }
+
+  std::uint32_t undefined(std::uint32_t type) {
+    const auto [place, fresh] = undefined_.try_emplace(type, bound_);
+    if (fresh) ++bound_;
+    return place->second;
+  }
+
+  std::span<const std::uint32_t> words_;
+  std::span<const SpecConstant> given_;
+  std::uint32_t bound_;
+  std::vector<std::uint32_t> entries_;
+  std::uint32_t bool_type_ = 0;
+  std::vector<std::uint32_t> scalar_types_;  ///< booleans and 32-bit integers
+  std::unordered_map<std::uint32_t, std::uint32_t> spec_ids_;
+  Constants constants_;
+  std::unordered_map<std::uint32_t, LiveCode> live_;  ///< by function
+  std::unordered_map<std::uint32_t, bool> removed_;
+  std::unordered_map<std::uint32_t, std::uint32_t> undefined_;  ///< by type: id of an OpUndef
+  std::vector<std::uint32_t> out_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> specialize(std::span<const std::uint32_t> words, std::span<const SpecConstant> constants) {
+  if (words.size() <= kModuleHeaderWords) return {};
+  return Specializer(words, constants).run();
+}
+
+}  // namespace gloam::gpu::spirv

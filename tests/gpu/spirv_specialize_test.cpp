@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/spirv/specialize.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "engine/gpu/spirv/opcodes.h"
+#include "engine/gpu/spirv_reflection.h"
+#include "shaders/every/shaders.h"
+#include "shaders/gpu_test/shaders.h"
+
+namespace gloam::gpu {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+/// Calls visit(opcode, words of the instruction).
+template <class Visit>
+void for_each_instruction(std::span<const std::uint32_t> words, const Visit& visit) {
+  for (std::size_t at = 5; at < words.size(); at += words[at] >> 16)
+    visit(words[at] & 0xffff, words.subspan(at, words[at] >> 16));
+}
+
+std::size_t count_of(std::span<const std::uint32_t> words, std::uint32_t op) {
+  std::size_t count = 0;
+  for_each_instruction(words, [&](std::uint32_t found, const auto&) { count += found == op ? 1 : 0; });
+  return count;
+}
+
+bool has_specialisation(std::span<const std::uint32_t> words) {
+  bool found = false;
+  for_each_instruction(
+      words, [&](std::uint32_t op, const auto& w) { found = found || (op == spirv::op_decorate && w[2] == 1); });
+  return found;
+}
+
+Words disabled_code(std::uint32_t mode) {
+  const SpecConstant constants[] = {{.id = 0, .value = mode}};
+  return spirv::specialize(shaders::gpu_test::disabled_code_comp.words, constants);
+}
+
+TEST(SpirvSpecialize, leaves_out_functions_that_nothing_calls) {
+  EXPECT_EQ(count_of(disabled_code(4), spirv::op_function), 2u);
+  EXPECT_EQ(count_of(disabled_code(4), spirv::op_function_call), 1u);
+  EXPECT_EQ(count_of(disabled_code(0), spirv::op_function), 1u);
+  EXPECT_EQ(count_of(disabled_code(0), spirv::op_function_call), 0u);
+}
+
+TEST(SpirvSpecialize, leaves_out_branches_that_are_never_taken) {
+  const Words all(shaders::gpu_test::disabled_code_comp.words.begin(),
+                  shaders::gpu_test::disabled_code_comp.words.end());
+  EXPECT_LT(count_of(disabled_code(0), spirv::op_branch_conditional), count_of(all, spirv::op_branch_conditional));
+  EXPECT_LT(count_of(disabled_code(3), spirv::op_branch_conditional),
+            count_of(disabled_code(4), spirv::op_branch_conditional));
+}
+
+TEST(SpirvSpecialize, gives_nothing_for_a_module_without_specialisation_constants) {
+  EXPECT_TRUE(spirv::specialize(shaders::gpu_test::halve_comp.words, {}).empty());
+}
+
+TEST(SpirvSpecialize, keeps_the_interface_of_every_shader) {
+  for (const ShaderCode* code : test::every_shader()) {
+    const Words words = spirv::specialize(code->words, {});
+    EXPECT_EQ(words.empty(), !has_specialisation(code->words)) << code->name;
+    if (words.empty()) continue;
+    EXPECT_FALSE(has_specialisation(words)) << code->name;
+    const auto before = reflect_spirv(*code), after = reflect_spirv({code->name, words});
+    ASSERT_TRUE(after.ok()) << code->name << ": " << after.error().message;
+    EXPECT_EQ(after->stage, before->stage);
+    EXPECT_EQ(after->local_size, before->local_size) << code->name;
+    EXPECT_EQ(after->push_constant_bytes, before->push_constant_bytes);
+    EXPECT_EQ(after->bindings.size(), before->bindings.size()) << code->name;
+    EXPECT_LE(after->selections, before->selections) << code->name;
+  }
+}
+
+TEST(SpirvSpecialize, names_only_blocks_and_functions_that_exist) {
+  for (const ShaderCode* code : test::every_shader()) {
+    for (std::uint32_t value = 0; value < 4; ++value) {
+      std::vector<SpecConstant> constants;
+      for (std::uint32_t id = 0; id < 32; ++id) constants.push_back({.id = id, .value = value});
+      const Words words = spirv::specialize(code->words, constants);
+      std::set<std::uint32_t> labels, functions, named;
+      std::set<std::uint32_t> called;
+      for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
+        if (op == spirv::op_label) labels.insert(w[1]);
+        if (op == spirv::op_function) functions.insert(w[2]);
+        if (op == spirv::op_function_call) called.insert(w[3]);
+        if (op == spirv::op_branch || op == spirv::op_selection_merge || op == spirv::op_loop_merge) named.insert(w[1]);
+        if (op == spirv::op_loop_merge) named.insert(w[2]);
+        if (op == spirv::op_branch_conditional) named.insert({w[2], w[3]});
+        for (std::size_t i = 4; op == spirv::op_phi && i < w.size(); i += 2) named.insert(w[i]);
+      });
+      EXPECT_TRUE(std::ranges::includes(labels, named)) << code->name << ", constants " << value;
+      EXPECT_TRUE(std::ranges::includes(functions, called)) << code->name << ", constants " << value;
+    }
+  }
+}
+
+TEST(SpirvSpecialize, survives_damaged_modules) {
+  const auto words = shaders::gpu_test::disabled_code_comp.words;
+  std::mt19937 random(7);
+  for (int round = 0; round < 3000; ++round) {
+    Words damaged(words.begin(), words.end());
+    const int changes = 1 + static_cast<int>(random() % 4);
+    for (int c = 0; c < changes; ++c) {
+      const std::size_t at = random() % damaged.size();
+      damaged[at] = random() % 2 == 0 ? static_cast<std::uint32_t>(random()) : damaged[random() % damaged.size()];
+    }
+    const SpecConstant constants[] = {{.id = 0, .value = round % 6u}};
+    static_cast<void>(spirv::specialize(damaged, constants));
+  }
+}
+
+}  // namespace
+}  // namespace gloam::gpu
