@@ -68,11 +68,12 @@ void describe_image(const Module& module, const Type& image, ReflectedBinding& b
                                                           : ImageDimension::other;
 }
 
-ReflectedBinding reflect_binding(const Module& module, const Id& variable) {
+ReflectedBinding reflect_binding(const Module& module, std::uint32_t id_of_variable) {
+  const Id& variable = module.ids[id_of_variable];
   ReflectedBinding binding;
   binding.set = variable.set;
   binding.binding = variable.binding;
-  binding.used = variable.used;
+  binding.used = module.used[id_of_variable];
   binding.name = variable.name;
   std::uint32_t id = module.ids[variable.variable_type].type.element;
   while (is_type(module, id)) {
@@ -178,7 +179,7 @@ Result<SpirvReflection> reflect_spirv(const ShaderCode& code) {
   for (const std::uint32_t id : module.variables) {
     const Id& variable = module.ids[id];
     if (variable.has_set && variable.has_binding) {
-      reflection.bindings.push_back(reflect_binding(module, variable));
+      reflection.bindings.push_back(reflect_binding(module, id));
     } else if (variable.storage_class == kStoragePushConstant) {
       const std::uint32_t block = module.ids[variable.variable_type].type.element;
       if (is_type(module, block)) {

@@ -63,6 +63,7 @@ class Parser {
     const std::uint32_t bound = words_[3];
     if (bound == 0 || bound > kMaxBound) return fault("its bound of ids is out of range");
     module_.ids.resize(bound);
+    module_.used.resize(bound, false);
     for (std::size_t at = kHeaderWords; at < words_.size();) {
       const std::uint32_t op = words_[at] & 0xffff;
       const std::size_t count = words_[at] >> 16;
@@ -147,35 +148,35 @@ class Parser {
 
   bool decorate(Operands o) {
     if (o.size() < 2 || !known(o[0])) return false;
-    Id& id = module_.ids[o[0]];
+    const auto id = [&]() -> Id& { return module_.ids[o[0]]; };  // other decorations make no properties
     const bool has_value = o.size() >= 3;
     switch (o[1]) {
       case decoration_block:
-        id.block = true;
+        id().block = true;
         return true;
       case decoration_buffer_block:
-        id.buffer_block = true;
+        id().buffer_block = true;
         return true;
       case decoration_array_stride:
-        if (has_value) id.array_stride = o[2];
+        if (has_value) id().array_stride = o[2];
         return has_value;
       case decoration_built_in:
-        if (has_value) id.is_workgroup_size = o[2] == kBuiltInWorkgroupSize;
+        if (has_value) id().is_workgroup_size = o[2] == kBuiltInWorkgroupSize;
         return has_value;
       case decoration_spec_id:
-        id.has_spec_id = has_value;
-        if (has_value) id.spec_id = o[2];
+        id().has_spec_id = has_value;
+        if (has_value) id().spec_id = o[2];
         return has_value;
       case decoration_non_writable:
-        id.non_writable = true;
+        id().non_writable = true;
         return true;
       case decoration_binding:
-        id.has_binding = has_value;
-        if (has_value) id.binding = o[2];
+        id().has_binding = has_value;
+        if (has_value) id().binding = o[2];
         return has_value;
       case decoration_descriptor_set:
-        id.has_set = has_value;
-        if (has_value) id.set = o[2];
+        id().has_set = has_value;
+        if (has_value) id().set = o[2];
         return has_value;
       default:
         return true;
@@ -330,7 +331,7 @@ class Parser {
     }
     for (std::size_t i = first; i < last && i < o.size(); ++i) {
       if (!known(o[i])) return false;
-      module_.ids[o[i]].used = true;
+      module_.used[o[i]] = true;
     }
     return true;
   }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <span>
 #include <string>
@@ -66,7 +68,6 @@ struct Id {
   bool has_binding = false;
   bool buffer_block = false;
   bool block = false;
-  bool used = false;
   bool non_writable = false;
   std::uint32_t set = 0;
   std::uint32_t binding = 0;
@@ -76,8 +77,32 @@ struct Id {
   std::map<std::uint32_t, MemberDecorations> members;
 };
 
+/// The properties of all ids of a module. Most ids are values of function bodies, which have none and take four bytes.
+class IdTable {
+ public:
+  void resize(std::uint32_t bound) { places_.resize(bound, 0); }
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+  /// Makes the properties of an id that has none yet. References stay valid.
+  [[nodiscard]] Id& operator[](std::uint32_t id) {
+    if (places_[id] == 0) {
+      made_.emplace_back();
+      places_[id] = static_cast<std::uint32_t>(made_.size());
+    }
+    return made_[places_[id] - 1];
+  }
+  [[nodiscard]] const Id& operator[](std::uint32_t id) const {
+    return places_[id] == 0 ? none_ : made_[places_[id] - 1];
+  }
+
+ private:
+  Id none_;
+  std::vector<std::uint32_t> places_;  ///< by id: index in made_ + 1; 0: no properties
+  std::deque<Id> made_;
+};
+
 struct Module {
-  std::vector<Id> ids;
+  IdTable ids;
+  std::vector<bool> used;                ///< by id: function bodies read or write through it
   std::vector<std::uint32_t> variables;  ///< ids of the global variables, in order
   std::vector<std::uint32_t> structures;
   bool has_entry = false;
