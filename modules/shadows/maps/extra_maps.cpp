@@ -137,7 +137,7 @@ void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<cons
 }
 
 void list_bounds_pipelines(bool d16, PipelineList& list) {
-  list.push_back(pipeline_desc(shadow_mips_program(d16, MapMips::bounds_only), "shadows"));
+  list.push_back(pipeline_desc(shadow_bounds_program(d16), "shadows"));
 }
 
 gpu::Binding::BufferRange ShadowMapDrawer::block(FrameBuilder& frame, std::uint32_t size) const {

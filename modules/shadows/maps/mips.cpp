@@ -112,9 +112,13 @@ shaders::ShadowMipConstants constants_of(const ShadowKnobs& knobs) {
 
 }  // namespace
 
-ComputeProgram shadow_mips_program(bool d16, MapMips mips) {
-  if (mips == MapMips::bounds_only) return {d16 ? shaders::shadows::bounds_r16_comp : shaders::shadows::bounds_comp};
-  return {d16 ? shaders::shadows::mips_r16_comp : shaders::shadows::mips_comp};
+ComputeProgram shadow_mips_program(const ShadowKnobs& knobs) {
+  return {knobs.d16 ? shaders::shadows::mips_r16_comp : shaders::shadows::mips_comp,
+          {{GLOAM_SHADOW_MIP_OPERATOR_ID, knobs.mip_operator}}};
+}
+
+ComputeProgram shadow_bounds_program(bool d16) {
+  return {d16 ? shaders::shadows::bounds_r16_comp : shaders::shadows::bounds_comp};
 }
 
 ComputeProgram shadow_mips_in_place_program(bool d16) {
@@ -139,7 +143,9 @@ ShadowMipWork plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds,
   work.constants = constants_of(knobs);
   auto groups = frame.services().storage.write(std::as_bytes(std::span(list.groups())));
   if (frame.check(groups)) work.groups = *groups;
-  work.pipeline = pipeline_of(frame, pipeline_desc(shadow_mips_program(knobs.d16, mips), "shadows"));
+  const bool bounds_only = mips == MapMips::bounds_only;
+  work.pipeline = pipeline_of(
+      frame, pipeline_desc(bounds_only ? shadow_bounds_program(knobs.d16) : shadow_mips_program(knobs), "shadows"));
   if (!work.backgrounds.empty())
     work.backgrounds_pipeline = pipeline_of(frame, pipeline_desc(shadow_backgrounds_program(), "shadows"));
   work.sampler = frame.sampler(Sampling::nearest);

@@ -18,7 +18,8 @@ namespace gloam {
 
 // Plans and records the dispatches that move drawn faces into the atlas and make their mips and pyramid. They read
 // scratch images, which the frame graph does not track, so their passes record commands themselves.
-[[nodiscard]] ComputeProgram shadow_mips_program(bool d16, MapMips mips = MapMips::all);
+[[nodiscard]] ComputeProgram shadow_mips_program(const ShadowKnobs& knobs);
+[[nodiscard]] ComputeProgram shadow_bounds_program(bool d16);
 [[nodiscard]] ComputeProgram shadow_mips_in_place_program(bool d16);
 [[nodiscard]] ComputeProgram shadow_backgrounds_program();
 

@@ -26,6 +26,11 @@ layout(set = 0, binding = 3, scalar) readonly buffer Groups { ShadowMipGroup gro
 layout(set = 0, binding = 4) uniform sampler2DArray backgrounds;
 #endif
 layout(push_constant, scalar) uniform Constants { ShadowMipConstants run; };
+layout(constant_id = GLOAM_SHADOW_MIP_OPERATOR_ID) const uint kMipOperator = GLOAM_SHADOW_MIPS_AS_PUSHED;
+
+bool is_operator(int mip_operator) {
+  return (kMipOperator == uint(GLOAM_SHADOW_MIPS_AS_PUSHED) ? run.mip_operator : kMipOperator) == uint(mip_operator);
+}
 
 ShadowMipGroup face;  // this workgroup's entry
 
@@ -63,7 +68,7 @@ void add(inout Texels t, float depth, vec2 bounds, float gap) {
   t.bounds = vec2(min(t.bounds.x, bounds.x), max(t.bounds.y, bounds.y));
 #ifndef GLOAM_SHADOW_BOUNDS_ONLY
   bool occupied = depth > 0.0;
-  if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE))
+  if (is_operator(GLOAM_SHADOW_MIPS_COVERAGE))
     add_covered(t, depth, gap);
   else
     t.nearest = max(t.nearest, depth);
@@ -76,12 +81,12 @@ float depth_of(Texels t) {
 #ifdef GLOAM_SHADOW_BOUNDS_ONLY
   return 0.0;
 #endif
-  if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE)) {
+  if (is_operator(GLOAM_SHADOW_MIPS_COVERAGE)) {
     uint free = uint(clamp(floor((1.0 - 0.25 * t.covered) * 64.0 + 0.5), 0.0, float(kFreeBits)));
     // The mean depth of a plane is its depth in the middle.
     return t.nearest > 0.0 ? uintBitsToFloat(floatBitsToUint(without_free_bits(t.depths / t.covered)) | free) : 0.0;
   }
-  if (run.mip_operator == uint(GLOAM_SHADOW_MIPS_NEAREST) || t.count == 0.0) return t.nearest;
+  if (is_operator(GLOAM_SHADOW_MIPS_NEAREST) || t.count == 0.0) return t.nearest;
   return face.orthographic != 0u ? t.sum / t.count : t.count / t.sum;
 }
 
@@ -123,7 +128,7 @@ float held_depth(float depth) {
 #ifdef GLOAM_SHADOW_ATLAS_STEPS
   depth = floor(clamp(depth, 0.0, 1.0) * GLOAM_SHADOW_ATLAS_STEPS + 0.5) / GLOAM_SHADOW_ATLAS_STEPS;
 #endif
-  return run.mip_operator == uint(GLOAM_SHADOW_MIPS_COVERAGE) ? without_free_bits(depth) : depth;
+  return is_operator(GLOAM_SHADOW_MIPS_COVERAGE) ? without_free_bits(depth) : depth;
 }
 
 #ifdef GLOAM_SHADOW_MIPS_IN_PLACE
