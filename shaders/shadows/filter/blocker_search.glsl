@@ -165,6 +165,10 @@ float nearest_in_cone(ShadowPoint p, float width) {
   return nearest;
 }
 
+// How often nearest_in_cone() is worth its fetches: twice where a surface in the face, with this nearest depth, is so
+// near to the light that it alone would make the region wide.
+int cone_steps(bool orthographic, float of_face, float depth) { return !orthographic && of_face > 4.0 * depth ? 2 : 1; }
+
 // Finds the search region from coarse to fine: the nearest depth in a square that is too large gives a smaller square
 // that still holds all blockers.
 SearchRegion find_region(ShadowPoint p) {
@@ -175,11 +179,15 @@ SearchRegion find_region(ShadowPoint p) {
   if ((kKinds & GLOAM_SHADOWS_CUBES) != 0u) region = find_region_of_cube(p, across);
 #endif
   if (!across) do {
-      region.width = penumbra_width(p, gather_nearest(pyramid_corner(p, last)));
-      for (int step = 0; step < 2; ++step) {
-        region.nearest = nearest_in_cone(p, region.width);
-        region.width = min(region.width, penumbra_width(p, region.nearest));
-      }
+      float of_face = gather_nearest(pyramid_corner(p, last));
+      region.width = penumbra_width(p, of_face);
+      region.nearest = gather_nearest(pyramid_corner(p, pyramid_level(region.width, last)));
+      region.width = penumbra_width(p, region.nearest);
+      int step = 0, steps = cone_steps(p.orthographic, of_face, p.depth);
+      if (region.nearest > p.threshold) do {
+          region.nearest = nearest_in_cone(p, region.width);
+          region.width = min(region.width, penumbra_width(p, region.nearest));
+        } while (++step < steps);
       region.farthest = gather_farthest(pyramid_corner(p, pyramid_level(region.width, last)));
     } while (never(p));
   return region;

@@ -84,6 +84,9 @@ float nearest_in(TileInFace f, vec2 low, vec2 high, out float farthest) {
 
 float widest(TileInFace f, float nearest) { return clamp(f.scale * (nearest - f.farthest), 0.0, f.size); }
 
+// Distance from a pixel, in texels of mip 0, up to which find_region() reads the pyramid for a penumbra of this width.
+float footprint(float width) { return 4.0 * max(width, 2.0); }
+
 // Nearest depth among texels of the pyramid that the cone of a pixel may meet; the bound on nearest_in_cone() of the
 // pixels. width: of their search regions, so far.
 float nearest_in_cones(TileInFace f, float width) {
@@ -257,8 +260,18 @@ bool leaves_face(TileInFace f, float reach) {
 float widest_region(TileInFace f) {
   int last = floor_log2(f.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
   MipSquare square = mip_square(f.origin * 0.25, f.size * 0.25, last, shadow_block.atlas_size * 0.25);
-  float width = widest(f, gather_nearest(square.corner + 1.0));
-  for (int step = 0; step < 2; ++step) width = min(width, widest(f, nearest_in_cones(f, width)));
+  float of_face = gather_nearest(square.corner + 1.0), farthest;
+  float width = widest(f, of_face), look = footprint(width);
+  width = min(width, widest(f, nearest_in(f, f.low - look, f.high + look, farthest)));
+#ifdef GLOAM_CLASSIFY_SUNS
+  const bool orthographic = true;
+#else
+  const bool orthographic = false;
+#endif
+  int step = 0, steps = cone_steps(orthographic, of_face, f.nearest);
+  do {
+    width = min(width, widest(f, nearest_in_cones(f, width)));
+  } while (++step < steps);
   return width;
 }
 
