@@ -137,6 +137,12 @@ class Module {
     static_cast<void>(knobs);
     return false;
   }
+  /// Whether the module's passes read GeometryOutputs::smooth_surfaces. Called like needs_motion.
+  [[nodiscard]] virtual bool needs_smooth_surfaces(const World& world, const KnobRegistry& knobs) const {
+    static_cast<void>(world);
+    static_cast<void>(knobs);
+    return false;
+  }
   /// Whether a frame without the module makes no sense. Then frames wait for its pipelines even with
   /// Readiness::background.
   [[nodiscard]] virtual bool essential() const { return false; }

@@ -27,4 +27,15 @@ GeometryTexel decode_geometry(std::uint32_t base_color, glm::uvec2 normals, std:
   return texel;
 }
 
+SmoothSurface decode_smooth_surface(uvec2 texel) {
+  if (texel.y == 0) return {};
+  const auto coordinate = [&](unsigned byte) {
+    return (static_cast<float>(texel.y >> (8 * byte) & 0xFFu) - 128.0f) / 127.0f;
+  };
+  return {.exists = true,
+          .offset = octahedral_decode(vec2(coordinate(0), coordinate(1))) *
+                    half_to_float(static_cast<std::uint16_t>(texel.y >> 16)),
+          .normal = unpack_normal_snorm16(texel.x)};
+}
+
 }  // namespace gloam

@@ -32,6 +32,11 @@ struct GeometryOutputs {
   ///
   /// 32-bit floats, because 16-bit floats would round motion of 64 pixels and more by up to 0.03 pixels.
   ImageRef motion;
+  /// rg32_uint: the smooth surface that the vertex normals of smooth-shaded meshes describe (decode_smooth_surface,
+  /// shaders/render/smooth_surface_api.glsl); 0 where the drawn surface is the smooth one. Null unless a module that
+  /// the view demands needs it (Module::needs_smooth_surfaces) and the scene has smooth-shaded meshes. Set from
+  /// PassPhase::lists on. Only the renderer's own surfaces have a smooth surface, not those of PassPhase::geometry.
+  ImageRef smooth_surfaces;
 };
 
 /// Linear light of the view, cd/m² before exposure, rgba16f. The renderer creates the image and shading fills it. Later
@@ -72,5 +77,13 @@ struct GeometryTexel {
 /// Decodes one texel. base_color: rgba8_unorm as 0xAABBGGRR, with square roots of the linear colour; normals: the two
 /// words of the texel; material: rgba8_unorm as 0xAABBGGRR.
 [[nodiscard]] GeometryTexel decode_geometry(std::uint32_t base_color, glm::uvec2 normals, std::uint32_t material);
+
+/// One texel of GeometryOutputs::smooth_surfaces, decoded on the CPU.
+struct SmoothSurface {
+  bool exists = false;       ///< false: the drawn surface is the smooth one
+  vec3 offset = vec3(0.0f);  ///< metres, from the drawn surface
+  vec3 normal = vec3(0.0f);  ///< unit, on the visible side
+};
+[[nodiscard]] SmoothSurface decode_smooth_surface(uvec2 texel);
 
 }  // namespace gloam

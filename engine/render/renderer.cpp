@@ -165,9 +165,10 @@ bool Renderer::State::may_draw(std::size_t index, const World& world, const Fram
          runtimes[index].demand.needed && module.demand(world, view.view.get()).needed;
 }
 
-bool Renderer::State::needs_motion(const World& world, const FrameView& view) const {
+bool Renderer::State::view_needs(bool (Module::*question)(const World&, const KnobRegistry&) const, const World& world,
+                                 const FrameView& view) const {
   for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (may_draw(i, world, view) && options.modules[i]->needs_motion(world, knobs_of(view))) return true;
+    if (may_draw(i, world, view) && ((*options.modules[i]).*question)(world, knobs_of(view))) return true;
   return false;
 }
 
@@ -199,6 +200,7 @@ Status Renderer::State::add_module_passes(FrameBuilder& builder, const FrameView
     builder.set_module("engine");
     if (phase != PassPhase::geometry) continue;
     add_sky_motion_pass(builder);
+    if (view_needs(&Module::needs_smooth_surfaces, builder.world(), view)) add_smooth_surface_pass(builder);
     add_depth_bounds_pass(builder);
     GLOAM_TRY(builder.status());
   }

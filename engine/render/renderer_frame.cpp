@@ -77,7 +77,7 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
   FrameBuilder& frame = *builders.back();
   graph.set_view(view.id.value);
   frame.set_visualizer(request.settings.visualizer);
-  if (needs_motion(world, own_view)) frame.set_previous_instances(&motion.instances());
+  if (view_needs(&Module::needs_motion, world, own_view)) frame.set_previous_instances(&motion.instances());
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
   frame.upload_view_constants(code);
   add_deform_pass(frame);

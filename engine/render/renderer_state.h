@@ -97,8 +97,9 @@ struct Renderer::State {
                                const World& world) const;
   /// Whether the module is built, demanded by the world and the view, and not left out by the view's settings.
   [[nodiscard]] bool may_draw(std::size_t module, const World& world, const FrameView& view) const;
-  /// Whether a module that may draw in the view needs GeometryOutputs::motion.
-  [[nodiscard]] bool needs_motion(const World& world, const FrameView& view) const;
+  /// Whether `question` (e.g. &Module::needs_motion) is true for a module that may draw in the view.
+  [[nodiscard]] bool view_needs(bool (Module::*question)(const World&, const KnobRegistry&) const, const World& world,
+                                const FrameView& view) const;
   /// Renderer::render, except for exceptions that it passes on after giving the frame up.
   [[nodiscard]] Status draw_frame(World& world, std::span<const ViewRequest> requests);
   /// Notes a submitted frame as drawn.

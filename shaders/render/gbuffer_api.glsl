@@ -10,6 +10,7 @@
 //   material    rgba8_unorm  roughness, metallic, occlusion, reflectivity
 //   emissive    rgba16_float cd/m²
 //   depth       d32          reversed Z, 0 = sky
+//   smooth surfaces  rg32_uint  smooth_surface_api.glsl; drawn by the renderer alone, only in frames that need it
 //   motion      rg32f        pixels since the previous frame (motion_api.glsl); only in frames that need it
 //
 // A fragment shader of PassPhase::geometry writes locations 0 to 3, and location 4 if the frame has motion:

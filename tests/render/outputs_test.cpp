@@ -37,5 +37,18 @@ TEST(DecodeGeometry, the_first_word_is_the_shading_normal) {
   EXPECT_GT(glm::dot(texel.face_normal, face), 0.9999999f);
 }
 
+TEST(DecodeSmoothSurface, holds_a_length_a_direction_and_a_normal) {
+  const vec3 normal = glm::normalize(vec3(0.3f, 0.8f, -0.5f));
+  const std::uint32_t quarter = std::uint32_t{float_to_half(0.25f)} << 16;
+  const auto along_x = decode_smooth_surface({pack_normal_snorm16(normal), quarter | 128u << 8 | 255u});
+  EXPECT_TRUE(along_x.exists);
+  EXPECT_EQ(along_x.offset, vec3(0.25f, 0.0f, 0.0f));
+  EXPECT_GT(glm::dot(along_x.normal, normal), 0.9999999f);
+  EXPECT_EQ(decode_smooth_surface({0, quarter | 1u << 8 | 128u}).offset, vec3(0.0f, -0.25f, 0.0f));
+  EXPECT_EQ(decode_smooth_surface({0, quarter | 128u << 8 | 128u}).offset, vec3(0.0f, 0.0f, 0.25f));
+  EXPECT_TRUE(decode_smooth_surface({0, 128u << 8 | 128u}).exists) << "at a vertex";
+  EXPECT_FALSE(decode_smooth_surface({pack_normal_snorm16(normal), 0}).exists);
+}
+
 }  // namespace
 }  // namespace gloam

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/ext/matrix_transform.hpp>
 #include <utility>
@@ -56,6 +57,27 @@ namespace gloam::test {
       for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) p.indices.push_back(first + i);
     }
   }
+  return finished(std::move(p));
+}
+
+/// A ball around the origin with smooth normals, of `round` columns and `high` rows of facets.
+[[nodiscard]] inline Primitive round_ball(float radius, std::uint32_t round, std::uint32_t high,
+                                          std::uint32_t material = kNone) {
+  Primitive p;
+  p.material = material;
+  for (std::uint32_t row = 0; row <= high; ++row)
+    for (std::uint32_t column = 0; column <= round; ++column) {
+      const float up = 3.14159265f * static_cast<float>(row) / static_cast<float>(high);
+      const float about = 6.28318531f * static_cast<float>(column % round) / static_cast<float>(round);
+      const vec3 normal(std::sin(up) * std::sin(about), std::cos(up), std::sin(up) * std::cos(about));
+      p.positions.push_back(normal * radius);
+      p.normals.push_back(normal);
+    }
+  for (std::uint32_t row = 0; row < high; ++row)
+    for (std::uint32_t column = 0; column < round; ++column) {
+      const std::uint32_t a = row * (round + 1) + column, b = a + round + 1;
+      for (const std::uint32_t i : {a, b, b + 1, a, b + 1, a + 1}) p.indices.push_back(i);
+    }
   return finished(std::move(p));
 }
 

@@ -260,6 +260,7 @@ void read_geometry(ShaderPass& pass, const GeometryOutputs& geometry) {
   pass.read_if_declared("depth_image", geometry.depth);
   pass.read_if_declared("depth_bounds", geometry.depth_bounds);
   pass.read_if_declared("motion_image", geometry.motion);
+  pass.read_if_declared("smooth_surface_image", geometry.smooth_surfaces);
 }
 
 }  // namespace gloam

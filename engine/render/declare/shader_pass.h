@@ -130,7 +130,7 @@ class ShaderPass {
 };
 
 /// Binds images of the geometry buffer for nearest sampling: those of base_color_image, normal_image, material_image,
-/// emissive_image, depth_image, depth_bounds and motion_image that the program in use declares.
+/// emissive_image, depth_image, depth_bounds, motion_image and smooth_surface_image that the program in use declares.
 void read_geometry(ShaderPass& pass, const GeometryOutputs& geometry);
 
 }  // namespace gloam

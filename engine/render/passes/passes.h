@@ -20,6 +20,10 @@ void add_geometry_pass(FrameBuilder& frame);
 /// Writes the motion of sky pixels, if GeometryOutputs has a motion image.
 void add_sky_motion_pass(FrameBuilder& frame);
 
+/// Draws where the smooth surfaces of smooth-shaded meshes lie; sets GeometryOutputs::smooth_surfaces. Does nothing if
+/// no mesh of the scene is smooth-shaded.
+void add_smooth_surface_pass(FrameBuilder& frame);
+
 /// Computes the farthest and nearest depth of each 8×8 tile; sets GeometryOutputs::depth_bounds, which
 /// add_geometry_pass has put.
 void add_depth_bounds_pass(FrameBuilder& frame);

@@ -18,10 +18,14 @@ struct GeometryPicture {
   std::vector<std::uint32_t> base_color;
   std::vector<uvec2> normals;
   std::vector<std::uint32_t> material;
+  std::vector<uvec2> smooth_surfaces;  ///< empty if the frame has no GeometryOutputs::smooth_surfaces
 
   [[nodiscard]] bool is_sky(std::size_t at) const { return depth[at] <= 0.0f; }
   [[nodiscard]] GeometryTexel texel(std::size_t at) const {
     return decode_geometry(base_color[at], normals[at], material[at]);
+  }
+  [[nodiscard]] SmoothSurface smooth_surface(std::size_t at) const {
+    return smooth_surfaces.empty() ? SmoothSurface{} : decode_smooth_surface(smooth_surfaces[at]);
   }
   /// Camera-relative position of the surface under the centre of a pixel, in double. The pixel must not be sky.
   [[nodiscard]] dvec3 position(std::uint32_t x, std::uint32_t y) const;

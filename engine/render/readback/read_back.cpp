@@ -106,6 +106,10 @@ Result<GeometryPicture> Renderer::read_geometry(World& world, ViewId view) {
   picture.base_color = items_of<std::uint32_t>((*images)[1]);
   picture.normals = items_of<uvec2>((*images)[2]);
   picture.material = items_of<std::uint32_t>((*images)[3]);
+  if (find_exposed(*state_->builders.back(), "smooth_surfaces") == nullptr) return picture;
+  const auto smooth = read_image(world, view, "smooth_surfaces");
+  if (!smooth.ok()) return smooth.error();
+  picture.smooth_surfaces = items_of<uvec2>(*smooth);
   return picture;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/render/scene/closed_surface.h"
 #include "engine/render/scene/material_packing.h"
 #include "engine/render/scene/mip_chain.h"
+#include "engine/render/scene/smooth_shading.h"
 #include "shaders/render/shaders.h"
 
 namespace gloam {
@@ -64,6 +65,7 @@ struct GpuScene::Streams {
     primitive.skinned = !influences.empty();
     primitive.colored = !source.colors.empty();
     primitive.closed = is_closed_surface(source.positions, indices);
+    primitive.smooth_shaded = is_smooth_shaded(source.positions, source.normals, indices);
     primitive.bounds = source.bounds;
     primitive.joint_bounds = joint_bounds(source, influences);
     primitive.morph_bounds = morph_bounds(source);
@@ -84,7 +86,7 @@ void GpuScene::release() {
   buffers_ = {};
   material_constants_ = {};
   version_ = 0;
-  casters_simplified_ = false;
+  smooth_shading_ = casters_simplified_ = false;
 }
 
 Status GpuScene::sync(const SceneAssets& assets, JobExecutor& executor) {
@@ -127,6 +129,7 @@ Status GpuScene::upload_meshes(const SceneAssets& assets, JobExecutor& executor,
       append(streams[3], s.indices);
       append(streams[4], s.influences);
       append(streams[5], s.morph_offsets);
+      smooth_shading_ = smooth_shading_ || s.primitive.smooth_shaded;
       primitives.push_back(std::move(s.primitive));
     }
   }

@@ -31,8 +31,9 @@ struct GpuPrimitive {
   std::uint32_t morph_targets = 0;
   bool morph_has_normals = false;
   bool skinned = false;
-  bool colored = false;  ///< has vertex colours
-  bool closed = false;   ///< is_closed_surface()
+  bool colored = false;        ///< has vertex colours
+  bool closed = false;         ///< is_closed_surface()
+  bool smooth_shaded = false;  ///< is_smooth_shaded(), in the rest pose
   Aabb bounds;
   std::vector<Cluster> clusters;
   /// Joint index and rest bounds of the vertices that follow the joint. The union of the posed boxes bounds the posed
@@ -71,6 +72,8 @@ class GpuScene {
 
   [[nodiscard]] const std::vector<std::vector<GpuPrimitive>>& meshes() const { return meshes_; }
   [[nodiscard]] const std::vector<GpuMaterial>& materials() const { return materials_; }
+  /// Whether any primitive is smooth-shaded.
+  [[nodiscard]] bool has_smooth_shading() const { return smooth_shading_; }
 
   [[nodiscard]] gpu::BufferHandle positions() const { return buffers_[0]; }
   [[nodiscard]] gpu::BufferHandle frames() const { return buffers_[1]; }
@@ -95,6 +98,7 @@ class GpuScene {
   gpu::Device& device_;
   Pipelines& pipelines_;
   std::uint64_t version_ = 0;
+  bool smooth_shading_ = false;
   bool casters_simplified_ = false;  ///< simplify_casters has run for version_
   std::vector<std::vector<GpuPrimitive>> meshes_;
   std::vector<GpuMaterial> materials_;

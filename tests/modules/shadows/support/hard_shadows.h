@@ -38,23 +38,7 @@ inline constexpr double kMostWrong = 0.001;
 
 /// A ball around the origin with smooth normals.
 [[nodiscard]] inline Primitive ball(float radius, std::uint32_t material) {
-  constexpr std::uint32_t kRound = 24, kHigh = 12;
-  Primitive p;
-  p.material = material;
-  for (std::uint32_t row = 0; row <= kHigh; ++row)
-    for (std::uint32_t column = 0; column <= kRound; ++column) {
-      const float up = 3.14159265f * static_cast<float>(row) / kHigh;
-      const float about = 6.28318531f * static_cast<float>(column % kRound) / kRound;
-      const vec3 normal(std::sin(up) * std::sin(about), std::cos(up), std::sin(up) * std::cos(about));
-      p.positions.push_back(normal * radius);
-      p.normals.push_back(normal);
-    }
-  for (std::uint32_t row = 0; row < kHigh; ++row)
-    for (std::uint32_t column = 0; column < kRound; ++column) {
-      const std::uint32_t a = row * (kRound + 1) + column, b = a + kRound + 1;
-      for (const std::uint32_t i : {a, b, b + 1, a, b + 1, a + 1}) p.indices.push_back(i);
-    }
-  return finished(std::move(p));
+  return round_ball(radius, 24, 12, material);
 }
 
 /// One renderer for all tests of this program, because making its pipelines takes longer than drawing all frames.
