@@ -69,6 +69,10 @@ void add_shadow_knobs(KnobRegistry& registry) {
                            "compare each texel of the kernel with the plane of the receiving surface, not with the "
                            "receiver's depth",
                            {"off", "on"}, 1));
+  registry.add(choice_knob("terminator",
+                           "on smooth-shaded meshes, judge shadows from the smooth surface that the vertex normals "
+                           "describe, so that shadow edges do not follow facets",
+                           {"off", "on"}, 0));
   registry.add(choice_knob("depth", "depth format of shadow maps: 32-bit float, or 16-bit integer", {"d32", "d16"}, 0));
   registry.add(choice_knob(
       "bias",
@@ -124,6 +128,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.mip_operator = registry.choice("shadows.mip_operator");
   knobs.square = registry.is("shadows.kernel_shape", "square");
   knobs.receiver_plane = registry.is("shadows.receiver_plane", "on");
+  knobs.terminator = registry.is("shadows.terminator", "on");
   knobs.d16 = registry.is("shadows.depth", "d16");
   // 16-bit depths have no spare bits for coverage.
   if (knobs.d16 && knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) knobs.mip_operator = GLOAM_SHADOW_MIPS_NEAREST;
@@ -161,7 +166,8 @@ std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::u
           {GLOAM_SHADOWS_LEVELS_ID, knobs.levels},
           {GLOAM_SHADOWS_FULL_PENUMBRA_ID, knobs.early_outs ? 0u : 1u},
           {GLOAM_SHADOWS_COVERAGE_ID, knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u},
-          {GLOAM_SHADOWS_NEAR_ID, knobs.near}};
+          {GLOAM_SHADOWS_NEAR_ID, knobs.near},
+          {GLOAM_SHADOWS_TERMINATOR_ID, knobs.terminator ? 1u : 0u}};
 }
 
 }  // namespace gloam

@@ -34,6 +34,7 @@ struct ShadowKnobs {
   float texels_per_pixel = 3.0f;
   bool simplified = false;  ///< casters are drawn with their simplified triangles
   std::uint32_t near = 1;   ///< estimate of near blockers: 0 off, 1 wide, 2 all
+  bool terminator = false;  ///< smooth-shaded surfaces are judged at their smooth surface
   bool early_outs = true;   ///< a filter stops as soon as the result is known; false only for measurements
 };
 

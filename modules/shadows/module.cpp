@@ -65,6 +65,11 @@ class ShadowsModule final : public Module {
     return shadow_knobs(knobs).simplified;
   }
 
+  [[nodiscard]] bool needs_smooth_surfaces(const World&, const KnobRegistry& knobs) const override {
+    const ShadowKnobs settings = shadow_knobs(knobs);
+    return settings.enabled && settings.terminator;
+  }
+
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
     const ShadowKnobs settings = shadow_knobs(knobs);
     if (settings.enabled) list_shadow_map_pipelines(settings, list);

@@ -65,6 +65,8 @@ void add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps
 
 ShadowKnobs knobs_of(const FrameBuilder& frame) {
   ShadowKnobs knobs = shadow_knobs(frame.knobs());
+  const GeometryOutputs* geometry = frame.find<GeometryOutputs>();
+  knobs.terminator = knobs.terminator && geometry != nullptr && geometry->smooth_surfaces;
   knobs.atlas_size = frame.world().view_resource<ShadowViews>(frame.view().id).atlas.size();
   return knobs;
 }

@@ -45,7 +45,7 @@ vec3 through_cookie(vec3 illuminance, uint light, vec3 light_position) { return 
 ShadowReceiver receiver;  // the shaded surface; set before lights are summed
 
 void set_receiver(vec3 position, vec3 face_normal, bool subsurface) {
-  receiver = ShadowReceiver(position, face_normal, subsurface);
+  receiver = drawn_receiver(position, face_normal, subsurface);
   look_up_cookies(position);
 }
 

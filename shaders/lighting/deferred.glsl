@@ -28,6 +28,9 @@ layout(set = 0, binding = 8) uniform sampler2D light_texels;
 layout(location = 0) out vec4 out_light;
 layout(location = 1) out vec4 out_diffuse_light;  // lux
 
+#ifdef GLOAM_SHADOWS_BINDING
+#define GLOAM_SMOOTH_SURFACE_BINDING 20
+#endif
 #include "shaders/lighting/arriving_light.glsl"
 
 vec3 diffuse_light = vec3(0.0);  // illuminance of the surface, summed only with kDiffuseLight
@@ -85,6 +88,9 @@ void main() {
   ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
   vec3 light = texelFetch(emissive_image, pixel, 0).rgb + ambient_light(p, g.roughness, g.occlusion);
   set_receiver(position, g.face_normal, g.subsurface);
+#ifdef GLOAM_SHADOWS_BINDING
+  receiver = pixel_receiver(position, g.face_normal, g.subsurface, pixel);
+#endif
   light += directional_lights(p, uvec2(pixel));
   light += local_lights(p, uvec2(pixel));
   out_light = vec4(min(light, vec3(65504.0)), 1.0);

@@ -33,10 +33,9 @@ void main() {
   out_search_and_fine = vec4(-1.0);
   out_coarse = vec4(-1.0);
   if (depth <= 0.0) return;
-  ShadowReceiver r;
-  r.position = relative_position(view, gl_FragCoord.xy - 0.5, depth);
-  r.face_normal = unpack_normal(texelFetch(normal_image, ivec2(gl_FragCoord.xy), 0).y);
-  r.subsurface = texelFetch(base_color_image, ivec2(gl_FragCoord.xy), 0).a > 0.5;
+  ShadowReceiver r = drawn_receiver(relative_position(view, gl_FragCoord.xy - 0.5, depth),
+                                    unpack_normal(texelFetch(normal_image, ivec2(gl_FragCoord.xy), 0).y),
+                                    texelFetch(base_color_image, ivec2(gl_FragCoord.xy), 0).a > 0.5);
   LocalLight light = fetch_light(light_texels, shown);
   vec3 to_light;
   if (!(local_illuminance(light, r.position, to_light).x > 0.0)) return;

@@ -68,14 +68,17 @@ struct ShadowCandidateCommands {
   uvec4 asked;                              // local and directional candidates asked for, 0, 0
 };
 
-/// Bounds of a group of pixels of a shadow tile (tile_bounds.glsl), as stored for classification.
+/// Bounds of a group of pixels of a shadow tile (tile_bounds.glsl), as stored for classification. A pixel that is
+/// judged on its smooth surface (pixel_receiver()) is in the bounds with both positions; its face normal is the smooth
+/// surface's.
 struct ShadowTileGroup {
   vec3 normal;           // face normal of a few of the pixels, unit
   float spread;          // greatest length of the difference between `normal` and a pixel's face normal
   float shading_spread;  // the same for shading normals
   vec2 offsets;          // least and greatest dot(normal, position) of the pixels
   vec2 depths;           // least and greatest depth of the pixels (reversed Z)
-  uint pixels;           // 3 bits each: least x and y of the pixels in the tile, greatest x and y; then GLOAM_GROUP_…
+  uint pixels;  // 3 bits each: least x and y of the pixels in the tile, greatest x and y; then GLOAM_GROUP_…;
+                // high half: at least the distance to any smooth surface, half precision, 0: none is smooth
 };
 #define GLOAM_GROUP_SUBSURFACE 0x1000u  // any pixel has a subsurface material
 

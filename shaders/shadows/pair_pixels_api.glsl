@@ -3,6 +3,7 @@
 #ifndef GLOAM_SHADERS_SHADOWS_PAIR_PIXELS_API_GLSL
 #define GLOAM_SHADERS_SHADOWS_PAIR_PIXELS_API_GLSL
 
+#define GLOAM_SMOOTH_SURFACE_BINDING 21
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
@@ -17,7 +18,7 @@
 //   bool gives_light(LightOfPair l, vec3 position, vec3 normal), and
 //   uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps), which gets a pixel's visibility
 //     and returns flags that are combined into `found`, and the steps to store in the slot,
-// and include pair_pixels_asked_api.glsl. Uses bindings 0 and 3 to 6.
+// and include pair_pixels_asked_api.glsl. Uses bindings 0, 3 to 6 and 21.
 
 layout(local_size_x = 64, local_size_x_id = 0) in;  // constant 0: 8, 16, 32 or 64
 

@@ -10,15 +10,12 @@
 PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
   ivec2 at = ivec2(min(pixel, view.size - 1u));
   float depth = texelFetch(depth_image, at, 0).r;
-  ShadowReceiver r;
-  r.position = relative_position(view, vec2(at), max(depth, 1e-9));
+  vec3 position = relative_position(view, vec2(at), max(depth, 1e-9));
   uvec2 normals = texelFetch(normal_image, at, 0).xy;
-  r.face_normal = unpack_normal(normals.y);
-  r.subsurface = texelFetch(base_color_image, at, 0).a > 0.5;
+  bool subsurface = texelFetch(base_color_image, at, 0).a > 0.5;
   PixelOfPair p;
-  p.matters =
-      depth > 0.0 && all(lessThan(pixel, view.size)) && gives_light(light, r.position, unpack_normal(normals.x));
-  p.point = shadow_point(light, r);
+  p.matters = depth > 0.0 && all(lessThan(pixel, view.size)) && gives_light(light, position, unpack_normal(normals.x));
+  p.point = shadow_point(light, pixel_receiver(position, unpack_normal(normals.y), subsurface, at));
   p.point.live = p.point.live && p.matters;
   return p;
 }

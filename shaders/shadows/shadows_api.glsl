@@ -9,7 +9,9 @@
 // bindings: block, rows, atlas, pyramid, cookies and traced of ShadowsOutputs (read_shadows). The
 // specialisation constants are ShadowsOutputs::constants. Define GLOAM_SHADOWS_STANDARD to compile the standard filter
 // only: half of the code, for pipelines that must be ready soon. Shaders that are not fragment shaders define
-// GLOAM_SHADOWS_PIXEL, the ivec2 at which traced visibility is read.
+// GLOAM_SHADOWS_PIXEL, the ivec2 at which traced visibility is read. Shaders that judge surfaces of the geometry buffer
+// define GLOAM_SMOOTH_SURFACE_BINDING, the binding of GeometryOutputs::smooth_surfaces (read_geometry), and use
+// pixel_receiver().
 
 #ifndef GLOAM_SHADOWS_PIXEL
 #define GLOAM_SHADOWS_PIXEL ivec2(gl_FragCoord.xy)
@@ -37,6 +39,7 @@ layout(constant_id = GLOAM_SHADOWS_LEVELS_ID) const uint kLevels = 255u;
 layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 0u;
 layout(constant_id = GLOAM_SHADOWS_COVERAGE_ID) const uint kCoverage = 0u;
 layout(constant_id = GLOAM_SHADOWS_NEAR_ID) const uint kNear = 1u;
+layout(constant_id = GLOAM_SHADOWS_TERMINATOR_ID) const uint kTerminator = 0u;
 // A pipeline may be restricted to some kinds of lights. Software devices would otherwise execute the code of all kinds
 // for every light. GLOAM_SHADOWS_KINDS_ID restricts the kinds when the pipeline is created. Shaders for fixed kinds
 // define GLOAM_SHADOWS_KINDS, which shortens their code as well. Shaders that define GLOAM_SHADOWS_IN_FACE promise that
@@ -55,7 +58,44 @@ struct ShadowReceiver {
   vec3 position;     // camera-relative
   vec3 face_normal;  // unit, on the visible side
   bool subsurface;
+  bool smooth_surface;  // moved to its smooth surface (pixel_receiver)
 };
+
+// A receiver that is judged where it is.
+ShadowReceiver drawn_receiver(vec3 position, vec3 face_normal, bool subsurface) {
+  return ShadowReceiver(position, face_normal, subsurface, false);
+}
+
+// Sine of the angle between light ray and surface below which the receiver plane gets no steeper. The smooth surface of
+// a mesh curves away below a plane of this slope; a steeper one would hide near blockers in the search's coarse mips.
+const float kSmoothSine = 0.02;
+float least_sine(ShadowReceiver r) { return kTerminator != 0u && r.smooth_surface ? kSmoothSine : 1e-5; }
+
+#ifdef GLOAM_SMOOTH_SURFACE_BINDING
+#include "shaders/render/smooth_surface_api.glsl"
+
+layout(set = 0, binding = GLOAM_SMOOTH_SURFACE_BINDING) uniform usampler2D smooth_surface_image;
+
+SmoothSurface fetch_smooth_surface(ivec2 pixel) {
+  return decode_smooth_surface(texelFetch(smooth_surface_image, pixel, 0).xy);
+}
+
+// Moves the receiver to the smooth surface. Nothing that the smooth surface covers is above its plane, so no facet of
+// the mesh blocks where the smooth surface faces the light. Subsurface materials stay: they are lit from behind too,
+// and from there a point farther out would be deeper in shadow.
+ShadowReceiver on_smooth_surface(ShadowReceiver r, SmoothSurface s) {
+  bool moved = s.exists && !r.subsurface;
+  return ShadowReceiver(moved ? r.position + s.offset : r.position, moved ? s.normal : r.face_normal, r.subsurface,
+                        moved);
+}
+
+// The receiver for the surface of the geometry buffer under a pixel, which has this position and face normal.
+ShadowReceiver pixel_receiver(vec3 position, vec3 face_normal, bool subsurface, ivec2 pixel) {
+  ShadowReceiver r = drawn_receiver(position, face_normal, subsurface);
+  if (kTerminator != 0u) r = on_smooth_surface(r, fetch_smooth_surface(pixel));
+  return r;
+}
+#endif
 
 // Size of a texel in texture coordinates of the atlas image, which is 1.5 times as wide as high.
 vec2 shadow_texel_size() { return vec2(1.0 / 1.5, 1.0) / shadow_block.atlas_size; }

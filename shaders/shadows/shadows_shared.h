@@ -128,6 +128,10 @@ GLOAM_SHARED_END
 #define GLOAM_SHADOWS_COVERAGE_ID 17
 #define GLOAM_SHADOWS_NEAR_ID 21  // near_blockers.glsl: 0 off, 1 for wide blockers, 2 always where it may matter
 
+// 1: receivers under pixels are judged at their smooth surface (pixel_receiver()); 0: GeometryOutputs::smooth_surfaces
+// is not read
+#define GLOAM_SHADOWS_TERMINATOR_ID 22
+
 // Lights whose cookies are read before the light loop; above GLOAM_COOKIE_LIGHTS: none (arriving_light.glsl)
 #define GLOAM_COOKIE_LIGHTS_ID 18
 

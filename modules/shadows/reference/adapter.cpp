@@ -133,6 +133,7 @@ std::vector<ReferenceInfo> shadow_references() {
   for (const Knob& knob : registry.knobs()) {
     if (std::find(std::begin(kOthers), std::end(kOthers), knob.name) != std::end(kOthers)) continue;
     references.push_back(traced_shadows(knob.name));
+    references.back().follows_value = knob.name == "shadows.terminator";  // rays begin where receivers are judged
   }
   return references;
 }

@@ -90,9 +90,15 @@ std::vector<std::uint32_t> bulbs_of(const Emitter& emitter, const dvec3& camera,
 /// The surface under a pixel's centre, camera-relative.
 struct SurfacePoint {
   dvec3 position = dvec3(0.0);
-  dvec3 normal = dvec3(0.0);
+  dvec3 normal = dvec3(0.0);  ///< unit
   bool subsurface = false;
 };
+
+/// The point of the smooth surface from which rays begin; the drawn surface's if there is none.
+SurfacePoint on_smooth_surface(const SurfacePoint& drawn, const SmoothSurface& surface) {
+  if (!surface.exists || drawn.subsurface) return drawn;
+  return {drawn.position + dvec3(surface.offset), dvec3(surface.normal), false};
+}
 
 /// Two unit vectors orthogonal to each other and to the unit vector d.
 void span_disc(const dvec3& d, dvec3& u, dvec3& v) {
@@ -219,9 +225,10 @@ NoiseSum trace_row(std::uint32_t y, const GeometryPicture& geometry, std::span<c
     const std::size_t pixel = std::size_t{y} * traced.width + x;
     if (geometry.is_sky(pixel)) continue;
     const SurfacePoint point = RowTracer::point_at(geometry, x, y);
+    const SurfacePoint receiver = on_smooth_surface(point, geometry.smooth_surface(pixel));
     for (std::size_t light = 0; light < emitters.size(); ++light) {
       if (!emitters[light].reaches(point.position)) continue;
-      const RowTracer::Seen seen = tracer.trace(point, emitters[light], static_cast<std::uint32_t>(pixel));
+      const RowTracer::Seen seen = tracer.trace(receiver, emitters[light], static_cast<std::uint32_t>(pixel));
       const std::size_t at = light * traced.pixels() + pixel;
       traced.visibility[at] = static_cast<std::uint8_t>((seen.all * 255u + seen.of / 2) / seen.of);
       std::atomic_ref(traced.judged[at / 8])
@@ -302,6 +309,7 @@ std::string visibility_identity(const VisibilityInput& input) {
   Hasher hasher;
   hasher.bytes(bytes_of(geometry.view.position)).bytes(bytes_of(geometry.view.clip_from_relative));
   hasher.bytes(std::as_bytes(std::span(geometry.depth))).bytes(std::as_bytes(std::span(geometry.normals)));
+  if (!geometry.smooth_surfaces.empty()) hasher.bytes(std::as_bytes(std::span(geometry.smooth_surfaces)));
   for (const std::uint32_t color : geometry.base_color)
     hasher.value(static_cast<std::uint8_t>(color >> 24));  // the alpha byte flags subsurface materials
   for (const Emitter& e : casting_lights(input.world, dvec3(0.0))) {

@@ -23,6 +23,8 @@ namespace gloam {
 /// - Rays begin at the surface under a pixel's centre, offset by kRayStart along its face normal to the visible side
 ///   (subsurface materials: to the light's side). They end kEmitterClearance_m before the disc: a lamp's bulb does not
 ///   block its light, as shadow maps hold nothing nearer than their near plane.
+/// - Where the geometry has smooth surfaces (shadows.terminator), rays begin there, and the smooth surface's normal
+///   takes the place of the face normal. Subsurface materials are left out, as by the filters.
 /// - Bulbs (modules/shadows/views/bulbs.h) do not block the light that they belong to.
 /// - A ray that leaves below the receiver's surface, by more than kBehindSine, is blocked, unless the material is
 ///   subsurface: the surface is opaque, whatever the mesh behind it is like.

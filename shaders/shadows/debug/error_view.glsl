@@ -7,6 +7,7 @@
 // the surface and that it faces. See drawn_visibility.glsl.
 
 #define GLOAM_SHADOWS_BINDING 6
+#define GLOAM_SMOOTH_SURFACE_BINDING 20
 #include "shaders/common/heat.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"
@@ -29,14 +30,14 @@ layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_difference;
 
 // x: sum of the differences; y: their number.
-vec2 local_differences(uvec2 pixel, vec3 normal, ShadowReceiver r) {
+vec2 local_differences(uvec2 pixel, vec3 position, vec3 normal, ShadowReceiver r) {
   vec2 sum = vec2(0.0);
   for (uint i = 0u; i < lights.local_count; ++i) {
     LocalLight light = fetch_light(light_texels, i);
     light.color = vec3(1.0);  // only the light's reach matters, not its strength
     vec3 to_light;
     float layer = texelFetch(shadow_rows, ivec2(6, i), 0).z;
-    bool counts = layer >= 0.0 && local_illuminance(light, r.position, to_light).x > 0.0;
+    bool counts = layer >= 0.0 && local_illuminance(light, position, to_light).x > 0.0;
     counts = counts && dot(normal, to_light) > 0.0;
     for (; counts; counts = false)
       sum += vec2(abs(drawn_visibility(pixel, false, i, light.position, r, true) - traced_visibility(layer)), 1.0);
@@ -59,15 +60,14 @@ vec2 directional_differences(uvec2 pixel, vec3 normal, ShadowReceiver r) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_image, pixel, 0).r;
-  ShadowReceiver r;
-  r.position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
   uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
-  r.face_normal = unpack_normal(normals.y);
   vec3 normal = unpack_normal(normals.x);
-  r.subsurface = texelFetch(base_color_image, pixel, 0).a > 0.5;
+  ShadowReceiver r =
+      pixel_receiver(position, unpack_normal(normals.y), texelFetch(base_color_image, pixel, 0).a > 0.5, pixel);
   vec2 sum = vec2(0.0);
   for (bool surface = depth > 0.0; surface; surface = false)
-    sum = local_differences(uvec2(pixel), normal, r) + directional_differences(uvec2(pixel), normal, r);
+    sum = local_differences(uvec2(pixel), position, normal, r) + directional_differences(uvec2(pixel), normal, r);
   float difference = sum.y > 0.0 ? sum.x / sum.y : -1.0;
   vec3 color = heat(max(difference, 0.0) / kWhite);
   out_color = vec4(kEncodeSrgb != 0u ? linear_to_srgb(color) : color, 1.0);

@@ -7,6 +7,7 @@
 // not reach the pixel. See drawn_visibility.glsl.
 
 #define GLOAM_SHADOWS_BINDING 6
+#define GLOAM_SMOOTH_SURFACE_BINDING 20
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
@@ -30,16 +31,15 @@ layout(location = 1) out vec4 out_visibility;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_image, pixel, 0).r;
-  ShadowReceiver r;
-  r.position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
   uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
-  r.face_normal = unpack_normal(normals.y);
-  r.subsurface = texelFetch(base_color_image, pixel, 0).a > 0.5;
+  ShadowReceiver r =
+      pixel_receiver(position, unpack_normal(normals.y), texelFetch(base_color_image, pixel, 0).a > 0.5, pixel);
   bool directional = shown.directional != 0u;
   LocalLight local = fetch_light(light_texels, directional ? 0u : shown.light);
   local.color = vec3(1.0);  // only the light's reach matters, not its strength
   vec3 to_light;
-  bool reaches = directional || local_illuminance(local, r.position, to_light).x > 0.0;
+  bool reaches = directional || local_illuminance(local, position, to_light).x > 0.0;
   vec3 light_vector = directional ? lights.directional[directional ? shown.light : 0u].direction : local.position;
   bool faces = dot(unpack_normal(normals.x), directional ? -light_vector : to_light) > 0.0;
   float visibility =

@@ -22,7 +22,7 @@ void main() {
   ShadowProbe probe = probes[i];
   bool directional = (probe.flags & uint(GLOAM_SHADOW_PROBE_DIRECTIONAL)) != 0u;
   ShadowReceiver r =
-      ShadowReceiver(probe.position, probe.face_normal, (probe.flags & uint(GLOAM_SHADOW_PROBE_SUBSURFACE)) != 0u);
+      drawn_receiver(probe.position, probe.face_normal, (probe.flags & uint(GLOAM_SHADOW_PROBE_SUBSURFACE)) != 0u);
   ShadowProbeResult result;
   result.visibility = 1.0;
   for (bool go = directional; go; go = false)

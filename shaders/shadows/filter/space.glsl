@@ -216,7 +216,8 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   normal = normal * axes;
   float facing = dot(normal, local);
   float distance = length(local);
-  float along = abs(facing) < 1e-5 * distance ? (facing < 0.0 ? -1e-5 : 1e-5) * distance : facing;
+  float least = least_sine(r);
+  float along = abs(facing) < least * distance ? (facing < 0.0 ? -least : least) * distance : facing;
   p.slope = vec2(normal.x, -normal.y) * (near * texel / along);
   // A spot's emitter is a disc parallel to its map. A cube's emitter is a sphere: off the axis, the map stretches its
   // outline along the radius, and a round kernel can only have the same area.
@@ -249,13 +250,14 @@ struct SunReceiver {
   vec4 position;
   vec3 face_normal;
   float facing;       // cosine between the face normal and the light's direction
+  float least_sine;   // result of least_sine()
   float penumbra;     // CascadeRow::penumbra_m_per_m
   float depth_per_m;  // depth per metre in the cascade that it lies in
 };
 
 SunReceiver sun_receiver(vec3 light_direction, float penumbra_m_per_m, ShadowReceiver r) {
   SunReceiver s = SunReceiver(no_shadow_point(), vec4(r.position, 1.0), r.face_normal,
-                              dot(r.face_normal, light_direction), max(penumbra_m_per_m, 0.0), 0.0);
+                              dot(r.face_normal, light_direction), least_sine(r), max(penumbra_m_per_m, 0.0), 0.0);
   s.point.orthographic = true;
   return s;
 }
@@ -264,7 +266,7 @@ SunReceiver sun_receiver(vec3 light_direction, float penumbra_m_per_m, ShadowRec
 void try_cascade(inout SunReceiver s, ShadowCascade c, bool exists) {
   vec3 at = vec3(dot(c.row_u, s.position), dot(c.row_v, s.position), dot(c.row_depth, s.position));
   float inside = min(min(at.x, at.y), c.size - max(at.x, at.y)) - c.rim;
-  float along = abs(s.facing) < 1e-5 ? (s.facing < 0.0 ? -1e-5 : 1e-5) : s.facing;
+  float along = abs(s.facing) < s.least_sine ? (s.facing < 0.0 ? -s.least_sine : s.least_sine) : s.facing;
   bool taken = exists && !s.point.live && inside >= 0.0 && at.z < 1.0 && at.z > -1e18;
   if (taken) {
     s.point.live = true;

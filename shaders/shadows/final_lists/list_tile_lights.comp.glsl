@@ -5,6 +5,7 @@
 #define GLOAM_EARLY_LISTS_BINDING 5
 #define GLOAM_SHADOWS_BINDING 13
 #define GLOAM_SHADOWS_PIXEL ivec2(0)
+#define GLOAM_SMOOTH_SURFACE_BINDING 22
 #include "shaders/lights/light_lists_api.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"

@@ -7,10 +7,11 @@
 #include "shaders/render/view_api.glsl"
 #include "shaders/shadows/final_lists_shared.h"
 
-// Bounds of the surfaces of a group of pixels in a shadow tile: positions, planes and normals.
+// Bounds of the surfaces of a group of pixels in a shadow tile: positions, planes and normals. Include this after
+// shadows_api.glsl.
 
 struct TileBounds {
-  vec3 corners[8];       // camera-relative; their convex hull holds every surface point of the group
+  vec3 corners[8];       // camera-relative; their convex hull holds every position of the group
   vec3 center;           // mean of the corners
   float radius;          // radius of a sphere around the center that holds the corners
   vec3 normal;           // as in ShadowTileGroup
@@ -27,6 +28,28 @@ vec2 between_planes(vec3 ray, vec3 normal, vec2 offsets) {
   if (abs(along) < 1e-4 * length(ray)) return vec2(-1.0);
   vec2 t = offsets / along;
   return t.x <= t.y ? t : t.yx;
+}
+
+// Replaces the corners by those of a box around them that also holds the smooth surfaces, up to `lift` metres away.
+void lift_corners(inout TileBounds t, float lift) {
+  vec3 side = t.corners[1] - t.corners[0];
+  vec3 across = side - t.normal * dot(side, t.normal);
+  if (!(dot(across, across) > 1e-8 * dot(side, side))) across = cross(t.normal, t.normal.yzx + vec3(0.3, 0.2, 0.1));
+  across = normalize(across);
+  mat3 axes = mat3(across, cross(t.normal, across), t.normal);
+  vec3 low = vec3(1e30), high = vec3(-1e30);
+  for (int i = 0; i < 8; ++i) {
+    vec3 along = t.corners[i] * axes;
+    low = min(low, along);
+    high = max(high, along);
+  }
+  // Margin for the rounding of positions and dot products.
+  float slack = lift + 2e-6 * (length(low) + length(high));
+  low = vec3(low.xy - slack, t.offsets.x);
+  high = vec3(high.xy + slack, t.offsets.y);
+  t.center = axes * (0.5 * (low + high));
+  t.radius = 0.5 * length(high - low) + 1e-6 * (abs(t.center.x) + abs(t.center.y) + abs(t.center.z));
+  for (int i = 0; i < 8; ++i) t.corners[i] = axes * mix(low, high, vec3(notEqual(ivec3(i) & ivec3(1, 2, 4), ivec3(0))));
 }
 
 // The rays through the corners of the group's pixels are cut at the group's nearest and farthest
@@ -69,6 +92,7 @@ TileBounds tile_bounds(ViewConstants view, uvec2 tile, ShadowTileGroup g) {
   for (int i = 0; i < 8; ++i) t.radius = max(t.radius, distance(t.center, t.corners[i]));
   // Margin for the rounding of positions.
   t.radius += 1e-6 * (abs(t.center.x) + abs(t.center.y) + abs(t.center.z));
+  if (kTerminator != 0u && g.pixels >> 16 != 0u) lift_corners(t, unpackHalf2x16(g.pixels).y);
   return t;
 }
 

@@ -331,5 +331,32 @@ TEST(VisibilityTracing, progress_counts_every_row_once) {
   for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i], i + 1);
 }
 
+TEST(VisibilityTracing, rays_begin_on_the_smooth_surface_and_end_below_its_normal) {
+  VisibilityScene scene;
+  scene.light({.kind = LightKind::directional, .intensity = 10.0f}, dvec3(0.0), dvec3(-1.0, -1.0, 0.0));
+  scene.sheet(0.1, dvec3(-50.0), dvec3(50.0));
+  const auto mean = [&] {
+    const TracedVisibility traced = scene.trace(1);
+    double sum = 0.0;
+    for (const std::uint8_t visible : traced.visibility) sum += visible / 255.0;
+    return sum / static_cast<double>(traced.pixels());
+  };
+  const std::string drawn = visibility_identity((scene.build(), scene.input(1)));
+  EXPECT_EQ(mean(), 0.0) << "below the sheet";
+  // 20 cm up, with a normal 60° from the light, then more than 90° from it.
+  const std::uint32_t up = std::uint32_t{float_to_half(0.2f)} << 16 | 255u << 8 | 128u;
+  const auto set = [&](const vec3& normal) {
+    scene.geometry.smooth_surfaces.assign(scene.geometry.depth.size(), uvec2(pack_normal_snorm16(normal), up));
+  };
+  set(glm::normalize(vec3(-0.2f, 1.0f, 0.0f)));
+  EXPECT_EQ(mean(), 1.0) << "above the sheet";
+  EXPECT_NE(visibility_identity(scene.input(1)), drawn);
+  set(glm::normalize(vec3(-1.0f, 0.9f, 0.0f)));
+  EXPECT_EQ(mean(), 0.0) << "the smooth surface faces away";
+  scene.look_from({0.0, 3.0, 0.001}, true);
+  set(glm::normalize(vec3(-0.2f, 1.0f, 0.0f)));
+  EXPECT_EQ(mean(), 0.0) << "subsurface materials are judged where they are drawn";
+}
+
 }  // namespace
 }  // namespace gloam

@@ -72,6 +72,8 @@ class DeferredShadowsTest : public HardShadows {
     return made;
   }
 
+  /// Columns and rows of facets of opaque balls.
+  [[nodiscard]] virtual uvec2 ball_facets() const { return uvec2(24, 12); }
   // Meshes of about one metre.
   void make_shapes() {
     Material leaf = exact_material(170, 180, 160, 255, 0), skin = leaf, grid = leaf, glass = leaf;
@@ -86,7 +88,7 @@ class DeferredShadowsTest : public HardShadows {
     plane_ = mesh(quad(1.0f, stone));
     pane_ = mesh(quad(0.5f, scene.material(glass)));
     shapes_ = {mesh(test::box(vec3(0.5f), stone)),
-               mesh(ball(0.5f, stone)),
+               mesh(round_ball(0.5f, ball_facets().x, ball_facets().y, stone)),
                mesh(quad(0.5f, stone)),
                mesh(quad(0.5f, scene.material(leaf))),
                mesh(test::box(vec3(0.5f), scene.material(skin))),

@@ -222,11 +222,13 @@ struct ClassifyWay {
   int scenes = 20;
   uvec2 size = uvec2(64, 48);
   bool close = false;  ///< scenes of close_scene() instead of random_scene()
+  uvec2 ball_facets = uvec2(24, 12);
 };
 inline std::string name_of_way(const ::testing::TestParamInfo<ClassifyWay>& way) { return way.param.name; }
 
 class ClassifyShadowsWays : public ClassifyShadowsTest, public ::testing::WithParamInterface<ClassifyWay> {
  protected:
+  [[nodiscard]] uvec2 ball_facets() const override { return GetParam().ball_facets; }
   void run() {
     for (const auto& [knob, value] : GetParam().knobs) set(knob, value);
     const int count = scaled(GetParam().scenes);
