@@ -262,12 +262,13 @@ SunReceiver sun_receiver(vec3 light_direction, float penumbra_m_per_m, ShadowRec
   return s;
 }
 
-// Assigns the cascade to the receiver if the receiver lies in it and has none yet. exists: the light has this cascade.
-void try_cascade(inout SunReceiver s, ShadowCascade c, bool exists) {
+// Assigns the cascade to the receiver if the receiver lies in it. wanted: the light has this cascade, and the receiver
+// has none yet.
+void try_cascade(inout SunReceiver s, ShadowCascade c, bool wanted) {
   vec3 at = vec3(dot(c.row_u, s.position), dot(c.row_v, s.position), dot(c.row_depth, s.position));
   float inside = min(min(at.x, at.y), c.size - max(at.x, at.y)) - c.rim;
   float along = abs(s.facing) < s.least_sine ? (s.facing < 0.0 ? -s.least_sine : s.least_sine) : s.facing;
-  bool taken = exists && !s.point.live && inside >= 0.0 && at.z < 1.0 && at.z > -1e18;
+  bool taken = wanted && inside >= 0.0 && at.z < 1.0 && at.z > -1e18;
   if (taken) {
     s.point.live = true;
     s.point.origin = c.origin;
@@ -290,7 +291,9 @@ ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowRec
   vec4 sun = fetch_sun(light);
   uint count = min(uint(sun.x), uint(GLOAM_MAX_CASCADES)), i = 0u;
   SunReceiver s = sun_receiver(light_direction, sun.y, r);
-  // Ends when every thread has its cascade: loading cascades is expensive.
+  // Ends when every thread has its cascade: loading cascades is expensive. A thread without a cascade starts the body, so
+  // the body does not ask for s.point.live: lavapipe 22.3 runs it again for threads that have left the loop, and part of
+  // their variables then hold the values of their last turn's end.
   do {
     try_cascade(s, fetch_cascade(cascade_row(light, i)), i < count);
   } while (!s.point.live && ++i < count);
@@ -317,9 +320,9 @@ SunShadow fetch_sun_shadow(uint light) {
 ShadowPoint directional_shadow_point(SunShadow shadow, ShadowReceiver r) {
   SunReceiver s = sun_receiver(shadow.direction, shadow.sun.y, r);
   try_cascade(s, shadow.cascades[0], shadow.sun.x > 0.0);
-  try_cascade(s, shadow.cascades[1], shadow.sun.x > 1.0);
-  try_cascade(s, shadow.cascades[2], shadow.sun.x > 2.0);
-  try_cascade(s, shadow.cascades[3], shadow.sun.x > 3.0);
+  try_cascade(s, shadow.cascades[1], shadow.sun.x > 1.0 && !s.point.live);
+  try_cascade(s, shadow.cascades[2], shadow.sun.x > 2.0 && !s.point.live);
+  try_cascade(s, shadow.cascades[3], shadow.sun.x > 3.0 && !s.point.live);
   return sun_shadow_point(s, r.subsurface);
 }
 
