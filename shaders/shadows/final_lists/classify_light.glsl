@@ -92,7 +92,9 @@ uint classify_directional(TileBounds t, uint light, vec3 direction, int most_tur
     bool surrounded = f.surrounded;
     // Pixels outside this cascade do not count for its verdict.
     f.surrounded = f.nearest < 0.9999;
-    uint here = classify_in_face(f, most_turns, widest_region(f), 1.0, f.surrounded);
+    bool clear;
+    float width = widest_region(f, clear);
+    uint here = classify_in_face(f, most_turns, width, 1.0, f.surrounded, clear);
     verdict = outside ? verdict : first || here == verdict ? here : kUnknown;
     first = first && outside;
     done = surrounded || (!outside && here == kUnknown);
@@ -254,7 +256,8 @@ uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face)
   // Surfaces that face away are unlit in any face, provided that every pixel is beyond the cube's near planes.
   if (of_own.turned_away && (fits || of_own.clear)) return kUnlit;
   if (!fits) return kUnknown;
-  float width = widest_region(of_own), coarse;
+  bool clear;
+  float width = widest_region(of_own, clear), coarse;
   uint faces = deciding_faces(of_own, l, own, width);
   bool several = bitCount(faces) > 1;
   if (bitCount(faces) > most_faces) return kUnknown;
@@ -262,7 +265,9 @@ uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face)
   uint left = several ? faces : 0u;
   if (several) do {
       fits = tile_in_local_face(t, l, findLSB(left), true, f) && fits;
-      width = max(width, widest_region(f));
+      bool clear_here;
+      width = max(width, widest_region(f, clear_here));
+      clear = clear && clear_here;
       left &= left - 1u;
     } while (left != 0u);
   float reach = kernels_reach(width, coarse);
@@ -275,8 +280,8 @@ uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face)
   left = faces;
   do {
     tile_in_local_face(t, l, findLSB(left), several, f);
-    uint here =
-        touches_face(f, reach * stretch + 1.0) ? classify_in_face(f, most_turns, width, stretch, whole) : kNotAsked;
+    uint here = touches_face(f, reach * stretch + 1.0) ? classify_in_face(f, most_turns, width, stretch, whole, clear)
+                                                       : kNotAsked;
     verdict = verdict == kNotAsked || verdict == here ? here : here == kNotAsked ? verdict : kUnknown;
     left &= left - 1u;
   } while (left != 0u && verdict != kUnknown);
@@ -293,8 +298,11 @@ uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turn
     verdict = classify_cube(t, l, most_turns, in_face);
   else {
     TileInFace f;
-    if (tile_in_local_face(t, l, 0, false, f))
-      verdict = classify_in_face(f, most_turns, widest_region(f), 1.0, f.surrounded);
+    if (tile_in_local_face(t, l, 0, false, f)) {
+      bool clear;
+      float width = widest_region(f, clear);
+      verdict = classify_in_face(f, most_turns, width, 1.0, f.surrounded, clear);
+    }
   }
   return verdict;
 }

@@ -26,7 +26,7 @@ const uint kUnlit = 2u;
 const uint kCastsNone = 3u;
 const uint kNotAsked = 4u;  // no pixel asks: the light would illuminate none of them without shadows
 
-const int kMostBlocks = 6;        // most blocks along a side of the tested area, at its coarsest level
+const int kMostBlocks = 4;        // most blocks along a side of the tested area, at its coarsest level
 const float kPlaneMargin = 0.75;  // share of the bias that a block may exceed the pixels' planes by
 
 // Bounds of a tile's pixels in one face, in texels and depths.
@@ -256,8 +256,9 @@ bool leaves_face(TileInFace f, float reach) {
   return f.cube && (min(f.low.x, f.low.y) < reach || max(f.high.x, f.high.y) > f.size - reach);
 }
 
-// Greatest width of the pixels' search regions as far as this face decides it: as find_region() does.
-float widest_region(TileInFace f) {
+// Greatest width of the pixels' search regions as far as this face decides it: as find_region() does. clear: no pixel
+// finds a blocker in its region.
+float widest_region(TileInFace f, out bool clear) {
   int last = floor_log2(f.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
   MipSquare square = mip_square(f.origin * 0.25, f.size * 0.25, last, shadow_block.atlas_size * 0.25);
   float of_face = gather_nearest(square.corner + 1.0), farthest;
@@ -269,16 +270,19 @@ float widest_region(TileInFace f) {
   const bool orthographic = false;
 #endif
   int step = 0, steps = cone_steps(orthographic, of_face, f.nearest);
+  float nearest;
   do {
-    width = min(width, widest(f, nearest_in_cones(f, width)));
+    nearest = nearest_in_cones(f, width);
+    width = min(width, widest(f, nearest));
   } while (++step < steps);
+  clear = kFilter == 3u && nearest < f.farthest + kPlaneMargin * f.least_bias;
   return width;
 }
 
 // Classifies the tile in one face. width: greatest width of the pixels' search regions. stretch: a texel in the face of
 // a pixel is at most this many texels wide here. whole: all pixels use this face, or other faces that are classified,
-// too.
-uint classify_in_face(TileInFace f, int most_turns, float width, float stretch, bool whole) {
+// too. clear: of widest_region().
+uint classify_in_face(TileInFace f, int most_turns, float width, float stretch, bool whole, bool clear) {
   float farthest, coarse;
   float reach = kernels_reach(width, coarse) * stretch;
   nearest_in(f, f.low - reach, f.high + reach, farthest);
@@ -288,6 +292,7 @@ uint classify_in_face(TileInFace f, int most_turns, float width, float stretch, 
   if (!f.faces_light || most_turns == 0) return kUnknown;
   // Reasons for the slack: a texel of a mip may hold a depth from half a texel farther out, and a SearchCone begins to
   // rise only at its reach.
+  if (clear) return kLit;
   Looks looks = Looks(f.low - reach, f.high + reach, reach, stretch * max(2.0 + 0.5 * coarse, coarse));
   return all_harmless(f, looks, most_turns) ? kLit : kUnknown;
 }
