@@ -132,7 +132,7 @@ TEST_F(DemandOnGpu, effects_come_in_the_first_frame_and_go_without_a_trace) {
   const std::string before = stage.belongings();
   stage.add_effects();
   stage.frames();
-  EXPECT_EQ(stage.passes("lights"), 3u);  // texels and both searches
+  EXPECT_EQ(stage.passes("lights"), 4u);  // uploads, texels and both searches
   EXPECT_EQ(stage.passes("fog"), 4u);
   EXPECT_GT(stage.state_of("lights").gpu_bytes, 0u);
   EXPECT_TRUE(stage.picture() != bare);

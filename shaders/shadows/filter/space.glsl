@@ -291,9 +291,9 @@ ShadowPoint directional_shadow_point(uint light, vec3 light_direction, ShadowRec
   vec4 sun = fetch_sun(light);
   uint count = min(uint(sun.x), uint(GLOAM_MAX_CASCADES)), i = 0u;
   SunReceiver s = sun_receiver(light_direction, sun.y, r);
-  // Ends when every thread has its cascade: loading cascades is expensive. A thread without a cascade starts the body, so
-  // the body does not ask for s.point.live: lavapipe 22.3 runs it again for threads that have left the loop, and part of
-  // their variables then hold the values of their last turn's end.
+  // Ends when every thread has its cascade: loading cascades is expensive. A thread without a cascade starts the body,
+  // so the body does not ask for s.point.live: lavapipe 22.3 runs it again for threads that have left the loop, and
+  // part of their variables then hold the values of their last turn's end.
   do {
     try_cascade(s, fetch_cascade(cascade_row(light, i)), i < count);
   } while (!s.point.live && ++i < count);
