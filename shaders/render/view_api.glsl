@@ -13,8 +13,10 @@ bool is_clipped(ViewConstants view, vec3 relative) {
 // Camera-relative position of the point at `depth` (reversed Z) under the pixel centre `pixel` + 0.5.
 vec3 relative_position(ViewConstants view, vec2 pixel, float depth) {
   float scale = view.ray_base.w > 0.0 ? view.ray_base.w / depth : 1.0;
-  return (view.ray_base.xyz + pixel.x * view.ray_dx.xyz + pixel.y * view.ray_dy.xyz) * scale +
-         view.ray_forward.xyz * (view.ray_dx.w + depth * view.ray_dy.w);
+  // Precise: passes that shade a pixel in different shaders must get the same position.
+  precise vec3 position = (view.ray_base.xyz + pixel.x * view.ray_dx.xyz + pixel.y * view.ray_dy.xyz) * scale +
+                          view.ray_forward.xyz * (view.ray_dx.w + depth * view.ray_dy.w);
+  return position;
 }
 
 // View depth in metres of a point at `depth`. Rounds at most twice, while view_depth() of a position loses several

@@ -89,6 +89,9 @@ float disc_share(float u) {
   return 0.5 + u * (0.6366 - 0.1366 * u * u);
 }
 
+// Texel coordinates, depths, slopes and thresholds are precise: comparisons with texels must come out alike in every
+// shader, so that deferred shadows equal monolithic ones on every device.
+
 // Sets threshold, least and horizon, from depth, slope and live, which must be set. Clears slope if there is no usable
 // receiver plane, and live if the whole emitter is below the plane. facing_sine: sine of the angle between the light's
 // rays and the surface, negative when the surface faces the light. emitter_sine: sine of half the angle that the
@@ -106,7 +109,8 @@ void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, f
   if (kReceiverPlane == 0u || !(slope_per_texel(p) < 1e15)) p.slope = vec2(0.0);
   float rounding = slope_per_texel(p) * kTexelRounding;
   p.least = p.orthographic ? 1e-12 : p.depth * 0.25;
-  p.threshold = max(p.depth + (toward ? bias + rounding : -bias), p.least);
+  precise float threshold = p.depth + (toward ? bias + rounding : -bias);
+  p.threshold = max(threshold, p.least);
 }
 
 ShadowPoint no_shadow_point() {
@@ -188,7 +192,7 @@ LocalShadow fetch_local_shadow(uint light, vec3 light_position) {
 ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   ShadowPoint p = no_shadow_point();
   vec4 first = l.first, right = l.right, up = l.up;
-  vec3 v = r.position - l.position;
+  precise vec3 v = r.position - l.position;
   bool cube = is_cube(first.x);
   vec3 normal = r.face_normal;
   if (cube) {
@@ -199,7 +203,7 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   light_faces = l.faces;
   mat3 axes = mat3(right.xyz, up.xyz, l.forward);
   if (cube) axes = cube_face_axes(p.face);
-  vec3 local = v * axes;
+  precise vec3 local = v * axes;
   float near = first.y, z = local.z;
   p.live = first.x != float(GLOAM_SHADOW_NONE) && z > near && z < 1e18 &&
            max(abs(local.x), abs(local.y)) <= z * up.w * 1.0001;
@@ -210,15 +214,18 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   p.origin = origin_of_face(max(p.face, 0));
   p.size = first.w;
   p.tan_half = right.w;
-  p.at = vec2(tangent.x, -tangent.y) / texel + 0.5 * first.w;
-  p.depth = near / z;
+  precise vec2 at = vec2(tangent.x, -tangent.y) / texel + 0.5 * first.w;
+  precise float depth = near / z;
+  p.at = at;
+  p.depth = depth;
   p.scale = max(first.z, 0.0) / (near * texel);
   normal = normal * axes;
   float facing = dot(normal, local);
   float distance = length(local);
   float least = least_sine(r);
   float along = abs(facing) < least * distance ? (facing < 0.0 ? -least : least) * distance : facing;
-  p.slope = vec2(normal.x, -normal.y) * (near * texel / along);
+  precise vec2 slope = vec2(normal.x, -normal.y) * (near * texel / along);
+  p.slope = slope;
   // A spot's emitter is a disc parallel to its map. A cube's emitter is a sphere: off the axis, the map stretches its
   // outline along the radius, and a round kernel can only have the same area.
   if (cube) p.scale *= sqrt(distance / z);
@@ -265,7 +272,7 @@ SunReceiver sun_receiver(vec3 light_direction, float penumbra_m_per_m, ShadowRec
 // Assigns the cascade to the receiver if the receiver lies in it. wanted: the light has this cascade, and the receiver
 // has none yet.
 void try_cascade(inout SunReceiver s, ShadowCascade c, bool wanted) {
-  vec3 at = vec3(dot(c.row_u, s.position), dot(c.row_v, s.position), dot(c.row_depth, s.position));
+  precise vec3 at = vec3(dot(c.row_u, s.position), dot(c.row_v, s.position), dot(c.row_depth, s.position));
   float inside = min(min(at.x, at.y), c.size - max(at.x, at.y)) - c.rim;
   float along = abs(s.facing) < s.least_sine ? (s.facing < 0.0 ? -s.least_sine : s.least_sine) : s.facing;
   bool taken = wanted && inside >= 0.0 && at.z < 1.0 && at.z > -1e18;
@@ -277,8 +284,9 @@ void try_cascade(inout SunReceiver s, ShadowCascade c, bool wanted) {
     s.point.depth = at.z;
     s.depth_per_m = 1.0 / c.depth_m;
     s.point.scale = s.penumbra * c.depth_m / c.texel_m;
-    s.point.slope = vec2(dot(s.face_normal, c.row_u.xyz), dot(s.face_normal, c.row_v.xyz)) *
-                    (c.texel_m * c.texel_m * s.depth_per_m / along);
+    precise vec2 slope = vec2(dot(s.face_normal, c.row_u.xyz), dot(s.face_normal, c.row_v.xyz)) *
+                         (c.texel_m * c.texel_m * s.depth_per_m / along);
+    s.point.slope = slope;
   }
 }
 

@@ -32,8 +32,10 @@ Kernel make_kernel(ShadowPoint p, int mip, int texels) {
   k.base = first - float(texels / 2 - 1);
   k.slope = p.slope * k.square.texel;
   float slope = slope_per_texel(p);
-  k.threshold = p.threshold + 0.5 * (k.square.texel - 1.0) * slope;
-  k.least = max(k.threshold - kRecedingTexels * k.square.texel * slope, p.least);
+  precise float threshold = p.threshold + 0.5 * (k.square.texel - 1.0) * slope;
+  precise float least = threshold - kRecedingTexels * k.square.texel * slope;
+  k.threshold = threshold;
+  k.least = max(least, p.least);
   return k;
 }
 
@@ -51,7 +53,8 @@ vec4 gather_depth(Kernel k, vec2 corner) {
 
 // Thresholds of the four texels around a corner.
 vec4 gather_threshold(Kernel k, vec2 corner, float least) {
-  return max(vec4(k.threshold + dot(k.slope, corner - k.at)) + corner_slopes(k), vec4(least));
+  precise vec4 threshold = vec4(k.threshold + dot(k.slope, corner - k.at)) + corner_slopes(k);
+  return max(threshold, vec4(least));
 }
 
 // The sixteen gathers of an 8×8 kernel.
@@ -68,8 +71,8 @@ Gathers8 make_gathers(Kernel k) {
   vec4 x = clamp(k.base.x + offsets, 1.0, k.square.size - 1.0);
   vec4 y = clamp(k.base.y + offsets, 1.0, k.square.size - 1.0);
   vec2 texel = shadow_texel_size();
-  return Gathers8((k.square.corner.x + x) * texel.x, (k.square.corner.y + y) * texel.y, k.slope.x * (x - k.at.x),
-                  k.threshold + k.slope.y * (y - k.at.y), corner_slopes(k));
+  precise vec4 column = k.slope.x * (x - k.at.x), row = k.threshold + k.slope.y * (y - k.at.y);
+  return Gathers8((k.square.corner.x + x) * texel.x, (k.square.corner.y + y) * texel.y, column, row, corner_slopes(k));
 }
 
 // Whether each depth is above its threshold and above all other bounds. Comparisons cost less than max(), which has to
@@ -87,7 +90,8 @@ bvec4 is_nearer(vec4 depth, vec4 threshold, vec4 a, vec4 b) {
 
 // Threshold of a tap at a texel coordinate of mip 0.
 float tap_threshold(ShadowPoint p, Kernel k, vec2 at, float least) {
-  return max(k.threshold + dot(p.slope, at - p.at), least);
+  precise float threshold = k.threshold + dot(p.slope, at - p.at);
+  return max(threshold, least);
 }
 
 // The same for a texel of another cube face, in which the receiver plane may be steeper. rise: result of cube_depth().
