@@ -173,8 +173,8 @@ std::uint32_t count_at_limit(const Plans& plans, const ShadowSettings& settings,
 }
 
 /// Fills the faces and rows of local lights, in parallel over lights.
-void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, JobExecutor& jobs, Plans& plans,
-                ShadowViews& shadows) {
+void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, const ShadowSettings& settings,
+                JobExecutor& jobs, Plans& plans, ShadowViews& shadows) {
   std::size_t faces = 0;
   for (LocalPlan& plan : plans.local) {
     plan.first_face = faces;
@@ -185,9 +185,12 @@ void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, J
   shadows.rows.resize(lights.size());
   jobs.parallel_for(lights.size(), kGrain, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const LocalPlan& plan = plans.local[i];
+      LocalPlan& plan = plans.local[i];
       const std::size_t count = plan.placed ? plan.shadow.face_count() : 0;
       const std::span<const AtlasSquare> squares = std::span(places.squares).subspan(plan.first_request, count);
+      // Kernels that leave a cube's face continue in others, whatever its rim.
+      if (count > 0 && plan.shadow.kind == GLOAM_SHADOW_SPOT)
+        plan.shadow.tan_half = plan.shadow.tan_inner * (1.0f + rim_share(squares[0].size, settings.kernel_rim));
       shadows.rows[i] = shadow_row(plan.shadow, squares);
       for (std::uint32_t f = 0; f < count; ++f) {
         ShadowFace face = local_face(lights[i].entity, plan.shadow, f);
@@ -212,12 +215,13 @@ void fill_directional(std::span<const ShadowLight> lights, const FacePlaces& pla
     const DirectionalPlan& plan = plans.directional[i];
     for (std::size_t c = 0; c < plan.count; ++c) {
       const std::size_t request = plan.first_request + c;
-      if (places.squares[request].size == 0) continue;
-      ShadowFace face = cascade_face(lights[i].entity, plan.axes, plans.spheres[c], casters, places.squares[request],
-                                     settings.kernel_rim);
+      const AtlasSquare& square = places.squares[request];
+      if (square.size == 0) continue;
+      const float rim = rim_share(square.size, settings.kernel_rim);
+      ShadowFace face = cascade_face(lights[i].entity, plan.axes, plans.spheres[c], casters, square, rim);
       face.importance = plans.requests[request].importance;
       face.view = plans.requests[request].key.view;
-      directional.cascades[directional.cascade_count++] = cascade_constants(face, view.position, settings.kernel_rim);
+      directional.cascades[directional.cascade_count++] = cascade_constants(face, view.position, rim);
       shadows.faces.push_back(face);
     }
   }
@@ -247,7 +251,7 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
   if (shadows.shared != nullptr) shadows.atlas = shadows.shared->atlas();
   shadows.faces_shrunk = places.shrunk;
   shadows.faces_left_out = places.left_out;
-  fill_local(local, places, jobs, plans, shadows);
+  fill_local(local, places, settings, jobs, plans, shadows);
   shadows.faces_at_limit = count_at_limit(plans, settings, shadows.texels_per_pixel);
   fill_directional(directional, places, view, settings, casters, plans, shadows);
 }

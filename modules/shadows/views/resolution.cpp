@@ -47,6 +47,13 @@ std::uint32_t asked_size(std::uint32_t resolution) {
   return std::bit_ceil(std::clamp<std::uint32_t>(resolution, GLOAM_SHADOW_SMALLEST_FACE, kMostFace));
 }
 
+float rim_share(std::uint32_t size, float share) {
+  constexpr float kLeastRim = 6.0f;  // half of eight texels, one for interpolation, one as a gutter
+  const float half = 0.5f * static_cast<float>(size);
+  const float rim = std::min(kLeastRim, 0.25f * half);
+  return std::max(share, rim / (half - rim));
+}
+
 float brightness_of(const Light& light) {
   constexpr float kMost = 1e20f;  // products with coverage stay floats
   const float brightest = light.intensity * std::max({light.color.r, light.color.g, light.color.b, 0.0f});

@@ -51,6 +51,10 @@ template <class Filled>
 /// The face size for ShadowCaster::resolution > 0: the next power of two, from the smallest face to kMostFace.
 [[nodiscard]] std::uint32_t asked_size(std::uint32_t resolution);
 
+/// Width of a face's rim as a share of the half extent inside it: `share`, but on small faces enough for the smallest
+/// kernel and a gutter (6 texels, at most an eighth of the face's side). size: texels of the face's side.
+[[nodiscard]] float rim_share(std::uint32_t size, float share);
+
 /// Candela or lux of the brightest channel, at most 1e20; 0 for a light that gives none, or whose value is NaN.
 [[nodiscard]] float brightness_of(const Light& light);
 

@@ -123,6 +123,17 @@ TEST(ShadowResolution, what_a_caster_asks_for_is_a_power_of_two) {
   EXPECT_EQ(asked_size(8192), 4096u);
 }
 
+TEST(ShadowResolution, a_rim_holds_the_smallest_kernel_and_a_gutter_in_faces_of_any_size) {
+  for (std::uint32_t size = 16; size <= 4096; size *= 2) {
+    const float share = rim_share(size, 0.125f), half = 0.5f * static_cast<float>(size);
+    const float texels = half - half / (1.0f + share);
+    EXPECT_GE(share, 0.125f);
+    EXPECT_GE(texels, std::min(6.0f, 0.25f * half) * 0.9999f) << size;
+    EXPECT_LE(texels, 0.25f * half * 1.0001f) << size;
+  }
+  EXPECT_EQ(rim_share(1024, 0.125f), 0.125f);
+}
+
 TEST(ShadowResolution, brightness_is_a_number_whatever_the_light) {
   Light light;
   light.intensity = 10.0f;
