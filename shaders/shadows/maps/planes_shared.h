@@ -6,9 +6,9 @@
 #include "shaders/common/prelude.h"
 
 // Planes that bound the depths of shadow maps (rgba32f). A texel of level l stands for a block of 8 · 2^l × 8 · 2^l
-// texels of mip 0; levels are laid out as the mips of an atlas of W / 8. All depths of the block are at most x + y ·
-// (column − middle) + z · (row − middle), with columns and rows in texels of mip 0. w: the nearest depth in the block,
-// 0 when it is empty. If the block shows a single surface, the plane follows it.
+// texels of mip 0; levels are laid out as the mips of an atlas of W / 8. All depths of the block that are not empty are
+// at most x + y · (column − middle) + z · (row − middle), with columns and rows in texels of mip 0. w: the nearest
+// depth in the block, 0 when it is empty. If the block shows a single surface, the plane follows it.
 
 #define GLOAM_SHADOW_PLANE_BLOCK 8
 #define GLOAM_SHADOW_PLANE_LEVELS 4
