@@ -72,6 +72,12 @@ class ListDispatch {
     finish_.push_back(
         [this, buffer, bytes, &texels] { std::memcpy(texels.data(), device_.mapped(buffer).data(), bytes); });
   }
+  /// Sets the push constants of the next calls of run().
+  template <class T>
+  void push(const T& constants) {
+    const auto bytes = std::as_bytes(std::span(&constants, 1));
+    constants_.assign(bytes.begin(), bytes.end());
+  }
   void run(gpu::PipelineHandle pipeline, uvec2 groups) {
     using enum gpu::Access;
     const Status uploaded = uploader_.flush();
@@ -79,6 +85,7 @@ class ListDispatch {
     run_frame(device_, [&](gpu::CommandList& commands) {
       commands.bind_pipeline(pipeline);
       commands.bind(bindings_);
+      if (!constants_.empty()) commands.push_constants(constants_);
       commands.dispatch(groups.x, groups.y, 1);
       for (const auto& [buffer, made] : results_) {
         if (made) {
@@ -117,6 +124,7 @@ class ListDispatch {
   std::vector<gpu::Binding> bindings_;
   std::vector<std::pair<gpu::BufferHandle, gpu::ImageHandle>> results_;
   std::vector<std::function<void()>> finish_;
+  std::vector<std::byte> constants_;
 };
 
 }  // namespace gloam::test
