@@ -48,6 +48,7 @@ void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, 
   f.surrounded = low.x > c.rim + slack && low.y > c.rim + slack && high.x < inner - slack && high.y < inner - slack &&
                  high.z < 0.9999;
   f.cube = false;
+  f.near_width = 1e30;
   f.origin = c.origin;
   f.size = c.size;
   set_texels(texels, slack, f);
@@ -132,6 +133,7 @@ bool tile_in_local_face(TileBounds t, LocalFaces l, int face, bool margins, out 
   vec3 light_position = l.position;
   vec4 first = l.first, right = l.right, up = l.up;
   f.cube = l.cube;
+  f.near_width = kFilter == 3u && kNear != 0u ? kNearTangent * first.w / right.w : 1e30;
   mat3 axes = mat3(right.xyz, up.xyz, spot_forward(l.light, right.xyz, up.xyz));
   if (f.cube) axes = kCube * cube_face_axes(face);
   float near = first.y, texel = 2.0 * right.w / first.w, width = max(first.z, 0.0);

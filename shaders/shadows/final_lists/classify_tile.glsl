@@ -44,6 +44,7 @@ struct TileInFace {
   float least_bias;  // least and greatest bias of the pixels, depth
   float most_bias;
   bool cube;         // kernels that leave the face continue in others
+  float near_width;  // wider search regions may be judged by near_visibility()
   mat2 sides;        // columns: normals of the tile's two sides, in texels of mip 0, scaled to |x| + |y| = 1
   vec4 side_ranges;  // least and greatest dot product of the pixels with the first, then with the second
   bool surrounded;   // all pixels use this face
@@ -252,9 +253,11 @@ bool all_harmless(TileInFace f, Looks looks, int most_turns) {
   return harmless && close.count == 0;  // count > 0 if the device ended the loop early: not all blocks were tested
 }
 
-bool leaves_face(TileInFace f, float reach) {
-  return f.cube && (min(f.low.x, f.low.y) < reach || max(f.high.x, f.high.y) > f.size - reach);
+bool reaches_border(TileInFace f, float reach) {
+  return min(f.low.x, f.low.y) < reach || max(f.high.x, f.high.y) > f.size - reach;
 }
+
+bool leaves_face(TileInFace f, float reach) { return f.cube && reaches_border(f, reach); }
 
 // Greatest width of the pixels' search regions as far as this face decides it: as find_region() does. clear: no pixel
 // finds a blocker in its region.
@@ -286,8 +289,10 @@ uint classify_in_face(TileInFace f, int most_turns, float width, float stretch, 
   float farthest, coarse;
   float reach = kernels_reach(width, coarse) * stretch;
   nearest_in(f, f.low - reach, f.high + reach, farthest);
-  bool unlit =
-      f.turned_away || farthest > f.nearest + f.most_bias + f.slope * max((0.5 * width + 2.0) * stretch, reach);
+  bool hidden = farthest > f.nearest + f.most_bias + f.slope * max((0.5 * width + 2.0) * stretch, reach);
+  // near_visibility() finds no blocker outside a spot's map.
+  bool open = !f.cube && width > f.near_width && reaches_border(f, width + 2.0);
+  bool unlit = f.turned_away || (hidden && !open);
   if (unlit) return whole ? kUnlit : kUnknown;
   if (!f.faces_light || most_turns == 0) return kUnknown;
   // Reasons for the slack: a texel of a mip may hold a depth from half a texel farther out, and a SearchCone begins to
