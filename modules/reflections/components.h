@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "engine/math/types.h"
@@ -21,6 +22,13 @@ struct IbrProxy {
 /// Room: a box around the node. Proxies whose centre lies in it belong to it.
 struct IbrRoom {
   vec3 size_m = vec3(0.0f);
+};
+
+/// Heights of the horizontal reflecting surfaces in an IBR room, optional. With it, the room's proxies are reflected at
+/// these heights only; without it, at every height from the room's floor up.
+struct ReflectingHeights {
+  std::array<float, 4> heights_m{};  ///< world height (Y) of each surface; the first `count` are used
+  std::uint32_t count = 0;  ///< 0: as without the component; more than 4 counts as 4. NaN and infinity are ignored
 };
 
 /// Probe: captured surroundings, inside a box or of the whole scene.

@@ -5,6 +5,7 @@
 #include "engine/scene/key_table.h"
 #include "modules/lights/components.h"
 #include "modules/reflections/components.h"
+#include "modules/reflections/proxies/systems.h"
 
 namespace gloam {
 namespace {
@@ -27,6 +28,8 @@ class ReflectionsModule final : public Module {
     world.register_component<IbrProxy>("ibr_proxy");
     world.register_component<IbrRoom>("ibr_room");
     world.register_component<CubeProbe>("cube_probe");
+    world.register_component<ReflectingHeights>("reflecting_heights");
+    world.set_resource(ProxySet{});
   }
   void scene_keys(KeyRegistry& registry) const override {
     const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
@@ -55,6 +58,8 @@ class ReflectionsModule final : public Module {
                              &CubeProbe::global));
     registry.add_finish("reflections", &check_light_names);
   }
+  void add_systems(Schedule& schedule) override { add_proxy_systems(schedule); }
+  void prepare_view(World& world, ViewId view, const KnobRegistry&) const override { prepare_proxy_view(world, view); }
   [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
     std::size_t proxies = 0;
     world.view<const IbrProxy>().each(

@@ -34,6 +34,7 @@ ROOMS = {
     "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
                         ("components", "outputs", "knobs")),
     "modules/closeups": (("pairs", "umbra", "compose", "debug"), ("components", "knobs")),
+    "modules/reflections": (("proxies",), ("components",)),
     "engine/render": (("knobs", "scene", "draws", "declare", "passes", "readback", "reference"),
                       ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups"), ()),
