@@ -41,9 +41,11 @@ double highest_receiver(const ReceiverBand& band, const ReflectionViewer& viewer
 
 bool sees_receivers(const ReflectionViewer& viewer) { return !viewer.orthographic || viewer.forward.y < 0.0; }
 
-/// A polygon of at most 7 corners: a quad cut by one horizontal plane and split by another.
+/// A quad cut by one horizontal plane and split by another: at most 7 corners. The corners of a horizontal quad in one
+/// of the planes are rounded to both of its sides, so each plane may cross all four edges: then there are at most 10.
 struct Outline {
-  std::array<dvec3, 7> corners{};
+  static constexpr std::size_t kCapacity = ReflectedVolume::kCapacity / 2;
+  std::array<dvec3, kCapacity> corners{};
   std::size_t count = 0;
   void add(const dvec3& corner) { corners[count++] = corner; }
 };
@@ -67,9 +69,10 @@ Outline split(const Outline& outline, double height, bool cut) {
   return result;
 }
 
-/// Points in NDC of a volume clipped at the near plane. At most 7 · 7 + 7 segments and points of 14 points are kept.
+/// Points in NDC of a volume clipped at the near plane. Of n points, k beyond the plane, k and k · (n − k) crossings
+/// are kept.
 struct ProjectedPoints {
-  std::array<dvec2, 64> points;
+  std::array<dvec2, ReflectedVolume::kCapacity / 2 * (ReflectedVolume::kCapacity / 2 + 1)> points;
   std::size_t count = 0;
   void add(const dvec4& clip) { points[count++] = dvec2(clip) / clip.w; }
 };

@@ -38,7 +38,7 @@ struct ScreenRange {
 
 /// Points relative to the eye. Their convex hull is the reflected volume of a proxy.
 struct ReflectedVolume {
-  static constexpr std::size_t kCapacity = 14;
+  static constexpr std::size_t kCapacity = 20;
   std::array<dvec3, kCapacity> points{};
   std::size_t count = 0;
   void add(const dvec3& point) { points[count++] = point; }

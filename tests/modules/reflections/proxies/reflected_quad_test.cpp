@@ -104,6 +104,30 @@ TEST(ReflectedQuads, that_are_edge_on_may_face_the_viewer_and_have_a_narrow_rang
   EXPECT_NEAR(range.max, 0.0, 1e-6);
 }
 
+TEST(ReflectedQuads, that_lie_in_the_planes_of_the_floor_and_the_eye_have_finite_ranges) {
+  // Rotated horizontal proxies, whose corners are rounded to both sides of the plane.
+  test::ProxyRandom random(21);
+  for (int n = 0; n < 3000; ++n) {
+    const double height = random.between(0.0, 3.0);
+    test::SceneProxy proxy;
+    proxy.proxy.size_m = vec2(2.0f, 3.0f);
+    proxy.world_from_node = glm::translate(dmat4(1.0), dvec3(0.0, height, -4.0));
+    proxy.world_from_node = glm::rotate(proxy.world_from_node, random.between(-3.0, 3.0), dvec3(0.0, 1.0, 0.0));
+    proxy.world_from_node = glm::rotate(proxy.world_from_node, 1.5707963267948966, dvec3(1.0, 0.0, 0.0));
+    proxy.world_from_node = glm::rotate(proxy.world_from_node, random.between(-3.0, 3.0), dvec3(0.0, 0.0, 1.0));
+    test::ProxyScene scene;
+    scene.proxies.push_back(proxy);
+    const double above = random.one_in(2) ? 1e-16 : 0.0;
+    const RenderView view = test::view_from({0.0, height + above, 0.0}, 0.0, -0.5);
+    const ReflectionViewer viewer = reflection_viewer(view);
+    const ReflectedVolume volume = reflected_volume(scene.placed().proxies[0], {height, height + 1.0}, viewer);
+    ASSERT_LE(volume.count, ReflectedVolume::kCapacity);
+    for (const dvec3& point : volume.all()) EXPECT_NEAR(point.y, 0.0, 1e-12);
+    const ScreenRange range = exact_screen_range(volume, viewer);
+    EXPECT_TRUE(range.empty() || (std::isfinite(range.min) && std::isfinite(range.max)));
+  }
+}
+
 TEST(ReflectedQuads, that_overflow_cover_the_screen) {
   PlacedProxy proxy = quad({0.0, 1.5, -6.0}, {0.0, 0.0, 1.0}, {3.0f, 3.0f});
   proxy.half_u *= 1e308;
