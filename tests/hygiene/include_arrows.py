@@ -40,6 +40,7 @@ ROOMS = {
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups"), ()),
     "sandbox": (("output", "scenes", "session", "window", "bench", "commands"), ("options", "console", "log")),
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
+    "shaders/reflections": (("glossy",), None),
 }
 
 # Third-party headers: the folders that may include them, and those that a public header may not include.
