@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/modules/reflections/proxies/proxy_oracle.h"
+#include "tests/support/scale.h"
 
 namespace gloam {
 namespace {
@@ -160,7 +161,8 @@ TEST(ReflectedQuads, have_ranges_no_wider_than_their_mirror_images) {
   test::ProxyRandom random(11);
   int compared = 0;
   double excess = 0.0;
-  for (int n = 0; n < 150; ++n) {
+  const int views = test::scaled(150);
+  for (int n = 0; n < views; ++n) {
     test::ProxyScene scene;
     scene.add({random.between(-6.0, 6.0), random.between(0.5, 5.0), random.between(-12.0, 3.0)}, random.direction(),
               {static_cast<float>(random.between(0.5, 4.0)), static_cast<float>(random.between(0.5, 4.0))});
@@ -175,7 +177,7 @@ TEST(ReflectedQuads, have_ranges_no_wider_than_their_mirror_images) {
     ++compared;
     excess += (std::min(range.max, 1.0) - std::max(range.min, -1.0)) - (sampled.max - sampled.min);
   }
-  EXPECT_GT(compared, 60);
+  EXPECT_GE(compared, test::scaled(60));
   RecordProperty("excess", std::to_string(excess / compared));
   EXPECT_LT(excess / compared, 0.015) << "mean excess in NDC; the screen is 2 wide";
 }
