@@ -63,12 +63,15 @@ void FrameGraph::execute(gpu::CommandList& commands) {
   frame::CountingCommands counting(commands);
   PassContext context(*this, counting);
   const frame::Plan& plan = s.plan->plan;
+  // A device that runs threads in turn does nothing between two passes: a pass begins where the last one has ended. On
+  // lavapipe a stamp after the barriers may come after the pass's own dispatches, because it waits for triangles only.
+  const bool stamps_begins = !s.device.info().threads_in_turn;
   for (std::uint32_t i = 0; i < plan.passes.size(); ++i) {
     const PlannedPass& planned = plan.passes[i];
     frame::DeclaredPass& pass = s.declaration.passes[planned.pass];
     commands.begin_label(pass.name);
     s.record_barriers(commands, planned.first_barrier, planned.first_barrier + planned.barrier_count);
-    s.timer.begin_pass(commands, planned.barrier_count > 0);
+    s.timer.begin_pass(commands, stamps_begins && planned.barrier_count > 0);
     counting.reset();
     s.recording_pass = planned.pass;
     if (pass.function) pass.function(context);

@@ -19,8 +19,8 @@ void PassTimer::begin_frame(std::uint64_t frame) {
   stamps_ = 0;
 }
 
-void PassTimer::begin_pass(gpu::CommandList& commands, bool has_barriers) {
-  const bool fresh = has_barriers || stamps_ == 0;
+void PassTimer::begin_pass(gpu::CommandList& commands, bool stamp) {
+  const bool fresh = stamp || stamps_ == 0;
   pass_begin_ = kNone;
   if (stamps_ + (fresh ? 2 : 1) > gpu::Device::kTimestampsPerFrame) {  // its end needs one, too
     stamps_ = gpu::Device::kTimestampsPerFrame;                        // no later pass is timed

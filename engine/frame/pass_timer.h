@@ -15,15 +15,16 @@ namespace gloam::frame {
 
 /// Records which passes the frames in flight ran, and matches them with the device's timestamps. A pass ends with a
 /// timestamp, and begins with one after its barriers. A pass without barriers begins where the pass before it has
-/// ended: it needs no timestamp, and software devices wait for their threads at each one.
+/// ended: it needs no timestamp, and software devices wait for their threads at each one. On devices that run threads
+/// in turn, every pass but the first begins where the last one has ended.
 class PassTimer {
  public:
   static constexpr std::uint32_t kNone = ~0u;
   static constexpr std::size_t kFramesKept = 4;  ///< completed frames that take() returns
 
   void begin_frame(std::uint64_t frame);
-  /// Writes the timestamp with which the next pass begins, unless it begins where the last one has ended.
-  void begin_pass(gpu::CommandList& commands, bool has_barriers);
+  /// Writes the timestamp with which the next pass begins. Without `stamp`, it begins where the last one has ended.
+  void begin_pass(gpu::CommandList& commands, bool stamp);
   /// Writes the timestamp with which the pass ends. Passes for which no timestamps are left are not timed.
   void end_pass(gpu::CommandList& commands, const DeclaredPass& pass, std::uint32_t dispatches, std::uint32_t draws);
   /// Reads the times of all completed frames that the device still has.
