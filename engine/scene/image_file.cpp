@@ -8,6 +8,8 @@
 #include <array>
 #include <climits>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <string>
@@ -151,6 +153,13 @@ Result<Image> decode_image(std::span<const std::uint8_t> file) {
   if (!pixels) return fault(std::string("is a damaged image (") + stbi_failure_reason() + ")");
   std::memcpy(image.rgba.data(), pixels.get(), image.rgba.size());
   return image;
+}
+
+Result<Image> read_image_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return fault("cannot be read");
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return decode_image(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace gloam

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "engine/core/result.h"
 #include "engine/scene/assets.h"
@@ -26,5 +27,8 @@ struct ImageSize {
 /// Decodes a PNG or JPEG to 8-bit RGBA (16-bit channels are rounded down). Uses memory in proportion to the size of the
 /// image. An error's message holds only the fault, not the place.
 [[nodiscard]] Result<Image> decode_image(std::span<const std::uint8_t> file);
+
+/// Reads and decodes a file. An error's message holds only the fault, not the path.
+[[nodiscard]] Result<Image> read_image_file(const std::string& path);
 
 }  // namespace gloam

@@ -65,11 +65,11 @@ class Kernel {
     sampled_image(binding, image);
   }
   /// An image that the caller owns, ready for compute_read.
-  void sampled_image(std::uint32_t binding, gpu::ImageHandle image) {
-    gpu::SamplerDesc nearest;
-    nearest.address_u = nearest.address_v = gpu::AddressMode::clamp_to_edge;
-    nearest.min_filter = nearest.mag_filter = nearest.mip_filter = gpu::Filter::nearest;
-    bindings_.push_back({binding, gpu::Binding::Sampled{{.image = image}, value_of(device_.create_sampler(nearest))}});
+  void sampled_image(std::uint32_t binding, gpu::ImageHandle image, gpu::Filter filter = gpu::Filter::nearest) {
+    gpu::SamplerDesc sampler;
+    sampler.address_u = sampler.address_v = gpu::AddressMode::clamp_to_edge;
+    sampler.min_filter = sampler.mag_filter = sampler.mip_filter = filter;
+    bindings_.push_back({binding, gpu::Binding::Sampled{{.image = image}, value_of(device_.create_sampler(sampler))}});
   }
   /// A storage image to be read back, row by row.
   void output_image(std::uint32_t binding, gpu::Format format, std::uint32_t width, std::uint32_t height,

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/accuracy/ledger/measurement_store.h"
 
+#include "engine/core/sealed_file.h"
 #include "modules/accuracy/ledger/row_json.h"
-#include "modules/accuracy/ledger/sealed_file.h"
 
 namespace gloam {
 

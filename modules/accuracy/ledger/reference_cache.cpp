@@ -5,7 +5,7 @@
 #include <cstring>
 #include <span>
 
-#include "modules/accuracy/ledger/sealed_file.h"
+#include "engine/core/sealed_file.h"
 
 namespace gloam {
 namespace {

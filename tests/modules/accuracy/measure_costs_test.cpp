@@ -8,8 +8,8 @@
 #include <functional>
 
 #include "modules/accuracy/module.h"
-#include "tests/modules/accuracy/temporary_folder.h"
 #include "tests/support/expect_assert.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gloam {
 namespace {

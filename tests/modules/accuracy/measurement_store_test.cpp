@@ -9,11 +9,10 @@
 #include <fstream>
 #include <iterator>
 
+#include "engine/core/sealed_file.h"
 #include "modules/accuracy/ledger/reference_cache.h"
-#include "modules/accuracy/ledger/sealed_file.h"
 #include "tests/modules/accuracy/ledger_rows.h"
-#include "tests/modules/accuracy/temporary_folder.h"
-#include "tests/support/expect_assert.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gloam {
 namespace {
@@ -87,16 +86,6 @@ TEST(measurement_store, says_where_it_cannot_write) {
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().kind, ErrorKind::failed);
   EXPECT_THAT(status.error().message, HasSubstr(folder.path() + "/file"));
-}
-
-TEST(sealed_file, keeps_any_bytes) {
-  const TestFolder folder;
-  const std::string path = folder.path() + "/sealed";
-  for (const std::string& payload : {std::string(), std::string("\n\0\r\n\xff", 5), std::string(100000, 'x')}) {
-    ASSERT_TRUE(write_sealed(path, "id", payload).ok());
-    EXPECT_EQ(read_sealed(path, "id"), payload);
-  }
-  EXPECT_ASSERT((void)write_sealed(path, "two\nlines", ""), "one line");
 }
 
 JudgedReference reference_of(std::uint32_t width, std::uint32_t height, bool linear, bool picture) {

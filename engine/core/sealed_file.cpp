@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/accuracy/ledger/sealed_file.h"
+#include "engine/core/sealed_file.h"
 
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "engine/core/assert.h"
@@ -56,7 +55,11 @@ Status write_sealed(const std::string& path, std::string_view identity, std::str
 std::optional<std::string> read_sealed(const std::string& path, std::string_view identity) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::error_code fault;
+  const std::uintmax_t size = std::filesystem::file_size(path, fault);
+  if (fault) return std::nullopt;
+  std::string text(size, '\0');
+  if (!file.read(text.data(), static_cast<std::streamsize>(size))) return std::nullopt;
   const std::size_t head_size = kMagic.size() + 16 + 1 + identity.size() + 1;
   if (text.size() < head_size) return std::nullopt;
   std::string payload = text.substr(head_size);
