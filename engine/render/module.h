@@ -112,6 +112,19 @@ class Module {
     static_cast<void>(view);
     static_cast<void>(knobs);
   }
+  /// Adds views that must be drawn before the view `main` in the same frame, for example mirrored ones. Called in every
+  /// frame for each view that is no capture, after the systems of the world, if the world demands the module and the
+  /// view does not leave it out. main: with pose and size of this frame. Start from a copy of it. Companions draw no
+  /// pictures: they end before PassPhase::output, and their light and depth are in CompanionLight of
+  /// FrameBuilder::shared() when the passes of `main` are declared. Modules may share with a companion what they keep
+  /// for its main view (RenderView::main_view). Companions have no companions.
+  virtual void companion_views(World& world, const ViewSettings& main, const KnobRegistry& knobs,
+                               CompanionViews& companions) const {
+    static_cast<void>(world);
+    static_cast<void>(main);
+    static_cast<void>(knobs);
+    static_cast<void>(companions);
+  }
   /// Sentences about things in a loaded scene that are likely mistakes, without a full stop. For `inspect`.
   [[nodiscard]] virtual std::vector<std::string> warnings(const World& world) const {
     static_cast<void>(world);

@@ -59,6 +59,15 @@ struct CapturedLight {
   std::map<gpu::ImageHandle, ImageRef> images;
 };
 
+/// Images of the frame's companion views (Module::companion_views), on the frame's shared board; by the view's id.
+struct CompanionLight {
+  struct Images {
+    ImageRef light;  ///< LitOutput::color after all passes
+    ImageRef depth;  ///< GeometryOutputs::depth
+  };
+  std::map<std::uint32_t, Images> views;
+};
+
 /// Side of a shadow tile and of a depth_bounds tile, in pixels.
 inline constexpr std::uint32_t kTileSize = 8;
 

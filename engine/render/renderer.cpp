@@ -3,6 +3,7 @@
 #include "engine/render/renderer.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "engine/core/nearest_name.h"
@@ -188,7 +189,7 @@ Status Renderer::State::add_module_passes(FrameBuilder& builder, const FrameView
     if (runtimes[i].in_last_view = takes_part(i, builder, view); runtimes[i].in_last_view)
       taking_part.push_back(options.modules[i].get());
   for (const PassPhase phase : kAllPhases) {
-    if (view.request.target.light && phase >= PassPhase::output) break;
+    if ((view.request.target.light || view.main) && phase >= PassPhase::output) break;
     for (Module* module : taking_part) {
       builder.set_module(module->name());
       GLOAM_TRY(attempt([&] { return "declaring the passes of module '" + std::string(module->name()) + "'"; },
@@ -302,18 +303,39 @@ void Renderer::release_world(const World& world) {
   state_->release_images([&](std::uint32_t, const ViewImages& view) { return view.world == slot->value; });
 }
 
+void Renderer::State::release_view(ViewId view) {
+  motion.forget_view(view);
+  history.release_view(view.value);
+  cuts.forget_view(view);
+  release_images([&](std::uint32_t id, const ViewImages&) { return id == view.value; });
+  results.forget_view(view.value);
+  for (const auto& module : options.modules) module->release_view(view);
+}
+
+void Renderer::State::release_idle_companions() {
+  if (copy_request) return;
+  for (auto& [id, idle] : companion_idle_frames) ++idle;
+  for (const FrameView& view : frame_views)
+    if (view.main) companion_idle_frames[view.request.settings.id.value] = 0;
+  for (auto at = companion_idle_frames.begin(); at != companion_idle_frames.end();) {
+    const bool idle = at->second >= kFramesUntilRelease;
+    if (idle) release_view(ViewId{at->first});
+    at = idle ? companion_idle_frames.erase(at) : std::next(at);
+  }
+}
+
 void Renderer::release_view(ViewId view) {
-  state_->motion.forget_view(view);
-  state_->history.release_view(view.value);
-  state_->cuts.forget_view(view);
-  state_->release_images([&](std::uint32_t id, const ViewImages&) { return id == view.value; });
-  state_->results.forget_view(view.value);
-  for (const auto& module : state_->options.modules) module->release_view(view);
+  for (const ViewId companion : CompanionViews::ids_of(view)) {
+    state_->companion_idle_frames.erase(companion.value);
+    state_->release_view(companion);
+  }
+  state_->release_view(view);
 }
 
 void Renderer::release_view(World& world, ViewId view) {
   release_view(view);
   world.remove_view(view);
+  for (const ViewId companion : CompanionViews::ids_of(view)) world.remove_view(companion);
 }
 
 Status Renderer::render(World& world, std::span<const ViewRequest> requests) {

@@ -71,7 +71,6 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
   const FrameView& own_view = frame_views[index];
   const ViewRequest& request = own_view.request;
   const RenderView& view = *own_view.view;
-  const ViewImages& own = images.at(view.id.value);
   builders.push_back(std::make_unique<FrameBuilder>(services(knobs_of(own_view)), graph, world, view, scene_of(world),
                                                     draws, index, shared));
   FrameBuilder& frame = *builders.back();
@@ -87,7 +86,9 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
   for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth})
     frame.expose(image);
   if (geometry.motion) frame.expose(geometry.motion);
+  if (own_view.main) return add_companion(world, frame, own_view);
 
+  const ViewImages& own = images.at(view.id.value);
   const ImageRef lit = graph.import_image("lit", own.lit, gpu::Access::none, gpu::Access::transfer_read);
   frame.put(LitOutput{lit});
   if (request.target.light) {
@@ -111,6 +112,16 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
   GLOAM_TRY(frame.status());
   if (request.target.overlay) GLOAM_TRY(request.target.overlay(graph, frame.get<TargetOutput>().color));
   if (copy_request && copy_request->view == view.id) GLOAM_TRY(copy_request->add_copies(frame));
+  count_view(world, frame);
+  return {};
+}
+
+Status Renderer::State::add_companion(World& world, FrameBuilder& frame, const FrameView& own_view) {
+  frame.put(LitOutput{create_view_image(frame, "companion_light", gpu::Format::rgba16_float)});
+  GLOAM_TRY(add_module_passes(frame, own_view));
+  CompanionLight* companions = shared.find<CompanionLight>();
+  if (companions == nullptr) companions = &shared.put(CompanionLight{});
+  companions->views[frame.view().id.value] = {frame.get<LitOutput>().color, frame.get<GeometryOutputs>().depth};
   count_view(world, frame);
   return {};
 }
@@ -145,16 +156,59 @@ const KnobRegistry& Renderer::State::settled_knobs() {
   return *settled;
 }
 
+Result<FrameView> Renderer::State::begin_view(const ViewRequest& request) const {
+  FrameView own;
+  own.request = request;
+  if (request.settings.knobs.empty()) return own;
+  auto overridden = std::make_unique<KnobRegistry>(*frame_knobs);
+  for (const KnobOverride& knob : request.settings.knobs) GLOAM_TRY(overridden->set(knob.name, knob.value));
+  own.knobs = std::move(overridden);
+  return own;
+}
+
 Status Renderer::State::begin_views(std::span<const ViewRequest> requests) {
   frame_views.clear();
   frame_knobs = &settled_knobs();
   for (const ViewRequest& request : requests) {
-    FrameView& own = frame_views.emplace_back();
-    own.request = request;
-    if (request.settings.knobs.empty()) continue;
-    auto overridden = std::make_unique<KnobRegistry>(*frame_knobs);
-    for (const KnobOverride& knob : request.settings.knobs) GLOAM_TRY(overridden->set(knob.name, knob.value));
-    own.knobs = std::move(overridden);
+    GLOAM_ASSERT(
+        request.settings.id.value - CompanionViews::kFirstId >= CompanionViews::kMost * CompanionViews::kMostMainIds,
+        "ids from CompanionViews::kFirstId on are for companions");
+    Result<FrameView> own = begin_view(request);
+    if (!own.ok()) return own.error();
+    frame_views.push_back(std::move(*own));
+  }
+  return {};
+}
+
+Status Renderer::State::add_companions_of(World& world, FrameView& main) {
+  const ViewSettings& settings = main.request.settings;
+  if (settings.purpose == ViewPurpose::capture || main.request.target.light) return {};
+  CompanionViews companions(settings.id);
+  for (std::size_t i = 0; i < options.modules.size(); ++i) {
+    const Module& module = *options.modules[i];
+    const bool left_out = std::ranges::find(settings.without, module.name()) != settings.without.end();
+    if (!left_out && module.built() && runtimes[i].demand.needed)
+      module.companion_views(world, settings, knobs_of(main), companions);
+  }
+  for (const ViewSettings& companion : companions.all()) {
+    Result<FrameView> own = begin_view({.settings = companion, .target = {}});
+    if (!own.ok()) return own.error();
+    own->main = settings.id;
+    frame_views.push_back(std::move(*own));
+    main.has_companions = true;
+  }
+  return {};
+}
+
+Status Renderer::State::add_companions(World& world) {
+  std::vector<FrameView> requested = std::move(frame_views);
+  frame_views.clear();
+  for (FrameView& own : requested) {
+    GLOAM_TRY(acquire_target(*options.device, own.request));
+    check_target(*options.device, own.request);
+    follow_camera(world, own.request.settings);
+    GLOAM_TRY(add_companions_of(world, own));
+    frame_views.push_back(std::move(own));
   }
   return {};
 }
@@ -162,22 +216,26 @@ Status Renderer::State::begin_views(std::span<const ViewRequest> requests) {
 Status Renderer::State::prepare_views(World& world) {
   const RenderSlot slot = world.resource<RenderSlot>();
   const std::uint64_t frame = copy_request && slot.frames > 0 ? slot.frames - 1 : slot.frames;
+  GLOAM_TRY(add_companions(world));
   for (FrameView& own : frame_views) {
-    GLOAM_TRY(acquire_target(*options.device, own.request));
-    ViewSettings& settings = own.request.settings;
-    check_target(*options.device, own.request);
-    follow_camera(world, settings);
-    GLOAM_TRY(prepare_images(world, own.request));
+    const ViewSettings& settings = own.request.settings;
+    if (!own.main) GLOAM_TRY(prepare_images(world, own.request));
     own.view = std::make_unique<RenderView>(make_view(settings, frame, cuts.declare(slot.value, settings, frame)));
+    own.view->main_view = own.main.value_or(settings.id);
+    own.view->has_companions = own.has_companions;
     motion.begin_view(*own.view);
     world.set_view_resource(settings.id, *own.view);
     for (std::size_t i = 0; i < options.modules.size(); ++i)
       if (runtimes[i].demand.needed) options.modules[i]->prepare_view(world, settings.id, knobs_of(own));
   }
-  for (const FrameView& own : frame_views) {
-    hand_out_results(world, own.view->id);
-    GLOAM_TRY(run_systems(world, own.view->id));
-  }
+  // Systems of companions come last: what they share with their main view, such as places in a shadow atlas, goes by
+  // the needs of the main view.
+  for (const bool companions : {false, true})
+    for (const FrameView& own : frame_views) {
+      if (own.main.has_value() != companions) continue;
+      hand_out_results(world, own.view->id);
+      GLOAM_TRY(run_systems(world, own.view->id));
+    }
   return {};
 }
 
@@ -247,6 +305,7 @@ void Renderer::State::commit_frame(World& world, std::span<const ViewRequest> re
   collect_counters();
   release_idle_modules();
   release_idle_views();
+  release_idle_companions();
 }
 
 void Renderer::State::give_up_frame(std::uint64_t frame) {

@@ -67,6 +67,8 @@ struct FrameView {
   ViewRequest request;
   std::unique_ptr<const KnobRegistry> knobs;  ///< with the view's overrides; null: it has none
   std::unique_ptr<RenderView> view;
+  std::optional<ViewId> main;   ///< of a companion: the view that needs it
+  bool has_companions = false;  ///< its companions come just before it
 };
 
 struct Renderer::State {
@@ -110,12 +112,24 @@ struct Renderer::State {
   [[nodiscard]] Status run_systems(World& world, std::optional<ViewId> view);
   /// Everything between Device::begin_frame and submit_frame.
   [[nodiscard]] Status record_frame(World& world, gpu::CommandList& commands);
+  /// A view of the frame, with its knobs.
+  [[nodiscard]] Result<FrameView> begin_view(const ViewRequest& request) const;
   /// Starts the frame's views: requests and knobs.
   [[nodiscard]] Status begin_views(std::span<const ViewRequest> requests);
+  /// Settles pose and size of the requested views, and puts their companions before them.
+  [[nodiscard]] Status add_companions(World& world);
+  /// Puts the companions of a view, whose settings are settled, into frame_views.
+  [[nodiscard]] Status add_companions_of(World& world, FrameView& main);
+  /// Releases a view: all but its resources of a world.
+  void release_view(ViewId view);
+  /// After a frame: releases companions that were not drawn for kFramesUntilRelease frames.
+  void release_idle_companions();
   /// Settles the settings of all views of the frame, and runs their systems.
   [[nodiscard]] Status prepare_views(World& world);
   /// Declares the passes of view number `index`.
   [[nodiscard]] Status add_view(World& world, std::size_t index);
+  /// The rest of add_view for a companion: puts its light into CompanionLight.
+  [[nodiscard]] Status add_companion(World& world, FrameBuilder& frame, const FrameView& own_view);
   /// Copies the view's linear light into the caller's image.
   [[nodiscard]] Status add_light_copy(FrameBuilder& frame, const LightTarget& target);
   [[nodiscard]] Status add_module_passes(FrameBuilder& builder, const FrameView& view);
@@ -160,6 +174,7 @@ struct Renderer::State {
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
   std::uint64_t next_slot = 1;
   std::map<std::uint32_t, ViewImages> images;
+  std::map<std::uint32_t, std::uint32_t> companion_idle_frames;  ///< of the companions that frames have drawn, by id
   /// The following members are of the current frame; pass functions refer to them.
   std::vector<FrameView> frame_views;
   FrameDraws draws;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 #include <limits>
+#include <utility>
 
 #include "engine/core/assert.h"
 #include "engine/ecs/view.h"
@@ -58,6 +59,24 @@ dvec3 reflected(const dvec3& position, const MirrorPlane& mirror) {
 
 }  // namespace
 
+CompanionViews::CompanionViews(ViewId main) : main_(main) {}
+
+std::vector<ViewId> CompanionViews::ids_of(ViewId main) {
+  std::vector<ViewId> ids;
+  for (std::uint32_t n = 0; main.value < kMostMainIds && n < kMost; ++n)
+    ids.push_back(ViewId{kFirstId + main.value * kMost + n});
+  return ids;
+}
+
+ViewId CompanionViews::add(ViewSettings settings) {
+  GLOAM_ASSERT(all_.size() < kMost, "a view has at most CompanionViews::kMost companions");
+  GLOAM_ASSERT(main_.value < kMostMainIds, "the id of a view with companions is below CompanionViews::kMostMainIds");
+  settings.id = ids_of(main_)[all_.size()];
+  settings.follow_camera = false;
+  all_.push_back(std::move(settings));
+  return all_.back().id;
+}
+
 void follow_camera(const World& world, ViewSettings& settings) {
   if (!settings.follow_camera) return;
   const Camera* camera = world.try_get<Camera>(settings.camera_entity);
@@ -70,7 +89,7 @@ void follow_camera(const World& world, ViewSettings& settings) {
 RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame) {
   GLOAM_ASSERT(settings.width > 0 && settings.height > 0, "a view has at least one pixel");
   RenderView view;
-  view.id = settings.id;
+  view.id = view.main_view = settings.id;
   view.width = settings.width;
   view.height = settings.height;
   view.frame = frame;
@@ -81,6 +100,7 @@ RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uin
   view.near_m = settings.camera.near_m;
 
   view.purpose = settings.purpose;
+  view.static_only = settings.static_only;
   dmat4 rotation = settings.world_from_camera;
   rotation[3] = dvec4(0.0, 0.0, 0.0, 1.0);
   if (settings.mirror) {
@@ -89,15 +109,17 @@ RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uin
     view.position = reflected(view.position, mirror);
     rotation = reflection(mirror.normal) * rotation;
     view.mirrored = view.clipped = true;
-    view.clip_plane =
-        vec4(vec3(mirror.normal), static_cast<float>(glm::dot(mirror.normal, view.position) - mirror.offset));
+    const double height = glm::dot(mirror.normal, view.position) - mirror.offset;
+    view.clip_plane = vec4(vec3(mirror.normal), static_cast<float>(height - mirror.margin_m));
   }
   view.view_from_relative = mat4(glm::transpose(rotation));
-  const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
+  const float aspect =
+      settings.aspect > 0.0f ? settings.aspect : static_cast<float>(view.width) / static_cast<float>(view.height);
   if (settings.camera.orthographic) {
     const float far_m = settings.camera.far_m > view.near_m ? settings.camera.far_m : view.near_m + 1000.0f;
-    view.clip_from_view = reversed_orthographic(settings.camera.half_height_m * aspect, settings.camera.half_height_m,
-                                                view.near_m, far_m);
+    const float half_width_m =
+        settings.exact_width ? settings.camera.half_width_m : settings.camera.half_height_m * aspect;
+    view.clip_from_view = reversed_orthographic(half_width_m, settings.camera.half_height_m, view.near_m, far_m);
   } else {
     view.clip_from_view = reversed_perspective(settings.camera.fov_y, aspect, view.near_m);
   }

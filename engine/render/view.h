@@ -27,6 +27,9 @@ enum class ViewPurpose : std::uint8_t {
 struct MirrorPlane {
   dvec3 normal = dvec3(0.0, 1.0, 0.0);  ///< unit length
   double offset = 0.0;                  ///< metres
+  /// What is less than this above the plane is not drawn, metres, ≥ 0. Keeps the mirroring surface itself out of the
+  /// picture if it is double-sided or not quite flat.
+  double margin_m = 0.0;
 };
 
 /// A knob's value for one view, as text (KnobRegistry::set).
@@ -53,9 +56,41 @@ struct ViewSettings {
   std::vector<std::string> without;  ///< names of modules that this view leaves out
   /// Draws what the mirror shows of its visible side to the camera. The camera may be on either side.
   std::optional<MirrorPlane> mirror;
+  /// Leaves out what moves: instances that are skinned, morphed or moved by an animation. Their shadows are left out if
+  /// all views of the frame have this set.
+  bool static_only = false;
+  /// An orthographic view is camera.half_width_m wide, so its pixels need not be square. Otherwise its width follows
+  /// from camera.half_height_m and the size in pixels.
+  bool exact_width = false;
+  /// Width over height of what the camera sees, > 0; 0: of the size in pixels. Pixels are square only with 0.
+  float aspect = 0.0f;
   /// The camera jumps in this frame: contents that follow it over frames begin anew. The renderer itself sees a change
   /// of camera_entity and of the kind of projection; a jump of the pose is stated here.
   bool camera_cut = false;
+};
+
+/// Views that another view of the frame needs (Module::companion_views). They are drawn just before it, and leave their
+/// light in CompanionLight.
+class CompanionViews {
+ public:
+  /// Most companions of a view.
+  static constexpr std::uint32_t kMost = 4;
+  /// Ids of views that may have companions are below this number.
+  static constexpr std::uint32_t kMostMainIds = 1u << 26;
+  /// Companions have the ids [kFirstId, kFirstId + kMost · kMostMainIds); no other view may have such an id.
+  static constexpr std::uint32_t kFirstId = 0x40000000u;
+
+  explicit CompanionViews(ViewId main);
+  /// Adds a companion with these settings; `id` and `follow_camera` are set here. Returns its id, the same in every
+  /// frame for the n-th companion of a view. Asserts that there are not too many.
+  ViewId add(ViewSettings settings);
+  [[nodiscard]] const std::vector<ViewSettings>& all() const { return all_; }
+  /// The ids of all companions that a view may have; none if it cannot have any.
+  [[nodiscard]] static std::vector<ViewId> ids_of(ViewId main);
+
+ private:
+  ViewId main_;
+  std::vector<ViewSettings> all_;
 };
 
 /// Pose and lens of a view in one frame, without jitter.
@@ -86,7 +121,11 @@ struct RenderView {
   bool mirrored = false;  ///< front faces of unmirrored meshes are clockwise; `position` is the mirrored camera's
   bool clipped = false;   ///< only what is on the visible side of clip_plane is drawn
   vec4 clip_plane = vec4(0.0f);  ///< dot(xyz, p) + w ≥ 0 is visible; p: camera-relative
-  Frustum frustum;               ///< in camera-relative space
+  bool static_only = false;      ///< of ViewSettings
+  /// The view that this one is a companion of; its own id if it is none.
+  ViewId main_view{0};
+  bool has_companions = false;
+  Frustum frustum;  ///< in camera-relative space
   /// The view's camera in the world's previous drawn frame. If there is none (has_previous), the current camera. There
   /// is none after a camera cut, and if the world's previous frame did not draw the view.
   ViewCamera previous;
@@ -95,6 +134,7 @@ struct RenderView {
   [[nodiscard]] ViewCamera view_camera() const {
     return {position, view_from_relative, clip_from_view, clip_from_relative, camera.orthographic};
   }
+  [[nodiscard]] bool is_companion() const { return main_view != id; }
   /// Whether the camera was cut between the view's last frame and this one.
   [[nodiscard]] bool camera_cut() const { return cut_frame == frame; }
   /// Camera-relative float position of a world position.

@@ -89,6 +89,17 @@ TEST(MakeView, orthographic_depth_falls_evenly_from_near_to_far) {
   EXPECT_FALSE(may_intersect(view.frustum, Sphere{vec3(0.0f, 0.0f, -12.0f), 0.5f}));
 }
 
+TEST(MakeView, an_orthographic_view_with_exact_width_may_have_oblong_pixels) {
+  ViewSettings settings = looking(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 128, 128);
+  settings.camera.orthographic = true;
+  settings.camera.half_width_m = 3.8f;
+  settings.camera.half_height_m = 2.0f;
+  settings.exact_width = true;
+  const dvec4 corner = clip_of(make_view(settings, 0), dvec3(3.8, 2.0, -8.0));
+  EXPECT_NEAR(corner.x, 1.0, 1e-6);
+  EXPECT_NEAR(corner.y, 1.0, 1e-6);
+}
+
 TEST(MakeView, orthographic_without_a_far_distance_sees_a_kilometre) {
   ViewSettings settings = looking(dvec3(0.0), dvec3(0.0, 0.0, -1.0));
   settings.camera.orthographic = true;

@@ -3,10 +3,12 @@
 #include "engine/render/draws/draw_lists.h"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 #include "engine/ecs/view.h"
 #include "engine/render/scene/caster_bounds.h"
+#include "engine/scene/animated_nodes.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {
@@ -20,10 +22,17 @@ struct Instance {
   std::uint32_t first_weight = 0;
   std::uint32_t weight_count = 0;
   bool casts = true;
+  bool moves = false;  ///< skinned, morphed or animated; known only if a view is static_only
 };
 
-std::vector<Instance> gather_instances(const World& world, const GpuScene& scene) {
+bool is_static(const RenderView* view) { return view->static_only; }
+
+std::vector<Instance> gather_instances(const World& world, std::span<const RenderView* const> views,
+                                       const GpuScene& scene) {
   std::vector<Instance> instances;
+  const bool some_static = std::ranges::any_of(views, is_static);
+  const bool all_static = some_static && std::ranges::all_of(views, is_static);
+  const std::optional<AnimatedNodes> animated = some_static ? std::optional<AnimatedNodes>(world) : std::nullopt;
   const auto& ranges = world.resource<JointMatrices>().ranges;
   world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
       [&](Entity entity, const MeshInstance& mesh, const WorldTransform& transform, const MorphInstance* morph) {
@@ -39,6 +48,8 @@ std::vector<Instance> gather_instances(const World& world, const GpuScene& scene
           instance.first_weight = morph->first;
           instance.weight_count = morph->count;
         }
+        instance.moves = some_static && (mesh.skin != kNone || morph != nullptr || animated->moves(entity));
+        if (instance.moves && all_static) return;
         instances.push_back(instance);
       });
   return instances;
@@ -88,6 +99,10 @@ class InstanceDrawer {
   }
 
  private:
+  [[nodiscard]] static bool shows(const RenderView& view, const Instance& instance) {
+    return !(view.static_only && instance.moves);
+  }
+
   [[nodiscard]] bool casts(const Instance& instance, const GpuPrimitive& primitive) const {
     return with_casters_ && instance.casts && scene_.materials()[primitive.material].alpha_mode != AlphaMode::blend;
   }
@@ -147,7 +162,8 @@ class InstanceDrawer {
     if (casts(instance, primitive))
       cast(instance.entity, primitive, instance.matrix, is_mirroring(instance.matrix),
            world_box(primitive.bounds, instance.matrix), kNone, lists);
-    for (std::size_t v = 0; v < views_.size(); ++v) draw_clusters(*views_[v], instance, primitive, lists.views[v]);
+    for (std::size_t v = 0; v < views_.size(); ++v)
+      if (shows(*views_[v], instance)) draw_clusters(*views_[v], instance, primitive, lists.views[v]);
   }
 
   void draw_clusters(const RenderView& view, const Instance& instance, const GpuPrimitive& primitive,
@@ -190,6 +206,7 @@ class InstanceDrawer {
     if (deformed) cast(instance.entity, primitive, matrix, flipped, box, deform, lists);
     for (std::size_t v = 0; v < views_.size(); ++v) {
       const RenderView& view = *views_[v];
+      if (!shows(view, instance)) continue;
       const shaders::DrawConstants constants = draw_constants(matrix, view.position);
       // Without a known box the primitive is drawn; the box of its rest pose then only orders the draws.
       const Aabb bounds =
@@ -271,7 +288,7 @@ shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3&
 
 FrameDraws build_frame_draws(const World& world, std::span<const RenderView* const> views, const GpuScene& scene,
                              JobExecutor& executor, bool with_casters) {
-  const std::vector<Instance> instances = gather_instances(world, scene);
+  const std::vector<Instance> instances = gather_instances(world, views, scene);
   const InstanceDrawer drawer(world, views, scene, with_casters);
   constexpr std::size_t kGrain = 64;
   std::vector<FrameDraws> parts((instances.size() + kGrain - 1) / kGrain);

@@ -4,12 +4,11 @@
 
 namespace gloam {
 
-dvec3 GeometryPicture::position(std::uint32_t x, std::uint32_t y) const {
+dvec3 surface_position(const RenderView& view, std::uint32_t x, std::uint32_t y, float depth) {
   // Intersects three planes, one per NDC coordinate of the pixel: dot(row, (p, 1)) = ndc · dot(row_w, (p, 1)). The
   // matrix is the one that the GPU has drawn with.
   const dmat4 rows = glm::transpose(dmat4(view.clip_from_relative));
-  const dvec3 ndc(2.0 * (x + 0.5) / view.width - 1.0, 1.0 - 2.0 * (y + 0.5) / view.height,
-                  static_cast<double>(depth[std::size_t{y} * view.width + x]));
+  const dvec3 ndc(2.0 * (x + 0.5) / view.width - 1.0, 1.0 - 2.0 * (y + 0.5) / view.height, static_cast<double>(depth));
   const dvec4 a = rows[0] - ndc.x * rows[3];
   const dvec4 b = rows[1] - ndc.y * rows[3];
   const dvec4 c = rows[2] - ndc.z * rows[3];

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "engine/render/view.h"
 
 namespace gloam {
+
+/// Camera-relative position of the surface at `depth` (reversed Z, > 0) under the centre of a pixel, in double.
+[[nodiscard]] dvec3 surface_position(const RenderView& view, std::uint32_t x, std::uint32_t y, float depth);
 
 /// The geometry buffer of a view's last frame on the CPU; texels row by row from the top.
 struct GeometryPicture {
@@ -28,7 +32,9 @@ struct GeometryPicture {
     return smooth_surfaces.empty() ? SmoothSurface{} : decode_smooth_surface(smooth_surfaces[at]);
   }
   /// Camera-relative position of the surface under the centre of a pixel, in double. The pixel must not be sky.
-  [[nodiscard]] dvec3 position(std::uint32_t x, std::uint32_t y) const;
+  [[nodiscard]] dvec3 position(std::uint32_t x, std::uint32_t y) const {
+    return surface_position(view, x, y, depth[std::size_t{y} * view.width + x]);
+  }
 };
 
 }  // namespace gloam

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "engine/math/types.h"
+#include "engine/scene/assets.h"
 
 namespace gloam {
 
@@ -17,6 +19,29 @@ struct ShadowRay {
   float to = 1.0f;              ///< end of the segment, as a share of `direction`
 };
 
+/// A ray that looks for the nearest surface.
+struct SurfaceRay {
+  vec3 origin = vec3(0.0f);                  ///< relative to SceneTracer::origin()
+  vec3 direction = vec3(0.0f, 0.0f, -1.0f);  ///< unit length
+  float to_m = std::numeric_limits<float>::infinity();
+};
+
+/// The surface that a ray meets, evaluated as shaders/render/surface_api.glsl does, with three differences: textures
+/// are sampled in mip 0, normal maps are ignored, and numbers are not rounded to the geometry buffer's formats.
+struct TracedSurface {
+  bool hit = false;  ///< false: the ray meets nothing; nothing else is set then
+  bool subsurface = false;
+  float distance_m = 0.0f;
+  vec3 position = vec3(0.0f);     ///< relative to SceneTracer::origin()
+  vec3 face_normal = vec3(0.0f);  ///< unit, on the side that the ray sees
+  vec3 normal = vec3(0.0f);       ///< unit, interpolated; on the same side as far as the frame turns normals
+  vec3 base_color = vec3(0.0f);   ///< linear
+  vec3 emissive = vec3(0.0f);     ///< cd/m²
+  float metallic = 0.0f;
+  float roughness = 1.0f;
+  float occlusion = 1.0f;
+};
+
 /// A rigid mesh whose material gives light of its own.
 struct EmissiveMesh {
   std::uint32_t mesh = 0;  ///< its number, for SceneTracer::occluded()
@@ -26,22 +51,30 @@ struct EmissiveMesh {
 };
 
 /// The triangles of a world at one moment, for references: skinned and morphed as in the frame, alpha-masked surfaces
-/// by their alpha, without blended surfaces and meshes that cast no shadows. Both sides of a triangle block.
-/// Thread-safe.
+/// by their alpha, without blended surfaces. Thread-safe.
 class SceneTracer {
  public:
   virtual ~SceneTracer() = default;
   /// World position that rays are relative to.
   [[nodiscard]] virtual dvec3 origin() const = 0;
-  /// Sets blocked[i] to 1 if a triangle lies on rays[i], else to 0. blocked: as many as rays. without: numbers of
-  /// emissive meshes, ascending, that the rays pass through.
+  /// Sets blocked[i] to 1 if a triangle lies on rays[i], else to 0. Both sides of a triangle block; meshes that cast no
+  /// shadows do not. blocked: as many as rays. without: numbers of emissive meshes, ascending, that the rays pass
+  /// through.
   virtual void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked,
                         std::span<const std::uint32_t> without = {}) const = 0;
-  /// The emissive meshes, ordered by number.
+  /// Sets surfaces[i] to the nearest surface on rays[i], of all meshes, also those that cast no shadows. Materials that
+  /// are not double-sided have no back, as in frames. surfaces: as many as rays. assets: those of the traced world; its
+  /// meshes, materials and images must not have changed since the tracer was made.
+  virtual void nearest(const SceneAssets& assets, std::span<const SurfaceRay> rays,
+                       std::span<TracedSurface> surfaces) const = 0;
+  /// The emissive meshes that cast shadows, ordered by number.
   [[nodiscard]] virtual std::span<const EmissiveMesh> emissive_meshes() const = 0;
+  /// Number of triangles that cast shadows.
   [[nodiscard]] virtual std::uint64_t triangles() const = 0;
-  /// Identifies the triangles: the same in every run, different for different triangles.
+  /// Identifies the triangles that cast shadows: the same in every run, different for different triangles.
   [[nodiscard]] virtual std::uint64_t version() const = 0;
+  /// Identifies all triangles, also those that cast no shadows. Materials, images and vertex attributes do not enter.
+  [[nodiscard]] virtual std::uint64_t all_version() const = 0;
 };
 
 }  // namespace gloam

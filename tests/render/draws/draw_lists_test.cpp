@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/gpu/recording_device.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/gltf_import.h"
 #include "tests/jobs/executors.h"
 #include "tests/render/draws/one_view.h"
@@ -432,6 +433,38 @@ TEST_F(DrawListsTest, a_morphed_mesh_is_drawn_even_where_its_rest_bounds_are_out
   EXPECT_EQ(lists_of(view).views[0].solid.size(), 1u);
   world_.get<MorphInstance>(cloth).count = 0;  // no weights: its rest pose is drawn
   EXPECT_EQ(lists_of(view).views[0].solid.size(), 0u);
+}
+
+TEST_F(DrawListsTest, a_static_view_leaves_out_what_moves) {
+  Random random(5);
+  const std::uint32_t rigid = maker_.mesh(test::box(vec3(0.5f)));
+  const std::uint32_t bar = maker_.mesh(skinned(test::box(vec3(0.5f)), random, 1));
+  Primitive morphing = test::quad(0.5f);
+  morphing.morph_targets = {{std::vector<vec3>(4, vec3(0, 1, 0)), {}}};
+  const std::uint32_t flag = maker_.mesh(morphing);
+  sync();
+  const dmat4 at = glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -5.0));
+  const Entity still = draw(rigid, at), turning = draw(rigid, at), carried = draw(rigid, at);
+  world_.add(carried, Parent{turning, 1});
+  draw_skinned(bar, dvec3(0.0, 0.0, -5.0), {mat4(1.0f)});
+  const Entity waving = draw(flag, at);
+  world_.add(waving, MorphInstance{0, 1});
+  world_.resource<MorphWeights>().values = {0.5f};
+  world_.resource<AnimationBindings>().poses = {{turning, 0, 0}};
+
+  RenderView all = make_view(ViewSettings{}, 0), fixed = all;
+  fixed.static_only = true;
+  const RenderView* const mixed[] = {&all, &fixed};
+  const FrameDraws both = build_frame_draws(world_, mixed, scene_, *serial_, true);
+  EXPECT_EQ(both.views[0].solid.size(), 5u);
+  ASSERT_EQ(both.views[1].solid.size(), 1u);
+  EXPECT_EQ(both.views[1].solid[0].entity, still);
+  EXPECT_EQ(both.casters.casters.size(), 5u) << "the first view shows the shadows of what moves";
+
+  const FrameDraws alone = build_frame_draws(world_, std::span(mixed).subspan(1), scene_, *serial_, true);
+  EXPECT_EQ(alone.views[0].solid.size(), 1u);
+  EXPECT_EQ(alone.casters.casters.size(), 1u);
+  EXPECT_TRUE(alone.deforms.empty());
 }
 
 TEST_F(DrawListsTest, what_cannot_be_drawn_is_left_out) {
