@@ -5,7 +5,9 @@
 #include "engine/ecs/view.h"
 #include "engine/scene/key_table.h"
 #include "modules/fog/components.h"
+#include "modules/fog/fog_model.h"
 #include "modules/fog/fog_passes.h"
+#include "modules/lighting/outputs.h"
 
 namespace gloam {
 namespace {
@@ -18,6 +20,8 @@ Fog find_fog(const World& world) {
   });
   return found;
 }
+
+HomogeneousFog homogeneous(const Fog& fog) { return {fog.density, fog.color, kFogSkyDistance}; }
 
 class FogModule final : public Module {
  public:
@@ -61,6 +65,11 @@ class FogModule final : public Module {
     registry.add(radius);
   }
 
+  /// For references that are computed after the frame.
+  void prepare_view(World& world, ViewId, const KnobRegistry&) const override {
+    world.set_resource(homogeneous(find_fog(world)));
+  }
+
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     if (view != nullptr && view->purpose == ViewPurpose::capture) return {false, "captures have no fog"};
     if (!(find_fog(world).density > 0.0f)) return {false, "no fog"};
@@ -72,7 +81,9 @@ class FogModule final : public Module {
   }
 
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase == PassPhase::post) add_fog_passes(frame, find_fog(frame.world()));
+    const Fog fog = find_fog(frame.world());
+    if (phase == PassPhase::announce) frame.put(homogeneous(fog));
+    if (phase == PassPhase::post) add_fog_passes(frame, fog);
   }
 };
 

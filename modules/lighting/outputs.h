@@ -37,6 +37,15 @@ struct DiffuseLightOutput {
 /// Decodes one texel: the two words of four half floats.
 [[nodiscard]] vec3 decode_diffuse_light(uvec2 texel);
 
+/// Homogeneous fog of the view. The module that draws it puts it on the board in PassPhase::announce, for modules that
+/// add light which has passed through it on other ways than straight to the camera, and keeps it as a world resource
+/// for references.
+struct HomogeneousFog {
+  float density = 0.0f;         ///< 1/m
+  vec3 radiance = vec3(0.0f);   ///< in-scattered, cd/m²
+  float sky_distance_m = 0.0f;  ///< path length through the fog of light from beyond all surfaces
+};
+
 /// What a shader that includes shaders/lighting/forward_lights_api.glsl needs to show the shadows of a frame.
 enum class ForwardShadows : std::uint8_t {
   none,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,21 @@ struct LightBounds {
 /// Distance in metres beyond which a light has no effect: range_m, or √(intensity / 0.01 lx) if that is 0. Clamped to
 /// 0.001…1e9 for every light, also with NaN.
 [[nodiscard]] float effective_range(const Light& light);
+
+/// Scale and offset of a spot's falloff: intensity factor = clamp(c · scale + offset, 0, 1)², c the cosine of the angle
+/// to the axis. (0, 1) for a point light.
+[[nodiscard]] vec2 spot_ramp(const Light& light);
+
+/// light_direction for a node whose squared length is too small or too large for a double. −Z if the node has no size
+/// or is not finite.
+[[nodiscard]] vec3 unusual_light_direction(const dvec3& node_z);
+
+/// The direction in which a node's light shines. `node_z`: the third column of the node's matrix.
+[[nodiscard]] inline vec3 light_direction(const dvec3& node_z) {
+  const double squared = glm::dot(node_z, node_z);
+  if (squared > 1e-200 && squared < 1e200) return vec3(node_z * (-1.0 / std::sqrt(squared)));
+  return unusual_light_direction(node_z);
+}
 
 /// The lights named in a comma-separated list. Input error when a name is unknown or shared by two lights; the message
 /// names `key`.

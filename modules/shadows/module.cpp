@@ -170,6 +170,7 @@ class ShadowsModule final : public Module {
     if (told_.insert(sentence).second) frame.services().log.warning(sentence);
   }
   void warn(FrameBuilder& frame) {
+    if (frame.view().is_companion()) return;  // nobody asked for its picture
     const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
     if (views.faces_shrunk > 0)
       warn_once(frame,

@@ -160,7 +160,9 @@ struct WithheldCasters {
     /// Caster::entity of the left-out casters and CasterSource::entity of the left-out sources, ascending by
     /// Entity::index.
     std::vector<Entity> casters;
+    bool operator==(const OfLight&) const = default;
   };
+  bool operator==(const WithheldCasters&) const = default;
   std::vector<OfLight> lights;  ///< ascending by Entity::index
   /// The casters withheld from this light; empty when there are none. Valid while `lights` is unchanged.
   [[nodiscard]] std::span<const Entity> of(Entity light) const;

@@ -43,8 +43,9 @@ void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutput
 ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
   ViewShadows& kept = states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id);
+  // A companion draws the maps as its main view had them last, which in most frames are those of this frame, too.
   const WithheldCasters* withheld = for_lists ? frame.find<WithheldCasters>() : nullptr;
-  kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
+  if (!frame.view().is_companion()) kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
   ShadowMaps maps = add_shadow_map_passes(frame, states, kept, views, knobs);
   if (!frame.status().ok()) return {};
   frame.expose(maps.atlas, "shadow_atlas");

@@ -137,16 +137,19 @@ void prepare_shadow_view(World& world, ViewId view, const ShadowKnobs& knobs) {
   if (world.try_view_resource<ShadowViews>(view) == nullptr) world.set_view_resource(view, ShadowViews{});
   auto& views = world.view_resource<ShadowViews>(view);
   const auto* render_view = world.try_view_resource<RenderView>(view);
-  const bool captures = render_view != nullptr && render_view->purpose == ViewPurpose::capture;
-  views.owner = captures ? owner_of_captures(knobs) : view;
-  if (!captures) {
+  // A view and its companions share the atlas of the view, captures share another one.
+  const bool together = render_view != nullptr && (render_view->is_companion() || render_view->has_companions);
+  const bool captures = !together && render_view != nullptr && render_view->purpose == ViewPurpose::capture;
+  views.leads = together && !render_view->is_companion();
+  views.owner = captures ? owner_of_captures(knobs) : together ? render_view->main_view : view;
+  if (!captures && !together) {
     views.shared = nullptr;
     return;
   }
   std::weak_ptr<SharedPlaces>& known = world.resource<CapturePlaces>().by_owner[views.owner.value];
   views.shared = known.lock();
   if (views.shared == nullptr) known = views.shared = std::make_shared<SharedPlaces>();
-  views.shared->join(render_view->frame, view.value);
+  if (captures) views.shared->join(render_view->frame, view.value);
 }
 
 }  // namespace gloam

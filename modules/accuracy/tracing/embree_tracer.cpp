@@ -15,14 +15,16 @@
 
 #include "engine/core/assert.h"
 #include "modules/accuracy/module.h"
+#include "modules/accuracy/tracing/surface_fetch.h"
 
 namespace gloam {
 namespace {
 
-/// Data for the alpha test of a hit on a cut-out surface.
-struct CutOutMesh {
-  TriangleMesh mesh;
-  const CutOut* cut_out = nullptr;
+/// A mesh in an Embree scene: data for the alpha test of cut-outs, and for surfaces.
+struct AttachedMesh {
+  TriangleMesh mesh;                       ///< without positions; indices only of cut-outs
+  const CutOut* cut_out = nullptr;         ///< null: no holes
+  const std::uint32_t* corners = nullptr;  ///< Embree's copy of the indices
 
   /// `u`, `v`: barycentric weights of the second and third corner.
   [[nodiscard]] bool is_hole(std::uint32_t triangle, float u, float v) const {
@@ -40,23 +42,42 @@ struct CutOutMesh {
 struct TraceContext {
   RTCIntersectContext embree;  // the first member
   std::span<const std::uint32_t> without;
+  const SceneAssets* assets = nullptr;  ///< of nearest()
 };
 
-/// Embree filter: rejects hits on meshes that the rays pass through and, on cut-outs, hits in holes. The user data is
-/// null for meshes without holes.
+const TraceContext& context_of(const RTCFilterFunctionNArguments* args) {
+  return *reinterpret_cast<const TraceContext*>(args->context);
+}
+
+bool is_hole(const RTCFilterFunctionNArguments* args, unsigned int i) {
+  const auto* mesh = static_cast<const AttachedMesh*>(args->geometryUserPtr);
+  if (mesh->cut_out == nullptr) return false;
+  return mesh->is_hole(RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i),
+                       RTCHitN_v(args->hit, args->N, i));
+}
+
+/// Embree filter of occluded(): rejects hits on meshes that the rays pass through and, on cut-outs, hits in holes.
 void filter_hits(const RTCFilterFunctionNArguments* args) {
-  const auto* mesh = static_cast<const CutOutMesh*>(args->geometryUserPtr);
-  const std::span<const std::uint32_t> without = reinterpret_cast<const TraceContext*>(args->context)->without;
+  const std::span<const std::uint32_t> without = context_of(args).without;
   for (unsigned int i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
-    if (std::ranges::binary_search(without, RTCHitN_geomID(args->hit, args->N, i))) {
+    if (std::ranges::binary_search(without, RTCHitN_geomID(args->hit, args->N, i)) || is_hole(args, i))
       args->valid[i] = 0;
-      continue;
-    }
-    if (mesh == nullptr) continue;
-    const float u = RTCHitN_u(args->hit, args->N, i);
-    const float v = RTCHitN_v(args->hit, args->N, i);
-    if (mesh->is_hole(RTCHitN_primID(args->hit, args->N, i), u, v)) args->valid[i] = 0;
+  }
+}
+
+/// Embree filter of nearest(): rejects hits on the back of surfaces that have none, and in holes of cut-outs.
+void filter_nearest(const RTCFilterFunctionNArguments* args) {
+  const SurfaceSource& surface = static_cast<const AttachedMesh*>(args->geometryUserPtr)->mesh.surface;
+  const bool double_sided = is_double_sided(*context_of(args).assets, surface);
+  for (unsigned int i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const vec3 winding_normal(RTCHitN_Ng_x(args->hit, args->N, i), RTCHitN_Ng_y(args->hit, args->N, i),
+                              RTCHitN_Ng_z(args->hit, args->N, i));
+    const vec3 direction(RTCRayN_dir_x(args->ray, args->N, i), RTCRayN_dir_y(args->ray, args->N, i),
+                         RTCRayN_dir_z(args->ray, args->N, i));
+    const bool back = (glm::dot(winding_normal, direction) > 0.0f) != surface.mirrored;
+    if ((back && !double_sided) || is_hole(args, i)) args->valid[i] = 0;
   }
 }
 
@@ -71,20 +92,25 @@ class EmbreeTracer final : public SceneTracer {
       : origin_(triangles.origin),
         triangles_(triangles.count()),
         version_(triangles.hash()),
+        all_version_(triangles.hash_of_all()),
         cut_outs_(std::move(triangles.cut_outs)),
         device_(rtcNewDevice("set_affinity=0")) {
     if (device_ == nullptr) return;
     rtcSetDeviceErrorFunction(device_, note_error, &error_);
-    scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // no ray passes between triangles that share an edge
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
-    for (TriangleMesh& mesh : triangles.meshes) attach(std::move(mesh));
+    scene_ = new_scene();
+    for (TriangleMesh& mesh : triangles.meshes) attach(scene_, std::move(mesh));
+    if (!triangles.uncast.empty()) uncast_ = new_scene();
+    for (TriangleMesh& mesh : triangles.uncast) attach(uncast_, std::move(mesh));
     // Embree builds with as many TBB threads as the current arena allows: here the caller alone. Embree's own thread
     // setting would apply to all users of TBB in the process.
     tbb::task_arena alone(1);
-    alone.execute([this] { rtcCommitScene(scene_); });
+    alone.execute([this] {
+      rtcCommitScene(scene_);
+      if (uncast_ != nullptr) rtcCommitScene(uncast_);
+    });
   }
   ~EmbreeTracer() override {
+    if (uncast_ != nullptr) rtcReleaseScene(uncast_);
     if (scene_ != nullptr) rtcReleaseScene(scene_);
     if (device_ != nullptr) rtcReleaseDevice(device_);
   }
@@ -100,6 +126,7 @@ class EmbreeTracer final : public SceneTracer {
   [[nodiscard]] dvec3 origin() const override { return origin_; }
   [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
   [[nodiscard]] std::uint64_t version() const override { return version_; }
+  [[nodiscard]] std::uint64_t all_version() const override { return all_version_; }
 
   [[nodiscard]] std::span<const EmissiveMesh> emissive_meshes() const override { return emissive_; }
 
@@ -112,28 +139,44 @@ class EmbreeTracer final : public SceneTracer {
     }
   }
 
+  void nearest(const SceneAssets& assets, std::span<const SurfaceRay> rays,
+               std::span<TracedSurface> surfaces) const override {
+    GLOAM_ASSERT(rays.size() == surfaces.size(), "one surface a ray");
+    TraceContext context{.embree = {}, .without = {}, .assets = &assets};
+    rtcInitIntersectContext(&context.embree);
+    for (std::size_t i = 0; i < rays.size(); ++i) surfaces[i] = surface_on(rays[i], context);
+  }
+
  private:
   static constexpr std::size_t kBatch = 64;
 
-  void attach(TriangleMesh mesh) {
+  [[nodiscard]] RTCScene new_scene() const {
+    const RTCScene scene = rtcNewScene(device_);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no ray passes between triangles that share an edge
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+    return scene;
+  }
+
+  /// Meshes of both scenes are numbered on, in the order of attached_.
+  void attach(RTCScene scene, TriangleMesh mesh) {
+    const auto number = static_cast<std::uint32_t>(attached_.size());
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     fill_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, std::span<const vec3>(mesh.positions), 1);
     fill_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, std::span<const std::uint32_t>(mesh.indices), 3);
-    if (mesh.emissive_reach_m > 0.0) {
-      rtcSetGeometryOccludedFilterFunction(geometry, filter_hits);
-      emissive_.push_back({attached_, mesh.min, mesh.max, mesh.emissive_reach_m});
-    }
-    if (mesh.cut_out != kNone) {
-      auto data = std::make_unique<CutOutMesh>();
-      data->cut_out = &cut_outs_[mesh.cut_out];
-      data->mesh = std::move(mesh);
-      data->mesh.positions = {};
-      rtcSetGeometryUserData(geometry, data.get());
-      rtcSetGeometryOccludedFilterFunction(geometry, filter_hits);
-      cut_out_meshes_.push_back(std::move(data));
-    }
+    const bool casts = scene == scene_, emissive = mesh.emissive_reach_m > 0.0;
+    if (casts && emissive) emissive_.push_back({number, mesh.min, mesh.max, mesh.emissive_reach_m});
+    auto data = std::make_unique<AttachedMesh>();
+    if (mesh.cut_out != kNone) data->cut_out = &cut_outs_[mesh.cut_out];
+    if (casts && (emissive || data->cut_out != nullptr)) rtcSetGeometryOccludedFilterFunction(geometry, filter_hits);
+    rtcSetGeometryIntersectFilterFunction(geometry, filter_nearest);
+    rtcSetGeometryUserData(geometry, data.get());
+    data->mesh = std::move(mesh);
+    data->mesh.positions = {};
+    if (data->cut_out == nullptr) data->mesh.indices = {};
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene_, geometry, attached_++);
+    rtcAttachGeometryByID(scene, geometry, number);
+    data->corners = static_cast<const std::uint32_t*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0));
+    attached_.push_back(std::move(data));
     rtcReleaseGeometry(geometry);
   }
 
@@ -163,7 +206,7 @@ class EmbreeTracer final : public SceneTracer {
                   .id = 0,
                   .flags = 0};
     }
-    TraceContext context{.embree = {}, .without = without};
+    TraceContext context{.embree = {}, .without = without, .assets = nullptr};
     rtcInitIntersectContext(&context.embree);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcOccluded1M(scene_, &context.embree, batch.data(), static_cast<unsigned int>(rays.size()), sizeof(RTCRay));
@@ -173,16 +216,49 @@ class EmbreeTracer final : public SceneTracer {
     }
   }
 
+  [[nodiscard]] TracedSurface surface_on(const SurfaceRay& ray, TraceContext& context) const {
+    RTCRayHit at{};
+    at.ray = {.org_x = ray.origin.x,
+              .org_y = ray.origin.y,
+              .org_z = ray.origin.z,
+              .tnear = 0.0f,
+              .dir_x = ray.direction.x,
+              .dir_y = ray.direction.y,
+              .dir_z = ray.direction.z,
+              .time = 0.0f,
+              .tfar = ray.to_m,
+              .mask = ~0u,
+              .id = 0,
+              .flags = 0};
+    at.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context.embree, &at);
+    if (uncast_ != nullptr) rtcIntersect1(uncast_, &context.embree, &at);
+    TracedSurface surface;
+    if (at.hit.geomID == RTC_INVALID_GEOMETRY_ID) return surface;
+    surface.hit = true;
+    surface.distance_m = at.ray.tfar;
+    surface.position = ray.origin + at.ray.tfar * ray.direction;
+    const AttachedMesh& mesh = *attached_[at.hit.geomID];
+    const SurfaceHit hit = {.corners = mesh.corners + 3 * std::size_t{at.hit.primID},
+                            .share = vec3(1.0f - at.hit.u - at.hit.v, at.hit.u, at.hit.v),
+                            .winding_normal = vec3(at.hit.Ng_x, at.hit.Ng_y, at.hit.Ng_z),
+                            .direction = ray.direction};
+    fetch_surface(*context.assets, mesh.mesh.surface, hit, textures_, surface);
+    return surface;
+  }
+
   const dvec3 origin_;
   const std::uint64_t triangles_;
   const std::uint64_t version_;
+  const std::uint64_t all_version_;
   const std::vector<CutOut> cut_outs_;
-  std::vector<std::unique_ptr<CutOutMesh>> cut_out_meshes_;
+  const TextureFetch textures_;
+  std::vector<std::unique_ptr<AttachedMesh>> attached_;  ///< by number
   std::vector<EmissiveMesh> emissive_;
-  std::uint32_t attached_ = 0;
   std::string error_;
   RTCDevice device_ = nullptr;
-  RTCScene scene_ = nullptr;
+  RTCScene scene_ = nullptr;   ///< meshes that cast shadows
+  RTCScene uncast_ = nullptr;  ///< all others; null if there are none
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "engine/render/scene/caster_bounds.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
+#include "modules/accuracy/tracing/texture_fetch.h"
 
 namespace gloam {
 namespace {
@@ -19,18 +20,22 @@ namespace {
 struct Instance {
   Entity entity;
   const Mesh* mesh = nullptr;
+  std::uint32_t mesh_index = 0;
+  bool casts = true;
+  bool mirrored = false;
   dmat4 world_from_mesh = dmat4(1.0);
   std::span<const mat4> joints;  ///< empty: rigid
   dvec3 joint_origin = dvec3(0.0);
   std::span<const float> weights;  ///< of its morph targets
 };
 
-std::span<const mat4> joints_of(const JointMatrices& all, Entity entity, dvec3& origin) {
+std::span<const mat4> joints_of(const JointMatrices& all, Entity entity, dvec3& origin, bool& mirrored) {
   const auto range =
       std::lower_bound(all.ranges.begin(), all.ranges.end(), entity.index,
                        [](const JointMatrices::Range& r, std::uint32_t index) { return r.instance.index < index; });
   if (range == all.ranges.end() || range->instance != entity) return {};
   origin = range->origin;
+  mirrored = range->mirrored;
   return std::span(all.matrices).subspan(range->first, range->count);
 }
 
@@ -41,12 +46,15 @@ std::vector<Instance> gather_instances(const World& world) {
   std::vector<Instance> instances;
   world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
       [&](Entity entity, const MeshInstance& drawn, const WorldTransform& transform, const MorphInstance* morph) {
-        if (drawn.mesh >= assets.meshes.size() || !drawn.casts_shadows) return;
+        if (drawn.mesh >= assets.meshes.size()) return;
         Instance instance;
         instance.entity = entity;
         instance.mesh = &assets.meshes[drawn.mesh];
+        instance.mesh_index = drawn.mesh;
+        instance.casts = drawn.casts_shadows;
         instance.world_from_mesh = transform.matrix;
-        if (drawn.skin != kNone) instance.joints = joints_of(joints, entity, instance.joint_origin);
+        instance.mirrored = glm::determinant(glm::dmat3(transform.matrix)) < 0.0;
+        if (drawn.skin != kNone) instance.joints = joints_of(joints, entity, instance.joint_origin, instance.mirrored);
         if (morph != nullptr && std::size_t{morph->first} + morph->count <= weights.size())
           instance.weights = std::span(weights).subspan(morph->first, morph->count);
         instances.push_back(instance);
@@ -56,9 +64,11 @@ std::vector<Instance> gather_instances(const World& world) {
   return instances;
 }
 
+/// The middle of the instances that cast shadows.
 dvec3 middle_of(std::span<const Instance> instances) {
   dvec3 low(1e300), high(-1e300);
   for (const Instance& instance : instances) {
+    if (!instance.casts) continue;
     const dvec3 at = !instance.joints.empty() ? instance.joint_origin
                      : instance.mesh->bounds.empty()
                          ? dvec3(instance.world_from_mesh[3])
@@ -116,6 +126,40 @@ void place_positions(const dmat4& world_from_mesh, const dvec3& origin, std::vec
   for (vec3& position : positions) position = vec3(relative * dvec4(dvec3(position), 1.0));
 }
 
+/// Transform of normals: the cofactors, with the sign that keeps normals on the outside when the matrix mirrors.
+glm::dmat3 normal_matrix(const glm::dmat3& m) {
+  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  const double largest = std::max({glm::length(cofactors[0]), glm::length(cofactors[1]), glm::length(cofactors[2])});
+  const double side = glm::dot(m[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
+  return largest > 0.0 && std::isfinite(largest) ? cofactors * (side / largest) : glm::dmat3(1.0);
+}
+
+/// Normals of a morphed or skinned primitive in the world's axes, of any length.
+std::vector<vec3> deformed_normals(const Primitive& primitive, const Instance& instance, bool morphed, bool skinned) {
+  std::vector<vec3> normals = primitive.normals;
+  for (std::size_t target = 0; morphed && target < primitive.morph_targets.size(); ++target) {
+    const std::vector<vec3>& offsets = primitive.morph_targets[target].normals;
+    for (std::size_t v = 0; v < std::min(normals.size(), offsets.size()); ++v)
+      normals[v] += instance.weights[target] * offsets[v];
+  }
+  const glm::dmat3 rigid = normal_matrix(glm::dmat3(instance.world_from_mesh));
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    if (!skinned) {
+      normals[v] = vec3(rigid * dvec3(normals[v]));
+      continue;
+    }
+    const vec4 weights = normalised(primitive.weights[v]);
+    glm::dmat3 posed(0.0);
+    for (int k = 0; k < 4; ++k) {
+      const std::uint32_t joint = primitive.joints[v][static_cast<std::size_t>(k)];
+      if (weights[k] == 0.0f || joint >= instance.joints.size()) continue;
+      posed += static_cast<double>(weights[k]) * glm::dmat3(dmat4(instance.joints[joint]));
+    }
+    normals[v] = vec3(normal_matrix(posed) * dvec3(normals[v]));
+  }
+  return normals;
+}
+
 void add_cut_out_data(const Primitive& primitive, const TextureSlot& slot, TriangleMesh& mesh) {
   const std::vector<vec2>& uvs = slot.uv_set == 0 ? primitive.uv0 : primitive.uv1;
   mesh.uvs.resize(primitive.positions.size());
@@ -126,8 +170,9 @@ void add_cut_out_data(const Primitive& primitive, const TextureSlot& slot, Trian
   for (const vec4& color : primitive.colors) mesh.alphas.push_back(std::clamp(color.a, 0.0f, 1.0f));
 }
 
-TriangleMesh make_mesh(const Instance& instance, const Primitive& primitive, const SceneAssets& assets,
+TriangleMesh make_mesh(const Instance& instance, std::uint32_t primitive_index, const SceneAssets& assets,
                        std::span<const std::uint32_t> cut_out_of_material, const dvec3& origin) {
+  const Primitive& primitive = instance.mesh->primitives[primitive_index];
   TriangleMesh mesh;
   mesh.positions = morphed_positions(primitive, instance.weights);
   const bool has_influences =
@@ -141,9 +186,12 @@ TriangleMesh make_mesh(const Instance& instance, const Primitive& primitive, con
     if (std::ranges::all_of(corners, [&](std::uint32_t corner) { return corner < mesh.positions.size(); }))
       mesh.indices.insert(mesh.indices.end(), corners.begin(), corners.end());
   }
-  if (primitive.material >= assets.materials.size()) return mesh;
   const bool morphed = !primitive.morph_targets.empty() && instance.weights.size() >= primitive.morph_targets.size();
   const bool skinned = !instance.joints.empty() && has_influences;
+  mesh.surface = {.mesh = instance.mesh_index, .primitive = primitive_index, .mirrored = instance.mirrored};
+  mesh.surface.normal_from_mesh = mat3(normal_matrix(glm::dmat3(instance.world_from_mesh)));
+  if (morphed || skinned) mesh.surface.normals = deformed_normals(primitive, instance, morphed, skinned);
+  if (primitive.material >= assets.materials.size()) return mesh;
   if (!morphed && !skinned && is_emissive(assets.materials[primitive.material])) {
     const WorldBox box = world_box(primitive.bounds, instance.world_from_mesh);
     mesh.min = box.min;
@@ -173,26 +221,13 @@ CutOut make_cut_out(const Material& material, const SceneAssets& assets) {
   return cut_out;
 }
 
-std::size_t wrapped(std::int64_t at, std::int64_t size, WrapMode mode) {
-  if (mode == WrapMode::clamp_to_edge) return static_cast<std::size_t>(std::clamp<std::int64_t>(at, 0, size - 1));
-  const std::int64_t period = mode == WrapMode::mirrored_repeat ? 2 * size : size;
-  const std::int64_t rest = ((at % period) + period) % period;
-  return static_cast<std::size_t>(rest < size ? rest : period - 1 - rest);
-}
-
-/// Coordinate in texels; 0 if it is NaN or its magnitude is 1e15 or more.
-double texel_coordinate(float uv, std::uint32_t size) {
-  const double at = static_cast<double>(uv) * size;
-  return std::abs(at) < 1e15 ? at : 0.0;
-}
-
 }  // namespace
 
 bool CutOut::is_hole(vec2 uv, float vertex_alpha) const {
   float value = alpha * vertex_alpha;
   if (width > 0 && height > 0) {
     const auto texel = [&](std::int64_t x, std::int64_t y) {
-      return static_cast<double>(texels[wrapped(y, height, wrap_v) * width + wrapped(x, width, wrap_u)]);
+      return static_cast<double>(texels[wrapped_texel(y, height, wrap_v) * width + wrapped_texel(x, width, wrap_u)]);
     };
     const double shift = nearest ? 0.0 : 0.5;
     const double x = texel_coordinate(uv.x, width) - shift, y = texel_coordinate(uv.y, height) - shift;
@@ -232,6 +267,16 @@ std::uint64_t SceneTriangles::hash() const {
   return hasher.digest();
 }
 
+std::uint64_t SceneTriangles::hash_of_all() const {
+  Hasher hasher;
+  hasher.value(hash());
+  for (const TriangleMesh& mesh : uncast) {
+    hasher.value(mesh.positions.size()).value(mesh.indices.size()).value(mesh.cut_out);
+    hasher.bytes(std::as_bytes(std::span(mesh.positions))).bytes(std::as_bytes(std::span(mesh.indices)));
+  }
+  return hasher.digest();
+}
+
 SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& origin, JobExecutor& executor) {
   const auto& assets = world.resource<SceneAssets>();
   const std::vector<Instance> instances = gather_instances(world);
@@ -243,20 +288,20 @@ SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& 
     cut_out_of_material[m] = static_cast<std::uint32_t>(triangles.cut_outs.size());
     triangles.cut_outs.push_back(make_cut_out(assets.materials[m], assets));
   }
-  const auto casts = [&](const Primitive& primitive) {
+  const auto is_solid = [&](const Primitive& primitive) {
     const bool has_material = primitive.material < assets.materials.size();
     return !has_material || assets.materials[primitive.material].alpha_mode != AlphaMode::blend;
   };
   std::vector<std::vector<TriangleMesh>> parts(instances.size());
   executor.parallel_for(instances.size(), 1, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      for (const Primitive& primitive : instances[i].mesh->primitives)
-        if (casts(primitive))
-          parts[i].push_back(make_mesh(instances[i], primitive, assets, cut_out_of_material, triangles.origin));
+      for (std::uint32_t p = 0; p < instances[i].mesh->primitives.size(); ++p)
+        if (is_solid(instances[i].mesh->primitives[p]))
+          parts[i].push_back(make_mesh(instances[i], p, assets, cut_out_of_material, triangles.origin));
   });
-  for (std::vector<TriangleMesh>& part : parts)
-    for (TriangleMesh& mesh : part)
-      if (!mesh.indices.empty()) triangles.meshes.push_back(std::move(mesh));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (TriangleMesh& mesh : parts[i])
+      if (!mesh.indices.empty()) (instances[i].casts ? triangles.meshes : triangles.uncast).push_back(std::move(mesh));
   return triangles;
 }
 

@@ -30,6 +30,15 @@ struct CutOut {
   [[nodiscard]] bool is_hole(vec2 uv, float vertex_alpha) const;
 };
 
+/// Where the attributes of a mesh's surface come from. Attributes and textures stay in SceneAssets.
+struct SurfaceSource {
+  std::uint32_t mesh = 0;              ///< index in SceneAssets::meshes
+  std::uint32_t primitive = 0;         ///< index in Mesh::primitives
+  bool mirrored = false;               ///< the front of a triangle is where its corners run clockwise
+  mat3 normal_from_mesh = mat3(1.0f);  ///< to the world's axes, any length
+  std::vector<vec3> normals;           ///< deformed meshes: one per position in the world's axes, instead of the above
+};
+
 /// Triangles with one alpha test.
 struct TriangleMesh {
   std::vector<vec3> positions;         ///< relative to SceneTriangles::origin
@@ -40,22 +49,27 @@ struct TriangleMesh {
   dvec3 min = dvec3(0.0);              ///< emissive meshes: bounds, world
   dvec3 max = dvec3(0.0);
   double emissive_reach_m = 0.0;  ///< emissive meshes: half the diagonal of the mesh's own box; 0 for all others
+  SurfaceSource surface;
 };
 
-/// The triangles of a world that cast shadows.
+/// The triangles of a world.
 struct SceneTriangles {
   dvec3 origin = dvec3(0.0);         ///< world
-  std::vector<TriangleMesh> meshes;  ///< ordered by entity index, then by primitive
+  std::vector<TriangleMesh> meshes;  ///< that cast shadows; ordered by entity index, then by primitive
+  std::vector<TriangleMesh> uncast;  ///< that cast no shadows; in the same order
   std::vector<CutOut> cut_outs;
 
+  /// Number of triangles that cast shadows.
   [[nodiscard]] std::uint64_t count() const;
-  /// Hash of the origin, all triangles and all cut-outs.
+  /// Hash of the origin, the triangles that cast shadows and all cut-outs.
   [[nodiscard]] std::uint64_t hash() const;
+  /// The same with the triangles that cast no shadows.
+  [[nodiscard]] std::uint64_t hash_of_all() const;
 };
 
 /// The triangles of all MeshInstances as a frame shows them after its systems: WorldTransform in double, morphed by
-/// MorphWeights, skinned by JointMatrices with up to four joints per vertex. Blended surfaces and meshes that cast no
-/// shadows are left out. `origin`: world position; none: the middle of all instances.
+/// MorphWeights, skinned by JointMatrices with up to four joints per vertex. Blended surfaces are left out. `origin`:
+/// world position; none: the middle of all instances that cast shadows.
 [[nodiscard]] SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& origin,
                                               JobExecutor& executor);
 

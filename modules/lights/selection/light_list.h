@@ -75,10 +75,6 @@ struct VisibleLights {
 /// The smallest sphere around everything a local light can light, relative to `origin`. Not for directional lights.
 [[nodiscard]] Sphere light_bounds(const PlacedLight& light, const dvec3& origin);
 
-/// Scale and offset of a spot's falloff: intensity factor = clamp(c · scale + offset, 0, 1)², c the cosine of the angle
-/// to the axis. (0, 1) for a point light.
-[[nodiscard]] vec2 spot_ramp(const Light& light);
-
 /// Selects the lights whose bounds may touch the view's frustum. If too many are visible, local lights with the largest
 /// solid angle × intensity stay, and the brightest directional lights; ties go to the lower index in `lights`. Lights
 /// that emit nothing, or are made unusable by NaN or infinity, are left out. Local lights are sorted by the nearest

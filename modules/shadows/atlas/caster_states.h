@@ -60,6 +60,8 @@ class CasterHistory {
   [[nodiscard]] std::span<const CasterState> states() const { return states_; }
   /// The withheld casters of the newest frame.
   [[nodiscard]] const WithheldCasters& withheld() const { return withheld_; }
+  /// Those of the next frame, by withhold().
+  [[nodiscard]] const WithheldCasters& next_withheld() const { return next_withheld_; }
   [[nodiscard]] std::span<const Entity> withheld(Entity light) const { return withheld_.of(light); }
   /// Boxes of all casters that changed between the frame before and the newest one: first all old boxes, then all new
   /// ones.

@@ -220,13 +220,16 @@ void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> hel
 DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views, const ShadowKnobs& knobs,
                         bool anew) {
   const std::vector<std::uint64_t> poses = caster_poses(frame.world(), frame.frame_draws());
+  // If casters of the main view are withheld that were not when its companions drew, their maps are drawn again.
+  const bool same_frame = kept.frame.number == frame.graph().frame();
+  const bool again = same_frame && kept.frame.history.withheld() == kept.history.next_withheld();
   const MapInputs inputs{.faces = views.faces,
                          .casters = frame.casters().casters,
                          .poses = poses,
                          .sources = frame.caster_sources(),
                          .salt = salt_of(frame, knobs),
                          .simplified = knobs.simplified,
-                         .again = kept.frame.number == frame.graph().frame(),
+                         .again = again,
                          .anew = anew};
   kept.frame.number = frame.graph().frame();
   return plan_maps(inputs, kept, frame.services().executor);

@@ -244,10 +244,14 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
   shadows.texels_per_pixel = local_density(settings, plans, sharers, shadows.texels_per_pixel);
   request_local(local, shadows, plans);
   request_directional(directional, view, shadows, plans);
-  const std::uint32_t side = shadows.side.next(plans.requests, shadows.spare_for_overlays, settings.atlas_size);
-  const FacePlaces places = shadows.shared == nullptr
-                                ? shadows.atlas.place(side, plans.requests)
-                                : shadows.shared->place(view.frame, settings.atlas_size, plans.requests);
+  // Companions need little more room: mostly for cascades.
+  const bool spare = shadows.spare_for_overlays || shadows.leads;
+  const std::uint32_t side = shadows.side.next(plans.requests, spare, settings.atlas_size);
+  if (shadows.leads) shadows.shared->set_side(side);
+  const bool has_side = shadows.shared != nullptr && shadows.shared->side() > 0;
+  const std::uint32_t shared_side = has_side ? shadows.shared->side() : settings.atlas_size;
+  const FacePlaces places = shadows.shared == nullptr ? shadows.atlas.place(side, plans.requests)
+                                                      : shadows.shared->place(view.frame, shared_side, plans.requests);
   if (shadows.shared != nullptr) shadows.atlas = shadows.shared->atlas();
   shadows.faces_shrunk = places.shrunk;
   shadows.faces_left_out = places.left_out;

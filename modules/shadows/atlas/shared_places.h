@@ -12,7 +12,8 @@
 
 namespace gloam {
 
-/// Places in an atlas that several views of a frame share, one view after another. A face that an earlier view of the
+/// Places in an atlas that several views of a frame share, one view after another: captures, or a view and its
+/// companions. A face that an earlier view of the
 /// frame has placed keeps its square for later ones, at that view's size. Faces of the frame before keep their squares
 /// while there is room. If a view's new faces find no room beside those of earlier views, they halve together; those
 /// that still find none get no square. Both are counted.
@@ -25,6 +26,9 @@ class SharedPlaces {
   /// Places the faces of one view. frame: a number that differs from frame to frame. size: texels of the atlas' side.
   [[nodiscard]] FacePlaces place(std::uint64_t frame, std::uint32_t size, std::span<const FaceRequest> requests);
   [[nodiscard]] const ShadowAtlas& atlas() const { return atlas_; }
+  /// Side of the atlas that the first view of a frame has chosen for all; 0: none has.
+  void set_side(std::uint32_t texels) { side_ = texels; }
+  [[nodiscard]] std::uint32_t side() const { return side_; }
 
  private:
   struct Placed {
@@ -37,6 +41,7 @@ class SharedPlaces {
   [[nodiscard]] bool try_place(std::uint32_t size, std::span<const FaceRequest> fresh, bool with_last);
 
   ShadowAtlas atlas_;
+  std::uint32_t side_ = 0;
   std::uint64_t joined_frame_ = ~0ull;
   std::vector<std::uint32_t> joined_;
   std::uint64_t frame_ = ~0ull;
@@ -44,7 +49,7 @@ class SharedPlaces {
   std::vector<FaceRequest> last_;  ///< of the frame before
 };
 
-/// The places that captures of a world share, by ShadowViews::owner; a resource of the world. The views own them.
+/// The places that views of a world share, by ShadowViews::owner; a resource of the world. The views own them.
 struct CapturePlaces {
   std::map<std::uint32_t, std::weak_ptr<SharedPlaces>> by_owner;
 };

@@ -38,8 +38,10 @@ struct ShadowViews {
   ShadowAtlas atlas;                 ///< places of the faces; kept from frame to frame
   AtlasSide side;                    ///< texels of the atlas' side; kept from frame to frame
   bool spare_for_overlays = false;   ///< the atlas keeps room for overlays
-  ViewId owner{0};                   ///< of the atlas: the view itself, or a number that captures share
-  std::shared_ptr<SharedPlaces> shared;  ///< null: the view has an atlas of its own
+  /// Of the atlas: the view itself, the view that this one is a companion of, or a number that captures share.
+  ViewId owner{0};
+  std::shared_ptr<SharedPlaces> shared;  ///< null: no other view uses the atlas
+  bool leads = false;                    ///< companions share the atlas; its size goes by the faces of this view
   float texels_per_pixel = 0.0f;         ///< density of local lights' maps; kept from frame to frame; 0: no frame yet
   std::vector<WantedSize> wanted;        ///< ordered by entity index; kept from frame to frame
 };

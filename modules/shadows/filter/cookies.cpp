@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "engine/ecs/view.h"
@@ -54,14 +52,6 @@ std::vector<Weight> weights_of(std::uint32_t target, std::uint32_t source_size) 
   }
   for (Weight& weight : weights) weight.share /= static_cast<float>(sum);
   return weights;
-}
-
-Result<Image> read_image(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{ErrorKind::input, "cannot be read"};
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  return decode_image(std::span(first, bytes.size()));
 }
 
 }  // namespace
@@ -112,7 +102,7 @@ Status load_cookies(World& world) {
     Cookies& cookies = world.resource<Cookies>();
     if (cookies.layers.contains(cookie)) continue;
     const std::string& path = world.resource<SceneStrings>().text(cookie);
-    const auto image = read_image(path);
+    const auto image = read_image_file(path);
     cookies.layers.emplace(cookie, static_cast<std::uint32_t>(cookies.texels.size()));
     ++cookies.version;
     if (image.ok()) {

@@ -53,8 +53,7 @@ uint classify(uint light, uint tile_index, out bool in_face) {
   uint groups = (candidate_kind & uint(GLOAM_CANDIDATES_TWO_GROUPS)) + 1u, verdict = kNotAsked, group = 0u;
   in_face = true;
   do {
-    uint here = classify_group(light, tile_index, group, in_face);
-    verdict = verdict == kNotAsked || verdict == here ? here : here == kNotAsked ? verdict : kUnknown;
+    verdict = agreed(verdict, classify_group(light, tile_index, group, in_face));
   } while (++group < groups);
   return verdict == kNotAsked ? kUnlit : verdict;
 }

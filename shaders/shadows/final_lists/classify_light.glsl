@@ -284,7 +284,7 @@ uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face)
     tile_in_local_face(t, l, findLSB(left), several, f);
     uint here = touches_face(f, reach * stretch + 1.0) ? classify_in_face(f, most_turns, width, stretch, whole, clear)
                                                        : kNotAsked;
-    verdict = verdict == kNotAsked || verdict == here ? here : here == kNotAsked ? verdict : kUnknown;
+    verdict = agreed(verdict, here);
     left &= left - 1u;
   } while (left != 0u && verdict != kUnknown);
   return verdict == kNotAsked ? kUnknown : verdict;

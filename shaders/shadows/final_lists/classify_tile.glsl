@@ -26,6 +26,9 @@ const uint kUnlit = 2u;
 const uint kCastsNone = 3u;
 const uint kNotAsked = 4u;  // no pixel asks: the light would illuminate none of them without shadows
 
+// The verdict of two groups of pixels, or of one group in two faces.
+uint agreed(uint a, uint b) { return a == kNotAsked || a == b ? b : b == kNotAsked ? a : kUnknown; }
+
 const int kMostBlocks = 4;        // most blocks along a side of the tested area, at its coarsest level
 const float kPlaneMargin = 0.75;  // share of the bias that a block may exceed the pixels' planes by
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "engine/scene/assets.h"
 #include "engine/scene/gltf_import.h"
 #include "modules/closeups/components.h"
 #include "modules/depth_of_field/components.h"
@@ -47,7 +48,7 @@ TEST_F(ModuleDemand, an_empty_world_calls_for_lighting_alone) {
   EXPECT_EQ(demand("shadows"), "-no light casts shadows");
   EXPECT_EQ(demand("closeups"), "-no close-up subject");
   EXPECT_EQ(demand("lighting"), "+every picture is lit");
-  EXPECT_EQ(demand("reflections"), "-no proxy and no probe");
+  EXPECT_EQ(demand("reflections"), "-no reflective material");
   EXPECT_EQ(demand("grass"), "-no surface grows grass");
   EXPECT_EQ(demand("particles"), "-no emitter");
   EXPECT_EQ(demand("fog"), "-no fog");
@@ -71,7 +72,7 @@ TEST_F(ModuleDemand, components_that_are_off_call_for_nothing) {
   world.create(Wind{}, ParticleEmitter{}, DepthOfField{}, Fog{});
   EXPECT_EQ(demand("shadows"), "-no light casts shadows");
   EXPECT_EQ(demand("closeups"), "-no close-up subject");
-  EXPECT_EQ(demand("reflections"), "-no proxy and no probe");
+  EXPECT_EQ(demand("reflections"), "-no reflective material");
   EXPECT_EQ(demand("grass"), "-no surface grows grass");
   EXPECT_EQ(demand("particles"), "-no emitter");
   EXPECT_EQ(demand("fog"), "-no fog");
@@ -87,7 +88,11 @@ TEST_F(ModuleDemand, says_how_many_call_for_it) {
   world.create(Fog{.density = 0.1f});
   EXPECT_EQ(demand("fog"), "+the scene has fog");
   EXPECT_EQ(demand("closeups"), "+1 close-up subject");
-  EXPECT_EQ(demand("reflections"), "+1 proxy, 0 probes");
+  EXPECT_EQ(demand("reflections"), "-no reflective material");
+  auto& assets = world.resource<SceneAssets>();
+  assets.materials.push_back({.metallic = 0.0f, .roughness = 0.1f});
+  assets.meshes.emplace_back().primitives.emplace_back().material = 0;
+  EXPECT_EQ(demand("reflections"), "+1 reflective material, 1 proxy, 0 probes");
   EXPECT_EQ(demand("grass"), "+1 surface grows grass");
   EXPECT_EQ(demand("particles"), "+1 emitter");
   EXPECT_EQ(demand("depth_of_field"), "+1 camera has a focus");
@@ -98,7 +103,7 @@ TEST_F(ModuleDemand, says_how_many_call_for_it) {
   world.create(ParticleEmitter{.kind = EmitterKind::fire});
   world.create(DepthOfField{.focus_m = 3.0f});
   EXPECT_EQ(demand("closeups"), "+2 close-up subjects");
-  EXPECT_EQ(demand("reflections"), "+2 proxies, 1 probe");
+  EXPECT_EQ(demand("reflections"), "+1 reflective material, 2 proxies, 1 probe");
   EXPECT_EQ(demand("grass"), "+2 surfaces grow grass");
   EXPECT_EQ(demand("particles"), "+2 emitters");
   EXPECT_EQ(demand("depth_of_field"), "+2 cameras have a focus");

@@ -152,6 +152,7 @@ struct LightingFace : test::GuestSceneTest {
   /// Expects the usual picture if the taken term is added again, and less light if it is not.
   void expect_specular_ambient_can_be_taken(const char* what) {
     guest = {};
+    settings.without = {"reflections"};  // the guest takes their place
     ASSERT_NO_FATAL_FAILURE(draw());
     const std::vector<dvec3> usual = colors_of(linear());
     take_specular_ambient(false);
