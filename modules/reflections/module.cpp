@@ -2,10 +2,24 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/module.h"
 
+#include "engine/render/frame_builder.h"
+#include "engine/scene/assets.h"
 #include "engine/scene/key_table.h"
+#include "modules/lighting/outputs.h"
 #include "modules/lights/components.h"
+#include "modules/reflections/captures.h"
 #include "modules/reflections/components.h"
+#include "modules/reflections/debug/pick.h"
+#include "modules/reflections/debug/visualizers.h"
+#include "modules/reflections/frame.h"
+#include "modules/reflections/knobs.h"
+#include "modules/reflections/materials.h"
+#include "modules/reflections/passes.h"
+#include "modules/reflections/planar/mirror.h"
+#include "modules/reflections/planar/patches.h"
+#include "modules/reflections/proxies/rows.h"
 #include "modules/reflections/proxies/systems.h"
+#include "modules/reflections/reference/adapter.h"
 
 namespace gloam {
 namespace {
@@ -20,16 +34,27 @@ Status check_light_names(World& world) {
   return status;
 }
 
+/// What reflected rays see beside the surfaces of the scene.
+ReflectionExtras traced_extras(const World& world) {
+  ReflectionExtras extras;
+  if (const auto* fog = world.try_resource<HomogeneousFog>())
+    extras.fog = {static_cast<double>(fog->density), dvec3(fog->radiance), static_cast<double>(fog->sky_distance_m)};
+  const auto& captures = world.resource<ReflectionCaptures>();
+  extras.fires = gather_fire_quads(world, [&](std::uint32_t layer) { return proxy_dim(world, captures, layer); });
+  return extras;
+}
+
 class ReflectionsModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "reflections"; }
-  [[nodiscard]] bool built() const override { return false; }
   void register_components(World& world) const override {
     world.register_component<IbrProxy>("ibr_proxy");
     world.register_component<IbrRoom>("ibr_room");
     world.register_component<CubeProbe>("cube_probe");
     world.register_component<ReflectingHeights>("reflecting_heights");
     world.set_resource(ProxySet{});
+    world.set_resource(ReflectionCaptures{});
+    world.set_resource(MirrorPatches{});
   }
   void scene_keys(KeyRegistry& registry) const override {
     const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
@@ -58,18 +83,78 @@ class ReflectionsModule final : public Module {
                              &CubeProbe::global));
     registry.add_finish("reflections", &check_light_names);
   }
-  void add_systems(Schedule& schedule) override { add_proxy_systems(schedule); }
-  void prepare_view(World& world, ViewId view, const KnobRegistry&) const override { prepare_proxy_view(world, view); }
-  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
-    std::size_t proxies = 0;
-    world.view<const IbrProxy>().each(
-        [&](const IbrProxy& p) { proxies += p.size_m.x > 0.0f && p.size_m.y > 0.0f ? 1 : 0; });
-    std::size_t probes = 0;
-    world.view<const CubeProbe>().each([&](const CubeProbe& p) { probes += p.global || p.size_m.x > 0.0f ? 1 : 0; });
-    if (proxies + probes == 0) return {false, "no proxy and no probe"};
-    return {true, std::to_string(proxies) + (proxies == 1 ? " proxy, " : " proxies, ") + std::to_string(probes) +
-                      (probes == 1 ? " probe" : " probes")};
+  void knobs(KnobRegistry& registry) const override { add_reflection_knobs(registry); }
+  /// Knobs whose values differ in the model are judged by traced reflections.
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override {
+    std::vector<ReferenceInfo> references;
+    for (const char* knob :
+         {"reflections.mode", "reflections.tiers", "reflections.roughness", "reflections.blur", "reflections.temporal",
+          "ssr.k1", "ssr.k2", "ssr.reach", "ssr.refine", "ssr.resolution", "ssr.march", "ibr.layers"})
+      references.push_back(traced_reflections(knob, false, &traced_extras));
+    return references;
   }
+  void add_systems(Schedule& schedule) override { add_proxy_systems(schedule); }
+  void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
+    prepare_proxy_view(world, view);
+    world.view_resource<ProxyTileSettings>(view) = tile_settings(world, view, knobs);
+  }
+  void companion_views(World& world, const ViewSettings& main, const KnobRegistry& knobs,
+                       CompanionViews& companions) const override {
+    add_mirrored_view(world, main, reflection_knobs(knobs), companions);
+  }
+  /// Proxies and probes alone demand nothing: only reflective materials show them.
+  [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
+    if (view != nullptr && view->purpose == ViewPurpose::capture) return {false, "captures have no reflections"};
+    const ReflectiveMaterials materials = count_reflective(world.resource<SceneAssets>());
+    const auto count = [](std::size_t number, const char* one, const char* many) {
+      return std::to_string(number) + (number == 1 ? one : many);
+    };
+    if (materials.mirror + materials.rough == 0) return {false, "no reflective material"};
+    const std::size_t probes = world.view<const CubeProbe>().size();
+    if (materials.mirror == 0 && probes == 0) return {false, "no smooth material and no probe"};
+    return {true, count(materials.mirror + materials.rough, " reflective material, ", " reflective materials, ") +
+                      count(world.view<const IbrProxy>().size(), " proxy, ", " proxies, ") +
+                      count(probes, " probe", " probes")};
+  }
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
+    return reflection_visualizers(&traced_extras);
+  }
+  void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
+    list_reflection_pipelines(reflection_knobs(knobs), device.threads_in_turn, last_probes_, list);
+  }
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::announce) announce_reflections(frame);
+    if (phase == PassPhase::shading) add_reflection_passes(frame, staging_);
+    if (const auto* reflections = frame.find<ReflectionFrame>()) last_probes_ = reflections->probes.size();
+    if (phase == PassPhase::visualize) add_reflection_view_pass(frame);
+  }
+  void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
+    const ProxyTiles& tiles = world.view_resource<ProxyTiles>(view.id);
+    sink.count("ibr.proxies_total", static_cast<double>(tiles.outcomes.size()));
+    sink.count("ibr.proxies_active", static_cast<double>(tiles.proxies.size()));
+    sink.count("ibr.proxies_other_room", tiles.count(ProxyOutcome::other_room));
+    sink.count("ibr.proxies_faces_away", tiles.count(ProxyOutcome::faces_away));
+    sink.count("ibr.proxies_out_of_view", tiles.count(ProxyOutcome::out_of_view));
+  }
+  [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {
+    return add_reflection_pick_copies(frame, copies);
+  }
+  [[nodiscard]] std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
+                                              const Captures& copies) const override {
+    return reflection_pick_lines(frame, pixel, copies);
+  }
+  void release() override { staging_.release(); }
+
+ private:
+  static ProxyTileSettings tile_settings(const World& world, ViewId view, const KnobRegistry& registry) {
+    const ReflectionKnobs knobs = reflection_knobs(registry);
+    ProxyTileSettings settings = knobs.tiles;
+    settings.columns = (world.view_resource<RenderView>(view).width + knobs.scale() - 1) / knobs.scale();
+    return settings;
+  }
+
+  ReflectionStaging staging_;
+  std::size_t last_probes_ = 0;  ///< captured probes of the last frame
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/reflections/glossy/hit_distance_api.glsl"
+#include "shaders/reflections/hit_distance_api.glsl"
 
 // Packs distances into an image, or unpacks an image.
 layout(local_size_x = 64) in;

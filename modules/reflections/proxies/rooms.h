@@ -28,7 +28,7 @@ struct ReceiverBand {
 
 /// Heights at which one proxy may be reflected. count 0: the proxy is in none of the chosen rooms.
 struct ReceiverBands {
-  static constexpr std::size_t kCapacity = 8;
+  static constexpr std::size_t kCapacity = 4;  ///< bands of a shaders::ProxyRow: tiles and pixels follow the same rule
   std::array<ReceiverBand, kCapacity> bands{};
   std::size_t count = 0;
   [[nodiscard]] std::span<const ReceiverBand> all() const { return std::span(bands).first(count); }

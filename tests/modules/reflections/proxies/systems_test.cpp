@@ -22,6 +22,7 @@ struct ProxyWorld {
   World world;
   std::unique_ptr<Module> module = make_reflections_module();
   Schedule schedule;
+  KnobRegistry knobs;
   std::vector<Entity> proxies;
   Entity room = kNoEntity;
   ViewSettings settings;
@@ -30,6 +31,7 @@ struct ProxyWorld {
     prepare_scene_world(world);
     module->register_components(world);
     module->add_systems(schedule);
+    module->knobs(knobs);
     schedule.set_checked(true);
     settings.width = 640;
     settings.height = 360;
@@ -50,7 +52,7 @@ struct ProxyWorld {
   void run(JobExecutor& executor) {
     schedule.run(Stage::world, world, executor);
     world.set_view_resource(settings.id, make_view(settings, 0));
-    module->prepare_view(world, settings.id, KnobRegistry{});
+    module->prepare_view(world, settings.id, knobs);
     schedule.run_view(settings.id, world, executor);
   }
   void run() { run(*make_serial_executor()); }
@@ -121,7 +123,7 @@ TEST(ProxySystems, build_tiles_only_after_a_change) {
   expect_change("projection");
   room.settings.camera.orthographic = false;
   expect_change("projection back");
-  room.world.view_resource<ProxyTileSettings>(room.settings.id).tiles = 64;
+  ASSERT_TRUE(room.knobs.set("ibr.tiles", "64").ok());
   expect_change("tiles");
   room.world.get<WorldTransform>(room.room).matrix[3].x = 40.0;
   expect_change("room moved", false);

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/reflections/bake.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/core/assert.h"
+#include "engine/ecs/view.h"
+#include "engine/math/finite.h"
+#include "engine/scene/components.h"
+#include "engine/scene/systems.h"
+#include "modules/reflections/bake/capture_view.h"
+#include "modules/reflections/bake/cube.h"
+#include "modules/reflections/bake/light_sources.h"
+#include "modules/reflections/bake/probe_map.h"
+#include "modules/reflections/bake/proxy_capture.h"
+#include "modules/reflections/bake/proxy_texture.h"
+#include "modules/reflections/components.h"
+#include "modules/reflections/proxies/placed.h"
+
+namespace gloam {
+namespace {
+
+struct ProxyToBake {
+  IbrProxy proxy;
+  PlacedProxy placed;
+};
+
+struct ProbeToBake {
+  Entity entity = kNoEntity;
+  CubeProbe probe;
+  dvec3 eye = dvec3(0.0);
+};
+
+std::vector<ProxyToBake> proxies_to_bake(const World& world) {
+  std::vector<ProxyToBake> proxies;
+  world.view<const IbrProxy, const WorldTransform>().each(
+      [&](Entity entity, const IbrProxy& proxy, const WorldTransform& transform) {
+        ProxyToBake found{proxy, {}};
+        if (place_proxy(entity, proxy, transform.matrix, found.placed) == ProxyPlacement::placed)
+          proxies.push_back(found);
+      });
+  std::ranges::sort(proxies, {}, [](const ProxyToBake& proxy) { return proxy.placed.entity.index; });
+  return proxies;
+}
+
+std::vector<ProbeToBake> probes_to_bake(const World& world) {
+  std::vector<ProbeToBake> probes;
+  world.view<const CubeProbe, const WorldTransform>().each(
+      [&](Entity entity, const CubeProbe& probe, const WorldTransform& transform) {
+        const vec3& size = probe.size_m;
+        const bool has_volume = is_finite(size) && size.x > 0.0f && size.y > 0.0f && size.z > 0.0f;
+        const dvec3 eye(transform.matrix[3]);
+        if (is_finite(eye) && (probe.global || has_volume)) probes.push_back({entity, probe, eye});
+      });
+  std::ranges::sort(probes, {}, [](const ProbeToBake& probe) { return probe.entity.index; });
+  return probes;
+}
+
+/// Captures of one world.
+class Bake {
+ public:
+  Bake(Renderer& renderer, World& world, const BakeSettings& settings)
+      : renderer_(renderer), world_(world), settings_(settings) {}
+  ~Bake() {
+    for (std::uint32_t i = 0; i < kBakeViews; ++i) renderer_.release_view(world_, ViewId{kFirstBakeView.value + i});
+  }
+  Bake(const Bake&) = delete;
+  Bake& operator=(const Bake&) = delete;
+
+  [[nodiscard]] Result<ReflectionCaptures> run() {
+    // Poses the world before anything is placed in it.
+    Schedule schedule;
+    add_scene_systems(schedule);
+    schedule.run(Stage::world, world_, *settings_.executor);
+    const std::vector<ProxyToBake> proxies = proxies_to_bake(world_);
+    const std::vector<ProbeToBake> probes = probes_to_bake(world_);
+    sources_ = light_sources(world_);
+    total_ = proxies.size() + probes.size();
+    captures_.content = capture_content(world_);
+    for (const LightSource& source : sources_) captures_.lights.push_back({source.entity, source.emitted()});
+    if (settings_.progress) settings_.progress(0, total_);
+    GLOAM_TRY(add_proxies(proxies));
+    GLOAM_TRY(add_probes(probes));
+    return std::move(captures_);
+  }
+
+ private:
+  [[nodiscard]] Status add_proxies(const std::vector<ProxyToBake>& proxies) {
+    if (proxies.empty()) return {};
+    captures_.proxies.side = settings_.proxy_side;
+    captures_.proxies.mips = static_cast<std::uint32_t>(std::bit_width(settings_.proxy_side));
+    captures_.proxies.count = static_cast<std::uint32_t>(proxies.size());
+    for (const ProxyToBake& proxy : proxies) GLOAM_TRY(add_proxy(proxy));
+    return {};
+  }
+
+  [[nodiscard]] Status add_proxy(const ProxyToBake& proxy) {
+    const SceneStrings& strings = world_.resource<SceneStrings>();
+    auto chosen = proxy_lights(world_, proxy.placed, strings.text(proxy.proxy.lights), sources_);
+    if (!chosen.ok()) return chosen.error();
+    auto picture = proxy.proxy.texture == 0
+                       ? capture_proxy(renderer_, world_, proxy.placed, settings_.proxy_side)
+                       : read_proxy_texture(strings.text(proxy.proxy.texture), settings_.proxy_side);
+    if (!picture.ok()) return picture.error();
+    if (proxy.proxy.texture != 0 && proxy.proxy.kind == IbrProxyKind::fire)
+      scale_to_lights(*picture, 4.0 * glm::length(glm::cross(proxy.placed.half_u, proxy.placed.half_v)), sources_,
+                      *chosen);
+    const auto layer = static_cast<std::uint32_t>(captures_.proxy_entities.size());
+    for (CapturedProxyLight& light : *chosen) {
+      light.layer = layer;
+      captures_.proxy_lights.push_back(light);
+    }
+    captures_.proxy_entities.push_back(proxy.placed.entity);
+    append_mip_chain(std::move(picture).value(), captures_.proxies.texels);
+    tell_progress();
+    return {};
+  }
+
+  [[nodiscard]] Status add_probes(const std::vector<ProbeToBake>& probes) {
+    if (probes.empty()) return {};
+    CapturedLayers& layers = captures_.probes;
+    for (const ProbeToBake& probe : probes) layers.side = std::max(layers.side, probe_map_side(probe.probe.resolution));
+    layers.mips = probe_map_mips(layers.side);
+    layers.count = static_cast<std::uint32_t>(probes.size());
+    for (const ProbeToBake& probe : probes) {
+      const auto faces = draw_cube_faces(renderer_, world_, probe.eye, probe_face_side(probe.probe.resolution));
+      if (!faces.ok()) return faces.error();
+      append_probe_map(CapturedCube(*faces, *settings_.executor), layers.side, *settings_.executor, layers.texels);
+      captures_.probe_entities.push_back(probe.entity);
+      tell_progress();
+    }
+    return {};
+  }
+
+  void tell_progress() {
+    ++done_;
+    if (settings_.progress) settings_.progress(done_, total_);
+  }
+
+  Renderer& renderer_;
+  World& world_;
+  const BakeSettings& settings_;
+  std::vector<LightSource> sources_;
+  ReflectionCaptures captures_;
+  std::size_t done_ = 0;
+  std::size_t total_ = 0;
+};
+
+}  // namespace
+
+Result<ReflectionCaptures> bake_reflections(Renderer& renderer, World& world, const BakeSettings& settings) {
+  GLOAM_ASSERT(settings.executor != nullptr, "a bake needs an executor");
+  GLOAM_ASSERT(std::has_single_bit(settings.proxy_side), "the side of a proxy's image is a power of two");
+  return Bake(renderer, world, settings).run();
+}
+
+void attach_captures(World& world, ReflectionCaptures captures) {
+  const ReflectionCaptures* before = world.try_resource<ReflectionCaptures>();
+  captures.version = before == nullptr ? 1 : before->version + 1;
+  world.set_resource(std::move(captures));
+}
+
+}  // namespace gloam

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/reflections/bake.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/hash.h"
+#include "engine/ecs/view.h"
+#include "engine/scene/animated_nodes.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/components.h"
+#include "engine/scene/resources.h"
+#include "modules/lights/components.h"
+#include "modules/reflections/components.h"
+#include "modules/shadows/components.h"
+
+namespace gloam {
+namespace {
+
+/// Increment it when the same scene gives other captures than before.
+constexpr std::uint32_t kBakeVersion = 1;
+
+/// Adds the bytes of a number, vector or matrix: T must have no padding.
+template <class T>
+void add_number(Hasher& hasher, const T& value) {
+  hasher.bytes(std::as_bytes(std::span(&value, 1)));
+}
+
+template <class T>
+void add_numbers(Hasher& hasher, const std::vector<T>& values) {
+  hasher.value(values.size()).bytes(std::as_bytes(std::span(values)));
+}
+
+template <class Key>
+std::vector<Entity> sorted_with(const World& world) {
+  std::vector<Entity> entities;
+  world.view<const Key, const WorldTransform>().each(
+      [&](Entity entity, const Key&, const WorldTransform&) { entities.push_back(entity); });
+  std::ranges::sort(entities, {}, &Entity::index);
+  return entities;
+}
+
+/// Hashes assets by their content, so that their order and what no instance uses do not count.
+class AssetHashes {
+ public:
+  explicit AssetHashes(const SceneAssets& assets) : assets_(assets) {}
+
+  [[nodiscard]] std::uint64_t mesh(std::uint32_t index) {
+    const auto found = meshes_.find(index);
+    if (found != meshes_.end()) return found->second;
+    Hasher hasher;
+    if (index < assets_.meshes.size())
+      for (const Primitive& primitive : assets_.meshes[index].primitives) add(hasher, primitive);
+    return meshes_[index] = hasher.digest();
+  }
+
+ private:
+  void add(Hasher& hasher, const Primitive& primitive) {
+    hasher.value(material(primitive.material));
+    add_numbers(hasher, primitive.positions);
+    add_numbers(hasher, primitive.normals);
+    add_numbers(hasher, primitive.tangents);
+    add_numbers(hasher, primitive.uv0);
+    add_numbers(hasher, primitive.uv1);
+    add_numbers(hasher, primitive.colors);
+    add_numbers(hasher, primitive.indices);
+  }
+
+  [[nodiscard]] std::uint64_t material(std::uint32_t index) {
+    if (index >= assets_.materials.size()) return 0;
+    const auto found = materials_.find(index);
+    if (found != materials_.end()) return found->second;
+    const Material& m = assets_.materials[index];
+    Hasher hasher;
+    add_number(hasher, m.base_color);
+    add_number(hasher, m.emissive);
+    for (const float value : {m.metallic, m.roughness, m.normal_scale, m.occlusion_strength, m.alpha_cutoff})
+      add_number(hasher, value);
+    hasher.value(m.alpha_mode).value(m.double_sided).value(m.subsurface);
+    add_number(hasher, m.reflectivity);
+    for (const TextureSlot* slot : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+                                    &m.occlusion_texture, &m.emissive_texture})
+      add(hasher, *slot);
+    return materials_[index] = hasher.digest();
+  }
+
+  void add(Hasher& hasher, const TextureSlot& slot) {
+    hasher.value(slot.uv_set);
+    add_number(hasher, slot.transform_row0);
+    add_number(hasher, slot.transform_row1);
+    if (slot.texture >= assets_.textures.size()) return;
+    const Texture& texture = assets_.textures[slot.texture];
+    hasher.value(texture.srgb).value(texture.nearest).value(texture.wrap_u).value(texture.wrap_v);
+    hasher.value(image(texture.image));
+  }
+
+  [[nodiscard]] std::uint64_t image(std::uint32_t index) {
+    if (index >= assets_.images.size()) return 0;
+    const auto found = images_.find(index);
+    if (found != images_.end()) return found->second;
+    const Image& image = assets_.images[index];
+    Hasher hasher;
+    hasher.value(image.width).value(image.height);
+    add_numbers(hasher, image.rgba);
+    return images_[index] = hasher.digest();
+  }
+
+  const SceneAssets& assets_;
+  std::map<std::uint32_t, std::uint64_t> meshes_;
+  std::map<std::uint32_t, std::uint64_t> materials_;
+  std::map<std::uint32_t, std::uint64_t> images_;
+};
+
+/// Hashes poses of nodes: the matrix of a node at rest, and what an animated node's matrix is made from.
+class PoseHashes {
+ public:
+  explicit PoseHashes(const World& world) : world_(world), animated_(world) {}
+
+  [[nodiscard]] bool moves(Entity node) const { return animated_.moves(node); }
+
+  void add(Hasher& hasher, Entity node) const {
+    if (!moves(node)) return add_number(hasher, world_.get<WorldTransform>(node).matrix);
+    while (true) {
+      add_own(hasher, node);
+      const Parent* parent = world_.try_get<Parent>(node);
+      if (parent == nullptr || !world_.alive(parent->entity)) return;
+      node = parent->entity;
+    }
+  }
+
+ private:
+  void add_own(Hasher& hasher, Entity node) const {
+    bool translated = false, rotated = false, scaled = false;
+    if (animated_.has_channel(node)) {
+      const SceneAssets& assets = world_.resource<SceneAssets>();
+      for (const AnimationBinding& binding : world_.resource<AnimationBindings>().poses) {
+        if (binding.entity != node) continue;
+        const AnimationClip& clip = assets.clips[binding.clip];
+        const AnimationChannel& channel = clip.channels[binding.channel];
+        translated = translated || channel.path == AnimationPath::translation;
+        rotated = rotated || channel.path == AnimationPath::rotation;
+        scaled = scaled || channel.path == AnimationPath::scale;
+        hasher.value(channel.path).value(channel.interpolation);
+        add_number(hasher, clip.duration_s);
+        add_numbers(hasher, channel.times);
+        add_numbers(hasher, channel.values);
+      }
+    }
+    if (const LocalTransform* pose = world_.try_get<LocalTransform>(node)) {
+      if (!translated) add_number(hasher, pose->translation);
+      if (!rotated) add_number(hasher, pose->rotation);
+      if (!scaled) add_number(hasher, pose->scale);
+    }
+    if (const LocalMatrix* pose = world_.try_get<LocalMatrix>(node)) add_number(hasher, pose->matrix);
+  }
+
+  const World& world_;
+  AnimatedNodes animated_;
+};
+
+void add_file(Hasher& hasher, const World& world, std::uint32_t name) {
+  if (name == 0) return;
+  std::ifstream file(world.resource<SceneStrings>().text(name), std::ios::binary);
+  hasher.text(std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+}
+
+void add_instances(Hasher& hasher, const World& world, const PoseHashes& poses) {
+  AssetHashes assets(world.resource<SceneAssets>());
+  for (const Entity entity : sorted_with<MeshInstance>(world)) {
+    const auto& instance = world.get<MeshInstance>(entity);
+    if (instance.skin != kNone || world.has<MorphInstance>(entity) || poses.moves(entity)) continue;
+    hasher.value(assets.mesh(instance.mesh)).value(instance.casts_shadows);
+    poses.add(hasher, entity);
+  }
+}
+
+void add_lights(Hasher& hasher, const World& world, const PoseHashes& poses, const std::vector<Entity>& lights) {
+  for (const Entity entity : lights) {
+    const auto& light = world.get<Light>(entity);
+    hasher.value(light.kind);
+    add_number(hasher, light.color);
+    for (const float value :
+         {light.intensity, light.range_m, light.inner_angle, light.outer_angle, light.width_m, light.apparent_angle})
+      add_number(hasher, value);
+    add_file(hasher, world, light.cookie);
+    const ShadowCaster* caster = world.try_get<ShadowCaster>(entity);
+    hasher.value(caster == nullptr || caster->enabled).value(caster == nullptr ? 0u : caster->resolution);
+    poses.add(hasher, entity);
+  }
+}
+
+void add_proxies(Hasher& hasher, const World& world, const PoseHashes& poses, const std::vector<Entity>& lights) {
+  for (const Entity entity : sorted_with<IbrProxy>(world)) {
+    const auto& proxy = world.get<IbrProxy>(entity);
+    add_number(hasher, proxy.size_m);
+    hasher.value(proxy.kind).value(proxy.texture != 0);
+    add_file(hasher, world, proxy.texture);
+    const std::string& names = world.resource<SceneStrings>().text(proxy.lights);
+    const auto named = resolve_light_names(world, names, "gloam.ibr_proxy.lights");
+    hasher.value(named.ok() ? named->size() : 0);
+    if (named.ok())
+      for (const Entity light : *named) hasher.value(std::ranges::find(lights, light) - lights.begin());
+    poses.add(hasher, entity);
+  }
+}
+
+void add_probes(Hasher& hasher, const World& world, const PoseHashes& poses) {
+  for (const Entity entity : sorted_with<CubeProbe>(world)) {
+    const auto& probe = world.get<CubeProbe>(entity);
+    add_number(hasher, probe.size_m);
+    hasher.value(probe.resolution).value(probe.global);
+    poses.add(hasher, entity);
+  }
+}
+
+}  // namespace
+
+std::uint64_t capture_content(const World& world) {
+  const PoseHashes poses(world);
+  const std::vector<Entity> lights = sorted_with<Light>(world);
+  Hasher hasher;
+  hasher.value(kBakeVersion);
+  const auto& environment = world.resource<SceneEnvironment>();
+  for (const vec3& sky : {environment.sky_zenith, environment.sky_horizon, environment.sky_ground})
+    add_number(hasher, sky);
+  add_instances(hasher, world, poses);
+  hasher.text("lights");
+  add_lights(hasher, world, poses, lights);
+  hasher.text("proxies");
+  add_proxies(hasher, world, poses, lights);
+  hasher.text("probes");
+  add_probes(hasher, world, poses);
+  return std::max<std::uint64_t>(hasher.digest(), 1);
+}
+
+}  // namespace gloam

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "engine/core/result.h"
+#include "engine/ecs/world.h"
+#include "engine/render/renderer.h"
+#include "modules/reflections/bake/picture.h"
+#include "modules/reflections/proxies/placed.h"
+
+namespace gloam {
+
+/// The orthographic view of a proxy: it looks against the proxy's normal, has the exact size of the quad, and sees from
+/// 10 % of the quad's longer side in front of it (at least 0.25 m, at most 1 m) to 25 % behind it (1 m, 4 m). side:
+/// pixels of both sides, so pixels are not square where the quad is not. Of a sheared proxy it shows the rectangle
+/// along half_u.
+[[nodiscard]] ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side);
+
+/// Draws the static scene as proxy_view() sees it and returns it with `side` texels, alpha 0 where no opaque surface
+/// was met. u runs along half_u, v against half_v.
+[[nodiscard]] Result<CapturedPicture> capture_proxy(Renderer& renderer, World& world, const PlacedProxy& proxy,
+                                                    std::uint32_t side);
+
+}  // namespace gloam

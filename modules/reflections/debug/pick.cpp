@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/reflections/debug/pick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "engine/math/packing.h"
+#include "engine/render/outputs.h"
+#include "engine/render/readback/geometry_picture.h"
+#include "engine/render/view_constants.h"
+#include "engine/scene/resources.h"
+#include "modules/reflections/frame.h"
+#include "modules/reflections/proxies/placed.h"
+#include "modules/reflections/proxies/tiles.h"
+
+namespace gloam {
+namespace {
+
+constexpr const char* kScreenCopy = "reflections.screen_space";
+constexpr const char* kColorCopy = "reflections.color";
+constexpr const char* kSurfaceCopy = "reflections.surface";
+
+float alpha_of(const Captures& copies, const char* copy, std::size_t texel) {
+  return half_to_float(static_cast<std::uint16_t>(copies.item<uvec2>(copy, texel).y >> 16));
+}
+
+struct MetProxy {
+  std::size_t index = 0;  ///< of ProxySet::proxies
+  double distance_m = 0.0;
+};
+
+/// The nearest kept proxy whose front a ray meets.
+std::optional<MetProxy> nearest_proxy(const ProxySet& set, const ProxyTiles& tiles, const dvec3& origin,
+                                      const dvec3& direction) {
+  std::optional<MetProxy> nearest;
+  for (const std::uint32_t index : tiles.proxies) {
+    const PlacedProxy& proxy = set.proxies[index];
+    const double facing = glm::dot(proxy.normal, direction);
+    if (facing >= 0.0) continue;
+    const double distance_m = glm::dot(proxy.normal, proxy.center - origin) / facing;
+    if (distance_m <= 0.0 || (nearest && nearest->distance_m <= distance_m)) continue;
+    const dvec3 offset = origin + direction * distance_m - proxy.center;
+    const double u = glm::dot(offset, proxy.half_u) / glm::dot(proxy.half_u, proxy.half_u);
+    const double v = glm::dot(offset, proxy.half_v) / glm::dot(proxy.half_v, proxy.half_v);
+    if (std::abs(u) <= 1.0 && std::abs(v) <= 1.0) nearest = MetProxy{index, distance_m};
+  }
+  return nearest;
+}
+
+std::string proxy_line(const FrameBuilder& frame, const PickedPixel& pixel) {
+  const RenderView& view = frame.view();
+  const dvec3 position = view.position + surface_position(view, pixel.x, pixel.y, pixel.depth);
+  const dvec3 seen =
+      glm::normalize(view.camera.orthographic ? dvec3(-view_constants(view).view_row_z) : position - view.position);
+  const auto& set = frame.world().resource<ProxySet>();
+  const auto met =
+      nearest_proxy(set, frame.world().view_resource<ProxyTiles>(view.id), position, dvec3(seen.x, -seen.y, seen.z));
+  if (!met) return "proxy: none is met";
+  const Entity entity = set.proxies[met->index].entity;
+  const std::string_view name = frame.world().resource<SceneNames>().name_of(entity);
+  char text[64];
+  std::snprintf(text, sizeof(text), ", met after %.2f m", met->distance_m);
+  return "proxy: " + (name.empty() ? "entity " + std::to_string(entity.index) : std::string(name)) + text;
+}
+
+}  // namespace
+
+Status add_reflection_pick_copies(FrameBuilder& frame, Captures& copies) {
+  const ReflectionFrame* reflections = frame.find<ReflectionFrame>();
+  if (reflections == nullptr || !reflections->mirror) return {};
+  if (reflections->ssr_color) GLOAM_TRY(copies.add(frame.graph(), kScreenCopy, reflections->ssr_color));
+  GLOAM_TRY(copies.add(frame.graph(), kColorCopy, reflections->color));
+  return copies.add(frame.graph(), kSurfaceCopy, reflections->surface);
+}
+
+std::vector<std::string> reflection_pick_lines(const FrameBuilder& frame, const PickedPixel& pixel,
+                                               const Captures& copies) {
+  const ReflectionFrame* reflections = frame.find<ReflectionFrame>();
+  if (reflections == nullptr || !(pixel.depth > 0.0f)) return {};
+  const char* beyond = reflections->probes.empty() ? "the sky" : "probes";
+  if (!reflections->mirror) return {std::string("reflection: ") + beyond};
+  const shaders::ReflectionConstants& c = reflections->constants;
+  const uvec2 texel = glm::min(uvec2(pixel.x, pixel.y) / c.scale, c.size - 1u);
+  const std::size_t at = std::size_t{texel.y} * c.size.x + texel.x;
+  const auto surface = copies.item<std::uint32_t>(kSurfaceCopy, at);
+  if ((surface >> 8 & 0xFFu) == 0) return {std::string("reflection: ") + beyond + " (rough, tilted or not reflective)"};
+  const double distance_m = static_cast<double>((surface >> 16 & 0xFFu) + 256 * (surface >> 24)) / 100.0;
+  char text[160];
+  if (reflections->planar) {
+    std::snprintf(text, sizeof(text), "reflection: mirrored at the height %.3f m, hit after %.2f m",
+                  reflections->planar->height_m, distance_m);
+    return {text};
+  }
+  const float screen = reflections->ssr_color ? alpha_of(copies, kScreenCopy, at) : 0.0f;
+  const float covered = alpha_of(copies, kColorCopy, at);
+  const float proxies = std::max(covered - screen, 0.0f);
+  const char* tier = screen >= proxies && screen >= 1.0f - covered ? "screen space"
+                     : proxies >= 1.0f - covered                   ? "proxies"
+                                                                   : beyond;
+  std::snprintf(text, sizeof(text),
+                "reflection: %s, confidence of screen space %.2f, of screen space and proxies %.2f, hit after %.2f m",
+                tier, static_cast<double>(screen), static_cast<double>(covered), distance_m);
+  return {text, proxy_line(frame, pixel)};
+}
+
+}  // namespace gloam

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/reflections/planar/patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/ecs/view.h"
+#include "engine/math/finite.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/components.h"
+#include "modules/reflections/materials.h"
+
+namespace gloam {
+namespace {
+
+constexpr double kLeastUp = 0.999;  // of a triangle's normal: 2.6°
+constexpr float kSmooth = 0.25f;    // as in shaders/reflections/surfaces_api.glsl
+
+/// How much of a mirror a material is, 0…1. Its textures are not read.
+double mirror_weight(const Material& material) {
+  if (reflective(material) != Reflective::mirror) return 0.0;
+  const bool textured = material.metallic_roughness_texture.texture != kNone;
+  const float roughness = std::clamp((material.roughness - kSmooth) / (kTooRoughForMirrors - kSmooth), 0.0f, 1.0f);
+  const float smooth = textured ? 0.5f : 1.0f - roughness * roughness * (3.0f - 2.0f * roughness);
+  const float derived = (1.0f - material.roughness) * (0.5f + 0.5f * material.metallic);
+  const float reflectivity = material.reflectivity >= 0.0f ? material.reflectivity : textured ? 0.5f : derived;
+  return static_cast<double>(smooth * reflectivity);
+}
+
+/// Adds the primitive's horizontal triangles, a patch each.
+void add_triangles(const Primitive& primitive, double weight, const dmat4& world_from_mesh,
+                   std::vector<MirrorPatch>& triangles) {
+  const auto corner = [&](std::size_t i) {
+    return dvec3(world_from_mesh * dvec4(dvec3(primitive.positions[primitive.indices[i]]), 1.0));
+  };
+  const double side = glm::determinant(glm::dmat3(world_from_mesh)) < 0.0 ? -1.0 : 1.0;
+  for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+    const dvec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);
+    const dvec3 normal = side * glm::cross(b - a, c - a);
+    const double length = glm::length(normal);
+    if (!std::isfinite(length) || !(normal.y > kLeastUp * length)) continue;
+    MirrorPatch patch{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), (a.y + b.y + c.y) / 3.0,
+                      0.5 * length * weight};
+    if (patch.max.y - patch.min.y <= kPlaneThickness_m && patch.mirrors_m2 > 0.0) triangles.push_back(patch);
+  }
+}
+
+/// Joins triangles from the lowest one up, as long as they fit into one plane.
+std::vector<MirrorPatch> joined(std::vector<MirrorPatch> triangles) {
+  std::ranges::sort(triangles, {}, [](const MirrorPatch& patch) { return patch.min.y; });
+  std::vector<MirrorPatch> patches;
+  for (const MirrorPatch& triangle : triangles) {
+    if (patches.empty() || triangle.max.y - patches.back().min.y > kPlaneThickness_m) {
+      patches.push_back(triangle);
+      continue;
+    }
+    MirrorPatch& patch = patches.back();
+    const double sum = patch.mirrors_m2 + triangle.mirrors_m2;
+    patch.height_m += (triangle.height_m - patch.height_m) * (triangle.mirrors_m2 / sum);
+    patch.mirrors_m2 = sum;
+    patch.min = glm::min(patch.min, triangle.min);
+    patch.max = glm::max(patch.max, triangle.max);
+  }
+  return patches;
+}
+
+std::vector<MirrorPatch> patches_of(const SceneAssets& assets, std::uint32_t mesh, const dmat4& world_from_mesh) {
+  std::vector<MirrorPatch> triangles;
+  for (const Primitive& primitive : assets.meshes[mesh].primitives) {
+    const bool known = primitive.material < assets.materials.size();
+    const double weight = mirror_weight(known ? assets.materials[primitive.material] : Material{});
+    if (weight > 0.0) add_triangles(primitive, weight, world_from_mesh, triangles);
+  }
+  return joined(std::move(triangles));
+}
+
+std::vector<std::uint8_t> mirror_meshes(const SceneAssets& assets) {
+  std::vector<std::uint8_t> mirrors(assets.meshes.size(), 0);
+  for (std::size_t m = 0; m < mirrors.size(); ++m)
+    for (const Primitive& primitive : assets.meshes[m].primitives)
+      if (primitive.material < assets.materials.size() && mirror_weight(assets.materials[primitive.material]) > 0.0)
+        mirrors[m] = 1;
+  return mirrors;
+}
+
+}  // namespace
+
+void MirrorPatches::update(const World& world) {
+  const SceneAssets& assets = world.resource<SceneAssets>();
+  bool changed = version_ != assets.version || mirrors_.size() != assets.meshes.size();
+  if (changed) {
+    mirrors_ = mirror_meshes(assets);
+    instances_.clear();
+    version_ = assets.version;
+  }
+  std::size_t count = 0;
+  world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
+      [&](Entity entity, const MeshInstance& instance, const WorldTransform& transform, const MorphInstance* morph) {
+        if (instance.mesh >= mirrors_.size() || mirrors_[instance.mesh] == 0) return;
+        if (instance.skin != kNone || morph != nullptr) return;
+        if (count == instances_.size()) instances_.emplace_back();
+        Instance& known = instances_[count++];
+        if (known.entity == entity && known.mesh == instance.mesh && known.world_from_mesh == transform.matrix) return;
+        known = {entity, instance.mesh, transform.matrix, patches_of(assets, instance.mesh, transform.matrix)};
+        ++searched_;
+        changed = true;
+      });
+  changed = changed || count != instances_.size();
+  instances_.resize(count);
+  if (!changed) return;
+  all_.clear();
+  for (const Instance& instance : instances_) all_.insert(all_.end(), instance.patches.begin(), instance.patches.end());
+}
+
+}  // namespace gloam

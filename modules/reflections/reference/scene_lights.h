@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/math/types.h"
+#include "engine/render/reference/scene_tracer.h"
+#include "modules/lights/components.h"
+
+namespace gloam {
+
+/// A light for references: how it lights (shaders/lights/lights_api.glsl, in double), and its emitter. Cookies are left
+/// out: their images are files that only the passes of the shadows module load.
+struct TwinLight {
+  LightKind kind = LightKind::point;
+  dvec3 position = dvec3(0.0);         ///< relative to the origin given to gather_lights()
+  dvec3 axis = dvec3(0.0, 0.0, -1.0);  ///< unit, the way it shines
+  dvec3 color = dvec3(0.0);            ///< candela; directional: lux
+  double range2 = 0.0;                 ///< squared range in m²
+  double spot_scale = 0.0;
+  double spot_offset = 1.0;
+  double radius = 0.0;  ///< of the emitter's disc in metres; directional: at distance 1
+  bool casts = true;
+  std::uint32_t bulbs = 0;  ///< index in TwinLights::bulbs
+};
+
+struct TwinLights {
+  std::vector<TwinLight> lights;  ///< all that shine, by entity index
+  /// Sets of emissive meshes that do not block their lights, for SceneTracer::occluded(). The first is empty.
+  std::vector<std::vector<std::uint32_t>> bulbs;
+};
+
+[[nodiscard]] TwinLights gather_lights(const World& world, const SceneTracer& tracer);
+
+/// Illuminance, in lux, at a point on a plane that faces the light, if nothing blocks it. to_light: set to the unit
+/// direction to the light.
+[[nodiscard]] dvec3 illuminance_of(const TwinLight& light, const dvec3& point, dvec3& to_light);
+
+/// The segment to a point of the emitter, for SceneTracer::occluded(). start: where the ray begins. x, y: two numbers
+/// in [0, 1) that choose the point. Returns false if the light is so near that nothing can block it.
+[[nodiscard]] bool aim_at_emitter(const TwinLight& light, const dvec3& start, double x, double y, ShadowRay& ray);
+
+}  // namespace gloam

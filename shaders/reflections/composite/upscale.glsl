@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_REFLECTIONS_COMPOSITE_UPSCALE_GLSL
+#define GLOAM_SHADERS_REFLECTIONS_COMPOSITE_UPSCALE_GLSL
+
+#include "shaders/reflections/hit_distance_api.glsl"
+#include "shaders/reflections/reflections_shared.h"
+#include "shaders/render/view_api.glsl"
+
+// Looks the reflection of a pixel up in the reflection images. Include this after the uniforms `view` and `reflection`
+// and the images color_image and surface_image.
+
+struct Mirrored {
+  vec3 light;        // premultiplied by the confidence
+  float confidence;  // 0: nothing reflects here
+  float distance_m;  // along the mirrored ray; of the nearest texel, or the mean where the texels show one surface
+};
+
+const float kOneSurface = 1.25;  // ratio of distances up to which texels show one surface
+
+// Bilinear over the texels that reflect. at: pixels of the view, centres at whole numbers.
+Mirrored fetch_mirrored(vec2 at) {
+  vec2 candidate = vec2(reflection.first_candidate & 1u, reflection.first_candidate >> 1);
+  vec2 shown = reflection.scale == 1u ? vec2(0.0) : reflection.centered != 0u ? vec2(0.5) : candidate;
+  vec2 texel = clamp((at - shown) / float(reflection.scale), vec2(0.0), vec2(reflection.size - 1u));
+  ivec2 base = ivec2(texel), last = ivec2(reflection.size) - 1;
+  vec2 part = texel - vec2(base);
+  vec4 sum = vec4(0.0);
+  float total = 0.0, most = 0.0, nearest_m = 0.0, mean_m = 0.0, least_m = 1e9, greatest_m = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = ivec2(i & 1, i >> 1);
+    ivec2 place = min(base + offset, last);
+    vec4 surface = texelFetch(surface_image, place, 0);
+    vec2 weights = mix(1.0 - part, part, vec2(offset));
+    float weight = surface.y > 0.0 ? weights.x * weights.y + 1e-4 : 0.0;
+    vec4 color = texelFetch(color_image, place, 0);
+    sum += weight > 0.0 ? weight * color : vec4(0.0);  // texels of other tiles hold no values
+    total += weight;
+    float distance_m = unpack_hit_distance(surface.zw);
+    nearest_m = weight > most ? distance_m : nearest_m;
+    mean_m += weight * distance_m;
+    least_m = weight > 1e-3 ? min(least_m, distance_m) : least_m;
+    greatest_m = weight > 1e-3 ? max(greatest_m, distance_m) : greatest_m;
+    most = max(most, weight);
+  }
+  sum = total > 0.0 ? sum / total : vec4(0.0);
+  bool one_surface = total > 0.0 && greatest_m < kOneSurface * least_m;
+  return Mirrored(sum.rgb, sum.a, one_surface ? mean_m / total : nearest_m);
+}
+
+// The pixel at which a horizontal surface shows what this one shows: its ray ends at a point whose mirror image in the
+// horizontal plane through the pixel is projected to the screen.
+vec2 bent_pixel(vec2 pixel, vec3 position, vec3 normal, float distance_m) {
+  vec3 ray = reflect(-normalize(to_viewer(view, position)), normal);
+  vec3 image = position + vec3(ray.x, -ray.y, ray.z) * distance_m;
+  vec4 clip = view.clip_from_relative * vec4(image, 1.0);
+  vec2 at = (0.5 + clip.xy / max(clip.w, 1e-6) * vec2(0.5, -0.5)) * vec2(view.size) - 0.5;
+  return clip.w > view.near_m || view.orthographic != 0u ? at : pixel;
+}
+
+const float kMuchCloser = 0.5;  // share of the old fetch's distance below which the bent one has met something else
+const float kMostBend = 0.25;   // of the picture's height
+
+Mirrored mirrored_at(ivec2 pixel, vec3 position, vec3 normal) {
+  Mirrored straight = fetch_mirrored(vec2(pixel));
+  if (straight.confidence <= 0.0 || normal.y > 0.99999) return straight;
+  vec2 bend = bent_pixel(vec2(pixel), position, normal, straight.distance_m) - vec2(pixel);
+  float most = kMostBend * float(view.size.y), length_px = length(bend);
+  if (length_px > most) bend *= most / length_px;
+  Mirrored bent = fetch_mirrored(vec2(pixel) + bend);
+  bool other = bent.confidence <= 0.0 || bent.distance_m < kMuchCloser * straight.distance_m;
+  if (other) return straight;
+  return bent;
+}
+
+#endif

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/reflections/hit_distance_api.glsl"
+#include "shaders/reflections/reflections_shared.h"
+#include "shaders/render/view_shared.h"
+
+// Image-based reflections (reflections tier 2), merged with those of screen space: the nearest layers along the
+// mirrored ray, sorted by distance, blended front to back. Writes what the later passes need of a reflection.
+
+layout(constant_id = 0) const uint kScreenSpace = 1u;  // 0: without tier 1
+layout(constant_id = 1) const uint kProxies = 1u;      // 0: without tier 2
+layout(constant_id = 2) const uint kLayers = 4u;       // entries of the sorted array, 1…4
+layout(constant_id = 3) const uint kSphereTest = 1u;
+layout(constant_id = 4) const uint kNaive = 0u;           // 1: every proxy of the world for every pixel, without tiles
+layout(constant_id = 5) const uint kPixelRoughness = 1u;  // 0: one spread for all surfaces, as in the paper
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 1, scalar) uniform Reflection { ReflectionConstants reflection; };
+layout(set = 0, binding = 2) uniform usampler2D mirror_image;
+layout(set = 0, binding = 5) uniform sampler2D ssr_color;
+layout(set = 0, binding = 6) uniform sampler2D ssr_distance;
+layout(set = 0, binding = 7, scalar) readonly buffer ProxyRows { ProxyRow proxy_rows[]; };
+layout(set = 0, binding = 8, scalar) readonly buffer ProxyMasks { uint proxy_masks[]; };
+layout(set = 0, binding = 9) uniform sampler2DArray proxy_images;
+layout(set = 0, binding = 10) uniform sampler2D diffuse_light;
+layout(set = 0, binding = 11, scalar) readonly buffer ChangedLights { ChangedLight changed_lights[]; };
+layout(set = 0, binding = 12, scalar) uniform Tiles { ProxyTileConstants tiles; };
+layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D color_image;  // premultiplied radiance, confidence
+layout(set = 0, binding = 14, rgba8) uniform writeonly image2D surface_image;  // spread, roughness, packed distance
+
+#define GLOAM_MIRROR_TILES 3
+#include "shaders/reflections/mirror_surface_api.glsl"
+#include "shaders/reflections/proxies/changed_light_api.glsl"
+#include "shaders/reflections/proxies/proxies_api.glsl"
+#include "shaders/reflections/spread_api.glsl"
+
+const float kFar = 1e9;
+const float kBehindScreen_m = 0.3;  // a proxy this little in front of a hit of screen space stands for the same surface
+
+// A layer along the ray. `order_m` sorts; kFar: empty.
+struct Layer {
+  float order_m;
+  float distance_m;
+  vec4 light;  // premultiplied radiance and alpha
+};
+Layer layers[4];
+
+// Inserts a layer; the farthest one is dropped when the array is full.
+void insert(Layer layer) {
+  for (uint i = 0u; i < kLayers; ++i) {
+    bool nearer = layer.order_m < layers[i].order_m;
+    Layer moved = layers[i];
+    if (nearer) layers[i] = layer;
+    if (nearer) layer = moved;
+  }
+}
+
+// The proxy's image where the ray meets it. The mip follows the distance of the mirrored picture.
+vec4 proxy_light(ProxyRow proxy, ProxyHit hit, MirrorSurface s, float ratio) {
+  float away = view.orthographic != 0u ? 1.0 : length(s.position) + hit.distance_m;
+  float lod = log2(max(length(view.ray_dx.xyz) * float(reflection.scale) * away / proxy.texel_m, 1.0));
+  vec4 light = textureLod(proxy_images, vec3(hit.uv, proxy.layer), lod);
+  return vec4(light.rgb * (proxy.dim * mix(1.0, ratio, proxy.scaled)), light.a * min(proxy.dim, 1.0));
+}
+
+void try_proxy(uint index, MirrorSurface s, float ratio) {
+  ProxyRow proxy = proxy_rows[index];
+  if (kNaive != 0u && proxy.room == 0u) return;
+  if (kSphereTest != 0u && !meets_sphere(proxy, s.position, s.direction)) return;
+  ProxyHit hit = meet_proxy(proxy, s.position, s.direction);
+  if (hit.met && proxy.dim > 0.0) {
+    insert(Layer(hit.distance_m, hit.distance_m, proxy_light(proxy, hit, s, ratio)));
+  }
+}
+
+void add_proxies(MirrorSurface s, int column, float ratio) {
+  if (kNaive != 0u) {
+    for (uint i = 0u; i < tiles.proxies; ++i) try_proxy(i, s, ratio);
+    return;
+  }
+  uint tile = uint(column) * tiles.tiles / reflection.size.x;
+  for (uint word = 0u; word < tiles.words; ++word)
+    for (uint bits = proxy_masks[tile * tiles.words + word]; bits != 0u; bits &= bits - 1u)
+      try_proxy(word * 32u + uint(findLSB(bits)), s, ratio);
+}
+
+void main() {
+  ivec2 texel;
+  if (!mirror_texel(texel)) return;
+  MirrorSurface s = decode_mirror_surface(texelFetch(mirror_image, texel, 0).xy, texel);
+  vec4 color = vec4(0.0), surface = vec4(0.0);
+  if (s.share > 0.0) {
+    for (uint i = 0u; i < 4u; ++i) layers[i] = Layer(kFar, 0.0, vec4(0.0));
+    if (kScreenSpace != 0u) {
+      vec4 ssr = texelFetch(ssr_color, texel, 0);
+      float distance_m = unpack_hit_distance(texelFetch(ssr_distance, texel, 0).xy);
+      if (ssr.a > 0.0) insert(Layer(distance_m - kBehindScreen_m, distance_m, vec4(ssr.rgb * ssr.a, ssr.a)));
+    }
+    if (kProxies != 0u) {
+      float ratio = 1.0;
+      if (reflection.changed_lights != 0u)
+        ratio = diffuse_light_ratio(texelFetch(diffuse_light, s.pixel, 0).rgb, s.position, vec3(0.0, 1.0, 0.0));
+      add_proxies(s, texel.x, ratio);
+    }
+    float distance_m = 0.0;
+    for (uint i = 0u; i < kLayers; ++i) {
+      float part = 1.0 - color.a;
+      color += part * layers[i].light;
+      distance_m += part * layers[i].light.a * layers[i].distance_m;
+    }
+    // What remains is seen in a probe, far away.
+    distance_m = color.a > 1e-3 ? distance_m / color.a : kMostHitCentimetres * 0.01;
+    float spread = kPixelRoughness != 0u ? mirrored_share(s, distance_m) : screen_distance(s, distance_m);
+    surface = vec4(spread, max(s.roughness, 1.0 / 255.0), pack_hit_distance(distance_m));
+    color *= s.share;
+  }
+  imageStore(color_image, texel, color);
+  imageStore(surface_image, texel, surface);
+}

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_REFLECTIONS_REFLECTIONS_SHARED_H
+#define GLOAM_SHADERS_REFLECTIONS_REFLECTIONS_SHARED_H
+
+#include "shaders/common/prelude.h"
+
+GLOAM_SHARED_BEGIN
+
+/// Constants of all reflection passes of a view.
+struct ReflectionConstants {
+  uvec2 size;            // texels of the reflection images
+  uint scale;            // pixels of the view per texel, along each side: 1 or 2
+  uint first_candidate;  // 0…3: which pixel of a 2×2 block is looked at first
+  // Screen space.
+  float k1;           // linear samples = max(1, k1 · exp(−k2 · view depth))
+  float k2;           // 1/m
+  uint refine;        // binary search steps
+  float reach_m;      // height above the reflecting surface up to which rays are followed
+  float thickness_m;  // depth that surfaces are assumed to have behind their visible side
+  // Glossy blur.
+  float blur_scale;      // standard deviation of the blur, texels, for spread 1 (per pixel roughness: and roughness 1)
+  float blur_across;     // width of the blur along rows as a share of that along columns; per pixel roughness: at least
+  uint pixel_roughness;  // 1: blur by the roughness of each surface; 0: one width for all, as in the paper
+  uint blur_radius;      // most texels on each side, ≤ GLOAM_MOST_BLUR_RADIUS
+  // Fog on the reflected path.
+  vec4 fog_radiance;    // rgb, cd/m²
+  float fog_density;    // 1/m
+  float fog_sky_m;      // path length through the fog of rays that meet no surface
+  float light_scale;    // 1: proxies and probes follow the current lights; 0: as captured
+  uint centered;        // 1: a texel shows the middle of its block; 0: the block's first candidate
+  uint changed_lights;  // lights that differ from their state at capture
+};
+
+/// Arguments of an indirect dispatch over the listed tiles: GLOAM_TILE_ROW workgroups wide, one per tile, and as high
+/// as needed.
+struct MirrorCommands {
+  uint groups_x;
+  uint groups_y;
+  uint groups_z;
+  uint count;  // tiles
+};
+
+/// A reflection proxy as the view sees it. Positions are relative to the camera.
+struct ProxyRow {
+  vec3 center;
+  float radius_m;  // of the bounding sphere
+  vec3 normal;
+  float dim;    // factor of the proxy's own lights
+  vec3 to_u;    // dot(to_u, p − center): −1…1 on the proxy
+  float layer;  // of the captured images
+  vec3 to_v;
+  float scaled;   // 1: follows the diffuse light of the receiver; 0: a light of its own (fire)
+  vec4 lowest_y;  // heights of the receivers, relative to the camera: in one of four bands
+  vec4 highest_y;
+  float texel_m;  // size of a texel of mip 0
+  uint room;      // 1: of a room that holds the camera, or of no room as the camera
+};
+
+/// The proxies of a view.
+struct ProxyTileConstants {
+  uint tiles;    // vertical screen tiles
+  uint words;    // mask words of a tile
+  uint proxies;  // rows
+  uint probes;   // rows of cube probes
+};
+
+/// A cube probe as the view sees it.
+struct ProbeRow {
+  vec3 center;  // relative to the camera
+  float layer;
+  vec3 to_x;   // dot(to_x, p − center): −1…1 inside the influence box
+  float fade;  // share of the half size over which the influence fades toward the faces
+  vec3 to_y;
+  float global;  // 1: without a box
+  vec3 to_z;
+  float unused;
+};
+
+/// A light that differs from its state at the time of capture; otherwise as LocalLight and DirectionalLight.
+struct ChangedLight {
+  vec3 position;  // relative to the camera
+  float inverse_range_squared;
+  vec3 missing;  // candela or lux at the time of capture, minus today's
+  float spot_scale;
+  vec3 direction;
+  float spot_offset;
+  float directional;  // 1: lux from `direction`; the light has no position
+};
+
+GLOAM_SHARED_END
+
+#define GLOAM_TILE_ROW 64
+#define GLOAM_FEW_PROBES 6
+#define GLOAM_REFLECTION_GROUP 8
+#define GLOAM_BLUR_GROUP 64        // texels of a row or column that a workgroup blurs
+#define GLOAM_MOST_BLUR_RADIUS 32  // texels
+
+#endif

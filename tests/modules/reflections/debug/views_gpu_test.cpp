@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "engine/scene/resources.h"
+#include "tests/modules/reflections/support/reflection_frames.h"
+
+namespace gloam::test {
+namespace {
+
+/// A floor before a box, with a wall as a proxy and two probes.
+class ReflectionViews : public ReflectionFrames {
+ protected:
+  void SetUp() override {
+    ReflectionFrames::SetUp();
+    if (IsSkipped()) return;
+    furnish();
+    wall = proxy(vec2(20.0f, 8.0f), at(0.0, 3.0, -4.0));
+    world.resource<SceneNames>().add("ibr_proxy", "wall", wall);
+    probe(vec3(6.0f, 6.0f, 6.0f), {0.0, 1.0, 0.0});
+    probe({}, {}, true);
+    capture(world, {vec4(0.25f, 0.25f, 0.25f, 0.5f)}, {vec4(2.0f), vec4(0.5f)});
+  }
+  [[nodiscard]] bool is_floor(const GeometryPicture& seen, std::size_t pixel) const {
+    if (seen.is_sky(pixel)) return false;
+    const dvec3 p = seen.position(static_cast<std::uint32_t>(pixel % settings.width),
+                                  static_cast<std::uint32_t>(pixel / settings.width));
+    return std::abs(p.y + seen.view.position.y) < 1e-3;
+  }
+  [[nodiscard]] std::vector<std::string> lines(std::uint32_t x, std::uint32_t y) {
+    draw();
+    return value_of(renderer->pick(world, settings.id, x, y));
+  }
+
+  Entity wall;
+};
+
+TEST_F(ReflectionViews, shares_of_the_tiers_are_a_part_of_1_where_something_reflects) {
+  const std::vector<vec4> shares = shown("reflection_tier");
+  const GeometryPicture seen = geometry();
+  ASSERT_EQ(shares.size(), std::size_t{settings.width} * settings.height);
+  double most[3] = {};
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const vec4 s = shares[i];
+    if (!is_floor(seen, i)) {
+      ASSERT_EQ(s, vec4(0.0f)) << i;
+      continue;
+    }
+    ASSERT_EQ(s.w, 1.0f);
+    ASSERT_LE(s.x + s.y + s.z, 1.002f) << i;
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_GE(s[k], 0.0f);
+      most[k] = std::max(most[k], static_cast<double>(s[k]));
+    }
+  }
+  EXPECT_GT(most[0], 0.9) << "screen space";
+  EXPECT_NEAR(most[1], 0.5, 0.1) << "the proxy is half transparent";
+  EXPECT_GT(most[2], 0.4) << "the probe with a box";
+}
+
+TEST_F(ReflectionViews, each_view_shows_values_that_make_sense) {
+  const std::vector<vec4> confidence = shown("reflection_confidence"), tiles = shown("ibr_tiles"),
+                          layers = shown("ibr_layers"), probes = shown("probes");
+  const GeometryPicture seen = geometry();
+  bool one = false, two = false, bright = false, dim = false;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    ASSERT_TRUE(confidence[i].x >= 0.0f && confidence[i].x <= 1.0f);
+    ASSERT_TRUE(tiles[i].x == 0.0f || tiles[i].x == 1.0f);
+    ASSERT_LE(layers[i].x, 2.0f);
+    if (!is_floor(seen, i)) {
+      ASSERT_EQ(layers[i].x, 0.0f);
+      continue;
+    }
+    one |= layers[i].x == 1.0f, two |= layers[i].x == 2.0f;
+    ASSERT_TRUE(probes[i].x >= 0.499f && probes[i].x <= 2.001f) << "the global probe covers what the other leaves";
+    bright |= probes[i].x > 1.99f, dim |= probes[i].x < 0.51f;
+  }
+  EXPECT_TRUE(one && two) << "the wall alone, and the wall behind a hit of screen space";
+  EXPECT_TRUE(bright && dim) << "inside the box and outside";
+}
+
+TEST_F(ReflectionViews, work_with_every_set_of_tiers) {
+  for (const char* tiers : {"cube", "ssr+cube", "ibr+cube"}) {
+    set("reflections.tiers", tiers);
+    for (const char* view : {"reflection_tier", "reflection_confidence", "ibr_tiles", "ibr_layers", "probes"})
+      for (const vec4& value : shown(view)) ASSERT_TRUE(value.x >= 0.0f && value.x <= 65504.0f) << tiers << view;
+    const std::vector<vec4> shares = shown("reflection_tier");
+    const GeometryPicture seen = geometry();
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      if (!is_floor(seen, i)) continue;
+      ASSERT_LE(shares[i].x + shares[i].y + shares[i].z, 1.002f) << tiers;
+      if (std::string(tiers) != "ssr+cube") {
+        ASSERT_EQ(shares[i].x, 0.0f);
+      }
+      if (std::string(tiers) != "ibr+cube") {
+        ASSERT_NEAR(shares[i].y, 0.0f, 0.02f) << tiers << i;
+      }
+    }
+  }
+}
+
+TEST_F(ReflectionViews, picked_pixels_name_their_tier) {
+  using testing::Contains;
+  using testing::HasSubstr;
+  const std::vector<vec4> shares = shown("reflection_tier");
+  const auto pixel_of = [&](int tier) {
+    const auto best = std::ranges::max_element(shares, {}, [&](const vec4& s) { return s[tier]; });
+    const auto index = static_cast<std::uint32_t>(best - shares.begin());
+    return uvec2(index % settings.width, index / settings.width);
+  };
+  const uvec2 screen = pixel_of(0), box = pixel_of(2);
+  EXPECT_THAT(lines(screen.x, screen.y), Contains(HasSubstr("reflection: screen space")));
+  EXPECT_THAT(lines(box.x, box.y), Contains(HasSubstr("reflection: ")));
+  EXPECT_THAT(lines(screen.x, screen.y), Contains(HasSubstr("proxy: wall, met after")));
+  set("reflections.tiers", "cube");
+  EXPECT_THAT(lines(box.x, box.y), Contains("reflection: probes"));
+  settings.visualizer = "none";
+  EXPECT_THAT(lines(0, 0), testing::Not(Contains(HasSubstr("reflection: ")))) << "the sky";
+}
+
+TEST_F(ReflectionViews, a_picked_distance_is_that_of_the_traced_ray) {
+  set("reflections.tiers", "ibr+cube");
+  const std::vector<vec4> shares = shown("reflection_tier");
+  const GeometryPicture seen = geometry();
+  std::size_t compared = 0;
+  for (const std::uint32_t x : {20u, 48u, 70u}) {
+    const std::uint32_t y = settings.height - 6;
+    if (!is_floor(seen, std::size_t{y} * settings.width + x)) continue;
+    const dvec3 from = seen.position(x, y) + seen.view.position;
+    const dvec3 ray = glm::normalize(seen.position(x, y) * dvec3(1.0, -1.0, 1.0));
+    const double expected = (-4.0 - from.z) / ray.z;
+    for (const std::string& line : lines(x, y)) {
+      const std::size_t at = line.find("met after ");
+      if (at == std::string::npos) continue;
+      EXPECT_NEAR(std::stod(line.substr(at + 10)), expected, 0.02);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 0u);
+}
+
+}  // namespace
+}  // namespace gloam::test

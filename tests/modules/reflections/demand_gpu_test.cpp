@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/gpu/recording_device.h"
+#include "engine/jobs/executor.h"
+#include "engine/render/renderer.h"
+#include "modules/module_list/module_list.h"
+#include "modules/reflections/captures.h"
+#include "modules/reflections/components.h"
+#include "tests/support/gpu_device.h"
+#include "tests/support/render_scene.h"
+
+namespace gloam {
+namespace {
+
+/// A renderer of all modules on a device that records commands, and a floor whose material may reflect.
+struct ReflectionDemand : testing::Test {
+  void SetUp() override {
+    device = gpu::make_recording_device();
+    RendererOptions options;
+    options.device = device.get();
+    options.executor = executor.get();
+    options.log = &test::gpu_log();
+    options.zones = &zones;
+    options.modules = make_all_modules();
+    renderer = Renderer::create(std::move(options)).value();
+    renderer->prepare_world(world);
+    scene = std::make_unique<test::SceneMaker>(world);
+    request.settings = test::look_at(dvec3(0.0, 1.5, 4.0), dvec3(0.0), 64, 48);
+  }
+  void TearDown() override {
+    scene.reset();
+    renderer.reset();
+    EXPECT_THAT(device->faults(), testing::IsEmpty());
+    EXPECT_THAT(device->memory(), testing::Each(testing::Field(&gpu::ModuleMemory::bytes, 0u)));
+  }
+  Entity floor(float reflectivity, float roughness, const dvec3& at = dvec3(0.0)) {
+    Material material;
+    material.reflectivity = reflectivity;
+    material.roughness = roughness;
+    material.metallic = 0.0f;
+    const dmat4 flat = glm::rotate(glm::translate(dmat4(1.0), at), -1.57079632679489661923, dvec3(1.0, 0.0, 0.0));
+    return scene->draw(scene->mesh(test::quad(3.0f, scene->material(material))), flat);
+  }
+  void proxy_and_probe() {
+    IbrProxy proxy;
+    proxy.size_m = vec2(2.0f);
+    CubeProbe probe;
+    probe.size_m = vec3(9.0f);
+    ReflectionCaptures captures;
+    captures.proxy_entities = {world.create(proxy, WorldTransform{glm::translate(dmat4(1.0), dvec3(0.0, 1.0, -2.0))})};
+    captures.probe_entities = {world.create(probe, WorldTransform{})};
+    captures.proxies = {8, 4, 1, std::vector<std::uint16_t>(4 * (64 + 16 + 4 + 1))};
+    captures.probes = captures.proxies;
+    captures.content = captures.version = 1;
+    world.set_resource(captures);
+  }
+  void frames(int count = 3) {
+    for (int i = 0; i < count; ++i) {
+      static_cast<void>(zones.take());
+      const Status drawn = renderer->render(world, std::span(&request, 1));
+      ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+    }
+    passes.clear();
+    for (const PassTime& pass : renderer->report().passes)
+      if (pass.module == "reflections") passes.insert(pass.name);
+    systems.clear();
+    for (const Zone& zone : zones.take())
+      if (zone.module == "reflections") systems.insert(zone.name);
+    for (const ModuleState& found : renderer->report().modules)
+      if (found.name == "reflections") state = found;
+  }
+  void expect_nothing() {
+    EXPECT_THAT(passes, testing::IsEmpty());
+    EXPECT_THAT(systems, testing::IsEmpty());
+    EXPECT_EQ(state.pipelines, 0u);
+    EXPECT_EQ(state.gpu_bytes, 0u);
+    EXPECT_FALSE(state.demanded) << state.reason;
+  }
+
+  std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
+  ZoneRecorder zones;
+  std::unique_ptr<gpu::RecordingDevice> device;
+  std::unique_ptr<Renderer> renderer;
+  World world;
+  std::unique_ptr<test::SceneMaker> scene;
+  ViewRequest request;
+  std::set<std::string> passes, systems;
+  ModuleState state;
+};
+
+TEST_F(ReflectionDemand, a_scene_without_a_reflective_material_has_no_reflections_at_all) {
+  proxy_and_probe();
+  floor(0.0f, 0.1f);
+  floor(-1.0f, 1.0f);
+  frames();
+  expect_nothing();
+}
+
+TEST_F(ReflectionDemand, a_material_that_no_mesh_uses_demands_nothing) {
+  Material mirror;
+  mirror.reflectivity = 1.0f;
+  mirror.roughness = 0.0f;
+  static_cast<void>(scene->material(mirror));
+  floor(0.0f, 0.1f);
+  frames();
+  expect_nothing();
+}
+
+TEST_F(ReflectionDemand, a_blended_mirror_demands_nothing) {
+  Material glass;
+  glass.reflectivity = 1.0f;
+  glass.roughness = 0.0f;
+  glass.alpha_mode = AlphaMode::blend;
+  scene->draw(scene->mesh(test::quad(1.0f, scene->material(glass))));
+  frames();
+  expect_nothing();
+}
+
+TEST_F(ReflectionDemand, a_smooth_floor_has_the_passes_of_all_tiers) {
+  proxy_and_probe();
+  floor(1.0f, 0.1f);
+  frames(1);
+  EXPECT_THAT(passes, testing::IsSupersetOf({"reflection_proxies_upload", "reflection_probes_upload"}));
+  frames();
+  EXPECT_THAT(passes, testing::UnorderedElementsAre("reflection_start", "reflection_surfaces",
+                                                    "reflection_screen_space", "reflection_proxies",
+                                                    "reflection_dilate_x", "reflection_dilate_y", "reflection_blur_x",
+                                                    "reflection_blur_y", "reflection_sharpen", "reflection_composite"));
+  EXPECT_THAT(systems, testing::UnorderedElementsAre("ibr_proxies", "proxy_tiles"));
+  EXPECT_GT(state.gpu_bytes, 0u);
+}
+
+TEST_F(ReflectionDemand, a_rough_floor_has_the_probes_alone) {
+  proxy_and_probe();
+  floor(1.0f, 0.7f);
+  frames();
+  EXPECT_THAT(passes, testing::ElementsAre("reflection_composite"));
+}
+
+TEST_F(ReflectionDemand, a_rough_floor_without_a_probe_demands_nothing) {
+  floor(1.0f, 0.7f);
+  frames();
+  expect_nothing();
+}
+
+TEST_F(ReflectionDemand, a_reflective_object_out_of_view_has_no_passes) {
+  proxy_and_probe();
+  floor(0.0f, 0.1f);
+  floor(1.0f, 0.1f, {0.0, 0.0, 500.0});
+  frames();
+  EXPECT_THAT(passes, testing::IsEmpty());
+}
+
+TEST_F(ReflectionDemand, captures_have_no_reflections) {
+  proxy_and_probe();
+  floor(1.0f, 0.1f);
+  request.settings.purpose = ViewPurpose::capture;
+  frames();
+  EXPECT_THAT(passes, testing::IsEmpty());
+}
+
+TEST_F(ReflectionDemand, mode_off_has_no_passes) {
+  proxy_and_probe();
+  floor(1.0f, 0.1f);
+  ASSERT_TRUE(renderer->knobs().set("reflections.mode", "off").ok());
+  frames();
+  EXPECT_THAT(passes, testing::IsEmpty());
+}
+
+TEST_F(ReflectionDemand, each_tier_is_drawn_only_if_it_is_wanted) {
+  proxy_and_probe();
+  floor(1.0f, 0.1f);
+  const std::map<std::string, std::vector<bool>> tiers = {
+      {"cube", {false, false}}, {"ssr+cube", {true, true}}, {"ibr+cube", {false, true}}, {"all", {true, true}}};
+  for (const auto& [value, wanted] : tiers) {
+    ASSERT_TRUE(renderer->knobs().set("reflections.tiers", value).ok());
+    frames();
+    EXPECT_EQ(passes.contains("reflection_screen_space"), wanted[0]) << value;
+    EXPECT_EQ(passes.contains("reflection_blur_x"), wanted[1]) << value;
+    EXPECT_TRUE(passes.contains("reflection_composite")) << value;
+  }
+}
+
+TEST_F(ReflectionDemand, what_disappears_gives_its_memory_back) {
+  proxy_and_probe();
+  const Entity mirror = floor(1.0f, 0.1f);
+  frames();
+  EXPECT_GT(state.gpu_bytes, 0u);
+  world.remove<MeshInstance>(mirror);
+  scene->assets().materials.back().reflectivity = 0.0f;
+  ++scene->assets().version;
+  frames(130);
+  expect_nothing();
+}
+
+}  // namespace
+}  // namespace gloam

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "shaders/reflections/shaders.h"
+#include "tests/modules/reflections/support/proxy_world.h"
+#include "tests/modules/reflections/support/reflection_kernel.h"
+
+namespace gloam::test {
+
+/// Inputs of the kernel that blends screen space and proxies. Empty lists stand for missing inputs.
+struct BlendInput {
+  const SyntheticView& seen;
+  shaders::ReflectionConstants constants{};
+  bool proxies_on = true;
+  std::uint32_t layers = 4;
+  bool sphere_test = true;
+  bool naive = false;
+  std::vector<vec4> ssr_color;        ///< by texel: radiance, confidence
+  std::vector<float> ssr_distance_m;  ///< by texel
+  std::vector<vec4> diffuse_light;    ///< by pixel: lux
+  std::vector<shaders::ChangedLight> changed;
+};
+
+/// Its outputs, by texel.
+struct Blended {
+  std::vector<vec4> color;
+  std::vector<ByteTexel> surface;
+  [[nodiscard]] double distance_m(std::size_t texel) const {
+    return (surface[texel][2] + 256.0 * surface[texel][3]) / 100.0;
+  }
+};
+
+[[nodiscard]] inline BlendInput blend_input(const SyntheticView& seen, std::uint32_t scale = 1) {
+  return {.seen = seen,
+          .constants = reflection_constants(seen.view, scale),
+          .ssr_color = {},
+          .ssr_distance_m = {},
+          .diffuse_light = {},
+          .changed = {}};
+}
+
+/// Runs the kernel with rows and masks. colors: premultiplied image of each layer.
+[[nodiscard]] inline Blended blend(gpu::Device& device, const BlendInput& in, std::vector<shaders::ProxyRow> rows,
+                                   const ProxyTiles& tiles, const FlatLayers& images) {
+  shaders::ReflectionConstants c = in.constants;
+  c.changed_lights = static_cast<std::uint32_t>(in.changed.size());
+  const std::size_t texels = std::size_t{c.size.x} * c.size.y;
+  Kernel kernel(device, shaders::reflections::blend_comp,
+                {{0, in.ssr_color.empty() ? 0u : 1u},
+                 {1, in.proxies_on ? 1u : 0u},
+                 {2, in.layers},
+                 {3, in.sphere_test ? 1u : 0u},
+                 {4, in.naive ? 1u : 0u},
+                 {5, c.pixel_roughness}});
+  kernel.input(0, std::vector{view_constants(in.seen.view)});
+  kernel.input(1, std::vector{c});
+  kernel.sampled_image(2, gpu::Format::rg32_uint, c.size.x, c.size.y, find_mirrors(device, in.seen, c));
+  std::vector<vec4> ssr = in.ssr_color;
+  ssr.resize(texels, vec4(0.0f));
+  std::vector<ByteTexel> distances(texels, ByteTexel{});
+  for (std::size_t i = 0; i < in.ssr_distance_m.size(); ++i) {
+    const auto cm = static_cast<std::uint32_t>(std::lround(in.ssr_distance_m[i] * 100.0f));
+    distances[i] = {static_cast<std::uint8_t>(cm % 256), static_cast<std::uint8_t>(cm / 256), 0, 0};
+  }
+  std::vector<vec4> light = in.diffuse_light;
+  light.resize(in.seen.depth.size(), vec4(0.0f));
+  kernel.sampled_image(5, gpu::Format::rgba32_float, c.size.x, c.size.y, ssr);
+  kernel.sampled_image(6, gpu::Format::rgba8_unorm, c.size.x, c.size.y, distances);
+  const auto count = static_cast<std::uint32_t>(rows.size());
+  if (rows.empty()) rows.resize(1);
+  kernel.input(7, rows);
+  kernel.input(8, tiles.masks.empty() ? std::vector<std::uint32_t>{0} : tiles.masks);
+  kernel.sampled_image(9, images.image(), gpu::Filter::linear);
+  kernel.sampled_image(10, gpu::Format::rgba32_float, in.seen.view.width, in.seen.view.height, light);
+  kernel.input(11, in.changed.empty() ? std::vector<shaders::ChangedLight>(1) : in.changed);
+  kernel.input(12, std::vector{shaders::ProxyTileConstants{tiles.tiles, tiles.words_per_tile, count, 0}});
+  kernel.output_image(13, gpu::Format::rgba16_float, c.size.x, c.size.y);
+  kernel.output_image(14, gpu::Format::rgba8_unorm, c.size.x, c.size.y);
+  run_over_tiles(kernel, c, 3);
+  return {from_half(kernel.read<HalfTexel>(13)), kernel.read<ByteTexel>(14)};
+}
+[[nodiscard]] inline Blended blend(gpu::Device& device, const BlendInput& in, const ProxyWorld& world,
+                                   const FlatLayers& images, ProxyTileSettings settings = {}) {
+  settings.columns = in.constants.size.x;
+  const ProxyTiles tiles = world.tiles(in.seen.view, settings);
+  return blend(device, in, proxy_rows(world.world, in.seen.view, world.set, tiles, world.captures, in.naive), tiles,
+               images);
+}
+
+}  // namespace gloam::test
