@@ -59,7 +59,8 @@ void add_frame_options(CLI::App& app, Options& options, RawTexts& raw) {
 void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
   app.add_option(
          "--out", options.out,
-         "Picture to write: .png, or .exr for linear light (default out/<scene>.png); cost: folder of the ledger")
+         "Picture to write: .png, or .exr for linear light (default out/<scene>.png); cost: folder of the ledger; "
+         "bake: folder for pictures of the captures")
       ->type_name("FILE");
   app.add_option("--stats", options.stats, "Write times, memory and counters as JSON")->type_name("FILE");
   app.add_option("--trace", options.trace, "Write a Chrome trace of systems and passes")->type_name("FILE");
@@ -67,7 +68,7 @@ void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
   app.add_option("--threads", options.threads, "Number of job threads (default 0: one per core)")->type_name("N");
   app.add_option("--budget", raw.budget, "Not built yet: choose knobs for a time budget")->type_name("BUDGET");
   app.add_option("--ledger", raw.ledger, "Not built yet: the cost ledger to choose knobs from")->type_name("FILE");
-  app.add_option("--cache-dir", options.cache_dir, "Directory for compiled pipelines, kept between runs")
+  app.add_option("--cache-dir", options.cache_dir, "Directory for compiled pipelines and captures, kept between runs")
       ->type_name("DIR");
   app.add_flag("--validate", options.validate,
                "Turn on Vulkan validation with synchronization checks; any message makes the run fail");
@@ -100,9 +101,12 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   CLI::App* inspect = add(Command::inspect, "inspect", "Print a scene's contents, the effects it needs, and why");
   inspect->add_option("SCENE", options.scene, scene_text)->required();
   inspect->add_flag("--json", options.json, "Print JSON");
-  CLI::App* bake = add(Command::bake, "bake", "Not built yet: capture reflection proxies and probes");
+  CLI::App* bake = add(Command::bake, "bake", "Capture reflection proxies and probes, and keep them");
   bake->add_option("SCENE", options.scene, scene_text)->required();
-  bake->add_option("--fit-proxies", options.fit_proxies, "Number of proxies to fit to the scene")->type_name("N");
+  bake->add_option("--fit-proxies", options.fit_proxies,
+                   "Fit at most N proxies to the scene and write them as glTF nodes (default out/<scene>.proxies.json)")
+      ->type_name("N");
+  bake->add_flag("--beside", options.beside, "Write the captures beside the scene file, not to the cache");
   CLI::App* cost = add(Command::cost, "cost", "Measure error and time of each knob's values");
   cost->add_option("SCENE", options.scene, scene_text)->required();
   cost->add_option("--knobs", options.knobs, "Measure only these knobs, comma-separated")->type_name("A,B");

@@ -51,6 +51,7 @@ struct Options {
 
   bool json = false;               ///< inspect
   std::uint32_t fit_proxies = 0;   ///< bake
+  bool beside = false;             ///< bake: write the captures beside the scene file
   std::string knobs;               ///< cost: comma-separated
   bool quick = false;              ///< cost
   std::vector<std::string> names;  ///< bench

@@ -38,7 +38,8 @@ Status run_bench(const CommandContext& context) {
   BenchContext bench(options, context.log);
   std::string missed;
   const RowsRun run = run_rows(*chosen, bench, [&](const MeasuredRow& measured) {
-    if (!holds(*measured.row, measured.value.value)) missed += (missed.empty() ? "" : ", ") + measured.row->id;
+    if (!measured.value.skipped && !holds(*measured.row, measured.value.value))
+      missed += (missed.empty() ? "" : ", ") + measured.row->id;
     if (!options.quiet) context.console.print(bench_line(measured));
   });
   // Write the file even if a row failed, because the rows before it are finished. The failure then decides the exit

@@ -12,6 +12,7 @@
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/identity.h"
 #include "sandbox/output/progress_bar.h"
+#include "sandbox/session/captures.h"
 #include "sandbox/session/scene_loading.h"
 #include "sandbox/session/session.h"
 #include "sandbox/session/session_costs.h"
@@ -128,6 +129,8 @@ Status run_cost(const CommandContext& context) {
 
   const auto session = open_session(options, context.log);
   if (!session) return session.error();
+  GLOAM_TRY(
+      ensure_captures(*session.value(), options, context.log, show_bake_progress(context.console, options.quiet)));
   SessionCosts costs(*session.value(), options);
   ConsoleProgress progress(context.console, options.quiet);
   auto ledger = measure_costs(make_request(*session.value(), options, *chosen), costs, progress);

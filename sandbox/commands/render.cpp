@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sandbox/commands/commands.h"
+#include "sandbox/session/captures.h"
 #include "sandbox/session/frame_run.h"
 #include "sandbox/session/frame_tracing.h"
 #include "sandbox/session/list_room.h"
@@ -41,6 +42,8 @@ Status run_render(const CommandContext& context) {
   auto session = open_session(options, context.log);
   if (!session) return session.error();
   warn_of_missing_effects(*session.value(), context.log);
+  GLOAM_TRY(
+      ensure_captures(*session.value(), options, context.log, show_bake_progress(context.console, options.quiet)));
   const ViewSettings view = session.value()->view_settings(options.width, options.height, options.view);
   const auto traced = traced_view(*session.value()->renderer, options.view);
   ViewSettings drawn = view;

@@ -13,6 +13,7 @@
 #include "sandbox/scenes/plain.h"
 #include "sandbox/scenes/shadow_grid.h"
 #include "sandbox/scenes/shadows.h"
+#include "sandbox/scenes/wet_street.h"
 
 namespace gloam {
 namespace {
@@ -27,6 +28,7 @@ constexpr BuiltinScene kScenes[] = {
     {"shadow_grid", "256 lamps under a pergola that all cast shadows, about three at a point",
      &build_shadow_grid_scene},
     {"closeups", "eight figures, all close-up subjects, under eight lamps and a moon", &build_closeups_scene},
+    {"wet_street", "puddles of a street at dusk that reflect facades, 60 lamps and a fire", &build_wet_street_scene},
 };
 
 }  // namespace

@@ -119,4 +119,26 @@ Primitive arch_shape(const ArchSize& size, std::uint32_t segments) {
   return out;
 }
 
+Primitive rectangle_shape(vec2 size_m) {
+  Primitive out;
+  const float x = size_m.x * 0.5f;
+  add_flat_quad(out, {-x, 0, 0}, {x, 0, 0}, {x, size_m.y, 0}, {-x, size_m.y, 0});
+  out.uv0 = {{0.0f, 1.0f}, {1.0f, 1.0f}, {1.0f, 0.0f}, {0.0f, 0.0f}};
+  set_bounds(out);
+  return out;
+}
+
+void append_shape(Primitive& out, const Primitive& part, vec3 offset_m) {
+  GLOAM_ASSERT(out.positions.empty() || out.uv0.empty() == part.uv0.empty(),
+               "shapes with and without texture coordinates do not mix");
+  const auto first = static_cast<std::uint32_t>(out.positions.size());
+  for (const vec3& position : part.positions) {
+    out.positions.push_back(position + offset_m);
+    out.bounds.grow(position + offset_m);
+  }
+  out.normals.insert(out.normals.end(), part.normals.begin(), part.normals.end());
+  out.uv0.insert(out.uv0.end(), part.uv0.begin(), part.uv0.end());
+  for (const std::uint32_t index : part.indices) out.indices.push_back(first + index);
+}
+
 }  // namespace gloam

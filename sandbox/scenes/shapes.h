@@ -33,4 +33,12 @@ struct ArchSize {
 };
 [[nodiscard]] Primitive arch_shape(const ArchSize& size, std::uint32_t segments);
 
+/// A rectangle in the XY plane that faces +Z, standing on y = 0, centred in x. It alone has texture coordinates: u
+/// along +X, v downwards, each 0…1.
+[[nodiscard]] Primitive rectangle_shape(vec2 size_m);
+
+/// Adds the triangles of `part`, moved by offset_m, to `out`. Both have texture coordinates, or neither; an empty `out`
+/// takes either. Other optional attributes are not copied.
+void append_shape(Primitive& out, const Primitive& part, vec3 offset_m);
+
 }  // namespace gloam

@@ -17,8 +17,6 @@ namespace {
 
 constexpr std::string_view kBuiltinPrefix = "builtin:";
 
-bool is_builtin(std::string_view scene) { return scene.starts_with(kBuiltinPrefix); }
-
 /// "; did you mean builtin:NAME?" if `scene` is close to a built-in scene's name whose prefix is missing or misspelt;
 /// otherwise empty.
 std::string meant_builtin(std::string_view scene) {
@@ -39,6 +37,8 @@ Status check_animation(const World& world, const std::string& name) {
 }
 
 }  // namespace
+
+bool is_builtin(std::string_view scene) { return scene.starts_with(kBuiltinPrefix); }
 
 Status check_scene_exists(const std::string& scene) {
   if (is_builtin(scene)) {

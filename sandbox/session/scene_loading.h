@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "engine/core/log.h"
 #include "engine/core/result.h"
@@ -23,6 +24,9 @@ struct SceneRequest {
 /// Cheap check that needs no world. An unknown built-in scene is ErrorKind::usage; a file that cannot be opened is
 /// ErrorKind::input.
 [[nodiscard]] Status check_scene_exists(const std::string& scene);
+
+/// Whether the name is of a built-in scene, "builtin:NAME".
+[[nodiscard]] bool is_builtin(std::string_view scene);
 
 /// The scene's name in names of output files: "lanterns" for "builtin:lanterns", "courtyard" for
 /// "scenes/courtyard.gltf".

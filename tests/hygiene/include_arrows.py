@@ -24,7 +24,7 @@ MODULES = {
 }
 HOST = "tests/embedding/host/"  # a separate project, which sees our headers as installed and its own headers by their names
 MODULE_LIST = "module_list"  # knows every module; no module may include it
-MODULE_PUBLIC = ("components.h", "module.h", "outputs.h")
+MODULE_PUBLIC = ("components.h", "module.h", "outputs.h", "bake.h", "captures.h")
 
 # Folders with rooms: the rooms in the order in which data flows through them, and the headers directly in the folder
 # that rooms may include. A room may include itself and earlier rooms. Other files directly in the folder may include
@@ -34,13 +34,16 @@ ROOMS = {
     "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
                         ("components", "outputs", "knobs")),
     "modules/closeups": (("pairs", "umbra", "compose", "debug"), ("components", "knobs")),
-    "modules/reflections": (("proxies",), ("components",)),
+    "modules/reflections": (("surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
+                             "fitting", "bake", "reference", "debug"),
+                            ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials")),
     "engine/render": (("knobs", "scene", "draws", "declare", "passes", "readback", "reference"),
                       ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
-    "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups"), ()),
+    "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections"), ()),
     "sandbox": (("output", "scenes", "session", "window", "bench", "commands"), ("options", "console", "log")),
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
-    "shaders/reflections": (("glossy",), None),
+    "shaders/reflections": (("surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
+                             "debug"), None),
 }
 
 # Third-party headers: the folders that may include them, and those that a public header may not include.

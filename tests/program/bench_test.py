@@ -11,7 +11,9 @@ class Bench(ProgramCase):
         ids = self.expect(0, "bench", "--list").stdout.split()
         self.assertEqual(len(ids), len(set(ids)))
         for an_id in ("jobs.empty", "jobs.empty.one_thread", "ecs.iterate2.1e4", "ecs.random_get_over_bare", "frame.scene",
-                      "shadows.table1.deferred_8_closeups", "shadows.table1.deferred_8_closeups_all_over_monolithic"):
+                      "shadows.table1.deferred_8_closeups", "shadows.table1.deferred_8_closeups_all_over_monolithic",
+                      "reflections.tiled_over_naive", "reflections.curve.tiles.16", "reflections.error.wet_street.still.ssr+cube.flip",
+                      "reflections.temporal.all.reprojected"):
             self.assertIn(an_id, ids)
 
     def test_rows_have_the_documented_fields(self):
@@ -58,6 +60,21 @@ class Bench(ProgramCase):
         self.expect(0, "bench", "ecs.create", "ecs.add", "ecs.remove", "ecs.destroy", "--quiet", "--json", "rows.json")
         hashes = [row["hash"] for row in self.read_json("rows.json")["rows"]]
         self.assertEqual(len(set(hashes)), 4, hashes)
+
+    def test_more_proxies_take_longer_to_put_into_tiles(self):
+        self.expect(0, "bench", "reflections.cpu.proxy_tiles", "--quiet", "--json", "rows.json")
+        few, many = self.read_json("rows.json")["rows"]
+        self.assertLess(few["value"], many["value"])
+        self.assertNotEqual(few["hash"], many["hash"])
+
+    def test_a_row_without_its_scene_is_skipped_with_a_reason(self):
+        self.folder = self.folder / "without"  # a working folder without ../shared
+        self.folder.mkdir()
+        run = self.expect(0, "bench", "reflections.bake.courtyard", "--strict", "--json", "rows.json")
+        self.assertIn("skipped: ", run.stdout)
+        told = self.read_json("rows.json")
+        self.assertEqual(told["rows"], [])
+        self.assertEqual([row["id"] for row in told["skipped"]], ["reflections.bake.courtyard"])
 
     def test_quiet_prints_nothing(self):
         self.assertEqual(self.expect(0, "bench", "jobs.fork_join", "--quiet").stdout, "")

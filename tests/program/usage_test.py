@@ -54,8 +54,12 @@ class Usage(ProgramCase):
             self.expect(3, "inspect", scene, says=scene)
         self.expect(3, "render", "absent.gltf", says="absent.gltf")
 
-    def test_what_is_not_built_says_so(self):
-        self.expect(1, "bake", "builtin:plain", says="not built yet")
+    def test_bake_needs_something_to_capture_and_a_place_for_it(self):
+        self.expect(2, "bake", "builtin:plain", "--beside", says="needs a scene file", env=NO_VULKAN)
+        self.assertIn("nothing to capture", self.expect(0, "bake", "builtin:plain").stdout)
+        self.expect(3, "bake", "absent.gltf", says="absent.gltf", env=NO_VULKAN)
+
+    def test_budgets_are_not_built(self):
         for option in ("--budget", "--ledger"):
             self.expect(2, "render", "builtin:plain", option, "8", says=option + " is not built yet", env=NO_VULKAN)
 
@@ -72,7 +76,7 @@ class Usage(ProgramCase):
 
     def test_scenes_are_one_a_line(self):
         lines = self.expect(0, "scenes").stdout.splitlines()
-        names = ["plain", "lanterns", "many_lights", "penumbra", "shadows", "shadow_grid", "closeups"]
+        names = ["plain", "lanterns", "many_lights", "penumbra", "shadows", "shadow_grid", "closeups", "wet_street"]
         self.assertEqual([line.split()[0] for line in lines], ["builtin:" + name for name in names])
         for line in lines:
             self.assertGreater(len(line.split()), 3)

@@ -49,6 +49,16 @@ void add_closeup_benches(BenchRegistry& registry);
 void add_closeup_cost_benches(BenchRegistry& registry);
 /// Flicker of a walking subject's shadows, compared with standard maps that have as many texels.
 void add_closeup_flicker_benches(BenchRegistry& registry);
+/// The proxy pass with proxy tiles against the loop over all proxies, by number of tiles, and by view.
+void add_reflection_tile_benches(BenchRegistry& registry);
+/// Cost of the reflection chain, against the gather pass and against drawing the mirrored scene.
+void add_reflection_cost_benches(BenchRegistry& registry);
+/// Error of each set of reflection tiers against traced reflections, by camera.
+void add_reflection_error_benches(BenchRegistry& registry);
+/// Changes of reflections from frame to frame, with and without reprojection.
+void add_reflection_temporal_benches(BenchRegistry& registry);
+/// What is made from a scene on the CPU: fitted proxies, captures, proxy tiles.
+void add_reflection_scene_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "sandbox/session/captures.h"
+
 namespace gloam {
 
 Result<Session*> BenchContext::session() { return session_or(options_.scene); }
@@ -19,6 +21,7 @@ Result<Session*> BenchContext::session_or(const std::string& scene) {
   if (session == nullptr) {
     auto opened = open_session(options, log_);
     if (!opened) return opened.error();
+    GLOAM_TRY(ensure_captures(**opened, options, log_));
     session = std::move(opened).value();
     device_info_ = session->device->info();
   }
@@ -32,6 +35,7 @@ Result<std::unique_ptr<Session>> BenchContext::open_builtin(const std::string& s
   options.animation.clear();
   auto opened = open_session(options, log_, {}, std::move(more_modules));
   if (!opened) return opened.error();
+  GLOAM_TRY(ensure_captures(**opened, options, log_));
   device_info_ = opened.value()->device->info();
   return std::move(opened).value();
 }

@@ -23,7 +23,7 @@ class BenchContext {
   [[nodiscard]] LogSink& log() const { return log_; }
   /// The shared session of the chosen scene and size.
   [[nodiscard]] Result<Session*> session();
-  /// Opens a separate session of a built-in scene ("builtin:NAME") with its first camera, independent of the user's
+  /// Opens a separate session of a scene ("builtin:NAME" or a file) with its first camera, independent of the user's
   /// choice. The caller owns it and may change it. more_modules: added after the program's own modules.
   [[nodiscard]] Result<std::unique_ptr<Session>> open_builtin(const std::string& scene, ModuleList more_modules = {});
   /// The scene that the user named, or `scene` if the user named none.

@@ -73,6 +73,11 @@ BenchRegistry make_bench_registry() {
   add_closeup_benches(registry);
   add_closeup_cost_benches(registry);
   add_closeup_flicker_benches(registry);
+  add_reflection_tile_benches(registry);
+  add_reflection_cost_benches(registry);
+  add_reflection_error_benches(registry);
+  add_reflection_temporal_benches(registry);
+  add_reflection_scene_benches(registry);
   return registry;
 }
 

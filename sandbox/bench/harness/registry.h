@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -23,7 +24,16 @@ struct BenchValue {
   std::optional<double> p90;
   std::optional<std::string> hash;   ///< of the computed data, so that a fast wrong answer shows
   std::optional<std::string> scene;  ///< scene of the measurement, if it is not the run's scene
+  /// Reason why nothing could be measured here (a scene file is missing). The other members mean nothing then, and the
+  /// bar counts as kept.
+  std::optional<std::string> skipped;
 };
+
+[[nodiscard]] inline BenchValue skipped_row(std::string reason) {
+  BenchValue value;
+  value.skipped = std::move(reason);
+  return value;
+}
 
 enum class Better { lower, higher };
 

@@ -38,6 +38,7 @@ std::string bench_line(const MeasuredRow& measured) {
   const BenchRow& row = *measured.row;
   std::string line = row.id;
   line.resize(std::max<std::size_t>(line.size() + 1, 48), ' ');
+  if (measured.value.skipped) return line + "skipped: " + *measured.value.skipped + "\n";
   line += short_number(measured.value.value) + " " + row.unit;
   if (measured.value.p10 && measured.value.p90)
     line += " (" + short_number(*measured.value.p10) + "…" + short_number(*measured.value.p90) + ")";
@@ -53,7 +54,12 @@ std::string bench_json(const RunDescription& run, std::span<const MeasuredRow> r
   Json json = {{"version", 1}, {"device", device_json(run.device)}, {"size", {run.width, run.height}}};
   json["scene"] = run.scene;
   json["rows"] = Json::array();
-  for (const MeasuredRow& measured : rows) json["rows"].push_back(row_json(measured, run.scene));
+  for (const MeasuredRow& measured : rows) {
+    if (measured.value.skipped)
+      json["skipped"].push_back({{"id", measured.row->id}, {"reason", *measured.value.skipped}});
+    else
+      json["rows"].push_back(row_json(measured, run.scene));
+  }
   return json_text(json);
 }
 

@@ -17,7 +17,7 @@ struct MeasuredRow {
 
 /// One readable line: id, value, unit, bar.
 [[nodiscard]] std::string bench_line(const MeasuredRow& measured);
-/// The `bench --json` text (schema version 1).
+/// The `bench --json` text (schema version 1). Skipped rows are in a list of their own, which is absent without any.
 [[nodiscard]] std::string bench_json(const RunDescription& run, std::span<const MeasuredRow> rows);
 
 }  // namespace gloam

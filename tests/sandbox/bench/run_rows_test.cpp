@@ -51,6 +51,19 @@ TEST(RunRows, gives_all_rows_when_none_fails) {
   EXPECT_EQ(outcome.finished, (std::vector<std::string>{"a", "b"}));
 }
 
+TEST(RunRows, tells_why_a_row_was_skipped) {
+  const std::vector<BenchRow> rows = {row("a", [](BenchContext&) -> Result<BenchValue> { return skipped_row("no a"); }),
+                                      row("b", measure_one)};
+  const Outcome outcome = run_all(rows);
+  EXPECT_TRUE(outcome.run.status.ok());
+  ASSERT_EQ(outcome.run.rows.size(), 2u);
+  EXPECT_TRUE(bench_line(outcome.run.rows[0]).ends_with("skipped: no a\n"));
+  const std::string json = bench_json({}, outcome.run.rows);
+  EXPECT_NE(json.find("\"skipped\""), std::string::npos);
+  EXPECT_NE(json.find("no a"), std::string::npos);
+  EXPECT_EQ(json.find("\"skipped\"", json.find("\"skipped\"") + 1), std::string::npos);
+}
+
 TEST(RunRows, keeps_the_finished_rows_and_the_error_when_a_later_one_fails) {
   int later_runs = 0;
   const std::vector<BenchRow> rows = {row("a", measure_one),

@@ -74,5 +74,26 @@ TEST(Shapes, an_arch_is_a_wall_less_half_a_disk) {
   EXPECT_NEAR(volume_of(arch), (6.0f - 0.5f * kPi * 1.44f) * 0.5f, 1e-3f);
 }
 
+TEST(Shapes, a_rectangle_faces_plus_z_and_its_image_stands_upright) {
+  const Primitive rectangle = rectangle_shape({2.0f, 3.0f});
+  ASSERT_EQ(rectangle.positions.size(), 4u);
+  ASSERT_EQ(rectangle.uv0.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(rectangle.normals[i], vec3(0.0f, 0.0f, 1.0f));
+    EXPECT_EQ(rectangle.uv0[i].x, rectangle.positions[i].x * 0.5f + 0.5f);
+    EXPECT_EQ(rectangle.uv0[i].y, 1.0f - rectangle.positions[i].y / 3.0f);
+  }
+}
+
+TEST(Shapes, appended_shapes_keep_their_volumes) {
+  Primitive both;
+  append_shape(both, box_shape({1.0f, 1.0f, 1.0f}), {0.0f, 0.0f, 0.0f});
+  append_shape(both, box_shape({2.0f, 1.0f, 1.0f}), {5.0f, 2.0f, 0.0f});
+  expect_sound(both);
+  EXPECT_NEAR(volume_of(both), 3.0f, 1e-4f);
+  EXPECT_EQ(both.bounds.min, vec3(-0.5f, 0.0f, -0.5f));
+  EXPECT_EQ(both.bounds.max, vec3(6.0f, 3.0f, 0.5f));
+}
+
 }  // namespace
 }  // namespace gloam

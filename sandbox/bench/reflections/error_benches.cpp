@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/ecs/view.h"
+#include "engine/scene/resources.h"
+#include "modules/accuracy/cost/picture_error.h"
+#include "modules/accuracy/module.h"
+#include "modules/fog/components.h"
+#include "modules/fog/fog_model.h"
+#include "modules/reflections/reference/adapter.h"
+#include "sandbox/bench/harness/benches.h"
+#include "sandbox/bench/harness/context.h"
+#include "sandbox/bench/harness/measure.h"
+#include "sandbox/bench/reflections/case.h"
+#include "sandbox/session/session_costs.h"
+
+// Error of each set of reflection tiers against traced reflections, by camera.
+
+namespace gloam {
+namespace {
+
+// Size of the pictures that are compared with rays for every pixel. A mirror has one ray a pixel, so the reference is
+// not smooth: the smaller the picture, the more of the difference is aliasing of the reference.
+constexpr std::uint32_t kWidth = 640;
+constexpr std::uint32_t kHeight = 360;
+constexpr std::uint32_t kRays = 256;
+constexpr int kDraws = 3;  // the last frame finds what earlier ones left over (shadow caches, light scale)
+
+struct TierSet {
+  const char* name;  ///< in the row's id
+  const char* mode;
+  const char* tiers;
+};
+constexpr std::array<TierSet, 5> kTierSets = {{{"off", "off", "all"},
+                                               {"cube", "tiers", "cube"},
+                                               {"ssr+cube", "tiers", "ssr+cube"},
+                                               {"ibr+cube", "tiers", "ibr+cube"},
+                                               {"all", "tiers", "all"}}};
+constexpr std::size_t kCube = 1;
+constexpr std::size_t kAll = 4;
+
+struct JudgedCamera {
+  const char* scene;  ///< "courtyard" or "wet_street"
+  const char* camera;
+};
+constexpr std::array<JudgedCamera, 10> kCameras = {{{"courtyard", "court"},
+                                                    {"courtyard", "walkway"},
+                                                    {"courtyard", "down"},
+                                                    {"courtyard", "grazing"},
+                                                    {"wet_street", "street"},
+                                                    {"wet_street", "grazing"},
+                                                    {"wet_street", "down"},
+                                                    {"wet_street", "terrace"},
+                                                    {"wet_street", "shop"},
+                                                    {"wet_street", "still"}}};
+
+struct TierError {
+  double rmse = 0.0;       ///< linear light, cd/m²
+  double flip = 0.0;       ///< mean, 0…1
+  std::uint64_t hash = 0;  ///< of the drawn and the expected light
+};
+using CameraErrors = std::array<TierError, kTierSets.size()>;
+
+/// The last session that was opened, and all errors found so far.
+struct Shared {
+  std::string scene;
+  std::unique_ptr<Session> session;
+  std::map<std::size_t, CameraErrors> judged;  ///< by index in kCameras
+};
+
+/// The scene file or built-in scene of a judged camera; none if it is missing.
+std::optional<std::string> scene_of(const BenchContext& context, const JudgedCamera& judged) {
+  if (judged.scene == std::string("courtyard")) return courtyard_scene(context);
+  return kWetStreet;
+}
+
+Result<Session*> session_of(BenchContext& context, Shared& shared, const std::string& scene, const char* camera) {
+  if (shared.session == nullptr || shared.scene != scene) {
+    shared.session.reset();
+    auto opened = context.open_builtin(scene);
+    if (!opened) return opened.error();
+    shared.session = std::move(opened).value();
+    shared.scene = scene;
+  }
+  const auto found = shared.session->world.resource<SceneNames>().find("camera", camera);
+  if (!found) return found.error();
+  shared.session->camera = *found;
+  return shared.session.get();
+}
+
+/// Fog and fires, which reflected rays meet besides surfaces.
+ReflectionExtras extras_of(const World& world) {
+  ReflectionExtras extras;
+  world.view<const Fog>().each([&](const Fog& fog) {
+    if (fog.density > 0.0f)
+      extras.fog = {.density = static_cast<double>(fog.density),
+                    .color = dvec3(fog.color),
+                    .sky_distance_m = static_cast<double>(kFogSkyDistance)};
+  });
+  extras.fires = gather_fire_quads(world);
+  return extras;
+}
+
+/// Sets knobs for its lifetime.
+class TierKnobs {
+ public:
+  explicit TierKnobs(KnobRegistry& knobs)
+      : knobs_(knobs), mode_(knobs.text("reflections.mode")), tiers_(knobs.text("reflections.tiers")) {}
+  ~TierKnobs() { static_cast<void>(set(mode_, tiers_)); }
+  TierKnobs(const TierKnobs&) = delete;
+  TierKnobs& operator=(const TierKnobs&) = delete;
+  [[nodiscard]] Status set(const std::string& mode, const std::string& tiers) {
+    GLOAM_TRY(knobs_.set("reflections.mode", mode));
+    return knobs_.set("reflections.tiers", tiers);
+  }
+
+ private:
+  KnobRegistry& knobs_;
+  std::string mode_;
+  std::string tiers_;
+};
+
+Result<FramePictures> draw_tiers(SessionCosts& costs, TierKnobs& knobs, const TierSet& tiers) {
+  GLOAM_TRY(knobs.set(tiers.mode, tiers.tiers));
+  for (int i = 0; i < kDraws; ++i)
+    if (const auto drawn = costs.draw(0); !drawn) return drawn.error();
+  return costs.read();
+}
+
+Result<CameraErrors> measure_camera(BenchContext& context, Session& session) {
+  Options options = context.options();
+  options.width = kWidth;
+  options.height = kHeight;
+  options.view = "none";
+  options.time_s = 0.0;
+  options.out = options.cache_dir.empty() ? "" : options.cache_dir + "/bench";
+  SessionCosts costs(session, options);
+  TierKnobs knobs(session.renderer->knobs());
+  const auto with_all = draw_tiers(costs, knobs, kTierSets[kAll]);
+  if (!with_all) return with_all.error();
+  auto reference = costs.draw_reference(traced_reflections("reflections.tiers", false, &extras_of), *with_all, kRays);
+  if (!reference) return reference.error();
+  const std::uint64_t expected = hash_of_light(reference->linear);
+  const PictureJudge judge(std::move(reference).value());
+  CameraErrors errors;
+  for (std::size_t i = 0; i < kTierSets.size(); ++i) {
+    const auto drawn = draw_tiers(costs, knobs, kTierSets[i]);
+    if (!drawn) return drawn.error();
+    LedgerRow row;
+    GLOAM_TRY(judge.judge(*drawn, row));
+    errors[i] = {.rmse = row.rmse.value_or(0.0),
+                 .flip = row.flip.value_or(ErrorPair{}).mean,
+                 .hash = hash_of_both(hash_of_light(drawn->linear), expected)};
+  }
+  return errors;
+}
+
+/// Null if the camera's scene is missing.
+Result<const CameraErrors*> judge(BenchContext& context, Shared& shared, std::size_t index) {
+  if (const auto found = shared.judged.find(index); found != shared.judged.end()) return &found->second;
+  const auto scene = scene_of(context, kCameras[index]);
+  if (!scene) return static_cast<const CameraErrors*>(nullptr);
+  auto session = session_of(context, shared, *scene, kCameras[index].camera);
+  if (!session) return session.error();
+  auto errors = measure_camera(context, **session);
+  if (!errors) return errors.error();
+  const CameraErrors& kept = shared.judged.emplace(index, *errors).first->second;
+  return &kept;
+}
+
+void add_camera_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shared, std::size_t index) {
+  const JudgedCamera& judged = kCameras[index];
+  const auto add = [&](std::size_t tiers, const char* name, const char* unit, auto value) {
+    BenchRow row;
+    row.id = std::string("reflections.error.") + judged.scene + "." + judged.camera + "." + kTierSets[tiers].name +
+             "." + name;
+    row.unit = unit;
+    row.run = [=](BenchContext& context) -> Result<BenchValue> {
+      const auto errors = judge(context, *shared, index);
+      if (!errors) return errors.error();
+      if (*errors == nullptr) return skipped_row(no_courtyard());
+      const TierError& error = (**errors)[tiers];
+      BenchValue result = single_value(value(error), error.hash);
+      result.scene = scene_of(context, kCameras[index]);
+      return result;
+    };
+    registry.add(std::move(row));
+  };
+  for (std::size_t tiers = 0; tiers < kTierSets.size(); ++tiers) {
+    add(tiers, "rmse", "cd/m²", [](const TierError& error) { return error.rmse; });
+    add(tiers, "flip", "FLIP", [](const TierError& error) { return error.flip; });
+  }
+}
+
+/// Mean FLIP of all tiers over that of cube maps alone. scene: of JudgedCamera; empty: over all scenes.
+Result<BenchValue> flip_ratio(BenchContext& context, Shared& shared, std::string_view scene) {
+  double all = 0.0, cube = 0.0;
+  std::uint64_t hash = 0;
+  for (std::size_t index = 0; index < kCameras.size(); ++index) {
+    if (!scene.empty() && scene != kCameras[index].scene) continue;
+    const auto errors = judge(context, shared, index);
+    if (!errors) return errors.error();
+    if (*errors == nullptr) continue;
+    all += (**errors)[kAll].flip;
+    cube += (**errors)[kCube].flip;
+    hash = hash_of_both(hash, hash_of_both((**errors)[kAll].hash, (**errors)[kCube].hash));
+  }
+  if (hash == 0) return skipped_row(no_courtyard());
+  return single_value(cube > 0.0 ? all / cube : 0.0, hash);
+}
+
+}  // namespace
+
+void add_reflection_error_benches(BenchRegistry& registry) {
+  const auto shared = std::make_shared<Shared>();
+  for (std::size_t index = 0; index < kCameras.size(); ++index) add_camera_rows(registry, shared, index);
+  const auto add = [&](const std::string& suffix, std::string scene, std::optional<double> bar) {
+    BenchRow row;
+    row.id = "reflections.flip_full_over_cube" + suffix;
+    row.unit = "ratio";
+    row.bar = bar;
+    row.run = [shared, scene = std::move(scene)](BenchContext& context) { return flip_ratio(context, *shared, scene); };
+    registry.add(std::move(row));
+  };
+  add("", "", 0.5);
+  for (const char* scene : {"courtyard", "wet_street"}) add(std::string(".") + scene, scene, std::nullopt);
+}
+
+}  // namespace gloam

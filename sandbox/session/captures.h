@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/core/log.h"
+#include "engine/core/result.h"
+#include "modules/reflections/bake.h"
+#include "sandbox/console.h"
+#include "sandbox/options.h"
+#include "sandbox/session/session.h"
+
+namespace gloam {
+
+/// The captures file beside a scene file: "scenes/courtyard.captures" for "scenes/courtyard.gltf". Empty for a built-in
+/// scene.
+[[nodiscard]] std::string captures_beside(const std::string& scene);
+/// The file of these captures in --cache-dir, for this device. Empty if there is no such folder.
+[[nodiscard]] std::string cached_captures(const Session& session, const Options& options, std::uint64_t content);
+
+/// Captures the session's proxies and probes at simulated time 0 and with the default knobs, whatever the session's
+/// are. Uses a renderer and a world of its own on the session's device, so the session's next frame is as without it.
+/// The result's entities are of the session's world.
+[[nodiscard]] Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, LogSink& log,
+                                                    const BakeProgress& progress = {});
+
+/// Gives the session's world its captures, if the reflections module is built and demanded: reads them from the file
+/// beside the scene or from the cache, else bakes them and fills the cache. Call it before the first frame. A cache
+/// that cannot be written is a warning.
+[[nodiscard]] Status ensure_captures(Session& session, const Options& options, LogSink& log,
+                                     const BakeProgress& progress = {});
+
+/// Shows a progress bar on a terminal unless quiet.
+[[nodiscard]] BakeProgress show_bake_progress(Console& console, bool quiet);
+
+}  // namespace gloam
