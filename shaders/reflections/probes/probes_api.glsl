@@ -40,20 +40,43 @@ vec3 parallax_direction(ProbeRow probe, vec3 at, vec3 position, vec3 direction) 
   return position + direction * max(distance_m, 0.0) - probe.center;
 }
 
-// Radiance of all probes for a reflected ray. covered: how much of it the probes give, 0…1; the rest is the sky's.
-vec3 probes_radiance(uint count, vec3 position, vec3 direction, float roughness, out float covered) {
-  vec3 light = vec3(0.0);
-  covered = 0.0;
+// What one probe adds to a reflected ray.
+struct ProbeLookup {
+  vec3 toward;  // direction in the probe's map
+  float layer;
+  float share;  // 0: no probe
+  uint index;
+};
+
+// The first probe from `first` on that has a share at the ray's origin.
+ProbeLookup next_probe(uint first, uint count, vec3 position, vec3 direction) {
+  ProbeLookup found = ProbeLookup(direction, 0.0, 0.0, count);
   for (uint i = 0u; i < count; ++i) {
     ProbeRow probe = GLOAM_PROBE_ROW(i);
     vec3 offset = position - probe.center;
     vec3 at = vec3(dot(probe.to_x, offset), dot(probe.to_y, offset), dot(probe.to_z, offset));
-    float share = probe_share(probe, at) * (1.0 - covered);
-    if (share > 0.0) {
-      vec3 toward = probe.global > 0.5 ? direction : parallax_direction(probe, at, position, direction);
-      light += share * probe_radiance(probe.layer, toward, roughness);
-      covered += share;
-    }
+    float share = probe_share(probe, at);
+    vec3 toward = probe.global > 0.5 ? direction : parallax_direction(probe, at, position, direction);
+    bool taken = i >= first && share > 0.0 && found.index == count;
+    found.toward = taken ? toward : found.toward;
+    found.layer = taken ? probe.layer : found.layer;
+    found.share = taken ? share : found.share;
+    found.index = taken ? i : found.index;
+  }
+  return found;
+}
+
+// Radiance of all probes for a reflected ray. covered: how much of it the probes give, 0…1; the rest is the sky's.
+// Most points lie in one probe: one lookup for each probe that has a share costs less than one for each probe.
+vec3 probes_radiance(uint count, vec3 position, vec3 direction, float roughness, out float covered) {
+  vec3 light = vec3(0.0);
+  covered = 0.0;
+  ProbeLookup probe = next_probe(0u, count, position, direction);
+  while (probe.share > 0.0 && covered < 1.0) {
+    float share = probe.share * (1.0 - covered);
+    light += share * probe_radiance(probe.layer, probe.toward, roughness);
+    covered += share;
+    probe = next_probe(probe.index + 1u, count, position, direction);
   }
   return light;
 }
