@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "engine/ecs/entity.h"
+#include "engine/math/bounds.h"
 #include "engine/math/types.h"
 
 namespace gloam {
@@ -33,6 +35,37 @@ struct Collider {
 struct Wind {
   vec3 velocity = vec3(0.0f);  ///< m/s
   float gust = 0.3f;           ///< 0…1
+};
+
+/// One blade. Growth makes blades; a host may change or destroy them and then calls mark_changed or destroys the
+/// entity. Positions are relative to the blade's patch (GrassPatch::origin).
+struct GrassBlade {
+  vec3 root_m = vec3(0.0f);
+  vec3 ground_normal = vec3(0.0f, 1.0f, 0.0f);  ///< unit; no knot goes below the plane through the root
+  float yaw = 0.0f;  ///< radians, around the ground normal: direction in which the stem leans
+  float length_m = 0.3f;
+  float width_m = 0.006f;    ///< at the root
+  float rank = 0.0f;         ///< 0…1; where the LOD thins the field, blades of a high rank go first
+  std::uint32_t slot = 0;    ///< 256 · index of the patch + index in the patch; its place in GPU buffers
+  std::uint32_t master = 0;  ///< slot of the blade whose knots it copies, in the same patch; a master's own slot
+  std::uint16_t type = 0;    ///< of the patch's blade types, < 16
+  std::uint16_t layer = 0;   ///< texture layer, < 16
+};
+
+/// Tags that keep masters and slaves in archetypes of their own.
+struct GrassMasterTag {};
+struct GrassSlaveTag {};
+
+/// Up to 256 blades that are culled together. The entity has no mesh.
+struct GrassPatch {
+  Entity surface = kNoEntity;  ///< entity with the GrassSurface
+  dvec3 origin = dvec3(0.0);   ///< world position of the middle of `roots`
+  Aabb roots;                  ///< of the blades' roots, relative to the origin
+  float reach_m = 0.0f;        ///< length of the longest blade
+  float max_distance_m = 40.0f;
+  std::uint32_t index = 0;  ///< among the field's patches
+  std::uint32_t blades = 0;
+  std::uint32_t masters = 0;  ///< they have the patch's first slots
 };
 
 }  // namespace gloam
