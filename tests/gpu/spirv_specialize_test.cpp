@@ -59,6 +59,70 @@ TEST(SpirvSpecialize, leaves_out_branches_that_are_never_taken) {
             count_of(disabled_code(4), spirv::op_branch_conditional));
 }
 
+TEST(SpirvSpecialize, leaves_no_choice_between_constant_vectors) {
+  for (std::uint32_t flag = 0; flag < 3; ++flag) {
+    const SpecConstant constants[] = {{.id = 0, .value = flag}};
+    const Words words = spirv::specialize(shaders::gpu_test::choose_vectors_comp.words, constants);
+    ASSERT_FALSE(words.empty());
+    for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
+      EXPECT_FALSE(op == spirv::op_spec_constant_op && w[3] == spirv::op_select) << "flag " << flag;
+    });
+  }
+}
+
+/// A module with a specialisation constant, id 4, and a choice between two vectors, id 12, by components.
+Words module_with_choice_by_components(std::uint32_t second_vector_op) {
+  Words words = {0x07230203, 0x00010600, 0, 20, 0};
+  const auto add = [&](std::uint32_t op, std::initializer_list<std::uint32_t> operands) {
+    words.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << 16 | op);
+    words.insert(words.end(), operands);
+  };
+  add(spirv::op_decorate, {4, 1, 0});
+  add(spirv::op_type_bool, {1});
+  add(spirv::op_type_vector, {2, 1, 3});
+  add(spirv::op_constant_false, {1, 3});
+  add(spirv::op_spec_constant_true, {1, 4});
+  add(spirv::op_spec_constant_composite, {2, 5, 4, 3, 4});
+  add(spirv::op_type_float, {6, 32});
+  add(spirv::op_type_vector, {7, 6, 3});
+  for (const std::uint32_t number : {8u, 9u}) add(spirv::op_constant, {6, number, 0x3f800000u + number});
+  add(spirv::op_constant_composite, {7, 10, 8, 8, 8});
+  if (second_vector_op == spirv::op_constant_composite) {
+    add(second_vector_op, {7, 11, 9, 9, 9});
+  } else {
+    add(second_vector_op, {7, 11});
+  }
+  add(spirv::op_spec_constant_op, {7, 12, spirv::op_select, 5, 10, 11});
+  return words;
+}
+
+/// The operands after the type of the instruction that defines `id` as a constant.
+Words constant_of(std::span<const std::uint32_t> words, std::uint32_t id, std::uint32_t op) {
+  Words operands;
+  for_each_instruction(words, [&](std::uint32_t found, const auto& w) {
+    if (found == op && w.size() > 2 && w[2] == id) operands.assign(w.begin() + 3, w.end());
+  });
+  return operands;
+}
+
+TEST(SpirvSpecialize, chooses_components_of_constant_vectors_one_by_one) {
+  const Words words = module_with_choice_by_components(spirv::op_constant_composite);
+  EXPECT_EQ(constant_of(spirv::specialize(words, {}), 12, spirv::op_constant_composite), (Words{8, 9, 8}));
+  const SpecConstant off[] = {{.id = 0, .value = 0}};
+  EXPECT_EQ(constant_of(spirv::specialize(words, off), 12, spirv::op_constant_composite), (Words{9, 9, 9}));
+}
+
+TEST(SpirvSpecialize, leaves_choices_of_components_that_have_no_id_to_the_driver) {
+  constexpr std::uint32_t kConstantNull = 46;
+  const Words words = module_with_choice_by_components(kConstantNull);
+  EXPECT_EQ(constant_of(spirv::specialize(words, {}), 12, spirv::op_spec_constant_op),
+            (Words{spirv::op_select, 5, 10, 11}));
+  const SpecConstant off[] = {{.id = 0, .value = 0}};
+  const Words specialized = spirv::specialize(words, off);
+  EXPECT_EQ(count_of(specialized, spirv::op_spec_constant_op), 0u);
+  EXPECT_EQ(count_of(specialized, kConstantNull), 2u);
+}
+
 TEST(SpirvSpecialize, gives_nothing_for_a_module_without_specialisation_constants) {
   EXPECT_TRUE(spirv::specialize(shaders::gpu_test::halve_comp.words, {}).empty());
 }
@@ -103,9 +167,11 @@ TEST(SpirvSpecialize, names_only_blocks_and_functions_that_exist) {
 }
 
 TEST(SpirvSpecialize, survives_damaged_modules) {
-  const auto words = shaders::gpu_test::disabled_code_comp.words;
+  const std::span<const std::uint32_t> modules[] = {shaders::gpu_test::disabled_code_comp.words,
+                                                    shaders::gpu_test::choose_vectors_comp.words};
   std::mt19937 random(7);
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 6000; ++round) {
+    const auto words = modules[round % 2];
     Words damaged(words.begin(), words.end());
     const int changes = 1 + static_cast<int>(random() % 4);
     for (int c = 0; c < changes; ++c) {

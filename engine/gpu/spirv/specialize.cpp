@@ -294,7 +294,56 @@ class Specializer {
     }
   }
 
+  /// The written instruction that defines a constant; empty if no constant has this id.
+  [[nodiscard]] std::span<const std::uint32_t> definition_of(std::uint32_t id) const {
+    const auto found = places_.find(id);
+    if (found == places_.end()) return {};
+    const auto words = std::span(out_).subspan(found->second);
+    return words.first(words[0] >> 16);
+  }
+
+  /// Ids of the components of a vector constant; empty if the constant is not an OpConstantComposite.
+  [[nodiscard]] std::span<const std::uint32_t> components_of(std::uint32_t id) const {
+    const auto words = definition_of(id);
+    if (words.empty() || (words[0] & 0xffff) != op_constant_composite) return {};
+    return words.subspan(3);
+  }
+
+  /// The constant in place of an OpSpecConstantOp with OpSelect, `w`, whose operands are not all scalars of Constants;
+  /// empty if its condition is not known, or components of something other than an OpConstantComposite are chosen.
+  [[nodiscard]] std::vector<std::uint32_t> chosen_constant(std::span<const std::uint32_t> w) const {
+    if (w.size() != 7 || w[3] != op_select) return {};
+    const auto conditions = constants_.of(w[4]) ? w.subspan(4, 1) : components_of(w[4]);
+    std::vector<std::uint32_t> sources;  // the chosen operands: one a component, or one for all
+    for (const std::uint32_t condition : conditions) {
+      const auto value = constants_.of(condition);
+      if (!value) return {};
+      sources.push_back(w[*value != 0 ? 5 : 6]);
+    }
+    if (sources.empty()) return {};
+    if (std::ranges::count(sources, sources[0]) == std::ssize(sources)) {
+      const auto words = definition_of(sources[0]);
+      std::vector<std::uint32_t> copy(words.begin(), words.end());
+      if (!copy.empty()) copy[2] = w[2];
+      return copy;
+    }
+    std::vector<std::uint32_t> mixed = {(static_cast<std::uint32_t>(sources.size()) + 3) << 16 | op_constant_composite,
+                                        w[1], w[2]};
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      const auto components = components_of(sources[i]);
+      if (components.size() != sources.size()) return {};
+      mixed.push_back(components[i]);
+    }
+    return mixed;
+  }
+
   void write_global(const Instruction& i) {
+    const std::size_t place = out_.size();
+    write_specialized(i);
+    if (i.op >= op_constant_true && i.op <= op_spec_constant_op && i.words.size() > 2) places_[i.words[2]] = place;
+  }
+
+  void write_specialized(const Instruction& i) {
     const auto& w = i.words;
     if (i.op == op_decorate && w[2] == kSpecId) return;
     if ((i.op == op_name || i.op == op_decorate) && removed_.contains(w[1])) return;
@@ -308,6 +357,10 @@ class Specializer {
     if (const auto value = constants_.of(w[2])) {
       if (w[1] == bool_type_) return append(out_, *value != 0 ? op_constant_true : op_constant_false, {w[1], w[2]});
       return append(out_, op_constant, {w[1], w[2], *value});
+    }
+    if (i.op == op_spec_constant_op) {
+      const auto chosen = chosen_constant(w);
+      if (!chosen.empty()) return static_cast<void>(out_.insert(out_.end(), chosen.begin(), chosen.end()));
     }
     append(out_, i);
     // Not a boolean or 32-bit integer: the given value replaces the first word.
@@ -378,6 +431,7 @@ class Specializer {
   Constants constants_;
   std::unordered_map<std::uint32_t, LiveCode> live_;  ///< by function
   std::unordered_map<std::uint32_t, bool> removed_;
+  std::unordered_map<std::uint32_t, std::size_t> places_;       ///< by constant: index of its instruction in out_
   std::unordered_map<std::uint32_t, std::uint32_t> undefined_;  ///< by type: id of an OpUndef
   std::vector<std::uint32_t> out_;
 };

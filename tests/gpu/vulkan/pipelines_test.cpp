@@ -113,6 +113,31 @@ TEST_F(Pipelines, kernels_compute_the_same_without_disabled_code) {
   }
 }
 
+TEST_F(Pipelines, kernels_choose_vectors_by_specialisation_constants) {
+  constexpr float kFactor = 0.25f;
+  for (std::uint32_t flag = 0; flag < 3; ++flag) {
+    const auto pipeline = test::value_of(device().create_pipeline(ComputePipelineDesc{
+        .name = "choose vectors",
+        .module = "test",
+        .shader = shaders::gpu_test::choose_vectors_comp,
+        .constants = {{.id = 0, .value = flag}, {.id = 1, .value = std::bit_cast<std::uint32_t>(kFactor)}}}));
+    const BufferHandle target = test::make_readback(device(), 36);
+    test::run_frame(device(), [&](CommandList& commands) {
+      commands.bind_pipeline(pipeline);
+      commands.bind(std::array{Binding{0, Binding::BufferRange{target}}});
+      commands.dispatch(1, 1, 1);
+      to(commands, target, Access::compute_write, Access::host_read);
+    });
+    std::vector<float> expected = flag != 0 ? std::vector{1.0f, 2.0f} : std::vector{3.0f, 4.0f};
+    const std::vector scale = flag > 1 ? std::vector{kFactor, 5.0f, 6.0f} : std::vector{7.0f, 8.0f, kFactor};
+    expected.insert(expected.end(), scale.begin(), scale.end());
+    const std::vector nested = flag == 1 ? std::vector(3, 9.0f) : scale;
+    expected.insert(expected.end(), nested.begin(), nested.end());
+    expected.push_back(flag == 2 ? kFactor : 10.0f);
+    EXPECT_EQ(test::items_of<float>(device(), target), expected) << "flag " << flag;
+  }
+}
+
 TEST_F(Pipelines, dispatches_read_their_size_from_a_buffer) {
   const auto pipeline = test::value_of(device().create_pipeline(doubling()));
   const BufferHandle source = test::make_upload(device(), std::vector<std::uint32_t>(64, 21));
