@@ -8,6 +8,7 @@
 #include <numbers>
 #include <span>
 
+#include "engine/math/low_discrepancy.h"
 #include "engine/math/packing.h"
 #include "modules/reflections/bake/picture.h"
 
@@ -35,9 +36,7 @@ std::vector<LobeSample> lobe_samples(double roughness, std::uint32_t face_side, 
   for (std::uint32_t i = 0; i < count; ++i) {
     // Hammersley points.
     const double u = (i + 0.5) / count;
-    std::uint32_t reversed = 0;
-    for (std::uint32_t bit = 0; bit < 32; ++bit) reversed |= (i >> bit & 1u) << (31 - bit);
-    const double angle = 2.0 * std::numbers::pi * (reversed * 0x1p-32);
+    const double angle = 2.0 * std::numbers::pi * (reversed_bits(i) * 0x1p-32);
     const double cosine2 = (1.0 - u) / (1.0 + (alpha2 - 1.0) * u);  // of the half vector
     const double n_dot_l = 2.0 * cosine2 - 1.0;
     if (n_dot_l <= 0.0) continue;

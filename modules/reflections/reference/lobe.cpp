@@ -5,35 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/low_discrepancy.h"
+
 namespace gloam {
 namespace {
 
 constexpr double kLeastViewCosine = 1e-3;  // as ShadingPoint::n_dot_v
 constexpr double kLeastAboveFace = 1e-4;   // cosine of a moved mirror direction
 constexpr double kFullTurn = 6.28318530717958647692;
-
-std::uint32_t bits_reversed(std::uint32_t x) {
-  std::uint32_t reversed = 0;
-  for (int bit = 0; bit < 32; ++bit) reversed |= (x >> bit & 1u) << (31 - bit);
-  return reversed;
-}
-
-/// Second dimension of Sobol's sequence.
-std::uint32_t second_sobol(std::uint32_t index) {
-  std::uint32_t result = 0;
-  for (std::uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1)
-    if ((index & 1u) != 0) result ^= v;
-  return result;
-}
-
-/// A pseudorandom permutation of the 32-bit numbers.
-std::uint32_t permuted(std::uint32_t x) {
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
-double unit_number(std::uint32_t x) { return (static_cast<double>(x) + 0.5) / 4294967296.0; }
 
 }  // namespace
 
@@ -81,11 +60,11 @@ LobeDirection ReflectionLobe::sample(double u1, double u2) const {
 PixelSequence::PixelSequence(std::uint32_t pixel)
     : scramble_x_(permuted(pixel * 5u + 1u)), scramble_y_(permuted(pixel * 5u + 2u)) {
   for (int axis = 0; axis < 3; ++axis)
-    shift_[axis] = unit_number(permuted(permuted(pixel * 5u + 3u) + static_cast<std::uint32_t>(axis)));
+    shift_[axis] = unit_fraction(permuted(permuted(pixel * 5u + 3u) + static_cast<std::uint32_t>(axis)));
 }
 
 PixelSequence::Pair PixelSequence::direction(std::uint32_t index) const {
-  return {unit_number(bits_reversed(index) ^ scramble_x_), unit_number(second_sobol(index) ^ scramble_y_)};
+  return {unit_fraction(reversed_bits(index) ^ scramble_x_), unit_fraction(second_sobol(index) ^ scramble_y_)};
 }
 
 double PixelSequence::choice(std::uint32_t index) const {

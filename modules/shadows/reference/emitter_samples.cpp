@@ -6,32 +6,10 @@
 #include <cmath>
 
 #include "engine/core/assert.h"
+#include "engine/math/low_discrepancy.h"
 
 namespace gloam {
 namespace {
-
-std::uint32_t reversed_bits(std::uint32_t x) {
-  std::uint32_t reversed = 0;
-  for (int bit = 0; bit < 32; ++bit) reversed |= (x >> bit & 1u) << (31 - bit);
-  return reversed;
-}
-
-/// Second dimension of Sobol's sequence.
-std::uint32_t sobol(std::uint32_t index) {
-  std::uint32_t result = 0;
-  for (std::uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1)
-    if ((index & 1u) != 0) result ^= v;
-  return result;
-}
-
-/// A pseudorandom permutation of the 32-bit numbers.
-std::uint32_t mixed(std::uint32_t x) {
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
-double unit(std::uint32_t x) { return (static_cast<double>(x) + 0.5) / 4294967296.0; }
 
 /// Maps the unit square to the disc, preserving ratios of areas, and neighbourhood.
 vec2 on_disc(double x, double y) {
@@ -50,15 +28,16 @@ EmitterSamples::EmitterSamples(std::uint32_t count) : count_(count) {
   GLOAM_ASSERT(count > 0, "a light is seen by at least one ray");
   points_.reserve(std::size_t{kPatterns} * count);
   for (std::uint32_t pattern = 0; pattern < kPatterns; ++pattern) {
-    const std::uint32_t scramble_x = mixed(2 * pattern + 1), scramble_y = mixed(2 * pattern + 2);
+    const std::uint32_t scramble_x = permuted(2 * pattern + 1), scramble_y = permuted(2 * pattern + 2);
     for (std::uint32_t i = 0; i < count; ++i)
-      points_.push_back(on_disc(unit(reversed_bits(i) ^ scramble_x), unit(sobol(i) ^ scramble_y)));
+      points_.push_back(
+          on_disc(unit_fraction(reversed_bits(i) ^ scramble_x), unit_fraction(second_sobol(i) ^ scramble_y)));
   }
 }
 
 EmitterSamples::Pattern EmitterSamples::pattern(std::uint32_t pixel, std::uint32_t light) const {
-  const std::uint32_t hash = mixed(mixed(pixel) + light);
-  const double angle = 6.28318530717958647692 * unit(mixed(hash));
+  const std::uint32_t hash = permuted(permuted(pixel) + light);
+  const double angle = 6.28318530717958647692 * unit_fraction(permuted(hash));
   return {.points = std::span(points_).subspan(std::size_t{hash % kPatterns} * count_, count_),
           .turn = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))}};
 }
