@@ -20,6 +20,17 @@ class Hasher {
   /// Adds hash_bytes(data) as one item: bytes(a).bytes(b) differs from bytes() of a and b joined.
   Hasher& bytes(std::span<const std::byte> data) { return value(hash_bytes(data)); }
   Hasher& text(std::string_view s) { return bytes(std::as_bytes(std::span(s.data(), s.size()))); }
+  /// Adds the bytes of a number, vector or matrix as one item. T must have no padding.
+  template <class T>
+  requires(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>) Hasher& bytes_of(const T& v) {
+    return bytes(std::as_bytes(std::span(&v, 1)));
+  }
+  /// Adds the number of items in a contiguous range and then their bytes. The items must have no padding.
+  template <class Range>
+  Hasher& items(const Range& range) {
+    const std::span all(range);
+    return value(all.size()).bytes(std::as_bytes(all));
+  }
   /// Integers and enumerations only: structs may contain padding.
   template <class T>
   requires(std::is_integral_v<T> || std::is_enum_v<T>) Hasher& value(T v) {

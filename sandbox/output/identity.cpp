@@ -3,7 +3,6 @@
 #include "sandbox/output/identity.h"
 
 #include <cstdio>
-#include <span>
 
 #include "engine/core/hash.h"
 #include "engine/scene/assets.h"
@@ -18,26 +17,20 @@ std::string hexadecimal(std::uint64_t value) {
   return digits;
 }
 
-/// Hashes the bytes of the items: T must have no padding.
-template <class T>
-void add_items(Hasher& hasher, const std::vector<T>& items) {
-  hasher.value(items.size()).bytes(std::as_bytes(std::span(items)));
-}
-
 void add_primitive(Hasher& hasher, const Primitive& primitive) {
   hasher.value(primitive.material);
-  add_items(hasher, primitive.positions);
-  add_items(hasher, primitive.normals);
-  add_items(hasher, primitive.tangents);
-  add_items(hasher, primitive.uv0);
-  add_items(hasher, primitive.uv1);
-  add_items(hasher, primitive.colors);
-  add_items(hasher, primitive.joints);
-  add_items(hasher, primitive.weights);
-  add_items(hasher, primitive.indices);
+  hasher.items(primitive.positions);
+  hasher.items(primitive.normals);
+  hasher.items(primitive.tangents);
+  hasher.items(primitive.uv0);
+  hasher.items(primitive.uv1);
+  hasher.items(primitive.colors);
+  hasher.items(primitive.joints);
+  hasher.items(primitive.weights);
+  hasher.items(primitive.indices);
   for (const Primitive::MorphTarget& target : primitive.morph_targets) {
-    add_items(hasher, target.positions);
-    add_items(hasher, target.normals);
+    hasher.items(target.positions);
+    hasher.items(target.normals);
   }
 }
 
@@ -47,12 +40,12 @@ void add_assets(Hasher& hasher, const SceneAssets& assets) {
   }
   for (const Image& image : assets.images) {
     hasher.value(image.width).value(image.height);
-    add_items(hasher, image.rgba);
+    hasher.items(image.rgba);
   }
   for (const AnimationClip& clip : assets.clips) {
     for (const AnimationChannel& channel : clip.channels) {
-      add_items(hasher, channel.times);
-      add_items(hasher, channel.values);
+      hasher.items(channel.times);
+      hasher.items(channel.values);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace gloam {
@@ -45,6 +46,19 @@ TEST(Hash, texts_of_different_cuts_differ) {
 TEST(Hash, bytes_of_different_cuts_differ) {
   EXPECT_NE(Hasher().bytes(bytes_of("glo")).bytes(bytes_of("am")).digest(), Hasher().bytes(bytes_of("gloam")).digest());
   EXPECT_NE(Hasher().bytes({}).digest(), Hasher().digest());
+}
+
+TEST(Hash, items_hash_as_their_number_and_their_bytes) {
+  const std::vector<float> values = {1.0f, -2.5f};
+  const auto bytes = std::as_bytes(std::span(values));
+  EXPECT_EQ(Hasher().items(values).digest(), Hasher().value(2).bytes(bytes).digest());
+  EXPECT_EQ(Hasher().items(std::span(values)).digest(), Hasher().items(values).digest());
+  EXPECT_EQ(Hasher().items(std::vector<float>()).digest(), Hasher().value(0).bytes({}).digest());
+}
+
+TEST(Hash, a_value_hashes_as_its_bytes) {
+  const std::array<float, 2> value = {1.0f, -2.5f};
+  EXPECT_EQ(Hasher().bytes_of(value).digest(), Hasher().bytes(std::as_bytes(std::span(value))).digest());
 }
 
 TEST(Hash, small_integers_do_not_collide) {

@@ -70,23 +70,18 @@ void run(World& world, JobExecutor& executor, double time_s) {
   schedule.run(Stage::world, world, executor);
 }
 
-template <class T>
-void hash_floats(Hasher& hasher, const T& value) {
-  hasher.bytes(std::as_bytes(std::span(&value, 1)));
-}
-
 std::uint64_t hash_of(World& world) {
   Hasher hasher;
   world.view<const WorldTransform>().each([&](Entity entity, const WorldTransform& transform) {
     hasher.value(entity.index);
-    hash_floats(hasher, transform.matrix);
+    hasher.bytes_of(transform.matrix);
   });
-  for (const mat4& matrix : world.resource<JointMatrices>().matrices) hash_floats(hasher, matrix);
+  for (const mat4& matrix : world.resource<JointMatrices>().matrices) hasher.bytes_of(matrix);
   for (const auto& range : world.resource<JointMatrices>().ranges) {
     hasher.value(range.instance.index).value(range.first).value(range.count).value(range.mirrored);
-    hash_floats(hasher, range.origin);
+    hasher.bytes_of(range.origin);
   }
-  for (const float weight : world.resource<MorphWeights>().values) hash_floats(hasher, weight);
+  for (const float weight : world.resource<MorphWeights>().values) hasher.bytes_of(weight);
   return hasher.digest();
 }
 

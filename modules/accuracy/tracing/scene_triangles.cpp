@@ -221,6 +221,11 @@ CutOut make_cut_out(const Material& material, const SceneAssets& assets) {
   return cut_out;
 }
 
+void add_shape(Hasher& hasher, const TriangleMesh& mesh) {
+  hasher.value(mesh.positions.size()).value(mesh.indices.size()).value(mesh.cut_out);
+  hasher.bytes(std::as_bytes(std::span(mesh.positions))).bytes(std::as_bytes(std::span(mesh.indices)));
+}
+
 }  // namespace
 
 bool CutOut::is_hole(vec2 uv, float vertex_alpha) const {
@@ -252,15 +257,14 @@ std::uint64_t SceneTriangles::count() const {
 
 std::uint64_t SceneTriangles::hash() const {
   Hasher hasher;
-  hasher.bytes(std::as_bytes(std::span(&origin, 1)));
+  hasher.bytes_of(origin);
   for (const TriangleMesh& mesh : meshes) {
-    hasher.value(mesh.positions.size()).value(mesh.indices.size()).value(mesh.cut_out);
-    hasher.bytes(std::as_bytes(std::span(mesh.positions))).bytes(std::as_bytes(std::span(mesh.indices)));
-    hasher.bytes(std::as_bytes(std::span(&mesh.emissive_reach_m, 1)));
+    add_shape(hasher, mesh);
+    hasher.bytes_of(mesh.emissive_reach_m);
     hasher.bytes(std::as_bytes(std::span(mesh.uvs))).bytes(std::as_bytes(std::span(mesh.alphas)));
   }
   for (const CutOut& cut_out : cut_outs) {
-    hasher.bytes(std::as_bytes(std::span(&cut_out.alpha, 1))).bytes(std::as_bytes(std::span(&cut_out.cutoff, 1)));
+    hasher.bytes_of(cut_out.alpha).bytes_of(cut_out.cutoff);
     hasher.value(cut_out.width).value(cut_out.height).value(cut_out.nearest);
     hasher.value(cut_out.wrap_u).value(cut_out.wrap_v).bytes(std::as_bytes(std::span(cut_out.texels)));
   }
@@ -270,10 +274,7 @@ std::uint64_t SceneTriangles::hash() const {
 std::uint64_t SceneTriangles::hash_of_all() const {
   Hasher hasher;
   hasher.value(hash());
-  for (const TriangleMesh& mesh : uncast) {
-    hasher.value(mesh.positions.size()).value(mesh.indices.size()).value(mesh.cut_out);
-    hasher.bytes(std::as_bytes(std::span(mesh.positions))).bytes(std::as_bytes(std::span(mesh.indices)));
-  }
+  for (const TriangleMesh& mesh : uncast) add_shape(hasher, mesh);
   return hasher.digest();
 }
 

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -26,17 +25,6 @@ namespace {
 
 /// Increment it when the same scene gives other captures than before.
 constexpr std::uint32_t kBakeVersion = 1;
-
-/// Adds the bytes of a number, vector or matrix: T must have no padding.
-template <class T>
-void add_number(Hasher& hasher, const T& value) {
-  hasher.bytes(std::as_bytes(std::span(&value, 1)));
-}
-
-template <class T>
-void add_numbers(Hasher& hasher, const std::vector<T>& values) {
-  hasher.value(values.size()).bytes(std::as_bytes(std::span(values)));
-}
 
 template <class Key>
 std::vector<Entity> sorted_with(const World& world) {
@@ -64,13 +52,13 @@ class AssetHashes {
  private:
   void add(Hasher& hasher, const Primitive& primitive) {
     hasher.value(material(primitive.material));
-    add_numbers(hasher, primitive.positions);
-    add_numbers(hasher, primitive.normals);
-    add_numbers(hasher, primitive.tangents);
-    add_numbers(hasher, primitive.uv0);
-    add_numbers(hasher, primitive.uv1);
-    add_numbers(hasher, primitive.colors);
-    add_numbers(hasher, primitive.indices);
+    hasher.items(primitive.positions);
+    hasher.items(primitive.normals);
+    hasher.items(primitive.tangents);
+    hasher.items(primitive.uv0);
+    hasher.items(primitive.uv1);
+    hasher.items(primitive.colors);
+    hasher.items(primitive.indices);
   }
 
   [[nodiscard]] std::uint64_t material(std::uint32_t index) {
@@ -79,12 +67,12 @@ class AssetHashes {
     if (found != materials_.end()) return found->second;
     const Material& m = assets_.materials[index];
     Hasher hasher;
-    add_number(hasher, m.base_color);
-    add_number(hasher, m.emissive);
+    hasher.bytes_of(m.base_color);
+    hasher.bytes_of(m.emissive);
     for (const float value : {m.metallic, m.roughness, m.normal_scale, m.occlusion_strength, m.alpha_cutoff})
-      add_number(hasher, value);
+      hasher.bytes_of(value);
     hasher.value(m.alpha_mode).value(m.double_sided).value(m.subsurface);
-    add_number(hasher, m.reflectivity);
+    hasher.bytes_of(m.reflectivity);
     for (const TextureSlot* slot : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
                                     &m.occlusion_texture, &m.emissive_texture})
       add(hasher, *slot);
@@ -93,8 +81,8 @@ class AssetHashes {
 
   void add(Hasher& hasher, const TextureSlot& slot) {
     hasher.value(slot.uv_set);
-    add_number(hasher, slot.transform_row0);
-    add_number(hasher, slot.transform_row1);
+    hasher.bytes_of(slot.transform_row0);
+    hasher.bytes_of(slot.transform_row1);
     if (slot.texture >= assets_.textures.size()) return;
     const Texture& texture = assets_.textures[slot.texture];
     hasher.value(texture.srgb).value(texture.nearest).value(texture.wrap_u).value(texture.wrap_v);
@@ -108,7 +96,7 @@ class AssetHashes {
     const Image& image = assets_.images[index];
     Hasher hasher;
     hasher.value(image.width).value(image.height);
-    add_numbers(hasher, image.rgba);
+    hasher.items(image.rgba);
     return images_[index] = hasher.digest();
   }
 
@@ -126,7 +114,10 @@ class PoseHashes {
   [[nodiscard]] bool moves(Entity node) const { return animated_.moves(node); }
 
   void add(Hasher& hasher, Entity node) const {
-    if (!moves(node)) return add_number(hasher, world_.get<WorldTransform>(node).matrix);
+    if (!moves(node)) {
+      hasher.bytes_of(world_.get<WorldTransform>(node).matrix);
+      return;
+    }
     while (true) {
       add_own(hasher, node);
       const Parent* parent = world_.try_get<Parent>(node);
@@ -148,17 +139,17 @@ class PoseHashes {
         rotated = rotated || channel.path == AnimationPath::rotation;
         scaled = scaled || channel.path == AnimationPath::scale;
         hasher.value(channel.path).value(channel.interpolation);
-        add_number(hasher, clip.duration_s);
-        add_numbers(hasher, channel.times);
-        add_numbers(hasher, channel.values);
+        hasher.bytes_of(clip.duration_s);
+        hasher.items(channel.times);
+        hasher.items(channel.values);
       }
     }
     if (const LocalTransform* pose = world_.try_get<LocalTransform>(node)) {
-      if (!translated) add_number(hasher, pose->translation);
-      if (!rotated) add_number(hasher, pose->rotation);
-      if (!scaled) add_number(hasher, pose->scale);
+      if (!translated) hasher.bytes_of(pose->translation);
+      if (!rotated) hasher.bytes_of(pose->rotation);
+      if (!scaled) hasher.bytes_of(pose->scale);
     }
-    if (const LocalMatrix* pose = world_.try_get<LocalMatrix>(node)) add_number(hasher, pose->matrix);
+    if (const LocalMatrix* pose = world_.try_get<LocalMatrix>(node)) hasher.bytes_of(pose->matrix);
   }
 
   const World& world_;
@@ -185,10 +176,10 @@ void add_lights(Hasher& hasher, const World& world, const PoseHashes& poses, con
   for (const Entity entity : lights) {
     const auto& light = world.get<Light>(entity);
     hasher.value(light.kind);
-    add_number(hasher, light.color);
+    hasher.bytes_of(light.color);
     for (const float value :
          {light.intensity, light.range_m, light.inner_angle, light.outer_angle, light.width_m, light.apparent_angle})
-      add_number(hasher, value);
+      hasher.bytes_of(value);
     add_file(hasher, world, light.cookie);
     const ShadowCaster* caster = world.try_get<ShadowCaster>(entity);
     hasher.value(caster == nullptr || caster->enabled).value(caster == nullptr ? 0u : caster->resolution);
@@ -199,7 +190,7 @@ void add_lights(Hasher& hasher, const World& world, const PoseHashes& poses, con
 void add_proxies(Hasher& hasher, const World& world, const PoseHashes& poses, const std::vector<Entity>& lights) {
   for (const Entity entity : sorted_with<IbrProxy>(world)) {
     const auto& proxy = world.get<IbrProxy>(entity);
-    add_number(hasher, proxy.size_m);
+    hasher.bytes_of(proxy.size_m);
     hasher.value(proxy.kind).value(proxy.texture != 0);
     add_file(hasher, world, proxy.texture);
     const std::string& names = world.resource<SceneStrings>().text(proxy.lights);
@@ -214,7 +205,7 @@ void add_proxies(Hasher& hasher, const World& world, const PoseHashes& poses, co
 void add_probes(Hasher& hasher, const World& world, const PoseHashes& poses) {
   for (const Entity entity : sorted_with<CubeProbe>(world)) {
     const auto& probe = world.get<CubeProbe>(entity);
-    add_number(hasher, probe.size_m);
+    hasher.bytes_of(probe.size_m);
     hasher.value(probe.resolution).value(probe.global);
     poses.add(hasher, entity);
   }
@@ -229,7 +220,7 @@ std::uint64_t capture_content(const World& world) {
   hasher.value(kBakeVersion);
   const auto& environment = world.resource<SceneEnvironment>();
   for (const vec3& sky : {environment.sky_zenith, environment.sky_horizon, environment.sky_ground})
-    add_number(hasher, sky);
+    hasher.bytes_of(sky);
   add_instances(hasher, world, poses);
   hasher.text("lights");
   add_lights(hasher, world, poses, lights);

@@ -16,42 +16,28 @@
 namespace gloam {
 namespace {
 
-template <class T>
-std::span<const std::byte> bytes_of(const T& value) {
-  return std::as_bytes(std::span(&value, 1));
-}
-
-template <class T>
-void add_items(Hasher& hasher, const std::vector<T>& items) {
-  hasher.value(items.size()).bytes(std::as_bytes(std::span(items)));
-}
-
 void add_assets(Hasher& hasher, const SceneAssets& assets) {
   for (const Mesh& mesh : assets.meshes)
     for (const Primitive& primitive : mesh.primitives) {
       hasher.value(primitive.material);
-      add_items(hasher, primitive.normals);
-      add_items(hasher, primitive.uv0);
-      add_items(hasher, primitive.uv1);
-      add_items(hasher, primitive.colors);
+      hasher.items(primitive.normals);
+      hasher.items(primitive.uv0);
+      hasher.items(primitive.uv1);
+      hasher.items(primitive.colors);
     }
   for (const Material& m : assets.materials) {
-    hasher.bytes(bytes_of(m.base_color)).bytes(bytes_of(m.emissive));
-    for (const float number : {m.metallic, m.roughness, m.occlusion_strength, m.alpha_cutoff})
-      hasher.bytes(bytes_of(number));
+    hasher.bytes_of(m.base_color).bytes_of(m.emissive);
+    for (const float number : {m.metallic, m.roughness, m.occlusion_strength, m.alpha_cutoff}) hasher.bytes_of(number);
     hasher.value(m.alpha_mode).value(m.double_sided).value(m.subsurface);
     for (const TextureSlot& slot :
          {m.base_color_texture, m.metallic_roughness_texture, m.occlusion_texture, m.emissive_texture})
-      hasher.value(slot.texture)
-          .value(slot.uv_set)
-          .bytes(bytes_of(slot.transform_row0))
-          .bytes(bytes_of(slot.transform_row1));
+      hasher.value(slot.texture).value(slot.uv_set).bytes_of(slot.transform_row0).bytes_of(slot.transform_row1);
   }
   for (const Texture& t : assets.textures)
     hasher.value(t.image).value(t.srgb).value(t.nearest).value(t.wrap_u).value(t.wrap_v);
   for (const Image& image : assets.images) {
     hasher.value(image.width).value(image.height);
-    add_items(hasher, image.rgba);
+    hasher.items(image.rgba);
   }
 }
 
@@ -64,10 +50,10 @@ void add_lights(Hasher& hasher, const World& world) {
   world.view<const Light, const WorldTransform, Maybe<const ShadowCaster>>().each(
       [&](Entity entity, const Light& light, const WorldTransform& transform, const ShadowCaster* caster) {
         Hasher one;
-        one.value(light.kind).bytes(bytes_of(light.color)).bytes(bytes_of(transform.matrix));
+        one.value(light.kind).bytes_of(light.color).bytes_of(transform.matrix);
         for (const float number : {light.intensity, light.range_m, light.inner_angle, light.outer_angle, light.width_m,
                                    light.apparent_angle})
-          one.bytes(bytes_of(number));
+          one.bytes_of(number);
         one.value(caster == nullptr || caster->enabled);
         found.push_back({entity.index, one.digest()});
       });
@@ -76,15 +62,15 @@ void add_lights(Hasher& hasher, const World& world) {
 }
 
 void add_settings(Hasher& hasher, const ReflectionTracing& settings) {
-  hasher.bytes(bytes_of(settings.fog.density)).bytes(bytes_of(settings.fog.color));
-  hasher.bytes(bytes_of(settings.fog.sky_distance_m));
+  hasher.bytes_of(settings.fog.density).bytes_of(settings.fog.color);
+  hasher.bytes_of(settings.fog.sky_distance_m);
   for (const EmissiveQuad& quad : settings.quads) {
-    hasher.bytes(bytes_of(quad.center)).bytes(bytes_of(quad.half_u)).bytes(bytes_of(quad.half_v));
+    hasher.bytes_of(quad.center).bytes_of(quad.half_u).bytes_of(quad.half_v);
     hasher.value(quad.width)
         .value(quad.height)
         .bytes(std::as_bytes(quad.rgba))
-        .bytes(bytes_of(quad.radiance))
-        .bytes(bytes_of(quad.opacity));
+        .bytes_of(quad.radiance)
+        .bytes_of(quad.opacity);
   }
 }
 
@@ -93,14 +79,14 @@ void add_settings(Hasher& hasher, const ReflectionTracing& settings) {
 std::string radiance_identity(const RadianceInput& input) {
   const GeometryPicture& geometry = input.geometry;
   Hasher hasher;
-  hasher.bytes(bytes_of(geometry.view.position)).bytes(bytes_of(geometry.view.clip_from_relative));
-  add_items(hasher, geometry.depth);
-  add_items(hasher, geometry.normals);
-  add_items(hasher, geometry.material);
+  hasher.bytes_of(geometry.view.position).bytes_of(geometry.view.clip_from_relative);
+  hasher.items(geometry.depth);
+  hasher.items(geometry.normals);
+  hasher.items(geometry.material);
   add_assets(hasher, input.world.resource<SceneAssets>());
   add_lights(hasher, input.world);
   const auto& sky = input.world.resource<SceneEnvironment>();
-  hasher.bytes(bytes_of(sky.sky_zenith)).bytes(bytes_of(sky.sky_horizon)).bytes(bytes_of(sky.sky_ground));
+  hasher.bytes_of(sky.sky_zenith).bytes_of(sky.sky_horizon).bytes_of(sky.sky_ground);
   add_settings(hasher, input.settings);
   constexpr int kMethod = 1;  // increase when the same input gives other radiances
   return "reflections " + std::to_string(kMethod) + " of triangles " + std::to_string(input.tracer.all_version()) +

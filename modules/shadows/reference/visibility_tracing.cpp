@@ -305,20 +305,15 @@ TracedVisibility trace_visibility(const VisibilityInput& input) {
 
 std::string visibility_identity(const VisibilityInput& input) {
   const GeometryPicture& geometry = input.geometry;
-  const auto bytes_of = [](const auto& value) { return std::as_bytes(std::span(&value, 1)); };
   Hasher hasher;
-  hasher.bytes(bytes_of(geometry.view.position)).bytes(bytes_of(geometry.view.clip_from_relative));
+  hasher.bytes_of(geometry.view.position).bytes_of(geometry.view.clip_from_relative);
   hasher.bytes(std::as_bytes(std::span(geometry.depth))).bytes(std::as_bytes(std::span(geometry.normals)));
   if (!geometry.smooth_surfaces.empty()) hasher.bytes(std::as_bytes(std::span(geometry.smooth_surfaces)));
   for (const std::uint32_t color : geometry.base_color)
     hasher.value(static_cast<std::uint8_t>(color >> 24));  // the alpha byte flags subsurface materials
   for (const Emitter& e : casting_lights(input.world, dvec3(0.0))) {
-    hasher.value(e.entity.index)
-        .value(e.entity.generation)
-        .value(e.kind)
-        .bytes(bytes_of(e.position))
-        .bytes(bytes_of(e.axis));
-    hasher.bytes(bytes_of(e.range_m)).bytes(bytes_of(e.cos_outer)).bytes(bytes_of(e.radius));
+    hasher.value(e.entity.index).value(e.entity.generation).value(e.kind).bytes_of(e.position).bytes_of(e.axis);
+    hasher.bytes_of(e.range_m).bytes_of(e.cos_outer).bytes_of(e.radius);
   }
   constexpr int kMethod = 3;  // increase when the same input gives other visibilities
   return "visibility " + std::to_string(kMethod) + " of triangles " + std::to_string(input.tracer.version()) +

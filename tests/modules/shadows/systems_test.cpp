@@ -25,7 +25,7 @@ using test::ShadowWorld;
 std::uint64_t hash_of(const ShadowViews& shadows) {
   Hasher hasher;
   const auto floats = [&](std::initializer_list<float> values) {
-    for (const float value : values) hasher.bytes(std::as_bytes(std::span(&value, 1)));
+    for (const float value : values) hasher.bytes_of(value);
   };
   hasher.bytes(std::as_bytes(std::span(shadows.rows)));
   hasher.bytes(std::as_bytes(std::span(shadows.block.directional)));
@@ -36,7 +36,7 @@ std::uint64_t hash_of(const ShadowViews& shadows) {
   for (const ShadowFace& face : shadows.faces) {
     hasher.value(face.light.index).value(face.light.generation).value(face.kind).value(face.index);
     hasher.value(face.square.origin.x).value(face.square.origin.y).value(face.square.size);
-    hasher.bytes(std::as_bytes(std::span(&face.origin, 1)));
+    hasher.bytes_of(face.origin);
     for (const vec3& v : {face.right, face.up, face.forward}) floats({v.x, v.y, v.z});
     floats({face.tan_half, face.half_extent_m, face.near_m, face.far_m, face.importance});
   }

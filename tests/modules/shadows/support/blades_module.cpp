@@ -19,9 +19,9 @@ gpu::GraphicsPipelineDesc blades_pipeline() {
 std::uint64_t hash_of(const BladeField& field) {
   Hasher hasher;
   hasher.bytes(std::as_bytes(std::span(field.resting)));
-  hasher.bytes(std::as_bytes(std::span(&field.phase, 1)));
-  hasher.bytes(std::as_bytes(std::span(&field.reach_m, 1)));
-  hasher.bytes(std::as_bytes(std::span(&field.origin, 1)));
+  hasher.bytes_of(field.phase);
+  hasher.bytes_of(field.reach_m);
+  hasher.bytes_of(field.origin);
   return hasher.digest();
 }
 
