@@ -23,7 +23,7 @@ bool AnimatedNodes::moves(Entity node) const {
   if (has_channel_.empty()) return false;
   while (!has_channel(node)) {
     const Parent* parent = world_.try_get<Parent>(node);
-    if (parent == nullptr) return false;
+    if (parent == nullptr || !world_.alive(parent->entity)) return false;
     node = parent->entity;
   }
   return true;

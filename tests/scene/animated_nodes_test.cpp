@@ -29,5 +29,17 @@ TEST(AnimatedNodes, are_those_with_a_channel_and_their_descendants) {
   EXPECT_FALSE(animated.has_channel(hand));
 }
 
+TEST(AnimatedNodes, do_not_move_with_a_destroyed_parent) {
+  World world;
+  prepare_scene_world(world);
+  const Entity root = world.create(WorldTransform{}), child = world.create(WorldTransform{}, Parent{root, 1});
+  world.destroy(root);
+  const Entity other = world.create(WorldTransform{});
+  ASSERT_EQ(other.index, root.index);
+  world.resource<AnimationBindings>().poses = {{other, 0, 0}};
+  EXPECT_TRUE(AnimatedNodes(world).moves(other));
+  EXPECT_FALSE(AnimatedNodes(world).moves(child));
+}
+
 }  // namespace
 }  // namespace gloam

@@ -3,10 +3,11 @@
 #include "modules/reflections/fitting/scene_surfaces.h"
 
 #include <algorithm>
-#include <set>
+#include <span>
 #include <utility>
 
 #include "engine/ecs/view.h"
+#include "engine/scene/animated_nodes.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 
@@ -19,32 +20,12 @@ struct Instance {
   dmat4 world_from_mesh = dmat4(1.0);
 };
 
-/// glTF nodes that a clip moves.
-std::set<std::uint32_t> moved_nodes(const SceneAssets& assets) {
-  std::set<std::uint32_t> nodes;
-  for (const AnimationClip& clip : assets.clips)
-    for (const AnimationChannel& channel : clip.channels)
-      if (channel.path != AnimationPath::weights) nodes.insert(channel.node);
-  return nodes;
-}
-
-/// Whether a clip moves the entity or one of its ancestors.
-bool moves(const World& world, Entity entity, const std::set<std::uint32_t>& moved) {
-  for (;;) {
-    const auto* source = world.try_get<SourceNode>(entity);
-    if (source != nullptr && moved.contains(source->index)) return true;
-    const auto* parent = world.try_get<Parent>(entity);
-    if (parent == nullptr || !world.alive(parent->entity)) return false;
-    entity = parent->entity;
-  }
-}
-
 std::vector<Instance> gather_instances(const World& world, const SceneAssets& assets) {
-  const std::set<std::uint32_t> moved = moved_nodes(assets);
+  const AnimatedNodes animated(world);
   std::vector<Instance> instances;
   world.view<const MeshInstance, const WorldTransform>().each(
       [&](Entity entity, const MeshInstance& drawn, const WorldTransform& transform) {
-        if (drawn.mesh >= assets.meshes.size() || drawn.skin != kNone || moves(world, entity, moved)) return;
+        if (drawn.mesh >= assets.meshes.size() || drawn.skin != kNone || animated.moves(entity)) return;
         instances.push_back({entity, &assets.meshes[drawn.mesh], transform.matrix});
       });
   std::ranges::sort(instances, [](const Instance& a, const Instance& b) { return a.entity.index < b.entity.index; });

@@ -21,7 +21,7 @@ struct SceneSurfaces {
 };
 
 /// Gathers the triangles of all mesh instances by WorldTransform, without meshes that are skinned or morphed and those
-/// on nodes that a clip moves. Textures of reflectivity are not read.
+/// on nodes that a playing clip moves (AnimatedNodes). Textures of reflectivity are not read.
 [[nodiscard]] SceneSurfaces gather_surfaces(const World& world);
 
 }  // namespace gloam

@@ -5,6 +5,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/scene/animation.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/gltf_import.h"
@@ -173,7 +174,6 @@ TEST(SceneSurfaces, leave_out_what_moves_and_what_is_blended) {
   EXPECT_EQ(gather_surfaces(yard.world).instances.size(), all + 1) << "blended";
 
   const Entity parent = yard.world.create();
-  yard.world.add<SourceNode>(parent, {.index = 12});
   const Entity child = yard.world.create();
   yard.world.add<Parent>(child, {.entity = parent});
   yard.world.add<MeshInstance>(child, {.mesh = 1});
@@ -182,7 +182,10 @@ TEST(SceneSurfaces, leave_out_what_moves_and_what_is_blended) {
   AnimationClip clip;
   clip.channels.push_back(
       {.node = 12, .path = AnimationPath::translation, .times = {0.0f}, .values = {0.0f, 0.0f, 0.0f}});
-  assets.clips.push_back(clip);
+  SceneNodes nodes;
+  nodes.entities.resize(13, kNoEntity);
+  nodes.entities[12] = parent;
+  bind_animations(std::span(&clip, 1), nodes, yard.world.resource<AnimationBindings>());
   EXPECT_EQ(gather_surfaces(yard.world).instances.size(), all + 1) << "its parent moves";
 }
 
