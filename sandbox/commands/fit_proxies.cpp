@@ -9,13 +9,11 @@
 #include <utility>
 
 #include "engine/scene/assets.h"
-#include "engine/scene/systems.h"
 #include "modules/accuracy/module.h"
-#include "modules/module_list/module_list.h"
 #include "modules/reflections/module.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/json_text.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/loaded_scene.h"
 #include "sandbox/session/surface_distances.h"
 
 namespace gloam {
@@ -91,21 +89,14 @@ Json proposal_json(const ProxyProposal& proposal) {
 
 Status run_fit_proxies(const CommandContext& context) {
   const Options& options = context.options;
-  GLOAM_TRY(check_scene_exists(options.scene));
-  const ModuleList modules = make_all_modules();
-  const auto executor = make_pool_executor(options.threads);
-  World world;
-  prepare_world(world, modules);
-  const auto info =
-      load_scene({.scene = options.scene, .animation = options.animation}, modules, world, *executor, context.log);
-  if (!info) return info.error();
-  Schedule schedule;
-  add_scene_systems(schedule);
-  schedule.run(Stage::world, world, *executor);
+  const auto scene =
+      load_and_pose_scene({.scene = options.scene, .animation = options.animation}, options.threads, context.log);
+  if (!scene) return scene.error();
+  const auto& [modules, executor, world, info] = **scene;
   const auto tracer = make_scene_tracer(world, *executor);
   if (!tracer) return tracer.error();
   const ProxyProposal proposal =
-      propose_proxies(world, {.count = options.fit_proxies, .cameras = info->cameras},
+      propose_proxies(world, {.count = options.fit_proxies, .cameras = info.cameras},
                       surface_distances(**tracer, world.resource<SceneAssets>(), *executor), *executor);
   const std::string path = options.out.empty() ? "out/" + scene_stem(options.scene) + ".proxies.json" : options.out;
   GLOAM_TRY(make_folder_of(path));

@@ -27,6 +27,7 @@
 #include "sandbox/bench/reflections/case.h"
 #include "sandbox/bench/reflections/halls.h"
 #include "sandbox/session/captures.h"
+#include "sandbox/session/loaded_scene.h"
 #include "sandbox/session/scene_loading.h"
 #include "sandbox/session/surface_distances.h"
 
@@ -50,31 +51,9 @@ std::optional<std::string> file_of(const BenchContext& context, const MeasuredSc
   return kWetStreet;
 }
 
-/// A loaded and posed scene without a device.
-struct LoadedScene {
-  ModuleList modules = make_all_modules();
-  std::unique_ptr<JobExecutor> executor;
-  World world;
-  SceneInfo info;
-};
-
-Result<std::unique_ptr<LoadedScene>> load(const BenchContext& context, const std::string& file) {
-  auto scene = std::make_unique<LoadedScene>();
-  scene->executor = make_pool_executor(context.options().threads);
-  prepare_world(scene->world, scene->modules);
-  auto info =
-      load_scene({.scene = file, .animation = ""}, scene->modules, scene->world, *scene->executor, context.log());
-  if (!info) return info.error();
-  scene->info = std::move(info).value();
-  Schedule schedule;
-  add_scene_systems(schedule);
-  schedule.run(Stage::world, scene->world, *scene->executor);
-  return scene;
-}
-
 /// Rays caught by as many fitted proxies as the author placed, over the rays caught by the author's.
 Result<BenchValue> caught_ratio(const BenchContext& context, const std::string& file) {
-  auto scene = load(context, file);
+  const auto scene = load_and_pose_scene({.scene = file, .animation = ""}, context.options().threads, context.log());
   if (!scene) return scene.error();
   LoadedScene& s = **scene;
   const auto tracer = make_scene_tracer(s.world, *s.executor);
