@@ -40,9 +40,11 @@ struct AttachedMesh {
 
 /// What the filters know about a call. Embree passes the pointer to `embree` on.
 struct TraceContext {
-  RTCIntersectContext embree;  // the first member
-  std::span<const std::uint32_t> without;
-  const SceneAssets* assets = nullptr;  ///< of nearest()
+  TraceContext() { rtcInitIntersectContext(&embree); }
+
+  RTCIntersectContext embree = {};         // the first member
+  std::span<const std::uint32_t> without;  ///< of occluded()
+  const SceneAssets* assets = nullptr;     ///< of nearest()
 };
 
 const TraceContext& context_of(const RTCFilterFunctionNArguments* args) {
@@ -56,29 +58,48 @@ bool is_hole(const RTCFilterFunctionNArguments* args, unsigned int i) {
                        RTCHitN_v(args->hit, args->N, i));
 }
 
+/// Rejects the hits for whose number in the packet rejects() holds.
+template <class Rejects>
+void reject_hits(const RTCFilterFunctionNArguments* args, const Rejects& rejects) {
+  for (unsigned int i = 0; i < args->N; ++i)
+    if (args->valid[i] == -1 && rejects(i)) args->valid[i] = 0;
+}
+
 /// Embree filter of occluded(): rejects hits on meshes that the rays pass through and, on cut-outs, hits in holes.
 void filter_hits(const RTCFilterFunctionNArguments* args) {
   const std::span<const std::uint32_t> without = context_of(args).without;
-  for (unsigned int i = 0; i < args->N; ++i) {
-    if (args->valid[i] != -1) continue;
-    if (std::ranges::binary_search(without, RTCHitN_geomID(args->hit, args->N, i)) || is_hole(args, i))
-      args->valid[i] = 0;
-  }
+  reject_hits(args, [&](unsigned int i) {
+    return std::ranges::binary_search(without, RTCHitN_geomID(args->hit, args->N, i)) || is_hole(args, i);
+  });
 }
 
 /// Embree filter of nearest(): rejects hits on the back of surfaces that have none, and in holes of cut-outs.
 void filter_nearest(const RTCFilterFunctionNArguments* args) {
   const SurfaceSource& surface = static_cast<const AttachedMesh*>(args->geometryUserPtr)->mesh.surface;
   const bool double_sided = is_double_sided(*context_of(args).assets, surface);
-  for (unsigned int i = 0; i < args->N; ++i) {
-    if (args->valid[i] != -1) continue;
+  reject_hits(args, [&](unsigned int i) {
     const vec3 winding_normal(RTCHitN_Ng_x(args->hit, args->N, i), RTCHitN_Ng_y(args->hit, args->N, i),
                               RTCHitN_Ng_z(args->hit, args->N, i));
     const vec3 direction(RTCRayN_dir_x(args->ray, args->N, i), RTCRayN_dir_y(args->ray, args->N, i),
                          RTCRayN_dir_z(args->ray, args->N, i));
     const bool back = (glm::dot(winding_normal, direction) > 0.0f) != surface.mirrored;
-    if ((back && !double_sided) || is_hole(args, i)) args->valid[i] = 0;
-  }
+    return (back && !double_sided) || is_hole(args, i);
+  });
+}
+
+RTCRay make_ray(const vec3& origin, const vec3& direction, float from, float to) {
+  return {.org_x = origin.x,
+          .org_y = origin.y,
+          .org_z = origin.z,
+          .tnear = from,
+          .dir_x = direction.x,
+          .dir_y = direction.y,
+          .dir_z = direction.z,
+          .time = 0.0f,
+          .tfar = to,
+          .mask = ~0u,
+          .id = 0,
+          .flags = 0};
 }
 
 void note_error(void* text, RTCError, const char* message) {
@@ -142,8 +163,8 @@ class EmbreeTracer final : public SceneTracer {
   void nearest(const SceneAssets& assets, std::span<const SurfaceRay> rays,
                std::span<TracedSurface> surfaces) const override {
     GLOAM_ASSERT(rays.size() == surfaces.size(), "one surface a ray");
-    TraceContext context{.embree = {}, .without = {}, .assets = &assets};
-    rtcInitIntersectContext(&context.embree);
+    TraceContext context;
+    context.assets = &assets;
     for (std::size_t i = 0; i < rays.size(); ++i) surfaces[i] = surface_on(rays[i], context);
   }
 
@@ -191,23 +212,10 @@ class EmbreeTracer final : public SceneTracer {
   void trace(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked,
              std::span<const std::uint32_t> without) const {
     std::array<RTCRay, kBatch> batch;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const ShadowRay& ray = rays[i];
-      batch[i] = {.org_x = ray.origin.x,
-                  .org_y = ray.origin.y,
-                  .org_z = ray.origin.z,
-                  .tnear = ray.from,
-                  .dir_x = ray.direction.x,
-                  .dir_y = ray.direction.y,
-                  .dir_z = ray.direction.z,
-                  .time = 0.0f,
-                  .tfar = ray.to,
-                  .mask = ~0u,
-                  .id = 0,
-                  .flags = 0};
-    }
-    TraceContext context{.embree = {}, .without = without, .assets = nullptr};
-    rtcInitIntersectContext(&context.embree);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      batch[i] = make_ray(rays[i].origin, rays[i].direction, rays[i].from, rays[i].to);
+    TraceContext context;
+    context.without = without;
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcOccluded1M(scene_, &context.embree, batch.data(), static_cast<unsigned int>(rays.size()), sizeof(RTCRay));
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -218,18 +226,7 @@ class EmbreeTracer final : public SceneTracer {
 
   [[nodiscard]] TracedSurface surface_on(const SurfaceRay& ray, TraceContext& context) const {
     RTCRayHit at{};
-    at.ray = {.org_x = ray.origin.x,
-              .org_y = ray.origin.y,
-              .org_z = ray.origin.z,
-              .tnear = 0.0f,
-              .dir_x = ray.direction.x,
-              .dir_y = ray.direction.y,
-              .dir_z = ray.direction.z,
-              .time = 0.0f,
-              .tfar = ray.to_m,
-              .mask = ~0u,
-              .id = 0,
-              .flags = 0};
+    at.ray = make_ray(ray.origin, ray.direction, 0.0f, ray.to_m);
     at.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &context.embree, &at);
     if (uncast_ != nullptr) rtcIntersect1(uncast_, &context.embree, &at);
