@@ -7,42 +7,28 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <random>
 
-#include "engine/scene/gltf_import.h"
 #include "modules/lights/module.h"
 #include "modules/lights/selection/light_list.h"
 #include "modules/shadows/components.h"
 #include "tests/jobs/executors.h"
 #include "tests/modules/closeups/cases.h"
+#include "tests/support/module_world.h"
 
 namespace gloam {
 namespace {
 
 dmat4 at(double x, double y, double z) { return glm::translate(dmat4(1.0), dvec3(x, y, z)); }
 
-/// A world with lights, close-up subjects and one view, run like in a renderer. Mesh 0 is a cube of 1 m.
-struct CloseupWorld {
-  World world;
-  std::unique_ptr<Module> lights = make_lights_module();
-  Schedule schedule;
-  KnobRegistry knobs;
-  ViewSettings settings;
-
-  CloseupWorld() {
-    prepare_scene_world(world);
-    lights->register_components(world);
+/// A world with lights, close-up subjects and one view. Mesh 0 is a cube of 1 m.
+struct CloseupWorld : test::ModuleWorld {
+  CloseupWorld() : ModuleWorld(make_lights_module()) {
     world.register_component<ShadowCaster>("shadow_caster");
     world.register_component<CloseupSubject>("closeup_subject");
     world.register_component<CloseupPair>("closeup_pair");
     register_closeup_resources(world);
-    lights->add_systems(schedule);
     add_closeup_systems(schedule);
-    lights->knobs(knobs);
-    schedule.set_checked(true);
-    settings.width = 640;
-    settings.height = 360;
     settings.follow_camera = false;
     settings.world_from_camera = at(0, 0, 12);
     auto& assets = world.resource<SceneAssets>();
@@ -62,12 +48,7 @@ struct CloseupWorld {
     light.width_m = 0.1f;
     return world.create(light, WorldTransform{node});
   }
-  void run(JobExecutor& executor) {
-    schedule.run(Stage::world, world, executor);
-    world.set_view_resource(settings.id, make_view(settings, 0));
-    lights->prepare_view(world, settings.id, knobs);
-    schedule.run_view(settings.id, world, executor);
-  }
+  using ModuleWorld::run;
   const CloseupViews& run() {
     run(*make_serial_executor());
     return views();

@@ -10,27 +10,18 @@
 #include <random>
 
 #include "engine/scene/components.h"
-#include "engine/scene/gltf_import.h"
 #include "modules/lights/selection/light_list.h"
 #include "tests/jobs/executors.h"
+#include "tests/support/module_world.h"
 
 namespace gloam {
 namespace {
 
 /// A world of `count` lights over several archetypes. The entities have the same indices for any order of creation.
-struct LitWorld {
-  World world;
-  std::unique_ptr<Module> module = make_lights_module();
-  Schedule schedule;
-  KnobRegistry knobs;
+struct LitWorld : test::ModuleWorld {
   std::vector<Entity> entities;
 
-  LitWorld(std::uint32_t count, std::uint32_t seed) {
-    prepare_scene_world(world);
-    module->register_components(world);
-    module->add_systems(schedule);
-    module->knobs(knobs);
-    schedule.set_checked(true);
+  LitWorld(std::uint32_t count, std::uint32_t seed) : ModuleWorld(make_lights_module()) {
     for (std::uint32_t i = 0; i < count; ++i) entities.push_back(world.create());
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
@@ -46,15 +37,7 @@ struct LitWorld {
       if (i % 2 != 0) world.add(entities[i], transform);
     }
   }
-  void run(JobExecutor& executor) {
-    schedule.run(Stage::world, world, executor);
-    ViewSettings settings;
-    settings.id = ViewId{0};
-    world.set_view_resource(settings.id, make_view(settings, 0));
-    module->prepare_view(world, settings.id, knobs);
-    schedule.run_view(settings.id, world, executor);
-  }
-  [[nodiscard]] const VisibleLights& visible() const { return world.view_resource<VisibleLights>(ViewId{0}); }
+  [[nodiscard]] const VisibleLights& visible() const { return world.view_resource<VisibleLights>(settings.id); }
 };
 
 TEST(LightsModule, gathers_lights_by_entity_whatever_the_order_of_creation) {

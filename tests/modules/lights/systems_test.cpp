@@ -6,35 +6,22 @@
 
 #include <cstring>
 #include <glm/ext/matrix_transform.hpp>
-#include <memory>
 #include <random>
 
 #include "engine/core/hash.h"
-#include "engine/scene/gltf_import.h"
 #include "modules/lights/module.h"
 #include "tests/jobs/executors.h"
 #include "tests/modules/lights/masks/mask_oracle.h"
+#include "tests/support/module_world.h"
 
 namespace gloam {
 namespace {
 
-/// A world with lights in two archetypes and one view, run like in a renderer.
-struct LightWorld {
-  World world;
-  std::unique_ptr<Module> module = make_lights_module();
-  Schedule schedule;
-  KnobRegistry knobs;
+/// A world with lights in two archetypes and one view.
+struct LightWorld : test::ModuleWorld {
   std::vector<Entity> entities;
-  ViewSettings settings;
 
-  explicit LightWorld(std::uint32_t count, std::uint32_t seed = 1) {
-    prepare_scene_world(world);
-    module->register_components(world);
-    module->add_systems(schedule);
-    module->knobs(knobs);
-    schedule.set_checked(true);
-    settings.width = 640;
-    settings.height = 360;
+  explicit LightWorld(std::uint32_t count, std::uint32_t seed = 1) : ModuleWorld(make_lights_module()) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -51,14 +38,6 @@ struct LightWorld {
       entities.push_back(i % 3 == 0 ? world.create(light, transform, Parent{}) : world.create(light, transform));
     }
   }
-
-  void run(JobExecutor& executor) {
-    schedule.run(Stage::world, world, executor);
-    world.set_view_resource(settings.id, make_view(settings, 0));
-    module->prepare_view(world, settings.id, knobs);
-    schedule.run_view(settings.id, world, executor);
-  }
-  void run() { run(*make_serial_executor()); }
 
   [[nodiscard]] const LightSet& set() const { return world.resource<LightSet>(); }
   [[nodiscard]] const VisibleLights& visible() const { return world.view_resource<VisibleLights>(settings.id); }

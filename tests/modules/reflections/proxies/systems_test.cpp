@@ -6,35 +6,23 @@
 
 #include <glm/ext/matrix_transform.hpp>
 #include <limits>
-#include <memory>
+#include <vector>
 
 #include "engine/core/hash.h"
-#include "engine/scene/gltf_import.h"
 #include "modules/reflections/module.h"
 #include "tests/jobs/executors.h"
 #include "tests/modules/reflections/proxies/proxy_oracle.h"
+#include "tests/support/module_world.h"
 
 namespace gloam {
 namespace {
 
-/// A world with proxies in two archetypes, a room and one view, run like in a renderer.
-struct ProxyWorld {
-  World world;
-  std::unique_ptr<Module> module = make_reflections_module();
-  Schedule schedule;
-  KnobRegistry knobs;
+/// A world with proxies in two archetypes, a room and one view.
+struct ProxyRoom : test::ModuleWorld {
   std::vector<Entity> proxies;
   Entity room = kNoEntity;
-  ViewSettings settings;
 
-  explicit ProxyWorld(int count) {
-    prepare_scene_world(world);
-    module->register_components(world);
-    module->add_systems(schedule);
-    module->knobs(knobs);
-    schedule.set_checked(true);
-    settings.width = 640;
-    settings.height = 360;
+  explicit ProxyRoom(int count) : ModuleWorld(make_reflections_module()) {
     settings.world_from_camera = glm::translate(dmat4(1.0), dvec3(0.0, 1.7, 0.0));
     IbrRoom box;
     box.size_m = vec3(30.0f, 6.0f, 30.0f);
@@ -49,13 +37,6 @@ struct ProxyWorld {
       proxies.push_back(i % 3 == 0 ? world.create(proxy, transform, Parent{}) : world.create(proxy, transform));
     }
   }
-  void run(JobExecutor& executor) {
-    schedule.run(Stage::world, world, executor);
-    world.set_view_resource(settings.id, make_view(settings, 0));
-    module->prepare_view(world, settings.id, knobs);
-    schedule.run_view(settings.id, world, executor);
-  }
-  void run() { run(*make_serial_executor()); }
   [[nodiscard]] const ProxySet& set() const { return world.resource<ProxySet>(); }
   [[nodiscard]] const ProxyTiles& tiles() const { return world.view_resource<ProxyTiles>(settings.id); }
   [[nodiscard]] std::uint64_t hash() const {
@@ -67,13 +48,13 @@ struct ProxyWorld {
 };
 
 TEST(ProxySystems, have_their_names_and_module) {
-  ProxyWorld room(1);
+  ProxyRoom room(1);
   const std::string text = room.schedule.describe();
   for (const char* name : {"ibr_proxies", "proxy_tiles"}) EXPECT_NE(text.find(name), std::string::npos) << name;
 }
 
 TEST(ProxySystems, gather_proxies_in_the_order_of_entities) {
-  ProxyWorld room(40);
+  ProxyRoom room(40);
   room.run();
   ASSERT_EQ(room.set().proxies.size(), 40u);
   for (std::size_t i = 1; i < 40; ++i)
@@ -84,7 +65,7 @@ TEST(ProxySystems, gather_proxies_in_the_order_of_entities) {
 }
 
 TEST(ProxySystems, count_and_leave_out_proxies_and_rooms_that_cannot_be_placed) {
-  ProxyWorld room(6);
+  ProxyRoom room(6);
   room.world.get<WorldTransform>(room.proxies[1]).matrix[3].x = std::numeric_limits<double>::quiet_NaN();
   room.world.get<IbrProxy>(room.proxies[3]).size_m.x = 0.0f;
   room.world.get<WorldTransform>(room.room).matrix[1] *= 0.0;
@@ -100,7 +81,7 @@ TEST(ProxySystems, count_and_leave_out_proxies_and_rooms_that_cannot_be_placed) 
 }
 
 TEST(ProxySystems, build_tiles_only_after_a_change) {
-  ProxyWorld room(40);
+  ProxyRoom room(40);
   room.run();
   std::uint64_t version = room.tiles().version;
   std::uint64_t hash = room.hash();
@@ -134,17 +115,17 @@ TEST(ProxySystems, build_tiles_only_after_a_change) {
 }
 
 TEST(ProxySystems, make_the_same_tiles_with_every_executor) {
-  ProxyWorld expected(512);
+  ProxyRoom expected(512);
   expected.run();
   for (const test::ExecutorCase& c : test::all_executors()) {
-    ProxyWorld room(512);
+    ProxyRoom room(512);
     room.run(*c.make());
     EXPECT_EQ(room.hash(), expected.hash()) << c.name;
   }
 }
 
 TEST(ProxySystems, are_not_demanded_without_proxies_and_probes) {
-  ProxyWorld room(0);
+  ProxyRoom room(0);
   EXPECT_FALSE(room.module->demand(room.world, nullptr).needed);
   room.run();
   EXPECT_TRUE(room.tiles().masks.empty());

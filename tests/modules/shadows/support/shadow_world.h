@@ -4,38 +4,24 @@
 
 #include <cstdint>
 #include <glm/ext/matrix_transform.hpp>
-#include <memory>
 #include <random>
 #include <span>
 
-#include "engine/scene/gltf_import.h"
 #include "modules/lights/module.h"
 #include "modules/shadows/atlas/shared_places.h"
 #include "modules/shadows/systems.h"
 #include "tests/jobs/executors.h"
+#include "tests/support/module_world.h"
 
 namespace gloam::test {
 
 /// A world of lights and the shadows of its views, run like in a renderer.
-struct ShadowWorld {
-  World world;
-  std::unique_ptr<Module> lights = make_lights_module();
-  Schedule schedule;
-  KnobRegistry knobs;
-  ViewSettings settings;
-
-  ShadowWorld() {
-    prepare_scene_world(world);
-    lights->register_components(world);
+struct ShadowWorld : ModuleWorld {
+  ShadowWorld() : ModuleWorld(make_lights_module()) {
     world.register_component<ShadowCaster>("shadow_caster");
     world.register_component<CasterVolume>("caster_volume");
     world.set_resource(CapturePlaces{});
-    lights->add_systems(schedule);
     add_shadow_systems(schedule);
-    lights->knobs(knobs);
-    schedule.set_checked(true);
-    settings.width = 640;
-    settings.height = 360;
   }
 
   /// Adds lights of every kind in front of the camera.
@@ -82,7 +68,7 @@ struct ShadowWorld {
     schedule.run(Stage::world, world, executor);
     for (const ViewSettings& view : views) {
       world.set_view_resource(view.id, make_view(view, frame));
-      lights->prepare_view(world, view.id, knobs);
+      module->prepare_view(world, view.id, knobs);
       prepare_shadow_view(world, view.id, ShadowKnobs{});
     }
     for (const ViewSettings& view : views) schedule.run_view(view.id, world, executor);
