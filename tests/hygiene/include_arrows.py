@@ -37,7 +37,7 @@ ROOMS = {
     "modules/reflections": (("surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
                              "fitting", "bake", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials")),
-    "engine/render": (("knobs", "scene", "draws", "declare", "passes", "readback", "reference"),
+    "engine/render": (("knobs", "scene", "draws", "declare", "sort", "passes", "readback", "reference"),
                       ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections"), ()),
     "sandbox": (("output", "scenes", "session", "window", "bench", "commands"), ("options", "console", "log")),
