@@ -105,6 +105,12 @@ class Module {
   /// its systems have run anyway. Must be cheap: look at counts, never at pixels.
   [[nodiscard]] virtual Demand demand(const World& world, const RenderView* view) const = 0;
 
+  /// Called before the systems of the world run, if the world demands the module. Stores the knob values that they need
+  /// in resources of the world.
+  virtual void prepare_world(World& world, const KnobRegistry& knobs) const {
+    static_cast<void>(world);
+    static_cast<void>(knobs);
+  }
   /// Called for each view before the systems of any view run, if the world demands the module. Adds missing view
   /// resources, and stores in them the knob values that systems need.
   virtual void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const {

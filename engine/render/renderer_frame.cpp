@@ -168,7 +168,6 @@ Result<FrameView> Renderer::State::begin_view(const ViewRequest& request) const 
 
 Status Renderer::State::begin_views(std::span<const ViewRequest> requests) {
   frame_views.clear();
-  frame_knobs = &settled_knobs();
   for (const ViewRequest& request : requests) {
     GLOAM_ASSERT(
         request.settings.id.value - CompanionViews::kFirstId >= CompanionViews::kMost * CompanionViews::kMostMainIds,
@@ -317,6 +316,10 @@ void Renderer::State::give_up_frame(std::uint64_t frame) {
 
 Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> requests) {
   update_demand(world);
+  frame_knobs = &settled_knobs();
+  for (std::size_t i = 0; i < options.modules.size(); ++i)
+    if (options.modules[i]->built() && runtimes[i].demand.needed)
+      options.modules[i]->prepare_world(world, *frame_knobs);
   GLOAM_TRY(run_systems(world, std::nullopt));
   GLOAM_TRY(begin_views(requests));
   const SceneAssets& assets = world.resource<SceneAssets>();

@@ -54,6 +54,11 @@ void record_draws(FrameBuilder& frame, const Recording& recording, PassContext& 
         begin_step(recording, step, context, storage);
         commands.draw_indirect(context.buffer(step.arguments), step.offset);
         break;
+      case StepKind::draw_indexed_indirect:
+        begin_step(recording, step, context, storage);
+        commands.bind_indices(context.buffer(step.indices), 0);
+        commands.draw_indexed_indirect(context.buffer(step.arguments), step.offset, step.counts[0]);
+        break;
       case StepKind::surfaces:
         if (const Status drawn = frame.draw_surfaces(context, step.draws, recording.surface_passes[step.surface_pass],
                                                      bindings_of(recording, step, context, storage));
@@ -152,6 +157,18 @@ void DrawPass::draw_indirect(BufferRef arguments, std::uint64_t offset) {
   Step& step = add_step(StepKind::draw_indirect);
   step.arguments = arguments;
   step.offset = offset;
+}
+
+void DrawPass::draw_indexed_indirect(BufferRef indices, BufferRef arguments, std::uint64_t offset,
+                                     std::uint32_t draws) {
+  if (!choose_pipeline()) return;
+  graph_pass().read(indices, gpu::Access::vertex_input);
+  graph_pass().read(arguments, gpu::Access::indirect_read);
+  Step& step = add_step(StepKind::draw_indexed_indirect);
+  step.indices = indices;
+  step.arguments = arguments;
+  step.offset = offset;
+  step.counts[0] = draws;
 }
 
 void DrawPass::surfaces(std::span<const Draw> draws) {

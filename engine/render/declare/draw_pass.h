@@ -55,6 +55,9 @@ class DrawPass : public ShaderPass {
   void draw(std::uint32_t vertices, std::uint32_t instances);
   /// One non-indexed draw with arguments from a buffer (CommandList::draw_indirect). offset: bytes.
   void draw_indirect(BufferRef arguments, std::uint64_t offset);
+  /// Several draws without vertex streams: gl_VertexIndex comes from `indices` (32 bits). The arguments are those of
+  /// CommandList::draw_indexed_indirect. offset: bytes.
+  void draw_indexed_indirect(BufferRef indices, BufferRef arguments, std::uint64_t offset, std::uint32_t draws);
   /// Draws meshes. `draws` must live until the frame is submitted, as those of FrameBuilder::draws().
   void surfaces(std::span<const Draw> draws);
 

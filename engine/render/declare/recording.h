@@ -39,7 +39,16 @@ struct BoundItem {
   std::uint32_t item = 0;  ///< index into Recording::items
 };
 
-enum class StepKind : std::uint8_t { dispatch, dispatch_indirect, draw, draw_indirect, surfaces, barrier, custom };
+enum class StepKind : std::uint8_t {
+  dispatch,
+  dispatch_indirect,
+  draw,
+  draw_indirect,
+  draw_indexed_indirect,
+  surfaces,
+  barrier,
+  custom
+};
 
 struct Step {
   StepKind kind = StepKind::custom;
@@ -52,6 +61,7 @@ struct Step {
   std::uint32_t counts[3] = {0, 0, 0};  ///< workgroups; or vertices, instances
   BufferRef arguments;                  ///< of indirect steps
   std::uint64_t offset = 0;             ///< bytes into `arguments`
+  BufferRef indices;                    ///< of indexed draws; counts[0]: number of draws
   std::size_t function = 0;             ///< index into Recording::functions
   std::span<const Draw> draws;
   std::size_t surface_pass = 0;  ///< index into Recording::surface_passes
