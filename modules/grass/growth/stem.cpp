@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "engine/core/assert.h"
+#include "modules/grass/growth/blade_types.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::size_t kSegments = GLOAM_GRASS_KNOTS - 1;
+
+struct StemPoint {
+  double forward = 0.0;
+  double up = 0.0;
+};
+StemPoint mix(const StemPoint& a, const StemPoint& b, double t) {
+  return {a.forward + (b.forward - a.forward) * t, a.up + (b.up - a.up) * t};
+}
+double distance(const StemPoint& a, const StemPoint& b) { return std::hypot(b.forward - a.forward, b.up - a.up); }
+
+/// The quadratic B-spline of the control points as a fine polyline.
+std::vector<StemPoint> flatten(const std::vector<vec2>& points) {
+  constexpr int kSteps = 32;  // a span
+  std::vector<StemPoint> controls;
+  for (const vec2& p : points) controls.push_back({double{p.x}, double{p.y}});
+  if (controls.size() == 2) return controls;
+  std::vector<StemPoint> line = {controls.front()};
+  const std::size_t last = controls.size() - 1;
+  for (std::size_t i = 1; i < last; ++i) {
+    const StemPoint from = i == 1 ? controls.front() : mix(controls[i - 1], controls[i], 0.5);
+    const StemPoint to = i + 1 == last ? controls.back() : mix(controls[i], controls[i + 1], 0.5);
+    for (int s = 1; s <= kSteps; ++s) {
+      const double t = double(s) / kSteps;
+      line.push_back(mix(mix(from, controls[i], t), mix(controls[i], to, t), t));
+    }
+  }
+  return line;
+}
+
+/// Walks along the polyline in steps whose ends are `chord` apart. Returns whether all steps fit.
+bool place_knots(const std::vector<StemPoint>& line, double chord, std::array<StemPoint, GLOAM_GRASS_KNOTS>& knots) {
+  knots[0] = line.front();
+  StemPoint begin = line.front();  // of the rest of the segment that ends at line[next]
+  std::size_t next = 1;
+  for (std::size_t knot = 1; knot <= kSegments; ++knot) {
+    const StemPoint from = knots[knot - 1];
+    while (next < line.size() && distance(from, line[next]) < chord) begin = line[next++];
+    if (next == line.size()) return false;
+    double inside = 0.0;  // share of the segment that lies within the distance
+    double outside = 1.0;
+    for (int i = 0; i < 52; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (distance(from, mix(begin, line[next], middle)) < chord ? inside : outside) = middle;
+    }
+    begin = mix(begin, line[next], inside);
+    knots[knot] = begin;
+  }
+  return true;
+}
+
+}  // namespace
+
+shaders::GrassTypeRow blade_type_row(const BladeType& type) {
+  GLOAM_ASSERT(type.points.size() >= 2, "a stem has at least two control points");
+  const std::vector<StemPoint> line = flatten(type.points);
+  double length = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) length += distance(line[i - 1], line[i]);
+  double fits = 0.0;
+  double too_long = length / kSegments * (1.0 + 1e-9);
+  std::array<StemPoint, GLOAM_GRASS_KNOTS> knots;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (fits + too_long);
+    (place_knots(line, middle, knots) ? fits : too_long) = middle;
+  }
+  static_cast<void>(place_knots(line, fits, knots));
+  shaders::GrassTypeRow row{};
+  const double scale = 1.0 / (fits * kSegments);
+  for (std::size_t i = 0; i < knots.size(); ++i)
+    row.stem[i] = vec2(static_cast<float>(knots[i].forward * scale), static_cast<float>(knots[i].up * scale));
+  row.stiffness = type.stiffness;
+  row.taper = type.taper;
+  return row;
+}
+
+}  // namespace gloam
