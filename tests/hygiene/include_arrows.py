@@ -37,11 +37,13 @@ ROOMS = {
     "modules/reflections": (("surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
                              "fitting", "bake", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials")),
+    "modules/grass": (("growth", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
     "engine/render": (("knobs", "scene", "draws", "declare", "sort", "passes", "readback", "reference"),
                       ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections"), ()),
     "sandbox": (("output", "scenes", "session", "window", "bench", "commands"), ("options", "console", "log")),
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
+    "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
     "shaders/reflections": (("surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
                              "debug"), None),
 }

@@ -51,6 +51,12 @@ class Kernel {
     bindings_.push_back({binding, gpu::Binding::BufferRange{buffer}});
     results_[binding] = buffer;
   }
+  /// A storage buffer with these items that the kernel changes, to be read back.
+  template <class T>
+  void in_out(std::uint32_t binding, const std::vector<T>& items) {
+    output(binding, items.size() * sizeof(T));
+    std::memcpy(device_.mapped(results_.at(binding)).data(), items.data(), items.size() * sizeof(T));
+  }
   /// An image without mips whose texels the kernel fetches.
   template <class T>
   void sampled_image(std::uint32_t binding, gpu::Format format, std::uint32_t width, std::uint32_t height,

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_GRASS_BLADE_API_GLSL
+#define GLOAM_SHADERS_GRASS_BLADE_API_GLSL
+
+#include "shaders/common/math.glsl"
+#include "shaders/grass/grass_shared.h"
+
+// A blade row, unpacked. Positions are relative to the patch's origin. At rest, knot k of a blade is
+// root + length · (stem[k].x · forward + stem[k].y · normal).
+struct GrassStem {
+  vec3 root;
+  vec3 normal;   // unit
+  vec3 forward;  // unit, perpendicular to normal: direction in which the stem leans
+  float yaw;     // radians
+  float length_m;
+  float width_m;
+};
+
+// Forward for yaw 0 is +X, turned by the least rotation that takes +Y to the ground normal; yaw turns it about the
+// normal, counter-clockwise seen from above.
+vec3 grass_forward(vec3 normal, float yaw) {
+  float share = 1.0 / max(1.0 + normal.y, 1e-4);
+  vec3 x_axis = vec3(1.0 - normal.x * normal.x * share, -normal.x, -normal.x * normal.z * share);
+  vec3 z_axis = vec3(-normal.x * normal.z * share, -normal.z, 1.0 - normal.z * normal.z * share);
+  return x_axis * cos(yaw) - z_axis * sin(yaw);
+}
+
+GrassStem grass_stem(GrassPatchRow patch_row, GrassBladeRow row) {
+  GrassStem s;
+  vec2 xz = unpackUnorm2x16(row.root_xz);
+  vec2 y = unpackUnorm2x16(row.root_y_normal);
+  s.root = patch_row.box_from + patch_row.box_size * vec3(xz.x, y.x, xz.y);
+  s.normal = octahedral_decode(unpackSnorm4x8(row.root_y_normal).zw);
+  s.yaw = 2.0 * kPi / 255.0 * float(row.kind & 0xFFu);
+  s.forward = grass_forward(s.normal, s.yaw);
+  vec2 size = unpackHalf2x16(row.size);
+  s.length_m = size.x;
+  s.width_m = size.y;
+  return s;
+}
+
+uint grass_type(GrassBladeRow row) { return row.kind >> 8 & 0xFu; }
+uint grass_layer(GrassBladeRow row) { return row.kind >> 12 & 0xFu; }
+uint grass_master(GrassBladeRow row) { return row.kind >> 16 & 0xFFu; }
+float grass_rank(GrassBladeRow row) { return float(row.kind >> 24) / 255.0; }
+
+// Knot of a blade at rest, relative to its root.
+vec3 grass_rest(GrassStem s, vec2 stem) { return s.length_m * (stem.x * s.forward + stem.y * s.normal); }
+
+#endif

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/grass/simulation/solver.glsl"
+
+// Simulates masters (Han and Li, "Grass rendering and simulation with LOD", GPU Pro 6, on the solver of TressFX): one
+// thread a knot, 16 threads a blade. Each step predicts the knots, runs the iterations of constraints on the even and
+// the odd segments in turn, pushes knots out of colliders, and restores lengths and ground from root to tip. Positions
+// travel between threads in shared memory only, so the result does not depend on the width of subgroups or the size of
+// workgroups. Groups: the number of masters over the blades of a workgroup, rounded up.
+
+layout(local_size_x = 64, local_size_x_id = 0) in;  // constant 0: 32, 64 or 128
+
+layout(set = 0, binding = 0, scalar) uniform StepsBlock { GrassSteps steps; };
+layout(set = 0, binding = 1, scalar) readonly buffer Patches { GrassPatchRow patches[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer BladeRows { GrassBladeRow blade_rows[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Types { GrassTypeRow types[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer MasterList { GrassMaster master_list[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer MasterCount { uint master_count; };
+layout(set = 0, binding = 6, scalar) readonly buffer Colliders { GrassCollider colliders[]; };
+// 16 for each place; relative to the patch's origin, w is 0.
+layout(set = 0, binding = 7, scalar) buffer Knots { vec4 knots[]; };
+layout(set = 0, binding = 8, scalar) buffer PreviousKnots { vec4 previous_knots[]; };  // a step earlier
+
+const uint kThreads = gl_WorkGroupSize.x;
+const uint kKnots = uint(GLOAM_GRASS_KNOTS);
+const uint kBlades = kThreads / kKnots;
+const uint kMostThreads = 128u;
+
+// Positions relative to the root. A step reads 1 and writes 0; each stage of the constraints reads one and writes the
+// other; the last pass reads 0 and writes 1.
+shared vec3 knot_at[2][kMostThreads];
+shared float segment_m[kMostThreads];  // length of the segment below
+shared vec3 blade_normal[kMostThreads / kKnots];
+shared vec3 blade_forward[kMostThreads / kKnots];
+
+// The knot after one stage. odd: of the segments that begin at even knots (0) or odd knots (1).
+vec3 stage(KnotRest r, uint lane, uint k, vec3 at, uint odd) {
+  bool upper = (k & 1u) != odd;
+  bool ends = upper ? k != 0u : k + 1u < kKnots;
+  if (!ends) return at;
+  vec3 other = knot_at[odd][upper ? lane - 1u : lane + 1u];
+  vec3 below_low = upper && k >= 2u ? knot_at[odd][lane - 2u] : vec3(0.0);
+  return constrained(r, upper, k == (upper ? 1u : 0u), below_low, upper ? other : at, upper ? at : other);
+}
+
+vec3 pushed_by_all(GrassPatchRow patch_row, vec3 root, vec3 normal, vec3 at, uint step, float most) {
+  float passed = float(step + 1u) / float(steps.frame_steps);
+  for (uint i = 0u; i < patch_row.colliders; ++i)
+    at = pushed(colliders[patch_row.first_collider + i], root + at, normal, passed, most) - root;
+  return at;
+}
+
+// One thread a blade; the others leave the loop at once.
+void restore_lengths(uint lane) {
+  uint first = lane * kKnots;
+  uint blade = min(lane, kBlades - 1u);
+  vec3 normal = blade_normal[blade];
+  vec3 forward = blade_forward[blade];
+  vec3 from = vec3(0.0);
+  vec3 along = normal;
+  float height = 0.0;
+  uint end = lane < kBlades ? kKnots : 0u;
+  for (uint k = 1u; k < end; ++k) {
+    from = restored(from, height, knot_at[0][first + k], segment_m[first + k], normal, forward, along);
+    knot_at[1][first + k] = from;
+  }
+}
+
+void main() {
+  uint lane = gl_LocalInvocationIndex;
+  uint k = lane % kKnots;
+  uint entry = gl_WorkGroupID.x * kBlades + lane / kKnots;
+  if (gl_WorkGroupID.x * kBlades >= master_count) return;  // uniform over the workgroup
+  bool real = entry < master_count;
+  GrassMaster master = master_list[min(entry, master_count - 1u)];
+  GrassPatchRow patch_row = patches[master.blade >> 8];
+  uint index = master.blade & 0xFFu;
+  GrassBladeRow row = blade_rows[patch_row.first_blade + index];
+  GrassStem stem = grass_stem(patch_row, row);
+  GrassTypeRow type = types[grass_type(row)];
+  KnotRest rest = knot_rest(stem, type, k, steps.step_s, steps.iterations);
+
+  uint place = (patch_row.first_place + index) * kKnots + k;
+  vec3 at = knots[place].xyz - stem.root;
+  vec3 before = previous_knots[place].xyz - stem.root;
+  bool held = dot(at, at) < 1e12 && dot(before, before) < 1e12;  // false for NaN
+  if (master.steps == GLOAM_GRASS_NO_STEP || !held) at = before = grass_rest(stem, type.stem[k]);
+  if (k == 0u) {
+    at = before = vec3(0.0);
+    blade_normal[lane / kKnots] = stem.normal;
+    blade_forward[lane / kKnots] = stem.forward;
+  }
+  knot_at[1][lane] = at;
+  segment_m[lane] = rest.length_m;
+  barrier();
+
+  // A blade with fewer steps than the frame does the frame's last steps, but in the first turns of the loop.
+  uint own_steps = min(master.steps, steps.frame_steps);
+  GrassWind wind = steps.wind;
+  for (uint turn = 0u; turn < steps.frame_steps; ++turn) {
+    uint step = min(turn + steps.frame_steps - own_steps, steps.frame_steps - 1u);
+    wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * float(step));
+    vec3 air = wind_velocity(wind, patch_row.wind_at + stem.root);
+    vec3 next = predicted(rest, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, steps.step_s);
+    knot_at[0][lane] = next;
+    barrier();
+    for (uint i = 1u; i < steps.iterations; ++i) {
+      next = stage(rest, lane, k, next, 0u);
+      knot_at[1][lane] = next;
+      barrier();
+      next = stage(rest, lane, k, next, 1u);
+      knot_at[0][lane] = next;
+      barrier();
+    }
+    next = stage(rest, lane, k, next, 0u);
+    knot_at[1][lane] = next;
+    barrier();
+    next = stage(rest, lane, k, next, 1u);
+    knot_at[0][lane] = pushed_by_all(patch_row, stem.root, stem.normal, next, step, rest.reach_m);
+    barrier();
+    restore_lengths(lane);
+    barrier();
+    bool runs = turn < own_steps;
+    before = runs ? at : before;
+    at = runs && k != 0u ? knot_at[1][lane] : at;
+  }
+  if (!real) return;
+  knots[place] = vec4(stem.root + at, 0.0);
+  previous_knots[place] = vec4(stem.root + before, 0.0);
+}
