@@ -78,6 +78,7 @@ BenchRegistry make_bench_registry() {
   add_reflection_error_benches(registry);
   add_reflection_temporal_benches(registry);
   add_reflection_scene_benches(registry);
+  add_grass_sort_benches(registry);
   return registry;
 }
 
