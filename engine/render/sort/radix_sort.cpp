@@ -27,19 +27,20 @@ std::uint32_t divided_up(std::uint32_t a, std::uint32_t b) { return a / b + (a %
 SortConstants divide_into_columns(std::uint32_t count, bool threads_in_turn) {
   if (!threads_in_turn) return {count, divided_up(count, kBlockKeys), kBlockKeys};
   const std::uint32_t run = std::clamp(divided_up(divided_up(count, kWantedRuns), 16) * 16, kLeastRun, kMostRun);
-  const std::uint32_t groups = divided_up(divided_up(count, run), GLOAM_SORT_RUN_THREADS);
+  // At least one workgroup, which writes the bins.
+  const std::uint32_t groups = std::max(divided_up(divided_up(count, run), GLOAM_SORT_RUN_THREADS), 1u);
   return {count, groups * GLOAM_SORT_RUN_THREADS, run};
 }
 
 ComputeProgram count_program(bool threads_in_turn) {
   return {threads_in_turn ? shaders::render::count_runs_comp : shaders::render::count_blocks_comp};
 }
+ComputeProgram scan_program(bool threads_in_turn) {
+  return {threads_in_turn ? shaders::render::scan_runs_comp : shaders::render::scan_blocks_comp};
+}
 ComputeProgram scatter_program(bool threads_in_turn, bool implied_values) {
   return {threads_in_turn ? shaders::render::scatter_runs_comp : shaders::render::scatter_blocks_comp,
           {{0, implied_values ? 1u : 0u}}};
-}
-ComputeProgram scan_program(const gpu::ShaderCode& shader, bool threads_in_turn) {
-  return {shader, {{0, threads_in_turn ? 8u : 64u}}};
 }
 
 /// What the passes of one sort share.
@@ -56,6 +57,7 @@ struct Sort {
     desc.size = std::max<std::uint64_t>(bytes, 16);
     return frame.graph().create_buffer(std::move(desc));
   }
+  [[nodiscard]] BufferRef create_bins() const { return create("_bins", (GLOAM_SORT_BINS + 1) * sizeof(std::uint32_t)); }
   /// Workgroups that count or scatter.
   [[nodiscard]] std::uint32_t groups() const {
     return threads_in_turn ? constants.columns / GLOAM_SORT_RUN_THREADS : constants.columns;
@@ -73,37 +75,43 @@ BufferRef add_count_pass(const Sort& sort, BufferRef keys) {
   return counters;
 }
 
-/// Turns the counters into sums over the columns before. Returns the bins.
-BufferRef add_scan_passes(const Sort& sort, BufferRef& counters) {
-  BufferRef totals = sort.create("_totals", GLOAM_SORT_BINS * sizeof(std::uint32_t));
-  {
-    ComputePass pass(sort.frame, sort.name + "_scan_columns",
-                     scan_program(shaders::render::scan_columns_comp, sort.threads_in_turn));
-    pass.push(sort.constants);
-    counters = pass.write("counters", counters);
-    totals = pass.write("totals", totals);
-    pass.dispatch(GLOAM_SORT_BINS / 4);
-  }
-  ComputePass pass(sort.frame, sort.name + "_scan_bins",
-                   scan_program(shaders::render::scan_bins_comp, sort.threads_in_turn));
+/// Turns the counters into sums over the columns before. Returns the sums over all columns.
+BufferRef add_scan_pass(const Sort& sort, BufferRef& counters) {
+  ComputePass pass(sort.frame, sort.name + "_scan", scan_program(sort.threads_in_turn));
+  pass.push(sort.constants);
+  counters = pass.write("counters", counters);
+  const BufferRef totals = pass.write("totals", sort.create("_totals", GLOAM_SORT_BINS * sizeof(std::uint32_t)));
+  const std::uint32_t quads = GLOAM_SORT_BINS / 4;
+  pass.dispatch(sort.threads_in_turn ? quads / GLOAM_SORT_RUN_THREADS : quads);
+  return totals;
+}
+
+BufferRef add_bins_pass(const Sort& sort, BufferRef totals) {
+  ComputePass pass(sort.frame, sort.name + "_bins", shaders::render::scan_bins_comp);
   pass.read("totals", totals);
-  const BufferRef bins =
-      pass.write("first_of_bin", sort.create("_bins", (GLOAM_SORT_BINS + 1) * sizeof(std::uint32_t)));
+  const BufferRef bins = pass.write("first_of_bin", sort.create_bins());
   pass.dispatch(1);
   return bins;
 }
 
-BufferRef add_scatter_pass(const Sort& sort, BufferRef keys, BufferRef values, BufferRef counters, BufferRef bins) {
+/// Sets the values and the bins.
+void add_scatter_pass(const Sort& sort, BufferRef keys, BufferRef values, BufferRef counters, BufferRef totals,
+                      SortedKeys& sorted) {
+  if (!sort.threads_in_turn) sorted.bins = add_bins_pass(sort, totals);
   ComputePass pass(sort.frame, sort.name + "_scatter", scatter_program(sort.threads_in_turn, !values));
   pass.push(sort.constants);
   pass.read("keys", keys);
   pass.read("counters", counters);
-  pass.read("first_of_bin", bins);
   pass.read("values", values);
-  const BufferRef sorted =
+  if (sort.threads_in_turn) {
+    pass.read("totals", totals);
+    sorted.bins = pass.write("first_of_bin", sort.create_bins());
+  } else {
+    pass.read("first_of_bin", sorted.bins);
+  }
+  sorted.values =
       pass.write("sorted_values", sort.create("_values", std::uint64_t{sort.constants.count} * sizeof(std::uint32_t)));
   pass.dispatch(sort.groups());
-  return sorted;
 }
 
 BufferRef add_keys_pass(const Sort& sort, BufferRef bins) {
@@ -128,16 +136,18 @@ SortedKeys add_radix_sort_passes(FrameBuilder& frame, std::string_view name, Buf
   const Sort sort{frame, std::string(name), threads_in_turn, divide_into_columns(count, threads_in_turn)};
   BufferRef counters = add_count_pass(sort, keys);
   SortedKeys sorted;
-  sorted.bins = add_scan_passes(sort, counters);
-  sorted.values = add_scatter_pass(sort, keys, values, counters, sorted.bins);
+  const BufferRef totals = add_scan_pass(sort, counters);
+  add_scatter_pass(sort, keys, values, counters, totals, sorted);
   sorted.keys = add_keys_pass(sort, sorted.bins);
   return sorted;
 }
 
 std::vector<ComputeProgram> radix_sort_programs(bool threads_in_turn, bool implied_values) {
-  return {count_program(threads_in_turn), scan_program(shaders::render::scan_columns_comp, threads_in_turn),
-          scan_program(shaders::render::scan_bins_comp, threads_in_turn),
-          scatter_program(threads_in_turn, implied_values), ComputeProgram{shaders::render::write_keys_comp}};
+  std::vector<ComputeProgram> programs = {count_program(threads_in_turn), scan_program(threads_in_turn),
+                                          scatter_program(threads_in_turn, implied_values),
+                                          ComputeProgram{shaders::render::write_keys_comp}};
+  if (!threads_in_turn) programs.push_back({shaders::render::scan_bins_comp});
+  return programs;
 }
 
 }  // namespace gloam

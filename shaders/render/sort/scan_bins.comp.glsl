@@ -4,15 +4,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/sort/sort_shared.h"
 
-// The exclusive prefix sum of the bins' totals: the first place of each bin, then the number of keys. One workgroup.
+// The exclusive prefix sum of the bins' totals: the first place of each bin, then the number of keys. One workgroup;
+// scatter_runs.comp does this by itself.
 
-layout(local_size_x = 64, local_size_x_id = 0) in;  // a power of two, at most 64
+layout(local_size_x = GLOAM_SORT_BLOCK_THREADS) in;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Totals { uint totals[]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer Bins { uint first_of_bin[]; };
 
-const uint kThreads = gl_WorkGroupSize.x;
-shared uint sums[64];
+const uint kThreads = GLOAM_SORT_BLOCK_THREADS;
+shared uint sums[GLOAM_SORT_BLOCK_THREADS];
 
 void main() {
   uint thread = gl_LocalInvocationIndex;

@@ -9,8 +9,8 @@
 // counters, one per bin (key value).
 
 #define GLOAM_SORT_BINS 256
-#define GLOAM_SORT_RUN_THREADS 8     // threads of a workgroup of count_runs and scatter_runs, a column each
-#define GLOAM_SORT_BLOCK_THREADS 64  // threads of a workgroup of count_blocks and scatter_blocks, which has one column
+#define GLOAM_SORT_RUN_THREADS 8     // threads of a workgroup of *_runs.comp, a column each
+#define GLOAM_SORT_BLOCK_THREADS 64  // threads of a workgroup of *_blocks.comp; a workgroup has one column
 #define GLOAM_SORT_THREAD_KEYS 64    // keys of a thread there
 
 GLOAM_SHARED_BEGIN

@@ -182,6 +182,12 @@ class SortKernel : public test::KernelTest {
   static void expect_untouched(const Words& words, std::size_t from) {
     for (std::size_t i = from; i < words.size(); ++i) ASSERT_EQ(words[i], test::Kernel::kUntouched) << i;
   }
+  /// The words begin with those expected, and the rest is untouched.
+  static void expect_exactly(Words words, const Words& expected) {
+    expect_untouched(words, expected.size());
+    words.resize(expected.size());
+    EXPECT_EQ(words, expected);
+  }
   /// Counts of each column and bin.
   [[nodiscard]] static Words counted(const Keys& keys, const shaders::SortConstants& c) {
     Words counters(std::size_t{c.columns} * GLOAM_SORT_BINS, 0);
@@ -196,33 +202,32 @@ class SortKernel : public test::KernelTest {
     kernel.input(0, packed(keys));
     kernel.output(1, (expected.size() + kSpare) * 4);
     kernel.run(groups);
-    Words counters = kernel.read<std::uint32_t>(1);
-    expect_untouched(counters, expected.size());
-    counters.resize(expected.size());
-    EXPECT_EQ(counters, expected);
+    expect_exactly(kernel.read<std::uint32_t>(1), expected);
   }
-  void expect_scatter(const gpu::ShaderCode& shader, const shaders::SortConstants& c, std::uint32_t groups) {
+  /// Runs scatter_runs.comp or scatter_blocks.comp.
+  void expect_scatter(bool runs, const shaders::SortConstants& c, std::uint32_t groups) {
     const Keys keys = random_keys(kCount);
-    Words counters = counted(keys, c);
-    for (std::uint32_t bin = 0; bin < GLOAM_SORT_BINS; ++bin)
-      for (std::uint32_t column = 0, before = 0; column < c.columns; ++column) {
-        std::uint32_t& counter = counters[column * GLOAM_SORT_BINS + bin];
-        before += std::exchange(counter, before);
-      }
     const Words values = random_values(kCount);
     const Expected expected = sorted_by_std(keys, values);
-    test::Kernel kernel(device(), shader, {{0, 0u}});
+    Words counters = counted(keys, c), totals;
+    for (std::uint32_t bin = 0; bin < GLOAM_SORT_BINS; ++bin) {
+      std::uint32_t before = 0;
+      for (std::uint32_t column = 0; column < c.columns; ++column)
+        before += std::exchange(counters[column * GLOAM_SORT_BINS + bin], before);
+      totals.push_back(before);
+    }
+    test::Kernel kernel(device(), runs ? shaders::render::scatter_runs_comp : shaders::render::scatter_blocks_comp,
+                        {{0, 0u}});
     kernel.push(c);
     kernel.input(0, packed(keys));
     kernel.input(1, counters);
-    kernel.input(2, expected.bins);
+    kernel.input(2, runs ? totals : expected.bins);
     kernel.input(3, values);
     kernel.output(4, (kCount + kSpare) * 4);
+    if (runs) kernel.output(5, (GLOAM_SORT_BINS + 1 + kSpare) * 4);
     kernel.run(groups);
-    Words sorted = kernel.read<std::uint32_t>(4);
-    expect_untouched(sorted, kCount);
-    sorted.resize(kCount);
-    EXPECT_EQ(sorted, expected.values);
+    expect_exactly(kernel.read<std::uint32_t>(4), expected.values);
+    if (runs) expect_exactly(kernel.read<std::uint32_t>(5), expected.bins);
   }
 };
 
@@ -236,30 +241,19 @@ TEST_F(SortKernel, counting_runs_writes_nothing_past_the_columns) {
 TEST_F(SortKernel, counting_blocks_writes_nothing_past_the_columns) {
   expect_counts(shaders::render::count_blocks_comp, kBlocks, 2);
 }
-TEST_F(SortKernel, scattering_runs_writes_nothing_past_the_values) {
-  expect_scatter(shaders::render::scatter_runs_comp, kRuns, 1);
-}
-TEST_F(SortKernel, scattering_blocks_writes_nothing_past_the_values) {
-  expect_scatter(shaders::render::scatter_blocks_comp, kBlocks, 2);
-}
+TEST_F(SortKernel, scattering_runs_writes_nothing_past_values_and_bins) { expect_scatter(true, kRuns, 1); }
+TEST_F(SortKernel, scattering_blocks_writes_nothing_past_the_values) { expect_scatter(false, kBlocks, 2); }
 
 TEST_F(SortKernel, bins_are_the_prefix_sum_of_the_totals_and_nothing_else) {
-  for (const std::uint32_t threads : {8u, 64u}) {
-    Words totals = random_values(GLOAM_SORT_BINS);
-    for (std::uint32_t& total : totals) total %= 1000;
-    test::Kernel kernel(device(), shaders::render::scan_bins_comp, {{0, threads}});
-    kernel.input(0, totals);
-    kernel.output(1, (GLOAM_SORT_BINS + 1 + kSpare) * 4);
-    kernel.run(1);
-    const Words bins = kernel.read<std::uint32_t>(1);
-    expect_untouched(bins, GLOAM_SORT_BINS + 1);
-    std::uint32_t before = 0;
-    for (std::uint32_t bin = 0; bin < GLOAM_SORT_BINS; ++bin) {
-      EXPECT_EQ(bins[bin], before);
-      before += totals[bin];
-    }
-    EXPECT_EQ(bins[GLOAM_SORT_BINS], before);
-  }
+  Words totals = random_values(GLOAM_SORT_BINS);
+  for (std::uint32_t& total : totals) total %= 1000;
+  Words expected(GLOAM_SORT_BINS + 1, 0);
+  std::partial_sum(totals.begin(), totals.end(), expected.begin() + 1);
+  test::Kernel kernel(device(), shaders::render::scan_bins_comp);
+  kernel.input(0, totals);
+  kernel.output(1, (GLOAM_SORT_BINS + 1 + kSpare) * 4);
+  kernel.run(1);
+  expect_exactly(kernel.read<std::uint32_t>(1), expected);
 }
 
 TEST_F(SortKernel, sorted_keys_end_with_the_word_of_the_last_key) {

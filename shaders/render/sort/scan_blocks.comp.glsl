@@ -7,18 +7,18 @@
 // Replaces each counter by the sum of its bin's counters in the columns before, and writes the sums over all columns.
 // One workgroup per four bins; each thread scans a contiguous range of columns.
 
-layout(local_size_x = 64, local_size_x_id = 0) in;  // at most 64
+layout(local_size_x = GLOAM_SORT_BLOCK_THREADS) in;
 
 layout(push_constant, scalar) uniform Constants { SortConstants c; };
 layout(set = 0, binding = 0, scalar) buffer Counters { uvec4 counters[]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer Totals { uvec4 totals[]; };
 
-const uint kThreads = gl_WorkGroupSize.x;
-shared uvec4 sums[64];
+const uint kThreads = GLOAM_SORT_BLOCK_THREADS;
+shared uvec4 sums[GLOAM_SORT_BLOCK_THREADS];
 
 void main() {
   uint thread = gl_LocalInvocationIndex, quad = gl_WorkGroupID.x;
-  // All threads take the same turns, with 0 for columns past the last (see blur_tiles.comp).
+  // All threads take the same turns; columns past the last count 0 (see blur_tiles.comp).
   uint share = (c.columns + kThreads - 1u) / kThreads, first = thread * share;
   uvec4 sum = uvec4(0u);
   for (uint i = 0u; i < share; ++i)
