@@ -2,21 +2,53 @@
 // SPDX-License-Identifier: MIT
 #include "modules/grass/module.h"
 
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/render/frame_builder.h"
 #include "engine/scene/key_table.h"
 #include "modules/grass/components.h"
+#include "modules/grass/debug/lod_view.h"
+#include "modules/grass/debug/pick.h"
+#include "modules/grass/passes.h"
+#include "modules/grass/simulation/colliders.h"
 
 namespace gloam {
 namespace {
 
+constexpr const char* kDrawsResult = "draws";
+constexpr const char* kDispatchResult = "dispatch";
+
+/// Culling of the view's patches, from the knobs. A view resource.
+struct GrassViewSettings {
+  PatchCulling culling;
+};
+
+void grass_patches_system(Resource<const GrassField> field, ViewResource<const RenderView> view,
+                          ViewResource<const GrassViewSettings> settings, ViewResource<VisiblePatches> visible,
+                          JobExecutor& jobs) {
+  *visible = find_visible_patches(field->patches, *view, settings->culling, jobs);
+}
+
 class GrassModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "grass"; }
-  [[nodiscard]] bool built() const override { return false; }
   void register_components(World& world) const override {
     world.register_component<GrassSurface>("grass_surface");
     world.register_component<Collider>("collider");
     world.register_component<Wind>("wind");
+    register_grass_components(world);
+    register_grass_world_resources(world);
+    world.set_resource(GrassGrowthSettings{});
+    world.set_resource(GrassField{});
+    world.set_resource(GrassEntities{});
+    world.set_resource(GrassWorld{++world_count_});
   }
+  void knobs(KnobRegistry& registry) const override { add_grass_knobs(registry); }
   void scene_keys(KeyRegistry& registry) const override {
     const auto grass = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
       return key_line("grass", KeyElement::mesh_node, std::move(key), std::move(fallback), std::move(unit),
@@ -53,12 +85,75 @@ class GrassModule final : public Module {
     registry.add_finish("grass",
                         [](World& world) { return at_most_one(world.view<const Wind>().size(), "gloam.wind"); });
   }
-  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
+  [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t surfaces = 0;
     world.view<const GrassSurface>().each([&](const GrassSurface& s) { surfaces += s.density > 0.0f ? 1 : 0; });
     if (surfaces == 0) return {false, "no surface grows grass"};
+    if (view != nullptr) {
+      if (view->static_only) return {false, "grass moves"};
+      const auto* visible = world.try_view_resource<VisiblePatches>(view->id);
+      if (visible == nullptr || visible->patches.empty()) return {false, "no grass in view"};
+      return {true, std::to_string(visible->patches.size()) + " patches of grass in view"};
+    }
     return {true, std::to_string(surfaces) + (surfaces == 1 ? " surface grows grass" : " surfaces grow grass")};
   }
+  void add_systems(Schedule& schedule) override {
+    schedule.add_system("grass_growth", "grass", Stage::world, &grass_growth_system);
+    add_grass_world_systems(schedule);
+    schedule.add_system("grass_patches", "grass", Stage::view, &grass_patches_system);
+  }
+  void prepare_world(World& world, const KnobRegistry& registry) const override {
+    const GrassKnobs knobs = grass_knobs(registry);
+    GrassGrowthSettings& settings = world.resource<GrassGrowthSettings>();
+    settings.slaves_per_master = knobs.slaves_per_master;
+    settings.density_scale = static_cast<float>(knobs.density_scale);
+  }
+  /// Growth has run: makes the entities of a field that was regrown.
+  void prepare_view(World& world, ViewId view, const KnobRegistry& registry) const override {
+    const GrassField& field = world.resource<GrassField>();
+    if (world.resource<GrassEntities>().field_version != field.version) make_blade_entities(world, field);
+    if (world.try_view_resource<VisiblePatches>(view) == nullptr) world.set_view_resource(view, VisiblePatches{});
+    world.set_view_resource(view, GrassViewSettings{{.cast_distance_m = grass_knobs(registry).cast_distance_m}});
+  }
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return grass_visualizers(); }
+  void pipelines(const KnobRegistry& registry, const gpu::DeviceInfo& device, PipelineList& list) const override {
+    list_grass_pipelines(grass_knobs(registry), device.threads_in_turn, list);
+  }
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::announce) announce_grass(frame);
+    if (phase == PassPhase::geometry) add_grass_passes(frame, worlds_);
+    const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();
+    if (grass == nullptr || (*grass)->patches.empty()) return;
+    if (phase == PassPhase::visualize) add_grass_view_pass(frame, **grass);
+    if (phase != PassPhase::geometry || !frame.status().ok()) return;
+    frame.keep_result("grass", kDrawsResult, (*grass)->draws);
+    frame.keep_result("grass", kDispatchResult, (*grass)->dispatch);
+  }
+  void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
+    if (name == kDrawsResult) sink.count("grass.live", result.value<shaders::GrassDraws>().live);
+    if (name == kDispatchResult) sink.count("grass.masters_simulated", result.value<shaders::GrassDispatch>().masters);
+  }
+  void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
+    sink.count("grass.blades", world.resource<GrassField>().statistics.blades);
+    sink.count("grass.patches", static_cast<double>(world.view_resource<VisiblePatches>(view.id).patches.size()));
+  }
+  [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {
+    const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();
+    if (grass == nullptr || (*grass)->patches.empty()) return {};
+    return add_grass_pick_copies(frame, **grass, copies);
+  }
+  [[nodiscard]] std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
+                                              const Captures& copies) const override {
+    const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();
+    if (grass == nullptr || (*grass)->patches.empty()) return {};
+    return grass_pick_lines(frame, **grass, pixel, copies);
+  }
+  void release() override { worlds_ = {}; }
+  void give_up_frame(std::uint64_t) override {}  // all state takes effect when a frame is submitted
+
+ private:
+  GrassWorlds worlds_;
+  mutable std::atomic<std::uint64_t> world_count_ = 0;
 };
 
 }  // namespace

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/grass/debug/lod_view.h"
+
+#include <cstddef>
+
+#include "engine/render/passes/visualizer_pass.h"
+#include "modules/grass/drawing/passes.h"
+#include "shaders/grass/shaders.h"
+
+namespace gloam {
+namespace {
+
+DrawProgram view_program(std::uint32_t draw_class, bool encode) {
+  DrawProgram program = blade_program(draw_class, false);
+  program.fragment = shaders::grass::lod_view_frag;
+  program.constants.push_back({2, encode ? 1u : 0u});
+  program.depth_write = false;
+  return program;
+}
+
+}  // namespace
+
+std::vector<VisualizerInfo> grass_visualizers() {
+  return {{"grass_lod", "grass", "",
+           "blades by level of detail: red 15 segments, yellow 5, green 3, blue 1; darker toward the root"}};
+}
+
+void add_grass_view_pass(FrameBuilder& frame, const GrassFrame& grass) {
+  if (frame.visualizer() != "grass_lod" || grass.patches.empty()) return;
+  const bool encode = encoding_constant(frame).value != 0;
+  DrawPass pass(frame, "grass_lod_view", view_program(0, encode));
+  add_visualizer_targets(frame, pass, "grass_lod", gpu::Format::rgba16_float);
+  pass.test_depth(frame.get<GeometryOutputs>().depth);
+  for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
+    if (i > 0) pass.use(view_program(i, encode));
+    bind_blades(pass, grass);
+    pass.draw_indexed_indirect(grass.indices, grass.draws,
+                               offsetof(shaders::GrassDraws, draws) + i * sizeof(shaders::GrassDraw), 1);
+  }
+}
+
+}  // namespace gloam

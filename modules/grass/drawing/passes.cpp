@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/grass/drawing/passes.h"
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "modules/grass/lod/detail.h"
+#include "shaders/grass/drawing/pose_shared.h"
+#include "shaders/grass/shaders.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::size_t kCasterClass = 1;  // of live.comp
+
+BufferRef index_buffer(FrameBuilder& frame) {
+  const std::vector<std::uint32_t> indices = blade_indices();
+  gpu::BufferDesc desc;
+  desc.name = "grass_indices";
+  desc.module = "grass";
+  desc.size = indices.size() * sizeof(std::uint32_t);
+  desc.usage = gpu::BufferUsage::index | gpu::BufferUsage::transfer_target;
+  const auto kept = frame.history_buffer(desc, {.scope = HistoryScope::world, .rest = gpu::Access::vertex_input});
+  if (!frame.check(kept)) return {};
+  if (kept->filled()) return kept->buffer;
+  const auto source = frame.upload_items(std::span<const std::uint32_t>(indices));
+  PassBuilder pass = frame.graph().add_pass("grass_indices", frame.module());
+  const BufferRef written = pass.write(kept->buffer, gpu::Access::transfer_write);
+  pass.execute([source, written](PassContext& context) {
+    context.commands().copy_buffer(source.buffer, source.offset, context.buffer(written), 0, source.size);
+  });
+  return written;
+}
+
+}  // namespace
+
+ComputeProgram grass_pose_program() { return {shaders::grass::pose_comp}; }
+
+DrawProgram blade_program(std::uint32_t draw_class, bool motion) {
+  return {.fragment = motion ? shaders::grass::surface_motion_frag : shaders::grass::surface_frag,
+          .constants = {{0, draw_class}, {1, kClassSegments[draw_class]}},
+          .vertex = motion ? shaders::grass::blade_motion_vert : shaders::grass::blade_vert,
+          .depth_write = true};
+}
+
+CasterProgram blade_caster_program() {
+  return {.vertex = shaders::grass::caster_vert, .constants = {{1, kClassSegments[kCasterClass]}}};
+}
+
+void bind_blades(ShaderPass& pass, const GrassFrame& grass) {
+  pass.read("poses", grass.poses);
+  pass.read("draws", grass.draws);
+  pass.read("knots", grass.store.knots);
+}
+
+void add_pose_pass(FrameBuilder& frame, GrassFrame& grass) {
+  ComputePass pass(frame, "grass_poses", grass_pose_program());
+  pass.read("lod", grass.lod_range);
+  pass.read("patches", grass.patch_rows);
+  pass.read("blade_rows", grass.store.rows);
+  pass.read("types", grass.types);
+  pass.read("blades", grass.blades);
+  pass.read("draws", grass.draws);
+  pass.read("knots", grass.store.knots);
+  pass.read("previous_knots", grass.store.previous_knots);
+  gpu::BufferDesc desc;
+  desc.name = "grass_poses";
+  desc.module = "grass";
+  desc.size = grass.patches.size() * GLOAM_GRASS_PATCH_BLADES * sizeof(shaders::GrassPose);
+  grass.poses = pass.write("poses", frame.graph().create_buffer(desc));
+  pass.dispatch_indirect(grass.draws, offsetof(shaders::GrassDraws, blade_groups));
+}
+
+void add_blade_pass(FrameBuilder& frame, GrassFrame& grass) {
+  grass.indices = index_buffer(frame);
+  if (!frame.status().ok()) return;
+  GeometryOutputs& geometry = frame.get<GeometryOutputs>();
+  const bool motion = static_cast<bool>(geometry.motion);
+  DrawPass pass(frame, "grass_blades", blade_program(0, motion));
+  geometry_targets(pass, geometry);
+  for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
+    if (i > 0) pass.use(blade_program(i, motion));
+    bind_blades(pass, grass);
+    bind_motion(pass, frame.view());
+    if (motion) {
+      pass.uniform("steps", grass.steps);
+      pass.read("previous_knots", grass.store.previous_knots);
+    }
+    pass.draw_indexed_indirect(grass.indices, grass.draws,
+                               offsetof(shaders::GrassDraws, draws) + i * sizeof(shaders::GrassDraw), 1);
+  }
+}
+
+void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const WorldBox& bounds) {
+  const auto pipeline = frame.services().pipelines.get(caster_pipeline_desc(blade_caster_program(), frame.module()));
+  if (!frame.check(pipeline)) return;
+  CasterSource source;
+  source.bounds = bounds;
+  source.moving = true;
+  source.declare_reads = [grass](PassBuilder& pass) {
+    for (const BufferRef buffer : {grass->poses, grass->draws, grass->store.knots})
+      pass.read(buffer, gpu::Access::vertex_read);
+    pass.read(grass->draws, gpu::Access::indirect_read);
+    pass.read(grass->indices, gpu::Access::vertex_input);
+  };
+  source.record = [grass, pipeline = *pipeline,
+                   world_from_relative =
+                       glm::translate(dmat4(1.0), frame.view().position)](const CasterSourceDraw& draw) {
+    PassContext& context = draw.context();
+    const auto bound = [&](std::uint32_t binding, BufferRef buffer) {
+      return gpu::Binding{binding, gpu::Binding::BufferRange{context.buffer(buffer)}};
+    };
+    const gpu::Binding bindings[] = {bound(1, grass->poses), bound(2, grass->draws), bound(3, grass->store.knots)};
+    gpu::CommandList& commands = context.commands();
+    draw.bind_pipeline(pipeline);
+    commands.bind(bindings);
+    commands.push(draw.projection().constants(world_from_relative));
+    commands.bind_indices(context.buffer(grass->indices), 0);
+    commands.draw_indexed_indirect(context.buffer(grass->draws), offsetof(shaders::GrassDraws, cast_draw), 1);
+  };
+  frame.add_caster_source(std::move(source));
+}
+
+}  // namespace gloam

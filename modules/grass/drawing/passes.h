@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "engine/render/declare/compute_pass.h"
+#include "engine/render/declare/draw_pass.h"
+#include "engine/render/draws/caster_source.h"
+#include "modules/grass/frame.h"
+
+namespace gloam {
+
+[[nodiscard]] ComputeProgram grass_pose_program();
+/// Draws one class of blades into the geometry buffer.
+[[nodiscard]] DrawProgram blade_program(std::uint32_t draw_class, bool motion);
+[[nodiscard]] CasterProgram blade_caster_program();
+
+/// Computes the poses of the live blades. Sets GrassFrame::poses.
+void add_pose_pass(FrameBuilder& frame, GrassFrame& grass);
+/// Draws the live blades into the geometry buffer.
+void add_blade_pass(FrameBuilder& frame, GrassFrame& grass);
+/// Binds all that blade_shape.glsl reads.
+void bind_blades(ShaderPass& pass, const GrassFrame& grass);
+
+/// Adds the blades near the camera as a caster of shadows, in PassPhase::announce. `grass` is filled later in the
+/// frame, before shadow maps are drawn. bounds: of those blades.
+void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const WorldBox& bounds);
+
+}  // namespace gloam

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/grass/lod/store.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace gloam {
+namespace {
+
+constexpr std::uint64_t kMostBinding = 128ull << 20;  // bytes of a storage buffer that every device can bind
+constexpr std::uint64_t kKnotBytes = GLOAM_GRASS_KNOTS * sizeof(vec4);
+constexpr std::uint64_t kRowBytes = GLOAM_GRASS_PATCH_BLADES * sizeof(shaders::GrassBladeRow);
+
+/// The slots that all buffers have room for within a binding.
+std::uint32_t most_slots(std::uint32_t slot_masters) {
+  return static_cast<std::uint32_t>(kMostBinding / std::max<std::uint64_t>(slot_masters * kKnotBytes, kRowBytes));
+}
+
+BufferRef kept_buffer(FrameBuilder& frame, const char* name, std::uint64_t bytes, std::uint32_t generation) {
+  using enum gpu::BufferUsage;
+  gpu::BufferDesc desc;
+  desc.name = name;
+  desc.module = "grass";
+  desc.size = bytes;
+  desc.usage = storage | transfer_target | transfer_source;
+  const auto kept = frame.history_buffer(
+      desc, {.scope = HistoryScope::world, .rest = gpu::Access::compute_read, .instance = generation});
+  return frame.check(kept) ? kept->buffer : BufferRef{};
+}
+
+GrassStore store_of(FrameBuilder& frame, std::uint32_t slots, std::uint32_t slot_masters, std::uint32_t generation) {
+  const std::uint64_t masters = std::uint64_t{slots} * slot_masters;
+  return {kept_buffer(frame, "grass_rows", slots * kRowBytes, generation),
+          kept_buffer(frame, "grass_stamps", masters * sizeof(std::uint32_t), generation),
+          kept_buffer(frame, "grass_knots", masters * kKnotBytes, generation),
+          kept_buffer(frame, "grass_previous_knots", masters * kKnotBytes, generation)};
+}
+
+std::array<BufferRef*, 4> buffers_of(GrassStore& store) {
+  return {&store.rows, &store.stamps, &store.knots, &store.previous_knots};
+}
+
+/// Copies all of a smaller store to the begin of the other.
+void add_growth_pass(FrameBuilder& frame, GrassStore from, GrassStore& to) {
+  PassBuilder pass = frame.graph().add_pass("grass_growth", frame.module());
+  struct Copy {
+    BufferRef from, to;
+    std::uint64_t bytes;
+  };
+  std::vector<Copy> copies;
+  const auto sources = buffers_of(from);
+  const auto targets = buffers_of(to);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    pass.read(*sources[i], gpu::Access::transfer_read);
+    *targets[i] = pass.write(*targets[i], gpu::Access::transfer_write);
+    copies.push_back({*sources[i], *targets[i], frame.graph().desc(*sources[i]).size});
+  }
+  pass.execute([copies](PassContext& context) {
+    for (const Copy& copy : copies)
+      context.commands().copy_buffer(context.buffer(copy.from), 0, context.buffer(copy.to), 0, copy.bytes);
+  });
+}
+
+/// Uploads stale rows, and clears the stamps of fresh slots.
+void add_upload_pass(FrameBuilder& frame, const GrassStoreInput& input, GrassFrame& grass) {
+  std::vector<shaders::GrassBladeRow> rows;
+  std::vector<ResidentPatch> uploaded;
+  for (const ResidentPatch& patch : grass.patches) {
+    if (!patch.stale_rows) continue;
+    const auto first = input.rows.begin() + std::ptrdiff_t{patch.patch} * GLOAM_GRASS_PATCH_BLADES;
+    rows.insert(rows.end(), first, first + GLOAM_GRASS_PATCH_BLADES);
+    uploaded.push_back(patch);
+  }
+  if (uploaded.empty()) return;
+  const auto source = frame.upload_items(std::span<const shaders::GrassBladeRow>(rows));
+  PassBuilder pass = frame.graph().add_pass("grass_upload", frame.module());
+  grass.store.rows = pass.write(grass.store.rows, gpu::Access::transfer_write);
+  grass.store.stamps = pass.write(grass.store.stamps, gpu::Access::transfer_write);
+  pass.execute([store = grass.store, uploaded = std::move(uploaded), source,
+                stamp_bytes = grass.slot_masters * sizeof(std::uint32_t)](PassContext& context) {
+    for (std::size_t i = 0; i < uploaded.size(); ++i) {
+      const ResidentPatch& patch = uploaded[i];
+      context.commands().copy_buffer(source.buffer, source.offset + i * kRowBytes, context.buffer(store.rows),
+                                     patch.slot * kRowBytes, kRowBytes);
+      if (patch.fresh)
+        context.commands().fill_buffer(context.buffer(store.stamps), patch.slot * stamp_bytes, stamp_bytes,
+                                       GLOAM_GRASS_NO_STEP);
+    }
+  });
+}
+
+}  // namespace
+
+GrassStoreState& GrassStoreStates::of_frame(FrameBuilder& frame, std::uint64_t world) {
+  World& own = worlds_[world];
+  const std::uint64_t device_frame = frame.services().device.frame_number();
+  if (own.device_frame != device_frame) {
+    own.device_frame = device_frame;
+    own.pending = own.submitted;
+  }
+  frame.on_commit([&own] { own.submitted = own.pending; });
+  return own.pending;
+}
+
+void add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::span<const VisiblePatch> visible,
+                      GrassStoreState& state, GrassFrame& grass) {
+  const bool same_field = state.field == input.field && state.slot_masters == input.slot_masters;
+  if (!same_field) state.residency.clear();
+  const std::uint32_t old_capacity = state.residency.capacity();
+  grass.patches = state.residency.place(visible, frame.view().frame, input.row_version, most_slots(input.slot_masters));
+  grass.slot_masters = input.slot_masters;
+  const std::uint32_t capacity = state.residency.capacity();
+  const bool grows = capacity != old_capacity;
+  if (grows) ++state.generation;
+  grass.store = store_of(frame, capacity, input.slot_masters, state.generation);
+  if (!frame.status().ok()) return;
+  if (grows && old_capacity > 0)
+    add_growth_pass(frame, store_of(frame, old_capacity, input.slot_masters, state.generation - 1), grass.store);
+  add_upload_pass(frame, input, grass);
+  state.field = input.field;
+  state.slot_masters = input.slot_masters;
+}
+
+}  // namespace gloam

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+
+#include "modules/grass/frame.h"
+
+namespace gloam {
+
+/// What the buffers of one world hold after the last frame that was submitted.
+struct GrassStoreState {
+  GrassResidency residency;
+  std::uint64_t field = 0;         ///< version of the field
+  std::uint32_t slot_masters = 0;  ///< masters for which a slot has room
+  std::uint32_t generation = 0;    ///< of the buffers; a new one when they grow
+};
+
+/// States of the worlds of a module. A frame works on a copy, which takes effect when it is submitted.
+class GrassStoreStates {
+ public:
+  /// The state that the world's frame begins with, or that an earlier view of the frame has left. Call it while passes
+  /// are declared.
+  [[nodiscard]] GrassStoreState& of_frame(FrameBuilder& frame, std::uint64_t world);
+  void clear() { worlds_.clear(); }
+
+ private:
+  struct World {
+    GrassStoreState submitted;
+    GrassStoreState pending;
+    std::uint64_t device_frame = ~std::uint64_t{0};  ///< of `pending`
+  };
+  std::map<std::uint64_t, World> worlds_;
+};
+
+/// The field that a store holds blades of.
+struct GrassStoreInput {
+  std::span<const GrassPatch> patches;
+  std::span<const shaders::GrassBladeRow> rows;  ///< 256 per patch
+  std::uint64_t field = 0;                       ///< version of the patches
+  std::uint64_t row_version = 0;
+  std::uint32_t slot_masters = 0;
+};
+
+/// Gives the view's patches slots, grows the buffers, and adds the passes that upload the rows of new patches and clear
+/// their stamps. Sets GrassFrame::patches, slot_masters and store.
+void add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::span<const VisiblePatch> visible,
+                      GrassStoreState& state, GrassFrame& grass);
+
+}  // namespace gloam

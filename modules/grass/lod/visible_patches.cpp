@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/grass/lod/visible_patches.h"
+
+#include <algorithm>
+
+#include "engine/math/frustum.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::size_t kGrain = 1024;
+
+double distance_to(const Aabb& box, const dvec3& at) {
+  return glm::length(glm::max(glm::max(dvec3(box.min) - at, at - dvec3(box.max)), dvec3(0.0)));
+}
+
+void cull_range(std::span<const GrassPatch> patches, JobRange range, const RenderView& view,
+                const PatchCulling& culling, std::vector<VisiblePatch>& kept) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const GrassPatch& patch = patches[i];
+    if (patch.blades == 0) continue;
+    const dvec3 origin = patch.origin - view.position;
+    const double nearest_m = distance_to(patch.roots, -origin);
+    if (!(nearest_m < std::min(static_cast<double>(patch.max_distance_m), culling.max_distance_m))) continue;
+    Aabb box = reach_box(patch);
+    box.min = vec3(dvec3(box.min) + origin);
+    box.max = vec3(dvec3(box.max) + origin);
+    if (nearest_m >= static_cast<double>(culling.cast_distance_m) && !may_intersect(view.frustum, box)) continue;
+    kept.push_back({static_cast<std::uint32_t>(i), static_cast<float>(nearest_m)});
+  }
+}
+
+}  // namespace
+
+Aabb reach_box(const GrassPatch& patch) {
+  Aabb box = patch.roots;
+  box.min -= vec3(patch.reach_m);
+  box.max += vec3(patch.reach_m);
+  return box;
+}
+
+VisiblePatches find_visible_patches(std::span<const GrassPatch> patches, const RenderView& view,
+                                    const PatchCulling& culling, JobExecutor& jobs) {
+  std::vector<std::vector<VisiblePatch>> kept((patches.size() + kGrain - 1) / kGrain);
+  jobs.parallel_for(patches.size(), kGrain,
+                    [&](JobRange range) { cull_range(patches, range, view, culling, kept[range.ordinal]); });
+  VisiblePatches visible;
+  for (const std::vector<VisiblePatch>& part : kept)
+    visible.patches.insert(visible.patches.end(), part.begin(), part.end());
+  std::ranges::sort(visible.patches, [](const VisiblePatch& a, const VisiblePatch& b) {
+    return a.nearest_m != b.nearest_m ? a.nearest_m < b.nearest_m : a.patch < b.patch;
+  });
+  for (const VisiblePatch& one : visible.patches)
+    visible.range_m = std::max(visible.range_m, patches[one.patch].max_distance_m);
+  return visible;
+}
+
+}  // namespace gloam

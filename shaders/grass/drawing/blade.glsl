@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+
+// Draws the blades of one class into the geometry buffer. With GLOAM_MOTION also their motion.
+
+#include "shaders/render/view_api.glsl"
+
+layout(constant_id = 0) const uint kClass = 0u;
+layout(constant_id = 1) const uint kSegments = 15u;
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+
+#include "shaders/grass/drawing/blade_shape.glsl"
+
+layout(location = 0) out vec3 out_normal;
+layout(location = 1) out vec3 out_binormal;
+layout(location = 2) out vec3 out_place;  // along, across, layer
+layout(location = 3) out vec3 out_relative;
+#ifdef GLOAM_MOTION
+#include "shaders/render/motion_api.glsl"
+layout(set = 0, binding = 4, scalar) uniform MotionBlock { MotionConstants motion; };
+layout(set = 0, binding = 5, scalar) readonly buffer PreviousKnots { vec4 previous_knots[]; };  // a step earlier
+layout(set = 0, binding = 6, scalar) uniform Steps { GrassSteps steps; };
+layout(location = 4) out vec3 out_clip;
+layout(location = 5) out vec3 out_previous_clip;
+#endif
+
+void main() {
+  BladeVertex v =
+      blade_vertex(gl_InstanceIndex, draws.class_first[kClass], draws.class_count[kClass], gl_VertexIndex, kSegments);
+  gl_Position = v.exists ? view.clip_from_relative * vec4(v.relative, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
+  if (view.clip_plane.w != 0.0 || view.clip_plane.xyz != vec3(0.0))
+    gl_Position = is_clipped(view, v.relative) ? vec4(2.0, 2.0, 0.0, 1.0) : gl_Position;
+  out_normal = v.normal;
+  out_binormal = v.binormal;
+  out_place = vec3(v.along, v.across, float(v.layer));
+  out_relative = v.relative;
+#ifdef GLOAM_MOTION
+  out_clip = gl_Position.xyw;
+  vec3 moved = posed(poses[v.pose], knots[v.knot].xyz - previous_knots[v.knot].xyz) * float(steps.frame_steps);
+  out_previous_clip = previous_clip_at_rest(motion, v.relative - moved);
+#endif
+}

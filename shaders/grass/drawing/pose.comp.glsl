@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/grass/drawing/pose_shared.h"
+#include "shaders/grass/lod/lod_api.glsl"
+#include "shaders/grass/simulation/slave_api.glsl"
+
+// Poses of the live blades, in sorted order. One thread per blade.
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, scalar) uniform Lod { GrassLod lod; };
+layout(set = 0, binding = 1, scalar) readonly buffer Patches { GrassPatchRow patches[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer Rows { GrassBladeRow blade_rows[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Types { GrassTypeRow types[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Blades { uint blades[]; };  // sorted
+layout(set = 0, binding = 5, scalar) readonly buffer Draws { GrassDraws draws; };
+layout(set = 0, binding = 6, scalar) readonly buffer Knots { vec4 knots[]; };
+layout(set = 0, binding = 7, scalar) readonly buffer PreviousKnots { vec4 previous_knots[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer Poses { GrassPose poses[]; };
+
+// Rotation and scale from the knots of the master to those of the blade, relative to their roots.
+mat3 turn_of(GrassStem master, GrassStem blade, uint slot, uint first_knot, uint master_type) {
+  const uint tip = uint(GLOAM_GRASS_KNOTS) - 1u;
+  vec3 tip_at = knots[first_knot + tip].xyz;
+  float speed = length(tip_at - previous_knots[first_knot + tip].xyz) * lod.steps_per_s;
+  return slave_turn(master, blade, slot, tip_at - master.root, grass_rest(master, types[master_type].stem[tip]), speed);
+}
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= draws.live) return;
+  uint slot = blades[i] % GLOAM_GRASS_PATCH_BLADES;
+  GrassPatchRow row = patches[blades[i] / GLOAM_GRASS_PATCH_BLADES];
+  GrassBladeRow packed_blade = blade_rows[row.first_blade + slot];
+  uint master_slot = grass_master(packed_blade);
+  GrassBladeRow packed_master = blade_rows[row.first_blade + master_slot];
+  GrassStem blade = grass_stem(row, packed_blade), master = grass_stem(row, packed_master);
+  uint first_knot = GLOAM_GRASS_KNOTS * (row.first_place + master_slot);
+  mat3 turn = turn_of(master, blade, slot, first_knot, grass_type(packed_master));
+  turn = slot == master_slot ? mat3(1.0) : turn;
+
+  float distance_m = length(row.origin + blade.root);
+  float share = grass_share(lod, blade.width_m, distance_m);
+  float factor = grass_width_factor(lod, share, grass_rank(packed_blade), distance_m, row.max_distance_m);
+  vec3 moved = row.origin + blade.root - turn * master.root;
+  vec3 side = normalize(turn * cross(master.normal, master.forward));
+  GrassPose pose;
+  pose.row0 = vec4(turn[0].x, turn[1].x, turn[2].x, moved.x);
+  pose.row1 = vec4(turn[0].y, turn[1].y, turn[2].y, moved.y);
+  pose.row2 = vec4(turn[0].z, turn[1].z, turn[2].z, moved.z);
+  pose.first_knot = first_knot;
+  pose.side = pack_normal(side);
+  pose.width = packHalf2x16(vec2(blade.width_m * factor, types[grass_type(packed_blade)].taper));
+  pose.layer = grass_layer(packed_blade);
+  poses[i] = pose;
+}

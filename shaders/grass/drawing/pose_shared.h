@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_GRASS_DRAWING_POSE_SHARED_H
+#define GLOAM_SHADERS_GRASS_DRAWING_POSE_SHARED_H
+
+#include "shaders/common/prelude.h"
+
+GLOAM_SHARED_BEGIN
+
+/// One live blade as a view draws it: how its knots follow from those of its master, and its width. Written by
+/// pose.comp once per blade, so that its vertices need not compute it.
+struct GrassPose {
+  vec4 row0;  // rows of the matrix from the master's knots, in the patch, to camera-relative positions
+  vec4 row1;
+  vec4 row2;
+  uint first_knot;  // of the master
+  uint side;        // octahedral, snorm16: across the blade at the root
+  uint width;       // packHalf2x16(width at the root in metres, after the LOD; taper)
+  uint layer;
+};
+
+GLOAM_SHARED_END
+
+#endif

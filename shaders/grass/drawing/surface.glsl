@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+
+// The surface of a blade, for the geometry buffer. With GLOAM_MOTION also its motion. The blade is drawn flat and
+// shaded as a half tube: its normal turns from edge to edge. Lighting, shadows and hemispheric ambient light are those
+// of all surfaces of the geometry buffer.
+
+#include "shaders/render/gbuffer_api.glsl"
+#include "shaders/render/view_api.glsl"
+#ifdef GLOAM_MOTION
+#include "shaders/render/motion_api.glsl"
+#endif
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+
+layout(location = 0) in vec3 in_normal;
+layout(location = 1) in vec3 in_binormal;
+layout(location = 2) in vec3 in_place;  // along, across, layer
+layout(location = 3) in vec3 in_relative;
+
+layout(location = 0) out vec4 out_base_color;
+layout(location = 1) out uvec4 out_normals;
+layout(location = 2) out vec4 out_material;
+layout(location = 3) out vec4 out_emissive;
+#ifdef GLOAM_MOTION
+layout(location = 4) in vec3 in_clip;
+layout(location = 5) in vec3 in_previous_clip;
+layout(set = 0, binding = 4, scalar) uniform MotionBlock { MotionConstants motion; };
+layout(location = 4) out vec2 out_motion;
+#endif
+
+const float kTube = 0.7;        // how far the normal turns toward the edges
+const float kRoughness = 0.55;  // of the waxy skin of a blade
+const float kRootLight = 0.35;  // share of ambient light that reaches the root between its neighbours
+
+// Base colour of a texture layer, linear: four hues of green, each in four ages from fresh to dry.
+vec3 layer_color(uint layer) {
+  const vec3 kHues[4] =
+      vec3[](vec3(0.10, 0.20, 0.035), vec3(0.13, 0.21, 0.05), vec3(0.09, 0.17, 0.045), vec3(0.15, 0.20, 0.04));
+  return mix(kHues[layer & 3u], vec3(0.24, 0.19, 0.08), 0.12 * float(layer >> 2 & 3u));
+}
+
+void main() {
+  vec3 seen = to_viewer(view, in_relative);
+  vec3 flat_normal = normalize(in_normal);
+  flat_normal = dot(flat_normal, seen) < 0.0 ? -flat_normal : flat_normal;
+  vec3 normal = normalize(flat_normal + normalize(in_binormal) * (kTube * in_place.y));
+  float along = in_place.x;
+  vec3 color = layer_color(uint(in_place.z + 0.5)) * mix(0.55, 1.25, along);
+  color *= 1.0 - 0.25 * exp2(-40.0 * in_place.y * in_place.y);  // the midrib
+  out_base_color = encode_base_color(color, false);
+  out_normals = encode_normals(normal, flat_normal);
+  out_material = vec4(kRoughness, 0.0, mix(kRootLight, 1.0, smoothstep(0.0, 0.6, along)), 0.0);
+  out_emissive = vec4(0.0);
+#ifdef GLOAM_MOTION
+  out_motion = screen_motion(motion, in_clip, in_previous_clip);
+#endif
+}

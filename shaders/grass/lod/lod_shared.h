@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_GRASS_LOD_LOD_SHARED_H
+#define GLOAM_SHADERS_GRASS_LOD_LOD_SHARED_H
+
+#include "shaders/common/prelude.h"
+
+#define GLOAM_GRASS_CULLED 255u      // key of blades that are not drawn
+#define GLOAM_GRASS_CLASSES 4        // draws of a view: near blades have more segments
+#define GLOAM_GRASS_DRAW_BLADES 32u  // blades of one instance of a draw
+
+GLOAM_SHARED_BEGIN
+
+/// Level of detail of one view. Lengths in metres.
+struct GrassLod {
+  vec4 planes[5];        // camera-relative: a point p is inside if dot(xyz, p) + w >= 0
+  float range_m;         // distance of key 255
+  float pixel_m;         // size of a pixel at a distance of 1 m; of all pixels if orthographic
+  uint orthographic;     // 0 or 1
+  float width_px;        // least width of a blade's root to which the LOD thins and widens the field; 0: no thinning
+  uint threshold;        // greatest key that is drawn, 0…254
+  uint patches;          // patch rows of the view
+  float cast_m;          // blades nearer than this stay although they are out of view: they may cast shadows into it
+  uint cast_key;         // greatest key of blades that cast shadows; GLOAM_GRASS_CULLED: none do
+  float steps_per_s;     // of the simulation
+  uvec4 class_keys;      // greatest key of each draw class, rising; the last is 254
+  uvec4 class_segments;  // segments of each blade of a class: 15, 5, 3 or 1
+  uvec4 class_indices;   // first index of a class in the index buffer
+};
+
+/// Arguments of one indexed indirect draw.
+struct GrassDraw {
+  uint indices;
+  uint instances;
+  uint first_index;
+  uint vertex_offset;
+  uint first_instance;
+};
+
+/// Draws of a view, written by live.comp.
+struct GrassDraws {
+  GrassDraw draws[GLOAM_GRASS_CLASSES];
+  GrassDraw cast_draw;
+  uvec3 blade_groups;                     // workgroups with a thread for each live blade
+  uint live;                              // blades that are drawn
+  uint class_first[GLOAM_GRASS_CLASSES];  // in the sorted blades
+  uint class_count[GLOAM_GRASS_CLASSES];
+  uint cast_count;
+};
+
+/// Masters that a frame simulates, written by live.comp and masters.comp.
+struct GrassDispatch {
+  uint masters;  // first, because the simulation binds the buffer as their number
+  uvec3 groups;  // workgroups of the simulation
+};
+
+GLOAM_SHARED_END
+
+#endif
