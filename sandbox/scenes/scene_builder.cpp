@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/scenes/scene_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
+#include "engine/core/assert.h"
 #include "engine/scene/resources.h"
 #include "modules/shadows/components.h"
 
@@ -56,6 +58,30 @@ Entity SceneBuilder::add_light(const std::string& name, const Light& light, dvec
   world_.add<Light>(entity, light);
   if (!casts_shadows) world_.add<ShadowCaster>(entity, {.enabled = false});
   return entity;
+}
+
+void SceneBuilder::add_clip(const std::string& name, Entity node, std::span<const PoseKey> keys) {
+  GLOAM_ASSERT(!keys.empty() && keys.front().time_s == 0.0, "the first key of a clip is at time 0");
+  const auto place = std::ranges::find(info_.node_entities, node);
+  GLOAM_ASSERT(place != info_.node_entities.end(), "an animated node is one of this builder's");
+  const auto index = static_cast<std::uint32_t>(place - info_.node_entities.begin());
+  if (!world_.has<SourceNode>(node)) world_.add<SourceNode>(node, {.index = index});
+
+  AnimationChannel translation{.node = index, .path = AnimationPath::translation, .width = 3};
+  AnimationChannel rotation{.node = index, .path = AnimationPath::rotation, .width = 4};
+  for (const PoseKey& key : keys) {
+    const auto time_s = static_cast<float>(key.time_s);
+    translation.times.push_back(time_s);
+    rotation.times.push_back(time_s);
+    const dvec3& t = key.translation;
+    const dquat& r = key.rotation;
+    for (const double value : {t.x, t.y, t.z}) translation.values.push_back(static_cast<float>(value));
+    for (const double value : {r.x, r.y, r.z, r.w}) rotation.values.push_back(static_cast<float>(value));
+  }
+  AnimationClip clip{.name = name, .duration_s = translation.times.back(), .channels = {}};
+  clip.channels.push_back(std::move(translation));
+  clip.channels.push_back(std::move(rotation));
+  world_.resource<SceneAssets>().clips.push_back(std::move(clip));
 }
 
 Entity SceneBuilder::add_node(const char* kind, const std::string& name, const LocalTransform& local) {

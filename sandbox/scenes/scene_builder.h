@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "engine/ecs/world.h"
@@ -12,6 +13,13 @@
 #include "modules/lights/components.h"
 
 namespace gloam {
+
+/// Pose of an animated node relative to its parent.
+struct PoseKey {
+  double time_s = 0.0;
+  dvec3 translation = dvec3(0.0);
+  dquat rotation = dquat(1.0, 0.0, 0.0, 0.0);
+};
 
 /// Fills a world by code, as the importer does from a file. The world must have all components registered and the
 /// resources of prepare_scene_world.
@@ -30,6 +38,9 @@ class SceneBuilder {
   Entity add_camera(const std::string& name, dvec3 eye, dvec3 target, float fov_y);
   /// direction: where the light shines, any length above 0. It has no effect on a point light.
   Entity add_light(const std::string& name, const Light& light, dvec3 position, dvec3 direction, bool casts_shadows);
+  /// Adds a clip that moves a node of this builder; it loops with the time of its last key. keys: the first at time 0,
+  /// times strictly increasing. Poses between keys are interpolated linearly.
+  void add_clip(const std::string& name, Entity node, std::span<const PoseKey> keys);
 
  private:
   Entity add_node(const char* kind, const std::string& name, const LocalTransform& local);

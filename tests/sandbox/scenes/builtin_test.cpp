@@ -162,5 +162,28 @@ TEST(SceneBuilder, a_rotation_towards_a_direction_turns_minus_z_there) {
   }
 }
 
+TEST(SceneBuilder, a_clip_has_the_channels_of_its_node) {
+  World world;
+  SceneInfo info;
+  prepare_scene_world(world);
+  SceneBuilder builder(world, info);
+  builder.add_group("first", {});
+  const Entity node = builder.add_group("second", {});
+  const PoseKey keys[] = {{0.0, {1.0, 2.0, 3.0}}, {0.5, {4.0, 5.0, 6.0}}, {2.0, {1.0, 2.0, 3.0}}};
+  builder.add_clip("swing", node, keys);
+  const auto& clips = world.resource<SceneAssets>().clips;
+  ASSERT_EQ(clips.size(), 1u);
+  EXPECT_EQ(clips[0].name, "swing");
+  EXPECT_EQ(clips[0].duration_s, 2.0f);
+  ASSERT_EQ(clips[0].channels.size(), 2u);
+  EXPECT_EQ(clips[0].channels[0].values, (std::vector<float>{1, 2, 3, 4, 5, 6, 1, 2, 3}));
+  EXPECT_EQ(clips[0].channels[1].values, (std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}));
+  for (const AnimationChannel& channel : clips[0].channels) {
+    EXPECT_EQ(channel.times, (std::vector<float>{0.0f, 0.5f, 2.0f}));
+    EXPECT_EQ(info.node_entities[channel.node], node);
+  }
+  EXPECT_EQ(world.get<SourceNode>(node).index, 1u);
+}
+
 }  // namespace
 }  // namespace gloam
