@@ -9,6 +9,7 @@
 #include "sandbox/scenes/closeups.h"
 #include "sandbox/scenes/lanterns.h"
 #include "sandbox/scenes/many_lights.h"
+#include "sandbox/scenes/meadow.h"
 #include "sandbox/scenes/penumbra.h"
 #include "sandbox/scenes/plain.h"
 #include "sandbox/scenes/shadow_grid.h"
@@ -29,6 +30,9 @@ constexpr BuiltinScene kScenes[] = {
      &build_shadow_grid_scene},
     {"closeups", "eight figures, all close-up subjects, under eight lamps and a moon", &build_closeups_scene},
     {"wet_street", "puddles of a street at dusk that reflect facades, 60 lamps and a fire", &build_wet_street_scene},
+    {"meadow", "grass by night in the wind, bent by rolling balls and a walker, under lanterns and a moon",
+     &build_meadow_scene},
+    {"meadow_day", "the grass of meadow under a sun", &build_meadow_day_scene},
 };
 
 }  // namespace

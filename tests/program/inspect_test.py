@@ -50,6 +50,15 @@ class Inspect(ProgramCase):
             line = next(line for line in lines if line.split()[0] == name)
             self.assertIn("called for, not built yet", line)
 
+    def test_the_meadows_call_for_grass_and_have_no_warnings(self):
+        for scene, lights in (("builtin:meadow", 6), ("builtin:meadow_day", 1)):
+            told = self.inspect(scene)
+            self.assertEqual(told["warnings"], [])
+            self.assertEqual(told["cameras"], ["near", "far", "ground", "lanterns", "above", "walk"])
+            self.assertEqual(told["lights"], lights)
+            self.assertIn("walker", told["animations"])
+            self.assertTrue(next(module for module in told["modules"] if module["name"] == "grass")["demanded"])
+
     def test_a_file_is_told_like_a_built_in_scene(self):
         (self.folder / "leaf.gltf").write_text(json.dumps(TRIANGLE))
         told = self.inspect("leaf.gltf")
