@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 // The surface of a blade, for the geometry buffer. With GLOAM_MOTION also its motion. The blade is drawn flat and
-// shaded as a half tube: its normal turns from edge to edge. Lighting, shadows and hemispheric ambient light are those
-// of all surfaces of the geometry buffer.
+// shaded as a half tube: its normal turns from edge to edge. Light passes through blades: the normal is bent upward, so
+// that a blade between the eye and a light is not black, and the material is marked as subsurface for shadows.
+// Lighting, shadows and hemispheric ambient light are those of all surfaces of the geometry buffer.
 
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
@@ -30,6 +31,7 @@ layout(location = 4) out vec2 out_motion;
 #endif
 
 const float kTube = 0.7;        // how far the normal turns toward the edges
+const float kUpward = 1.2;      // how far it is bent upward
 const float kRoughness = 0.55;  // of the waxy skin of a blade
 const float kRootLight = 0.35;  // share of ambient light that reaches the root between its neighbours
 
@@ -44,11 +46,11 @@ void main() {
   vec3 seen = to_viewer(view, in_relative);
   vec3 flat_normal = normalize(in_normal);
   flat_normal = dot(flat_normal, seen) < 0.0 ? -flat_normal : flat_normal;
-  vec3 normal = normalize(flat_normal + normalize(in_binormal) * (kTube * in_place.y));
+  vec3 normal = normalize(flat_normal + normalize(in_binormal) * (kTube * in_place.y) + vec3(0.0, kUpward, 0.0));
   float along = in_place.x;
   vec3 color = layer_color(uint(in_place.z + 0.5)) * mix(0.55, 1.25, along);
   color *= 1.0 - 0.25 * exp2(-40.0 * in_place.y * in_place.y);  // the midrib
-  out_base_color = encode_base_color(color, false);
+  out_base_color = encode_base_color(color, true);
   out_normals = encode_normals(normal, flat_normal);
   out_material = vec4(kRoughness, 0.0, mix(kRootLight, 1.0, smoothstep(0.0, 0.6, along)), 0.0);
   out_emissive = vec4(0.0);
