@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -19,7 +20,14 @@ struct StemPoint {
 StemPoint mix(const StemPoint& a, const StemPoint& b, double t) {
   return {a.forward + (b.forward - a.forward) * t, a.up + (b.up - a.up) * t};
 }
-double distance(const StemPoint& a, const StemPoint& b) { return std::hypot(b.forward - a.forward, b.up - a.up); }
+double dot(const StemPoint& a, const StemPoint& b) { return a.forward * b.forward + a.up * b.up; }
+StemPoint difference(const StemPoint& to, const StemPoint& from) {
+  return {to.forward - from.forward, to.up - from.up};
+}
+double distance(const StemPoint& a, const StemPoint& b) {
+  const StemPoint d = difference(b, a);
+  return std::sqrt(dot(d, d));
+}
 
 /// The quadratic B-spline of the control points as a fine polyline.
 std::vector<StemPoint> flatten(const std::vector<vec2>& points) {
@@ -40,6 +48,17 @@ std::vector<StemPoint> flatten(const std::vector<vec2>& points) {
   return line;
 }
 
+/// Share of the segment from `inside` to `outside` at which it leaves the circle around `center`.
+double leaving_share(const StemPoint& center, double radius, const StemPoint& inside, const StemPoint& outside) {
+  const StemPoint way = difference(outside, inside);
+  const StemPoint start = difference(inside, center);
+  const double a = dot(way, way);
+  const double b = dot(way, start);
+  const double c = dot(start, start) - radius * radius;  // ≤ 0
+  if (!(a > 0.0)) return 1.0;
+  return std::clamp((std::sqrt(std::max(b * b - a * c, 0.0)) - b) / a, 0.0, 1.0);
+}
+
 /// Walks along the polyline in steps whose ends are `chord` apart. Returns whether all steps fit.
 bool place_knots(const std::vector<StemPoint>& line, double chord, std::array<StemPoint, GLOAM_GRASS_KNOTS>& knots) {
   knots[0] = line.front();
@@ -49,13 +68,7 @@ bool place_knots(const std::vector<StemPoint>& line, double chord, std::array<St
     const StemPoint from = knots[knot - 1];
     while (next < line.size() && distance(from, line[next]) < chord) begin = line[next++];
     if (next == line.size()) return false;
-    double inside = 0.0;  // share of the segment that lies within the distance
-    double outside = 1.0;
-    for (int i = 0; i < 52; ++i) {
-      const double middle = 0.5 * (inside + outside);
-      (distance(from, mix(begin, line[next], middle)) < chord ? inside : outside) = middle;
-    }
-    begin = mix(begin, line[next], inside);
+    begin = mix(begin, line[next], leaving_share(from, chord, begin, line[next]));
     knots[knot] = begin;
   }
   return true;

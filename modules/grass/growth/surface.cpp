@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 
+#include "engine/core/assert.h"
 #include "engine/math/finite.h"
 #include "engine/scene/topology.h"
 
@@ -21,7 +22,10 @@ std::vector<std::uint32_t> finite_triangles(const Primitive& primitive, std::uin
   for (std::size_t first = 0; first + 3 <= primitive.indices.size(); first += 3) {
     const std::span<const std::uint32_t> face = std::span(primitive.indices).subspan(first, 3);
     bool finite = true;
-    for (const std::uint32_t i : face) finite = finite && is_finite(primitive.positions[i]);
+    for (const std::uint32_t i : face) {
+      GLOAM_ASSERT(i < primitive.positions.size(), "an index of a triangle list names a position");
+      finite = finite && is_finite(primitive.positions[i]);
+    }
     if (finite)
       kept.insert(kept.end(), face.begin(), face.end());
     else
