@@ -16,6 +16,7 @@
 #include "modules/grass/debug/pick.h"
 #include "modules/grass/passes.h"
 #include "modules/grass/simulation/colliders.h"
+#include "modules/grass/simulation/pass.h"
 
 namespace gloam {
 namespace {
@@ -128,6 +129,10 @@ class GrassModule final : public Module {
     if (phase != PassPhase::geometry || !frame.status().ok()) return;
     frame.keep_result("grass", kDrawsResult, (*grass)->draws);
     frame.keep_result("grass", kDispatchResult, (*grass)->dispatch);
+  }
+  void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {
+    if (name == kDispatchResult)
+      world.set_view_resource(view, GrassFeedback{result.value<shaders::GrassDispatch>().masters});
   }
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
     if (name == kDrawsResult) sink.count("grass.live", result.value<shaders::GrassDraws>().live);

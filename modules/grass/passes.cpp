@@ -3,6 +3,7 @@
 #include "modules/grass/passes.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -73,6 +74,14 @@ std::uint32_t most_masters(const GrassField& field) {
   return most;
 }
 
+/// Workgroups of the simulation by the count of an earlier frame; none: the GPU decides.
+std::optional<std::uint32_t> groups_of(const World& world, ViewId view, const GrassKnobs& knobs) {
+  const GrassFeedback* feedback = world.try_view_resource<GrassFeedback>(view);
+  if (!knobs.readback || feedback == nullptr) return std::nullopt;
+  const std::uint32_t masters = knobs.group / GLOAM_GRASS_KNOTS;
+  return (feedback->masters + masters - 1) / masters;
+}
+
 /// Box of the blades that may cast shadows.
 WorldBox casting_box(const GrassField& field, std::span<const VisiblePatch> visible, float cast_distance_m) {
   WorldBox box;
@@ -116,10 +125,12 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   upload_patches(frame, field, grass);
   grass.lod = grass_lod(frame.view(), grass.knobs, visible.range_m, longest_blade(field, grass.patches),
                         static_cast<std::uint32_t>(grass.patches.size()));
+  const std::optional<std::uint32_t> groups = groups_of(world, frame.view().id, grass.knobs);
+  grass.lod.most_masters = groups ? *groups * (grass.knobs.group / GLOAM_GRASS_KNOTS) : ~0u;
   grass.lod.steps_per_s = static_cast<float>(1.0 / kGrassStep);
   grass.lod_range = frame.upload_uniform(grass.lod);
   add_grass_lod_passes(frame, grass);
-  add_simulation_pass(frame, grass, nullptr);
+  add_simulation_pass(frame, grass, groups);
   add_pose_pass(frame, grass);
   add_blade_pass(frame, grass);
 }

@@ -65,6 +65,7 @@ void add_pose_pass(FrameBuilder& frame, GrassFrame& grass) {
   pass.read("draws", grass.draws);
   pass.read("knots", grass.store.knots);
   pass.read("previous_knots", grass.store.previous_knots);
+  pass.read("stamps", grass.store.stamps);
   gpu::BufferDesc desc;
   desc.name = "grass_poses";
   desc.module = "grass";

@@ -49,6 +49,7 @@ void add_grass_lod_passes(FrameBuilder& frame, GrassFrame& grass) {
 
   ComputePass masters(frame, "grass_masters", grass_masters_program(grass.knobs.group / GLOAM_GRASS_KNOTS));
   masters.uniform("steps", grass.steps);
+  masters.read("lod", grass.lod_range);
   masters.read("patches", grass.patch_rows);
   masters.read("blade_rows", grass.store.rows);
   masters.read("blades", grass.blades);

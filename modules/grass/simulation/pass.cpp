@@ -12,7 +12,7 @@ ComputeProgram grass_simulation_program(std::uint32_t threads) {
   return {shaders::grass::simulate_comp, {{0, threads}}};
 }
 
-void add_simulation_pass(FrameBuilder& frame, GrassFrame& grass, const std::uint32_t* groups) {
+void add_simulation_pass(FrameBuilder& frame, GrassFrame& grass, std::optional<std::uint32_t> groups) {
   ComputePass pass(frame, "grass_simulation", grass_simulation_program(grass.knobs.group));
   pass.uniform("steps", grass.steps);
   pass.read("patches", grass.patch_rows);
@@ -23,7 +23,7 @@ void add_simulation_pass(FrameBuilder& frame, GrassFrame& grass, const std::uint
   pass.read("colliders", grass.colliders);
   grass.store.knots = pass.write("knots", grass.store.knots);
   grass.store.previous_knots = pass.write("previous_knots", grass.store.previous_knots);
-  if (groups != nullptr) {
+  if (groups) {
     if (*groups > 0) pass.dispatch(*groups);
   } else {
     pass.dispatch_indirect(grass.dispatch, offsetof(shaders::GrassDispatch, groups));

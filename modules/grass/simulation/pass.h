@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "engine/render/declare/compute_pass.h"
 #include "modules/grass/frame.h"
 
@@ -10,7 +13,12 @@ namespace gloam {
 /// threads: 32, 64 or 128 in a workgroup.
 [[nodiscard]] ComputeProgram grass_simulation_program(std::uint32_t threads);
 
-/// Runs the steps of the listed masters. groups: size of the dispatch; null: the GPU's own (GrassFrame::dispatch).
-void add_simulation_pass(FrameBuilder& frame, GrassFrame& grass, const std::uint32_t* groups);
+/// Masters that an earlier frame of the view had to simulate. A view resource, with grass.dispatch=readback only.
+struct GrassFeedback {
+  std::uint32_t masters = 0;
+};
+
+/// Runs the steps of the listed masters. groups: size of the dispatch; none: the GPU's own (GrassFrame::dispatch).
+void add_simulation_pass(FrameBuilder& frame, GrassFrame& grass, std::optional<std::uint32_t> groups);
 
 }  // namespace gloam

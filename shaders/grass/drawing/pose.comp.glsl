@@ -18,6 +18,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer Blades { uint blades[]; }; 
 layout(set = 0, binding = 5, scalar) readonly buffer Draws { GrassDraws draws; };
 layout(set = 0, binding = 6, scalar) readonly buffer Knots { vec4 knots[]; };
 layout(set = 0, binding = 7, scalar) readonly buffer PreviousKnots { vec4 previous_knots[]; };
+layout(set = 0, binding = 9, scalar) readonly buffer Stamps { uint stamps[]; };
 layout(set = 0, binding = 8, scalar) writeonly buffer Poses { GrassPose poses[]; };
 
 // Rotation and scale from the knots of the master to those of the blade, relative to their roots.
@@ -44,6 +45,8 @@ void main() {
   float distance_m = length(row.origin + blade.root);
   float share = grass_share(lod, blade.width_m, distance_m);
   float factor = grass_width_factor(lod, share, grass_rank(packed_blade), distance_m, row.max_distance_m);
+  // Knots that no step has written yet are not drawn.
+  factor = stamps[row.first_place + master_slot] == GLOAM_GRASS_NO_STEP ? 0.0 : factor;
   vec3 moved = row.origin + blade.root - turn * master.root;
   vec3 side = normalize(turn * cross(master.normal, master.forward));
   GrassPose pose;

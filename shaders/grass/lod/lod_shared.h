@@ -22,6 +22,7 @@ struct GrassLod {
   uint patches;          // patch rows of the view
   float cast_m;          // blades nearer than this stay although they are out of view: they may cast shadows into it
   uint cast_key;         // greatest key of blades that cast shadows; GLOAM_GRASS_CULLED: none do
+  uint most_masters;     // that the dispatch of the simulation has room for
   float steps_per_s;     // of the simulation
   uvec4 class_keys;      // greatest key of each draw class, rising; the last is 254
   uvec4 class_segments;  // segments of each blade of a class: 15, 5, 3 or 1
