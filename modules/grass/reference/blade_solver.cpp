@@ -148,7 +148,8 @@ void restore(const BladeModel& blade, const Constants& c, Knots& at) {
     along = direction_or(at[k] - at[k - 1], along);
     double climb = glm::dot(along, blade.normal);
     if (height + length * climb < 0.0) {
-      const dvec3 level = direction_or(along - blade.normal * climb, blade.forward);
+      const dvec3 in_plane = along - blade.normal * climb;
+      const dvec3 level = glm::length(in_plane) > 1e-3 ? glm::normalize(in_plane) : blade.forward;
       climb = -height / length;
       along = level * std::sqrt(std::max(1.0 - climb * climb, 0.0)) + blade.normal * climb;
     }

@@ -10,7 +10,8 @@
 // travel between threads in shared memory only, so the result does not depend on the width of subgroups or the size of
 // workgroups. Groups: the number of masters over the blades of a workgroup, rounded up.
 
-layout(local_size_x = 64, local_size_x_id = 0) in;  // constant 0: 32, 64 or 128
+layout(local_size_x = 64, local_size_x_id = 0) in;     // constant 0: 32, 64 or 128
+layout(constant_id = 1) const bool kColliders = true;  // false: no patch has colliders
 
 layout(set = 0, binding = 0, scalar) uniform StepsBlock { GrassSteps steps; };
 layout(set = 0, binding = 1, scalar) readonly buffer Patches { GrassPatchRow patches[]; };
@@ -46,26 +47,27 @@ vec3 stage(KnotRest r, uint lane, uint k, vec3 at, uint odd) {
 }
 
 vec3 pushed_by_all(GrassPatchRow patch_row, vec3 root, vec3 normal, vec3 at, uint step, float most) {
-  float passed = float(step + 1u) / float(steps.frame_steps);
+  float passed = float(step + 1u) / float(max(steps.frame_steps, 1u));
   for (uint i = 0u; i < patch_row.colliders; ++i)
     at = pushed(colliders[patch_row.first_collider + i], root + at, normal, passed, most) - root;
   return at;
 }
 
-// One thread a blade; the others leave the loop at once.
+// One thread a blade; the others leave the loop after one turn, whose result they store nowhere.
 void restore_lengths(uint lane) {
-  uint first = lane * kKnots;
   uint blade = min(lane, kBlades - 1u);
   vec3 normal = blade_normal[blade];
   vec3 forward = blade_forward[blade];
   vec3 from = vec3(0.0);
   vec3 along = normal;
   float height = 0.0;
-  uint end = lane < kBlades ? kKnots : 0u;
-  for (uint k = 1u; k < end; ++k) {
-    from = restored(from, height, knot_at[0][first + k], segment_m[first + k], normal, forward, along);
-    knot_at[1][first + k] = from;
-  }
+  uint knot = blade * kKnots + 1u;
+  uint last = lane < kBlades ? knot + kKnots - 2u : knot;
+  do {
+    from = restored(from, height, knot_at[0][knot], segment_m[knot], normal, forward, along);
+    if (lane < kBlades) knot_at[1][knot] = from;
+    ++knot;
+  } while (knot <= last);
 }
 
 void main() {
@@ -79,14 +81,16 @@ void main() {
   uint index = master.blade & 0xFFu;
   GrassBladeRow row = blade_rows[patch_row.first_blade + index];
   GrassStem stem = grass_stem(patch_row, row);
-  GrassTypeRow type = types[grass_type(row)];
-  KnotRest rest = knot_rest(stem, type, k, steps.step_s, steps.iterations);
+  uint type = grass_type(row);
+  vec2 stems[4] = {types[type].stem[max(k, 2u) - 2u], types[type].stem[max(k, 1u) - 1u], types[type].stem[k],
+                   types[type].stem[min(k + 1u, kKnots - 1u)]};
+  KnotRest rest = knot_rest(stem, stems, types[type].stiffness, k, steps.step_s, steps.iterations);
 
   uint place = (patch_row.first_place + index) * kKnots + k;
   vec3 at = knots[place].xyz - stem.root;
   vec3 before = previous_knots[place].xyz - stem.root;
   bool held = dot(at, at) < 1e12 && dot(before, before) < 1e12;  // false for NaN
-  if (master.steps == GLOAM_GRASS_NO_STEP || !held) at = before = grass_rest(stem, type.stem[k]);
+  if (master.steps == GLOAM_GRASS_NO_STEP || !held) at = before = grass_rest(stem, stems[2]);
   if (k == 0u) {
     at = before = vec3(0.0);
     blade_normal[lane / kKnots] = stem.normal;
@@ -96,36 +100,33 @@ void main() {
   segment_m[lane] = rest.length_m;
   barrier();
 
-  // A blade with fewer steps than the frame does the frame's last steps, but in the first turns of the loop.
+  // A blade with fewer steps than the frame does the frame's last steps, but in the first turns of the loop. All loops
+  // test at their ends: lavapipe runs a loop's body once more for a test at its begin.
   uint own_steps = min(master.steps, steps.frame_steps);
   GrassWind wind = steps.wind;
-  for (uint turn = 0u; turn < steps.frame_steps; ++turn) {
-    uint step = min(turn + steps.frame_steps - own_steps, steps.frame_steps - 1u);
+  uint turn = 0u;
+  do {
+    uint step = turn + steps.frame_steps - own_steps;
     wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * float(step));
     vec3 air = wind_velocity(wind, patch_row.wind_at + stem.root);
     vec3 next = predicted(rest, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, steps.step_s);
     knot_at[0][lane] = next;
-    barrier();
-    for (uint i = 1u; i < steps.iterations; ++i) {
-      next = stage(rest, lane, k, next, 0u);
-      knot_at[1][lane] = next;
+    uint odd = 0u;
+    uint left = 2u * max(steps.iterations, 1u);
+    do {
       barrier();
-      next = stage(rest, lane, k, next, 1u);
-      knot_at[0][lane] = next;
-      barrier();
-    }
-    next = stage(rest, lane, k, next, 0u);
-    knot_at[1][lane] = next;
-    barrier();
-    next = stage(rest, lane, k, next, 1u);
-    knot_at[0][lane] = pushed_by_all(patch_row, stem.root, stem.normal, next, step, rest.reach_m);
+      next = stage(rest, lane, k, next, odd);
+      odd ^= 1u;
+      knot_at[odd][lane] = next;
+    } while (--left != 0u);
+    if (kColliders) knot_at[0][lane] = pushed_by_all(patch_row, stem.root, stem.normal, next, step, rest.reach_m);
     barrier();
     restore_lengths(lane);
     barrier();
     bool runs = turn < own_steps;
     before = runs ? at : before;
     at = runs && k != 0u ? knot_at[1][lane] : at;
-  }
+  } while (++turn < steps.frame_steps);
   if (!real) return;
   knots[place] = vec4(stem.root + at, 0.0);
   previous_knots[place] = vec4(stem.root + before, 0.0);

@@ -36,18 +36,19 @@ vec3 direction_or(vec3 v, vec3 otherwise) {
   return len > kShort ? v / len : otherwise;
 }
 
-KnotRest knot_rest(GrassStem s, GrassTypeRow type, uint k, float step_s, uint iterations) {
-  vec3 two_below = grass_rest(s, type.stem[max(k, 2u) - 2u]);
-  vec3 one_below = grass_rest(s, type.stem[max(k, 1u) - 1u]);
-  vec3 at = grass_rest(s, type.stem[k]);
-  vec3 above = grass_rest(s, type.stem[min(k + 1u, 15u)]);
+// stems: of the knots two below, one below, at and above the knot.
+KnotRest knot_rest(GrassStem s, vec2 stems[4], float type_stiffness, uint k, float step_s, uint iterations) {
+  vec3 two_below = grass_rest(s, stems[0]);
+  vec3 one_below = grass_rest(s, stems[1]);
+  vec3 at = grass_rest(s, stems[2]);
+  vec3 above = grass_rest(s, stems[3]);
   KnotRest r;
   r.below = k >= 2u ? direction_or(one_below - two_below, s.normal) : s.normal;
   vec3 direction = direction_or(at - one_below, s.normal);
   r.mirrored = direction - 2.0 * dot(r.below, direction) * r.below;
   r.length_m = length(at - one_below);
   r.above_m = length(above - at);
-  float stiffness = clamp(type.stiffness, 0.0, 0.999);
+  float stiffness = clamp(type_stiffness, 0.0, 0.999);
   float nominal = pow(1.0 - stiffness, -kNominalIterations) - 1.0;
   float ratio = step_s / kNominalStep_s;
   float frequency = sqrt(nominal) / kNominalStep_s;
@@ -96,10 +97,13 @@ vec3 constrained(KnotRest r, bool upper, bool at_root, vec3 below_low, vec3 low,
 vec3 restored(vec3 from, inout float height, vec3 toward, float length_m, vec3 normal, vec3 forward, inout vec3 along) {
   vec3 d = direction_or(toward - from, along);
   float climb = dot(d, normal);
-  if (height + length_m * climb < 0.0) {
-    climb = -height / length_m;
-    vec3 level = direction_or(d - normal * dot(d, normal), forward);
-    d = level * sqrt(max(1.0 - climb * climb, 0.0)) + normal * climb;
+  float level2 = 1.0 - climb * climb;  // squared length of the part of d in the plane
+  float least = length_m > 0.0 ? max(-height / length_m, -1.0) : -1.0;
+  if (climb < least) {
+    float levelled = sqrt(max(1.0 - least * least, 0.0));
+    vec3 level = d - normal * climb;
+    d = (level2 > 1e-6 ? level * (levelled / sqrt(level2)) : forward * levelled) + normal * least;
+    climb = least;
   }
   along = d;
   height = max(height + length_m * climb, 0.0);

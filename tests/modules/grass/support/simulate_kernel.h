@@ -14,6 +14,7 @@
 #include "engine/math/packing.h"
 #include "modules/grass/reference/blade_solver.h"
 #include "shaders/grass/shaders.h"
+#include "tests/modules/grass/support/blades.h"
 #include "tests/support/kernel.h"
 
 namespace gloam::test {
@@ -36,20 +37,11 @@ struct GrassInput {
 struct GrassOutput {
   KnotRows knots;
   KnotRows previous;
+
+  bool operator==(const GrassOutput&) const = default;
 };
 
 inline constexpr float kNowhere = 1e20f;
-
-[[nodiscard]] inline shaders::GrassTypeRow leaning_type(float stiffness) {
-  shaders::GrassTypeRow type{};
-  for (int k = 0; k < GLOAM_GRASS_KNOTS; ++k) {
-    const float u = static_cast<float>(k) / (GLOAM_GRASS_KNOTS - 1);
-    type.stem[k] = vec2(0.3f * u * u, 0.95f * u);
-  }
-  type.stiffness = stiffness;
-  type.taper = 0.1f;
-  return type;
-}
 
 [[nodiscard]] inline shaders::GrassBladeRow blade_row(vec3 root_share, vec3 normal, float length_m, std::uint32_t yaw,
                                                       std::uint32_t type) {
@@ -99,7 +91,7 @@ class SimulateKernel {
   explicit SimulateKernel(gpu::Device& device, std::uint32_t threads = 64) : device_(device), threads_(threads) {}
 
   [[nodiscard]] GrassOutput run(const GrassInput& input) const {
-    Kernel kernel(device_, shaders::grass::simulate_comp, {{0, threads_}});
+    Kernel kernel(device_, shaders::grass::simulate_comp, {{0, threads_}, {1, input.colliders.empty() ? 0u : 1u}});
     const auto some = [](auto items) {
       if (items.empty()) items.resize(1);
       return items;
@@ -178,30 +170,12 @@ class SimulateTwin {
   const GrassInput& input_;
 };
 
-struct KnotFaults {
-  double longest = 0.0;    ///< greatest |length − length at rest|, over the length at rest
-  double deepest_m = 0.0;  ///< below the root plane
-  double root_m = 0.0;     ///< of a root from its place
-  bool finite = true;
-};
-
 [[nodiscard]] inline KnotFaults faults_of(const SimulateTwin& twin, const KnotRows& knots) {
   KnotFaults faults;
   for (std::size_t i = 0; i < twin.models.size(); ++i) {
-    const BladeModel& blade = twin.models[i];
-    for (std::size_t k = 0; k < kGrassKnots; ++k) {
-      const dvec3 at = dvec3(knots[twin.knot_index(i, k)]) - blade.root;
-      faults.finite = faults.finite && std::isfinite(glm::dot(at, at));
-      faults.deepest_m = std::max(faults.deepest_m, -glm::dot(at, blade.normal));
-      if (k == 0) {
-        faults.root_m = std::max(faults.root_m, glm::length(at));
-        continue;
-      }
-      const dvec3 below = dvec3(knots[twin.knot_index(i, k - 1)]) - blade.root;
-      const double wanted = glm::length(blade.rest[k] - blade.rest[k - 1]);
-      const double off = std::abs(glm::length(at - below) - wanted);
-      faults.longest = std::max(faults.longest, wanted > 1e-6 ? off / wanted : off * 1e3);
-    }
+    std::array<dvec3, kGrassKnots> at;
+    for (std::size_t k = 0; k < kGrassKnots; ++k) at[k] = dvec3(knots[twin.knot_index(i, k)]) - twin.models[i].root;
+    faults.add(twin.models[i], at);
   }
   return faults;
 }

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/grass/simulation/steps.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "shaders/grass/grass_shared.h"
+
+namespace gloam::test {
+namespace {
+
+TEST(GrassSteps, no_time_and_no_number_make_no_step) {
+  StepClock clock;
+  for (const double dt : {0.0, -0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                          -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::denorm_min()}) {
+    clock.advance(dt);
+    EXPECT_EQ(clock.frame_steps(), 0u) << dt;
+    EXPECT_EQ(clock.now(), 0u) << dt;
+    EXPECT_LT(clock.remainder_s(), 1e-12);
+  }
+}
+
+TEST(GrassSteps, long_frames_are_bounded_and_owe_nothing) {
+  for (const double dt : {1.0, 10.0, 1e300, std::numeric_limits<double>::infinity()}) {
+    StepClock clock;
+    clock.advance(0.004);
+    clock.advance(dt);
+    EXPECT_EQ(clock.frame_steps(), kMostGrassSteps) << dt;
+    EXPECT_EQ(clock.remainder_s(), 0.0) << dt;
+    EXPECT_EQ(clock.now(), kMostGrassSteps);
+    clock.advance(0.0);
+    EXPECT_EQ(clock.frame_steps(), 0u);
+  }
+}
+
+TEST(GrassSteps, short_frames_add_up) {
+  StepClock clock;
+  std::uint32_t steps = 0;
+  for (int i = 0; i < 1000000; ++i) {
+    clock.advance(1e-6);
+    EXPECT_LE(clock.frame_steps(), 1u);
+    steps += clock.frame_steps();
+  }
+  EXPECT_NEAR(steps, 120, 1);
+  EXPECT_EQ(clock.now(), steps);
+}
+
+TEST(GrassSteps, frames_of_whole_steps_lose_none) {
+  StepClock clock;
+  for (int i = 0; i < 10000; ++i) {
+    clock.advance(1.0 / 60.0);
+    ASSERT_EQ(clock.frame_steps(), 2u) << i;
+    EXPECT_EQ(steps_between(clock.first_step(), clock.now()), 2u);
+    EXPECT_GE(clock.remainder_s(), 0.0);
+  }
+}
+
+TEST(GrassSteps, any_frame_rate_gives_as_many_steps_a_second) {
+  for (const double rate : {17.0, 24.0, 59.94, 75.0, 120.0, 144.0, 1000.0}) {
+    StepClock clock;
+    for (int i = 0; i < static_cast<int>(10.0 * rate); ++i) clock.advance(1.0 / rate);
+    EXPECT_NEAR(clock.now(), 120.0 * std::floor(10.0 * rate) / rate, 1.01) << rate;
+  }
+}
+
+TEST(GrassSteps, the_number_wraps_without_the_value_that_means_none) {
+  StepClock clock;
+  clock.restart(GLOAM_GRASS_NO_STEP - 3);
+  for (int i = 0; i < 12; ++i) {
+    clock.advance(kGrassStep);
+    EXPECT_NE(clock.now(), GLOAM_GRASS_NO_STEP);
+    EXPECT_EQ(steps_between(clock.first_step(), clock.now()), 1u);
+  }
+  EXPECT_EQ(clock.now(), 9u);
+  EXPECT_EQ(steps_between(GLOAM_GRASS_NO_STEP - 3, 9), 12u);
+  clock.restart(GLOAM_GRASS_NO_STEP);
+  EXPECT_EQ(clock.now(), 0u);
+}
+
+}  // namespace
+}  // namespace gloam::test
