@@ -13,6 +13,7 @@
 #include "modules/grass/module.h"
 #include "tests/jobs/executors.h"
 #include "tests/modules/grass/growth/lawns.h"
+#include "tests/support/scale.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gloam {
@@ -291,10 +292,11 @@ TEST(Grow, a_million_blades_are_even_and_complete) {
   const auto jobs = make_pool_executor();
   w.add(1.0f);
   const double area = w.run(*jobs).statistics.area_m2;
-  w.settings().density_scale = static_cast<float>(1e6 / area);
+  const double count = test::scaled(1000000);
+  w.settings().density_scale = static_cast<float>(count / area);
   const GrassField& field = w.run(*jobs);
-  EXPECT_NEAR(field.statistics.blades, 1e6, 2.0);
-  EXPECT_EQ(field.patches.size(), 3907u);
+  EXPECT_NEAR(field.statistics.blades, count, 2.0);
+  EXPECT_EQ(field.patches.size(), (field.statistics.blades + 255) / 256);
   std::uint32_t least = 256;
   double boxes = 0.0;
   for (const GrassPatch& patch : field.patches) {
@@ -302,7 +304,7 @@ TEST(Grow, a_million_blades_are_even_and_complete) {
     const vec3 size = patch.roots.max - patch.roots.min;
     boxes += double{size.x} * size.z;
   }
-  EXPECT_GE(least, 255u);
+  EXPECT_GE(least, field.statistics.blades / field.patches.size());
   EXPECT_LT(boxes, 1.05 * 100.0 * 100.0);
 }
 

@@ -56,11 +56,13 @@ inline std::vector<dvec3> positions_of(const GrowthSurface& surface, std::span<c
 }
 
 /// Index of Clark and Evans: the mean distance to the nearest other point over that of a random pattern. Only points
-/// whose x and z are within `inner_m` of 0 are counted, because those near the border have fewer neighbours.
+/// whose x and z are within `inner_m` of 0 are counted, because those near the border have fewer neighbours; of many
+/// points about 2,000 are enough.
 inline double clark_evans(std::span<const dvec3> points, double area_m2, double inner_m) {
   double sum = 0.0;
   std::size_t count = 0;
-  for (const dvec3& p : points) {
+  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 4000) {
+    const dvec3& p = points[i];
     if (std::max(std::abs(p.x), std::abs(p.z)) > inner_m) continue;
     double nearest = 1e300;
     for (const dvec3& q : points) {
