@@ -32,6 +32,7 @@ struct GrassFrame {
   gpu::Binding::BufferRange patch_rows;
   gpu::Binding::BufferRange types;
   gpu::Binding::BufferRange colliders;
+  bool has_colliders = false;  ///< near any of the patches
   GrassStore store;
   BufferRef blades;    ///< patch row · 256 + index in the patch, sorted by key
   BufferRef bins;      ///< 257 words: exclusive prefix sum over the keys

@@ -56,6 +56,7 @@ void upload_patches(FrameBuilder& frame, const GrassField& field, GrassFrame& gr
     row.max_distance_m = patch.max_distance_m;
     rows.push_back(row);
   }
+  grass.has_colliders = !colliders.empty();
   if (colliders.empty()) colliders.emplace_back();  // a buffer cannot be empty
   grass.patch_rows = frame.upload_items(std::span<const shaders::GrassPatchRow>(rows));
   grass.colliders = frame.upload_items(std::span<const shaders::GrassCollider>(colliders));
@@ -140,7 +141,7 @@ void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, Pipelin
   add(grass_keys_program());
   add(grass_live_program());
   add(grass_masters_program(knobs.group / GLOAM_GRASS_KNOTS));
-  add(grass_simulation_program(knobs.group));
+  for (const bool colliders : {false, true}) add(grass_simulation_program(knobs.group, colliders));
   add(grass_pose_program());
   for (const ComputeProgram& program : radix_sort_programs(threads_in_turn, true)) add(program);
   for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i)

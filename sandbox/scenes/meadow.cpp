@@ -187,6 +187,9 @@ void add_lanterns(SceneBuilder& builder, const Materials& m, bool are_lit) {
                       .roughness = 0.6f};
   const std::uint32_t bulb_mesh = builder.add_mesh("bulb", sphere_shape(0.075f, 16), builder.add_material(glow));
   Light light;
+  light.kind = LightKind::spot;  // the hood keeps the light from the sky
+  light.inner_angle = 0.85f;
+  light.outer_angle = 1.2f;
   light.color = kWarm;
   light.intensity = 18.0f;
   light.range_m = 9.0f;
@@ -195,7 +198,7 @@ void add_lanterns(SceneBuilder& builder, const Materials& m, bool are_lit) {
   for (const Pole& pole_at : kPoles) {
     const std::string number = std::to_string(++count);
     const dvec3 foot = meadow_point(pole_at.x, pole_at.z);
-    const dvec3 bulb = foot + dvec3(0.42 * std::cos(pole_at.heading), 2.05, -0.42 * std::sin(pole_at.heading));
+    const dvec3 bulb = foot + dvec3(0.42 * std::cos(pole_at.heading), 1.99, -0.42 * std::sin(pole_at.heading));
     builder.add_instance("pole " + number, pole_mesh, foot, pole_at.heading);
     builder.add_instance("bulb " + number, bulb_mesh, bulb);
     if (are_lit) builder.add_light("lantern " + number, light, bulb, {0.0, -1.0, 0.0}, true);

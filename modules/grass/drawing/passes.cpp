@@ -13,7 +13,7 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kCasterClass = 1;  // of live.comp
+constexpr std::size_t kCasterClass = GLOAM_GRASS_CAST_CLASS;
 
 BufferRef index_buffer(FrameBuilder& frame) {
   const std::vector<std::uint32_t> indices = blade_indices();

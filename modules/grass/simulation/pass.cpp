@@ -8,12 +8,12 @@
 
 namespace gloam {
 
-ComputeProgram grass_simulation_program(std::uint32_t threads) {
-  return {shaders::grass::simulate_comp, {{0, threads}}};
+ComputeProgram grass_simulation_program(std::uint32_t threads, bool colliders) {
+  return {shaders::grass::simulate_comp, {{0, threads}, {1, colliders ? 1u : 0u}}};
 }
 
 void add_simulation_pass(FrameBuilder& frame, GrassFrame& grass, std::optional<std::uint32_t> groups) {
-  ComputePass pass(frame, "grass_simulation", grass_simulation_program(grass.knobs.group));
+  ComputePass pass(frame, "grass_simulation", grass_simulation_program(grass.knobs.group, grass.has_colliders));
   pass.uniform("steps", grass.steps);
   pass.read("patches", grass.patch_rows);
   pass.read("blade_rows", grass.store.rows);

@@ -10,8 +10,8 @@
 
 namespace gloam {
 
-/// threads: 32, 64 or 128 in a workgroup.
-[[nodiscard]] ComputeProgram grass_simulation_program(std::uint32_t threads);
+/// threads: 32, 64 or 128 in a workgroup. colliders: whether any patch has some.
+[[nodiscard]] ComputeProgram grass_simulation_program(std::uint32_t threads, bool colliders);
 
 /// Masters that an earlier frame of the view had to simulate. A view resource, with grass.dispatch=readback only.
 struct GrassFeedback {

@@ -28,7 +28,8 @@ void main() {
     first += count;
   }
   uint casting = lod.cast_key < GLOAM_GRASS_CULLED ? min(bins[lod.cast_key + 1u], live) : 0u;
-  draws.cast_draw = draw_of(casting, lod.class_segments[1], lod.class_indices[1]);
+  draws.cast_draw =
+      draw_of(casting, lod.class_segments[GLOAM_GRASS_CAST_CLASS], lod.class_indices[GLOAM_GRASS_CAST_CLASS]);
   draws.cast_count = casting;
   draws.live = live;
   draws.blade_groups = uvec3((live + 63u) / 64u, 1u, 1u);

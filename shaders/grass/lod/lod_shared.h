@@ -7,6 +7,7 @@
 
 #define GLOAM_GRASS_CULLED 255u      // key of blades that are not drawn
 #define GLOAM_GRASS_CLASSES 4        // draws of a view: near blades have more segments
+#define GLOAM_GRASS_CAST_CLASS 2     // draw class whose segments blades in shadow maps have
 #define GLOAM_GRASS_DRAW_BLADES 32u  // blades of one instance of a draw
 
 GLOAM_SHARED_BEGIN
