@@ -141,6 +141,7 @@ class GrassModule final : public Module {
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
     sink.count("grass.blades", world.resource<GrassField>().statistics.blades);
     sink.count("grass.patches", static_cast<double>(world.view_resource<VisiblePatches>(view.id).patches.size()));
+    sink.count("grass.patches_left_out", worlds_.stores.left_out(world.resource<GrassWorld>().number));
   }
   [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {
     const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();

@@ -104,6 +104,11 @@ GrassStoreState& GrassStoreStates::of_frame(FrameBuilder& frame, std::uint64_t w
   return own.pending;
 }
 
+std::uint32_t GrassStoreStates::left_out(std::uint64_t world) const {
+  const auto found = worlds_.find(world);
+  return found == worlds_.end() ? 0 : found->second.pending.residency.left_out();
+}
+
 void add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::span<const VisiblePatch> visible,
                       GrassStoreState& state, GrassFrame& grass) {
   const bool same_field = state.field == input.field && state.slot_masters == input.slot_masters;

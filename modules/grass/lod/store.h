@@ -24,6 +24,8 @@ class GrassStoreStates {
   /// The state that the world's frame begins with, or that an earlier view of the frame has left. Call it while passes
   /// are declared.
   [[nodiscard]] GrassStoreState& of_frame(FrameBuilder& frame, std::uint64_t world);
+  /// Patches of the world's last view that found no slot.
+  [[nodiscard]] std::uint32_t left_out(std::uint64_t world) const;
   void clear() { worlds_.clear(); }
 
  private:
