@@ -14,7 +14,7 @@ namespace {
 DrawProgram view_program(std::uint32_t draw_class, bool encode) {
   DrawProgram program = blade_program(draw_class, false);
   program.fragment = shaders::grass::lod_view_frag;
-  program.constants.push_back({2, encode ? 1u : 0u});
+  program.constants[2] = {2, encode ? 1u : 0u};
   program.depth_write = false;
   return program;
 }

@@ -38,9 +38,9 @@ BufferRef index_buffer(FrameBuilder& frame) {
 
 ComputeProgram grass_pose_program() { return {shaders::grass::pose_comp}; }
 
-DrawProgram blade_program(std::uint32_t draw_class, bool motion) {
+DrawProgram blade_program(std::uint32_t draw_class, bool motion, bool clipped) {
   return {.fragment = motion ? shaders::grass::surface_motion_frag : shaders::grass::surface_frag,
-          .constants = {{0, draw_class}, {1, kClassSegments[draw_class]}},
+          .constants = {{0, draw_class}, {1, kClassSegments[draw_class]}, {2, clipped ? 1u : 0u}},
           .vertex = motion ? shaders::grass::blade_motion_vert : shaders::grass::blade_vert,
           .depth_write = true};
 }
@@ -79,10 +79,11 @@ void add_blade_pass(FrameBuilder& frame, GrassFrame& grass) {
   if (!frame.status().ok()) return;
   GeometryOutputs& geometry = frame.get<GeometryOutputs>();
   const bool motion = static_cast<bool>(geometry.motion);
-  DrawPass pass(frame, "grass_blades", blade_program(0, motion));
+  const bool clipped = frame.view().clipped;
+  DrawPass pass(frame, "grass_blades", blade_program(0, motion, clipped));
   geometry_targets(pass, geometry);
   for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
-    if (i > 0) pass.use(blade_program(i, motion));
+    if (i > 0) pass.use(blade_program(i, motion, clipped));
     bind_blades(pass, grass);
     bind_motion(pass, frame.view());
     if (motion) {

@@ -12,8 +12,8 @@
 namespace gloam {
 
 [[nodiscard]] ComputeProgram grass_pose_program();
-/// Draws one class of blades into the geometry buffer.
-[[nodiscard]] DrawProgram blade_program(std::uint32_t draw_class, bool motion);
+/// Draws one class of blades into the geometry buffer. clipped: of a view with a clip plane.
+[[nodiscard]] DrawProgram blade_program(std::uint32_t draw_class, bool motion, bool clipped = false);
 [[nodiscard]] CasterProgram blade_caster_program();
 
 /// Computes the poses of the live blades. Sets GrassFrame::poses.

@@ -29,8 +29,6 @@ void main() {
   BladeVertex v =
       blade_vertex(gl_InstanceIndex, draws.class_first[kClass], draws.class_count[kClass], gl_VertexIndex, kSegments);
   gl_Position = v.exists ? view.clip_from_relative * vec4(v.relative, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
-  if (view.clip_plane.w != 0.0 || view.clip_plane.xyz != vec3(0.0))
-    gl_Position = is_clipped(view, v.relative) ? vec4(2.0, 2.0, 0.0, 1.0) : gl_Position;
   out_normal = v.normal;
   out_binormal = v.binormal;
   out_place = vec3(v.along, v.across, float(v.layer));

@@ -12,6 +12,8 @@
 #include "shaders/render/motion_api.glsl"
 #endif
 
+layout(constant_id = 2) const uint kClipped = 0u;  // 1: the view has a clip plane
+
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 
 layout(location = 0) in vec3 in_normal;
@@ -43,6 +45,7 @@ vec3 layer_color(uint layer) {
 }
 
 void main() {
+  if (kClipped != 0u && is_clipped(view, in_relative)) discard;
   vec3 seen = to_viewer(view, in_relative);
   vec3 flat_normal = normalize(in_normal);
   flat_normal = dot(flat_normal, seen) < 0.0 ? -flat_normal : flat_normal;
