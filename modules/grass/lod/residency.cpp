@@ -13,6 +13,11 @@ void GrassResidency::grow(std::size_t needed, std::uint32_t most) {
   if (count > slots_.size()) slots_.resize(count);
 }
 
+void GrassResidency::clear_patches() {
+  slots_.assign(slots_.size(), {});
+  slot_of_.clear();
+}
+
 std::vector<ResidentPatch> GrassResidency::place(std::span<const VisiblePatch> patches, std::uint64_t frame,
                                                  std::uint64_t row_version, std::uint32_t most) {
   std::vector<ResidentPatch> placed;

@@ -35,6 +35,8 @@ class GrassResidency {
                                                  std::uint64_t row_version, std::uint32_t most);
   /// Forgets all slots; the next frame starts with none.
   void clear() { *this = GrassResidency(); }
+  /// Forgets the patches; the slots stay.
+  void clear_patches();
 
   [[nodiscard]] std::uint32_t capacity() const { return static_cast<std::uint32_t>(slots_.size()); }
   [[nodiscard]] std::uint32_t left_out() const { return left_out_; }  ///< of the last call

@@ -18,7 +18,7 @@ std::uint32_t most_slots(std::uint32_t slot_masters) {
   return static_cast<std::uint32_t>(kMostBinding / std::max<std::uint64_t>(slot_masters * kKnotBytes, kRowBytes));
 }
 
-BufferRef kept_buffer(FrameBuilder& frame, const char* name, std::uint64_t bytes, std::uint32_t generation) {
+HistoryBuffer kept_buffer(FrameBuilder& frame, const char* name, std::uint64_t bytes, std::uint32_t generation) {
   using enum gpu::BufferUsage;
   gpu::BufferDesc desc;
   desc.name = name;
@@ -27,15 +27,19 @@ BufferRef kept_buffer(FrameBuilder& frame, const char* name, std::uint64_t bytes
   desc.usage = storage | transfer_target | transfer_source;
   const auto kept = frame.history_buffer(
       desc, {.scope = HistoryScope::world, .rest = gpu::Access::compute_read, .instance = generation});
-  return frame.check(kept) ? kept->buffer : BufferRef{};
+  return frame.check(kept) ? *kept : HistoryBuffer{};
+}
+
+HistoryBuffer kept_rows(FrameBuilder& frame, std::uint32_t slots, std::uint32_t generation) {
+  return kept_buffer(frame, "grass_rows", slots * kRowBytes, generation);
 }
 
 GrassStore store_of(FrameBuilder& frame, std::uint32_t slots, std::uint32_t slot_masters, std::uint32_t generation) {
   const std::uint64_t masters = std::uint64_t{slots} * slot_masters;
-  return {kept_buffer(frame, "grass_rows", slots * kRowBytes, generation),
-          kept_buffer(frame, "grass_stamps", masters * sizeof(std::uint32_t), generation),
-          kept_buffer(frame, "grass_knots", masters * kKnotBytes, generation),
-          kept_buffer(frame, "grass_previous_knots", masters * kKnotBytes, generation)};
+  return {kept_rows(frame, slots, generation).buffer,
+          kept_buffer(frame, "grass_stamps", masters * sizeof(std::uint32_t), generation).buffer,
+          kept_buffer(frame, "grass_knots", masters * kKnotBytes, generation).buffer,
+          kept_buffer(frame, "grass_previous_knots", masters * kKnotBytes, generation).buffer};
 }
 
 std::array<BufferRef*, 4> buffers_of(GrassStore& store) {
@@ -114,6 +118,8 @@ void add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::sp
   const bool same_field = state.field == input.field && state.slot_masters == input.slot_masters;
   if (!same_field) state.residency.clear();
   const std::uint32_t old_capacity = state.residency.capacity();
+  // The buffers of a world that was released, or not drawn for a while, are new and hold nothing.
+  if (old_capacity > 0 && !kept_rows(frame, old_capacity, state.generation).filled()) state.residency.clear_patches();
   grass.patches = state.residency.place(visible, frame.view().frame, input.row_version, most_slots(input.slot_masters));
   grass.slot_masters = input.slot_masters;
   const std::uint32_t capacity = state.residency.capacity();

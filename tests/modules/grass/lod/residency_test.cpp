@@ -88,6 +88,17 @@ TEST(GrassResidency, the_patches_unused_for_the_longest_lose_their_slots) {
   for (const ResidentPatch& patch : residency.place(patches_from(32, 32), 4, 1, 64)) EXPECT_FALSE(patch.fresh);
 }
 
+TEST(GrassResidency, patches_that_are_forgotten_are_fresh_again_in_as_many_slots) {
+  GrassResidency residency;
+  static_cast<void>(residency.place(patches_from(0, 100), 1, 1, 1000));
+  residency.clear_patches();
+  EXPECT_EQ(residency.capacity(), 128u);
+  const auto placed = residency.place(patches_from(50, 20), 1, 1, 1000);
+  EXPECT_EQ(residency.capacity(), 128u);
+  ASSERT_EQ(placed.size(), 20u);
+  for (const ResidentPatch& patch : placed) EXPECT_TRUE(patch.fresh && patch.stale_rows);
+}
+
 TEST(GrassResidency, random_walks_never_share_or_lose_a_slot) {
   std::mt19937 random(7);
   GrassResidency residency;
