@@ -89,6 +89,9 @@ class GrassModule final : public Module {
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t surfaces = 0;
     world.view<const GrassSurface>().each([&](const GrassSurface& s) { surfaces += s.density > 0.0f ? 1 : 0; });
+    // One more frame after the last surface has disappeared removes its blades.
+    if (surfaces == 0 && view == nullptr && !world.resource<GrassEntities>().patches.empty())
+      return {true, "grass disappears"};
     if (surfaces == 0) return {false, "no surface grows grass"};
     if (view != nullptr) {
       if (view->static_only) return {false, "grass moves"};
