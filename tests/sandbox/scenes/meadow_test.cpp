@@ -157,7 +157,7 @@ TEST(MeadowScene, has_40_entities_and_6_lights_that_cast_shadows) {
     ++kinds[light.kind];
     EXPECT_TRUE(caster == nullptr || caster->enabled);
   });
-  EXPECT_EQ(kinds, (std::map<LightKind, int>{{LightKind::point, kMeadowLanterns}, {LightKind::directional, 1}}));
+  EXPECT_EQ(kinds, (std::map<LightKind, int>{{LightKind::spot, kMeadowLanterns}, {LightKind::directional, 1}}));
 }
 
 TEST(MeadowScene, by_day_has_one_sun_and_the_same_things) {
