@@ -6,6 +6,8 @@
 #include "shaders/common/math.glsl"
 #include "shaders/grass/grass_shared.h"
 
+// Positions are `precise`: a driver may otherwise contract and reorder their computation, and not each time alike.
+
 // A blade row, unpacked. Positions are relative to the patch's origin. At rest, knot k of a blade is
 // root + length · (stem[k].x · forward + stem[k].y · normal).
 struct GrassStem {
@@ -20,17 +22,19 @@ struct GrassStem {
 // Forward for yaw 0 is +X, turned by the least rotation that takes +Y to the ground normal; yaw turns it about the
 // normal, counter-clockwise seen from above.
 vec3 grass_forward(vec3 normal, float yaw) {
-  float share = 1.0 / max(1.0 + normal.y, 1e-4);
-  vec3 x_axis = vec3(1.0 - normal.x * normal.x * share, -normal.x, -normal.x * normal.z * share);
-  vec3 z_axis = vec3(-normal.x * normal.z * share, -normal.z, 1.0 - normal.z * normal.z * share);
-  return x_axis * cos(yaw) - z_axis * sin(yaw);
+  precise float share = 1.0 / max(1.0 + normal.y, 1e-4);
+  precise vec3 x_axis = vec3(1.0 - normal.x * normal.x * share, -normal.x, -normal.x * normal.z * share);
+  precise vec3 z_axis = vec3(-normal.x * normal.z * share, -normal.z, 1.0 - normal.z * normal.z * share);
+  precise vec3 forward = x_axis * cos(yaw) - z_axis * sin(yaw);
+  return forward;
 }
 
 GrassStem grass_stem(GrassPatchRow patch_row, GrassBladeRow row) {
   GrassStem s;
   vec2 xz = unpackUnorm2x16(row.root_xz);
   vec2 y = unpackUnorm2x16(row.root_y_normal);
-  s.root = patch_row.box_from + patch_row.box_size * vec3(xz.x, y.x, xz.y);
+  precise vec3 root = patch_row.box_from + patch_row.box_size * vec3(xz.x, y.x, xz.y);
+  s.root = root;
   s.normal = octahedral_decode(unpackSnorm4x8(row.root_y_normal).zw);
   s.yaw = 2.0 * kPi / 255.0 * float(row.kind & 0xFFu);
   s.forward = grass_forward(s.normal, s.yaw);
@@ -46,6 +50,9 @@ uint grass_master(GrassBladeRow row) { return row.kind >> 16 & 0xFFu; }
 float grass_rank(GrassBladeRow row) { return float(row.kind >> 24) / 255.0; }
 
 // Knot of a blade at rest, relative to its root.
-vec3 grass_rest(GrassStem s, vec2 stem) { return s.length_m * (stem.x * s.forward + stem.y * s.normal); }
+vec3 grass_rest(GrassStem s, vec2 stem) {
+  precise vec3 at = s.length_m * (stem.x * s.forward + stem.y * s.normal);
+  return at;
+}
 
 #endif

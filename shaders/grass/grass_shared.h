@@ -27,7 +27,7 @@ struct GrassBladeRow {
 /// Shape of one blade type.
 struct GrassTypeRow {
   vec2 stem[GLOAM_GRASS_KNOTS];  // knots at rest, forward and up, for a length of 1; knot 0 is (0, 0)
-  float stiffness;               // 0…1, share of the local shape that one iteration restores
+  float stiffness;               // 0…1, share of the local shape that each of 3 iterations restores
   float taper;                   // width at the tip over width at the root
 };
 

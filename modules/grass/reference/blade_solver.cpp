@@ -37,7 +37,7 @@ dvec3 bounded(dvec3 v, double most) {
 
 double elasticity(const BladeModel& blade) {
   const double stiffness = std::clamp(blade.stiffness, 0.0, static_cast<double>(0.999f));
-  return std::pow(1.0 - stiffness, -kNominalIterations) - 1.0;
+  return kNominalIterations * stiffness / (1.0 - stiffness);
 }
 
 /// The blade's constants for one step length and number of iterations.
@@ -64,17 +64,19 @@ Constants constants_of(const BladeModel& blade, const BladeSteps& frame) {
   const double damped = std::max(kLeastDamping, std::sqrt(2.0) * frequency) * frame.step_s;
   c.retained = std::exp(-damped);
   c.gain = (1.0 - c.retained) / damped;
-  c.share = 1.0 - std::pow(1.0 + nominal * ratio * ratio * c.gain, -1.0 / frame.iterations);
+  const double softness = frame.iterations / (nominal * ratio * ratio * c.gain);
+  c.share = nominal > 0.0 ? 1.0 / (1.0 + softness) : 0.0;
   c.reach_m = kLengthsPerSecond * blade.length_m * frame.step_s;
   return c;
 }
 
+/// The way of each knot in one step by its velocity and the external accelerations.
 Knots predict(const BladeModel& blade, const BladeSteps& frame, const Constants& c, const BladeState& state,
               std::uint32_t step) {
   WindField wind = frame.wind;
   wind.drift += wind.velocity * (frame.step_s * step);
   const dvec3 velocity = wind_velocity(wind, frame.wind_at + blade.root);
-  Knots next{};
+  Knots way{};
   for (std::size_t k = 1; k < kGrassKnots; ++k) {
     const dvec3 moved = bounded(state.at[k] - state.before[k], c.reach_m);
     const dvec3 along = direction_or(state.at[k] - state.at[k - 1], dvec3(0.0));
@@ -82,9 +84,9 @@ Knots predict(const BladeModel& blade, const BladeSteps& frame, const Constants&
     air -= along * glm::dot(along, air);
     const dvec3 acceleration = dvec3(0.0, -kGravity, 0.0) + air * (kDragAcceleration / (glm::length(air) + kDragSpeed));
     const double weight = static_cast<double>(k) / kTip;
-    next[k] = state.at[k] + moved * c.retained + acceleration * (c.gain * weight * frame.step_s * frame.step_s);
+    way[k] = moved * c.retained + acceleration * (c.gain * weight * frame.step_s * frame.step_s);
   }
-  return next;
+  return way;
 }
 
 /// One stage: the segments that begin at knots first, first + 2, …
@@ -215,8 +217,10 @@ void advance_blade(const BladeModel& blade, const BladeSteps& frame, std::uint32
   const Constants c = constants_of(blade, frame);
   const std::uint32_t first = frame.frame_steps - std::min(steps, frame.frame_steps);
   for (std::uint32_t step = first; step < frame.frame_steps; ++step) {
-    Knots next = predict(blade, frame, c, state, step);
+    const Knots way = predict(blade, frame, c, state, step);
+    Knots next = state.at;
     for (std::uint32_t i = 0; i < frame.iterations; ++i) {
+      for (std::size_t k = 1; k < kGrassKnots; ++k) next[k] += way[k] / static_cast<double>(frame.iterations);
       constrain(c, 0, next);
       constrain(c, 1, next);
     }

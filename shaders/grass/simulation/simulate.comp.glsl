@@ -5,10 +5,11 @@
 #include "shaders/grass/simulation/solver.glsl"
 
 // Simulates masters (Han and Li, "Grass rendering and simulation with LOD", GPU Pro 6, on the solver of TressFX): one
-// thread a knot, 16 threads a blade. Each step predicts the knots, runs the iterations of constraints on the even and
-// the odd segments in turn, pushes knots out of colliders, and restores lengths and ground from root to tip. Positions
-// travel between threads in shared memory only, so the result does not depend on the width of subgroups or the size of
-// workgroups. Groups: the number of masters over the blades of a workgroup, rounded up.
+// thread a knot, 16 threads a blade. Each step moves the knots in as many parts as there are iterations, runs the
+// constraints on the even and the odd segments after each part, pushes knots out of colliders, and restores lengths and
+// ground from root to tip. Positions travel between threads in shared memory only, so the result does not depend on the
+// width of subgroups or the size of workgroups. Groups: the number of masters over the blades of a workgroup, rounded
+// up.
 
 layout(local_size_x = 64, local_size_x_id = 0) in;     // constant 0: 32, 64 or 128
 layout(constant_id = 1) const bool kColliders = true;  // false: no patch has colliders
@@ -39,18 +40,20 @@ shared vec3 blade_forward[kMostThreads / kKnots];
 // The knot after one stage. odd: of the segments that begin at even knots (0) or odd knots (1).
 vec3 stage(KnotRest r, uint lane, uint k, vec3 at, uint odd) {
   bool upper = (k & 1u) != odd;
-  bool ends = upper ? k != 0u : k + 1u < kKnots;
-  if (!ends) return at;
-  vec3 other = knot_at[odd][upper ? lane - 1u : lane + 1u];
+  bool pairs = upper ? k != 0u : k + 1u < kKnots;
+  vec3 other = pairs ? knot_at[odd][upper ? lane - 1u : lane + 1u] : at;
   vec3 below_low = upper && k >= 2u ? knot_at[odd][lane - 2u] : vec3(0.0);
-  return constrained(r, upper, k == (upper ? 1u : 0u), below_low, upper ? other : at, upper ? at : other);
+  vec3 moved = constrained(r, upper, k == (upper ? 1u : 0u), below_low, upper ? other : at, upper ? at : other);
+  return pairs ? moved : at;
 }
 
 vec3 pushed_by_all(GrassPatchRow patch_row, vec3 root, vec3 normal, vec3 at, uint step, float most) {
   float passed = float(step + 1u) / float(max(steps.frame_steps, 1u));
+  precise vec3 in_patch = root + at;
   for (uint i = 0u; i < patch_row.colliders; ++i)
-    at = pushed(colliders[patch_row.first_collider + i], root + at, normal, passed, most) - root;
-  return at;
+    in_patch = pushed(colliders[patch_row.first_collider + i], in_patch, normal, passed, most);
+  precise vec3 out_at = in_patch - root;
+  return patch_row.colliders != 0u ? out_at : at;
 }
 
 // One thread a blade; the others leave the loop after one turn, whose result they store nowhere.
@@ -87,8 +90,8 @@ void main() {
   KnotRest rest = knot_rest(stem, stems, types[type].stiffness, k, steps.step_s, steps.iterations);
 
   uint place = (patch_row.first_place + index) * kKnots + k;
-  vec3 at = knots[place].xyz - stem.root;
-  vec3 before = previous_knots[place].xyz - stem.root;
+  precise vec3 at = knots[place].xyz - stem.root;
+  precise vec3 before = previous_knots[place].xyz - stem.root;
   bool held = dot(at, at) < 1e12 && dot(before, before) < 1e12;  // false for NaN
   if (master.steps == GLOAM_GRASS_NO_STEP || !held) at = before = grass_rest(stem, stems[2]);
   if (k == 0u) {
@@ -103,22 +106,28 @@ void main() {
   // A blade with fewer steps than the frame does the frame's last steps, but in the first turns of the loop. All loops
   // test at their ends: lavapipe runs a loop's body once more for a test at its begin.
   uint own_steps = min(master.steps, steps.frame_steps);
-  GrassWind wind = steps.wind;
+  uint iterations = max(steps.iterations, 1u);
+  precise GrassWind wind = steps.wind;
+  precise vec3 wind_at = patch_row.wind_at + stem.root;
   uint turn = 0u;
   do {
     uint step = turn + steps.frame_steps - own_steps;
     wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * float(step));
-    vec3 air = wind_velocity(wind, patch_row.wind_at + stem.root);
-    vec3 next = predicted(rest, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, steps.step_s);
+    vec3 air = wind_velocity(wind, wind_at);
+    precise vec3 way = predicted(rest, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, steps.step_s);
+    way /= float(iterations);
+    precise vec3 next = at + way;
     knot_at[0][lane] = next;
     uint odd = 0u;
-    uint left = 2u * max(steps.iterations, 1u);
+    uint left = 2u * iterations;
     do {
       barrier();
       next = stage(rest, lane, k, next, odd);
       odd ^= 1u;
+      --left;
+      if (odd == 0u && left != 0u) next += way;
       knot_at[odd][lane] = next;
-    } while (--left != 0u);
+    } while (left != 0u);
     if (kColliders) knot_at[0][lane] = pushed_by_all(patch_row, stem.root, stem.normal, next, step, rest.reach_m);
     barrier();
     restore_lengths(lane);
@@ -128,6 +137,8 @@ void main() {
     at = runs && k != 0u ? knot_at[1][lane] : at;
   } while (++turn < steps.frame_steps);
   if (!real) return;
-  knots[place] = vec4(stem.root + at, 0.0);
-  previous_knots[place] = vec4(stem.root + before, 0.0);
+  precise vec3 at_in_patch = stem.root + at;
+  precise vec3 before_in_patch = stem.root + before;
+  knots[place] = vec4(at_in_patch, 0.0);
+  previous_knots[place] = vec4(before_in_patch, 0.0);
 }

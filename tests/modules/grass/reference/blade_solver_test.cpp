@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <random>
 #include <vector>
@@ -172,15 +173,17 @@ TEST(BladeSolver, shorter_steps_and_more_iterations_converge) {
     for (std::size_t i = 0; i < a.size(); ++i) sum += glm::length(a[i] - b[i]);
     return sum / static_cast<double>(a.size());
   };
-  const double coarse = mean_error(3, 1, 64, 8);
-  const double fine = mean_error(3, 4, 64, 8);
-  std::printf(
-      "mean distance of the tip from 64 iterations at dt/8: 1 iteration %.2f mm, 3 %.2f mm, 8 %.2f mm; 3 at dt/4 "
-      "%.2f mm\n",
-      1e3 * mean_error(1, 1, 64, 8), 1e3 * coarse, 1e3 * mean_error(8, 1, 64, 8), 1e3 * fine);
-  EXPECT_LT(coarse, 0.012);
-  EXPECT_LT(fine, 0.5 * coarse);
-  EXPECT_LT(mean_error(64, 16, 64, 8), 0.5 * mean_error(64, 4, 64, 8)) << "steps of zero length are a limit";
+  std::vector<double> errors;
+  std::printf("mean distance of the tip from 64 iterations at dt/8:");
+  for (const std::uint32_t iterations : {1u, 2u, 3u, 4u, 6u, 8u, 64u}) {
+    errors.push_back(mean_error(iterations, 1, 64, 8));
+    std::printf(" %u: %.2f mm", iterations, 1e3 * errors.back());
+  }
+  std::printf("\n");
+  EXPECT_TRUE(std::is_sorted(errors.rbegin(), errors.rend())) << "each iteration helps";
+  EXPECT_LT(errors[2], 0.006) << "3 iterations";
+  EXPECT_LT(mean_error(3, 4, 64, 8), 0.8 * errors[2]) << "and so do shorter steps";
+  EXPECT_LT(mean_error(64, 4, 64, 8), 0.5 * errors.back());
 }
 
 TEST(BladeSolver, any_number_of_threads_gives_the_same_knots) {

@@ -10,7 +10,7 @@ namespace gloam::test {
 namespace {
 
 /// Distance of the kernel's knots from the twin's after some steps: rounding, and the device's exp, pow, sin and cos.
-constexpr double kBound_m = 2e-5;
+constexpr double kBound_m = 5e-5;
 
 class GrassSimulation : public KernelTest {
  protected:

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <random>
 #include <vector>
 
@@ -40,6 +42,13 @@ struct GrassOutput {
 
   bool operator==(const GrassOutput&) const = default;
 };
+
+inline void PrintTo(const GrassOutput& output, std::ostream* out) {
+  std::uint64_t hash = 1469598103934665603u;
+  for (const vec4& knot : output.knots)
+    for (int i = 0; i < 3; ++i) hash = (hash ^ std::bit_cast<std::uint32_t>(knot[i])) * 1099511628211u;
+  *out << output.knots.size() << " knots of hash " << hash;
+}
 
 inline constexpr float kNowhere = 1e20f;
 
