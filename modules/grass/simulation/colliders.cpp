@@ -95,8 +95,10 @@ void sweep_collider(const PlacedCollider* previous, PlacedCollider& now) {
   now.high = glm::max(glm::max(now.from, now.to), glm::max(now.from_previous, now.to_previous)) + half;
 }
 
-void grass_colliders_system(View<const Collider, const WorldTransform> colliders, Resource<const StepClock> steps,
-                            Resource<GrassColliders> found) {
+void grass_colliders_system(View<const Collider, const WorldTransform> colliders, ViewResource<const RenderView> view,
+                            Resource<const StepClock> steps, Resource<GrassColliders> found) {
+  if (found->frame == view->frame) return;
+  found->frame = view->frame;
   std::vector<PlacedCollider> placed;
   colliders.each([&](Entity entity, const Collider& collider, const WorldTransform& transform) {
     if (const auto one = place_collider(entity, collider, transform.matrix)) placed.push_back(*one);
@@ -133,8 +135,8 @@ std::uint32_t colliders_near(const GrassPatch& patch, std::span<const PlacedColl
 }
 
 void add_grass_world_systems(Schedule& schedule) {
-  schedule.add_system("grass_steps", "grass", Stage::world, &grass_steps_system);
-  schedule.add_system("grass_colliders", "grass", Stage::world, &grass_colliders_system);
+  schedule.add_system("grass_steps", "grass", Stage::view, &grass_steps_system);
+  schedule.add_system("grass_colliders", "grass", Stage::view, &grass_colliders_system);
 }
 
 void register_grass_world_resources(World& world) {

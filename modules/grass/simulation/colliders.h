@@ -33,6 +33,7 @@ struct PlacedCollider {
 /// All colliders of the world, by index of their entities; a world resource.
 struct GrassColliders {
   std::vector<PlacedCollider> colliders;
+  std::uint64_t frame = ~std::uint64_t{0};  ///< of the world (RenderView::frame)
   bool advanced = false;  ///< the frame has advanced the grass, so the next one begins at these places
 };
 
@@ -45,8 +46,8 @@ struct GrassColliders {
 void sweep_collider(const PlacedCollider* previous, PlacedCollider& now);
 
 /// Gathers the colliders. The previous place is that of the last frame that has advanced the grass.
-void grass_colliders_system(View<const Collider, const WorldTransform> colliders, Resource<const StepClock> steps,
-                            Resource<GrassColliders> found);
+void grass_colliders_system(View<const Collider, const WorldTransform> colliders, ViewResource<const RenderView> view,
+                            Resource<const StepClock> steps, Resource<GrassColliders> found);
 
 /// Adds the rows of the colliders whose way comes nearer to the patch's roots than its reach. Returns their number.
 std::uint32_t colliders_near(const GrassPatch& patch, std::span<const PlacedCollider> colliders,

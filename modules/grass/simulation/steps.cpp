@@ -21,6 +21,12 @@ void StepClock::advance(double dt_s) {
   now_ = static_cast<std::uint32_t>((std::uint64_t{now_} + frame_steps_) % GLOAM_GRASS_NO_STEP);
 }
 
+void StepClock::advance_in(std::uint64_t frame, double dt_s) {
+  if (frame == frame_) return;
+  frame_ = frame;
+  advance(dt_s);
+}
+
 void StepClock::restart(std::uint32_t step) {
   *this = {};
   first_step_ = now_ = step == GLOAM_GRASS_NO_STEP ? 0 : step;
@@ -30,6 +36,9 @@ std::uint32_t steps_between(std::uint32_t from, std::uint32_t to) {
   return to >= from ? to - from : GLOAM_GRASS_NO_STEP - from + to;
 }
 
-void grass_steps_system(Resource<const SceneClock> clock, Resource<StepClock> steps) { steps->advance(clock->dt_s); }
+void grass_steps_system(ViewResource<const RenderView> view, Resource<const SceneClock> clock,
+                        Resource<StepClock> steps) {
+  steps->advance_in(view->frame, clock->dt_s);
+}
 
 }  // namespace gloam

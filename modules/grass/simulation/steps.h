@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "engine/render/view.h"
 #include "engine/scene/resources.h"
 #include "engine/schedule/parameters.h"
 
@@ -20,6 +21,10 @@ class StepClock {
   /// dt_s: duration of the frame. NaN and negative durations count as 0.
   void advance(double dt_s);
 
+  /// The same, once in each frame of the world (RenderView::frame): a frame that is drawn again, or that follows one
+  /// that was given up, has the steps of the first time.
+  void advance_in(std::uint64_t frame, double dt_s);
+
   /// Steps that the last call of advance() has made.
   [[nodiscard]] std::uint32_t frame_steps() const { return frame_steps_; }
   /// Number of the step that the frame reaches. After 2³² − 2 follows 0, so it is never GLOAM_GRASS_NO_STEP.
@@ -33,6 +38,7 @@ class StepClock {
   void restart(std::uint32_t step);
 
  private:
+  std::uint64_t frame_ = ~std::uint64_t{0};
   double remainder_s_ = 0.0;
   std::uint32_t frame_steps_ = 0;
   std::uint32_t first_step_ = 0;
@@ -43,6 +49,7 @@ class StepClock {
 [[nodiscard]] std::uint32_t steps_between(std::uint32_t from, std::uint32_t to);
 
 /// Advances the clock by the frame's duration.
-void grass_steps_system(Resource<const SceneClock> clock, Resource<StepClock> steps);
+void grass_steps_system(ViewResource<const RenderView> view, Resource<const SceneClock> clock,
+                        Resource<StepClock> steps);
 
 }  // namespace gloam
