@@ -186,6 +186,36 @@ TEST_F(GrassDemand, a_knob_of_the_casters_decides_about_shadows) {
 /// Frames that are given up.
 using GrassGivenUp = GrassTest;
 
+TEST_F(GrassGivenUp, leave_knots_and_picture_as_they_were) {
+  const auto begin = [](GrassStage& stage) {
+    stage.lawn(0.6f, 500);
+    stage.wind(vec3(5.0f, 0.0f, 2.0f), 0.7f);
+    stage.run_at(1.0 / 60.0);
+  };
+  for (const int failing : {0, 2})  // the first frame, and one that finds knots
+    for (const FailAt at : some_of<FailAt>({FailAt::world_system, FailAt::view_system, FailAt::late_declaration,
+                                            FailAt::recording, FailAt::recording_error})) {
+      SCOPED_TRACE(static_cast<int>(at));
+      GrassStage undisturbed, disturbed;
+      begin(undisturbed);
+      begin(disturbed);
+      const ViewSettings view = front();
+      for (int frame = 0; frame < 4; ++frame) {
+        if (frame == failing) {
+          disturbed.world.set_resource(Failure{at});
+          EXPECT_FALSE(disturbed.try_draw(std::span(&view, 1)).ok());
+          disturbed.world.set_resource(Failure{});
+        }
+        undisturbed.draw(view);
+        disturbed.draw(view);
+        EXPECT_TRUE(disturbed.copy().live_knots(disturbed.field()) ==
+                    undisturbed.copy().live_knots(undisturbed.field()))
+            << "frame " << frame;
+      }
+      EXPECT_EQ(differences(disturbed.linear().rgba, undisturbed.linear().rgba), 0u);
+    }
+}
+
 TEST_F(GrassGivenUp, at_rest_upload_their_blades_again) {
   GrassStage undisturbed, disturbed;
   undisturbed.lawn(0.6f, 500);

@@ -181,5 +181,20 @@ TEST_F(GrassInViews, views_of_any_size_show_grass) {
   }
 }
 
+TEST_F(GrassInViews, reading_an_image_simulates_nothing) {
+  GrassStage stage, undisturbed;
+  blow(stage);
+  blow(undisturbed);
+  for (int frame = 0; frame < 4; ++frame) {
+    stage.draw(whole());
+    undisturbed.draw(whole());
+    const LiveKnots knots = stage.copy().live_knots(stage.field());
+    EXPECT_TRUE(knots == undisturbed.copy().live_knots(undisturbed.field())) << "frame " << frame;
+    const GeometryPicture first = stage.geometry();
+    EXPECT_TRUE(stage.copy().live_knots(stage.field()) == knots) << "frame " << frame << " after it was drawn again";
+    EXPECT_TRUE(stage.geometry().depth == first.depth) << "frame " << frame;
+  }
+}
+
 }  // namespace
 }  // namespace gloam::test
