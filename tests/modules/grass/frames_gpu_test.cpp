@@ -169,7 +169,7 @@ TEST_F(GrassFrames, thinning_keeps_the_coverage) {
   };
   const double all = covered("0");
   const auto blades = stage.copy().draws.live;
-  EXPECT_GT(all, 800.0);
+  EXPECT_GT(all, 600.0);
   for (const char* pixels : {"0.3", "0.6"}) {
     EXPECT_NEAR(covered(pixels) / all, 1.0, 0.1) << pixels << " pixels";
     EXPECT_LT(stage.copy().draws.live, blades);

@@ -76,7 +76,10 @@ class GrassDetail : public KernelTest {
   };
   [[nodiscard]] static Listed listed(const LodField& field, const shaders::GrassSteps& steps,
                                      const std::vector<std::uint32_t>& blades, std::uint32_t live,
-                                     const std::vector<std::uint32_t>& stamps, std::uint32_t group_masters = 4) {
+                                     const std::vector<std::uint32_t>& stamps, std::uint32_t group_masters = 4,
+                                     std::uint32_t most_masters = ~0u) {
+    shaders::GrassLod lod{};
+    lod.most_masters = most_masters;
     shaders::GrassDraws draws{};
     draws.live = live;
     Kernel kernel(device(), shaders::grass::masters_comp, {{0, group_masters}});
@@ -88,6 +91,7 @@ class GrassDetail : public KernelTest {
     kernel.in_out(5, stamps);
     kernel.output(6, stamps.size() * sizeof(shaders::GrassMaster));
     kernel.in_out(7, std::vector<shaders::GrassDispatch>{{0, uvec3(0, 1, 1)}});
+    kernel.input(8, std::vector<shaders::GrassLod>{lod});
     kernel.run(std::max((live + 63) / 64, 1u));
     Listed found;
     found.dispatch = kernel.read<shaders::GrassDispatch>(7)[0];
@@ -261,6 +265,24 @@ TEST_F(GrassDetail, each_master_of_a_live_blade_is_listed_once_and_no_other) {
       EXPECT_EQ(listed(field, steps, blades, live, found.stamps, group).dispatch.masters, 0u);
     }
   }
+}
+
+TEST_F(GrassDetail, masters_beyond_the_room_of_the_dispatch_wait_for_the_next_frame) {
+  const LodField field = LodField::random(12, 3);
+  std::vector<std::uint32_t> blades;
+  for (std::uint32_t p = 0; p < field.patches.size(); ++p)
+    for (std::uint32_t i = 0; i < field.patches[p].blades; ++i) blades.push_back(p * GLOAM_GRASS_PATCH_BLADES + i);
+  const auto live = static_cast<std::uint32_t>(blades.size());
+  const shaders::GrassSteps steps{.step_s = 1.0f / 120.0f, .now = 50, .frame_steps = 2, .iterations = 3};
+  const std::vector<std::uint32_t> stamps(field.places, 48);
+  const std::size_t all = listed(field, steps, blades, live, stamps).masters.size();
+  constexpr std::uint32_t kRoom = 8;
+  const Listed first = listed(field, steps, blades, live, stamps, 4, kRoom);
+  EXPECT_GE(first.dispatch.masters, all);  // what the CPU makes room for
+  EXPECT_EQ(first.dispatch.groups.x, kRoom / 4);
+  EXPECT_EQ(std::ranges::count(first.stamps, 50u), kRoom);
+  const Listed rest = listed(field, steps, blades, live, first.stamps);
+  EXPECT_EQ(rest.dispatch.masters, all - kRoom);
 }
 
 TEST(GrassBladeIndices, draw_two_triangles_for_each_segment_of_32_blades) {
