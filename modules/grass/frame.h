@@ -25,6 +25,7 @@ struct GrassStore {
 struct GrassFrame {
   GrassKnobs knobs;
   std::vector<ResidentPatch> patches;  ///< of the patch rows, nearest first
+  std::uint32_t group_masters = 0;     ///< masters of one workgroup of the simulation
   std::uint32_t slot_masters = 0;      ///< masters for which a slot has room
   shaders::GrassLod lod;
   shaders::GrassSteps steps;

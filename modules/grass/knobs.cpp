@@ -84,8 +84,10 @@ void add_grass_knobs(KnobRegistry& registry) {
       "size of the simulation's dispatch: from this frame on the GPU (indirect), or from an earlier frame on the "
       "CPU (readback)",
       {"indirect", "readback"}, 0, "");
-  add_choice(registry, "grass.group", "threads of a workgroup of the simulation, 16 for each blade",
-             {"32", "64", "128"}, 1, "");
+  add_choice(registry, "grass.group",
+             "threads of a workgroup of the simulation, 16 for each blade (32, 64, 128); one thread for each blade "
+             "(blade); or what is faster on this kind of device (device)",
+             {"device", "32", "64", "128", "blade"}, 0, "");
 }
 
 GrassKnobs grass_knobs(const KnobRegistry& registry) {
@@ -96,7 +98,7 @@ GrassKnobs grass_knobs(const KnobRegistry& registry) {
   knobs.lod_pixels = static_cast<float>(registry.number("grass.lod_pixels"));
   knobs.threshold = static_cast<std::uint32_t>(registry.number("grass.threshold"));
   knobs.cast_distance_m = static_cast<float>(registry.number("grass.cast_distance"));
-  knobs.group = 32u << registry.choice("grass.group");
+  knobs.threads = static_cast<SimulationThreads>(registry.choice("grass.group"));
   knobs.readback = registry.is("grass.dispatch", "readback");
   knobs.all_segments = registry.is("grass.segments", "full");
   return knobs;

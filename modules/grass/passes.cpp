@@ -76,11 +76,10 @@ std::uint32_t most_masters(const GrassField& field) {
 }
 
 /// Workgroups of the simulation by the count of an earlier frame; none: the GPU decides.
-std::optional<std::uint32_t> groups_of(const World& world, ViewId view, const GrassKnobs& knobs) {
+std::optional<std::uint32_t> groups_of(const World& world, ViewId view, const GrassFrame& grass) {
   const GrassFeedback* feedback = world.try_view_resource<GrassFeedback>(view);
-  if (!knobs.readback || feedback == nullptr) return std::nullopt;
-  const std::uint32_t masters = knobs.group / GLOAM_GRASS_KNOTS;
-  return (feedback->masters + masters - 1) / masters;
+  if (!grass.knobs.readback || feedback == nullptr) return std::nullopt;
+  return (feedback->masters + grass.group_masters - 1) / grass.group_masters;
 }
 
 /// Box of the blades that may cast shadows.
@@ -103,6 +102,8 @@ void announce_grass(FrameBuilder& frame) {
   if (visible.patches.empty()) return;
   auto grass = std::make_shared<GrassFrame>();
   grass->knobs = grass_knobs(frame.knobs());
+  grass->knobs.threads = simulation_threads(grass->knobs.threads, frame.services().device.info().threads_in_turn);
+  grass->group_masters = simulation_group_masters(grass->knobs.threads);
   frame.put(GrassOnBoard(grass));
   const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, grass->knobs.cast_distance_m);
   if (grass->knobs.cast_distance_m > 0.0f && box.known()) add_blade_casters(frame, grass, box);
@@ -126,8 +127,8 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   upload_patches(frame, field, grass);
   grass.lod = grass_lod(frame.view(), grass.knobs, visible.range_m, longest_blade(field, grass.patches),
                         static_cast<std::uint32_t>(grass.patches.size()));
-  const std::optional<std::uint32_t> groups = groups_of(world, frame.view().id, grass.knobs);
-  grass.lod.most_masters = groups ? *groups * (grass.knobs.group / GLOAM_GRASS_KNOTS) : ~0u;
+  const std::optional<std::uint32_t> groups = groups_of(world, frame.view().id, grass);
+  grass.lod.most_masters = groups ? *groups * grass.group_masters : ~0u;
   grass.lod.steps_per_s = static_cast<float>(1.0 / kGrassStep);
   grass.lod_range = frame.upload_uniform(grass.lod);
   add_grass_lod_passes(frame, grass);
@@ -140,8 +141,9 @@ void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, Pipelin
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "grass")); };
   add(grass_keys_program());
   add(grass_live_program());
-  add(grass_masters_program(knobs.group / GLOAM_GRASS_KNOTS));
-  for (const bool colliders : {false, true}) add(grass_simulation_program(knobs.group, colliders));
+  const SimulationThreads threads = simulation_threads(knobs.threads, threads_in_turn);
+  add(grass_masters_program(simulation_group_masters(threads)));
+  for (const bool colliders : {false, true}) add(grass_simulation_program(threads, colliders));
   add(grass_pose_program());
   for (const ComputeProgram& program : radix_sort_programs(threads_in_turn, true)) add(program);
   for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i)

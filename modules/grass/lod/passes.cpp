@@ -47,7 +47,7 @@ void add_grass_lod_passes(FrameBuilder& frame, GrassFrame& grass) {
   grass.dispatch = live.write("dispatch", frame_buffer(frame, "grass_dispatch", sizeof(shaders::GrassDispatch)));
   live.dispatch(1);
 
-  ComputePass masters(frame, "grass_masters", grass_masters_program(grass.knobs.group / GLOAM_GRASS_KNOTS));
+  ComputePass masters(frame, "grass_masters", grass_masters_program(grass.group_masters));
   masters.uniform("steps", grass.steps);
   masters.read("lod", grass.lod_range);
   masters.read("patches", grass.patch_rows);

@@ -8,12 +8,33 @@
 
 namespace gloam {
 
-ComputeProgram grass_simulation_program(std::uint32_t threads, bool colliders) {
-  return {shaders::grass::simulate_comp, {{0, threads}, {1, colliders ? 1u : 0u}}};
+namespace {
+
+constexpr std::uint32_t kBladeThreads = 64;  // local size of simulate_blades.comp
+
+std::uint32_t knot_threads(SimulationThreads threads) {
+  return 32u << (static_cast<std::uint32_t>(threads) - static_cast<std::uint32_t>(SimulationThreads::knots_32));
+}
+
+}  // namespace
+
+SimulationThreads simulation_threads(SimulationThreads chosen, bool threads_in_turn) {
+  if (chosen != SimulationThreads::device) return chosen;
+  return threads_in_turn ? SimulationThreads::blade : SimulationThreads::knots_64;
+}
+
+std::uint32_t simulation_group_masters(SimulationThreads threads) {
+  return threads == SimulationThreads::blade ? kBladeThreads : knot_threads(threads) / GLOAM_GRASS_KNOTS;
+}
+
+ComputeProgram grass_simulation_program(SimulationThreads threads, bool colliders) {
+  const gpu::SpecConstant with_colliders{1, colliders ? 1u : 0u};
+  if (threads == SimulationThreads::blade) return {shaders::grass::simulate_blades_comp, {with_colliders}};
+  return {shaders::grass::simulate_comp, {{0, knot_threads(threads)}, with_colliders}};
 }
 
 void add_simulation_pass(FrameBuilder& frame, GrassFrame& grass, std::optional<std::uint32_t> groups) {
-  ComputePass pass(frame, "grass_simulation", grass_simulation_program(grass.knobs.group, grass.has_colliders));
+  ComputePass pass(frame, "grass_simulation", grass_simulation_program(grass.knobs.threads, grass.has_colliders));
   pass.uniform("steps", grass.steps);
   pass.read("patches", grass.patch_rows);
   pass.read("blade_rows", grass.store.rows);

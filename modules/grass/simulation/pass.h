@@ -10,8 +10,12 @@
 
 namespace gloam {
 
-/// threads: 32, 64 or 128 in a workgroup. colliders: whether any patch has some.
-[[nodiscard]] ComputeProgram grass_simulation_program(std::uint32_t threads, bool colliders);
+/// The threads that a device runs with SimulationThreads::device.
+[[nodiscard]] SimulationThreads simulation_threads(SimulationThreads chosen, bool threads_in_turn);
+/// Masters that one workgroup simulates. threads: not `device`.
+[[nodiscard]] std::uint32_t simulation_group_masters(SimulationThreads threads);
+/// colliders: whether any patch has some. threads: not `device`.
+[[nodiscard]] ComputeProgram grass_simulation_program(SimulationThreads threads, bool colliders);
 
 /// Masters that an earlier frame of the view had to simulate. A view resource, with grass.dispatch=readback only.
 struct GrassFeedback {

@@ -67,6 +67,7 @@ TEST_F(GrassSimulation, any_number_of_masters_and_any_size_of_workgroups_gives_t
     EXPECT_EQ(SimulateKernel(device(), 64).run(input), first) << "again";
     EXPECT_EQ(SimulateKernel(device(), 32).run(input), first);
     EXPECT_EQ(SimulateKernel(device(), 128).run(input), first);
+    EXPECT_EQ(SimulateKernel(device(), 1).run(input), first) << "a thread a blade";
   }
 }
 

@@ -94,13 +94,37 @@ inline void add_patch(GrassInput& input, std::uint32_t count, std::uint32_t seed
   input.previous = input.knots;
 }
 
-/// Runs the kernel once. threads: of a workgroup. The input's knots continue with the output's.
+/// Runs the kernel once. threads: of a workgroup with a thread a knot; 1: a thread a blade. With 64, the kernel with a
+/// thread a blade runs, too, and must give the same bits. The input's knots continue with the output's.
 class SimulateKernel {
  public:
   explicit SimulateKernel(gpu::Device& device, std::uint32_t threads = 64) : device_(device), threads_(threads) {}
 
   [[nodiscard]] GrassOutput run(const GrassInput& input) const {
-    Kernel kernel(device_, shaders::grass::simulate_comp, {{0, threads_}, {1, input.colliders.empty() ? 0u : 1u}});
+    const GrassOutput found = run_with(input, threads_);
+    if (threads_ == 64) {
+      EXPECT_EQ(run_with(input, 1), found) << "a thread a blade";
+    }
+    return found;
+  }
+
+  /// Runs `frames` frames of input.steps.frame_steps steps; the input keeps the knots, and all masters go on from them.
+  void advance(GrassInput& input, std::uint32_t frames) const {
+    for (std::uint32_t f = 0; f < frames; ++f) {
+      GrassOutput output = run(input);
+      input.knots = std::move(output.knots);
+      input.previous = std::move(output.previous);
+      for (shaders::GrassMaster& m : input.masters) m.steps = 1000;
+      input.steps.now += input.steps.frame_steps;
+    }
+  }
+
+ private:
+  [[nodiscard]] GrassOutput run_with(const GrassInput& input, std::uint32_t threads) const {
+    const gpu::SpecConstant colliders{1, input.colliders.empty() ? 0u : 1u};
+    const bool of_blades = threads == 1;
+    Kernel kernel(device_, of_blades ? shaders::grass::simulate_blades_comp : shaders::grass::simulate_comp,
+                  of_blades ? std::vector{colliders} : std::vector{gpu::SpecConstant{0, threads}, colliders});
     const auto some = [](auto items) {
       if (items.empty()) items.resize(1);
       return items;
@@ -114,22 +138,11 @@ class SimulateKernel {
     kernel.input(6, some(input.colliders));
     kernel.in_out(7, some(input.knots));
     kernel.in_out(8, some(input.previous));
-    const std::uint32_t blades = threads_ / GLOAM_GRASS_KNOTS;
+    const std::uint32_t blades = of_blades ? 64 : threads / GLOAM_GRASS_KNOTS;
     kernel.run(std::max((input.master_count + blades - 1) / blades, 1u));
     return {kernel.read<vec4>(7), kernel.read<vec4>(8)};
   }
-  /// Runs `frames` frames of input.steps.frame_steps steps; the input keeps the knots, and all masters go on from them.
-  void advance(GrassInput& input, std::uint32_t frames) const {
-    for (std::uint32_t f = 0; f < frames; ++f) {
-      GrassOutput output = run(input);
-      input.knots = std::move(output.knots);
-      input.previous = std::move(output.previous);
-      for (shaders::GrassMaster& m : input.masters) m.steps = 1000;
-      input.steps.now += input.steps.frame_steps;
-    }
-  }
 
- private:
   gpu::Device& device_;
   std::uint32_t threads_;
 };

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "shaders/grass/simulation/solver.glsl"
+
+// The simulation of simulate.comp with one thread a blade, for devices that run the threads of a workgroup in turn:
+// there a barrier swaps the state of all threads, and shared memory is read lane by lane. All loops over knots are
+// unrolled, so knots stay in registers. Formulas, bindings and order are the same. Groups: masters over 64, rounded up.
+
+layout(local_size_x = 64) in;
+layout(constant_id = 1) const bool kColliders = true;  // false: no patch has colliders
+
+layout(set = 0, binding = 0, scalar) uniform StepsBlock { GrassSteps steps; };
+layout(set = 0, binding = 1, scalar) readonly buffer Patches { GrassPatchRow patches[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer BladeRows { GrassBladeRow blade_rows[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Types { GrassTypeRow types[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer MasterList { GrassMaster master_list[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer MasterCount { uint master_count; };
+layout(set = 0, binding = 6, scalar) readonly buffer Colliders { GrassCollider colliders[]; };
+// 16 for each place; relative to the patch's origin, w is 0.
+layout(set = 0, binding = 7, scalar) buffer Knots { vec4 knots[]; };
+layout(set = 0, binding = 8, scalar) buffer PreviousKnots { vec4 previous_knots[]; };  // a step earlier
+
+const int kKnots = GLOAM_GRASS_KNOTS;
+
+// Positions relative to the root. Knot 0 is the root and stays at 0.
+vec3 at[kKnots], before[kKnots], next[kKnots], way[kKnots];
+KnotRest rest[kKnots];
+
+// The segments from knot `first` on, every other one. From tip to root: a segment reads the knot below it as it was.
+void half_iteration(int first) {
+  [[unroll]] for (int low = kKnots - 2; low >= 0; --low) {
+    if ((low & 1) != first) continue;
+    vec3 below_low = low >= 1 ? next[max(low, 1) - 1] : vec3(0.0);
+    vec3 new_low = constrained(rest[low], false, low == 0, vec3(0.0), next[low], next[low + 1]);
+    vec3 new_high = constrained(rest[low + 1], true, low == 0, below_low, next[low], next[low + 1]);
+    next[low] = new_low;
+    next[low + 1] = new_high;
+  }
+}
+
+void push_out(GrassPatchRow patch_row, GrassStem stem, uint step) {
+  float passed = float(step + 1u) / float(max(steps.frame_steps, 1u));
+  vec3 in_patch[kKnots];
+  [[unroll]] for (int k = 0; k < kKnots; ++k) {
+    precise vec3 knot = stem.root + next[k];
+    in_patch[k] = knot;
+  }
+  for (uint i = 0u; i < patch_row.colliders; ++i) {
+    GrassCollider collider = colliders[patch_row.first_collider + i];
+    [[unroll]] for (int k = 0; k < kKnots; ++k) in_patch[k] =
+        pushed(collider, in_patch[k], stem.normal, passed, rest[k].reach_m);
+  }
+  [[unroll]] for (int k = 0; k < kKnots; ++k) {
+    precise vec3 out_at = in_patch[k] - stem.root;
+    next[k] = patch_row.colliders != 0u ? out_at : next[k];
+  }
+}
+
+void load_knots(GrassPatchRow patch_row, GrassStem stem, uint type, uint place, bool fresh) {
+  [[unroll]] for (int k = 0; k < kKnots; ++k) {
+    vec2 stems[4] = {types[type].stem[max(k, 2) - 2], types[type].stem[max(k, 1) - 1], types[type].stem[k],
+                     types[type].stem[min(k + 1, kKnots - 1)]};
+    rest[k] = knot_rest(stem, stems, types[type].stiffness, uint(k), steps.step_s, steps.iterations);
+    precise vec3 knot = knots[place + uint(k)].xyz - stem.root;
+    precise vec3 previous = previous_knots[place + uint(k)].xyz - stem.root;
+    bool held = !fresh && dot(knot, knot) < 1e12 && dot(previous, previous) < 1e12;  // false for NaN
+    vec3 still = grass_rest(stem, stems[2]);
+    at[k] = held ? knot : still;
+    before[k] = held ? previous : still;
+  }
+  at[0] = before[0] = vec3(0.0);
+}
+
+// One step: see simulate.comp.
+void advance(GrassPatchRow patch_row, GrassStem stem, uint step, bool runs) {
+  uint iterations = max(steps.iterations, 1u);
+  precise GrassWind wind = steps.wind;
+  precise vec3 wind_at = patch_row.wind_at + stem.root;
+  wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * float(step));
+  vec3 air = wind_velocity(wind, wind_at);
+  [[unroll]] for (int k = 0; k < kKnots; ++k) {
+    precise vec3 moved = predicted(rest[k], at[k], before[k], at[max(k, 1) - 1], air, steps.step_s);
+    moved /= float(iterations);
+    way[k] = moved;
+    next[k] = at[k];
+  }
+  uint left = iterations;
+  do {
+    [[unroll]] for (int k = 0; k < kKnots; ++k) {
+      precise vec3 sum = next[k] + way[k];
+      next[k] = sum;
+    }
+    half_iteration(0);
+    half_iteration(1);
+    --left;
+  } while (left != 0u);
+  if (kColliders) push_out(patch_row, stem, step);
+  vec3 from = vec3(0.0), along = stem.normal;
+  float height = 0.0;
+  [[unroll]] for (int k = 1; k < kKnots; ++k) {
+    from = restored(from, height, next[k], rest[k].length_m, stem.normal, stem.forward, along);
+    before[k] = runs ? at[k] : before[k];
+    at[k] = runs ? from : at[k];
+  }
+}
+
+void main() {
+  uint entry = gl_GlobalInvocationID.x;
+  if (entry >= master_count) return;
+  GrassMaster master = master_list[entry];
+  GrassPatchRow patch_row = patches[master.blade >> 8];
+  uint index = master.blade & 0xFFu;
+  GrassBladeRow row = blade_rows[patch_row.first_blade + index];
+  GrassStem stem = grass_stem(patch_row, row);
+  uint place = (patch_row.first_place + index) * uint(kKnots);
+  load_knots(patch_row, stem, grass_type(row), place, master.steps == GLOAM_GRASS_NO_STEP);
+
+  uint own_steps = min(master.steps, steps.frame_steps), turn = 0u;
+  do {
+    advance(patch_row, stem, turn + steps.frame_steps - own_steps, turn < own_steps);
+  } while (++turn < steps.frame_steps);
+
+  [[unroll]] for (int k = 0; k < kKnots; ++k) {
+    precise vec3 at_in_patch = stem.root + at[k];
+    precise vec3 before_in_patch = stem.root + before[k];
+    knots[place + uint(k)] = vec4(at_in_patch, 0.0);
+    previous_knots[place + uint(k)] = vec4(before_in_patch, 0.0);
+  }
+}
