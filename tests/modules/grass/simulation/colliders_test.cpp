@@ -84,12 +84,14 @@ class GrassColliderSystem : public ::testing::Test {
   void move(Entity entity, dvec3 at) { world_.get<WorldTransform>(entity).matrix = placed_at(at); }
   const std::vector<PlacedCollider>& frame(double dt_s) {
     world_.resource<StepClock>().advance(dt_s);
-    grass_colliders_system(View<const Collider, const WorldTransform>(world_),
+    ++view_.frame;
+    grass_colliders_system(View<const Collider, const WorldTransform>(world_), ViewResource<const RenderView>(view_),
                            Resource<const StepClock>(world_.resource<StepClock>()),
                            Resource<GrassColliders>(world_.resource<GrassColliders>()));
     return world_.resource<GrassColliders>().colliders;
   }
   World world_;
+  RenderView view_;
 };
 
 TEST_F(GrassColliderSystem, the_way_begins_where_the_last_advanced_frame_has_ended) {
