@@ -61,6 +61,14 @@ void add_reflection_temporal_benches(BenchRegistry& registry);
 void add_reflection_scene_benches(BenchRegistry& registry);
 /// The radix sort of 1 M keys against std::sort, and its share of the memory bandwidth.
 void add_grass_sort_benches(BenchRegistry& registry);
+/// Time and error of the simulation of grass by the share of simulated blades and by the number of iterations.
+void add_grass_simulation_benches(BenchRegistry& registry);
+/// Cost of grass in a field ten times as large in which the same blades are live.
+void add_grass_field_benches(BenchRegistry& registry);
+/// Times of the passes of grass in a frame of the meadow, and by number of live blades.
+void add_grass_cost_benches(BenchRegistry& registry);
+/// Flicker, FLIP and coverage of the level of detail of grass during a walk.
+void add_grass_walk_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

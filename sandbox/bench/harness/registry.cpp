@@ -79,6 +79,10 @@ BenchRegistry make_bench_registry() {
   add_reflection_temporal_benches(registry);
   add_reflection_scene_benches(registry);
   add_grass_sort_benches(registry);
+  add_grass_simulation_benches(registry);
+  add_grass_field_benches(registry);
+  add_grass_cost_benches(registry);
+  add_grass_walk_benches(registry);
   return registry;
 }
 

@@ -147,6 +147,26 @@ TEST(BenchRegistry, has_the_rows_of_deferred_shadows) {
     EXPECT_TRUE(rows.contains("shadows." + std::string(id))) << id;
 }
 
+TEST(BenchRegistry, has_the_rows_of_grass) {
+  std::map<std::string, BenchRow> rows;
+  const BenchRegistry registry = make_bench_registry();
+  for (const BenchRow& each : registry.rows()) rows[each.id] = each;
+  EXPECT_EQ(rows["grass.masters_1_4_over_full"].bar, 0.30);
+  EXPECT_EQ(rows["grass.field_x10_same_live"].bar, 1.3);
+  EXPECT_EQ(rows["grass.field_1m_over_100k"].bar, 1.3);
+  EXPECT_EQ(rows["grass.sort_over_std_sort"].bar, 10.0);
+  EXPECT_EQ(rows["grass.sort_over_std_sort"].better, Better::higher);
+  EXPECT_EQ(rows["grass.frame.ms"].bar, 60.0);
+  EXPECT_EQ(rows["grass.walk.temporal_over_no_lod"].bar, 1.1);
+  for (const char* id :
+       {"masters.1_2.tip_error_mean_mm", "masters.1_16.tip_error_p99_mm", "masters.1_1.ms", "iterations.1.ms",
+        "iterations.8.tip_error_mean_mm", "iterations.8.tip_error_p99_mm", "frame.simulation_ms", "frame.lod_ms",
+        "frame.drawing_ms", "frame.live", "cost.live_1k.sort_ms", "cost.live_10k.lod_ms",
+        "cost.live_100k.simulation_ms", "cost.live_1m.drawing_ms", "field_x10.drawing_over_same_live", "walk.flip",
+        "coverage_difference"})
+    EXPECT_TRUE(rows.contains("grass." + std::string(id))) << id;
+}
+
 TEST(BenchReport, a_row_of_another_scene_names_it) {
   const BenchRow each = row("a.b");
   const std::vector<MeasuredRow> rows = {
