@@ -8,7 +8,7 @@ namespace gloam {
 namespace {
 
 // Length of the longest blade in the picture, pixels, from which on the blades of a class have its segments.
-constexpr std::array<float, GLOAM_GRASS_CLASSES> kClassPixels = {140.0f, 60.0f, 16.0f, 0.0f};
+constexpr std::array<float, GLOAM_GRASS_CLASSES> kClassPixels = {110.0f, 40.0f, 10.0f, 0.0f};
 
 /// Greatest key of distances up to distance_m.
 std::uint32_t key_at(float distance_m, float range_m) {

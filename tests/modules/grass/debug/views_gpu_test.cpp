@@ -36,10 +36,13 @@ class GrassViews : public GrassTest {
 TEST_F(GrassViews, grass_lod_shows_the_class_of_each_blade) {
   GrassStage stage;
   strip(stage);
-  const GrassPicture picture = grass_picture(stage, along());
+  ViewSettings view = along();  // large enough for 15 segments
+  view.width = 288;
+  view.height = 192;
+  const GrassPicture picture = grass_picture(stage, view);
   const GrassCopy copy = stage.copy();
   const std::vector<Stem> stems = stems_of(stage.field(), copy, picture.with.view.position);
-  const std::vector<vec4> values = stage.shown(along(), "grass_lod");
+  const std::vector<vec4> values = stage.shown(view, "grass_lod");
   ASSERT_EQ(values.size(), picture.with.depth.size());
   std::size_t of_class[5] = {}, wrong = 0;
   double nearest[5] = {1e9, 1e9, 1e9, 1e9, 1e9}, farthest[5] = {};
