@@ -15,8 +15,8 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kPatchBlades = GLOAM_GRASS_PATCH_BLADES;
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
+constexpr std::uint32_t kBladesOfPatch = GLOAM_GRASS_PATCH_BLADES;
+constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
 constexpr double kSlaveYaw = 0.6;  // radians, greatest difference from the master
 constexpr double kWidthVariation = 0.25;
 constexpr double kShortest = 0.25;  // times the mean length
@@ -26,8 +26,8 @@ constexpr double kLongest = 2.0;
 enum : std::uint32_t { kTypeNumbers = 1, kLookNumbers = 2, kRankNumbers = 3 };
 
 /// Order of `count` neighbours in which any first part of them is spread evenly: van der Corput's sequence.
-void spread_order(std::uint32_t count, std::array<std::uint32_t, kPatchBlades>& order) {
-  std::array<std::uint64_t, kPatchBlades> keys{};
+void spread_order(std::uint32_t count, std::array<std::uint32_t, kBladesOfPatch>& order) {
+  std::array<std::uint64_t, kBladesOfPatch> keys{};
   for (std::uint32_t i = 0; i < count; ++i) {
     auto bits = static_cast<std::uint32_t>((std::uint64_t{i} << 32) / count);
     std::uint32_t reversed = 0;
@@ -40,7 +40,7 @@ void spread_order(std::uint32_t count, std::array<std::uint32_t, kPatchBlades>& 
 
 /// Gives blades[order[i]] the rank (first + i + shift) / all.
 void set_ranks(std::span<GrassBlade> blades, std::uint32_t first, std::uint32_t all, double shift) {
-  std::array<std::uint32_t, kPatchBlades> order{};
+  std::array<std::uint32_t, kBladesOfPatch> order{};
   const auto count = static_cast<std::uint32_t>(blades.size());
   spread_order(count, order);
   for (std::uint32_t i = 0; i < count; ++i) blades[order[i]].rank = static_cast<float>((first + i + shift) / all);
@@ -133,7 +133,7 @@ class PatchFiller {
     blade.slot = slot;
     blade.master = slot;
     const double yaw = set_look(id, middle, blade);
-    blade.yaw = wrapped(yaw * kTurn);
+    blade.yaw = wrapped(yaw * kFullTurn);
     return blade;
   }
 
@@ -149,8 +149,8 @@ class PatchFiller {
   }
 
   static float wrapped(double yaw) {
-    const auto in_turn = static_cast<float>(yaw - std::floor(yaw / kTurn) * kTurn);
-    return in_turn < static_cast<float>(kTurn) ? in_turn : 0.0f;
+    const auto in_turn = static_cast<float>(yaw - std::floor(yaw / kFullTurn) * kFullTurn);
+    return in_turn < static_cast<float>(kFullTurn) ? in_turn : 0.0f;
   }
 
   /// Sets what does not depend on the master; the type is set. Returns a random number for the yaw.
@@ -160,7 +160,7 @@ class PatchFiller {
     const double yaw = random.unit();
     // Box and Muller's transform of two uniform numbers to a normal one.
     const double radius = std::sqrt(-2.0 * std::log(1.0 - random.unit()));
-    const double normal = radius * std::cos(kTurn * random.unit());
+    const double normal = radius * std::cos(kFullTurn * random.unit());
     const double mean = std::max(double{source_.values.height_m.x}, 0.0) * type.length_scale;
     const double deviation = double{source_.values.height_m.y} * type.length_scale;
     const double width = 1.0 + kWidthVariation * (2.0 * random.unit() - 1.0);
@@ -182,30 +182,30 @@ class PatchFiller {
 
 void append_patches(const GrowthSurface& surface, std::span<const ScatteredRoot> roots, const PatchSource& source,
                     JobExecutor& jobs, std::vector<GrassPatch>& patches, std::vector<GrassBlade>& blades) {
-  GLOAM_ASSERT(blades.size() == patches.size() * kPatchBlades, "each patch has 256 slots");
+  GLOAM_ASSERT(blades.size() == patches.size() * kBladesOfPatch, "each patch has 256 slots");
   GLOAM_ASSERT(!source.types.empty(), "a surface has at least one blade type");
-  GLOAM_ASSERT(source.slaves_per_master < kPatchBlades, "a master and its slaves fit into one patch");
+  GLOAM_ASSERT(source.slaves_per_master < kBladesOfPatch, "a master and its slaves fit into one patch");
   if (roots.empty()) return;
   std::vector<SpatialItem> items(roots.size());
   jobs.parallel_for(roots.size(), 4096, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
       items[i] = {vec3(root_position(surface, roots[i])), static_cast<std::uint32_t>(i)};
   });
-  const auto count = static_cast<std::uint32_t>((roots.size() + kPatchBlades - 1) / kPatchBlades);
+  const auto count = static_cast<std::uint32_t>((roots.size() + kBladesOfPatch - 1) / kBladesOfPatch);
   split_by_space(items, count, jobs);
 
   const std::size_t first = patches.size();
   patches.resize(first + count);
-  blades.resize(patches.size() * kPatchBlades);
+  blades.resize(patches.size() * kBladesOfPatch);
   const PatchFiller filler(surface, roots, source);
   jobs.parallel_for(count, 4, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       GrassPatch& patch = patches[first + i];
       patch.index = static_cast<std::uint32_t>(first + i);
-      const std::span<GrassBlade> slots = std::span(blades).subspan((first + i) * kPatchBlades, kPatchBlades);
-      for (std::uint32_t s = 0; s < kPatchBlades; ++s) {
+      const std::span<GrassBlade> slots = std::span(blades).subspan((first + i) * kBladesOfPatch, kBladesOfPatch);
+      for (std::uint32_t s = 0; s < kBladesOfPatch; ++s) {
         slots[s].length_m = 0.0f;
-        slots[s].slot = patch.index * kPatchBlades + s;
+        slots[s].slot = patch.index * kBladesOfPatch + s;
         slots[s].master = slots[s].slot;
       }
       const std::uint32_t begin = group_begin(items.size(), count, static_cast<std::uint32_t>(i));

@@ -9,7 +9,7 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kGrain = 1024;
+constexpr std::size_t kCullGrain = 1024;
 
 double distance_to(const Aabb& box, const dvec3& at) {
   return glm::length(glm::max(glm::max(dvec3(box.min) - at, at - dvec3(box.max)), dvec3(0.0)));
@@ -42,8 +42,8 @@ Aabb reach_box(const GrassPatch& patch) {
 
 VisiblePatches find_visible_patches(std::span<const GrassPatch> patches, const RenderView& view,
                                     const PatchCulling& culling, JobExecutor& jobs) {
-  std::vector<std::vector<VisiblePatch>> kept((patches.size() + kGrain - 1) / kGrain);
-  jobs.parallel_for(patches.size(), kGrain,
+  std::vector<std::vector<VisiblePatch>> kept((patches.size() + kCullGrain - 1) / kCullGrain);
+  jobs.parallel_for(patches.size(), kCullGrain,
                     [&](JobRange range) { cull_range(patches, range, view, culling, kept[range.ordinal]); });
   VisiblePatches visible;
   for (const std::vector<VisiblePatch>& part : kept)

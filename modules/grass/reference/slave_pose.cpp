@@ -11,7 +11,7 @@ namespace {
 constexpr double kSlaveTurn = 0.5;
 constexpr double kSlaveTurnSpeed = 0.5;
 constexpr double kSlaveFadedBend = 0.6;
-constexpr double kTurn = 6.283185307179586;
+constexpr double kCircle = 6.283185307179586;
 
 double hash(std::uint32_t slot) {
   std::uint32_t h = (slot + 1u) * 0x9E3779B1u;
@@ -31,7 +31,7 @@ SlaveTurn slave_turn(const SlaveStem& master, const SlaveStem& slave, std::uint3
                      dvec3 rest_tip, double tip_speed) {
   const double length_m = std::max(master.length_m, 1e-6);
   const double bend = std::min(glm::length(master_tip - rest_tip) / (kSlaveFadedBend * length_m), 1.0);
-  const double yaw = std::remainder(slave.yaw - master.yaw, kTurn);
+  const double yaw = std::remainder(slave.yaw - master.yaw, kCircle);
   const double angle = yaw * (1.0 - bend * bend * (3.0 - 2.0 * bend)) +
                        kSlaveTurn * hash(slot) * tip_speed / (tip_speed + kSlaveTurnSpeed);
   SlaveTurn turn{};
