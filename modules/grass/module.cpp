@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "engine/render/frame_builder.h"
-#include "engine/scene/key_table.h"
 #include "modules/grass/components.h"
 #include "modules/grass/debug/lod_view.h"
 #include "modules/grass/debug/pick.h"
+#include "modules/grass/keys.h"
 #include "modules/grass/passes.h"
 #include "modules/grass/simulation/colliders.h"
 #include "modules/grass/simulation/pass.h"
@@ -47,45 +47,10 @@ class GrassModule final : public Module {
     world.set_resource(GrassGrowthSettings{});
     world.set_resource(GrassField{});
     world.set_resource(GrassEntities{});
-    world.set_resource(GrassWorld{++world_count_});
+    world.set_resource(GrassWorld{.number = ++world_count_});
   }
   void knobs(KnobRegistry& registry) const override { add_grass_knobs(registry); }
-  void scene_keys(KeyRegistry& registry) const override {
-    const auto grass = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
-      return key_line("grass", KeyElement::mesh_node, std::move(key), std::move(fallback), std::move(unit),
-                      std::move(meaning));
-    };
-    const auto node = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
-      return key_line("grass", KeyElement::node, std::move(key), std::move(fallback), std::move(unit),
-                      std::move(meaning));
-    };
-    registry.add(
-        number_key(grass("gloam.grass.density", "0", "blades/m²", "density of grass on upward-facing triangles"), 0,
-                   1e6, &GrassSurface::density));
-    registry.add(integer_key(grass("gloam.grass.seed", "1", "", "random seed"), 0, 4294967295.0, &GrassSurface::seed));
-    registry.add(vec2_key(grass("gloam.grass.height", "[0.3, 0.06]", "m", "mean and deviation of the height of blades"),
-                          0, 100, &GrassSurface::height_m));
-    registry.add(
-        number_key(grass("gloam.grass.width", "0.006", "m", "width of a blade"), 1e-6, 10, &GrassSurface::width_m));
-    registry.add(number_key(grass("gloam.grass.max_distance", "40", "m", "quantisation range of the LOD"), 1e-3, 1e6,
-                            &GrassSurface::max_distance_m));
-    registry.add(file_key(grass("gloam.grass.types", "", "", "file of blade types; default: the five built-in types"),
-                          &GrassSurface::types));
-    registry.add(choice_key(node("gloam.collider", "", "", "shape of a collider that moves grass"),
-                            {"sphere", "capsule", "box"}, ColliderShape::sphere, &Collider::shape));
-    registry.add(number_key(node("gloam.collider.radius", "0.5", "m", "radius of a sphere or capsule"), 1e-6, 1e6,
-                            &Collider::radius_m));
-    registry.add(number_key(node("gloam.collider.height", "1.8", "m", "height of a capsule, caps included"), 1e-6, 1e6,
-                            &Collider::height_m));
-    registry.add(
-        vec3_key(node("gloam.collider.size", "[1, 1, 1]", "m", "size of a box"), 1e-6, 1e6, &Collider::size_m));
-    registry.add(
-        vec3_key(node("gloam.wind.velocity", "[0, 0, 0]", "m/s", "velocity of the wind; at most one node per scene"),
-                 -200, 200, &Wind::velocity));
-    registry.add(number_key(node("gloam.wind.gust", "0.3", "", "strength of gusts"), 0, 1, &Wind::gust));
-    registry.add_finish("grass",
-                        [](World& world) { return at_most_one(world.view<const Wind>().size(), "gloam.wind"); });
-  }
+  void scene_keys(KeyRegistry& registry) const override { add_grass_keys(registry); }
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t surfaces = 0;
     world.view<const GrassSurface>().each([&](const GrassSurface& s) { surfaces += s.density > 0.0f ? 1 : 0; });
