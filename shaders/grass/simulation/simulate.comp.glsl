@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/grass/simulation/solver.glsl"
+#include "shaders/grass/simulation/masters.glsl"
 
 // Simulates masters (Han and Li, "Grass rendering and simulation with LOD", GPU Pro 6, on the solver of TressFX): one
 // thread a knot, 16 threads a blade. Each step moves the knots in as many parts as there are iterations, runs the
@@ -13,17 +13,6 @@
 
 layout(local_size_x = 64, local_size_x_id = 0) in;     // constant 0: 32, 64 or 128
 layout(constant_id = 1) const bool kColliders = true;  // false: no patch has colliders
-
-layout(set = 0, binding = 0, scalar) uniform StepsBlock { GrassSteps steps; };
-layout(set = 0, binding = 1, scalar) readonly buffer Patches { GrassPatchRow patches[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer BladeRows { GrassBladeRow blade_rows[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Types { GrassTypeRow types[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer MasterList { GrassMaster master_list[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer MasterCount { uint master_count; };
-layout(set = 0, binding = 6, scalar) readonly buffer Colliders { GrassCollider colliders[]; };
-// 16 for each place; relative to the patch's origin, w is 0.
-layout(set = 0, binding = 7, scalar) buffer Knots { vec4 knots[]; };
-layout(set = 0, binding = 8, scalar) buffer PreviousKnots { vec4 previous_knots[]; };  // a step earlier
 
 const uint kThreads = gl_WorkGroupSize.x;
 const uint kKnots = uint(GLOAM_GRASS_KNOTS);

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#include "shaders/grass/simulation/solver.glsl"
+#include "shaders/grass/simulation/masters.glsl"
 
 // The simulation of simulate.comp with one thread a blade, for devices that run the threads of a workgroup in turn:
 // there a barrier swaps the state of all threads, and shared memory is read lane by lane. All loops over knots are
@@ -11,17 +11,6 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 1) const bool kColliders = true;  // false: no patch has colliders
-
-layout(set = 0, binding = 0, scalar) uniform StepsBlock { GrassSteps steps; };
-layout(set = 0, binding = 1, scalar) readonly buffer Patches { GrassPatchRow patches[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer BladeRows { GrassBladeRow blade_rows[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Types { GrassTypeRow types[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer MasterList { GrassMaster master_list[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer MasterCount { uint master_count; };
-layout(set = 0, binding = 6, scalar) readonly buffer Colliders { GrassCollider colliders[]; };
-// 16 for each place; relative to the patch's origin, w is 0.
-layout(set = 0, binding = 7, scalar) buffer Knots { vec4 knots[]; };
-layout(set = 0, binding = 8, scalar) buffer PreviousKnots { vec4 previous_knots[]; };  // a step earlier
 
 const int kKnots = GLOAM_GRASS_KNOTS;
 

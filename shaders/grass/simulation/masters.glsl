@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_GRASS_SIMULATION_MASTERS_GLSL
+#define GLOAM_SHADERS_GRASS_SIMULATION_MASTERS_GLSL
+
+// Bindings of the shaders that simulate the listed masters.
+
+#include "shaders/grass/simulation/solver.glsl"
+
+layout(set = 0, binding = 0, scalar) uniform StepsBlock { GrassSteps steps; };
+layout(set = 0, binding = 1, scalar) readonly buffer Patches { GrassPatchRow patches[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer BladeRows { GrassBladeRow blade_rows[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Types { GrassTypeRow types[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer MasterList { GrassMaster master_list[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer MasterCount { uint master_count; };
+layout(set = 0, binding = 6, scalar) readonly buffer Colliders { GrassCollider colliders[]; };
+// 16 for each place; relative to the patch's origin, w is 0.
+layout(set = 0, binding = 7, scalar) buffer Knots { vec4 knots[]; };
+layout(set = 0, binding = 8, scalar) buffer PreviousKnots { vec4 previous_knots[]; };  // a step earlier
+
+#endif
