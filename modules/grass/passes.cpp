@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -117,16 +118,17 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   const GrassField& field = world.resource<GrassField>();
   const VisiblePatches& visible = world.view_resource<VisiblePatches>(frame.view().id);
   const std::uint64_t number = world.resource<GrassWorld>().number;
-  GrassBladeRows& rows = worlds.rows[number];
-  pack_changed_rows(world, field, frame.services().executor, rows);
+  GrassBladeRows& rows = *world.resource<GrassWorld>().rows;
+  if (pack_changed_rows(world, field, frame.services().executor, rows))
+    for (const std::string& note : field.notes)
+      if (worlds.told.insert(note).second) frame.services().log.warning(note);
 
   grass.steps = steps_of(world, grass.knobs.iterations);
   add_store_passes(frame, {field.patches, rows.rows, field.version, rows.version, most_masters(field)}, visible.patches,
                    worlds.stores.of_frame(frame, number), grass);
   if (!frame.status().ok() || grass.patches.empty()) return;
   upload_patches(frame, field, grass);
-  grass.lod = grass_lod(frame.view(), grass.knobs, visible.range_m, longest_blade(field, grass.patches),
-                        static_cast<std::uint32_t>(grass.patches.size()));
+  grass.lod = grass_lod(frame.view(), grass.knobs, visible.range_m, longest_blade(field, grass.patches));
   const std::optional<std::uint32_t> groups = groups_of(world, frame.view().id, grass);
   grass.lod.most_masters = groups ? *groups * grass.group_masters : ~0u;
   grass.lod.steps_per_s = static_cast<float>(1.0 / kGrassStep);

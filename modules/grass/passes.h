@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "modules/grass/frame.h"
 #include "modules/grass/growth/entities.h"
@@ -15,12 +16,13 @@ namespace gloam {
 /// State of the module that lives over frames and is no history resource.
 struct GrassWorlds {
   GrassStoreStates stores;
-  std::map<std::uint64_t, GrassBladeRows> rows;  ///< by world
+  std::set<std::string> told;  ///< GrassField::notes that were logged
 };
 
-/// The module's number for a world; a resource of the world.
+/// The module's number for a world, and the rows of its blades; a resource of the world.
 struct GrassWorld {
   std::uint64_t number = 0;
+  std::shared_ptr<GrassBladeRows> rows = std::make_shared<GrassBladeRows>();
 };
 
 /// PassPhase::announce: puts the view's GrassFrame on the board (as std::shared_ptr) and announces casters.

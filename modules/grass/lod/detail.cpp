@@ -17,8 +17,7 @@ std::uint32_t key_at(float distance_m, float range_m) {
 
 }  // namespace
 
-shaders::GrassLod grass_lod(const RenderView& view, const GrassKnobs& knobs, float range_m, float blade_m,
-                            std::uint32_t patches) {
+shaders::GrassLod grass_lod(const RenderView& view, const GrassKnobs& knobs, float range_m, float blade_m) {
   shaders::GrassLod lod{};
   for (std::size_t i = 0; i < 5; ++i)
     lod.planes[i] = vec4(view.frustum.planes[i].normal, view.frustum.planes[i].distance);
@@ -28,7 +27,6 @@ shaders::GrassLod grass_lod(const RenderView& view, const GrassKnobs& knobs, flo
   lod.pixel_m = 2.0f / (std::abs(view.clip_from_view[1][1]) * static_cast<float>(view.height));
   lod.width_px = knobs.lod_pixels;
   lod.threshold = knobs.threshold;
-  lod.patches = patches;
   lod.cast_m = knobs.cast_distance_m;
   lod.cast_key = knobs.cast_distance_m > 0.0f ? key_at(knobs.cast_distance_m, range_m) : GLOAM_GRASS_CULLED;
   std::uint32_t first_index = 0;

@@ -16,9 +16,8 @@ namespace gloam {
 inline constexpr std::array<std::uint32_t, GLOAM_GRASS_CLASSES> kClassSegments = {15, 5, 3, 1};
 
 /// Level of detail of a view. range_m: greatest distance of its patches. blade_m: length of its longest blade.
-/// patches: number of its patch rows.
-[[nodiscard]] shaders::GrassLod grass_lod(const RenderView& view, const GrassKnobs& knobs, float range_m, float blade_m,
-                                          std::uint32_t patches);
+[[nodiscard]] shaders::GrassLod grass_lod(const RenderView& view, const GrassKnobs& knobs, float range_m,
+                                          float blade_m);
 
 /// Indices of GLOAM_GRASS_DRAW_BLADES blades for each class, one class after the other: two triangles per segment.
 /// Vertex 2 (segments + 1) · blade + 2 · knot + side.

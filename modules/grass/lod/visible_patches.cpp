@@ -22,7 +22,7 @@ void cull_range(std::span<const GrassPatch> patches, JobRange range, const Rende
     if (patch.blades == 0) continue;
     const dvec3 origin = patch.origin - view.position;
     const double nearest_m = distance_to(patch.roots, -origin);
-    if (!(nearest_m < std::min(static_cast<double>(patch.max_distance_m), culling.max_distance_m))) continue;
+    if (!(nearest_m < static_cast<double>(patch.max_distance_m))) continue;
     Aabb box = reach_box(patch);
     box.min = vec3(dvec3(box.min) + origin);
     box.max = vec3(dvec3(box.max) + origin);

@@ -14,10 +14,9 @@
 
 namespace gloam {
 
-/// Nearest a view's grass may be left out beyond the frustum, metres: blades out of view cast shadows into it.
+/// Limits of culling.
 struct PatchCulling {
-  float cast_distance_m = 0.0f;  ///< patches nearer than this are kept although they are out of view
-  double max_distance_m = 1e30;  ///< the knob's limit of the range
+  float cast_distance_m = 0.0f;  ///< nearer patches are kept although out of view: they may cast shadows into it
 };
 
 /// One patch that a view draws.

@@ -20,7 +20,6 @@ struct GrassLod {
   uint orthographic;     // 0 or 1
   float width_px;        // least width of a blade's root to which the LOD thins and widens the field; 0: no thinning
   uint threshold;        // greatest key that is drawn, 0…254
-  uint patches;          // patch rows of the view
   float cast_m;          // blades nearer than this stay although they are out of view: they may cast shadows into it
   uint cast_key;         // greatest key of blades that cast shadows; GLOAM_GRASS_CULLED: none do
   uint most_masters;     // that the dispatch of the simulation has room for
