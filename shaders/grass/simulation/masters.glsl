@@ -5,6 +5,7 @@
 
 // Bindings of the shaders that simulate the listed masters.
 
+#include "shaders/common/runtime_value.glsl"
 #include "shaders/grass/simulation/solver.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform StepsBlock { GrassSteps steps; };

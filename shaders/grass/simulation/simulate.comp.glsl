@@ -32,8 +32,11 @@ vec3 stage(KnotRest r, uint lane, uint k, vec3 at, uint odd) {
   bool pairs = upper ? k != 0u : k + 1u < kKnots;
   vec3 other = pairs ? knot_at[odd][upper ? lane - 1u : lane + 1u] : at;
   vec3 below_low = upper && k >= 2u ? knot_at[odd][lane - 2u] : vec3(0.0);
-  vec3 moved = constrained(r, upper, k == (upper ? 1u : 0u), below_low, upper ? other : at, upper ? at : other);
-  return pairs ? moved : at;
+  KnotRest high_rest = r;
+  high_rest.length_m = upper || !pairs ? r.length_m : segment_m[lane + 1u];
+  vec3 low = upper ? other : at, high = upper ? at : other;
+  constrain(high_rest, k == (upper ? 1u : 0u), below_low, low, high);
+  return !pairs ? at : upper ? high : low;
 }
 
 vec3 pushed_by_all(GrassPatchRow patch_row, vec3 root, vec3 normal, vec3 at, uint step, float most) {
@@ -74,8 +77,7 @@ void main() {
   GrassBladeRow row = blade_rows[patch_row.first_blade + index];
   GrassStem stem = grass_stem(patch_row, row);
   uint type = grass_type(row);
-  vec2 stems[4] = {types[type].stem[max(k, 2u) - 2u], types[type].stem[max(k, 1u) - 1u], types[type].stem[k],
-                   types[type].stem[min(k + 1u, kKnots - 1u)]};
+  vec2 stems[3] = {types[type].stem[max(k, 2u) - 2u], types[type].stem[max(k, 1u) - 1u], types[type].stem[k]};
   KnotRest rest = knot_rest(stem, stems, types[type].stiffness, k, steps.step_s, steps.iterations);
 
   uint place = (patch_row.first_place + index) * kKnots + k;
@@ -108,7 +110,7 @@ void main() {
     precise vec3 next = at + way;
     knot_at[0][lane] = next;
     uint odd = 0u;
-    uint left = 2u * iterations;
+    uint left = runtime_value(2u * iterations);
     do {
       barrier();
       next = stage(rest, lane, k, next, odd);
@@ -124,7 +126,7 @@ void main() {
     bool runs = turn < own_steps;
     before = runs ? at : before;
     at = runs && k != 0u ? knot_at[1][lane] : at;
-  } while (++turn < steps.frame_steps);
+  } while (++turn < runtime_value(steps.frame_steps));
   if (!real) return;
   precise vec3 at_in_patch = stem.root + at;
   precise vec3 before_in_patch = stem.root + before;

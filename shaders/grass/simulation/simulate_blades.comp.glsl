@@ -7,7 +7,7 @@
 
 // The simulation of simulate.comp with one thread a blade, for devices that run the threads of a workgroup in turn:
 // there a barrier swaps the state of all threads, and shared memory is read lane by lane. All loops over knots are
-// unrolled, so knots stay in registers. Formulas, bindings and order are the same. Groups: masters over 64, rounded up.
+// unrolled, so knots stay in registers. Formulas, bindings and order are the same. Groups: masters over 32, rounded up.
 
 layout(local_size_x = 64) in;
 layout(constant_id = 1) const bool kColliders = true;  // false: no patch has colliders
@@ -23,10 +23,7 @@ void half_iteration(int first) {
   [[unroll]] for (int low = kKnots - 2; low >= 0; --low) {
     if ((low & 1) != first) continue;
     vec3 below_low = low >= 1 ? next[max(low, 1) - 1] : vec3(0.0);
-    vec3 new_low = constrained(rest[low], false, low == 0, vec3(0.0), next[low], next[low + 1]);
-    vec3 new_high = constrained(rest[low + 1], true, low == 0, below_low, next[low], next[low + 1]);
-    next[low] = new_low;
-    next[low + 1] = new_high;
+    constrain(rest[low + 1], low == 0, below_low, next[low], next[low + 1]);
   }
 }
 
@@ -50,8 +47,7 @@ void push_out(GrassPatchRow patch_row, GrassStem stem, uint step) {
 
 void load_knots(GrassPatchRow patch_row, GrassStem stem, uint type, uint place, bool fresh) {
   [[unroll]] for (int k = 0; k < kKnots; ++k) {
-    vec2 stems[4] = {types[type].stem[max(k, 2) - 2], types[type].stem[max(k, 1) - 1], types[type].stem[k],
-                     types[type].stem[min(k + 1, kKnots - 1)]};
+    vec2 stems[3] = {types[type].stem[max(k, 2) - 2], types[type].stem[max(k, 1) - 1], types[type].stem[k]};
     rest[k] = knot_rest(stem, stems, types[type].stiffness, uint(k), steps.step_s, steps.iterations);
     precise vec3 knot = knots[place + uint(k)].xyz - stem.root;
     precise vec3 previous = previous_knots[place + uint(k)].xyz - stem.root;
@@ -76,7 +72,7 @@ void advance(GrassPatchRow patch_row, GrassStem stem, uint step, bool runs) {
     way[k] = moved;
     next[k] = at[k];
   }
-  uint left = iterations;
+  uint left = runtime_value(iterations);
   do {
     [[unroll]] for (int k = 0; k < kKnots; ++k) {
       precise vec3 sum = next[k] + way[k];
@@ -110,7 +106,7 @@ void main() {
   uint own_steps = min(master.steps, steps.frame_steps), turn = 0u;
   do {
     advance(patch_row, stem, turn + steps.frame_steps - own_steps, turn < own_steps);
-  } while (++turn < steps.frame_steps);
+  } while (++turn < runtime_value(steps.frame_steps));
 
   [[unroll]] for (int k = 0; k < kKnots; ++k) {
     precise vec3 at_in_patch = stem.root + at[k];

@@ -24,7 +24,6 @@ struct KnotRest {
   vec3 below;      // unit: direction at rest of the segment below the segment below the knot
   vec3 mirrored;   // direction at rest of the segment below the knot, mirrored at the plane perpendicular to `below`
   float length_m;  // of the segment below the knot
-  float above_m;   // length of the segment above
   float gain;      // s²: way of a step over the external acceleration; 0 at the root, largest at the tip
   float share;     // of the local shape that one iteration restores
   float retained;  // share of its velocity that the knot keeps in a step
@@ -43,21 +42,18 @@ vec3 direction_or(vec3 v, vec3 otherwise) {
   return len > kShort ? direction : otherwise;
 }
 
-// stems: of the knots two below, one below, at and above the knot.
-KnotRest knot_rest(GrassStem s, vec2 stems[4], float type_stiffness, uint k, float step_s, uint iterations) {
+// stems: of the knots two below, one below and at the knot.
+KnotRest knot_rest(GrassStem s, vec2 stems[3], float type_stiffness, uint k, float step_s, uint iterations) {
   precise vec3 two_below = grass_rest(s, stems[0]);
   precise vec3 one_below = grass_rest(s, stems[1]);
   precise vec3 at = grass_rest(s, stems[2]);
-  precise vec3 above = grass_rest(s, stems[3]);
   precise KnotRest r;
   precise vec3 below = one_below - two_below;
   precise vec3 segment = at - one_below;
-  precise vec3 segment_above = above - at;
   r.below = k >= 2u ? direction_or(below, s.normal) : s.normal;
   precise vec3 direction = direction_or(segment, s.normal);
   r.mirrored = direction - 2.0 * product(r.below, direction) * r.below;
   r.length_m = length_of(segment);
-  r.above_m = length_of(segment_above);
   precise float stiffness = clamp(type_stiffness, 0.0, 0.999);
   precise float nominal = kNominalIterations * stiffness / (1.0 - stiffness);
   precise float ratio = step_s / kNominalStep_s;
@@ -93,20 +89,20 @@ vec3 predicted(KnotRest r, vec3 at, vec3 before, vec3 knot_below, vec3 wind, flo
 }
 
 // One constraint of the segment between the knots low and high: its length, moving both knots (the root stays), then
-// its direction relative to the segment below, moving the upper one. Returns the new position of high, or that of low.
-// below_low: position of the knot below low; unused if low is the root. r: of the knot that is returned.
-vec3 constrained(KnotRest r, bool upper, bool at_root, vec3 below_low, vec3 low, vec3 high) {
+// its direction relative to the segment below, moving the upper one. below_low: position of the knot below low; unused
+// if low is the root. high_rest: of the knot high.
+void constrain(KnotRest high_rest, bool at_root, vec3 below_low, inout vec3 low, inout vec3 high) {
   precise vec3 v = high - low;
   precise float len = length_of(v);
-  precise float wanted = upper ? r.length_m : r.above_m;
-  precise vec3 shift = len > kShort ? v * (1.0 - wanted / len) : vec3(0.0);
+  precise vec3 shift = len > kShort ? v * (1.0 - high_rest.length_m / len) : vec3(0.0);
   precise vec3 new_low = at_root ? low : low + kLowerPart * shift;
   precise vec3 new_high = at_root ? high - shift : high - (1.0 - kLowerPart) * shift;
   precise vec3 segment_below = low - below_low;
-  precise vec3 s = r.below + (at_root ? r.below : direction_or(segment_below, r.below));
-  precise vec3 target = r.mirrored - s * (2.0 * product(s, r.mirrored) / max(product(s, s), 1e-6));
-  precise vec3 shaped = new_high + r.share * (new_low + wanted * target - new_high);
-  return upper ? shaped : new_low;
+  precise vec3 s = high_rest.below + (at_root ? high_rest.below : direction_or(segment_below, high_rest.below));
+  precise vec3 target = high_rest.mirrored - s * (2.0 * product(s, high_rest.mirrored) / max(product(s, s), 1e-6));
+  precise vec3 shaped = new_high + high_rest.share * (new_low + high_rest.length_m * target - new_high);
+  low = new_low;
+  high = shaped;
 }
 
 // The knot after the one at `from`, which is `height` over the ground plane: at the distance length_m, toward `toward`
