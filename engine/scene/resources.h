@@ -15,10 +15,10 @@
 
 namespace gloam {
 
-/// Simulated time of the frame.
+/// Simulated time of the frame. Simulations rest while it stands, and start again when it goes back.
 struct SceneClock {
   double time_s = 0.0;
-  double dt_s = 1.0 / 60.0;
+  double dt_s = 1.0 / 60.0;  ///< since the frame before
 };
 
 /// Joint matrices of all skinned instances, for the GPU. Each maps rest positions of the mesh to the world's axes,

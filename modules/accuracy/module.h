@@ -54,8 +54,9 @@ class CostSubject {
   [[nodiscard]] virtual std::vector<ReferenceInfo> references() const = 0;
   /// Measures of all modules.
   [[nodiscard]] virtual std::vector<MeasureInfo> measures() const = 0;
-  /// Draws frame `index` (from 0) of the measured sequence and waits for it. The same index shows the same moment.
-  [[nodiscard]] virtual Result<FrameCost> draw(std::uint32_t index) = 0;
+  /// Draws frame `index` of the measured sequence and waits for it. The sequence begins with 0; frames before it have a
+  /// negative index. The same index shows the same moment.
+  [[nodiscard]] virtual Result<FrameCost> draw(std::int32_t index) = 0;
   /// GPU memory, in bytes over all modules, that frames like the last one need. Memory left over from other frames does
   /// not count. May draw frames to find out.
   [[nodiscard]] virtual Result<std::uint64_t> gpu_bytes() = 0;

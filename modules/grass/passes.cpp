@@ -76,10 +76,11 @@ std::uint32_t most_masters(const GrassField& field) {
   return most;
 }
 
-/// Workgroups of the simulation by the count of an earlier frame; none: the GPU decides.
+/// Workgroups of the simulation by the count of an earlier frame; none: the GPU decides, as in the first frame.
 std::optional<std::uint32_t> groups_of(const World& world, ViewId view, const GrassFrame& grass) {
   const GrassFeedback* feedback = world.try_view_resource<GrassFeedback>(view);
-  if (!grass.knobs.readback || feedback == nullptr) return std::nullopt;
+  const bool first = world.resource<StepClock>().first_step() == 0;
+  if (!grass.knobs.readback || feedback == nullptr || first) return std::nullopt;
   return (feedback->masters + grass.group_masters - 1) / grass.group_masters;
 }
 
@@ -124,8 +125,13 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
       if (worlds.told.insert(note).second) frame.services().log.warning(note);
 
   grass.steps = steps_of(world, grass.knobs.iterations);
-  add_store_passes(frame, {field.patches, rows.rows, field.version, rows.version, most_masters(field)}, visible.patches,
-                   worlds.stores.of_frame(frame, number), grass);
+  const GrassStoreInput input{.patches = field.patches,
+                              .rows = rows.rows,
+                              .field = field.version,
+                              .row_version = rows.version,
+                              .slot_masters = most_masters(field),
+                              .restarts = world.resource<StepClock>().restarts()};
+  add_store_passes(frame, input, visible.patches, worlds.stores.of_frame(frame, number), grass);
   if (!frame.status().ok() || grass.patches.empty()) return;
   upload_patches(frame, field, grass);
   grass.lod = grass_lod(frame.view(), grass.knobs, visible.range_m, longest_blade(field, grass.patches));

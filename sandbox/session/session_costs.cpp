@@ -47,7 +47,7 @@ std::vector<MeasureInfo> SessionCosts::measures() const {
   return all;
 }
 
-Result<FrameCost> SessionCosts::draw(std::uint32_t index) {
+Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();

@@ -20,7 +20,7 @@ class SessionCosts final : public CostSubject {
   [[nodiscard]] KnobRegistry& knobs() override { return session_.renderer->knobs(); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override;
   [[nodiscard]] std::vector<MeasureInfo> measures() const override;
-  [[nodiscard]] Result<FrameCost> draw(std::uint32_t index) override;
+  [[nodiscard]] Result<FrameCost> draw(std::int32_t index) override;
   [[nodiscard]] Result<std::uint64_t> gpu_bytes() override;
   [[nodiscard]] FrameCounters counters() override { return session_.renderer->report().counters; }
   [[nodiscard]] Result<FramePictures> read() override;
@@ -36,7 +36,7 @@ class SessionCosts final : public CostSubject {
   const Options& options_;
   ViewRequest request_;
   std::unique_ptr<ReferenceStore> store_;
-  std::uint32_t index_ = 0;  ///< index of the last frame
+  std::int32_t index_ = 0;  ///< index of the last frame
 };
 
 }  // namespace gloam

@@ -15,11 +15,12 @@
 namespace gloam {
 namespace {
 
-/// Frames drawn of one moment before it is read, so that data carried from frame to frame has settled.
-constexpr std::uint32_t kSettlingFrames = 3;
+/// Frames drawn up to the one that is read, so that data carried from frame to frame has settled. Their times go on, so
+/// that simulations start again and run with the knob's value.
+constexpr std::int32_t kSettlingFrames = 3;
 
 /// Version of metrics and protocol: rows stored under another version are measured again.
-constexpr int kMethod = 2;
+constexpr int kMethod = 3;
 
 std::string exact_text(double value) {
   char buffer[32];
@@ -94,7 +95,7 @@ Result<LedgerRow> KnobMeasurement::measure(const std::string& value) {
 }
 
 Status KnobMeasurement::settle() {
-  for (std::uint32_t frame = 0; frame < kSettlingFrames; ++frame) GLOAM_TRY(subject_.draw(0));
+  for (std::int32_t index = 1 - kSettlingFrames; index <= 0; ++index) GLOAM_TRY(subject_.draw(index));
   return {};
 }
 
@@ -108,7 +109,7 @@ Result<KnobMeasurement::Drawn> KnobMeasurement::draw() {
   if (request_.sequence >= 2) {
     GLOAM_TRY(settle());
     for (std::uint32_t index = 0; index < request_.sequence; ++index) {
-      GLOAM_TRY(subject_.draw(index));
+      GLOAM_TRY(subject_.draw(static_cast<std::int32_t>(index)));
       auto frame = subject_.read();
       if (!frame) return frame.error();
       drawn.sequence.push_back(std::move(frame->linear));
@@ -231,9 +232,10 @@ Result<JudgedReference> KnobMeasurement::compute(const FramePictures& frame) {
 }
 
 Status KnobMeasurement::time(const std::string& value, LedgerRow& row) {
+  std::int32_t index = 0;  // time goes on, so that frames include the work of simulations
   const auto run = [&](TimedSide side) -> Result<FrameCost> {
     GLOAM_TRY(set(side == TimedSide::standard ? default_ : value));
-    return subject_.draw(0);
+    return subject_.draw(index++);
   };
   const auto times = time_alternating({.pairs = request_.header.frames}, run);
   if (!times) return times.error();

@@ -117,6 +117,7 @@ void add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::sp
                       GrassStoreState& state, GrassFrame& grass) {
   const bool same_field = state.field == input.field && state.slot_masters == input.slot_masters;
   if (!same_field) state.residency.clear();
+  if (state.restarts != input.restarts) state.residency.clear_patches();
   const std::uint32_t old_capacity = state.residency.capacity();
   // The buffers of a world that was released, or not drawn for a while, are new and hold nothing.
   if (old_capacity > 0 && !kept_rows(frame, old_capacity, state.generation).filled()) state.residency.clear_patches();
@@ -130,6 +131,7 @@ void add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::sp
   if (grows && old_capacity > 0)
     add_growth_pass(frame, store_of(frame, old_capacity, input.slot_masters, state.generation - 1), grass.store);
   add_upload_pass(frame, input, grass);
+  state.restarts = input.restarts;
   state.field = input.field;
   state.slot_masters = input.slot_masters;
 }

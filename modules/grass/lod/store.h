@@ -16,6 +16,7 @@ struct GrassStoreState {
   std::uint64_t field = 0;         ///< version of the field
   std::uint32_t slot_masters = 0;  ///< masters for which a slot has room
   std::uint32_t generation = 0;    ///< of the buffers; a new one when they grow
+  std::uint32_t restarts = 0;      ///< StepClock::restarts of the knots
 };
 
 /// States of the worlds of a module. A frame works on a copy, which takes effect when it is submitted.
@@ -44,6 +45,7 @@ struct GrassStoreInput {
   std::uint64_t field = 0;                       ///< version of the patches
   std::uint64_t row_version = 0;
   std::uint32_t slot_masters = 0;
+  std::uint32_t restarts = 0;  ///< StepClock::restarts; knots of another one are forgotten
 };
 
 /// Gives the view's patches slots, grows the buffers, and adds the passes that upload the rows of new patches and clear

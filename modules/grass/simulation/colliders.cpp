@@ -105,18 +105,22 @@ void grass_colliders_system(View<const Collider, const WorldTransform> colliders
   });
   const auto index_of = [](const PlacedCollider& c) { return c.entity.index; };
   std::ranges::sort(placed, {}, index_of);
+  if (found->restarts != steps->restarts()) found->colliders.clear();
+  // False if the last frame begins at the same step: it made no step, or its time is that of this frame.
+  const bool follows = steps->first_step() != found->first_step;
   for (PlacedCollider& now : placed) {
     const auto before = std::ranges::lower_bound(found->colliders, now.entity.index, {}, index_of);
     if (before == found->colliders.end() || before->entity != now.entity || before->box != now.box) continue;
     PlacedCollider start = *before;
-    if (!found->advanced) {
+    if (!follows) {
       start.from = before->from_previous;
       start.to = before->to_previous;
     }
     sweep_collider(&start, now);
   }
   found->colliders = std::move(placed);
-  found->advanced = steps->frame_steps() > 0;
+  found->first_step = steps->first_step();
+  found->restarts = steps->restarts();
 }
 
 std::uint32_t colliders_near(const GrassPatch& patch, std::span<const PlacedCollider> colliders,

@@ -34,7 +34,8 @@ struct PlacedCollider {
 struct GrassColliders {
   std::vector<PlacedCollider> colliders;
   std::uint64_t frame = ~std::uint64_t{0};  ///< of the world (RenderView::frame)
-  bool advanced = false;  ///< the frame has advanced the grass, so the next one begins at these places
+  std::uint32_t first_step = 0;             ///< StepClock::first_step of the frame
+  std::uint32_t restarts = 0;               ///< StepClock::restarts of the frame
 };
 
 /// The collider at rest at this pose; none for ColliderShape::none and for values that are not finite. A scaled sphere
@@ -45,7 +46,8 @@ struct GrassColliders {
 /// Gives `now` the previous place of the same collider (null: it has been where it is), and the bounds of its way.
 void sweep_collider(const PlacedCollider* previous, PlacedCollider& now);
 
-/// Gathers the colliders. The previous place is that of the last frame that has advanced the grass.
+/// Gathers the colliders. The previous place is that of the frame that has reached the clock's first step. After the
+/// clock was started again, all colliders have been where they are.
 void grass_colliders_system(View<const Collider, const WorldTransform> colliders, ViewResource<const RenderView> view,
                             Resource<const StepClock> steps, Resource<GrassColliders> found);
 

@@ -21,14 +21,19 @@ void StepClock::advance(double dt_s) {
   now_ = static_cast<std::uint32_t>((std::uint64_t{now_} + frame_steps_) % GLOAM_GRASS_NO_STEP);
 }
 
-void StepClock::advance_in(std::uint64_t frame, double dt_s) {
+void StepClock::advance_in(std::uint64_t frame, const SceneClock& scene) {
   if (frame == frame_) return;
+  if (scene.time_s < time_s_) restart(0);
   frame_ = frame;
-  advance(dt_s);
+  if (scene.time_s == time_s_) return;
+  time_s_ = scene.time_s;
+  advance(scene.dt_s);
 }
 
 void StepClock::restart(std::uint32_t step) {
+  const std::uint32_t restarts = restarts_ + 1;
   *this = {};
+  restarts_ = restarts;
   first_step_ = now_ = step == GLOAM_GRASS_NO_STEP ? 0 : step;
 }
 
@@ -38,7 +43,7 @@ std::uint32_t steps_between(std::uint32_t from, std::uint32_t to) {
 
 void grass_steps_system(ViewResource<const RenderView> view, Resource<const SceneClock> clock,
                         Resource<StepClock> steps) {
-  steps->advance_in(view->frame, clock->dt_s);
+  steps->advance_in(view->frame, *clock);
 }
 
 }  // namespace gloam

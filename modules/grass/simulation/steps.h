@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "engine/render/view.h"
 #include "engine/scene/resources.h"
@@ -21,9 +22,10 @@ class StepClock {
   /// dt_s: duration of the frame. NaN and negative durations count as 0.
   void advance(double dt_s);
 
-  /// The same, once in each frame of the world (RenderView::frame): a frame that is drawn again, or that follows one
-  /// that was given up, has the steps of the first time.
-  void advance_in(std::uint64_t frame, double dt_s);
+  /// Advances by the scene's time, once in each frame of the world (RenderView::frame). A frame that is drawn again,
+  /// that follows one that was given up, or whose time is that of the frame before, has the steps of the first time. If
+  /// time has gone back, the clock starts again at step 0.
+  void advance_in(std::uint64_t frame, const SceneClock& scene);
 
   /// Steps that the last call of advance() has made.
   [[nodiscard]] std::uint32_t frame_steps() const { return frame_steps_; }
@@ -34,21 +36,26 @@ class StepClock {
   /// Time that the next frame begins with, in [0, kGrassStep).
   [[nodiscard]] double remainder_s() const { return remainder_s_; }
 
-  /// Continues at this step, with no remainder.
+  /// Times that the clock was started again. The blades of another start are put at rest.
+  [[nodiscard]] std::uint32_t restarts() const { return restarts_; }
+
+  /// Starts again at this step, with no remainder.
   void restart(std::uint32_t step);
 
  private:
   std::uint64_t frame_ = ~std::uint64_t{0};
+  double time_s_ = std::numeric_limits<double>::quiet_NaN();  ///< of the scene in the last frame; NaN: none
   double remainder_s_ = 0.0;
   std::uint32_t frame_steps_ = 0;
   std::uint32_t first_step_ = 0;
   std::uint32_t now_ = 0;
+  std::uint32_t restarts_ = 0;
 };
 
 /// Steps from `from` to `to` in the numbering of StepClock, where 0 follows 2³² − 2.
 [[nodiscard]] std::uint32_t steps_between(std::uint32_t from, std::uint32_t to);
 
-/// Advances the clock by the frame's duration.
+/// Advances the clock to the frame's time.
 void grass_steps_system(ViewResource<const RenderView> view, Resource<const SceneClock> clock,
                         Resource<StepClock> steps);
 

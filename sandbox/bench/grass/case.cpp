@@ -48,14 +48,9 @@ void GrassCase::remove_colliders() {
   for (const Entity entity : entities) session_->world.remove<Collider>(entity);
 }
 
-Status GrassCase::restart() {
-  const std::string masters = session_->renderer->knobs().text("grass.masters");
-  GLOAM_TRY(set("grass.masters", masters == "1:16" ? "1:8" : "1:16"));
-  if (const auto sample = draw(0.0); !sample) return sample.error();
-  GLOAM_TRY(set("grass.masters", masters));
+void GrassCase::restart() {
   session_->world.resource<StepClock>().restart(0);
   time_s_ = 0.0;
-  return {};
 }
 
 Result<FrameSample> GrassCase::draw(double dt_s) {

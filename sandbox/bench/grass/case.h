@@ -37,8 +37,8 @@ class GrassCase {
   void set_time(double time_s) { time_s_ = time_s; }
   /// Destroys all components that move grass apart from the wind.
   void remove_colliders();
-  /// Lets the next frame begin with all blades at rest, at time 0 and step 0. Regrows the field.
-  [[nodiscard]] Status restart();
+  /// Lets the next frame begin with all blades at rest, at time 0 and step 0.
+  void restart();
   /// Advances the clock, draws a frame and waits for it.
   [[nodiscard]] Result<FrameSample> draw(double dt_s);
   /// The same, and reads the frame's grass.

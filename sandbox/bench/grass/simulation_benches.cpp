@@ -61,7 +61,7 @@ struct Windy {
 };
 
 Result<Windy> draw_wind(GrassCase& grass) {
-  GLOAM_TRY(grass.restart());
+  grass.restart();
   Windy windy;
   for (int i = 0; i + 1 < kWindFrames; ++i) {
     if (const auto sample = grass.draw(kWindFrame_s); !sample) return sample.error();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "modules/accuracy/module.h"
 #include "tests/support/expect_assert.h"
@@ -42,8 +43,9 @@ class FakeSubject final : public CostSubject {
     if (!knobs_.is("fake.count", "on")) return {};
     return {{"fake.work", knobs_.number("fake.samples")}};
   }
-  [[nodiscard]] Result<FrameCost> draw(std::uint32_t index) override {
+  [[nodiscard]] Result<FrameCost> draw(std::int32_t index) override {
     ++frames_drawn;
+    indices.push_back(index);
     index_ = index;
     if (fail_after > 0 && frames_drawn > fail_after) return Error{ErrorKind::failed, "the device is lost"};
     counted_frames += knobs_.is("fake.count", "on") ? 1 : 0;
@@ -74,6 +76,7 @@ class FakeSubject final : public CostSubject {
   int frames_drawn = 0;
   int counted_frames = 0;
   int references_drawn = 0;
+  std::vector<std::int32_t> indices;  ///< of all drawn frames
   int fail_after = 0;
   std::vector<ReferenceInfo> references_;
   std::vector<MeasureInfo> measures_;
@@ -81,7 +84,7 @@ class FakeSubject final : public CostSubject {
 
  private:
   KnobRegistry knobs_;
-  std::uint32_t index_ = 0;
+  std::int32_t index_ = 0;
 };
 
 class Progress final : public CostProgress {
@@ -147,6 +150,18 @@ TEST_F(MeasureCosts, leaves_the_users_value_and_tells_progress) {
   EXPECT_THAT(progress_.lines,
               ElementsAre("fake.samples=1 0/4", "fake.samples=4 1/4", "fake.samples=16 2/4", "fake.samples=64 3/4"));
   EXPECT_EQ(progress_.measured, 4);
+}
+
+TEST_F(MeasureCosts, time_goes_on_up_to_a_picture_and_while_frames_are_timed) {
+  request_.header.frames = 2;
+  static_cast<void>(measure());
+  const std::vector<std::int32_t>& drawn = subject_.indices;
+  ASSERT_GT(drawn.size(), 16u);
+  EXPECT_THAT(std::vector(drawn.begin(), drawn.begin() + 8), ElementsAre(-2, -1, 0, -2, -1, 0, 0, 1))
+      << "the reference, the first value, and its times";
+  std::size_t repeated = 0;
+  for (std::size_t i = 1; i < drawn.size(); ++i) repeated += drawn[i] == drawn[i - 1] ? 1 : 0;
+  EXPECT_EQ(repeated, 4u) << "where the times of each of the four values begin";
 }
 
 TEST_F(MeasureCosts, a_second_run_draws_nothing) {

@@ -84,6 +84,9 @@ class GrassColliderSystem : public ::testing::Test {
   void move(Entity entity, dvec3 at) { world_.get<WorldTransform>(entity).matrix = placed_at(at); }
   const std::vector<PlacedCollider>& frame(double dt_s) {
     world_.resource<StepClock>().advance(dt_s);
+    return frame_at_the_same_time();
+  }
+  const std::vector<PlacedCollider>& frame_at_the_same_time() {
     ++view_.frame;
     grass_colliders_system(View<const Collider, const WorldTransform>(world_), ViewResource<const RenderView>(view_),
                            Resource<const StepClock>(world_.resource<StepClock>()),
@@ -106,6 +109,26 @@ TEST_F(GrassColliderSystem, the_way_begins_where_the_last_advanced_frame_has_end
   move(entity, dvec3(101.0, 0.0, 0.0));
   EXPECT_EQ(frame(0.1).at(0).from_previous, dvec3(0.0)) << "the frame before has not advanced the grass";
   EXPECT_EQ(frame(0.1).at(0).from_previous, dvec3(101.0, 0.0, 0.0));
+}
+
+TEST_F(GrassColliderSystem, a_frame_at_the_same_time_repeats_the_way) {
+  const Entity entity = add(kSphere, dvec3(0.0));
+  frame(0.1);
+  move(entity, dvec3(1.0, 0.0, 0.0));
+  for (int i = 0; i < 3; ++i) {
+    const PlacedCollider swept = i == 0 ? frame(0.1).at(0) : frame_at_the_same_time().at(0);
+    EXPECT_EQ(swept.from_previous, dvec3(0.0)) << i;
+    EXPECT_EQ(swept.from, dvec3(1.0, 0.0, 0.0)) << i;
+  }
+  EXPECT_EQ(frame(0.1).at(0).from_previous, dvec3(1.0, 0.0, 0.0));
+}
+
+TEST_F(GrassColliderSystem, after_a_restart_colliders_have_been_where_they_are) {
+  const Entity entity = add(kSphere, dvec3(0.0));
+  frame(0.1);
+  move(entity, dvec3(1.0, 0.0, 0.0));
+  world_.resource<StepClock>().restart(0);
+  EXPECT_EQ(frame(0.1).at(0).from_previous, dvec3(1.0, 0.0, 0.0));
 }
 
 TEST_F(GrassColliderSystem, colliders_come_in_the_order_of_their_entities_and_leave_with_them) {

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "shaders/grass/grass_shared.h"
 
@@ -77,6 +80,57 @@ TEST(GrassSteps, the_number_wraps_without_the_value_that_means_none) {
   EXPECT_EQ(steps_between(GLOAM_GRASS_NO_STEP - 3, 9), 12u);
   clock.restart(GLOAM_GRASS_NO_STEP);
   EXPECT_EQ(clock.now(), 0u);
+}
+
+TEST(GrassSteps, a_frame_at_the_time_of_the_last_one_has_its_steps) {
+  StepClock clock;
+  clock.advance_in(1, {.time_s = 2.0, .dt_s = 1.0 / 60.0});
+  clock.advance_in(2, {.time_s = 2.02, .dt_s = 0.02});
+  const StepClock last = clock;
+  for (const double dt_s : {0.02, 0.0, 1.0}) {
+    for (std::uint64_t frame = 3; frame < 6; ++frame) clock.advance_in(frame, {.time_s = 2.02, .dt_s = dt_s});
+    EXPECT_EQ(clock.now(), last.now()) << dt_s;
+    EXPECT_EQ(clock.first_step(), last.first_step()) << dt_s;
+    EXPECT_EQ(clock.frame_steps(), last.frame_steps()) << dt_s;
+    EXPECT_EQ(clock.remainder_s(), last.remainder_s()) << dt_s;
+  }
+  clock.advance_in(7, {.time_s = 2.02 + kGrassStep, .dt_s = kGrassStep});
+  EXPECT_EQ(clock.first_step(), last.now());
+  EXPECT_EQ(clock.frame_steps(), 1u);
+  EXPECT_EQ(clock.restarts(), 0u);
+}
+
+TEST(GrassSteps, the_same_frame_has_its_steps_at_any_time) {
+  StepClock clock;
+  clock.advance_in(1, {.time_s = 0.0, .dt_s = 1.0 / 60.0});
+  clock.advance_in(1, {.time_s = 0.5, .dt_s = 1.0 / 60.0});
+  clock.advance_in(1, {.time_s = -0.5, .dt_s = 1.0 / 60.0});
+  EXPECT_EQ(clock.now(), 2u);
+  EXPECT_EQ(clock.restarts(), 0u);
+}
+
+TEST(GrassSteps, a_sequence_of_frames_has_the_same_steps_each_time) {
+  StepClock clock;
+  std::vector<std::uint32_t> first;
+  std::uint64_t number = 0;
+  for (std::uint32_t turn = 0; turn < 3; ++turn) {
+    std::vector<std::uint32_t> steps;
+    for (int frame = 0; frame < 10; ++frame) {
+      clock.advance_in(number++, {.time_s = 1.0 + 0.013 * frame, .dt_s = 0.013});
+      steps.insert(steps.end(), {clock.first_step(), clock.frame_steps(), clock.now()});
+    }
+    if (turn == 0) first = steps;
+    EXPECT_EQ(steps, first) << "turn " << turn;
+    EXPECT_EQ(clock.restarts(), turn);
+  }
+}
+
+TEST(GrassSteps, a_time_that_is_no_number_advances_by_the_duration) {
+  StepClock clock;
+  for (std::uint64_t frame = 0; frame < 3; ++frame)
+    clock.advance_in(frame, {.time_s = std::numeric_limits<double>::quiet_NaN(), .dt_s = kGrassStep});
+  EXPECT_EQ(clock.now(), 3u);
+  EXPECT_EQ(clock.restarts(), 0u);
 }
 
 }  // namespace

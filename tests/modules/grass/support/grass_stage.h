@@ -121,12 +121,11 @@ class GrassStage {
 
   /// Draws a frame of these views.
   [[nodiscard]] Status try_draw(std::span<const ViewSettings> views) {
-    std::vector<ViewRequest> requests;
-    for (const ViewSettings& view : views) requests.push_back({view, {}});
-    for (auto& [view, captures] : captures_) captures.reset();
-    copies_.clear();
-    Status drawn = renderer->render(world, requests);
-    if (drawn.ok()) world.resource<SceneClock>().time_s += world.resource<SceneClock>().dt_s;
+    SceneClock& clock = world.resource<SceneClock>();
+    const double before_s = clock.time_s;
+    clock.time_s += clock.dt_s;
+    Status drawn = render(views);
+    if (!drawn.ok()) clock.time_s = before_s;
     return drawn;
   }
   void draw(std::span<const ViewSettings> views) {
@@ -137,6 +136,13 @@ class GrassStage {
   void draw(const ViewSettings& view) { draw(std::span(&view, 1)); }
   void draw(const ViewSettings& view, int frames) {
     for (int i = 0; i < frames; ++i) draw(view);
+  }
+  /// Draws a frame of the view at this time, whatever the time of the last one.
+  void draw_at(double time_s, const ViewSettings& view) {
+    world.resource<SceneClock>().time_s = time_s;
+    const Status drawn = render(std::span(&view, 1));
+    ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+    ASSERT_TRUE(renderer->wait().ok());
   }
   [[nodiscard]] LinearPicture linear(ViewId view = ViewId{0}) { return value_of(renderer->read_linear(view)); }
   [[nodiscard]] GeometryPicture geometry(ViewId view = ViewId{0}) {
@@ -180,6 +186,13 @@ class GrassStage {
   std::unique_ptr<Renderer> renderer;
 
  private:
+  [[nodiscard]] Status render(std::span<const ViewSettings> views) {
+    std::vector<ViewRequest> requests;
+    for (const ViewSettings& view : views) requests.push_back({view, {}});
+    for (auto& [view, captures] : captures_) captures.reset();
+    copies_.clear();
+    return renderer->render(world, requests);
+  }
   template <class T>
   [[nodiscard]] static std::vector<T> items(const Captures& captures, std::string_view name) {
     const std::span<const std::byte> bytes = captures.bytes(name);
