@@ -50,7 +50,6 @@ void upload_patches(FrameBuilder& frame, const GrassField& field, GrassFrame& gr
     row.wind_at = vec3(wind_position(patch.origin));
     row.first_blade = resident.slot * GLOAM_GRASS_PATCH_BLADES;
     row.blades = patch.blades;
-    row.masters = patch.masters;
     row.first_place = resident.slot * grass.slot_masters;
     row.first_collider = static_cast<std::uint32_t>(colliders.size());
     row.colliders = colliders_near(patch, placed, colliders);

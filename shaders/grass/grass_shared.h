@@ -39,7 +39,6 @@ struct GrassPatchRow {
   vec3 wind_at;         // position of the origin in the wind's field, metres, 0…GLOAM_GRASS_WIND_PERIOD
   uint first_blade;     // in the blade rows
   uint blades;          // ≤ 256
-  uint masters;         // ≤ blades
   uint first_place;     // the patch's first master in stamps; its knots begin at 16 · place
   uint first_collider;  // in the colliders
   uint colliders;

@@ -45,11 +45,11 @@ struct LodField {
       row.box_size = vec3(1.5f, 0.2f, 1.1f);
       row.first_blade = static_cast<std::uint32_t>(field.blades.size());
       row.blades = p == 0 ? 1 : 1 + static_cast<std::uint32_t>(random() % GLOAM_GRASS_PATCH_BLADES);
-      row.masters = 1 + static_cast<std::uint32_t>(random() % row.blades);
+      const std::uint32_t masters = 1 + static_cast<std::uint32_t>(random() % row.blades);
       row.first_place = field.places;
       row.max_distance_m = p % 2 == 0 ? 20.0f : 9.0f;
       field.range_m = std::max(field.range_m, row.max_distance_m);
-      field.places += row.masters;
+      field.places += masters;
       for (std::uint32_t i = 0; i < GLOAM_GRASS_PATCH_BLADES; ++i) {
         shaders::GrassBladeRow blade{};
         if (i < row.blades) {
@@ -58,7 +58,7 @@ struct LodField {
           blade.root_y_normal = word() & 0xFFFFu;
           const float length_m = i % 37 == 5 ? 0.0f : 0.1f + 0.5f * unit(random);
           blade.size = std::uint32_t{float_to_half(length_m)} | std::uint32_t{float_to_half(0.006f)} << 16;
-          const std::uint32_t master = i < row.masters ? i : word() % row.masters;
+          const std::uint32_t master = i < masters ? i : word() % masters;
           blade.kind = (word() & 0xFF0000FFu) | master << 16;
         }
         field.blades.push_back(blade);

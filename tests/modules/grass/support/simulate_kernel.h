@@ -76,7 +76,7 @@ inline void add_patch(GrassInput& input, std::uint32_t count, std::uint32_t seed
   row.box_size = vec3(4.0f, 0.4f, 4.0f);
   row.wind_at = vec3(250.0f * unit(random), 10.0f, 250.0f * unit(random));
   row.first_blade = static_cast<std::uint32_t>(input.blades.size());
-  row.blades = row.masters = count;
+  row.blades = count;
   row.first_place = static_cast<std::uint32_t>(input.knots.size() / GLOAM_GRASS_KNOTS);
   row.first_collider = static_cast<std::uint32_t>(input.colliders.size());
   input.patches.push_back(row);
