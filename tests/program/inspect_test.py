@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 """Tests the output of `inspect` for built-in scenes and for a file."""
+import copy
 import json
 
 from program_case import ProgramCase, main
@@ -68,6 +69,23 @@ class Inspect(ProgramCase):
         self.assertEqual(told["lights"], 0)
         self.assertIn("eye", self.expect(0, "inspect", "leaf.gltf").stdout)
         self.expect(2, "inspect", "leaf.gltf", "--camera", "leaf")
+
+    def test_a_missing_or_malformed_file_of_blade_types_is_3(self):
+        good = "fescue 1 1 1 0.5 0.1 0,0 0.1,0.6 0.3,1\n"
+        files = (("good.txt", good, ""),
+                 ("absent.txt", None, "absent.txt\n"),
+                 ("malformed.txt", good + "sedge 1 1 1 0.5 0.1 0,0 0.1,tall\n", "malformed.txt line 2: "),
+                 ("empty.txt", "", "empty.txt: "))
+        for name, content, says in files:
+            scene = copy.deepcopy(TRIANGLE)
+            scene["nodes"][0]["extras"] = {"gloam.grass.density": 100, "gloam.grass.types": name}
+            (self.folder / "lawn.gltf").write_text(json.dumps(scene))
+            if content is not None:
+                (self.folder / name).write_text(content)
+            if content == good:
+                self.assertEqual(self.inspect("lawn.gltf")["warnings"], [])
+                continue
+            self.expect(3, "inspect", "lawn.gltf", says=says)
 
 
 if __name__ == "__main__":
