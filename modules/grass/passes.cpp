@@ -33,6 +33,7 @@ shaders::GrassSteps steps_of(const World& world, std::uint32_t iterations) {
   steps.now = clock.now();
   steps.frame_steps = clock.frame_steps();
   steps.iterations = iterations;
+  steps.moves = clock.moves() ? 1 : 0;
   return steps;
 }
 
@@ -100,7 +101,7 @@ WorldBox casting_box(const GrassField& field, std::span<const VisiblePatch> visi
 
 void announce_grass(FrameBuilder& frame) {
   const auto& visible = frame.world().view_resource<VisiblePatches>(frame.view().id);
-  if (visible.patches.empty()) return;
+  if (visible.patches.empty() || !blade_pipelines_ready(frame)) return;
   auto grass = std::make_shared<GrassFrame>();
   grass->knobs = grass_knobs(frame.knobs());
   grass->knobs.threads = simulation_threads(grass->knobs.threads, frame.services().device.info().threads_in_turn);
@@ -153,8 +154,7 @@ void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, Pipelin
   for (const bool colliders : {false, true}) add(grass_simulation_program(threads, colliders));
   add(grass_pose_program());
   for (const ComputeProgram& program : radix_sort_programs(threads_in_turn, true)) add(program);
-  for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i)
-    list.push_back(pipeline_desc(blade_program(i, false), "grass", geometry_formats(false), kGeometryDepthFormat));
+  list_blade_pipelines(false, false, list);
   if (knobs.cast_distance_m > 0.0f) list.push_back(caster_pipeline_desc(blade_caster_program(), "grass"));
 }
 

@@ -75,6 +75,7 @@ struct GrassSteps {
   uint now;          // number of the step that all simulated blades reach in this frame
   uint frame_steps;  // steps that this frame advances; blades that slept do at most that many
   uint iterations;   // of constraints in each step, 1…64
+  uint moves;        // 1: blades that have reached `now` have moved since the frame before
 };
 
 /// One master that a frame simulates.

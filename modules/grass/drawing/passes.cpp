@@ -49,6 +49,21 @@ CasterProgram blade_caster_program() {
   return {.vertex = shaders::grass::caster_vert, .constants = {{1, kClassSegments[kCasterClass]}}};
 }
 
+void list_blade_pipelines(bool motion, bool clipped, PipelineList& list) {
+  for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i)
+    list.push_back(
+        pipeline_desc(blade_program(i, motion, clipped), "grass", geometry_formats(motion), kGeometryDepthFormat));
+}
+
+bool blade_pipelines_ready(const FrameBuilder& frame) {
+  const FrameServices& services = frame.services();
+  if (services.wait_for_pipelines) return true;
+  const auto* geometry = frame.find<GeometryOutputs>();
+  PipelineList list;
+  list_blade_pipelines(geometry != nullptr && geometry->motion, frame.view().clipped, list);
+  return services.pipelines.request(list, services.log);
+}
+
 void bind_blades(ShaderPass& pass, const GrassFrame& grass) {
   pass.read("poses", grass.poses);
   pass.read("draws", grass.draws);
@@ -89,6 +104,7 @@ void add_blade_pass(FrameBuilder& frame, GrassFrame& grass) {
     if (motion) {
       pass.uniform("steps", grass.steps);
       pass.read("previous_knots", grass.store.previous_knots);
+      pass.read("stamps", grass.store.stamps);
     }
     pass.draw_indexed_indirect(grass.indices, grass.draws,
                                offsetof(shaders::GrassDraws, draws) + i * sizeof(shaders::GrassDraw), 1);

@@ -16,6 +16,12 @@ namespace gloam {
 [[nodiscard]] DrawProgram blade_program(std::uint32_t draw_class, bool motion, bool clipped = false);
 [[nodiscard]] CasterProgram blade_caster_program();
 
+/// Pipelines that draw the blades. motion: into frames with GeometryOutputs::motion. clipped: of a view with a clip
+/// plane.
+void list_blade_pipelines(bool motion, bool clipped, PipelineList& list);
+/// Whether the pipelines of the view's kind exist, or the frame waits for them. Otherwise they are requested.
+[[nodiscard]] bool blade_pipelines_ready(const FrameBuilder& frame);
+
 /// Computes the poses of the live blades. Sets GrassFrame::poses.
 void add_pose_pass(FrameBuilder& frame, GrassFrame& grass);
 /// Draws the live blades into the geometry buffer.

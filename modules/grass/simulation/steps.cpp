@@ -25,7 +25,8 @@ void StepClock::advance_in(std::uint64_t frame, const SceneClock& scene) {
   if (frame == frame_) return;
   if (scene.time_s < time_s_) restart(0);
   frame_ = frame;
-  if (scene.time_s == time_s_) return;
+  moves_ = scene.time_s != time_s_;  // also for NaN
+  if (!moves_) return;
   time_s_ = scene.time_s;
   advance(scene.dt_s);
 }

@@ -36,6 +36,8 @@ class StepClock {
   /// Time that the next frame begins with, in [0, kGrassStep).
   [[nodiscard]] double remainder_s() const { return remainder_s_; }
 
+  /// Whether the last frame has made steps since the frame before. False if their times are equal.
+  [[nodiscard]] bool moves() const { return moves_ && frame_steps_ > 0; }
   /// Times that the clock was started again. The blades of another start are put at rest.
   [[nodiscard]] std::uint32_t restarts() const { return restarts_; }
 
@@ -50,6 +52,7 @@ class StepClock {
   std::uint32_t first_step_ = 0;
   std::uint32_t now_ = 0;
   std::uint32_t restarts_ = 0;
+  bool moves_ = false;
 };
 
 /// Steps from `from` to `to` in the numbering of StepClock, where 0 follows 2³² − 2.

@@ -17,10 +17,12 @@ layout(location = 1) out vec3 out_binormal;
 layout(location = 2) out vec3 out_place;  // along, across, layer
 layout(location = 3) out vec3 out_relative;
 #ifdef GLOAM_MOTION
+#include "shaders/grass/way_api.glsl"
 #include "shaders/render/motion_api.glsl"
 layout(set = 0, binding = 4, scalar) uniform MotionBlock { MotionConstants motion; };
 layout(set = 0, binding = 5, scalar) readonly buffer PreviousKnots { vec4 previous_knots[]; };  // a step earlier
 layout(set = 0, binding = 6, scalar) uniform Steps { GrassSteps steps; };
+layout(set = 0, binding = 7, scalar) readonly buffer Stamps { uint stamps[]; };  // step that each master has reached
 layout(location = 4) out vec3 out_clip;
 layout(location = 5) out vec3 out_previous_clip;
 #endif
@@ -35,7 +37,9 @@ void main() {
   out_relative = v.relative;
 #ifdef GLOAM_MOTION
   out_clip = gl_Position.xyw;
-  vec3 moved = posed(poses[v.pose], knots[v.knot].xyz - previous_knots[v.knot].xyz) * float(steps.frame_steps);
-  out_previous_clip = previous_clip_at_rest(motion, v.relative - moved);
+  // A slave's pose in the frame before is taken to be that of this frame.
+  bool moves = steps.moves != 0u && stamps[v.knot / uint(GLOAM_GRASS_KNOTS)] == steps.now;
+  vec3 way = posed(poses[v.pose], unpack_way(vec2(knots[v.knot].w, previous_knots[v.knot].w)));
+  out_previous_clip = previous_clip_at_rest(motion, moves ? v.relative - way : v.relative);
 #endif
 }

@@ -7,6 +7,7 @@
 
 #include "shaders/common/runtime_value.glsl"
 #include "shaders/grass/simulation/solver.glsl"
+#include "shaders/grass/way_api.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform StepsBlock { GrassSteps steps; };
 layout(set = 0, binding = 1, scalar) readonly buffer Patches { GrassPatchRow patches[]; };
@@ -15,8 +16,19 @@ layout(set = 0, binding = 3, scalar) readonly buffer Types { GrassTypeRow types[
 layout(set = 0, binding = 4, scalar) readonly buffer MasterList { GrassMaster master_list[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer MasterCount { uint master_count; };
 layout(set = 0, binding = 6, scalar) readonly buffer Colliders { GrassCollider colliders[]; };
-// 16 for each place; relative to the patch's origin, w is 0.
+// 16 for each place, relative to the patch's origin; w holds the way of the last frame (pack_way).
 layout(set = 0, binding = 7, scalar) buffer Knots { vec4 knots[]; };
 layout(set = 0, binding = 8, scalar) buffer PreviousKnots { vec4 previous_knots[]; };  // a step earlier
+
+// Writes a knot. at, before: relative to the root, at the last step and a step earlier. fresh: the frame has put the
+// knot at rest, so it has no way.
+void store_knot(uint place, vec3 root, vec3 at, vec3 before, bool fresh) {
+  precise vec3 at_in_patch = root + at;
+  precise vec3 before_in_patch = root + before;
+  precise vec3 way = at_in_patch - knots[place].xyz;
+  vec2 stored = !fresh && dot(way, way) < 1e8 ? pack_way(way) : pack_way(vec3(0.0));  // false for NaN
+  knots[place] = vec4(at_in_patch, stored.x);
+  previous_knots[place] = vec4(before_in_patch, stored.y);
+}
 
 #endif

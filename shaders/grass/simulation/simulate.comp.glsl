@@ -128,8 +128,5 @@ void main() {
     at = runs && k != 0u ? knot_at[1][lane] : at;
   } while (++turn < runtime_value(steps.frame_steps));
   if (!real) return;
-  precise vec3 at_in_patch = stem.root + at;
-  precise vec3 before_in_patch = stem.root + before;
-  knots[place] = vec4(at_in_patch, 0.0);
-  previous_knots[place] = vec4(before_in_patch, 0.0);
+  store_knot(place, stem.root, at, before, master.steps == GLOAM_GRASS_NO_STEP);
 }

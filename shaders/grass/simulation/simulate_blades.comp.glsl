@@ -108,10 +108,6 @@ void main() {
     advance(patch_row, stem, turn + steps.frame_steps - own_steps, turn < own_steps);
   } while (++turn < runtime_value(steps.frame_steps));
 
-  [[unroll]] for (int k = 0; k < kKnots; ++k) {
-    precise vec3 at_in_patch = stem.root + at[k];
-    precise vec3 before_in_patch = stem.root + before[k];
-    knots[place + uint(k)] = vec4(at_in_patch, 0.0);
-    previous_knots[place + uint(k)] = vec4(before_in_patch, 0.0);
-  }
+  bool fresh = master.steps == GLOAM_GRASS_NO_STEP;
+  [[unroll]] for (int k = 0; k < kKnots; ++k) store_knot(place + uint(k), stem.root, at[k], before[k], fresh);
 }

@@ -17,17 +17,20 @@ class GuestModule final : public Module {
   using Passes = std::function<void(FrameBuilder&, PassPhase)>;
 
   /// passes: must outlive the module; may change between frames. If empty, the world does not demand the module.
-  explicit GuestModule(const Passes& passes) : passes_(passes) {}
+  /// motion: whether it needs GeometryOutputs::motion.
+  explicit GuestModule(const Passes& passes, bool motion = false) : passes_(passes), motion_(motion) {}
   [[nodiscard]] std::string_view name() const override { return "guest"; }
   void register_components(World&) const override {}
   void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override {
     return {static_cast<bool>(passes_), "the test says so"};
   }
+  [[nodiscard]] bool needs_motion(const World&, const KnobRegistry&) const override { return motion_; }
   void add_passes(FrameBuilder& frame, PassPhase phase) override { passes_(frame, phase); }
 
  private:
   const Passes& passes_;
+  bool motion_;
 };
 
 /// A lit scene with a guest module.

@@ -58,6 +58,7 @@ struct GrassCopy {
 struct StageOptions {
   std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
   bool shadows = false;
+  bool motion = false;  ///< frames have GeometryOutputs::motion
 };
 
 /// A renderer of all modules with a world, and copies of the grass's buffers of the last frame. Time rests until
@@ -71,7 +72,7 @@ class GrassStage {
     made.log = &gpu_log();
     made.modules = make_all_modules();
     made.modules.push_back(std::make_unique<FailingModule>());
-    made.modules.push_back(std::make_unique<GuestModule>(guest_));
+    made.modules.push_back(std::make_unique<GuestModule>(guest_, options.motion));
     renderer = value_of(Renderer::create(std::move(made)));
     if (!options.shadows) set("shadows.mode", "off");
     renderer->prepare_world(world);
