@@ -3,80 +3,31 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <cmath>
 #include <set>
+#include <span>
 #include <string>
-#include <vector>
 
-#include "engine/gpu/recording_device.h"
-#include "engine/jobs/executor.h"
-#include "engine/render/renderer.h"
-#include "modules/module_list/module_list.h"
 #include "tests/modules/grass/support/grass_stage.h"
+#include "tests/support/module_demand.h"
 
 namespace gloam::test {
 namespace {
 
-/// A renderer of all modules on a device that records commands, and a level square that may grow grass.
-struct GrassDemand : testing::Test {
-  void SetUp() override {
-    device = gpu::make_recording_device();
-    RendererOptions options;
-    options.device = device.get();
-    options.executor = executor.get();
-    options.log = &gpu_log();
-    options.zones = &zones;
-    options.modules = make_all_modules();
-    renderer = Renderer::create(std::move(options)).value();
-    renderer->prepare_world(world);
-    scene = std::make_unique<SceneMaker>(world);
+/// A level square that may grow grass.
+class GrassDemand : public ModuleDemand {
+ protected:
+  GrassDemand() : ModuleDemand("grass") {
     square = scene->draw(scene->mesh(quad(1.0f)), GrassStage::lying(dvec3(0.0)));
     request.settings = look_at(dvec3(0.0, 0.5, 2.0), dvec3(0.0), 64, 48);
-  }
-  void TearDown() override {
-    scene.reset();
-    renderer.reset();
-    EXPECT_THAT(device->faults(), testing::IsEmpty());
-    EXPECT_THAT(device->memory(), testing::Each(testing::Field(&gpu::ModuleMemory::bytes, 0u)));
   }
   void sow(float density) {
     GrassSurface values;
     values.density = density;
     world.add(square, values);
   }
-  void frames(int count = 3) {
-    for (int i = 0; i < count; ++i) {
-      static_cast<void>(zones.take());
-      const Status drawn = renderer->render(world, std::span(&request, 1));
-      ASSERT_TRUE(drawn.ok()) << drawn.error().message;
-    }
-    passes.clear();
-    for (const PassTime& pass : renderer->report().passes)
-      if (pass.module == "grass") passes.insert(pass.name);
-    systems.clear();
-    for (const Zone& zone : zones.take())
-      if (zone.module == "grass") systems.insert(zone.name);
-    for (const ModuleState& found : renderer->report().modules)
-      if (found.name == "grass") state = found;
-  }
-  void expect_nothing() {
-    EXPECT_THAT(passes, testing::IsEmpty());
-    EXPECT_THAT(systems, testing::IsEmpty());
-    EXPECT_EQ(state.pipelines, 0u);
-    EXPECT_EQ(state.gpu_bytes, 0u);
-    EXPECT_FALSE(state.demanded) << state.reason;
-  }
 
-  std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
-  ZoneRecorder zones;
-  std::unique_ptr<gpu::RecordingDevice> device;
-  std::unique_ptr<Renderer> renderer;
-  World world;
-  std::unique_ptr<SceneMaker> scene;
   Entity square;
-  ViewRequest request;
-  std::set<std::string> passes, systems;
-  ModuleState state;
 };
 
 TEST_F(GrassDemand, a_scene_without_a_surface_has_no_grass_at_all) {

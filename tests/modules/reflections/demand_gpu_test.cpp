@@ -3,44 +3,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <map>
-#include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
-#include "engine/jobs/executor.h"
-#include "engine/render/renderer.h"
-#include "modules/module_list/module_list.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/components.h"
-#include "tests/support/gpu_device.h"
-#include "tests/support/render_scene.h"
+#include "tests/support/module_demand.h"
 
 namespace gloam {
 namespace {
 
-/// A renderer of all modules on a device that records commands, and a floor whose material may reflect.
-struct ReflectionDemand : testing::Test {
-  void SetUp() override {
-    device = gpu::make_recording_device();
-    RendererOptions options;
-    options.device = device.get();
-    options.executor = executor.get();
-    options.log = &test::gpu_log();
-    options.zones = &zones;
-    options.modules = make_all_modules();
-    renderer = Renderer::create(std::move(options)).value();
-    renderer->prepare_world(world);
-    scene = std::make_unique<test::SceneMaker>(world);
+/// A floor whose material may reflect.
+class ReflectionDemand : public test::ModuleDemand {
+ protected:
+  ReflectionDemand() : ModuleDemand("reflections") {
     request.settings = test::look_at(dvec3(0.0, 1.5, 4.0), dvec3(0.0), 64, 48);
-  }
-  void TearDown() override {
-    scene.reset();
-    renderer.reset();
-    EXPECT_THAT(device->faults(), testing::IsEmpty());
-    EXPECT_THAT(device->memory(), testing::Each(testing::Field(&gpu::ModuleMemory::bytes, 0u)));
   }
   Entity floor(float reflectivity, float roughness, const dvec3& at = dvec3(0.0)) {
     Material material;
@@ -63,38 +42,6 @@ struct ReflectionDemand : testing::Test {
     captures.content = captures.version = 1;
     world.set_resource(captures);
   }
-  void frames(int count = 3) {
-    for (int i = 0; i < count; ++i) {
-      static_cast<void>(zones.take());
-      const Status drawn = renderer->render(world, std::span(&request, 1));
-      ASSERT_TRUE(drawn.ok()) << drawn.error().message;
-    }
-    passes.clear();
-    for (const PassTime& pass : renderer->report().passes)
-      if (pass.module == "reflections") passes.insert(pass.name);
-    systems.clear();
-    for (const Zone& zone : zones.take())
-      if (zone.module == "reflections") systems.insert(zone.name);
-    for (const ModuleState& found : renderer->report().modules)
-      if (found.name == "reflections") state = found;
-  }
-  void expect_nothing() {
-    EXPECT_THAT(passes, testing::IsEmpty());
-    EXPECT_THAT(systems, testing::IsEmpty());
-    EXPECT_EQ(state.pipelines, 0u);
-    EXPECT_EQ(state.gpu_bytes, 0u);
-    EXPECT_FALSE(state.demanded) << state.reason;
-  }
-
-  std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
-  ZoneRecorder zones;
-  std::unique_ptr<gpu::RecordingDevice> device;
-  std::unique_ptr<Renderer> renderer;
-  World world;
-  std::unique_ptr<test::SceneMaker> scene;
-  ViewRequest request;
-  std::set<std::string> passes, systems;
-  ModuleState state;
 };
 
 TEST_F(ReflectionDemand, a_scene_without_a_reflective_material_has_no_reflections_at_all) {
