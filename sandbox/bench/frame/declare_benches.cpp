@@ -3,8 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +12,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/recording_device.h"
 #include "engine/render/declare/compute_pass.h"
-#include "engine/render/declare/recording.h"
+#include "engine/render/declare/pass_frames.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/measure.h"
 #include "shaders/lights/shaders.h"
@@ -34,75 +32,51 @@ constexpr double kNsPerMs = 1e6;
 /// and writes a transient image, a transient buffer and an imported buffer, so that no pass is culled.
 class HundredPasses {
  public:
-  explicit HundredPasses(gpu::Device& device)
-      : pipelines_(device),
-        uniforms_(device, "bench", gpu::BufferUsage::uniform),
-        storage_(device, "bench", gpu::BufferUsage::storage),
-        results_(device),
-        declared_(device),
-        history_(device),
-        scene_(device, pipelines_),
-        executor_(make_serial_executor()),
-        services_{.device = device,
-                  .executor = *executor_,
-                  .log = null_log(),
-                  .knobs = knobs_,
-                  .pipelines = pipelines_,
-                  .uniforms = uniforms_,
-                  .storage = storage_,
-                  .results = results_,
-                  .declared = declared_,
-                  .history = history_},
-        graph_(device) {
+  explicit HundredPasses(gpu::Device& device) : frames_(device, null_log(), "bench", small_view()) {
     for (std::size_t i = 0; i < kPasses; ++i) names_.push_back("declared_pass_" + std::to_string(i));
     gpu::BufferDesc kept = buffer_desc("declared_counters");
     kept.usage = gpu::BufferUsage::storage;
     counters_ = device.create_buffer(kept).value();
-    ViewSettings settings;
-    settings.width = settings.height = 64;
-    view_ = make_view(settings, 0);
-    draws_.views.resize(1);
   }
 
   [[nodiscard]] Status declare() {
-    graph_.begin();
-    declared_.recordings.begin_frame();
-    declared_.due_pipelines.begin_frame();
-    uniforms_.begin_frame();
-    shared_.clear();
-    frame_.emplace(services_, graph_, world_, view_, scene_, draws_, 0, shared_);
-    frame_->upload_view_constants(0);
-    const gpu::Binding::BufferRange uniform = std::get<gpu::Binding::BufferRange>(frame_->view_binding().resource);
+    FrameBuilder& frame = frames_.begin();
+    FrameGraph& graph = frames_.graph();
+    frame.upload_view_constants(0);
+    const gpu::Binding::BufferRange uniform = std::get<gpu::Binding::BufferRange>(frame.view_binding().resource);
     images_.fill({});
     BufferRef counters =
-        graph_.import_buffer("declared_counters", counters_, gpu::Access::compute_write, gpu::Access::compute_write);
+        graph.import_buffer("declared_counters", counters_, gpu::Access::compute_write, gpu::Access::compute_write);
     BufferRef masks;
     for (std::size_t i = 0; i < kPasses; ++i) {
-      ComputePass pass(*frame_, names_[i], shaders::lights::find_lights_accurate_tiles_comp);
+      ComputePass pass(frame, names_[i], shaders::lights::find_lights_accurate_tiles_comp);
       pass.read("lights", uniform);
       pass.read("grid", uniform);
       pass.read("depth_image", i >= 1 ? images_[i - 1] : ImageRef{});
       pass.read("light_texels", i >= 8 ? images_[i - 8] : ImageRef{});
       pass.read("depth_bounds", i >= 1 ? images_[i - 1] : ImageRef{});
       pass.read("group_masks", masks);
-      images_[i] = pass.write("tile_lists", graph_.create_image(image_desc(names_[i])));
-      masks = pass.write("early_lists", graph_.create_buffer(buffer_desc(names_[i])));
+      images_[i] = pass.write("tile_lists", graph.create_image(image_desc(names_[i])));
+      masks = pass.write("early_lists", graph.create_buffer(buffer_desc(names_[i])));
       counters = pass.write("counters", counters);
       pass.dispatch_over(64, 64);
       pass.record([this](PassContext&) { ++recorded_; });
     }
-    GLOAM_TRY(frame_->status());
-    GLOAM_TRY(declared_.due_pipelines.make_all(pipelines_, *executor_));
-    return graph_.compile();
+    return frames_.compile();
   }
 
   /// Records the frame declared last.
-  void execute(gpu::CommandList& commands) { graph_.execute(commands); }
+  [[nodiscard]] Status record(gpu::CommandList& commands) { return frames_.record(commands); }
   /// Number of passes that were recorded.
   [[nodiscard]] std::size_t recorded() const { return recorded_; }
-  [[nodiscard]] const FrameGraph& graph() const { return graph_; }
+  [[nodiscard]] FrameGraph& graph() { return frames_.graph(); }
 
  private:
+  static RenderView small_view() {
+    ViewSettings settings;
+    settings.width = settings.height = 64;
+    return make_view(settings, 0);
+  }
   static gpu::ImageDesc image_desc(std::string name) {
     return {.name = std::move(name), .module = "bench", .format = gpu::Format::rg32_uint, .width = 64, .height = 64};
   }
@@ -110,22 +84,7 @@ class HundredPasses {
     return {.name = std::move(name), .module = "bench", .size = 4096};
   }
 
-  KnobRegistry knobs_;
-  Pipelines pipelines_;
-  UploadRing uniforms_;
-  UploadRing storage_;
-  FrameResults results_;
-  declare::State declared_;
-  History history_;
-  GpuScene scene_;
-  std::unique_ptr<JobExecutor> executor_;
-  FrameServices services_;
-  FrameGraph graph_;
-  World world_;
-  RenderView view_;
-  FrameDraws draws_;
-  Board shared_;
-  std::optional<FrameBuilder> frame_;
+  PassFrames frames_;
   std::vector<std::string> names_;
   gpu::BufferHandle counters_;
   std::array<ImageRef, kPasses> images_;
@@ -137,7 +96,7 @@ Result<std::uint64_t> recorded_hash(gpu::RecordingDevice& device, HundredPasses&
   auto commands = device.begin_frame();
   if (!commands) return commands.error();
   GLOAM_TRY(frame.declare());
-  frame.execute(**commands);
+  GLOAM_TRY(frame.record(**commands));
   GLOAM_TRY(device.submit_frame());
   if (!device.faults().empty()) return Error{ErrorKind::failed, "frame.declare_100_passes: " + device.faults().front()};
   if (frame.recorded() != kPasses)

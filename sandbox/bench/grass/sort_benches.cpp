@@ -12,7 +12,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/frame/upload.h"
-#include "engine/render/declare/recording.h"
+#include "engine/render/declare/pass_frames.h"
 #include "engine/render/sort/radix_sort.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
@@ -53,16 +53,7 @@ struct SortTimes {
 /// Frames that sort the keys, and then copy kMovedBytes / 2 bytes.
 class SortFrames {
  public:
-  explicit SortFrames(gpu::Device& device)
-      : device_(device),
-        pipelines_(device),
-        uniforms_(device, "bench", gpu::BufferUsage::uniform),
-        storage_(device, "bench", gpu::BufferUsage::storage),
-        results_(device),
-        declared_(device),
-        history_(device),
-        graph_(device),
-        scene_(device, pipelines_) {}
+  explicit SortFrames(gpu::Device& device) : device_(device), frames_(device, null_log(), "bench") {}
   ~SortFrames() {
     static_cast<void>(device_.wait_idle());
     for (const gpu::BufferHandle buffer : {keys_, sorted_, source_, target_})
@@ -97,16 +88,16 @@ class SortFrames {
   [[nodiscard]] Result<SortTimes> draw() {
     auto commands = device_.begin_frame();
     if (!commands) return commands.error();
-    Status drawn = record(**commands);
+    const Status drawn = frames_.record(**commands, [this](FrameBuilder& frame) { declare(frame); });
     if (!drawn.ok()) {
       static_cast<void>(device_.abandon_frame());
-      graph_.give_up_frame();
+      frames_.graph().give_up_frame();
       return drawn.error();
     }
     GLOAM_TRY(device_.submit_frame());
     GLOAM_TRY(device_.wait_idle());
     SortTimes times;
-    const std::vector<PassTime> passes = graph_.pass_times();
+    const std::vector<PassTime> passes = frames_.graph().pass_times();
     for (const PassTime& pass : passes) {
       if (pass.name.starts_with("sort_")) times.sort_ns += pass.ms * kNsPerMs;
       if (pass.name == "copy_moved_bytes") times.copy_ns += pass.ms * kNsPerMs;
@@ -121,35 +112,22 @@ class SortFrames {
   }
 
  private:
-  [[nodiscard]] Status record(gpu::CommandList& commands) {
-    uniforms_.begin_frame();
-    storage_.begin_frame();
-    results_.begin_frame();
-    graph_.begin();
-    declared_.recordings.begin_frame();
-    declared_.due_pipelines.begin_frame();
-    history_.begin_frame();
-    shared_.clear();
-    FrameBuilder frame(services_, graph_, world_, view_, scene_, draws_, 0, shared_);
+  void declare(FrameBuilder& frame) {
+    FrameGraph& graph = frame.graph();
     const BufferRef keys =
-        graph_.import_buffer("sort_keys", keys_, gpu::Access::compute_read, gpu::Access::compute_read);
+        graph.import_buffer("sort_keys", keys_, gpu::Access::compute_read, gpu::Access::compute_read);
     const SortedKeys sorted = add_radix_sort_passes(frame, "sort", keys, {}, kKeys);
-    add_copy("copy_moved_bytes",
-             graph_.import_buffer("copy_source", source_, gpu::Access::transfer_read, gpu::Access::transfer_read),
+    add_copy(graph, "copy_moved_bytes",
+             graph.import_buffer("copy_source", source_, gpu::Access::transfer_read, gpu::Access::transfer_read),
              target_, kMovedBytes / 2);
-    add_copy("keep_sorted", sorted.values, sorted_, std::uint64_t{kKeys} * 4);
-    GLOAM_TRY(frame.status());
-    GLOAM_TRY(declared_.due_pipelines.make_all(pipelines_, *executor_));
-    GLOAM_TRY(graph_.compile());
-    graph_.execute(commands);
-    return graph_.recorded();
+    add_copy(graph, "keep_sorted", sorted.values, sorted_, std::uint64_t{kKeys} * 4);
   }
-  void add_copy(const char* name, BufferRef from, gpu::BufferHandle to, std::uint64_t bytes) {
-    PassBuilder pass = graph_.add_pass(name, "bench");
+  void add_copy(FrameGraph& graph, const char* name, BufferRef from, gpu::BufferHandle to, std::uint64_t bytes) {
+    PassBuilder pass = graph.add_pass(name, "bench");
     pass.read(from, gpu::Access::transfer_read);
     const bool host = device_.desc(to).memory == gpu::MemoryKind::readback;
-    const BufferRef target = pass.write(graph_.import_buffer(std::string(name) + "_target", to, gpu::Access::none,
-                                                             host ? gpu::Access::host_read : gpu::Access::none),
+    const BufferRef target = pass.write(graph.import_buffer(std::string(name) + "_target", to, gpu::Access::none,
+                                                            host ? gpu::Access::host_read : gpu::Access::none),
                                         gpu::Access::transfer_write);
     pass.execute([=](PassContext& context) {
       context.commands().copy_buffer(context.buffer(from), 0, context.buffer(target), 0, bytes);
@@ -157,30 +135,7 @@ class SortFrames {
   }
 
   gpu::Device& device_;
-  std::unique_ptr<JobExecutor> executor_ = make_serial_executor();
-  KnobRegistry knobs_;
-  Pipelines pipelines_;
-  UploadRing uniforms_;
-  UploadRing storage_;
-  FrameResults results_;
-  declare::State declared_;
-  History history_;
-  FrameGraph graph_;
-  World world_;
-  RenderView view_;
-  GpuScene scene_;
-  FrameDraws draws_;
-  Board shared_;
-  FrameServices services_{.device = device_,
-                          .executor = *executor_,
-                          .log = null_log(),
-                          .knobs = knobs_,
-                          .pipelines = pipelines_,
-                          .uniforms = uniforms_,
-                          .storage = storage_,
-                          .results = results_,
-                          .declared = declared_,
-                          .history = history_};
+  PassFrames frames_;
   gpu::BufferHandle keys_;
   gpu::BufferHandle sorted_;  ///< copy of the values
   gpu::BufferHandle source_;

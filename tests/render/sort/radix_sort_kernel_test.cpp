@@ -86,7 +86,7 @@ class RadixSort : public ::testing::TestWithParam<bool> {
   }
   void expect_sorted(const Keys& keys, const Words& values = {}) {
     const auto count = static_cast<std::uint32_t>(keys.size());
-    test::PassFrames frames(*device());
+    test::ReadPassFrames frames(*device());
     frames.draw([&](FrameBuilder& frame) {
       const BufferRef given_keys = count == 0 ? BufferRef{} : frames.input("keys", packed(keys));
       const BufferRef given_values = values.empty() ? BufferRef{} : frames.input("values", values);
@@ -159,7 +159,7 @@ TEST_P(RadixSort, sorts_eight_million_keys) { expect_sorted(random_keys(8'000'00
 
 TEST_P(RadixSort, two_sorts_of_a_frame_do_not_mix) {
   const Keys first = random_keys(5000, 5), second = random_keys(3000, 6);
-  test::PassFrames frames(*device());
+  test::ReadPassFrames frames(*device());
   frames.draw([&](FrameBuilder& frame) {
     const SortedKeys a = add_radix_sort_passes(frame, "a", frames.input("first", packed(first)), {}, 5000);
     const SortedKeys b = add_radix_sort_passes(frame, "b", frames.input("second", packed(second)), {}, 3000);
