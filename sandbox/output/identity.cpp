@@ -4,8 +4,7 @@
 
 #include <cstdio>
 
-#include "engine/core/hash.h"
-#include "engine/scene/assets.h"
+#include "engine/scene/asset_hash.h"
 #include "sandbox/output/file_io.h"
 
 namespace gloam {
@@ -19,15 +18,9 @@ std::string hexadecimal(std::uint64_t value) {
 
 void add_primitive(Hasher& hasher, const Primitive& primitive) {
   hasher.value(primitive.material);
-  hasher.items(primitive.positions);
-  hasher.items(primitive.normals);
-  hasher.items(primitive.tangents);
-  hasher.items(primitive.uv0);
-  hasher.items(primitive.uv1);
-  hasher.items(primitive.colors);
+  hash_triangles(hasher, primitive);
   hasher.items(primitive.joints);
   hasher.items(primitive.weights);
-  hasher.items(primitive.indices);
   for (const Primitive::MorphTarget& target : primitive.morph_targets) {
     hasher.items(target.positions);
     hasher.items(target.normals);
@@ -38,10 +31,7 @@ void add_assets(Hasher& hasher, const SceneAssets& assets) {
   for (const Mesh& mesh : assets.meshes) {
     for (const Primitive& primitive : mesh.primitives) add_primitive(hasher, primitive);
   }
-  for (const Image& image : assets.images) {
-    hasher.value(image.width).value(image.height);
-    hasher.items(image.rgba);
-  }
+  for (const Image& image : assets.images) hash_image(hasher, image);
   for (const AnimationClip& clip : assets.clips) {
     for (const AnimationChannel& channel : clip.channels) {
       hasher.items(channel.times);

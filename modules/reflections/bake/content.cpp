@@ -13,7 +13,7 @@
 #include "engine/ecs/view.h"
 #include "engine/scene/animated_nodes.h"
 #include "engine/scene/animation.h"
-#include "engine/scene/assets.h"
+#include "engine/scene/asset_hash.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
@@ -52,13 +52,7 @@ class AssetHashes {
  private:
   void add(Hasher& hasher, const Primitive& primitive) {
     hasher.value(material(primitive.material));
-    hasher.items(primitive.positions);
-    hasher.items(primitive.normals);
-    hasher.items(primitive.tangents);
-    hasher.items(primitive.uv0);
-    hasher.items(primitive.uv1);
-    hasher.items(primitive.colors);
-    hasher.items(primitive.indices);
+    hash_triangles(hasher, primitive);
   }
 
   [[nodiscard]] std::uint64_t material(std::uint32_t index) {
@@ -93,10 +87,8 @@ class AssetHashes {
     if (index >= assets_.images.size()) return 0;
     const auto found = images_.find(index);
     if (found != images_.end()) return found->second;
-    const Image& image = assets_.images[index];
     Hasher hasher;
-    hasher.value(image.width).value(image.height);
-    hasher.items(image.rgba);
+    hash_image(hasher, assets_.images[index]);
     return images_[index] = hasher.digest();
   }
 
