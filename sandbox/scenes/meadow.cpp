@@ -216,53 +216,66 @@ void add_cameras(SceneBuilder& builder) {
   builder.add_clip("walk", builder.add_camera("walk", walk.front().translation, dvec3(0.0), 0.95f), walk);
 }
 
-void add_things(World& world, SceneBuilder& builder, bool is_night) {
+/// In what the meadows by night and by day differ.
+struct Meadow {
+  const char* name;
+  bool lanterns_are_lit;
+  const char* light_name;  ///< of the directional light
+  Light light;
+  dvec3 light_direction;
+  SceneEnvironment sky;
+};
+
+void build_meadow(World& world, SceneInfo& info, Meadow meadow) {
+  SceneBuilder builder(world, info);
   const Materials materials = add_materials(builder);
   add_ground(world, builder, materials);
   add_balls(world, builder);
   add_walker(world, builder, materials);
   add_crates(world, builder, materials);
-  add_lanterns(builder, materials, is_night);
+  add_lanterns(builder, materials, meadow.lanterns_are_lit);
   add_cameras(builder);
+  meadow.light.kind = LightKind::directional;
+  builder.add_light(meadow.light_name, meadow.light, {0.0, 20.0, 0.0}, meadow.light_direction, true);
+  world.resource<SceneEnvironment>() = meadow.sky;
+  info.name = meadow.name;
 }
 
 }  // namespace
 
 void build_meadow_scene(World& world, SceneInfo& info) {
-  SceneBuilder builder(world, info);
-  add_things(world, builder, true);
   Light moon;
-  moon.kind = LightKind::directional;
   moon.color = vec3(0.55f, 0.67f, 1.0f);
   moon.intensity = 1.6f;
   moon.apparent_angle = 0.05f;
-  builder.add_light("moon", moon, {0.0, 20.0, 0.0}, {0.55, -0.62, -0.4}, true);
-
-  auto& environment = world.resource<SceneEnvironment>();
-  environment.sky_zenith = vec3(0.016f, 0.028f, 0.072f);
-  environment.sky_horizon = vec3(0.075f, 0.092f, 0.150f);
-  environment.sky_ground = vec3(0.020f, 0.024f, 0.022f);
-  environment.has_exposure = true;
-  environment.exposure_ev100 = 0.1f;
-  info.name = "meadow";
+  build_meadow(world, info,
+               {.name = "meadow",
+                .lanterns_are_lit = true,
+                .light_name = "moon",
+                .light = moon,
+                .light_direction = {0.55, -0.62, -0.4},
+                .sky = {.sky_zenith = vec3(0.016f, 0.028f, 0.072f),
+                        .sky_horizon = vec3(0.075f, 0.092f, 0.150f),
+                        .sky_ground = vec3(0.020f, 0.024f, 0.022f),
+                        .has_exposure = true,
+                        .exposure_ev100 = 0.1f}});
 }
 
 void build_meadow_day_scene(World& world, SceneInfo& info) {
-  SceneBuilder builder(world, info);
-  add_things(world, builder, false);
   Light sun;
-  sun.kind = LightKind::directional;
   sun.color = vec3(1.0f, 0.90f, 0.74f);
   sun.intensity = 24000.0f;
-  builder.add_light("sun", sun, {0.0, 20.0, 0.0}, {0.6, -0.72, -0.35}, true);
-
-  auto& environment = world.resource<SceneEnvironment>();
-  environment.sky_zenith = vec3(700.0f, 1300.0f, 2700.0f);
-  environment.sky_horizon = vec3(2300.0f, 2700.0f, 3200.0f);
-  environment.sky_ground = vec3(480.0f, 500.0f, 360.0f);
-  environment.has_exposure = true;
-  environment.exposure_ev100 = 12.0f;
-  info.name = "meadow_day";
+  build_meadow(world, info,
+               {.name = "meadow_day",
+                .lanterns_are_lit = false,
+                .light_name = "sun",
+                .light = sun,
+                .light_direction = {0.6, -0.72, -0.35},
+                .sky = {.sky_zenith = vec3(700.0f, 1300.0f, 2700.0f),
+                        .sky_horizon = vec3(2300.0f, 2700.0f, 3200.0f),
+                        .sky_ground = vec3(480.0f, 500.0f, 360.0f),
+                        .has_exposure = true,
+                        .exposure_ev100 = 12.0f}});
 }
 
 }  // namespace gloam
