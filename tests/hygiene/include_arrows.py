@@ -38,6 +38,8 @@ ROOMS = {
                              "fitting", "bake", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials")),
     "modules/grass": (("growth", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
+    "modules/particles": (("emitters", "bake", "simulation", "sorting", "lighting", "drawing", "debug"),
+                          ("components", "baked_light", "knobs", "frame")),
     "engine/render": (("knobs", "scene", "draws", "declare", "sort", "passes", "readback", "reference"),
                       ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections", "grass"), ()),
