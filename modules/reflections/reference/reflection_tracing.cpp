@@ -15,7 +15,7 @@
 #include "engine/scene/resources.h"
 #include "modules/reflections/reference/lobe.h"
 #include "modules/reflections/reference/pixel_surface.h"
-#include "modules/reflections/reference/scene_lights.h"
+#include "modules/shadows/reference/scene_lights.h"
 #include "modules/reflections/reference/shading.h"
 
 namespace gloam {
