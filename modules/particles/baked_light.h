@@ -43,9 +43,11 @@ struct ParticleLightMap {
   std::array<std::vector<BakedFlux>, 3> flux;
   /// A texel for each point of the grid; empty: all is visible.
   std::vector<BakedVisibility> visibility;
-  /// The dynamic lights of `visibility`, the strongest first; at most kBakedLights. Lights that are neither here nor
-  /// static for the map do not light the emitter.
+  /// The dynamic lights of `visibility`; at most kBakedLights.
   std::vector<Entity> lights;
+  /// The lights whose light is in `flux`, ascending by Entity::index. All others are dynamic: the four strongest at the
+  /// emitter light it, without shadows if they are not in `lights`.
+  std::vector<Entity> static_lights;
 
   [[nodiscard]] std::size_t texels() const { return std::size_t{size.x} * size.y * size.z; }
 };

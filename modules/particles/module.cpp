@@ -2,48 +2,88 @@
 // SPDX-License-Identifier: MIT
 #include "modules/particles/module.h"
 
-#include "engine/scene/key_table.h"
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/render/frame_builder.h"
+#include "modules/particles/baked_light.h"
 #include "modules/particles/components.h"
+#include "modules/particles/debug/overdraw.h"
+#include "modules/particles/emitters/placed.h"
+#include "modules/particles/emitters/strongest_lights.h"
+#include "modules/particles/emitters/visible.h"
+#include "modules/particles/keys.h"
+#include "modules/particles/knobs.h"
+#include "modules/particles/passes.h"
 
 namespace gloam {
 namespace {
 
+constexpr const char* kDrawsResult = "draws";
+
 class ParticlesModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "particles"; }
-  [[nodiscard]] bool built() const override { return false; }
   void register_components(World& world) const override {
     world.register_component<ParticleEmitter>("particle_emitter");
+    world.set_resource(EmitterSet{});
+    world.set_resource(EmitterLights{});
+    world.set_resource(ParticleLightMaps{});
   }
-  void scene_keys(KeyRegistry& registry) const override {
-    const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
-      return key_line("particles", KeyElement::node, std::move(key), std::move(fallback), std::move(unit),
-                      std::move(meaning));
-    };
-    registry.add(choice_key(line("gloam.particles", "", "", "kind of a particle emitter"),
-                            {"fog", "dust", "smoke", "fire"}, EmitterKind::fog, &ParticleEmitter::kind));
-    registry.add(number_key(line("gloam.particles.rate", "20", "1/s", "particles emitted per second"), 0, 1e6,
-                            &ParticleEmitter::rate));
-    registry.add(number_key(line("gloam.particles.lifetime", "2", "s", "lifetime of a particle"), 1e-3, 1e4,
-                            &ParticleEmitter::lifetime_s));
-    registry.add(number_key(line("gloam.particles.size", "0.3", "m", "size of a particle"), 1e-6, 1e3,
-                            &ParticleEmitter::size_m));
-    registry.add(number_key(line("gloam.particles.speed", "0.5", "m/s", "speed of a particle when it is emitted"), 0,
-                            1e3, &ParticleEmitter::speed));
-    registry.add(
-        number_key(line("gloam.particles.spread", "20", "degrees", "half angle of the cone of directions around +Y"), 0,
-                   180, &ParticleEmitter::spread, kPi / 180.0));
-    registry.add(
-        vec3_key(line("gloam.particles.box", "[1, 1, 1]", "m", "size of the box in which particles are emitted"), 0,
-                 1e6, &ParticleEmitter::box_m));
-  }
-  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
+  void scene_keys(KeyRegistry& registry) const override { add_particle_keys(registry); }
+  void knobs(KnobRegistry& registry) const override { add_particle_knobs(registry); }
+  [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t emitters = 0;
-    world.view<const ParticleEmitter>().each(
-        [&](const ParticleEmitter& e) { emitters += e.kind != EmitterKind::none ? 1 : 0; });
+    world.view<const ParticleEmitter>().each([&](const ParticleEmitter& e) { emitters += emits(e) ? 1 : 0; });
     if (emitters == 0) return {false, "no emitter"};
-    return {true, std::to_string(emitters) + (emitters == 1 ? " emitter" : " emitters")};
+    if (view == nullptr) return {true, std::to_string(emitters) + (emitters == 1 ? " emitter" : " emitters")};
+    if (view->purpose == ViewPurpose::capture) return {false, "captures have no particles"};
+    if (view->static_only) return {false, "particles move"};
+    const auto* visible = world.try_view_resource<VisibleEmitters>(view->id);
+    if (visible == nullptr || visible->emitters.empty()) return {false, "no emitter in view"};
+    return {true, std::to_string(visible->emitters.size()) + " of " + std::to_string(emitters) +
+                      (emitters == 1 ? " emitter in view" : " emitters in view")};
   }
+  void add_systems(Schedule& schedule) override {
+    schedule.add_system("particle_emitters", "particles", Stage::world, &particle_emitters_system);
+    schedule.add_system("particle_lights", "particles", Stage::world, &particle_lights_system);
+    schedule.add_system("particle_view", "particles", Stage::view, &particle_view_system);
+  }
+  void prepare_view(World& world, ViewId view, const KnobRegistry&) const override {
+    if (world.try_view_resource<VisibleEmitters>(view) == nullptr) world.set_view_resource(view, VisibleEmitters{});
+  }
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return particle_visualizers(); }
+  void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
+    list_particle_pipelines(particle_lighting(knobs), device.threads_in_turn, list);
+  }
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::translucent) add_particle_passes(frame);
+    const ParticlesFrame* particles = frame.find<ParticlesFrame>();
+    if (phase == PassPhase::visualize) add_overdraw_passes(frame, particles);
+    if (phase != PassPhase::translucent || particles == nullptr || !frame.status().ok()) return;
+    frame.keep_result("particles", kDrawsResult, particles->draws, particles->lighting);
+  }
+  void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
+    if (name != kDrawsResult) return;
+    const auto drawn = static_cast<double>(result.value<shaders::ParticleDraws>().drawn);
+    const auto* lighting = std::any_cast<ParticleLighting>(&result.note);
+    sink.count("particles.drawn", drawn);
+    sink.count("particles.lit", lighting != nullptr && *lighting == ParticleLighting::off ? 0.0 : drawn);
+  }
+  void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
+    const EmitterSet& set = world.resource<EmitterSet>();
+    const VisibleEmitters& visible = world.view_resource<VisibleEmitters>(view.id);
+    sink.count("particles.alive", static_cast<double>(visible.alive));
+    sink.count("particles.simulated", static_cast<double>(visible.particles));
+    sink.count("particles.left_out", set.left_out);
+    sink.count("particles.emitters", static_cast<double>(set.emitters.size()));
+    sink.count("particles.emitters_in_view", static_cast<double>(visible.emitters.size()));
+    sink.count("particles.emitters_left_out", static_cast<double>(visible.left_out));
+    sink.count("particles.emitters_not_finite", set.unusable);
+  }
+  void give_up_frame(std::uint64_t) override {}  // keeps no state of its own
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "sandbox/scenes/plain.h"
 #include "sandbox/scenes/shadow_grid.h"
 #include "sandbox/scenes/shadows.h"
+#include "sandbox/scenes/smoke.h"
 #include "sandbox/scenes/wet_street.h"
 
 namespace gloam {
@@ -33,6 +34,8 @@ constexpr BuiltinScene kScenes[] = {
     {"meadow", "grass by night in the wind, bent by rolling balls and a walker, under lanterns and a moon",
      &build_meadow_scene},
     {"meadow_day", "the grass of meadow under a sun", &build_meadow_day_scene},
+    {"smoke", "smoke between a warm and a cold lamp, a fire on wet ground, dust in a beam and ground fog",
+     &build_smoke_scene},
 };
 
 }  // namespace

@@ -46,6 +46,7 @@ ROOMS = {
     "sandbox": (("output", "scenes", "session", "window", "bench", "commands"), ("options", "console", "log")),
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
+    "shaders/particles": (("simulation", "sorting", "lighting", "drawing", "debug"), None),
     "shaders/reflections": (("surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
                              "debug"), None),
 }

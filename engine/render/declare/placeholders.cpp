@@ -13,6 +13,7 @@ gpu::ImageDesc desc_for(const InterfaceBinding& binding) {
   desc.format = binding.texels == gpu::TexelKind::floats ? gpu::Format::rgba8_unorm : gpu::Format::r32_uint;
   desc.layers = cube ? 6 : 1;
   desc.shape = cube ? gpu::ImageShape::cube : binding.arrayed ? gpu::ImageShape::array : gpu::ImageShape::plain;
+  if (binding.dimension == gpu::ImageDimension::volume) desc.shape = gpu::ImageShape::volume;
   desc.usage = binding.kind == gpu::ResourceKind::storage_image ? gpu::ImageUsage::storage : gpu::ImageUsage::sampled;
   return desc;
 }

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/particles/debug/overdraw.h"
+
+#include "engine/render/passes/visualizer_pass.h"
+#include "modules/particles/drawing/pass.h"
+#include "shaders/particles/shaders.h"
+
+namespace gloam {
+
+std::vector<VisualizerInfo> particle_visualizers() {
+  return {{"overdraw", "particles", "",
+           "sprites at each pixel: black 0, blue 13, cyan 25, green 38, yellow 50, red 63, white more"}};
+}
+
+void add_overdraw_passes(FrameBuilder& frame, const ParticlesFrame* particles) {
+  if (frame.visualizer() != "overdraw" || particles == nullptr) return;
+  const BufferRef indices = sprite_index_buffer(frame);
+  if (!frame.status().ok()) return;
+  DrawProgram program = sprite_program(0, frame.view().clipped, nullptr);
+  program.fragment = shaders::particles::overdraw_count_frag;
+  program.blend = gpu::BlendMode::additive;
+  DrawPass count(frame, "particle_overdraw", program);
+  const ImageRef layers =
+      count.target(create_view_image(frame, "particle_layers", gpu::Format::rgba16_float), gpu::LoadOp::clear);
+  count.test_depth(frame.get<GeometryOutputs>().depth);
+  draw_sprites(count, frame, *particles, indices);
+
+  DrawPass view(frame, "overdraw_view", {shaders::particles::overdraw_view_frag, {encoding_constant(frame)}});
+  view.read("layers", layers);
+  add_visualizer_targets(frame, view, "overdraw", gpu::Format::rgba16_float, gpu::LoadOp::clear);
+  view.draw_triangle();
+}
+
+}  // namespace gloam

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "engine/render/view_constants.h"
+#include "modules/particles/sorting/key_ranges.h"
+#include "shaders/particles/shaders.h"
+#include "tests/modules/particles/support/emitters.h"
+#include "tests/modules/particles/support/particle_twin.h"
+#include "tests/support/kernel.h"
+#include "tests/support/render_scene.h"
+#include "tests/support/scale.h"
+
+namespace gloam::test {
+namespace {
+
+struct Simulated {
+  std::vector<shaders::Particle> particles;
+  std::vector<std::uint32_t> keys;
+};
+
+/// The rows of emitters in a view, one after the other.
+struct Scene {
+  RenderView view = make_view(look_at(dvec3(0.0, 1.0, 6.0), dvec3(0.0), 320, 180), 0);
+  std::vector<shaders::ParticleEmitterRow> rows;
+  std::vector<std::uint32_t> groups;
+
+  void add(const PlacedEmitter& emitter, std::int64_t step) {
+    const auto first = static_cast<std::uint32_t>(groups.size() * GLOAM_PARTICLE_GROUP);
+    shaders::ParticleEmitterRow row = row_at(emitter, step, view.position, first);
+    row.far_m = 40.0f;
+    row.keys = kTwoDigitKeys;
+    row.keys_per_m = static_cast<float>(row.keys) / row.far_m;
+    groups.insert(groups.end(), (row.count + GLOAM_PARTICLE_GROUP - 1) / GLOAM_PARTICLE_GROUP,
+                  static_cast<std::uint32_t>(rows.size()));
+    rows.push_back(row);
+  }
+  [[nodiscard]] shaders::ParticleFrame frame() const {
+    shaders::ParticleFrame frame{};
+    for (int i = 0; i < 4; ++i)
+      frame.planes[i] = vec4(view.frustum.planes[static_cast<std::size_t>(i)].normal,
+                             view.frustum.planes[static_cast<std::size_t>(i)].distance);
+    frame.near_m = view.near_m;
+    frame.places = static_cast<std::uint32_t>(groups.size() * GLOAM_PARTICLE_GROUP);
+    frame.culled_key = 0xFFFF;
+    return frame;
+  }
+};
+
+class ParticleSimulation : public KernelTest {
+ protected:
+  [[nodiscard]] static Simulated simulate(const Scene& scene) {
+    Kernel kernel(device(), shaders::particles::simulate_comp);
+    const std::size_t places = scene.groups.size() * GLOAM_PARTICLE_GROUP;
+    kernel.input(0, std::vector{view_constants(scene.view)});
+    kernel.input(1, std::vector{scene.frame()});
+    kernel.input(2, scene.rows);
+    kernel.input(3, scene.groups);
+    kernel.output(4, places * sizeof(shaders::Particle));
+    kernel.output(5, places * sizeof(std::uint32_t));
+    kernel.run(static_cast<std::uint32_t>(scene.groups.size()));
+    return {kernel.read<shaders::Particle>(4), kernel.read<std::uint32_t>(5)};
+  }
+};
+
+/// Whether a sprite's sphere certainly shows (1), certainly does not (−1), or rounding decides (0).
+int shows(const RenderView& view, const TwinParticle& p, double slack) {
+  const double depth = -glm::dot(
+      dvec3(view.view_from_relative[0][2], view.view_from_relative[1][2], view.view_from_relative[2][2]), p.position);
+  double least = depth - static_cast<double>(view.near_m);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Plane& plane = view.frustum.planes[i];
+    least =
+        std::min(least, glm::dot(dvec3(plane.normal), p.position) + static_cast<double>(plane.distance) + p.radius_m);
+  }
+  if (p.opacity < 1e-6) return 0;
+  return least > slack ? 1 : least < -slack ? -1 : 0;
+}
+
+TEST_F(ParticleSimulation, states_and_keys_are_those_of_the_twin) {
+  std::mt19937 random(4);
+  Scene scene;
+  for (int i = 0; i < scaled(24); ++i)
+    scene.add(placed(any_emitter(random, kAllKinds[i % 4]), any_pose(random), static_cast<std::uint32_t>(i)), 1000 * i);
+  const Simulated found = simulate(scene);
+  std::size_t drawn = 0, culled = 0;
+  for (const shaders::ParticleEmitterRow& row : scene.rows)
+    for (std::uint32_t k = 0; k < row.count; ++k) {
+      const shaders::Particle& p = found.particles[row.first + k];
+      const TwinParticle twin = twin_particle(row, k);
+      // Rounding and the drivers' sines shift a particle, and turbulence enlarges shifts.
+      const dvec3 shifted = twin_particle(row, k, dvec3(1e-5)).position;
+      const double tolerance = 3e-4 + 40.0 * glm::length(shifted - twin.position);
+      EXPECT_LE(glm::length(dvec3(p.position) - twin.position), tolerance) << k << ", age " << twin.age_s;
+      EXPECT_NEAR(static_cast<double>(p.radius_m), twin.radius_m, 1e-5 * (1.0 + twin.radius_m));
+      EXPECT_NEAR(static_cast<double>(p.life), twin.life, 1e-5);
+      EXPECT_LE(static_cast<double>(p.opacity), twin.opacity + 1e-4);
+      const std::uint32_t key = found.keys[row.first + k];
+      const int expected = shows(scene.view, twin, 2.0 * tolerance);
+      if (expected > 0) {
+        EXPECT_NE(key, 0xFFFFu) << k;
+      } else if (expected < 0) {
+        EXPECT_EQ(key, 0xFFFFu) << k;
+      }
+      if (key == 0xFFFFu) {
+        ++culled;
+        continue;
+      }
+      ++drawn;
+      const mat4& m = scene.view.view_from_relative;
+      const double depth = -glm::dot(dvec3(m[0][2], m[1][2], m[2][2]), dvec3(p.position));
+      EXPECT_NEAR(key, (static_cast<double>(row.far_m) - depth) * static_cast<double>(row.keys_per_m), 1.2);
+    }
+  EXPECT_GT(drawn, 300u);
+  EXPECT_GT(culled, 100u);
+}
+
+TEST_F(ParticleSimulation, places_without_a_particle_are_never_drawn) {
+  Scene scene;
+  ParticleEmitter values;
+  values.kind = EmitterKind::fog;
+  values.rate = 10.0f;
+  values.lifetime_s = 1.0f;
+  for (std::uint32_t i = 0; i < 5; ++i) scene.add(placed(values, dmat4(1.0), i), 100);
+  const Simulated found = simulate(scene);
+  for (std::size_t place = 0; place < found.keys.size(); ++place) {
+    if (place % GLOAM_PARTICLE_GROUP >= scene.rows[0].count) {
+      EXPECT_EQ(found.keys[place], 0xFFFFu) << place;
+    }
+  }
+}
+
+TEST_F(ParticleSimulation, a_particle_does_not_depend_on_its_place_nor_on_the_run) {
+  ParticleEmitter values;
+  values.kind = EmitterKind::smoke;
+  values.rate = 300.0f;
+  values.lifetime_s = 3.0f;
+  Scene alone, among;
+  alone.add(placed(values), 777);
+  for (std::uint32_t i = 0; i < 3; ++i) among.add(placed(values, dmat4(1.0), 40 + i), 777);
+  among.add(placed(values), 777);
+  const Simulated a = simulate(alone), again = simulate(alone), b = simulate(among);
+  const std::size_t bytes = alone.rows[0].count * sizeof(shaders::Particle);
+  EXPECT_EQ(std::memcmp(a.particles.data(), again.particles.data(), bytes), 0);
+  for (std::uint32_t k = 0; k < alone.rows[0].count; ++k) {
+    shaders::Particle p = b.particles[among.rows[3].first + k];
+    p.look &= 0xFFFF0000u;  // the row of the emitter differs
+    EXPECT_EQ(std::memcmp(&p, &a.particles[k], sizeof(p)), 0) << k;
+  }
+}
+
+TEST_F(ParticleSimulation, a_particle_moves_and_fades_without_jumps_from_birth_to_death) {
+  ParticleEmitter values;
+  values.rate = 20.0f;
+  values.lifetime_s = 1.5f;
+  for (const EmitterKind kind : kAllKinds) {
+    values.kind = kind;
+    Scene scene;
+    for (std::int64_t step = 0; step < 400; ++step) scene.add(placed(values), step);
+    const Simulated found = simulate(scene);
+    for (std::size_t step = 0; step < 400; ++step) {
+      const shaders::ParticleEmitterRow& row = scene.rows[step];
+      const shaders::Particle& oldest = found.particles[row.first];
+      const shaders::Particle& newest = found.particles[row.first + row.count - 1];
+      // A step is 1/360 of the lifetime; births and deaths fall between steps.
+      EXPECT_LE(newest.life < 0.003f ? newest.opacity : 0.0f, 0.01f);
+      EXPECT_LE(oldest.life > 0.997f ? oldest.opacity : 0.0f, 0.01f);
+      if (step == 0) continue;
+      const shaders::ParticleEmitterRow& before = scene.rows[step - 1];
+      for (std::uint32_t k = 0; k < row.count; ++k) {
+        const std::uint32_t earlier = row.oldest + k - before.oldest;
+        if (earlier >= before.count) continue;
+        const shaders::Particle& p = found.particles[row.first + k];
+        const shaders::Particle& q = found.particles[before.first + earlier];
+        EXPECT_LE(glm::length(p.position - q.position), 3.0f / 240.0f) << "faster than 3 m/s";
+        EXPECT_LE(std::abs(p.opacity - q.opacity), 0.06f);
+        EXPECT_EQ(p.look, (q.look & 0xFFFF0000u) | (p.look & 0xFFFFu));
+      }
+    }
+  }
+}
+
+TEST_F(ParticleSimulation, particles_behind_the_near_plane_and_at_the_camera_are_not_drawn) {
+  Scene scene;
+  scene.view = make_view(look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0);
+  ParticleEmitter values;
+  values.kind = EmitterKind::fog;
+  values.rate = 2000.0f;
+  values.lifetime_s = 1.0f;
+  values.size_m = 3.0f;
+  scene.add(placed(values), 55);
+  const Simulated found = simulate(scene);
+  std::size_t drawn = 0;
+  for (std::uint32_t k = 0; k < scene.rows[0].count; ++k) {
+    if (-found.particles[k].position.z <= scene.view.near_m) {
+      EXPECT_EQ(found.keys[k], 0xFFFFu);
+    }
+    drawn += found.keys[k] != 0xFFFFu ? 1 : 0;
+    if (found.keys[k] != 0xFFFFu) {
+      const float depth = -found.particles[k].position.z - scene.view.near_m;
+      EXPECT_LE(found.particles[k].opacity, 0.06f * depth / std::min(found.particles[k].radius_m, 1e9f) + 1e-4f);
+    }
+  }
+  EXPECT_GT(drawn, 300u);
+}
+
+TEST_F(ParticleSimulation, rows_with_nan_and_infinity_draw_nothing) {
+  ParticleEmitter values;
+  values.kind = EmitterKind::smoke;
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    Scene scene;
+    for (int i = 0; i < 4; ++i) scene.add(placed(values), 10);
+    scene.rows[0].origin.x = bad;
+    scene.rows[1].size_m = bad == bad ? 0.0f : bad;  // an infinite sprite would cover the view
+    scene.rows[2].oldest_age_s = bad;
+    const Simulated found = simulate(scene);
+    for (int i = 0; i < 2; ++i)
+      for (std::uint32_t k = 0; k < scene.rows[static_cast<std::size_t>(i)].count; ++k)
+        EXPECT_EQ(found.keys[scene.rows[static_cast<std::size_t>(i)].first + k], 0xFFFFu) << i;
+    std::size_t drawn = 0;
+    for (std::uint32_t k = 0; k < scene.rows[3].count; ++k) drawn += found.keys[scene.rows[3].first + k] != 0xFFFFu;
+    EXPECT_GT(drawn, 0u) << "other emitters are not affected";
+  }
+}
+
+}  // namespace
+}  // namespace gloam::test
