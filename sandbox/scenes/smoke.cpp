@@ -13,7 +13,7 @@
 namespace gloam {
 namespace {
 
-constexpr vec3 kWarm(1.0f, 0.52f, 0.18f), kCold(0.30f, 0.55f, 1.0f);
+constexpr vec3 kWarm(1.0f, 0.52f, 0.18f), kCold(0.16f, 0.44f, 1.0f);
 constexpr dvec3 kVent(0.0, 0.0, 0.0);    // the smoke comes from here
 constexpr dvec3 kBowl(3.4, 0.0, 1.6);    // the fire burns here
 constexpr dvec3 kSpot(-4.6, 3.4, -1.5);  // the dust is in its beam
@@ -141,9 +141,9 @@ void add_beam(World& world, SceneBuilder& builder, const Materials& m) {
   builder.add_light("spot light", light, kSpot, target - kSpot, true);
   add_emitter(world, builder, "dust", {-4.3, 1.7, -0.15},
               {.kind = EmitterKind::dust,
-               .rate = 260.0f,
+               .rate = 420.0f,
                .lifetime_s = 10.0f,
-               .size_m = 0.014f,
+               .size_m = 0.016f,
                .speed = 0.03f,
                .spread = kPi,
                .box_m = vec3(3.4f, 3.2f, 4.0f)});

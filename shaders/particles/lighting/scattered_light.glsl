@@ -77,11 +77,13 @@ vec3 scattered_light(ParticleEmitterRow e, vec3 position, vec3 outward) {
   return min(light, vec3(65504.0));
 }
 
-// The direction n of a point of a sprite. corner: the point's place in the sprite, −1…1 along the picture's axes.
+// The direction n of a point of a sprite: out of the emitter's column, and out of the sprite. corner: the point's place
+// in the sprite, −1…1 along the picture's axes.
 vec3 outward_direction(ParticleEmitterRow e, vec3 center, vec2 corner) {
-  vec3 from_axis = (center - e.center) * e.inverse_extent * vec3(1.0, 0.0, 1.0);
-  float beyond = max(length(from_axis), 0.5);
-  return 0.5 * from_axis / beyond + 0.35 * (corner.x * frame.right + corner.y * frame.up);
+  // Bounds are several times as wide as most of the cloud.
+  vec2 side = 3.0 * ((center - e.center) * e.inverse_extent).xz;
+  side *= 0.6 * inversesqrt(1.0 + dot(side, side));
+  return vec3(side.x, 0.0, side.y) + 0.27 * (corner.x * frame.right + corner.y * frame.up);
 }
 
 #endif

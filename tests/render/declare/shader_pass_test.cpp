@@ -197,6 +197,19 @@ TEST_F(DeclaredPass, a_missing_image_becomes_a_placeholder_of_the_shape_that_the
   EXPECT_EQ(commands("dispatch").size(), 1u);
 }
 
+TEST_F(DeclaredPass, a_missing_volume_becomes_a_placeholder_of_three_dimensions) {
+  ASSERT_TRUE(render([](FrameBuilder& frame) {
+                ComputePass pass(frame, "tested", code::look_into_volume_comp);
+                pass.keep();
+                pass.read("volume", ImageRef{});
+                pass.read("positions", BufferRef{});
+                static_cast<void>(pass.write("seen", buffer_of(frame, "seen", 64)));
+                pass.dispatch(1);
+              }).ok());
+  expect_no_faults();
+  EXPECT_EQ(commands("dispatch").size(), 1u);
+}
+
 struct Misuse {
   const char* sentence;
   std::function<void(FrameBuilder&, ComputePass&)> spoil;

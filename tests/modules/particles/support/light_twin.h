@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "engine/math/types.h"
+#include "modules/particles/baked_light.h"
+#include "shaders/particles/particles_shared.h"
+
+/// Light on particles in double precision, for tests.
+namespace gloam::test {
+
+inline constexpr double kTwinPi = 3.14159265358979323846;
+
+/// A point light: camera-relative position, candela, range.
+struct TwinLamp {
+  dvec3 position;
+  dvec3 candela;
+  double range_m;
+};
+
+/// Illuminance of a plane that faces the lamp, in the model of the lights module.
+[[nodiscard]] inline dvec3 twin_illuminance(const TwinLamp& lamp, const dvec3& at) {
+  const double d = std::max(glm::length(lamp.position - at), 1e-3);
+  const double window = std::clamp(1.0 - std::pow(d / lamp.range_m, 4.0), 0.0, 1.0);
+  return lamp.candela * (window * window / (d * d));
+}
+
+/// Of the light L from all directions ω a particle scatters albedo ∫ L (1 + n·ω) dω / 4π: here for one direction.
+[[nodiscard]] inline dvec3 twin_scattered(const dvec3& albedo, const dvec3& n, const dvec3& to_light,
+                                          const dvec3& illuminance) {
+  return albedo * illuminance * ((1.0 + glm::dot(n, to_light)) / (4.0 * kTwinPi));
+}
+
+/// The direction n at a point of a sprite.
+[[nodiscard]] inline dvec3 twin_outward(const shaders::ParticleEmitterRow& e, const shaders::ParticleFrame& frame,
+                                        const dvec3& center, double corner_x, double corner_y) {
+  const double x = 3.0 * (center.x - static_cast<double>(e.center.x)) * static_cast<double>(e.inverse_extent.x);
+  const double z = 3.0 * (center.z - static_cast<double>(e.center.z)) * static_cast<double>(e.inverse_extent.z);
+  const double shorter = 0.6 / std::sqrt(1.0 + x * x + z * z);
+  const dvec3 bulge = 0.27 * (corner_x * dvec3(frame.right) + corner_y * dvec3(frame.up));
+  return static_cast<double>(e.forward) * (dvec3(shorter * x, 0.0, shorter * z) + bulge);
+}
+
+}  // namespace gloam::test
