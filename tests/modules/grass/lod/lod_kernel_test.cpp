@@ -161,7 +161,7 @@ TEST_F(GrassDetail, at_the_end_of_the_range_all_blades_narrow_to_nothing) {
 }
 
 TEST_F(GrassDetail, keys_are_the_distances_of_the_blades_that_show) {
-  const int rounds = scaled(12);
+  const int rounds = std::max(scaled(12), 12);  // few cameras may see few blades
   std::size_t compared = 0, drawn = 0, culled = 0;
   for (int round = 0; round < rounds; ++round) {
     LodField field = LodField::random(24, static_cast<std::uint32_t>(round));
