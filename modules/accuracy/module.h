@@ -109,9 +109,10 @@ inline constexpr std::uint32_t kQuickHeight = 180;
 
 /// A tracer of the world's triangles as its systems left them. The triangles are copied, so the world may change.
 /// `origin`: the world position that rays are relative to; precision is best if it is near their origins. None: the
-/// middle of the scene.
+/// middle of the scene. traced: which mesh instances.
 [[nodiscard]] Result<std::unique_ptr<SceneTracer>> make_scene_tracer(const World& world, JobExecutor& executor,
-                                                                     const std::optional<dvec3>& origin = {});
+                                                                     const std::optional<dvec3>& origin = {},
+                                                                     TracedInstances traced = TracedInstances::all);
 
 /// A ReferenceStore that keeps results in files below `folder`.
 [[nodiscard]] std::unique_ptr<ReferenceStore> make_reference_store(std::string folder);

@@ -82,8 +82,8 @@ Status run_bake(const CommandContext& context) {
   if (!session) return session.error();
   const World& world = session.value()->world;
   const auto begin = std::chrono::steady_clock::now();
-  const auto captures =
-      bake_scene(*session.value(), options, context.log, show_bake_progress(context.console, options.quiet));
+  const auto captures = bake_scene(*session.value(), options, context.log,
+                                   show_bake_progress(context.console, options.quiet, "reflection captures"));
   if (!captures) return captures.error();
   GLOAM_TRY(session.value()->check_validation());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

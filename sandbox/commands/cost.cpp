@@ -129,8 +129,7 @@ Status run_cost(const CommandContext& context) {
 
   const auto session = open_session(options, context.log);
   if (!session) return session.error();
-  GLOAM_TRY(
-      ensure_captures(*session.value(), options, context.log, show_bake_progress(context.console, options.quiet)));
+  GLOAM_TRY(ensure_baked(*session.value(), options, context.log, &context.console));
   SessionCosts costs(*session.value(), options);
   ConsoleProgress progress(context.console, options.quiet);
   auto ledger = measure_costs(make_request(*session.value(), options, *chosen), costs, progress);

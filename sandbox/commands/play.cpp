@@ -166,8 +166,7 @@ Status run_play(const CommandContext& context) {
       {.extensions = window.value()->vulkan_extensions(), .create_surface = window.value()->surface_maker()});
   if (!session) return session.error();
   warn_of_missing_effects(*session.value(), context.log);
-  GLOAM_TRY(
-      ensure_captures(*session.value(), options, context.log, show_bake_progress(context.console, options.quiet)));
+  GLOAM_TRY(ensure_baked(*session.value(), options, context.log, &context.console));
   GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));
   const auto swapchain = gpu::create_swapchain(*session.value()->device, window.value()->surface_maker());
   if (!swapchain) return swapchain.error();

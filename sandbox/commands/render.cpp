@@ -42,8 +42,7 @@ Status run_render(const CommandContext& context) {
   auto session = open_session(options, context.log);
   if (!session) return session.error();
   warn_of_missing_effects(*session.value(), context.log);
-  GLOAM_TRY(
-      ensure_captures(*session.value(), options, context.log, show_bake_progress(context.console, options.quiet)));
+  GLOAM_TRY(ensure_baked(*session.value(), options, context.log, &context.console));
   const ViewSettings view = session.value()->view_settings(options.width, options.height, options.view);
   const auto traced = traced_view(*session.value()->renderer, options.view);
   ViewSettings drawn = view;

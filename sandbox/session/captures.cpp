@@ -13,6 +13,7 @@
 #include "engine/scene/resources.h"
 #include "modules/module_list/module_list.h"
 #include "sandbox/output/progress_bar.h"
+#include "sandbox/session/particle_light.h"
 #include "sandbox/session/scene_loading.h"
 
 namespace gloam {
@@ -87,12 +88,20 @@ Status ensure_captures(Session& session, const Options& options, LogSink& log, c
   return {};
 }
 
-BakeProgress show_bake_progress(Console& console, bool quiet) {
+Status ensure_baked(Session& session, const Options& options, LogSink& log, Console* console) {
+  const auto progress = [&](const char* what) {
+    return console == nullptr ? BakeProgress() : show_bake_progress(*console, options.quiet, what);
+  };
+  GLOAM_TRY(ensure_captures(session, options, log, progress("reflection captures")));
+  return ensure_particle_light(session, options, log, progress("particle light"));
+}
+
+BakeProgress show_bake_progress(Console& console, bool quiet, std::string what) {
   if (quiet) return {};
   using Clock = std::chrono::steady_clock;
-  return [&console, begin = Clock::now()](std::size_t done, std::size_t total) {
+  return [&console, begin = Clock::now(), what = std::move(what)](std::size_t done, std::size_t total) {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - begin).count();
-    console.show_progress(done == total ? "" : progress_line(done, total, "reflection captures", done, elapsed_s));
+    console.show_progress(done == total ? "" : progress_line(done, total, what, done, elapsed_s));
   };
 }
 

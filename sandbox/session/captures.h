@@ -26,13 +26,17 @@ namespace gloam {
 [[nodiscard]] Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, LogSink& log,
                                                     const BakeProgress& progress = {});
 
+/// Gives the session's world what is baked before the first frame: ensure_captures() and ensure_particle_light().
+/// console: shows progress; may be null.
+[[nodiscard]] Status ensure_baked(Session& session, const Options& options, LogSink& log, Console* console = nullptr);
+
 /// Gives the session's world its captures, if the reflections module is built and demanded: reads them from the file
 /// beside the scene or from the cache, else bakes them and fills the cache. Call it before the first frame. A cache
 /// that cannot be written is a warning.
 [[nodiscard]] Status ensure_captures(Session& session, const Options& options, LogSink& log,
                                      const BakeProgress& progress = {});
 
-/// Shows a progress bar on a terminal unless quiet.
-[[nodiscard]] BakeProgress show_bake_progress(Console& console, bool quiet);
+/// Shows a progress bar on a terminal unless quiet. what: "reflection captures".
+[[nodiscard]] BakeProgress show_bake_progress(Console& console, bool quiet, std::string what);
 
 }  // namespace gloam

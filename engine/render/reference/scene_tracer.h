@@ -50,6 +50,9 @@ struct EmissiveMesh {
   double half_diagonal_m = 0.0;  ///< of the mesh's own box
 };
 
+/// Mesh instances of a tracer: all, or those that are neither skinned nor morphed nor moved by an animation.
+enum class TracedInstances : std::uint8_t { all, at_rest };
+
 /// The triangles of a world at one moment, for references: skinned and morphed as in the frame, alpha-masked surfaces
 /// by their alpha, without blended surfaces. Thread-safe.
 class SceneTracer {

@@ -267,8 +267,8 @@ Result<std::unique_ptr<SceneTracer>> make_embree_tracer(SceneTriangles triangles
 }
 
 Result<std::unique_ptr<SceneTracer>> make_scene_tracer(const World& world, JobExecutor& executor,
-                                                       const std::optional<dvec3>& origin) {
-  return make_embree_tracer(gather_triangles(world, origin, executor));
+                                                       const std::optional<dvec3>& origin, TracedInstances traced) {
+  return make_embree_tracer(gather_triangles(world, origin, executor, traced));
 }
 
 }  // namespace gloam

@@ -9,6 +9,7 @@
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
 #include "engine/render/scene/caster_bounds.h"
+#include "engine/scene/animated_nodes.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 #include "modules/accuracy/tracing/texture_fetch.h"
@@ -39,14 +40,17 @@ std::span<const mat4> joints_of(const JointMatrices& all, Entity entity, dvec3& 
   return std::span(all.matrices).subspan(range->first, range->count);
 }
 
-std::vector<Instance> gather_instances(const World& world) {
+std::vector<Instance> gather_instances(const World& world, TracedInstances traced) {
   const auto& assets = world.resource<SceneAssets>();
   const auto& joints = world.resource<JointMatrices>();
   const std::vector<float>& weights = world.resource<MorphWeights>().values;
+  const AnimatedNodes animated(world);
   std::vector<Instance> instances;
   world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
       [&](Entity entity, const MeshInstance& drawn, const WorldTransform& transform, const MorphInstance* morph) {
         if (drawn.mesh >= assets.meshes.size()) return;
+        if (traced == TracedInstances::at_rest && (drawn.skin != kNone || morph != nullptr || animated.moves(entity)))
+          return;
         Instance instance;
         instance.entity = entity;
         instance.mesh = &assets.meshes[drawn.mesh];
@@ -278,9 +282,10 @@ std::uint64_t SceneTriangles::hash_of_all() const {
   return hasher.digest();
 }
 
-SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& origin, JobExecutor& executor) {
+SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& origin, JobExecutor& executor,
+                                TracedInstances traced) {
   const auto& assets = world.resource<SceneAssets>();
-  const std::vector<Instance> instances = gather_instances(world);
+  const std::vector<Instance> instances = gather_instances(world, traced);
   SceneTriangles triangles;
   triangles.origin = origin ? *origin : middle_of(instances);
   std::vector<std::uint32_t> cut_out_of_material(assets.materials.size(), kNone);

@@ -9,6 +9,7 @@
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
 #include "engine/math/types.h"
+#include "engine/render/reference/scene_tracer.h"
 #include "engine/scene/assets.h"
 
 namespace gloam {
@@ -67,10 +68,10 @@ struct SceneTriangles {
   [[nodiscard]] std::uint64_t hash_of_all() const;
 };
 
-/// The triangles of all MeshInstances as a frame shows them after its systems: WorldTransform in double, morphed by
+/// The triangles of MeshInstances as a frame shows them after its systems: WorldTransform in double, morphed by
 /// MorphWeights, skinned by JointMatrices with up to four joints per vertex. Blended surfaces are left out. `origin`:
 /// world position; none: the middle of all instances that cast shadows.
 [[nodiscard]] SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& origin,
-                                              JobExecutor& executor);
+                                              JobExecutor& executor, TracedInstances traced = TracedInstances::all);
 
 }  // namespace gloam

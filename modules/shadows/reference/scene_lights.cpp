@@ -77,6 +77,7 @@ TwinLights gather_lights(const World& world, const SceneTracer& tracer) {
         if (!gives_light(light)) return;
         TwinLight twin = twin_of(light, transform.matrix, tracer.origin());
         if (!is_finite(twin.position) || !is_finite(twin.axis)) return;
+        twin.entity = entity;
         twin.casts = caster == nullptr || caster->enabled;
         found.push_back({entity.index, twin});
       });

@@ -16,6 +16,7 @@ namespace gloam {
 /// A light for references: how it lights (shaders/lights/lights_api.glsl, in double), and its emitter. Cookies are left
 /// out: their images are files that only the passes of the shadows module load.
 struct TwinLight {
+  Entity entity = kNoEntity;
   LightKind kind = LightKind::point;
   dvec3 position = dvec3(0.0);         ///< relative to the origin given to gather_lights()
   dvec3 axis = dvec3(0.0, 0.0, -1.0);  ///< unit, the way it shines

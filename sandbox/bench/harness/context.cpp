@@ -21,7 +21,7 @@ Result<Session*> BenchContext::session_or(const std::string& scene) {
   if (session == nullptr) {
     auto opened = open_session(options, log_);
     if (!opened) return opened.error();
-    GLOAM_TRY(ensure_captures(**opened, options, log_));
+    GLOAM_TRY(ensure_baked(**opened, options, log_));
     session = std::move(opened).value();
     device_info_ = session->device->info();
   }
@@ -35,7 +35,7 @@ Result<std::unique_ptr<Session>> BenchContext::open_builtin(const std::string& s
   options.animation.clear();
   auto opened = open_session(options, log_, {}, std::move(more_modules));
   if (!opened) return opened.error();
-  GLOAM_TRY(ensure_captures(**opened, options, log_));
+  GLOAM_TRY(ensure_baked(**opened, options, log_));
   device_info_ = opened.value()->device->info();
   return std::move(opened).value();
 }

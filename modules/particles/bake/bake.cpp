@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/particles/bake/bake.h"
+
+#include <mutex>
+#include <vector>
+
+#include "engine/core/hash.h"
+#include "engine/scene/resources.h"
+#include "modules/particles/bake/bake_lights.h"
+#include "modules/particles/bake/grid.h"
+#include "modules/particles/bake/texels.h"
+
+namespace gloam {
+namespace {
+
+/// Increment it when the same world gives other maps than before.
+constexpr std::uint32_t kBakeVersion = 1;
+constexpr std::size_t kTexelGrain = 64;
+
+std::vector<Entity> entities_of(const BakeLights& lights, const std::vector<std::uint32_t>& chosen) {
+  std::vector<Entity> entities;
+  for (const std::uint32_t i : chosen) entities.push_back(lights.all.lights[i].entity);
+  return entities;
+}
+
+void add_light(Hasher& hasher, const TwinLight& light, const std::vector<std::uint32_t>& bulbs) {
+  hasher.value(light.kind).value(light.casts);
+  hasher.bytes_of(light.position).bytes_of(light.axis).bytes_of(light.color);
+  for (const double value : {light.range2, light.spot_scale, light.spot_offset, light.radius}) hasher.bytes_of(value);
+  hasher.items(bulbs);
+}
+
+}  // namespace
+
+ParticleLightMaps bake_particle_light(const ParticleBakeInput& input) {
+  const BakeLights lights = gather_bake_lights(input.world, input.tracer);
+  const Flux ambient = ambient_flux(input.world.resource<SceneEnvironment>());
+  ParticleLightMaps maps;
+  std::vector<std::vector<std::uint32_t>> cookies;
+  std::size_t total = 0, done = 0;
+  for (const PlacedEmitter& emitter : emitters_at_rest(input.world)) {
+    ParticleLightMap map = empty_light_map(emitter);
+    cookies.push_back(strongest_with_cookies(input.world, lights, emitter, input.tracer.origin()));
+    map.static_lights = entities_of(lights, lights.with_flux);
+    map.lights = entities_of(lights, cookies.back());
+    for (auto& channel : map.flux) channel.resize(map.texels());
+    if (!map.lights.empty()) map.visibility.resize(map.texels());
+    total += map.texels();
+    maps.maps.push_back(std::move(map));
+  }
+  std::mutex reporting;
+  for (std::size_t m = 0; m < maps.maps.size(); ++m) {
+    ParticleLightMap& map = maps.maps[m];
+    input.executor.parallel_for(map.texels(), kTexelGrain, [&](JobRange range) {
+      bake_texels(input.tracer, lights, cookies[m], ambient, range.begin, range.end, map);
+      if (!input.progress) return;
+      const std::lock_guard lock(reporting);
+      input.progress(done += range.end - range.begin, total);
+    });
+  }
+  return maps;
+}
+
+std::uint64_t particle_light_content(const World& world, const SceneTracer& tracer) {
+  const BakeLights lights = gather_bake_lights(world, tracer);
+  Hasher hasher;
+  hasher.value(kBakeVersion).value(tracer.version()).bytes_of(tracer.origin());
+  for (const auto* chosen : {&lights.with_flux, &lights.with_cookies}) {
+    hasher.value(chosen->size());
+    for (const std::uint32_t i : *chosen)
+      add_light(hasher, lights.all.lights[i], lights.all.bulbs[lights.all.lights[i].bulbs]);
+  }
+  const SceneEnvironment& sky = world.resource<SceneEnvironment>();
+  hasher.bytes_of(sky.sky_zenith).bytes_of(sky.sky_horizon).bytes_of(sky.sky_ground);
+  for (const PlacedEmitter& emitter : emitters_at_rest(world)) {
+    hasher.bytes_of(emitter.origin).bytes_of(emitter.bounds.min).bytes_of(emitter.bounds.max);
+  }
+  return hasher.digest();
+}
+
+}  // namespace gloam

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/particles/bake/texels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/math/low_discrepancy.h"
+#include "engine/math/packing.h"
+#include "modules/particles/bake/grid.h"
+
+namespace gloam {
+namespace {
+
+constexpr double kMostFlux = 65504.0;
+
+double strength(const dvec3& lux) { return std::max({lux.x, lux.y, lux.z}); }
+
+/// Points of a texel's cell and of emitters, in [0, 1). Different texels and lights have different ones.
+struct RaySamples {
+  std::uint32_t scramble[5];
+
+  RaySamples(std::size_t texel, std::uint32_t light) {
+    std::uint32_t seed = permuted(static_cast<std::uint32_t>(texel) * 0x9e3779b9u ^ permuted(light + 1));
+    for (std::uint32_t& s : scramble) s = seed = permuted(seed + 0x85ebca6bu);
+  }
+  [[nodiscard]] dvec3 in_cell(std::uint32_t i) const {
+    // A Sobol' pair, and the golden ratio for the third axis.
+    return {unit_fraction(reversed_bits(i) ^ scramble[0]), unit_fraction(second_sobol(i) ^ scramble[1]),
+            unit_fraction(i * 0x9e3779b9u + scramble[2])};
+  }
+  [[nodiscard]] glm::dvec2 on_emitter(std::uint32_t i) const {
+    const std::uint32_t turned = i * 5u + 3u;  // another order than in_cell()
+    return {unit_fraction(reversed_bits(turned) ^ scramble[3]), unit_fraction(second_sobol(turned) ^ scramble[4])};
+  }
+};
+
+class TexelBaker {
+ public:
+  TexelBaker(const SceneTracer& tracer, const BakeLights& lights, const ParticleLightMap& map)
+      : tracer_(tracer), lights_(lights), map_(map) {}
+
+  [[nodiscard]] Flux flux(std::size_t texel) {
+    arriving_.clear();
+    double all = 0.0;
+    const dvec3 middle = point(texel, dvec3(0.5));
+    for (const std::uint32_t i : lights_.with_flux) {
+      dvec3 to_light;
+      const double lux = strength(illuminance_of(lights_.all.lights[i], middle, to_light));
+      if (lux > 0.0) arriving_.push_back({i, lux});
+      all += lux;
+    }
+    Flux sum;
+    for (const Arriving& one : arriving_) {
+      const double share = one.lux / all;
+      const auto rays =
+          static_cast<std::uint32_t>(std::clamp(std::ceil(share * kRaysPerTexel), 1.0, double{kRaysPerLight}));
+      add(sum, texel, one.light, rays);
+    }
+    return sum;
+  }
+
+  /// Share of kVisibilityRays rays that reach the light.
+  [[nodiscard]] double visibility(std::size_t texel, std::uint32_t light) {
+    trace(texel, light, kVisibilityRays);
+    double seen = 0.0;
+    for (std::uint32_t i = 0; i < kVisibilityRays; ++i) seen += blocked_[i] == 0 ? 1.0 : 0.0;
+    return seen / kVisibilityRays;
+  }
+
+ private:
+  struct Arriving {
+    std::uint32_t light;
+    double lux;
+  };
+
+  [[nodiscard]] dvec3 point(std::size_t texel, const dvec3& in_cell) const {
+    const uvec3 size = map_.size;
+    const dvec3 corner(static_cast<double>(texel % size.x), static_cast<double>(texel / size.x % size.y),
+                       static_cast<double>(texel / size.x / size.y));
+    return grid_position(map_, corner + in_cell) - tracer_.origin();
+  }
+
+  /// Sets points_ and blocked_ of `count` rays to the light.
+  void trace(std::size_t texel, std::uint32_t index, std::uint32_t count) {
+    const TwinLight& light = lights_.all.lights[index];
+    const RaySamples samples(texel, light.entity.index);
+    points_.resize(count);
+    blocked_.assign(count, 0);
+    rays_.clear();
+    numbers_.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      points_[i] = point(texel, samples.in_cell(i));
+      const glm::dvec2 at = samples.on_emitter(i);
+      ShadowRay ray;
+      if (!light.casts || !aim_at_emitter(light, points_[i], at.x, at.y, ray)) continue;
+      rays_.push_back(ray);
+      numbers_.push_back(i);
+    }
+    hits_.resize(rays_.size());
+    tracer_.occluded(rays_, hits_, lights_.all.bulbs[light.bulbs]);
+    for (std::size_t r = 0; r < rays_.size(); ++r) blocked_[numbers_[r]] = hits_[r];
+  }
+
+  void add(Flux& sum, std::size_t texel, std::uint32_t index, std::uint32_t count) {
+    trace(texel, index, count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (blocked_[i] != 0) continue;
+      dvec3 to_light(0.0);
+      const dvec3 lux = illuminance_of(lights_.all.lights[index], points_[i], to_light) / static_cast<double>(count);
+      sum.fluence += lux;
+      for (int c = 0; c < 3; ++c) sum.along[c] += lux[c] * to_light;
+    }
+  }
+
+  const SceneTracer& tracer_;
+  const BakeLights& lights_;
+  const ParticleLightMap& map_;
+  std::vector<Arriving> arriving_;
+  std::vector<dvec3> points_;
+  std::vector<ShadowRay> rays_;
+  std::vector<std::uint32_t> numbers_;  ///< of the points of rays_
+  std::vector<std::uint8_t> hits_, blocked_;
+};
+
+BakedFlux packed(const dvec3& along, double fluence) {
+  const double factor = fluence > kMostFlux ? kMostFlux / fluence : 1.0;
+  const dvec3 a = along * factor;
+  const auto half = [](double v) { return float_to_half(static_cast<float>(v)); };
+  return {half(a.x), half(a.y), half(a.z), half(fluence * factor)};
+}
+
+}  // namespace
+
+Flux ambient_flux(const SceneEnvironment& sky) {
+  const dvec3 above = 0.5 * (dvec3(sky.sky_horizon) + dvec3(sky.sky_zenith)), ground(sky.sky_ground);
+  constexpr double kTau = 6.28318530717958647693;
+  Flux flux;
+  flux.fluence = kTau * (above + ground);
+  for (int c = 0; c < 3; ++c) flux.along[c] = dvec3(0.0, kTau * (above[c] - ground[c]), 0.0);
+  return flux;
+}
+
+void bake_texels(const SceneTracer& tracer, const BakeLights& lights, std::span<const std::uint32_t> cookies,
+                 const Flux& ambient, std::size_t begin, std::size_t end, ParticleLightMap& map) {
+  TexelBaker baker(tracer, lights, map);
+  for (std::size_t texel = begin; texel < end; ++texel) {
+    const Flux flux = baker.flux(texel);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto channel = static_cast<int>(c);
+      map.flux[c][texel] =
+          packed(flux.along[channel] + ambient.along[channel], flux.fluence[channel] + ambient.fluence[channel]);
+    }
+    for (std::size_t i = 0; i < cookies.size(); ++i)
+      map.visibility[texel][i] = static_cast<std::uint8_t>(std::lround(255.0 * baker.visibility(texel, cookies[i])));
+  }
+}
+
+}  // namespace gloam
