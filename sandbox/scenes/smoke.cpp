@@ -13,7 +13,7 @@
 namespace gloam {
 namespace {
 
-constexpr vec3 kWarm(1.0f, 0.52f, 0.18f), kCold(0.16f, 0.44f, 1.0f);
+constexpr vec3 kWarm(1.0f, 0.40f, 0.10f), kCold(0.12f, 0.38f, 1.0f);
 constexpr dvec3 kVent(0.0, 0.0, 0.0);    // the smoke comes from here
 constexpr dvec3 kBowl(3.4, 0.0, 1.6);    // the fire burns here
 constexpr dvec3 kSpot(-4.6, 3.4, -1.5);  // the dust is in its beam
@@ -188,7 +188,7 @@ void build_smoke_scene(World& world, SceneInfo& info) {
   environment.sky_horizon = vec3(0.030f, 0.034f, 0.050f);
   environment.sky_ground = vec3(0.010f, 0.010f, 0.010f);
   environment.has_exposure = true;
-  environment.exposure_ev100 = 0.6f;
+  environment.exposure_ev100 = 0.9f;
   info.name = "smoke";
 }
 

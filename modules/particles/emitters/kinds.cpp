@@ -47,16 +47,16 @@ constexpr KindProperties kFire = {.rise = 1.3f,
                                   .drag = 2.5f,
                                   .turbulence = 0.35f,
                                   .swirl_m = 0.35f,
-                                  .growth = 0.35f,
+                                  .growth = 0.5f,
                                   .spin = 1.5f,
-                                  .opacity = 0.55f,
+                                  .opacity = 0.5f,
                                   .fade_in = 0.12f,
-                                  .fade_out = 0.7f,
-                                  .erosion = 0.8f,
+                                  .fade_out = 0.85f,
+                                  .erosion = 0.9f,
                                   .forward = 0.0f,
                                   .cover = 0.12f,
                                   .albedo = vec3(0.2f),
-                                  .emission = vec3(7.0f, 2.6f, 0.55f)};
+                                  .emission = vec3(3.6f, 1.25f, 0.2f)};
 
 }  // namespace
 

@@ -19,6 +19,16 @@ float swirl_time(std::int64_t step, std::uint32_t seed) {
   return static_cast<float>(phase - std::floor(phase));
 }
 
+/// Distance of most particles from the column above the emitter, metres.
+float usual_radius(const PlacedEmitter& emitter) {
+  const KindProperties& kind = kind_properties(emitter.values.kind);
+  const float life = emitter.values.lifetime_s, way = (1.0f - std::exp(-kind.drag * life)) / kind.drag;
+  float box = 0.0f;
+  for (const vec3& edge : emitter.box) box = std::max({box, std::abs(edge.x), std::abs(edge.z)});
+  const float sideways = emitter.values.speed * std::sin(std::min(emitter.values.spread, 0.5f * kPi)) * way;
+  return 0.25f * box + 0.4f * sideways + 0.1f * kind.turbulence * life + 0.1f * emitter.largest_m + 1e-4f;
+}
+
 void set_directions(const PlacedEmitter& emitter, shaders::ParticleEmitterRow& row) {
   row.axis = emitter.axis;
   const vec3 other = std::abs(row.axis.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
@@ -79,8 +89,7 @@ shaders::ParticleEmitterRow emitter_row(const PlacedEmitter& emitter, const Visi
   row.inverse_life = 1.0f / emitter.values.lifetime_s;
   row.swirl_step_s = emitter.values.lifetime_s / GLOAM_PARTICLE_SWIRL_STEPS;
   row.swirl_time = swirl_time(step, row.seed);
-  row.center = vec3(0.5 * (emitter.bounds.min + emitter.bounds.max) - view.position);
-  row.inverse_extent = vec3(2.0 / glm::max(emitter.bounds.max - emitter.bounds.min, dvec3(1e-6)));
+  row.inverse_radius = 1.0f / usual_radius(emitter);
   row.map_slice = -1.0f;
   set_lights(lights, indices, row);
   return row;

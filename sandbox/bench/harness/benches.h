@@ -69,6 +69,8 @@ void add_grass_field_benches(BenchRegistry& registry);
 void add_grass_cost_benches(BenchRegistry& registry);
 /// Flicker, FLIP and coverage of the level of detail of grass during a walk.
 void add_grass_walk_benches(BenchRegistry& registry);
+/// Times of the passes of particles: lit against unlit ones, by number, and by the rate of lighting.
+void add_particle_cost_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

@@ -80,10 +80,9 @@ vec3 scattered_light(ParticleEmitterRow e, vec3 position, vec3 outward) {
 // The direction n of a point of a sprite: out of the emitter's column, and out of the sprite. corner: the point's place
 // in the sprite, −1…1 along the picture's axes.
 vec3 outward_direction(ParticleEmitterRow e, vec3 center, vec2 corner) {
-  // Bounds are several times as wide as most of the cloud.
-  vec2 side = 3.0 * ((center - e.center) * e.inverse_extent).xz;
-  side *= 0.6 * inversesqrt(1.0 + dot(side, side));
-  return vec3(side.x, 0.0, side.y) + 0.27 * (corner.x * frame.right + corner.y * frame.up);
+  vec2 side = (center - e.origin).xz * e.inverse_radius;
+  side *= 0.68 * inversesqrt(1.0 + dot(side, side));
+  return vec3(side.x, 0.0, side.y) + 0.22 * (corner.x * frame.right + corner.y * frame.up);
 }
 
 #endif

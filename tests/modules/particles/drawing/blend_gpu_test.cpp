@@ -43,7 +43,7 @@ std::vector<double> blended(const ParticleCopy& copy, const std::vector<float>& 
     const double half_width = 0.5 * width * static_cast<double>(p.radius_m * copy.view.clip_from_view[0][0]) / depth;
     const double half_height = 0.5 * height * static_cast<double>(p.radius_m * copy.view.clip_from_view[1][1]) / depth;
     const double x0 = (0.5 + 0.5 * middle.x / middle.w) * width, y0 = (0.5 - 0.5 * middle.y / middle.w) * height;
-    const dvec3 emission = dvec3(properties.emission) * glm::mix(dvec3(1.0), dvec3(0.9, 0.35, 0.12), cool);
+    const dvec3 emission = dvec3(properties.emission) * glm::mix(dvec3(1.0), dvec3(0.55, 0.2, 0.06), cool);
     for (std::uint32_t y = 0; y < height; ++y)
       for (std::uint32_t x = 0; x < width; ++x) {
         const double cx = (x + 0.5 - x0) / half_width, cy = -(y + 0.5 - y0) / half_height;

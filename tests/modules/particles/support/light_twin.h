@@ -38,10 +38,10 @@ struct TwinLamp {
 /// The direction n at a point of a sprite.
 [[nodiscard]] inline dvec3 twin_outward(const shaders::ParticleEmitterRow& e, const shaders::ParticleFrame& frame,
                                         const dvec3& center, double corner_x, double corner_y) {
-  const double x = 3.0 * (center.x - static_cast<double>(e.center.x)) * static_cast<double>(e.inverse_extent.x);
-  const double z = 3.0 * (center.z - static_cast<double>(e.center.z)) * static_cast<double>(e.inverse_extent.z);
-  const double shorter = 0.6 / std::sqrt(1.0 + x * x + z * z);
-  const dvec3 bulge = 0.27 * (corner_x * dvec3(frame.right) + corner_y * dvec3(frame.up));
+  const double x = (center.x - static_cast<double>(e.origin.x)) * static_cast<double>(e.inverse_radius);
+  const double z = (center.z - static_cast<double>(e.origin.z)) * static_cast<double>(e.inverse_radius);
+  const double shorter = 0.68 / std::sqrt(1.0 + x * x + z * z);
+  const dvec3 bulge = 0.22 * (corner_x * dvec3(frame.right) + corner_y * dvec3(frame.up));
   return static_cast<double>(e.forward) * (dvec3(shorter * x, 0.0, shorter * z) + bulge);
 }
 
