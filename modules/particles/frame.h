@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "engine/render/frame_builder.h"
 #include "modules/particles/knobs.h"
@@ -16,6 +17,13 @@ struct BakedLightAtlas {
   ImageRef visibility;
 };
 
+/// One dispatch of the simulation.
+struct SimulationDispatch {
+  shaders::ParticleDispatch constants{};
+  std::uint32_t groups = 0;
+  bool one_emitter = false;  ///< all groups are of the emitter constants.row
+};
+
 /// The particles of one view of one frame, as its passes hand them on.
 struct ParticlesFrame {
   ParticleLighting lighting = ParticleLighting::vertex;
@@ -25,6 +33,7 @@ struct ParticlesFrame {
   gpu::Binding::BufferRange constants_range;
   gpu::Binding::BufferRange emitters;  ///< shaders::ParticleEmitterRow
   gpu::Binding::BufferRange groups;    ///< uint: emitter row of each group of places
+  std::vector<SimulationDispatch> dispatches;
   BakedLightAtlas atlas;
   BufferRef state;  ///< shaders::Particle, by place
   BufferRef keys;   ///< uint, by place

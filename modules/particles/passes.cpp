@@ -98,6 +98,7 @@ void upload_rows(FrameBuilder& frame, const VisibleEmitters& visible, ParticlesF
   particles.constants.atlas_scale = 1.0f / glm::max(vec3(plan.size), vec3(1.0f));
   particles.constants_range = frame.upload_uniform(particles.constants);
   particles.emitters = frame.upload_items(std::span<const shaders::ParticleEmitterRow>(rows.emitters));
+  particles.dispatches = simulation_dispatches(rows.groups);
   particles.groups = frame.upload_items(std::span<const std::uint32_t>(rows.groups));
 }
 
@@ -117,8 +118,8 @@ void add_particle_passes(FrameBuilder& frame) {
 
 void list_particle_pipelines(ParticleLighting lighting, bool threads_in_turn, PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "particles")); };
-  add(particle_simulation_program());
-  for (const ComputeProgram& program : particle_sort_programs(lighting, threads_in_turn)) add(program);
+  for (const bool one_emitter : {true, false}) add(particle_simulation_program(one_emitter));
+  for (const ComputeProgram& program : particle_sort_programs(threads_in_turn)) add(program);
   ParticlesFrame particles;
   particles.lighting = lighting;
   const ParticleLightVersion plain{false, {{2, 0}}};

@@ -54,6 +54,8 @@ struct ParticleEmitterRow {
   uint keys;             // number of keys of the emitter's depths
   float map_slice;       // first slice of the emitter's map in the atlas; negative: it has no map
   float swirl_step_s;    // lifetime / GLOAM_PARTICLE_SWIRL_STEPS
+  float step_way;        // (1 - step_decay) / drag
+  float step_decay;      // exp(-drag * swirl_step_s)
   vec3 map_from;         // camera-relative corner of the map
   vec3 map_scale;        // texels per metre
   vec3 map_size;         // texels
@@ -76,6 +78,12 @@ struct ParticleFrame {
   vec3 atlas_scale;  // 1 / texels of the atlas of baked light
 };
 
+/// Push constants of a dispatch of the simulation.
+struct ParticleDispatch {
+  uint first_group;
+  uint row;  // of the emitter, if it has the dispatch for itself
+};
+
 /// One particle of a view, by place.
 struct Particle {
   vec3 position;  // camera-relative
@@ -94,7 +102,7 @@ struct ParticleDraws {
   uint vertex_offset;
   uint first_instance;
   uint drawn;          // sprites
-  uvec3 light_groups;  // workgroups with a thread for each lit point
+  uvec3 light_groups;  // workgroups with a thread for each sprite
 };
 
 GLOAM_SHARED_END

@@ -88,6 +88,8 @@ shaders::ParticleEmitterRow emitter_row(const PlacedEmitter& emitter, const Visi
   row.interval_s = static_cast<float>(1.0 / emitter.rate);
   row.inverse_life = 1.0f / emitter.values.lifetime_s;
   row.swirl_step_s = emitter.values.lifetime_s / GLOAM_PARTICLE_SWIRL_STEPS;
+  row.step_decay = std::exp(-row.drag * row.swirl_step_s);
+  row.step_way = -std::expm1(-row.drag * row.swirl_step_s) / row.drag;
   row.swirl_time = swirl_time(step, row.seed);
   row.inverse_radius = 1.0f / usual_radius(emitter);
   row.map_slice = -1.0f;

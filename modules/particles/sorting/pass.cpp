@@ -13,7 +13,7 @@ namespace {
 ComputeProgram digits_program(std::uint32_t shift, bool ordered) {
   return {shaders::particles::digits_comp, {{0, shift}, {1, ordered ? 1u : 0u}}};
 }
-ComputeProgram count_program(std::uint32_t lit_points) { return {shaders::particles::count_comp, {{0, lit_points}}}; }
+ComputeProgram count_program() { return {shaders::particles::count_comp}; }
 
 /// Eight bits of each key. order: null, or the order in which they are packed.
 BufferRef add_digits_pass(FrameBuilder& frame, const char* name, const ParticlesFrame& particles, std::uint32_t shift,
@@ -33,11 +33,8 @@ BufferRef add_digits_pass(FrameBuilder& frame, const char* name, const Particles
 
 }  // namespace
 
-std::vector<ComputeProgram> particle_sort_programs(ParticleLighting lighting, bool threads_in_turn) {
-  ParticlesFrame particles;
-  particles.lighting = lighting;
-  std::vector<ComputeProgram> programs = {digits_program(0, false), digits_program(8, true),
-                                          count_program(particles.lit_points())};
+std::vector<ComputeProgram> particle_sort_programs(bool threads_in_turn) {
+  std::vector<ComputeProgram> programs = {digits_program(0, false), digits_program(8, true), count_program()};
   for (const bool implied_values : {true, false})
     for (ComputeProgram& program : radix_sort_programs(threads_in_turn, implied_values))
       programs.push_back(std::move(program));
@@ -57,7 +54,7 @@ void add_particle_sort_passes(FrameBuilder& frame, ParticlesFrame& particles) {
   desc.name = "particle_draws";
   desc.module = "particles";
   desc.size = sizeof(shaders::ParticleDraws);
-  ComputePass count(frame, "particle_count", count_program(particles.lit_points()));
+  ComputePass count(frame, "particle_count", count_program());
   count.read("bins", sorted.bins);
   particles.draws = count.write("draws", frame.graph().create_buffer(desc));
   count.dispatch(1);

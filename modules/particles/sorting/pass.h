@@ -10,7 +10,7 @@
 namespace gloam {
 
 /// The programs of the passes.
-[[nodiscard]] std::vector<ComputeProgram> particle_sort_programs(ParticleLighting lighting, bool threads_in_turn);
+[[nodiscard]] std::vector<ComputeProgram> particle_sort_programs(bool threads_in_turn);
 
 /// Sorts the particles by their keys, and counts those that are drawn.
 void add_particle_sort_passes(FrameBuilder& frame, ParticlesFrame& particles);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Lights the sprites at their middles or at their corners, in the order in which they are drawn. One thread for each
-// point. Shared by light.comp and light_cookies.comp.
+// sprite. Shared by light.comp and light_cookies.comp.
 
 #include "shaders/particles/particles_shared.h"
 #include "shaders/render/view_api.glsl"
@@ -23,13 +23,14 @@ layout(set = 0, binding = 6, scalar) writeonly buffer Light { uvec2 light[]; }; 
 #include "shaders/particles/lighting/scattered_light.glsl"
 
 void main() {
-  uint point = gl_GlobalInvocationID.y * (32768u * 64u) + gl_GlobalInvocationID.x;
-  if (point >= draws.drawn * kLitPoints) return;
-  Particle p = particles[order[point / kLitPoints]];
+  uint sprite = gl_GlobalInvocationID.y * (32768u * 64u) + gl_GlobalInvocationID.x;
+  if (sprite >= draws.drawn) return;
+  Particle p = particles[order[sprite]];
   ParticleEmitterRow e = emitters[p.look & 0xFFFFu];
-  uint i = point % kLitPoints;
-  vec2 corner = kLitPoints == 1u ? vec2(0.0) : vec2(i & 1u, i >> 1u) * 2.0 - 1.0;
-  vec3 at = p.position + p.radius_m * (corner.x * frame.right + corner.y * frame.up);
-  vec3 sum = scattered_light(e, at, outward_direction(e, p.position, corner));
-  light[point] = uvec2(packHalf2x16(sum.rg), packHalf2x16(vec2(sum.b, 0.0)));
+  for (uint i = 0u; i < kLitPoints; ++i) {
+    vec2 corner = kLitPoints == 1u ? vec2(0.0) : vec2(i & 1u, i >> 1u) * 2.0 - 1.0;
+    vec3 at = p.position + p.radius_m * (corner.x * frame.right + corner.y * frame.up);
+    vec3 sum = scattered_light(e, at, outward_direction(e, p.position, corner));
+    light[sprite * kLitPoints + i] = uvec2(packHalf2x16(sum.rg), packHalf2x16(vec2(sum.b, 0.0)));
+  }
 }

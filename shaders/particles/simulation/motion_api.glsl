@@ -46,10 +46,10 @@ vec3 swirl(vec3 at, float time) {
   return 0.34 * slow + 0.16 * fast;
 }
 
-// Way of a particle with the velocity v at birth after `age` seconds, without turbulence.
-vec3 calm_way(ParticleEmitterRow e, vec3 v, float age) {
-  float way = (1.0 - exp(-e.drag * age)) / e.drag;
-  return v * way + vec3(0.0, e.rise * (age - way), 0.0);
+// Way of a particle without turbulence after `time`. v: velocity at birth. way: that of a particle of 1 m/s without
+// rise, (1 − exp(−drag · time)) / drag.
+vec3 calm_way(ParticleEmitterRow e, vec3 v, float way, float time) {
+  return v * way + vec3(0.0, e.rise * (time - way), 0.0);
 }
 
 // share: of the lifetime. Rises from 0, and falls back to 0.
@@ -74,17 +74,19 @@ Particle particle_state(ParticleEmitterRow e, uint row, uint k) {
   vec3 v = direction * (e.speed * (0.6 + 0.8 * b.z));
 
   vec3 drift = vec3(0.0), flow = particle_flow(e, birth, age, 0.0);
+  float way = 0.0;
   for (int i = 1; i <= GLOAM_PARTICLE_SWIRL_STEPS; ++i) {
     // The flow changes linearly during a step, towards the one where it would carry the particle.
     float then = float(i) * e.swirl_step_s, past = clamp(age - then + e.swirl_step_s, 0.0, e.swirl_step_s);
-    vec3 next = particle_flow(e, birth + calm_way(e, v, then) + drift + flow * e.swirl_step_s, age, then);
+    way = e.step_way + e.step_decay * way;
+    vec3 next = particle_flow(e, birth + calm_way(e, v, way, then) + drift + flow * e.swirl_step_s, age, then);
     drift += past * (flow + (0.5 * past / e.swirl_step_s) * (next - flow));
     flow = next;
   }
 
   Particle p;
   p.life = min(age * e.inverse_life, 1.0);
-  p.position = e.origin + birth + calm_way(e, v, age) + drift;
+  p.position = e.origin + birth + calm_way(e, v, (1.0 - exp(-e.drag * age)) / e.drag, age) + drift;
   p.radius_m = 0.5 * e.size_m * (0.75 + 0.5 * a.w) * mix(1.0, e.growth, p.life);
   p.angle = 2.0 * kPi * b.w + e.spin * age * (2.0 * b.z - 1.0);
   p.opacity = particle_opacity(e, p.life);

@@ -6,9 +6,14 @@
 #include "shaders/render/view_api.glsl"
 
 // Places the particles of a view's emitters and gives each a sort key: far particles have low keys. A workgroup has
-// particles of one emitter.
+// particles of one emitter. Emitters of many particles have a dispatch each: software devices read the row of all
+// threads at once if its index is the same in the whole dispatch.
 
 layout(local_size_x = 64) in;  // GLOAM_PARTICLE_GROUP
+
+layout(constant_id = 0) const uint kOneEmitter = 0u;  // 1: the dispatch has particles of emitter c.row
+
+layout(push_constant, scalar) uniform Constants { ParticleDispatch c; };
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Frame { ParticleFrame frame; };
@@ -30,8 +35,9 @@ bool in_view(Particle p, float depth_m) {
 }
 
 void main() {
-  uint place = gl_GlobalInvocationID.x;
-  uint row = emitter_of_group[gl_WorkGroupID.x];
+  uint place = c.first_group * GLOAM_PARTICLE_GROUP + gl_GlobalInvocationID.x;
+  uint row = c.row;
+  if (kOneEmitter == 0u) row = emitter_of_group[c.first_group + gl_WorkGroupID.x];
   ParticleEmitterRow e = emitters[row];
   uint k = place - e.first;
   Particle p = particle_state(e, row, min(k, e.count - 1u));

@@ -8,14 +8,12 @@
 
 layout(local_size_x = 1) in;
 
-layout(constant_id = 0) const uint kLitPoints = 4u;  // of a sprite
-
 layout(set = 0, binding = 0, scalar) readonly buffer Bins { uint bins[257]; };  // exclusive prefix sum
 layout(set = 0, binding = 1, scalar) writeonly buffer Draws { ParticleDraws draws; };
 
 void main() {
   uint drawn = bins[255];  // particles that are not drawn have the greatest digit
-  uint groups = (drawn * kLitPoints + 63u) / 64u;
+  uint groups = (drawn + 63u) / 64u;
   // More than 65535 workgroups take two dimensions.
   uint rows = (groups + 32767u) / 32768u;
   draws.indices = 6u * GLOAM_PARTICLE_DRAW_SPRITES;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/render/view_constants.h"
+#include "modules/particles/simulation/pass.h"
 #include "modules/particles/sorting/key_ranges.h"
 #include "shaders/particles/shaders.h"
 #include "tests/modules/particles/support/emitters.h"
@@ -55,7 +56,8 @@ struct Scene {
 class ParticleSimulation : public KernelTest {
  protected:
   [[nodiscard]] static Simulated simulate(const Scene& scene) {
-    Kernel kernel(device(), shaders::particles::simulate_comp);
+    Kernel kernel(device(), shaders::particles::simulate_comp, {{0, 0}});
+    kernel.push(shaders::ParticleDispatch{});
     const std::size_t places = scene.groups.size() * GLOAM_PARTICLE_GROUP;
     kernel.input(0, std::vector{view_constants(scene.view)});
     kernel.input(1, std::vector{scene.frame()});
@@ -152,6 +154,61 @@ TEST_F(ParticleSimulation, a_particle_does_not_depend_on_its_place_nor_on_the_ru
     p.look &= 0xFFFF0000u;  // the row of the emitter differs
     EXPECT_EQ(std::memcmp(&p, &a.particles[k], sizeof(p)), 0) << k;
   }
+}
+
+TEST_F(ParticleSimulation, a_dispatch_of_one_emitter_gives_the_same_particles_to_the_bit) {
+  ParticleEmitter values;
+  values.kind = EmitterKind::fire;
+  values.rate = 900.0f;
+  values.lifetime_s = 1.0f;
+  Scene scene;
+  for (std::uint32_t i = 0; i < 3; ++i) scene.add(placed(values, dmat4(1.0), i), 333);
+  const Simulated all = simulate(scene);
+  Kernel kernel(device(), shaders::particles::simulate_comp, {{0, 1}});
+  const shaders::ParticleEmitterRow& row = scene.rows[1];
+  const std::uint32_t first_group = row.first / GLOAM_PARTICLE_GROUP, groups = (row.count + 63) / 64;
+  kernel.push(shaders::ParticleDispatch{first_group, 1});
+  kernel.input(0, std::vector{view_constants(scene.view)});
+  kernel.input(1, std::vector{scene.frame()});
+  kernel.input(2, scene.rows);
+  kernel.input(3, scene.groups);
+  kernel.output(4, all.particles.size() * sizeof(shaders::Particle));
+  kernel.output(5, all.keys.size() * sizeof(std::uint32_t));
+  kernel.run(groups);
+  const auto particles = kernel.read<shaders::Particle>(4);
+  const auto keys = kernel.read<std::uint32_t>(5);
+  for (std::uint32_t place = 0; place < all.keys.size(); ++place) {
+    const bool own = place >= row.first && place < row.first + groups * GLOAM_PARTICLE_GROUP;
+    EXPECT_EQ(keys[place], own ? all.keys[place] : Kernel::kUntouched) << place;
+    if (own) {
+      EXPECT_EQ(std::memcmp(&particles[place], &all.particles[place], sizeof(shaders::Particle)), 0) << place;
+    }
+  }
+}
+
+TEST(SimulationDispatches, cover_all_groups_once_and_give_large_emitters_their_own) {
+  std::mt19937 random(8);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<std::uint32_t> groups;
+    for (std::uint32_t row = 0; row < 150; ++row)
+      groups.insert(groups.end(), 1 + random() % (row % 3 == 0 ? 40u : 5u), row);
+    std::vector<int> covered(groups.size(), 0);
+    std::uint32_t own = 0;
+    for (const SimulationDispatch& dispatch : simulation_dispatches(groups)) {
+      own += dispatch.one_emitter ? 1 : 0;
+      for (std::uint32_t i = 0; i < dispatch.groups; ++i) {
+        const std::uint32_t group = dispatch.constants.first_group + i;
+        ++covered.at(group);
+        if (dispatch.one_emitter) {
+          EXPECT_EQ(groups[group], dispatch.constants.row);
+        }
+      }
+    }
+    EXPECT_GT(own, 20u);
+    EXPECT_LE(own, kMostOwnDispatches);
+    for (const int times : covered) EXPECT_EQ(times, 1);
+  }
+  EXPECT_TRUE(simulation_dispatches({}).empty());
 }
 
 TEST_F(ParticleSimulation, a_particle_moves_and_fades_without_jumps_from_birth_to_death) {
