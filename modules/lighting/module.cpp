@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "modules/lighting/components.h"
 #include "modules/lighting/passes.h"
 #include "modules/lighting/tone_reference.h"
 
@@ -15,7 +16,7 @@ class LightingModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "lighting"; }
 
-  void register_components(World&) const override {}
+  void register_components(World& world) const override { world.set_resource(FlameSource{}); }
   void scene_keys(KeyRegistry&) const override {}
 
   void knobs(KnobRegistry& registry) const override {

@@ -11,6 +11,7 @@
 #include "modules/particles/baked_light.h"
 #include "modules/particles/components.h"
 #include "modules/particles/debug/overdraw.h"
+#include "modules/particles/emitters/flames.h"
 #include "modules/particles/emitters/placed.h"
 #include "modules/particles/emitters/strongest_lights.h"
 #include "modules/particles/emitters/visible.h"
@@ -28,6 +29,7 @@ class ParticlesModule final : public Module {
   [[nodiscard]] std::string_view name() const override { return "particles"; }
   void register_components(World& world) const override {
     world.register_component<ParticleEmitter>("particle_emitter");
+    world.set_resource(particle_flames());
     world.set_resource(EmitterSet{});
     world.set_resource(EmitterLights{});
     world.set_resource(ParticleLightMaps{});

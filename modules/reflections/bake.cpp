@@ -14,6 +14,7 @@
 #include "engine/math/finite.h"
 #include "engine/scene/components.h"
 #include "engine/scene/systems.h"
+#include "modules/lighting/components.h"
 #include "modules/reflections/bake/capture_view.h"
 #include "modules/reflections/bake/cube.h"
 #include "modules/reflections/bake/light_sources.h"
@@ -101,6 +102,10 @@ class Bake {
   }
 
   [[nodiscard]] Status add_proxy(const ProxyToBake& proxy) {
+    if (const FlameProxy* flame = world_.try_get<FlameProxy>(proxy.placed.entity)) {
+      add_flame(proxy.placed.entity, flame->flame);
+      return {};
+    }
     const SceneStrings& strings = world_.resource<SceneStrings>();
     auto chosen = proxy_lights(world_, proxy.placed, strings.text(proxy.proxy.lights), sources_);
     if (!chosen.ok()) return chosen.error();
@@ -120,6 +125,18 @@ class Bake {
     append_mip_chain(std::move(picture).value(), captures_.proxies.texels);
     tell_progress();
     return {};
+  }
+
+  /// The flame itself says how bright it is: no light dims its proxy.
+  void add_flame(Entity proxy, Entity flame) {
+    const std::uint32_t side = settings_.proxy_side;
+    CapturedPicture picture{side, side, std::vector<vec4>(std::size_t{side} * side, vec4(0.0f))};
+    const FlameSource* source = world_.try_resource<FlameSource>();
+    if (source != nullptr && source->picture) picture.texels = source->picture(world_, flame, side);
+    for (vec4& texel : picture.texels) texel = vec4(storable(vec3(texel)), texel.w);
+    captures_.proxy_entities.push_back(proxy);
+    append_mip_chain(std::move(picture), captures_.proxies.texels);
+    tell_progress();
   }
 
   [[nodiscard]] Status add_probes(const std::vector<ProbeToBake>& probes) {

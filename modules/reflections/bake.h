@@ -35,6 +35,10 @@ struct BakeSettings {
 [[nodiscard]] Result<ReflectionCaptures> bake_reflections(Renderer& renderer, World& world,
                                                           const BakeSettings& settings);
 
+/// Gives each flame of the world (FlameSource) four proxies around it, as children of its node, unless the node or a
+/// child of it is a fire proxy already. The importer calls it; worlds built by code call it before they are baked.
+void add_flame_proxies(World& world);
+
 /// Makes the captures those of the world, with a version that differs from the one before. The entities of the captures
 /// are of this world.
 void attach_captures(World& world, ReflectionCaptures captures);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/ecs/entity.h"
 #include "engine/math/types.h"
 
 namespace gloam {
@@ -17,6 +18,12 @@ struct IbrProxy {
   IbrProxyKind kind = IbrProxyKind::scene;
   std::uint32_t texture = 0;  ///< image file in SceneStrings instead of a capture
   std::uint32_t lights = 0;   ///< comma-separated light names in SceneStrings; 0: the lights that reached it at capture
+};
+
+/// A proxy of kind fire that shows a flame without triangles (FlameSource) in place of a capture. Made by
+/// add_flame_proxies.
+struct FlameProxy {
+  Entity flame = kNoEntity;
 };
 
 /// Room: a box around the node. Proxies whose centre lies in it belong to it.

@@ -7,6 +7,7 @@
 #include "engine/scene/key_table.h"
 #include "modules/lighting/outputs.h"
 #include "modules/lights/components.h"
+#include "modules/reflections/bake.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/components.h"
 #include "modules/reflections/debug/pick.h"
@@ -49,6 +50,7 @@ class ReflectionsModule final : public Module {
   [[nodiscard]] std::string_view name() const override { return "reflections"; }
   void register_components(World& world) const override {
     world.register_component<IbrProxy>("ibr_proxy");
+    world.register_component<FlameProxy>("flame_proxy");
     world.register_component<IbrRoom>("ibr_room");
     world.register_component<CubeProbe>("cube_probe");
     world.register_component<ReflectingHeights>("reflecting_heights");
@@ -82,6 +84,10 @@ class ReflectionsModule final : public Module {
     registry.add(boolean_key(line("gloam.cube_probe.global", "false", "", "whether this is the global probe"),
                              &CubeProbe::global));
     registry.add_finish("reflections", &check_light_names);
+    registry.add_finish("reflections", [](World& world) {
+      add_flame_proxies(world);
+      return Status();
+    });
   }
   void knobs(KnobRegistry& registry) const override { add_reflection_knobs(registry); }
   /// Knobs whose values differ in the model are judged by traced reflections.

@@ -163,7 +163,7 @@ void add_ground_fog(World& world, SceneBuilder& builder) {
 void add_cameras(SceneBuilder& builder) {
   builder.add_camera("near", {0.3, 1.35, 4.6}, {0.0, 1.5, 0.0}, 0.75f);
   builder.add_camera("far", {1.2, 2.9, 11.5}, {-0.2, 1.1, -1.0}, 0.7f);
-  builder.add_camera("fire", {4.3, 1.05, 5.6}, {3.45, 0.55, 1.8}, 0.62f);
+  builder.add_camera("fire", {4.2, 1.0, 6.2}, {3.5, 0.2, 2.0}, 0.62f);
   builder.add_camera("beam", {-2.4, 1.5, 4.4}, {-4.3, 1.5, -0.3}, 0.8f);
   builder.add_camera("inside", {0.05, 1.3, 0.25}, {0.5, 1.6, -4.0}, 1.0f);
   builder.add_camera("away", {0.0, 1.6, 9.0}, {0.0, 1.9, 20.0}, 0.8f);

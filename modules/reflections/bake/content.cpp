@@ -16,6 +16,7 @@
 #include "engine/scene/asset_hash.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
+#include "modules/lighting/components.h"
 #include "modules/lights/components.h"
 #include "modules/reflections/components.h"
 #include "modules/shadows/components.h"
@@ -154,6 +155,15 @@ void add_file(Hasher& hasher, const World& world, std::uint32_t name) {
   hasher.text(std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
 }
 
+/// Two flames with the same small picture have the same large one.
+void add_flame(Hasher& hasher, const World& world, Entity proxy) {
+  const FlameProxy* flame = world.try_get<FlameProxy>(proxy);
+  const FlameSource* source = world.try_resource<FlameSource>();
+  if (flame == nullptr || source == nullptr || !source->picture) return;
+  constexpr std::uint32_t kSide = 16;
+  for (const vec4& texel : source->picture(world, flame->flame, kSide)) hasher.bytes_of(texel);
+}
+
 void add_instances(Hasher& hasher, const World& world, const PoseHashes& poses) {
   AssetHashes assets(world.resource<SceneAssets>());
   for (const Entity entity : sorted_with<MeshInstance>(world)) {
@@ -185,6 +195,7 @@ void add_proxies(Hasher& hasher, const World& world, const PoseHashes& poses, co
     hasher.bytes_of(proxy.size_m);
     hasher.value(proxy.kind).value(proxy.texture != 0);
     add_file(hasher, world, proxy.texture);
+    add_flame(hasher, world, entity);
     const std::string& names = world.resource<SceneStrings>().text(proxy.lights);
     const auto named = resolve_light_names(world, names, "gloam.ibr_proxy.lights");
     hasher.value(named.ok() ? named->size() : 0);

@@ -28,6 +28,7 @@ struct BakeWorld {
     world.register_component<Light>("light");
     world.register_component<ShadowCaster>("shadow_caster");
     world.register_component<IbrProxy>("ibr_proxy");
+    world.register_component<FlameProxy>("flame_proxy");
     world.register_component<CubeProbe>("cube_probe");
     world.set_resource(ReflectionCaptures{});
   }
