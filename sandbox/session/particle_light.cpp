@@ -9,7 +9,7 @@
 
 #include "engine/core/sealed_file.h"
 #include "modules/accuracy/module.h"
-#include "modules/particles/bake/bake.h"
+#include "modules/particles/bake.h"
 
 namespace gloam {
 namespace {

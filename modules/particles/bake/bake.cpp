@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/particles/bake/bake.h"
+#include "modules/particles/bake.h"
 
 #include <mutex>
 #include <vector>

@@ -7,7 +7,7 @@
 
 #include "engine/ecs/world.h"
 #include "modules/particles/emitters/placed.h"
-#include "modules/shadows/reference/scene_lights.h"
+#include "modules/shadows/reference.h"
 
 namespace gloam {
 

@@ -8,7 +8,7 @@
 #include "engine/core/byte_stream.h"
 #include "engine/ecs/view.h"
 #include "modules/lights/components.h"
-#include "modules/particles/bake/bake.h"
+#include "modules/particles/bake.h"
 #include "modules/particles/components.h"
 #include "modules/particles/emitters/strongest_lights.h"
 

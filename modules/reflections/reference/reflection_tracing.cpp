@@ -15,8 +15,8 @@
 #include "engine/scene/resources.h"
 #include "modules/reflections/reference/lobe.h"
 #include "modules/reflections/reference/pixel_surface.h"
-#include "modules/shadows/reference/scene_lights.h"
 #include "modules/reflections/reference/shading.h"
+#include "modules/shadows/reference.h"
 
 namespace gloam {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/shadows/reference/scene_lights.h"
+#include "modules/shadows/reference.h"
 
 #include <algorithm>
 #include <cmath>

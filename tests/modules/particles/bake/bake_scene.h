@@ -13,7 +13,7 @@
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
-#include "modules/particles/bake/bake.h"
+#include "modules/particles/bake.h"
 #include "modules/particles/components.h"
 #include "modules/shadows/components.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/particles/bake/bake.h"
+#include "modules/particles/bake.h"
 
 #include <gtest/gtest.h>
 

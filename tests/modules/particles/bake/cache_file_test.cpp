@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "modules/particles/bake/bake.h"
+#include "modules/particles/bake.h"
 #include "tests/modules/particles/bake/bake_scene.h"
 
 namespace gloam {
