@@ -36,9 +36,13 @@ struct ParticleBakeInput {
 /// hash are out of date.
 [[nodiscard]] std::uint64_t particle_light_content(const World& world, const SceneTracer& tracer);
 
+/// Sets static_state and dynamic_state of the maps: their light is that of the world's lights as they are now.
+void mark_as_current(const World& world, ParticleLightMaps& maps);
+
 /// The maps as bytes, for a cache; entities are named by their order in the world.
 [[nodiscard]] std::string encode_particle_light(const World& world, const ParticleLightMaps& maps);
-/// None if the bytes are not of encode_particle_light() or name an entity that the world does not have.
+/// None if the bytes are not of encode_particle_light() or name an entity that the world does not have. The maps are
+/// marked as current: call it only if particle_light_content() is that of the baked world.
 [[nodiscard]] std::optional<ParticleLightMaps> decode_particle_light(const World& world, std::string_view bytes);
 
 }  // namespace gloam

@@ -48,11 +48,15 @@ struct ParticleLightMap {
   /// The lights whose light is in `flux`, ascending by Entity::index. All others are dynamic: the four strongest at the
   /// emitter light it, without shadows if they are not in `lights`.
   std::vector<Entity> static_lights;
+  /// LightStates::of() static_lights and then of lights, when the map was made. If it differs in a frame, lights have
+  /// changed since, and the frame does not use the map.
+  std::uint64_t static_state = 0, dynamic_state = 0;
 
   [[nodiscard]] std::size_t texels() const { return std::size_t{size.x} * size.y * size.z; }
 };
 
-/// The maps of a world; a world resource. An emitter without a map is lit by the four strongest of all
+/// The maps of a world; a world resource. An emitter without a map, or that is not where it was when its map was made,
+/// is lit by the four strongest of all
 /// lights, unshadowed, and by the sky and the ground.
 struct ParticleLightMaps {
   std::vector<ParticleLightMap> maps;  ///< ascending by Entity::index of the emitters, at most one of each

@@ -84,6 +84,7 @@ class ParticlesModule final : public Module {
     sink.count("particles.emitters_in_view", static_cast<double>(visible.emitters.size()));
     sink.count("particles.emitters_left_out", static_cast<double>(visible.left_out));
     sink.count("particles.emitters_not_finite", set.unusable);
+    sink.count("particles.light_maps_outdated", world.resource<EmitterLights>().outdated);
   }
   void give_up_frame(std::uint64_t) override {}  // keeps no state of its own
 };

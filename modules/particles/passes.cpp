@@ -72,8 +72,8 @@ Rows make_rows(const FrameBuilder& frame, const VisibleEmitters& visible, bool t
     row.keys = keys[i].count;
     row.far_m = static_cast<float>(keys[i].far_m);
     row.keys_per_m = static_cast<float>(keys[i].keys_per_m);
-    if (const ParticleLightMap* map = find_light_map(maps, emitter.entity))
-      set_map(*map, plan.first_slice[static_cast<std::size_t>(map - maps.maps.data())], frame.view(), row);
+    if (const std::uint32_t map = lights.emitters[seen.emitter].map; map != ~0u)
+      set_map(maps.maps[map], plan.first_slice[map], frame.view(), row);
     const std::size_t groups = (row.count + GLOAM_PARTICLE_GROUP - 1) / GLOAM_PARTICLE_GROUP;
     rows.groups.insert(rows.groups.end(), groups, static_cast<std::uint32_t>(i));
     rows.emitters.push_back(row);

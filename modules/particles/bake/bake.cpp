@@ -6,10 +6,13 @@
 #include <vector>
 
 #include "engine/core/hash.h"
+#include "engine/ecs/view.h"
+#include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 #include "modules/particles/bake/bake_lights.h"
 #include "modules/particles/bake/grid.h"
 #include "modules/particles/bake/texels.h"
+#include "modules/particles/emitters/light_states.h"
 
 namespace gloam {
 namespace {
@@ -59,7 +62,20 @@ ParticleLightMaps bake_particle_light(const ParticleBakeInput& input) {
       input.progress(done += range.end - range.begin, total);
     });
   }
+  mark_as_current(input.world, maps);
   return maps;
+}
+
+void mark_as_current(const World& world, ParticleLightMaps& maps) {
+  LightStates states;
+  world.view<const Light, const WorldTransform>().each(
+      [&](Entity entity, const Light& light, const WorldTransform& transform) {
+        states.add(entity, light, transform.matrix);
+      });
+  for (ParticleLightMap& map : maps.maps) {
+    map.static_state = states.of(map.static_lights);
+    map.dynamic_state = states.of(map.lights);
+  }
 }
 
 std::uint64_t particle_light_content(const World& world, const SceneTracer& tracer) {

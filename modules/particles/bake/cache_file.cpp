@@ -91,6 +91,7 @@ std::optional<ParticleLightMaps> decode_particle_light(const World& world, std::
   for (std::uint32_t i = 0; i < count && bytes.ok(); ++i) maps.maps.push_back(read_map(bytes, emitters, lights));
   bytes.require(std::ranges::is_sorted(maps.maps, {}, [](const ParticleLightMap& map) { return map.emitter.index; }));
   if (!bytes.at_end()) return std::nullopt;
+  mark_as_current(world, maps);
   return maps;
 }
 

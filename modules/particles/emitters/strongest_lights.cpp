@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/math/finite.h"
+#include "modules/particles/emitters/light_states.h"
 
 namespace gloam {
 namespace {
@@ -99,13 +100,23 @@ bool is_usable(const ParticleLightMap& map) {
 void particle_lights_system(View<const Light, const WorldTransform> lights, Resource<const EmitterSet> set,
                             Resource<const ParticleLightMaps> maps, Resource<EmitterLights> chosen) {
   std::vector<EmitterLight> placed;
+  LightStates states;
   lights.each([&](Entity entity, const Light& light, const WorldTransform& transform) {
+    if (!maps->maps.empty()) states.add(entity, light, transform.matrix);
     EmitterLight found;
     if (place_light(entity, light, transform.matrix, found)) placed.push_back(found);
   });
   chosen->emitters.clear();
-  for (const PlacedEmitter& emitter : set->emitters)
-    chosen->emitters.push_back(strongest_lights(placed, emitter.bounds, find_light_map(*maps, emitter.entity)));
+  chosen->outdated = 0;
+  for (const PlacedEmitter& emitter : set->emitters) {
+    const ParticleLightMap* map = find_light_map(*maps, emitter.entity);
+    const bool current = map != nullptr && map->origin == emitter.origin &&
+                         states.of(map->static_lights) == map->static_state &&
+                         states.of(map->lights) == map->dynamic_state;
+    chosen->outdated += map != nullptr && !current ? 1 : 0;
+    chosen->emitters.push_back(strongest_lights(placed, emitter.bounds, current ? map : nullptr));
+    if (current) chosen->emitters.back().map = static_cast<std::uint32_t>(map - maps->maps.data());
+  }
 }
 
 }  // namespace gloam

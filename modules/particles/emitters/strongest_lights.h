@@ -42,12 +42,14 @@ struct ChosenLight {
 struct LightsOfEmitter {
   std::array<ChosenLight, kBakedLights> lights;  ///< the strongest first
   std::uint32_t count = 0;
+  std::uint32_t map = ~0u;  ///< index in ParticleLightMaps::maps; ~0u: none that shows today's lights
 };
 
 /// The lights of all emitters, in the order of EmitterSet::emitters; a world resource written by system
 /// particle_lights.
 struct EmitterLights {
   std::vector<LightsOfEmitter> emitters;
+  std::uint32_t outdated = 0;  ///< maps that are not used, because their lights or their emitters have changed
 };
 
 /// An upper bound of the light's illuminance in the box, lux, which takes distances within a quarter of the box's

@@ -10,8 +10,11 @@
 
 #include "engine/math/packing.h"
 #include "engine/scene/animation.h"
+#include "engine/schedule/schedule.h"
 #include "modules/particles/bake/grid.h"
 #include "modules/particles/bake/texels.h"
+#include "modules/particles/emitters/placed.h"
+#include "modules/particles/emitters/strongest_lights.h"
 #include "tests/modules/particles/bake/bake_scene.h"
 
 namespace gloam {
@@ -209,6 +212,46 @@ TEST(BakedParticleLight, of_an_emitter_of_no_size_has_a_grid) {
     EXPECT_GE(map.size[i], 2u);
     EXPECT_LT(map.box.min[i], map.box.max[i]);
   }
+}
+
+TEST(ParticleLightMaps, are_not_used_once_a_light_or_the_emitter_has_changed) {
+  BakeScene scene;
+  const Entity emitter = scene.add_emitter({2.0, 0.0, 0.0});
+  const Entity lamp = scene.add_lamp({0.0, 0.0, 0.0});
+  scene.world.set_resource(EmitterSet{});
+  scene.world.set_resource(EmitterLights{});
+  scene.world.set_resource(scene.bake(kEmpty));
+  Schedule schedule;
+  schedule.add_system("particle_emitters", "particles", Stage::world, &particle_emitters_system);
+  schedule.add_system("particle_lights", "particles", Stage::world, &particle_lights_system);
+  const auto lights = [&]() -> const LightsOfEmitter& {
+    schedule.run(Stage::world, scene.world, *make_serial_executor());
+    return scene.world.resource<EmitterLights>().emitters.at(0);
+  };
+  EXPECT_EQ(lights().map, 0u);
+  EXPECT_EQ(lights().count, 0u) << "the lamp's light is in the map";
+  const auto outdated = [&] {
+    const LightsOfEmitter& found = lights();
+    EXPECT_EQ(scene.world.resource<EmitterLights>().outdated, 1u);
+    return found.map == ~0u;
+  };
+  scene.world.get<Light>(lamp).intensity = 1.0f;
+  EXPECT_TRUE(outdated());
+  EXPECT_EQ(lights().count, 1u) << "without its map, the emitter is lit by the lamp itself";
+  scene.world.get<Light>(lamp).intensity = 100.0f;
+  EXPECT_EQ(lights().map, 0u);
+  scene.world.get<WorldTransform>(lamp).matrix[3].y = 0.5;
+  EXPECT_TRUE(outdated());
+  scene.world.get<WorldTransform>(lamp).matrix[3].y = 0.0;
+  scene.world.get<WorldTransform>(emitter).matrix[3].y = 0.5;
+  EXPECT_TRUE(outdated());
+  scene.world.get<WorldTransform>(emitter).matrix[3].y = 0.0;
+  EXPECT_EQ(lights().map, 0u);
+  static_cast<void>(scene.add_lamp({3.0, 0.0, 0.0}));
+  EXPECT_EQ(lights().map, 0u);
+  EXPECT_EQ(lights().count, 1u) << "a new lamp lights beside the map";
+  scene.world.destroy(lamp);
+  EXPECT_TRUE(outdated());
 }
 
 TEST(ParticleLightContent, changes_with_lights_sky_emitters_and_triangles_only) {
