@@ -58,13 +58,14 @@ class ParticlesModule final : public Module {
   }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return particle_visualizers(); }
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
-    list_particle_pipelines(particle_lighting(knobs), device.threads_in_turn, list);
+    list_particle_pipelines(particle_lighting(knobs), last_version_, device.threads_in_turn, list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::translucent) add_particle_passes(frame);
     const ParticlesFrame* particles = frame.find<ParticlesFrame>();
     if (phase == PassPhase::visualize) add_overdraw_passes(frame, particles);
     if (phase != PassPhase::translucent || particles == nullptr || !frame.status().ok()) return;
+    last_version_ = particle_light_version(frame, *particles);
     frame.keep_result("particles", kDrawsResult, particles->draws, particles->lighting);
   }
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
@@ -86,7 +87,10 @@ class ParticlesModule final : public Module {
     sink.count("particles.emitters_not_finite", set.unusable);
     sink.count("particles.light_maps_outdated", world.resource<EmitterLights>().outdated);
   }
-  void give_up_frame(std::uint64_t) override {}  // keeps no state of its own
+  void give_up_frame(std::uint64_t) override {}  // what it keeps is no state of a frame
+
+ private:
+  ParticleLightVersion last_version_;
 };
 
 }  // namespace

@@ -116,18 +116,18 @@ void add_particle_passes(FrameBuilder& frame) {
   add_sprite_pass(frame, particles);
 }
 
-void list_particle_pipelines(ParticleLighting lighting, bool threads_in_turn, PipelineList& list) {
+void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersion& version, bool threads_in_turn,
+                             PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "particles")); };
   for (const bool one_emitter : {true, false}) add(particle_simulation_program(one_emitter));
   for (const ComputeProgram& program : particle_sort_programs(threads_in_turn)) add(program);
   ParticlesFrame particles;
   particles.lighting = lighting;
-  const ParticleLightVersion plain{false, {{2, 0}}};
-  if (particles.lit_points() > 0) add(particle_light_program(plain, particles.lit_points()));
+  if (particles.lit_points() > 0) add(particle_light_program(version, particles.lit_points()));
   const gpu::Format formats[] = {gpu::Format::rgba16_float};
   const bool per_pixel = lighting == ParticleLighting::pixel;
-  list.push_back(pipeline_desc(sprite_program(particles.lit_points(), false, per_pixel ? &plain : nullptr), "particles",
-                               formats, kGeometryDepthFormat));
+  list.push_back(pipeline_desc(sprite_program(particles.lit_points(), false, per_pixel ? &version : nullptr),
+                               "particles", formats, kGeometryDepthFormat));
 }
 
 }  // namespace gloam

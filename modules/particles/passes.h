@@ -5,6 +5,7 @@
 #include "engine/render/frame_builder.h"
 #include "engine/render/pipelines.h"
 #include "modules/particles/frame.h"
+#include "modules/particles/lighting/pass.h"
 
 namespace gloam {
 
@@ -12,7 +13,8 @@ namespace gloam {
 /// ParticlesFrame on the board. No passes if there are no such emitters.
 void add_particle_passes(FrameBuilder& frame);
 
-/// Pipelines of all passes. Versions with cookies or baked light are compiled when a frame first needs them.
-void list_particle_pipelines(ParticleLighting lighting, bool threads_in_turn, PipelineList& list);
+/// Pipelines of all passes of a view without a clip plane. version: of the last frame, or a default one.
+void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersion& version, bool threads_in_turn,
+                             PipelineList& list);
 
 }  // namespace gloam

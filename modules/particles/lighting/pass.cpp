@@ -12,8 +12,9 @@ ParticleLightVersion particle_light_version(const FrameBuilder& frame, const Par
   ParticleLightVersion version;
   const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
   version.cookies = shadows != nullptr && shadows->cookie_lights > 0;
-  if (version.cookies) version.constants = shadows->constants;
-  version.constants.push_back({2, particles.atlas.visibility ? 1u : 0u});
+  version.constants = {{2, particles.atlas.visibility ? 1u : 0u}};
+  if (version.cookies)
+    version.constants.insert(version.constants.end(), shadows->constants.begin(), shadows->constants.end());
   return version;
 }
 

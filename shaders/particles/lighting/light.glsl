@@ -22,13 +22,16 @@ layout(set = 0, binding = 6, scalar) writeonly buffer Light { uvec2 light[]; }; 
 #define GLOAM_PARTICLE_LIGHT_BINDING 7
 #include "shaders/particles/lighting/scattered_light.glsl"
 
+// Light for a corner is summed on the way to it: at the corner the sprite is transparent, and there may be a lamp.
+const float kLitCorner = 0.6;
+
 void main() {
   uint sprite = gl_GlobalInvocationID.y * (32768u * 64u) + gl_GlobalInvocationID.x;
   if (sprite >= draws.drawn) return;
   Particle p = particles[order[sprite]];
   ParticleEmitterRow e = emitters[p.look & 0xFFFFu];
   for (uint i = 0u; i < kLitPoints; ++i) {
-    vec2 corner = kLitPoints == 1u ? vec2(0.0) : vec2(i & 1u, i >> 1u) * 2.0 - 1.0;
+    vec2 corner = kLitPoints == 1u ? vec2(0.0) : (vec2(i & 1u, i >> 1u) * 2.0 - 1.0) * kLitCorner;
     vec3 at = p.position + p.radius_m * (corner.x * frame.right + corner.y * frame.up);
     vec3 sum = scattered_light(e, at, outward_direction(e, p.position, corner));
     light[sprite * kLitPoints + i] = uvec2(packHalf2x16(sum.rg), packHalf2x16(vec2(sum.b, 0.0)));

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "engine/math/packing.h"
@@ -10,6 +12,8 @@
 #include "modules/particles/emitters/rows.h"
 #include "tests/modules/particles/support/light_twin.h"
 #include "tests/modules/particles/support/particle_stage.h"
+#include "tests/modules/reflections/bake/small_png.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gloam::test {
 namespace {
@@ -37,8 +41,8 @@ class ParticleLight : public ParticleTest {
     for (std::uint32_t i = 0; i < copy.draws.drawn; ++i) {
       const shaders::Particle& p = copy.particles.at(copy.order.at(i));
       for (std::uint32_t point = 0; point < copy.lit_points; ++point) {
-        const double x = copy.lit_points == 1 ? 0.0 : (point & 1u) != 0u ? 1.0 : -1.0;
-        const double y = copy.lit_points == 1 ? 0.0 : (point & 2u) != 0u ? 1.0 : -1.0;
+        const double x = copy.lit_points == 1 ? 0.0 : (point & 1u) != 0u ? kTwinCorner : -kTwinCorner;
+        const double y = copy.lit_points == 1 ? 0.0 : (point & 2u) != 0u ? kTwinCorner : -kTwinCorner;
         const dvec3 at = dvec3(p.position) + static_cast<double>(p.radius_m) *
                                                  (x * dvec3(copy.constants.right) + y * dvec3(copy.constants.up));
         const dvec3 n = twin_outward(row, copy.constants, dvec3(p.position), x, y);
@@ -162,6 +166,52 @@ TEST_F(ParticleLight, of_a_map_replaces_static_lights_and_surroundings) {
   stage.world.resource<ParticleLightMaps>() = {{}, 3};
   stage.draw(front());
   EXPECT_GT(stage.copy().light_at(0).x, 10.0f) << "the light of the sky";
+}
+
+TEST_F(ParticleLight, of_a_spot_comes_through_its_cookie) {
+  TestFolder folder;
+  const std::string path = folder.path() + "/cookie.png";
+  write_small_png(path);  // red, grey, blue and green
+  ParticleStage stage;
+  ParticleEmitter dust = cloud(EmitterKind::dust, 900.0f);
+  dust.box_m = vec3(2.5f);
+  stage.emitter(dust);
+  Light spot;
+  spot.kind = LightKind::spot;
+  spot.intensity = 100.0f;
+  spot.inner_angle = spot.outer_angle = 0.6f;
+  const Entity lamp = stage.world.create(spot, WorldTransform{glm::translate(dmat4(1.0), dvec3(0.0, 0.0, 4.0))});
+  for (const char* lighting : {"sprite", "vertex", "pixel"}) {
+    stage.set("particles.lighting", lighting);
+    stage.world.get<Light>(lamp).cookie = 0;
+    stage.draw(front());
+    const std::vector<float> plain_picture = stage.linear();
+    const ParticleCopy plain = stage.copy();
+    stage.world.get<Light>(lamp).cookie = stage.world.resource<SceneStrings>().intern(path);
+    stage.draw(front());
+    EXPECT_FALSE(stage.linear() == plain_picture) << lighting;
+    const ParticleCopy colored = stage.copy();
+    std::size_t red = 0, green = 0, points = 0;
+    for (std::size_t i = 0; i < std::size_t{colored.draws.drawn} * colored.lit_points; ++i, ++points) {
+      const vec3 before = plain.light_at(i), after = colored.light_at(i);
+      for (int c = 0; c < 3; ++c) EXPECT_LE(after[c], before[c] * 1.01f + 1e-6f);
+      red += after.x > 0.8f * before.x && after.y < 0.1f * before.y && before.x > 0.01f ? 1 : 0;
+      green += after.y > 0.8f * before.y && after.x < 0.1f * before.x && before.x > 0.01f ? 1 : 0;
+    }
+    if (points == 0) continue;
+    EXPECT_GT(red, points / 50) << lighting;
+    EXPECT_GT(green, points / 50) << lighting;
+  }
+}
+
+TEST_F(ParticleLight, of_lamps_that_are_not_finite_is_none) {
+  ParticleStage stage;
+  stage.emitter(cloud(EmitterKind::smoke, 150.0f));
+  stage.lamp({1.0, 0.0, 0.0}, vec3(std::nanf("")), 10.0f);
+  stage.lamp({std::nan(""), 0.0, 0.0}, vec3(1.0f), 10.0f);
+  stage.lamp({0.0, 0.0, 0.0}, vec3(1.0f), std::numeric_limits<float>::infinity());
+  stage.draw(front());
+  for (const float value : stage.linear()) ASSERT_TRUE(std::isfinite(value));
 }
 
 TEST_F(ParticleLight, pixel_and_vertex_rates_agree_where_light_changes_slowly) {

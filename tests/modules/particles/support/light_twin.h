@@ -15,6 +15,9 @@ namespace gloam::test {
 
 inline constexpr double kTwinPi = 3.14159265358979323846;
 
+/// Light for a corner of a sprite is summed at this share of the way from the middle to it.
+inline constexpr double kTwinCorner = 0.6;
+
 /// A point light: camera-relative position, candela, range.
 struct TwinLamp {
   dvec3 position;
