@@ -15,7 +15,9 @@ namespace {
 /// A module of which only components exist; a world calls for it once it has one.
 class PlannedModule final : public Module {
  public:
-  struct Planned {};
+  struct Planned {
+    int number = 0;
+  };
   [[nodiscard]] std::string_view name() const override { return "planned"; }
   [[nodiscard]] bool built() const override { return false; }
   void register_components(World& world) const override { world.register_component<Planned>("planned"); }
