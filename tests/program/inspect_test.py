@@ -60,6 +60,15 @@ class Inspect(ProgramCase):
             self.assertIn("walker", told["animations"])
             self.assertTrue(next(module for module in told["modules"] if module["name"] == "grass")["demanded"])
 
+    def test_the_smoke_calls_for_particles_and_has_no_warnings(self):
+        told = self.inspect("builtin:smoke")
+        self.assertEqual(told["warnings"], [])
+        self.assertEqual(told["cameras"], ["near", "far", "fire", "beam", "inside", "away"])
+        self.assertEqual(told["lights"], 4)
+        particles = next(module for module in told["modules"] if module["name"] == "particles")
+        self.assertTrue(particles["demanded"] and particles["built"])
+        self.assertEqual(particles["reason"], "5 emitters")
+
     def test_a_file_is_told_like_a_built_in_scene(self):
         (self.folder / "leaf.gltf").write_text(json.dumps(TRIANGLE))
         told = self.inspect("leaf.gltf")

@@ -12,14 +12,14 @@
 namespace gloam {
 namespace {
 
-bool is_finite(const ParticleEmitter& e) {
+bool has_finite_values(const ParticleEmitter& e) {
   return std::isfinite(e.rate) && std::isfinite(e.lifetime_s) && std::isfinite(e.size_m) && std::isfinite(e.speed) &&
-         std::isfinite(e.spread) && gloam::is_finite(e.box_m);
+         std::isfinite(e.spread) && is_finite(e.box_m);
 }
 
-bool is_finite(const dmat4& m) {
+bool has_finite_columns(const dmat4& m) {
   for (int i = 0; i < 4; ++i)
-    if (!gloam::is_finite(dvec3(m[i]))) return false;
+    if (!is_finite(dvec3(m[i]))) return false;
   return true;
 }
 
@@ -41,7 +41,7 @@ bool emits(const ParticleEmitter& emitter) {
 }
 
 bool place_emitter(Entity entity, const ParticleEmitter& emitter, const dmat4& world_from_node, PlacedEmitter& placed) {
-  if (!is_finite(emitter) || !is_finite(world_from_node)) return false;
+  if (!has_finite_values(emitter) || !has_finite_columns(world_from_node)) return false;
   placed = {};
   placed.entity = entity;
   placed.values = clamped(emitter);
@@ -49,7 +49,7 @@ bool place_emitter(Entity entity, const ParticleEmitter& emitter, const dmat4& w
   placed.origin = dvec3(world_from_node[3]);
   for (int i = 0; i < 3; ++i) {
     placed.box[i] = vec3(dvec3(world_from_node[i]) * static_cast<double>(placed.values.box_m[i]));
-    if (!gloam::is_finite(placed.box[i])) return false;
+    if (!is_finite(placed.box[i])) return false;
   }
   const dvec3 up(world_from_node[1]);
   const double length = glm::length(up);
