@@ -12,6 +12,12 @@
 #define GLOAM_PARTICLE_UNBAKED 4u               // channel of a light whose visibility is not baked
 #define GLOAM_PARTICLE_DIRECTIONAL 0x80000000u  // with the index of a directional light
 
+// Factors of speed and size that particles draw by lot.
+#define GLOAM_PARTICLE_SLOWEST 0.6f
+#define GLOAM_PARTICLE_FASTEST 1.4f
+#define GLOAM_PARTICLE_SMALLEST 0.75f
+#define GLOAM_PARTICLE_LARGEST 1.25f
+
 GLOAM_SHARED_BEGIN
 
 /// One emitter in a view. Positions are camera-relative, in metres; axes are the world's.
@@ -47,8 +53,9 @@ struct ParticleEmitterRow {
   float cover;
   float forward;
   vec3 albedo;
-  float far_m;  // view depth of the first key
-  vec3 emission;
+  float far_m;    // view depth of the first key
+  vec3 emission;  // at birth, cd/m²
+  vec3 cooled;    // factor of the emission at death
   float keys_per_m;
   uint first_key;
   uint keys;             // number of keys of the emitter's depths

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "modules/particles/emitters/kinds.h"
+#include "shaders/particles/particles_shared.h"
 
 namespace gloam {
 namespace {
@@ -18,7 +19,7 @@ double greatest_cos(double c, double spread) {
 }  // namespace
 
 float largest_sprite_m(const ParticleEmitter& emitter) {
-  return emitter.size_m * kLargest * std::max(kind_properties(emitter.kind).growth, 1.0f);
+  return emitter.size_m * GLOAM_PARTICLE_LARGEST * std::max(kind_properties(emitter.kind).growth, 1.0f);
 }
 
 WorldBox emitter_bounds(const PlacedEmitter& emitter) {
@@ -26,7 +27,7 @@ WorldBox emitter_bounds(const PlacedEmitter& emitter) {
   const double life = static_cast<double>(emitter.values.lifetime_s), drag = static_cast<double>(kind.drag);
   // Without turbulence, the way of a particle is v₀ · way + rise · (life − way). It ends on the path of an older one.
   const double way = (1.0 - std::exp(-drag * life)) / drag;
-  const double fastest = static_cast<double>(emitter.values.speed) * static_cast<double>(kFastest);
+  const double fastest = static_cast<double>(emitter.values.speed) * static_cast<double>(GLOAM_PARTICLE_FASTEST);
   // Half of the diagonal of a square sprite.
   const double corner = 0.5 * std::sqrt(2.0) * static_cast<double>(emitter.largest_m);
   const double margin = static_cast<double>(kind.turbulence) * life + corner;

@@ -9,10 +9,6 @@
 
 namespace gloam {
 
-/// Factors of ParticleEmitter::speed and ParticleEmitter::size_m that particles draw by lot.
-inline constexpr float kSlowest = 0.6f, kFastest = 1.4f;
-inline constexpr float kSmallest = 0.75f, kLargest = 1.25f;
-
 /// Greatest diameter of a sprite of the emitter at any age, metres.
 [[nodiscard]] float largest_sprite_m(const ParticleEmitter& emitter);
 

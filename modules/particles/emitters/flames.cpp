@@ -46,8 +46,7 @@ Puff puff_at(const ParticleEmitter& e, const KindProperties& kind, double age) {
   puff.half_height_m = puff.radius_m + 0.3 * speed * way + 0.5 * static_cast<double>(e.box_m.y);
   puff.opacity = static_cast<double>(kind.opacity) * smooth(age / static_cast<double>(kind.fade_in)) *
                  smooth((1.0 - age) / static_cast<double>(kind.fade_out));
-  const double cool = age * age;
-  puff.emission = dvec3(kind.emission) * glm::mix(dvec3(1.0), dvec3(0.55, 0.2, 0.06), cool);
+  puff.emission = dvec3(kind.emission) * glm::mix(dvec3(1.0), dvec3(kind.cooled), age * age);
   return puff;
 }
 

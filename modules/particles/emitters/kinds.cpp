@@ -56,7 +56,8 @@ constexpr KindProperties kFire = {.rise = 1.3f,
                                   .forward = 0.0f,
                                   .cover = 0.12f,
                                   .albedo = vec3(0.2f),
-                                  .emission = vec3(3.6f, 1.25f, 0.2f)};
+                                  .emission = vec3(3.6f, 1.25f, 0.2f),
+                                  .cooled = vec3(0.55f, 0.2f, 0.06f)};
 
 }  // namespace
 

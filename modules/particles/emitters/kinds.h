@@ -23,6 +23,7 @@ struct KindProperties {
   float cover = 1.0f;          ///< share of its opacity with which a sprite hides what is behind it; the rest adds
   vec3 albedo = vec3(0.8f);    ///< share of the light that is scattered
   vec3 emission = vec3(0.0f);  ///< cd/m² of an opaque sprite at birth
+  vec3 cooled = vec3(1.0f);    ///< factor of the emission at death
 };
 
 /// kind: not none.

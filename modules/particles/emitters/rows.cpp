@@ -52,6 +52,7 @@ void set_kind(const KindProperties& kind, shaders::ParticleEmitterRow& row) {
   row.forward = kind.forward;
   row.albedo = kind.albedo;
   row.emission = kind.emission;
+  row.cooled = kind.cooled;
 }
 
 void set_lights(const LightsOfEmitter& lights, const LightIndices& indices, shaders::ParticleEmitterRow& row) {

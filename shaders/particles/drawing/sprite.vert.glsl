@@ -50,9 +50,7 @@ void main() {
   if (kLitPoints == 0u) out_light *= e.albedo;
   out_relative = relative;
   out_look = vec4(p.opacity, view_depth(view, p.position), 1.0 / max(0.7 * p.radius_m, 1e-4), e.cover);
-  // A flame reddens towards its tip.
-  float cool = p.life * p.life;
-  out_emission = vec4(e.emission * mix(vec3(1.0), vec3(0.55, 0.2, 0.06), cool), e.erosion);
+  out_emission = vec4(e.emission * mix(vec3(1.0), e.cooled, p.life * p.life), e.erosion);
   out_center = p.position;
   out_emitter = p.look & 0xFFFFu;
 }
