@@ -11,6 +11,7 @@
 #include "modules/particles/baked_light.h"
 #include "modules/particles/components.h"
 #include "modules/particles/debug/overdraw.h"
+#include "modules/particles/debug/pick.h"
 #include "modules/particles/emitters/flames.h"
 #include "modules/particles/emitters/placed.h"
 #include "modules/particles/emitters/strongest_lights.h"
@@ -86,6 +87,15 @@ class ParticlesModule final : public Module {
     sink.count("particles.emitters_left_out", static_cast<double>(visible.left_out));
     sink.count("particles.emitters_not_finite", set.unusable);
     sink.count("particles.light_maps_outdated", world.resource<EmitterLights>().outdated);
+  }
+  [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {
+    const ParticlesFrame* particles = frame.find<ParticlesFrame>();
+    return particles == nullptr ? Status() : add_particle_pick_copies(frame, *particles, copies);
+  }
+  [[nodiscard]] std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
+                                              const Captures& copies) const override {
+    if (frame.find<ParticlesFrame>() == nullptr) return {};
+    return particle_pick_lines(frame, pixel, copies);
   }
   void give_up_frame(std::uint64_t) override {}  // what it keeps is no state of a frame
 

@@ -25,7 +25,7 @@ bool has_finite_columns(const dmat4& m) {
 
 /// The values within the ranges of the scene keys.
 ParticleEmitter clamped(ParticleEmitter e) {
-  e.rate = std::clamp(e.rate, 0.0f, 1e6f);
+  e.rate = std::clamp(e.rate, 1e-9f, 1e6f);  // the time between births is finite
   e.lifetime_s = std::clamp(e.lifetime_s, 1e-3f, 1e4f);
   e.size_m = std::clamp(e.size_m, 0.0f, 1e3f);
   e.speed = std::clamp(e.speed, 0.0f, 1e3f);

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdio>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "modules/particles/emitters/kinds.h"
@@ -238,6 +239,35 @@ TEST_F(ParticleBlend, a_million_particles_are_sorted_and_more_are_thinned) {
     ASSERT_GE(copy.keys[copy.order[i]], last);
     last = copy.keys[copy.order[i]];
   }
+}
+
+TEST_F(ParticleBlend, a_picked_pixel_counts_the_sprites_of_each_emitter) {
+  ParticleStage stage;
+  const Entity smoke = stage.emitter(cloud(EmitterKind::smoke, 150.0f));
+  stage.emitter(cloud(EmitterKind::fire, 100.0f), {0.0, 0.0, -20.0});
+  stage.world.resource<SceneNames>().add("node", "chimney", smoke);
+  stage.lamp({-2.0, 0.0, 0.0}, vec3(1.0f), 30.0f);
+  const std::vector<vec4> shown = stage.shown(front(), "overdraw");
+  const auto lines_at = [&](std::uint32_t x, std::uint32_t y) {
+    std::vector<std::string> lines;
+    for (const std::string& line : value_of(stage.renderer->pick(stage.world, ViewId{0}, x, y)))
+      if (line.starts_with("particles")) lines.push_back(line);
+    return lines;
+  };
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < shown.size(); ++i) most = shown[i].x > shown[most].x ? i : most;
+  const auto lines = lines_at(static_cast<std::uint32_t>(most % 64), static_cast<std::uint32_t>(most / 64));
+  unsigned counted = 0;
+  for (const std::string& line : lines) {
+    unsigned sprites = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "particles: %u sprites", &sprites), 1) << line;
+    counted += sprites;
+  }
+  EXPECT_GE(static_cast<float>(counted), shown[most].x);
+  EXPECT_LE(static_cast<float>(counted), 2.0f * shown[most].x) << "noise hides some";
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines[0].find("smoke \"chimney\" (150 alive, 1 lights)"), std::string::npos) << lines[0];
+  EXPECT_TRUE(lines_at(0, 0).empty());
 }
 
 TEST_F(ParticleBlend, overdraw_counts_the_sprites_at_each_pixel) {

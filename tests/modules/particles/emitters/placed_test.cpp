@@ -80,6 +80,13 @@ TEST(PlacedEmitters, values_beyond_the_ranges_of_the_keys_are_clamped) {
   EXPECT_EQ(emitter.values.box_m, vec3(0.0f, 1e6f, 1.0f));
 }
 
+TEST(PlacedEmitters, the_slowest_rate_has_finite_times_between_births) {
+  const PlacedEmitter emitter = placed(smoke(1e-40f, 2.0f));
+  const shaders::ParticleEmitterRow row = row_at(emitter, 120);
+  EXPECT_EQ(row.count, 1u) << "number 0 is born at time 0";
+  EXPECT_TRUE(std::isfinite(row.interval_s) && std::isfinite(row.oldest_age_s));
+}
+
 TEST(PlacedEmitters, a_world_has_at_most_a_million_particles_and_counts_the_rest) {
   std::vector<PlacedEmitter> few = {placed(smoke(100.0f, 2.0f)), placed(smoke(1e5f, 9.0f))};
   EXPECT_EQ(limit_particles(few), 0.0);
