@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/math/packing.h"
+#include "modules/particles/bake.h"
 #include "modules/particles/emitters/kinds.h"
 #include "modules/particles/emitters/rows.h"
 #include "tests/modules/particles/support/light_twin.h"
@@ -142,6 +143,7 @@ TEST_F(ParticleLight, of_a_map_replaces_static_lights_and_surroundings) {
   maps.maps[1].static_lights = {fixed};
   maps.maps[1].lights = {kNoEntity, kNoEntity, moving};
   maps.version = 1;
+  mark_as_current(stage.world, maps);
   stage.world.resource<ParticleLightMaps>() = maps;
   const auto check = [&](double scale, double visibility) {
     stage.draw(front());

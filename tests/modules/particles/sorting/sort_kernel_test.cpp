@@ -27,7 +27,7 @@ class ParticleSort : public ::testing::Test {
   static void expect_sorted(const std::vector<std::uint32_t>& keys, bool two_digits) {
     ASSERT_EQ(keys.size() % GLOAM_PARTICLE_GROUP, 0u);
     const auto places = static_cast<std::uint32_t>(keys.size());
-    PassFrames frames(*device());
+    ReadPassFrames frames(*device());
     frames.draw([&](FrameBuilder& frame) {
       ParticlesFrame particles;
       particles.two_digits = two_digits;
