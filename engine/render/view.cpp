@@ -84,6 +84,9 @@ void follow_camera(const World& world, ViewSettings& settings) {
   if (camera == nullptr || transform == nullptr) return;
   settings.camera = *camera;
   settings.world_from_camera = rigid(transform->matrix);
+  settings.lens.reset();
+  if (const auto* lens = world.try_resource<LensPoint>(); lens != nullptr && lens->camera == settings.camera_entity)
+    settings.lens = *lens;
 }
 
 RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame) {
@@ -113,6 +116,10 @@ RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uin
     view.clip_plane = vec4(vec3(mirror.normal), static_cast<float>(height - mirror.margin_m));
   }
   view.view_from_relative = mat4(glm::transpose(rotation));
+  if (settings.lens) {
+    const LensPoint& lens = *settings.lens;
+    view.position += dvec3(rotation[0]) * lens.offset_m.x + dvec3(rotation[1]) * lens.offset_m.y;
+  }
   const float aspect =
       settings.aspect > 0.0f ? settings.aspect : static_cast<float>(view.width) / static_cast<float>(view.height);
   if (settings.camera.orthographic) {
@@ -123,6 +130,10 @@ RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uin
   } else {
     view.clip_from_view = reversed_perspective(settings.camera.fov_y, aspect, view.near_m);
   }
+  if (settings.lens)
+    for (int axis = 0; axis < 2; ++axis)
+      view.clip_from_view[2][axis] -=
+          static_cast<float>(view.clip_from_view[axis][axis] * settings.lens->offset_m[axis] / settings.lens->focus_m);
   view.clip_from_relative = view.clip_from_view * view.view_from_relative;
   view.frustum = frustum_from_clip(view.clip_from_relative);
   view.previous = view.view_camera();

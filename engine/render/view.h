@@ -32,6 +32,14 @@ struct MirrorPlane {
   double margin_m = 0.0;
 };
 
+/// World resource: views of this camera are drawn from a point of its lens in place of the lens's centre, while the
+/// plane of focus keeps its place in the picture. For references of depth of field.
+struct LensPoint {
+  Entity camera = kNoEntity;
+  glm::dvec2 offset_m = glm::dvec2(0.0);  ///< from the centre of the lens, to the right and up
+  double focus_m = 1.0;                   ///< view depth of the plane of focus, > 0; may be infinite
+};
+
 /// A knob's value for one view, as text (KnobRegistry::set).
 struct KnobOverride {
   std::string name;
@@ -64,6 +72,8 @@ struct ViewSettings {
   bool exact_width = false;
   /// Width over height of what the camera sees, > 0; 0: of the size in pixels. Pixels are square only with 0.
   float aspect = 0.0f;
+  /// Draws from this point of the lens (LensPoint). The projection is sheared, so its centre is off the picture's.
+  std::optional<LensPoint> lens;
   /// The camera jumps in this frame: contents that follow it over frames begin anew. The renderer itself sees a change
   /// of camera_entity and of the kind of projection; a jump of the pose is stated here.
   bool camera_cut = false;
@@ -146,7 +156,8 @@ struct RenderView {
   }
 };
 
-/// If settings.follow_camera is set and settings.camera_entity is alive, sets pose and lens from its current state.
+/// If settings.follow_camera is set and settings.camera_entity is alive, sets pose and lens from its current state, and
+/// settings.lens from the world's LensPoint.
 void follow_camera(const World& world, ViewSettings& settings);
 
 /// cut_frame: see RenderView.

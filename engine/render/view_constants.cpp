@@ -16,8 +16,10 @@ shaders::ViewConstants view_constants(const RenderView& view) {
   constants.frame = static_cast<std::uint32_t>(view.frame);
   constants.clip_plane = view.clip_plane;
 
-  const dvec3 right(rows[0]), up(rows[1]), forward = -dvec3(rows[2]);
+  const dvec3 right(rows[0]), up(rows[1]);
   const dmat4 clip(view.clip_from_view);
+  // A sheared projection (ViewSettings::lens) has its axis off the middle of the picture.
+  const dvec3 forward = -dvec3(rows[2]) + right * (clip[2][0] / clip[0][0]) + up * (clip[2][1] / clip[1][1]);
   const dvec3 whole_width = right * (2.0 / clip[0][0]), whole_height = up * (2.0 / clip[1][1]);
   const double width = view.width, height = view.height;
   const dvec3 corner = whole_width * (0.5 / width - 0.5) + whole_height * (0.5 - 0.5 / height);

@@ -40,8 +40,8 @@ struct LedgerRow {
   std::string knob;
   std::string value;
   bool is_default = false;
-  std::string reference_kind;  ///< "brute force", "traced", "double precision"; empty: the knob has no reference and
-                               ///< errors are absent
+  std::string reference_kind;  ///< "brute force", "traced", "accumulated", "double precision"; empty: the knob has no
+                               ///< reference and errors are absent
   std::string reference_name;
   /// Mean FLIP between half and all samples of the reference (RMSE if the reference has no picture); 0: exact.
   double reference_noise = 0.0;

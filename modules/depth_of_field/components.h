@@ -6,13 +6,17 @@
 
 namespace gloam {
 
+/// Shape of the aperture. A hexagon has a corner at the top and the same radius as the disc, from corner to centre.
 enum class Bokeh : std::uint8_t { round, hexagonal };
 
-/// Depth of field of the entity's camera; on when focus_m > 0.
+/// Depth of field of the entity's camera; on when focus_m > 0. The focus may be infinite. Any f-number is allowed: less
+/// than kLeastFNumber counts as that, and an infinite one blurs nothing.
 struct DepthOfField {
   float focus_m = 0.0f;
   float f_number = 2.8f;
   Bokeh bokeh = Bokeh::round;
 };
+
+inline constexpr float kLeastFNumber = 0.01f;
 
 }  // namespace gloam

@@ -2,16 +2,40 @@
 // SPDX-License-Identifier: MIT
 #include "modules/depth_of_field/module.h"
 
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/ecs/view.h"
 #include "engine/scene/key_table.h"
 #include "modules/depth_of_field/components.h"
+#include "modules/depth_of_field/debug/coc_view.h"
+#include "modules/depth_of_field/knobs.h"
+#include "modules/depth_of_field/lens/lens.h"
+#include "modules/depth_of_field/passes.h"
+#include "modules/depth_of_field/reference/lens_picture.h"
+#include "modules/depth_of_field/reference/lens_reference.h"
 
 namespace gloam {
 namespace {
 
+constexpr const char* kListsResult = "lists";
+
+/// The demand of a view whose world has cameras with a focus.
+Demand view_demand(const World& world, const RenderView& view) {
+  if (view.purpose == ViewPurpose::capture) return {false, "captures are in focus"};
+  if (view.is_companion()) return {false, "the view's main view is blurred"};
+  if (world.try_resource<LensPoint>() != nullptr) return {false, "the view is drawn from a point of the lens"};
+  if (find_lens_picture(world, view) != nullptr) return {true, "the view shows a lens picture"};
+  const DepthOfField* values = find_depth_of_field(world, view);
+  if (values == nullptr) return {false, "the view's camera has no focus"};
+  if (!lens_of(*values, view)) return {false, "the lens is too small to blur anything"};
+  return {true, "the view's camera has a focus"};
+}
+
 class DepthOfFieldModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "depth_of_field"; }
-  [[nodiscard]] bool built() const override { return false; }
   void register_components(World& world) const override { world.register_component<DepthOfField>("depth_of_field"); }
   void scene_keys(KeyRegistry& registry) const override {
     const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {
@@ -26,12 +50,52 @@ class DepthOfFieldModule final : public Module {
     registry.add(choice_key(line("gloam.dof.bokeh", "round", "", "shape of the aperture"), {"round", "hexagonal"},
                             Bokeh::round, &DepthOfField::bokeh));
   }
-  [[nodiscard]] Demand demand(const World& world, const RenderView*) const override {
+  void knobs(KnobRegistry& registry) const override { add_dof_knobs(registry); }
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override {
+    std::vector<ReferenceInfo> references;
+    for (const char* knob : {"dof.cache", "dof.radius", "dof.resolution"}) references.push_back(lens_reference(knob));
+    return references;
+  }
+  [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
+    if (view != nullptr) return view_demand(world, *view);
     std::size_t cameras = 0;
-    world.view<const DepthOfField>().each([&](const DepthOfField& d) { cameras += d.focus_m > 0.0f ? 1 : 0; });
+    world.view<const DepthOfField>().each([&](const DepthOfField& d) { cameras += has_focus(d) ? 1 : 0; });
     if (cameras == 0) return {false, "no camera has a focus"};
     return {true, std::to_string(cameras) + (cameras == 1 ? " camera has a focus" : " cameras have a focus")};
   }
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return dof_visualizers(); }
+  void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
+    list_dof_pipelines(dof_knobs(knobs), device.threads_in_turn, list);
+  }
+  void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::post) add_post_passes(frame);
+    const DofFrame* dof = frame.find<DofFrame>();
+    if (dof == nullptr || !frame.status().ok()) return;
+    if (phase == PassPhase::post) frame.keep_result("depth_of_field", kListsResult, dof->lists);
+    if (phase == PassPhase::visualize) add_dof_view_pass(frame, *dof);
+  }
+  void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
+    if (name != kListsResult) return;
+    struct Lists {
+      shaders::DofList list[GLOAM_DOF_LISTS];
+    };
+    const Lists lists = result.value<Lists>();
+    const std::uint32_t near = lists.list[GLOAM_DOF_COMPOSE_BOTH].count;
+    sink.count("dof.tiles", lists.list[GLOAM_DOF_COMPOSE_FAR].count + near);
+    sink.count("dof.tiles_near", near);
+  }
+  void release() override { staging_.release(); }
+
+ private:
+  void add_post_passes(FrameBuilder& frame) {
+    if (const LensPicture* picture = find_lens_picture(frame.world(), frame.view()))
+      return add_lens_picture_pass(frame, staging_, *picture);
+    const DepthOfField* values = find_depth_of_field(frame.world(), frame.view());
+    const std::optional<Lens> lens = values != nullptr ? lens_of(*values, frame.view()) : std::nullopt;
+    if (lens) add_dof_passes(frame, *values, *lens);
+  }
+
+  LensPictureStaging staging_;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 /// Traces the data that the visualizer needs and draws the last frame again with it. last: replaced by that frame.
 Status show_traced_view(Session& session, const CommandContext& context, const VisualizerInfo& info,
                         const ViewSettings& view, FrameSample& last) {
-  GLOAM_TRY(trace_for_view(session, info, view.id, context.console, context.options.quiet));
+  GLOAM_TRY(trace_for_view(session, info, view, context.console, context.options.quiet));
   auto sample = session.render_frame({.settings = view, .target = {}});
   if (!sample) return sample.error();
   last = std::move(sample).value();

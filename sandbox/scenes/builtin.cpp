@@ -8,6 +8,7 @@
 #include "engine/core/nearest_name.h"
 #include "sandbox/scenes/closeups.h"
 #include "sandbox/scenes/lanterns.h"
+#include "sandbox/scenes/lens.h"
 #include "sandbox/scenes/many_lights.h"
 #include "sandbox/scenes/meadow.h"
 #include "sandbox/scenes/penumbra.h"
@@ -36,6 +37,9 @@ constexpr BuiltinScene kScenes[] = {
     {"meadow_day", "the grass of meadow under a sun", &build_meadow_day_scene},
     {"smoke", "smoke between a warm and a cold lamp, a fire on wet ground, dust in a beam and ground fog",
      &build_smoke_scene},
+    {"lens",
+     "depth of field through a round and a hexagonal aperture: pieces on a table, a wire, and lamps far and near",
+     &build_lens_scene},
 };
 
 }  // namespace

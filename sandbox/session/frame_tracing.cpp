@@ -13,6 +13,25 @@ namespace {
 
 constexpr std::uint32_t kViewSamples = kLedgerSamples;
 
+/// Draws a frame of a changed world, twice: what a frame takes from its predecessor is settled in the second one.
+Result<FramePictures> draw_changed(Session& session, const ViewSettings& view,
+                                   const std::function<void(World&)>& change,
+                                   const std::function<void(World&)>& restore) {
+  const auto draw = [&]() -> Result<FramePictures> {
+    for (int i = 0; i < 2; ++i)
+      if (const auto sample = session.render_frame({.settings = view, .target = {}}); !sample) return sample.error();
+    auto linear = session.renderer->read_linear(view.id);
+    if (!linear) return linear.error();
+    auto picture = session.renderer->read_picture(view.id);
+    if (!picture) return picture.error();
+    return FramePictures{std::move(linear).value(), std::move(picture).value()};
+  };
+  change(session.world);
+  auto pictures = draw();
+  restore(session.world);
+  return pictures;
+}
+
 }  // namespace
 
 Result<FrameToTrace> read_frame_to_trace(Session& session, ViewId view) {
@@ -38,14 +57,15 @@ Status check_shown_live(const Renderer& renderer, std::string_view name) {
                "view " + traced->name + " is traced, which takes a while: `gloam render --view` shows it"};
 }
 
-Status trace_for_view(Session& session, const VisualizerInfo& info, ViewId view, Console& console, bool quiet) {
+Status trace_for_view(Session& session, const VisualizerInfo& info, const ViewSettings& view, Console& console,
+                      bool quiet) {
   using Clock = std::chrono::steady_clock;
-  auto frame = read_frame_to_trace(session, view);
+  auto frame = read_frame_to_trace(session, view.id);
   if (!frame) return frame.error();
   const Clock::time_point begin = Clock::now();
   const auto show = [&](std::size_t done, std::size_t total) {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - begin).count();
-    console.show_progress(progress_line(done, total, "rows of pixels traced for view " + info.name, done, elapsed_s));
+    console.show_progress(progress_line(done, total, "parts computed for view " + info.name, done, elapsed_s));
   };
   const FramePictures none;
   const ReferenceInput input = {.world = session.world,
@@ -56,6 +76,12 @@ Status trace_for_view(Session& session, const VisualizerInfo& info, ViewId view,
                                 .executor = *session.executor,
                                 .tracer = frame->tracer.get(),
                                 .geometry = &frame->geometry,
+                                .redraw =
+                                    [&](const auto& change, const auto& restore) {
+                                      ViewSettings plain = view;
+                                      plain.visualizer = "none";
+                                      return draw_changed(session, plain, change, restore);
+                                    },
                                 .progress = quiet ? std::function<void(std::size_t, std::size_t)>() : show};
   Status traced = info.trace(session.world, input);
   console.show_progress("");

@@ -32,7 +32,7 @@ struct FrameToTrace {
 
 /// Traces the data with which visualizer `info` shows the session's last frame, and stores it in the world. Shows a
 /// progress bar on a terminal unless quiet.
-[[nodiscard]] Status trace_for_view(Session& session, const VisualizerInfo& info, ViewId view, Console& console,
-                                    bool quiet);
+[[nodiscard]] Status trace_for_view(Session& session, const VisualizerInfo& info, const ViewSettings& view,
+                                    Console& console, bool quiet);
 
 }  // namespace gloam

@@ -40,6 +40,8 @@ ROOMS = {
     "modules/grass": (("growth", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
     "modules/particles": (("emitters", "bake", "simulation", "sorting", "lighting", "drawing", "debug"),
                           ("components", "baked_light", "bake", "knobs", "frame")),
+    "modules/depth_of_field": (("lens", "tiles", "blur", "compose", "reference", "debug"), ("components", "knobs", "frame")),
+    "shaders/depth_of_field": (("tiles", "blur", "compose", "debug"), None),
     "engine/render": (("knobs", "scene", "draws", "declare", "sort", "passes", "readback", "reference"),
                       ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections", "grass",

@@ -70,7 +70,7 @@ struct ReferenceInput {
 /// fills `linear`, and `picture` too if it can.
 struct ReferenceInfo {
   std::string knob;            ///< a knob of the same module
-  std::string kind;            ///< "traced" or "double precision"
+  std::string kind;            ///< "traced", "accumulated" (frames drawn again) or "double precision"
   std::string name;            ///< name for the ledger: "tone curve on the CPU"
   bool follows_value = false;  ///< see above
   bool samples = false;        ///< uses ReferenceInput::samples; its noise is the change from half of them to all

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/depth_of_field/passes.h"
+
+#include "modules/depth_of_field/blur/passes.h"
+#include "modules/depth_of_field/compose/pass.h"
+#include "modules/depth_of_field/tiles/passes.h"
+
+namespace gloam {
+namespace {
+
+// Pixels of the circle's radius over which the picture passes from sharp to blurred. Layers of half the size are as
+// soft as a circle of 2 pixels.
+constexpr float kHalfBlend_px = 1.5f;
+constexpr float kFullBlend_px = 0.75f;
+
+shaders::DofConstants constants_of(const RenderView& view, const DofKnobs& knobs, const Lens& lens) {
+  shaders::DofConstants c{};
+  c.size = {view.width, view.height};
+  c.layer_size = (c.size + knobs.scale() - 1u) / knobs.scale();
+  c.tiles = (c.size + std::uint32_t{GLOAM_DOF_TILE} - 1u) / std::uint32_t{GLOAM_DOF_TILE};
+  c.inverse_size = 1.0f / vec2(c.size);
+  c.coc_offset = static_cast<float>(lens.offset_px);
+  c.coc_slope = static_cast<float>(lens.slope_px);
+  c.radius = knobs.radius;
+  c.blend = knobs.full_resolution ? kFullBlend_px : kHalfBlend_px;
+  return c;
+}
+
+}  // namespace
+
+void add_dof_passes(FrameBuilder& frame, const DepthOfField& values, const Lens& lens) {
+  DofFrame dof;
+  dof.knobs = dof_knobs(frame.knobs());
+  dof.bokeh = values.bokeh;
+  dof.constants = constants_of(frame.view(), dof.knobs, lens);
+  dof.block = frame.upload_uniform(dof.constants);
+  dof.depth = frame.get<GeometryOutputs>().depth;
+  add_dof_tile_passes(frame, dof);
+  const DofLayers layers = add_dof_prefilter_pass(frame, dof);
+  add_dof_compose_pass(frame, dof, add_dof_blur_passes(frame, dof, layers));
+  frame.put(dof);
+}
+
+void list_dof_pipelines(const DofKnobs& knobs, bool threads_in_turn, PipelineList& list) {
+  const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "depth_of_field")); };
+  add(dof_bounds_program());
+  add(dof_reach_program());
+  add(dof_list_program(knobs.scale()));
+  for (const bool near : {false, true}) {
+    add(dof_prefilter_program(knobs.scale(), near));
+    add(dof_compose_program(knobs.scale(), near, threads_in_turn));
+  }
+  for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})
+    for (const ComputeProgram& program : dof_blur_programs(knobs, bokeh)) add(program);
+}
+
+}  // namespace gloam

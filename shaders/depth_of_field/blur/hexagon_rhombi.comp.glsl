@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/depth_of_field/depth_of_field_shared.h"
+
+// The second pass of the hexagonal kernel without workgroup memory, in the listed tiles: the three rhombi, from the
+// images of hexagon_lines.comp.
+
+layout(local_size_x = GLOAM_DOF_BLOCK, local_size_y = GLOAM_DOF_BLOCK) in;
+
+layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
+layout(set = 0, binding = 1) uniform sampler2D reach_image;
+layout(set = 0, binding = 2) uniform sampler2D upright_image;
+layout(set = 0, binding = 3) uniform sampler2D both_image;
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D blurred_image;
+
+#define GLOAM_DOF_LIST_BINDING 5
+#include "shaders/depth_of_field/blur/radius.glsl"
+#include "shaders/depth_of_field/list_api.glsl"
+
+void filter_texel(ivec2 texel, int taps) {
+  vec4 own_upright = texelFetch(upright_image, inside(texel), 0), own_both = texelFetch(both_image, inside(texel), 0);
+  float radius = kernel_radius(inside(texel), own_upright.a);
+  LineSum right = no_sum(), left = no_sum();
+  add(right, own_upright, line_weight(0, kSlanted * radius));
+  add(left, own_both, line_weight(0, kSlanted * radius));
+  for (int n = 1; n <= taps; ++n) {
+    float weight = line_weight(n, kSlanted * radius);
+    add(right, texelFetch(upright_image, inside(step_from(texel, kRightward, n)), 0), weight);
+    add(left, texelFetch(both_image, inside(step_from(texel, kLeftward, n)), 0), weight);
+  }
+  if (any(greaterThanEqual(uvec2(texel), dof.layer_size))) return;
+  imageStore(blurred_image, texel, mix(mean(left, own_both.a), mean(right, own_upright.a), kRightShare));
+}
+
+void main() {
+  DofTile tile;
+  if (!listed_tile(uint(GLOAM_DOF_FAR_LAST) + kNear, tile)) return;
+  const int side = GLOAM_DOF_TILE / int(kScale);
+  ivec2 first = tile.place * side + ivec2(gl_LocalInvocationID.xy);
+  for (int y = 0; y < side; y += GLOAM_DOF_BLOCK)
+    for (int x = 0; x < side; x += GLOAM_DOF_BLOCK) filter_texel(first + ivec2(x, y), tile.taps);
+}

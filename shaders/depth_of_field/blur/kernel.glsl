@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_DEPTH_OF_FIELD_BLUR_KERNEL_GLSL
+#define GLOAM_SHADERS_DEPTH_OF_FIELD_BLUR_KERNEL_GLSL
+
+#include "shaders/depth_of_field/depth_of_field_shared.h"
+
+// One line of a kernel. Include this after the uniform `dof`.
+//
+// Round: a Gaussian with the variance of the disc of the circle of confusion, cut at its radius, along rows, then along
+// columns. Hexagonal: White and Barré-Brisebois 2011, "More Performance! Five Rendering Ideas from Battlefield 3 and
+// Need For Speed: The Run". Three rhombi meet at a corner. Each is a line of equal weights along one of three
+// directions, filtered along another: up and right, up and left, left and right (both downwards). Here the slanted
+// directions have a slope of 1/2 in place of 0.58, so the texels of the rhombi fall on texels of the image, each
+// exactly once. The lengths of the sides differ by 2 %, the widths of the hexagon by 5 %. A texel counts by the part of
+// it that the line covers, so kernels grow evenly.
+
+layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel of the layers
+layout(constant_id = 1) const uint kNear = 0u;   // 1: the near layer
+
+// Upright lines are as long as the radius. Slanted lines: texels along x, by the radius.
+const float kSlanted = 0.88;
+
+// Shares in a sum of two lines or two rhombi, by their lengths and areas.
+const float kUpShare = 1.0 / (1.0 + kSlanted);
+const float kRightShare = 1.0 / (2.0 + kSlanted);  // of the rhombus of up and right in the hexagon
+
+// The texels of a line, as the n-th step from a texel. The two slants are rounded at different texels: then the rhombus
+// of both has no gaps.
+const uint kRow = 0u, kColumn = 1u, kUpward = 2u, kRightward = 3u, kLeftward = 4u;
+ivec2 step_from(ivec2 texel, uint direction, int n) {
+  if (direction == kRow) return ivec2(texel.x + n, texel.y);
+  if (direction == kColumn) return ivec2(texel.x, texel.y + n);
+  if (direction == kUpward) return ivec2(texel.x, texel.y - n);
+  if (direction == kRightward) return ivec2(texel.x + n, texel.y + ((texel.x + n) >> 1) - (texel.x >> 1));
+  return ivec2(texel.x - n, texel.y + ((texel.x + 1) >> 1) - ((texel.x - n + 1) >> 1));
+}
+
+ivec2 inside(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(dof.layer_size) - 1); }
+
+// Weight of the n-th texel of a line that starts in the middle of texel 0. The small weight keeps the texel itself in
+// lines of length 0.
+float line_weight(int n, float length) {
+  return n == 0 ? clamp(length, 1e-3, 0.5) : clamp(length + 0.5 - float(n), 0.0, 1.0);
+}
+
+// Weight at a distance of n texels of the Gaussian with a standard deviation of half the radius.
+float round_weight(int n, float radius) {
+  float falloff = -2.8853901 / max(radius * radius, 1e-4);  // −2 log₂ e / r²
+  return exp2(falloff * float(n * n)) * clamp(radius + 0.5 - float(n), 0.0, 1.0);
+}
+
+// Sum of weighted texels. A texel of the far layer counts by its circle (alpha), so nothing in focus bleeds into what
+// is blurred. The near layer is premultiplied and spreads over everything.
+struct LineSum {
+  vec4 light;
+  float weight;
+};
+LineSum no_sum() { return LineSum(vec4(0.0), 0.0); }
+void add(inout LineSum sum, vec4 texel, float weight) {
+  float counted = kNear != 0u ? weight : weight * texel.a;
+  sum.light += counted * texel;
+  sum.weight += counted;
+}
+// The mean; alpha of the far layer stays the texel's own.
+vec4 mean(LineSum sum, float own_alpha) {
+  vec4 light = sum.weight > 0.0 ? sum.light / sum.weight : vec4(0.0);
+  return kNear != 0u ? light : vec4(light.rgb, own_alpha);
+}
+
+#endif

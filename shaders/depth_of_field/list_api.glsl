@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_DEPTH_OF_FIELD_LIST_API_GLSL
+#define GLOAM_SHADERS_DEPTH_OF_FIELD_LIST_API_GLSL
+
+#include "shaders/depth_of_field/depth_of_field_shared.h"
+
+// For passes over the tiles of one list, one workgroup each. Define GLOAM_DOF_LIST_BINDING as the first of two
+// bindings, and include this after the uniform `dof`.
+
+layout(set = 0, binding = GLOAM_DOF_LIST_BINDING, scalar) readonly buffer Lists { DofList lists[]; };
+layout(set = 0, binding = GLOAM_DOF_LIST_BINDING + 1, scalar) readonly buffer Entries { uint entries[]; };
+
+struct DofTile {
+  ivec2 place;
+  int taps;  // the farthest texel that a kernel reads
+};
+
+// The tile of this workgroup. False: there is none for it.
+bool listed_tile(uint list, out DofTile tile) {
+  uint index = gl_WorkGroupID.y * uint(GLOAM_DOF_ROW) + gl_WorkGroupID.x;
+  uint count = lists[list].count;
+  uint entry = entries[list * dof.tiles.x * dof.tiles.y + min(index, max(count, 1u) - 1u)];
+  tile = DofTile(ivec2(entry & 0xFFFu, entry >> 12 & 0xFFFu), int(entry >> 24));
+  return index < count;
+}
+
+#endif
