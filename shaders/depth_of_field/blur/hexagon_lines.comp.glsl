@@ -25,9 +25,10 @@ void filter_texel(ivec2 texel, int taps) {
   LineSum up = no_sum(), right = no_sum();
   add(up, own, line_weight(0, radius));
   add(right, own, line_weight(0, kSlanted * radius));
-  for (int n = 1; n <= taps; ++n) {
-    add(up, texelFetch(layer_image, inside(step_from(texel, kUpward, n)), 0), line_weight(n, radius));
-    add(right, texelFetch(layer_image, inside(step_from(texel, kRightward, n)), 0), line_weight(n, kSlanted * radius));
+  for (int n = 1; n <= taps; n += 2) {
+    add(up, texelFetch(layer_image, inside(texel - ivec2(0, n)), 0), line_weight(n, radius));
+    add(up, texelFetch(layer_image, inside(texel - ivec2(0, n + 1)), 0), line_weight(n + 1, radius));
+    add_slanted(right, layer_image, texel, 1, n, kSlanted * radius);
   }
   if (any(greaterThanEqual(uvec2(texel), dof.layer_size))) return;
   vec4 upright = mean(up, own.a);

@@ -25,10 +25,9 @@ void filter_texel(ivec2 texel, int taps) {
   LineSum right = no_sum(), left = no_sum();
   add(right, own_upright, line_weight(0, kSlanted * radius));
   add(left, own_both, line_weight(0, kSlanted * radius));
-  for (int n = 1; n <= taps; ++n) {
-    float weight = line_weight(n, kSlanted * radius);
-    add(right, texelFetch(upright_image, inside(step_from(texel, kRightward, n)), 0), weight);
-    add(left, texelFetch(both_image, inside(step_from(texel, kLeftward, n)), 0), weight);
+  for (int n = 1; n <= taps; n += 2) {
+    add_slanted(right, upright_image, texel, 1, n, kSlanted * radius);
+    add_slanted(left, both_image, texel, -1, n, kSlanted * radius);
   }
   if (any(greaterThanEqual(uvec2(texel), dof.layer_size))) return;
   imageStore(blurred_image, texel, mix(mean(left, own_both.a), mean(right, own_upright.a), kRightShare));

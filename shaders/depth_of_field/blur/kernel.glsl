@@ -11,9 +11,9 @@
 // columns. Hexagonal: White and Barré-Brisebois 2011, "More Performance! Five Rendering Ideas from Battlefield 3 and
 // Need For Speed: The Run". Three rhombi meet at a corner. Each is a line of equal weights along one of three
 // directions, filtered along another: up and right, up and left, left and right (both downwards). Here the slanted
-// directions have a slope of 1/2 in place of 0.58, so the texels of the rhombi fall on texels of the image, each
-// exactly once. The lengths of the sides differ by 2 %, the widths of the hexagon by 5 %. A texel counts by the part of
-// it that the line covers, so kernels grow evenly.
+// directions have a slope of 1/2 in place of 0.58: every second step of a line falls on a texel of the image, and every
+// other one halfway between two, which then count by half. The lengths of the sides differ by 2 %, the widths of the
+// hexagon by 5 %. A texel counts by the part of it that the line covers, so kernels grow evenly.
 
 layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel of the layers
 layout(constant_id = 1) const uint kNear = 0u;   // 1: the near layer
@@ -25,16 +25,8 @@ const float kSlanted = 0.88;
 const float kUpShare = 1.0 / (1.0 + kSlanted);
 const float kRightShare = 1.0 / (2.0 + kSlanted);  // of the rhombus of up and right in the hexagon
 
-// The texels of a line, as the n-th step from a texel. The two slants are rounded at different texels: then the rhombus
-// of both has no gaps.
+// Directions of lines. Rows and columns go both ways. Slanted lines go downwards.
 const uint kRow = 0u, kColumn = 1u, kUpward = 2u, kRightward = 3u, kLeftward = 4u;
-ivec2 step_from(ivec2 texel, uint direction, int n) {
-  if (direction == kRow) return ivec2(texel.x + n, texel.y);
-  if (direction == kColumn) return ivec2(texel.x, texel.y + n);
-  if (direction == kUpward) return ivec2(texel.x, texel.y - n);
-  if (direction == kRightward) return ivec2(texel.x + n, texel.y + ((texel.x + n) >> 1) - (texel.x >> 1));
-  return ivec2(texel.x - n, texel.y + ((texel.x + 1) >> 1) - ((texel.x - n + 1) >> 1));
-}
 
 ivec2 inside(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(dof.layer_size) - 1); }
 
@@ -61,6 +53,14 @@ void add(inout LineSum sum, vec4 texel, float weight) {
   float counted = kNear != 0u ? weight : weight * texel.a;
   sum.light += counted * texel;
   sum.weight += counted;
+}
+// Adds steps n and n + 1 of a slanted line from a texel. n: odd. turn: 1 to the right, −1 to the left.
+void add_slanted(inout LineSum sum, sampler2D image, ivec2 texel, int turn, int n, float length) {
+  ivec2 between = texel + ivec2(turn * n, n >> 1), next = texel + ivec2(turn * (n + 1), (n + 1) >> 1);
+  float weight = 0.5 * line_weight(n, length);
+  add(sum, texelFetch(image, inside(between), 0), weight);
+  add(sum, texelFetch(image, inside(between + ivec2(0, 1)), 0), weight);
+  add(sum, texelFetch(image, inside(next), 0), line_weight(n + 1, length));
 }
 // The mean; alpha of the far layer stays the texel's own.
 vec4 mean(LineSum sum, float own_alpha) {

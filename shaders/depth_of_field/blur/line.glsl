@@ -6,8 +6,8 @@
 #include "shaders/depth_of_field/depth_of_field_shared.h"
 
 // Thief, section 1.5.2: a workgroup of n threads filters n texels of a line with radius k. It fetches the 2k + n texels
-// that they need once, k being the greatest of the workgroup's tiles. Include this after keep() and kept(), which store
-// texels in workgroup memory.
+// that they need once, k being the greatest of the workgroup's tiles. A slanted line needs the texels above and below
+// its own, too. Include this after keep() and kept(), which store 3 · kRoom texels in workgroup memory.
 
 layout(local_size_x = GLOAM_DOF_LINE) in;
 layout(constant_id = 2) const uint kDirection = 0u;  // kernel.glsl
@@ -52,11 +52,17 @@ void main() {
   barrier();
   int taps = int(most) - 1;
   if (taps < 0) return;
+  if (kDirection >= kRightward) taps = (taps + 1) & ~1;  // steps are added in pairs
   // Texels before the first thread's and behind the last thread's that are read.
   int before = kDirection == kRightward ? 0 : taps;
   int behind = kDirection == kUpward || kDirection == kLeftward ? 0 : taps;
-  for (int at = lane; at < GLOAM_DOF_LINE + before + behind; at += GLOAM_DOF_LINE)
-    keep(at, texelFetch(layer_image, inside(on_line(first + at - before)), 0));
+  for (int at = lane; at < GLOAM_DOF_LINE + before + behind; at += GLOAM_DOF_LINE) {
+    ivec2 place = on_line(first + at - before);
+    keep(at, texelFetch(layer_image, inside(place), 0));
+    if (kDirection < kRightward) continue;
+    keep(at + kRoom, texelFetch(layer_image, inside(place + ivec2(0, 1)), 0));
+    keep(at + 2 * kRoom, texelFetch(layer_image, inside(place - ivec2(0, 1)), 0));
+  }
   barrier();
   if (!is_listed) return;
   int own_place = lane + before;
@@ -70,11 +76,23 @@ void main() {
       add(sum, kept(own_place - n), weight);
       add(sum, kept(own_place + n), weight);
     }
+  } else if (kDirection == kUpward) {
+    add(sum, own, line_weight(0, radius));
+    for (int n = 1; n <= taps; ++n) add(sum, kept(own_place - n), line_weight(n, radius));
   } else {
-    float length = kDirection == kUpward ? radius : kSlanted * radius;
+    float length = kSlanted * radius;
     int turn = kDirection == kRightward ? 1 : -1;
+    // The line's texels are those of whole steps from even columns. An odd step from an even column lies between such a
+    // texel and the one below it, and one from an odd column between it and the one above.
+    int low = (texel.x & 1) == 0 ? 0 : 2 * kRoom, high = (texel.x & 1) == 0 ? kRoom : 0;
     add(sum, own, line_weight(0, length));
-    for (int n = 1; n <= taps; ++n) add(sum, kept(own_place + turn * n), line_weight(n, length));
+    for (int n = 1; n <= taps; n += 2) {
+      int between = own_place + turn * n;
+      float weight = 0.5 * line_weight(n, length);
+      add(sum, kept(between + low), weight);
+      add(sum, kept(between + high), weight);
+      add(sum, kept(between + turn), line_weight(n + 1, length));
+    }
   }
   vec4 light = mean(sum, own.a);
   if (kOther != 0u) light = mix(light, texelFetch(other_image, texel, 0), kOther == 1u ? kUpShare : kRightShare);

@@ -8,7 +8,7 @@
 // words, in different banks of the memory.
 
 const int kRoom = GLOAM_DOF_LINE + 2 * GLOAM_DOF_MOST_RADIUS;
-shared float cached_r[kRoom], cached_g[kRoom], cached_b[kRoom], cached_a[kRoom];
+shared float cached_r[3 * kRoom], cached_g[3 * kRoom], cached_b[3 * kRoom], cached_a[3 * kRoom];
 void keep(int at, vec4 texel) {
   cached_r[at] = texel.r;
   cached_g[at] = texel.g;

@@ -23,10 +23,12 @@ void filter_texel(ivec2 texel, int taps) {
   float radius = kernel_radius(inside(texel), own.a);
   LineSum sum = no_sum();
   add(sum, own, 1.0);
+  // Components are chosen one by one: Mesa 22.3 evaluates a choice between constant vectors wrongly.
+  ivec2 along = ivec2(kDirection == kRow ? 1 : 0, kDirection == kRow ? 0 : 1);
   for (int n = 1; n <= taps; ++n) {
     float weight = round_weight(n, radius);
-    add(sum, texelFetch(layer_image, inside(step_from(texel, kDirection, -n)), 0), weight);
-    add(sum, texelFetch(layer_image, inside(step_from(texel, kDirection, n)), 0), weight);
+    add(sum, texelFetch(layer_image, inside(texel - n * along), 0), weight);
+    add(sum, texelFetch(layer_image, inside(texel + n * along), 0), weight);
   }
   if (all(lessThan(uvec2(texel), dof.layer_size))) imageStore(blurred_image, texel, mean(sum, own.a));
 }
