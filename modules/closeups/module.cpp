@@ -17,6 +17,7 @@
 #include "modules/closeups/systems.h"
 #include "modules/lights/components.h"
 #include "modules/lights/outputs.h"
+#include "modules/shadows/components.h"
 
 namespace gloam {
 namespace {
@@ -39,6 +40,13 @@ struct CloseupWorld {
 bool has_subjects(const World& world) {
   bool found = false;
   world.view<const CloseupSubject>().each([&](const CloseupSubject& subject) { found = found || subject.enabled; });
+  return found;
+}
+
+bool has_casting_light(const World& world) {
+  bool found = false;
+  world.view<const Light, Maybe<const ShadowCaster>>().each(
+      [&](const Light&, const ShadowCaster* caster) { found = found || caster == nullptr || caster->enabled; });
   return found;
 }
 
@@ -79,8 +87,9 @@ class CloseupsModule final : public Module {
     std::size_t subjects = 0;
     world.view<const CloseupSubject>().each([&](const CloseupSubject& s) { subjects += s.enabled ? 1 : 0; });
     if (subjects == 0) return {false, "no close-up subject"};
-    if (view == nullptr)
-      return {true, std::to_string(subjects) + (subjects == 1 ? " close-up subject" : " close-up subjects")};
+    const std::string words = std::to_string(subjects) + (subjects == 1 ? " close-up subject" : " close-up subjects");
+    if (!has_casting_light(world)) return {false, words + ", but no light casts shadows"};
+    if (view == nullptr) return {true, words};
     // Captures share standard maps, so subjects stay in them.
     if (view->purpose == ViewPurpose::capture) return {false, "captures have no close-ups"};
     const CloseupViews& views = world.view_resource<CloseupViews>(view->id);

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 """Tests `render`: pictures, stats, traces, reproducibility, errors. Needs a Vulkan device."""
+import json
 import os
 import re
 
+from inspect_test import TRIANGLE
 from program_case import ProgramCase, main
 
 SMALL = ("--size", "160x90")
@@ -169,6 +171,14 @@ class Render(ProgramCase):
         self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", "light_culling", says="light_culling")
         for view in LIGHT_VIEWS:
             self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", view, "--set", "lights.culling=brute", says="tiled")
+
+    def test_effects_without_a_light_are_drawn(self):
+        for extras in ({"gloam.closeup": True}, {"gloam.particles": "smoke"}, {"gloam.grass.density": 500},
+                       {"gloam.cube_probe.global": True}, {"gloam.fog.density": 0.1}):
+            node = {"mesh": 0, "name": "leaf", "extras": extras}
+            camera = {"camera": 0, "name": "eye", "translation": [0, 0, 3], "extras": {"gloam.dof.focus": 1.0}}
+            (self.folder / "dark.gltf").write_text(json.dumps({**TRIANGLE, "nodes": [node, camera]}), encoding="utf-8")
+            self.expect(0, "render", "dark.gltf", "--size", "64x36", "--frames", "2", "--out", "dark.png")
 
     def test_unknown_knobs_views_and_cameras_are_wrong_usage(self):
         (self.folder / "bad.json").write_text('{"no.such": 1}')

@@ -79,7 +79,17 @@ TEST_F(ModuleDemand, components_that_are_off_call_for_nothing) {
   EXPECT_EQ(demand("depth_of_field"), "-no camera has a focus");
 }
 
+TEST_F(ModuleDemand, close_up_subjects_call_for_nothing_without_a_light_that_casts) {
+  world.create(CloseupSubject{.enabled = true});
+  EXPECT_EQ(demand("closeups"), "-1 close-up subject, but no light casts shadows");
+  const Entity lamp = world.create(Light{}, ShadowCaster{.enabled = false});
+  EXPECT_EQ(demand("closeups"), "-1 close-up subject, but no light casts shadows");
+  world.get<ShadowCaster>(lamp).enabled = true;
+  EXPECT_EQ(demand("closeups"), "+1 close-up subject");
+}
+
 TEST_F(ModuleDemand, says_how_many_call_for_it) {
+  world.create(Light{});
   world.create(CloseupSubject{.enabled = true});
   world.create(IbrProxy{.size_m = vec2(1.0f)});
   world.create(GrassSurface{.density = 10.0f});
