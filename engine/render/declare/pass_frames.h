@@ -36,6 +36,8 @@ class PassFrames {
   [[nodiscard]] Status record(gpu::CommandList& commands, const std::function<void(FrameBuilder&)>& declare);
 
   [[nodiscard]] FrameGraph& graph() { return graph_; }
+  /// Knobs that the passes read; none are registered at first.
+  [[nodiscard]] KnobRegistry& knobs() { return knobs_; }
 
  private:
   gpu::Device& device_;
