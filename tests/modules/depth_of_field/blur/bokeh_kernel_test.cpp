@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/modules/depth_of_field/support/dof_chain.h"
+#include "tests/modules/depth_of_field/support/spot.h"
+
+namespace gloam::test {
+namespace {
+
+constexpr float kBrightest = 65504.0f;
+
+/// One pixel of the brightest light in a dark picture whose circles of confusion are equal.
+class DofBokeh : public DofChainTest {
+ protected:
+  struct Setting {
+    Bokeh bokeh = Bokeh::round;
+    bool full = false;
+    float radius = 15.0f;
+    bool near = false;
+    std::uint32_t shift = 0;  ///< of the bright pixel
+
+    [[nodiscard]] std::string name() const {
+      return std::string(full ? "full" : "half") + ", radius " + std::to_string(static_cast<int>(radius)) +
+             (near ? ", near" : ", far") + ", shift " + std::to_string(shift);
+    }
+  };
+  static Spot draw(const Setting& setting) {
+    DofInput in(kSide, kSide, setting.near ? -setting.radius : setting.radius, vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    in.light[in.at(kSide / 2 + setting.shift, kSide / 2 + setting.shift / 2)] = vec4(vec3(kBrightest), 1.0f);
+    in.knobs.full_resolution = setting.full;
+    in.knobs.radius = setting.radius;
+    in.bokeh = setting.bokeh;
+    std::vector<double> values;
+    for (const vec4& light : run(in).light) {
+      EXPECT_TRUE(std::isfinite(light.x) && light.x >= 0.0f);
+      EXPECT_TRUE(light.x == light.y && light.x == light.z);
+      values.push_back(static_cast<double>(light.x));
+    }
+    return {static_cast<int>(kSide), static_cast<int>(kSide), std::move(values)};
+  }
+  template <class Check>
+  static void each_setting(Bokeh bokeh, const Check& check) {
+    for (const bool full : {false, true})
+      for (const float radius : {15.0f, 31.0f})
+        for (const bool near : {false, true})
+          for (const std::uint32_t shift : {0u, 3u}) check(Setting{bokeh, full, radius, near, shift});
+  }
+  static constexpr std::uint32_t kSide = 96;
+};
+INSTANTIATE_TEST_SUITE_P(Variants, DofBokeh, testing::Values(true));
+
+TEST_P(DofBokeh, keeps_the_energy_of_a_bright_pixel) {
+  for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})
+    each_setting(bokeh, [](const Setting& setting) {
+      const Spot spot = draw(setting);
+      EXPECT_NEAR(spot.energy() / static_cast<double>(kBrightest), 1.0, 0.01) << setting.name();
+    });
+}
+
+TEST_P(DofBokeh, spreads_a_bright_pixel) {
+  for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})
+    each_setting(bokeh, [](const Setting& setting) {
+      // A disc of a quarter of the radius is darker than if it held all light.
+      const double alone = static_cast<double>(kBrightest) / (std::numbers::pi * std::pow(0.25 * setting.radius, 2));
+      EXPECT_LT(draw(setting).mean_within(0.25 * setting.radius), 0.25 * alone) << setting.name();
+    });
+}
+
+TEST_P(DofBokeh, is_the_same_in_all_directions_if_it_is_round) {
+  each_setting(Bokeh::round, [](const Setting& setting) {
+    const Spot spot = draw(setting);
+    const dvec3 moments = spot.moments();
+    EXPECT_NEAR(moments.x / moments.y, 1.0, 0.05) << setting.name();
+    EXPECT_NEAR(moments.z / moments.y, 0.0, 0.05) << setting.name();
+    const double level = 0.5 * spot.mean_within(1.0);
+    double least = 1e9, most = 0.0;
+    for (int i = 0; i < 64; ++i) {
+      const double reach = glm::distance(spot.outline(i * std::numbers::pi / 32.0, level), spot.centre());
+      least = std::min(least, reach);
+      most = std::max(most, reach);
+    }
+    EXPECT_LT(most / least, 1.05) << setting.name();
+    EXPECT_GT(least, 0.5 * setting.radius) << setting.name();  // half of the maximum: at 0.59 radii of a Gaussian
+    EXPECT_LT(most, 0.68 * setting.radius) << setting.name();
+  });
+}
+
+TEST_P(DofBokeh, has_six_equal_sides_if_it_is_hexagonal) {
+  each_setting(Bokeh::hexagonal, [](const Setting& setting) {
+    const Spot spot = draw(setting);
+    const double level = 0.5 * spot.mean_within(0.5 * setting.radius);
+    const std::array<glm::dvec2, 6> corners = hexagon_corners(spot, level);
+    double least = 1e9, most = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double length = glm::distance(corners[i], corners[(i + 1) % 6]);
+      least = std::min(least, length);
+      most = std::max(most, length);
+      sum += length;
+    }
+    EXPECT_LT(most / least, 1.05) << setting.name();
+    EXPECT_NEAR(sum / 6.0, setting.radius, 0.08 * setting.radius) << setting.name();
+    for (int i = 0; i < 60; ++i) {
+      const double angle = i * std::numbers::pi / 30.0;
+      const double outer = glm::distance(spot.outline(angle, 0.1 * level), spot.centre());
+      EXPECT_LT(outer, 1.12 * setting.radius + (setting.full ? 1.0 : 2.0)) << setting.name() << ", angle " << angle;
+    }
+  });
+}
+
+TEST_P(DofBokeh, is_evenly_lit_if_it_is_hexagonal) {
+  each_setting(Bokeh::hexagonal, [](const Setting& setting) {
+    const Spot spot = draw(setting);
+    const double inside = 0.65 * setting.radius, mean = spot.mean_within(inside);
+    const glm::dvec2 range = spot.range_within(inside);
+    EXPECT_GT(range.x, 0.9 * mean) << setting.name();
+    EXPECT_LT(range.y, 1.1 * mean) << setting.name();
+  });
+}
+
+}  // namespace
+}  // namespace gloam::test
