@@ -45,7 +45,7 @@ ROOMS = {
     "engine/render": (("knobs", "scene", "draws", "declare", "sort", "passes", "readback", "reference"),
                       ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections", "grass",
-                       "particles"), ()),
+                       "particles", "dof"), ()),
     "sandbox": (("output", "scenes", "session", "window", "bench", "commands"), ("options", "console", "log")),
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),

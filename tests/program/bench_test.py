@@ -13,7 +13,8 @@ class Bench(ProgramCase):
         for an_id in ("jobs.empty", "jobs.empty.one_thread", "ecs.iterate2.1e4", "ecs.random_get_over_bare", "frame.scene",
                       "shadows.table1.deferred_8_closeups", "shadows.table1.deferred_8_closeups_all_over_monolithic",
                       "reflections.tiled_over_naive", "reflections.curve.tiles.16", "reflections.error.wet_street.still.ssr+cube.flip",
-                      "reflections.temporal.all.reprojected"):
+                      "reflections.temporal.all.reprojected", "dof.radius15.none", "dof.radius15.vec4", "dof.radius15.channels",
+                      "dof.hexagonal.radius31.channels", "dof.frame_over_gathers", "dof.error.round.half.flip"):
             self.assertIn(an_id, ids)
 
     def test_rows_have_the_documented_fields(self):

@@ -71,6 +71,12 @@ void add_grass_cost_benches(BenchRegistry& registry);
 void add_grass_walk_benches(BenchRegistry& registry);
 /// Times of the passes of particles: lit against unlit ones, by number, and by the rate of lighting.
 void add_particle_cost_benches(BenchRegistry& registry);
+/// The blur of depth of field by its use of workgroup memory, by radius and bokeh.
+void add_dof_cache_benches(BenchRegistry& registry);
+/// Time that depth of field adds to a frame, against the gather pass.
+void add_dof_frame_benches(BenchRegistry& registry);
+/// Error of depth of field against frames through many points of the lens.
+void add_dof_error_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

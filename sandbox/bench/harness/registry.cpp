@@ -49,6 +49,8 @@ Result<std::vector<const BenchRow*>> BenchRegistry::choose(std::span<const std::
   return chosen;
 }
 
+bool has_bar(const BenchRow& row, const BenchValue& value) { return row.bar.has_value() && !value.informs; }
+
 bool holds(const BenchRow& row, double value) {
   if (!row.bar) return true;
   return row.better == Better::lower ? value <= *row.bar : value >= *row.bar;
@@ -84,6 +86,9 @@ BenchRegistry make_bench_registry() {
   add_grass_cost_benches(registry);
   add_grass_walk_benches(registry);
   add_particle_cost_benches(registry);
+  add_dof_cache_benches(registry);
+  add_dof_frame_benches(registry);
+  add_dof_error_benches(registry);
   return registry;
 }
 

@@ -24,6 +24,7 @@ struct BenchValue {
   std::optional<double> p90;
   std::optional<std::string> hash;   ///< of the computed data, so that a fast wrong answer shows
   std::optional<std::string> scene;  ///< scene of the measurement, if it is not the run's scene
+  bool informs = false;              ///< the row's bar is not for this device: the value only informs
   /// Reason why nothing could be measured here (a scene file is missing). The other members mean nothing then, and the
   /// bar counts as kept.
   std::optional<std::string> skipped;
@@ -59,6 +60,9 @@ class BenchRegistry {
  private:
   std::vector<BenchRow> rows_;
 };
+
+/// Whether the row's bar applies to a measured value.
+[[nodiscard]] bool has_bar(const BenchRow& row, const BenchValue& value);
 
 /// Whether a value keeps its row's bar; true without one.
 [[nodiscard]] bool holds(const BenchRow& row, double value);

@@ -24,9 +24,10 @@ Json row_json(const MeasuredRow& measured, const std::string& scene) {
   Json json = {{"id", row.id}, {"value", value.value}, {"unit", row.unit}};
   json["p10"] = value.p10.value_or(value.value);
   json["p90"] = value.p90.value_or(value.value);
-  if (row.bar) json["bar"] = *row.bar;
+  const bool barred = has_bar(row, value);
+  if (barred) json["bar"] = *row.bar;
   json["better"] = row.better == Better::lower ? "lower" : "higher";
-  json["holds"] = holds(row, value.value);
+  json["holds"] = !barred || holds(row, value.value);
   json["hash"] = value.hash ? Json(*value.hash) : Json(nullptr);
   if (value.scene && *value.scene != scene) json["scene"] = *value.scene;
   return json;
@@ -42,7 +43,7 @@ std::string bench_line(const MeasuredRow& measured) {
   line += short_number(measured.value.value) + " " + row.unit;
   if (measured.value.p10 && measured.value.p90)
     line += " (" + short_number(*measured.value.p10) + "…" + short_number(*measured.value.p90) + ")";
-  if (row.bar) {
+  if (has_bar(row, measured.value)) {
     const bool kept = holds(row, measured.value.value);
     line += std::string(row.better == Better::lower ? ", at most " : ", at least ") + short_number(*row.bar);
     line += kept ? ": holds" : ": MISSED";

@@ -74,6 +74,16 @@ TEST(BenchRegistry, a_bar_holds_on_its_better_side) {
   EXPECT_FALSE(holds(lower, 0.4));
 }
 
+TEST(BenchRegistry, a_value_that_only_informs_has_no_bar) {
+  BenchRow barred = row("a");
+  BenchValue value;
+  EXPECT_FALSE(has_bar(barred, value));
+  barred.bar = 0.5;
+  EXPECT_TRUE(has_bar(barred, value));
+  value.informs = true;
+  EXPECT_FALSE(has_bar(barred, value));
+}
+
 TEST(BenchRegistry, the_programs_own_benches_have_the_documented_ids) {
   std::set<std::string> ids;
   const BenchRegistry registry = make_bench_registry();
