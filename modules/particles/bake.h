@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
@@ -16,25 +17,49 @@
 
 namespace gloam {
 
+/// The emitters and lights that bake_particle_light() bakes.
+enum class BakedMoment : std::uint8_t {
+  at_rest,  ///< those that do not move; lights with a cookie stay dynamic
+  now,  ///< all of them as they are now; the strongest kBakedLights of an emitter stay dynamic, lights with a cookie
+        ///< first, so that each lit point has their exact light
+};
+
+/// What bake_particle_light() bakes, and how finely.
+struct ParticleBakeOptions {
+  BakedMoment moment = BakedMoment::at_rest;
+  /// The emitters that get a map, ascending by Entity::index; empty: all of the moment.
+  std::vector<Entity> emitters = {};
+  double texel_m = 0.25;         ///< wanted size of texels, metres, > 0
+  std::uint32_t most_side = 32;  ///< 2…kMostMapSide: texels along the longest side of an emitter with larger texels
+  /// Rays of a texel for all its static lights together. A light has as many of them as it has of the texel's light, at
+  /// least one, at most rays_per_light.
+  std::uint32_t rays_per_texel = 64;
+  std::uint32_t rays_per_light = 16;
+  std::uint32_t visibility_rays = 16;  ///< of a texel for each dynamic light, at least 1
+  bool operator==(const ParticleBakeOptions&) const = default;
+};
+
 /// Input of bake_particle_light(). `world`: as the world stage's systems left it, or just loaded. tracer: the triangles
-/// that do not move.
+/// that block light; for BakedMoment::at_rest those that do not move.
 struct ParticleBakeInput {
   const World& world;
   const SceneTracer& tracer;
   JobExecutor& executor;
   /// Reports texels that are done; called by one thread at a time; may be empty.
   std::function<void(std::size_t done, std::size_t total)> progress = {};
+  ParticleBakeOptions options = {};
 };
 
-/// The maps of all emitters that do not move. Lights that do not move and have no cookie are static: their light, with
-/// traced shadows, and that of the sky and the ground is in the flux. Of the lights that do not move and have a cookie,
-/// the strongest kBakedLights at an emitter have their visibility in its map. Version 0. The result depends on world
-/// and triangles only, not on the executor.
+/// The maps of all emitters of the moment. Its lights are static, but for lights with a cookie: their light, with
+/// traced shadows, and that of the sky and the ground is in the flux. Of the moment's lights that stay dynamic, the
+/// strongest kBakedLights at an emitter have their visibility in its map. Version 0. The result depends on world,
+/// triangles and options only, not on the executor.
 [[nodiscard]] ParticleLightMaps bake_particle_light(const ParticleBakeInput& input);
 
-/// Hash of everything that bake_particle_light() depends on: emitters, lights, sky and triangles. Maps with another
-/// hash are out of date.
-[[nodiscard]] std::uint64_t particle_light_content(const World& world, const SceneTracer& tracer);
+/// Hash of everything that bake_particle_light() depends on: emitters, lights, sky, triangles and options. Maps with
+/// another hash are out of date.
+[[nodiscard]] std::uint64_t particle_light_content(const World& world, const SceneTracer& tracer,
+                                                   const ParticleBakeOptions& options = {});
 
 /// Sets static_state and dynamic_state of the maps: their light is that of the world's lights as they are now.
 void mark_as_current(const World& world, ParticleLightMaps& maps);

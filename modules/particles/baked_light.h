@@ -21,6 +21,8 @@ namespace gloam {
 inline constexpr std::size_t kBakedLights = 4;
 /// Most texels of a map along each axis.
 inline constexpr std::uint32_t kMostMapSide = 64;
+/// Most texels of all maps of a world along z together; every device has volumes of this depth.
+inline constexpr std::uint32_t kMostMapSlices = 2048;
 
 /// One colour channel of a texel's static light: half floats of (flux.x, flux.y, flux.z, fluence), both in lux. The
 /// fluence is ∫ L dω over all directions, the flux ∫ L ω dω, where L (cd/m²) arrives from the unit direction ω of the
@@ -56,11 +58,11 @@ struct ParticleLightMap {
 };
 
 /// The maps of a world; a world resource. An emitter without a map, or that is not where it was when its map was made,
-/// is lit by the four strongest of all
-/// lights, unshadowed, and by the sky and the ground.
+/// is lit by the four strongest of all lights, unshadowed, and by the sky and the ground.
 struct ParticleLightMaps {
   std::vector<ParticleLightMap> maps;  ///< ascending by Entity::index of the emitters, at most one of each
   std::uint64_t version = 0;           ///< raise it with each change; the maps are uploaded again
+  bool per_pixel = false;              ///< light is summed at each pixel, whatever the knobs say; for references
 };
 
 }  // namespace gloam

@@ -19,6 +19,7 @@
 #include "modules/particles/keys.h"
 #include "modules/particles/knobs.h"
 #include "modules/particles/passes.h"
+#include "modules/particles/reference/adapter.h"
 
 namespace gloam {
 namespace {
@@ -57,6 +58,7 @@ class ParticlesModule final : public Module {
   void prepare_view(World& world, ViewId view, const KnobRegistry&) const override {
     if (world.try_view_resource<VisibleEmitters>(view) == nullptr) world.set_view_resource(view, VisibleEmitters{});
   }
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override { return particle_references(); }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return particle_visualizers(); }
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
     list_particle_pipelines(particle_lighting(knobs), last_version_, device.threads_in_turn, list);

@@ -84,7 +84,7 @@ Rows make_rows(const FrameBuilder& frame, const VisibleEmitters& visible, bool t
 /// Uploads what all passes read.
 void upload_rows(FrameBuilder& frame, const VisibleEmitters& visible, ParticlesFrame& particles) {
   const ParticleLightMaps& maps = frame.world().resource<ParticleLightMaps>();
-  particles.lighting = particle_lighting(frame.knobs());
+  particles.lighting = maps.per_pixel ? ParticleLighting::pixel : particle_lighting(frame.knobs());
   particles.particles = static_cast<std::uint32_t>(visible.particles);
   particles.two_digits = particles.particles > kMostOneDigitParticles || visible.emitters.size() > kOneDigitKeys;
   const bool lit = particles.lighting != ParticleLighting::off;

@@ -38,7 +38,7 @@ ROOMS = {
                              "fitting", "bake", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials")),
     "modules/grass": (("growth", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
-    "modules/particles": (("emitters", "bake", "simulation", "sorting", "lighting", "drawing", "debug"),
+    "modules/particles": (("emitters", "bake", "simulation", "sorting", "lighting", "drawing", "reference", "debug"),
                           ("components", "baked_light", "bake", "knobs", "frame")),
     "modules/depth_of_field": (("lens", "tiles", "blur", "compose", "reference", "debug"), ("components", "knobs", "frame")),
     "shaders/depth_of_field": (("tiles", "blur", "compose", "debug"), None),

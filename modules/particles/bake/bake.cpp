@@ -27,6 +27,12 @@ std::vector<Entity> entities_of(const BakeLights& lights, const std::vector<std:
   return entities;
 }
 
+void add_options(Hasher& hasher, const ParticleBakeOptions& options) {
+  hasher.value(options.moment).bytes_of(options.texel_m).value(options.most_side);
+  hasher.value(options.rays_per_texel).value(options.rays_per_light).value(options.visibility_rays);
+  for (const Entity emitter : options.emitters) hasher.value(emitter.index);
+}
+
 void add_light(Hasher& hasher, const TwinLight& light, const std::vector<std::uint32_t>& bulbs) {
   hasher.value(light.kind).value(light.casts);
   hasher.bytes_of(light.position).bytes_of(light.axis).bytes_of(light.color);
@@ -37,16 +43,17 @@ void add_light(Hasher& hasher, const TwinLight& light, const std::vector<std::ui
 }  // namespace
 
 ParticleLightMaps bake_particle_light(const ParticleBakeInput& input) {
-  const BakeLights lights = gather_bake_lights(input.world, input.tracer);
+  const ParticleBakeOptions& options = input.options;
+  const BakeLights lights = gather_bake_lights(input.world, input.tracer, options.moment);
   const Flux ambient = ambient_flux(input.world.resource<SceneEnvironment>());
   ParticleLightMaps maps;
-  std::vector<std::vector<std::uint32_t>> cookies;
+  std::vector<LightsOfMap> chosen;
   std::size_t total = 0, done = 0;
-  for (const PlacedEmitter& emitter : emitters_at_rest(input.world)) {
-    ParticleLightMap map = empty_light_map(emitter);
-    cookies.push_back(strongest_with_cookies(input.world, lights, emitter, input.tracer.origin()));
-    map.static_lights = entities_of(lights, lights.with_flux);
-    map.lights = entities_of(lights, cookies.back());
+  for (const PlacedEmitter& emitter : gather_bake_emitters(input.world, options)) {
+    ParticleLightMap map = empty_light_map(emitter, options);
+    chosen.push_back(divide_lights(input.world, lights, emitter, input.tracer.origin(), options.moment));
+    map.static_lights = entities_of(lights, chosen.back().flux);
+    map.lights = entities_of(lights, chosen.back().visibility);
     for (auto& channel : map.flux) channel.resize(map.texels());
     if (!map.lights.empty()) map.visibility.resize(map.texels());
     total += map.texels();
@@ -55,8 +62,9 @@ ParticleLightMaps bake_particle_light(const ParticleBakeInput& input) {
   std::mutex reporting;
   for (std::size_t m = 0; m < maps.maps.size(); ++m) {
     ParticleLightMap& map = maps.maps[m];
+    const TexelInput texels = {input.tracer, lights.all, chosen[m], ambient, options};
     input.executor.parallel_for(map.texels(), kTexelGrain, [&](JobRange range) {
-      bake_texels(input.tracer, lights, cookies[m], ambient, range.begin, range.end, map);
+      bake_texels(texels, range.begin, range.end, map);
       if (!input.progress) return;
       const std::lock_guard lock(reporting);
       input.progress(done += range.end - range.begin, total);
@@ -78,8 +86,9 @@ void mark_as_current(const World& world, ParticleLightMaps& maps) {
   }
 }
 
-std::uint64_t particle_light_content(const World& world, const SceneTracer& tracer) {
-  const BakeLights lights = gather_bake_lights(world, tracer);
+std::uint64_t particle_light_content(const World& world, const SceneTracer& tracer,
+                                     const ParticleBakeOptions& options) {
+  const BakeLights lights = gather_bake_lights(world, tracer, options.moment);
   Hasher hasher;
   hasher.value(kBakeVersion).value(tracer.version()).bytes_of(tracer.origin());
   for (const auto* chosen : {&lights.with_flux, &lights.with_cookies}) {
@@ -89,9 +98,10 @@ std::uint64_t particle_light_content(const World& world, const SceneTracer& trac
   }
   const SceneEnvironment& sky = world.resource<SceneEnvironment>();
   hasher.bytes_of(sky.sky_zenith).bytes_of(sky.sky_horizon).bytes_of(sky.sky_ground);
-  for (const PlacedEmitter& emitter : emitters_at_rest(world)) {
+  for (const PlacedEmitter& emitter : gather_bake_emitters(world, options)) {
     hasher.bytes_of(emitter.origin).bytes_of(emitter.bounds.min).bytes_of(emitter.bounds.max);
   }
+  if (options != ParticleBakeOptions{}) add_options(hasher, options);
   return hasher.digest();
 }
 

@@ -13,36 +13,16 @@
 
 namespace gloam {
 
-BakeLights gather_bake_lights(const World& world, const SceneTracer& tracer) {
-  BakeLights lights;
-  lights.all = gather_lights(world, tracer);
-  const AnimatedNodes animated(world);
-  for (std::uint32_t i = 0; i < lights.all.lights.size(); ++i) {
-    const Entity entity = lights.all.lights[i].entity;
-    if (animated.moves(entity)) continue;
-    (world.get<Light>(entity).cookie == 0 ? lights.with_flux : lights.with_cookies).push_back(i);
-  }
-  return lights;
-}
+namespace {
 
-std::vector<PlacedEmitter> emitters_at_rest(const World& world) {
-  const AnimatedNodes animated(world);
-  std::vector<PlacedEmitter> emitters;
-  world.view<const ParticleEmitter, const WorldTransform>().each(
-      [&](Entity entity, const ParticleEmitter& emitter, const WorldTransform& transform) {
-        PlacedEmitter placed;
-        if (emits(emitter) && !animated.moves(entity) && place_emitter(entity, emitter, transform.matrix, placed))
-          emitters.push_back(placed);
-      });
-  std::ranges::sort(emitters, {}, [](const PlacedEmitter& e) { return e.entity.index; });
-  return emitters;
-}
-
-std::vector<std::uint32_t> strongest_with_cookies(const World& world, const BakeLights& lights,
-                                                  const PlacedEmitter& emitter, const dvec3& tracer_origin) {
+/// Positions in `all` of the strongest `most` of the chosen lights at the emitter, the strongest first; lights that do
+/// not reach it are left out.
+std::vector<std::uint32_t> strongest(const World& world, const TwinLights& all,
+                                     const std::vector<std::uint32_t>& chosen, const PlacedEmitter& emitter,
+                                     const dvec3& tracer_origin, std::size_t most) {
   std::vector<std::pair<double, std::uint32_t>> found;
-  for (const std::uint32_t i : lights.with_cookies) {
-    const TwinLight& light = lights.all.lights[i];
+  for (const std::uint32_t i : chosen) {
+    const TwinLight& light = all.lights[i];
     const double strength = light_strength({.entity = light.entity,
                                             .kind = light.kind,
                                             .position = light.position + tracer_origin,
@@ -54,10 +34,55 @@ std::vector<std::uint32_t> strongest_with_cookies(const World& world, const Bake
     if (strength > 0.0) found.emplace_back(-strength, i);
   }
   std::ranges::sort(found);
-  found.resize(std::min(found.size(), kBakedLights));
-  std::vector<std::uint32_t> chosen;
-  for (const auto& [strength, i] : found) chosen.push_back(i);
-  return chosen;
+  found.resize(std::min(found.size(), most));
+  std::vector<std::uint32_t> positions;
+  for (const auto& [strength, i] : found) positions.push_back(i);
+  return positions;
+}
+
+}  // namespace
+
+BakeLights gather_bake_lights(const World& world, const SceneTracer& tracer, BakedMoment moment) {
+  BakeLights lights;
+  lights.all = gather_lights(world, tracer);
+  const AnimatedNodes animated(world);
+  for (std::uint32_t i = 0; i < lights.all.lights.size(); ++i) {
+    const Entity entity = lights.all.lights[i].entity;
+    if (moment == BakedMoment::at_rest && animated.moves(entity)) continue;
+    (world.get<Light>(entity).cookie == 0 ? lights.with_flux : lights.with_cookies).push_back(i);
+  }
+  return lights;
+}
+
+std::vector<PlacedEmitter> gather_bake_emitters(const World& world, const ParticleBakeOptions& options) {
+  const AnimatedNodes animated(world);
+  const auto is_chosen = [&](Entity entity) {
+    if (options.moment == BakedMoment::at_rest && animated.moves(entity)) return false;
+    return options.emitters.empty() || std::ranges::find(options.emitters, entity) != options.emitters.end();
+  };
+  std::vector<PlacedEmitter> emitters;
+  world.view<const ParticleEmitter, const WorldTransform>().each(
+      [&](Entity entity, const ParticleEmitter& emitter, const WorldTransform& transform) {
+        PlacedEmitter placed;
+        if (emits(emitter) && is_chosen(entity) && place_emitter(entity, emitter, transform.matrix, placed))
+          emitters.push_back(placed);
+      });
+  std::ranges::sort(emitters, {}, [](const PlacedEmitter& e) { return e.entity.index; });
+  return emitters;
+}
+
+LightsOfMap divide_lights(const World& world, const BakeLights& lights, const PlacedEmitter& emitter,
+                          const dvec3& tracer_origin, BakedMoment moment) {
+  LightsOfMap divided;
+  divided.visibility = strongest(world, lights.all, lights.with_cookies, emitter, tracer_origin, kBakedLights);
+  divided.flux = lights.with_flux;
+  if (moment == BakedMoment::at_rest) return divided;
+  const std::size_t left = kBakedLights - divided.visibility.size();
+  for (const std::uint32_t i : strongest(world, lights.all, lights.with_flux, emitter, tracer_origin, left)) {
+    divided.visibility.push_back(i);
+    std::erase(divided.flux, i);
+  }
+  return divided;
 }
 
 }  // namespace gloam

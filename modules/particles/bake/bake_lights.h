@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/ecs/world.h"
+#include "modules/particles/bake.h"
 #include "modules/particles/emitters/placed.h"
 #include "modules/shadows/reference.h"
 
@@ -14,18 +15,20 @@ namespace gloam {
 /// The lights that a bake knows.
 struct BakeLights {
   TwinLights all;                           ///< that shine, by entity index
-  std::vector<std::uint32_t> with_flux;     ///< positions in `all`: at rest, without a cookie
-  std::vector<std::uint32_t> with_cookies;  ///< positions in `all`: at rest, with a cookie
+  std::vector<std::uint32_t> with_flux;     ///< positions in `all`: of the moment, without a cookie
+  std::vector<std::uint32_t> with_cookies;  ///< positions in `all`: of the moment, with a cookie
 };
-[[nodiscard]] BakeLights gather_bake_lights(const World& world, const SceneTracer& tracer);
+[[nodiscard]] BakeLights gather_bake_lights(const World& world, const SceneTracer& tracer, BakedMoment moment);
 
-/// Emitters at rest that emit, by entity index.
-[[nodiscard]] std::vector<PlacedEmitter> emitters_at_rest(const World& world);
+/// Emitters of the options that emit, by entity index.
+[[nodiscard]] std::vector<PlacedEmitter> gather_bake_emitters(const World& world, const ParticleBakeOptions& options);
 
-/// Positions in `all` of the strongest kBakedLights of with_cookies at the emitter, the strongest first; those that do
-/// not reach it are left out.
-[[nodiscard]] std::vector<std::uint32_t> strongest_with_cookies(const World& world, const BakeLights& lights,
-                                                                const PlacedEmitter& emitter,
-                                                                const dvec3& tracer_origin);
+/// The lights of one emitter's map, as positions in BakeLights::all.
+struct LightsOfMap {
+  std::vector<std::uint32_t> flux;        ///< ascending
+  std::vector<std::uint32_t> visibility;  ///< at most kBakedLights, of which each reaches the emitter
+};
+[[nodiscard]] LightsOfMap divide_lights(const World& world, const BakeLights& lights, const PlacedEmitter& emitter,
+                                        const dvec3& tracer_origin, BakedMoment moment);
 
 }  // namespace gloam

@@ -12,16 +12,17 @@ constexpr double kLeastSide_m = 1e-3;  // a box must not be empty
 
 }  // namespace
 
-ParticleLightMap empty_light_map(const PlacedEmitter& emitter) {
+ParticleLightMap empty_light_map(const PlacedEmitter& emitter, const ParticleBakeOptions& options) {
   ParticleLightMap map;
   map.emitter = emitter.entity;
   map.origin = emitter.origin;
   const dvec3 middle = 0.5 * (emitter.bounds.min + emitter.bounds.max);
   const dvec3 half = 0.5 * glm::max(emitter.bounds.max - emitter.bounds.min, dvec3(kLeastSide_m));
   map.box = {vec3(middle - half - emitter.origin), vec3(middle + half - emitter.origin)};
-  const double texel_m = std::max(kMapTexel_m, 2.0 * std::max({half.x, half.y, half.z}) / kMapSide);
+  const double most = std::clamp(options.most_side, 2u, kMostMapSide);
+  const double texel_m = std::max(options.texel_m, 2.0 * std::max({half.x, half.y, half.z}) / most);
   for (int i = 0; i < 3; ++i)
-    map.size[i] = static_cast<std::uint32_t>(std::clamp(std::ceil(2.0 * half[i] / texel_m), 2.0, double{kMapSide}));
+    map.size[i] = static_cast<std::uint32_t>(std::clamp(std::ceil(2.0 * half[i] / texel_m), 2.0, most));
   return map;
 }
 

@@ -38,35 +38,37 @@ struct RaySamples {
 
 class TexelBaker {
  public:
-  TexelBaker(const SceneTracer& tracer, const BakeLights& lights, const ParticleLightMap& map)
-      : tracer_(tracer), lights_(lights), map_(map) {}
+  TexelBaker(const TexelInput& input, const ParticleLightMap& map)
+      : input_(input), tracer_(input.tracer), lights_(input.lights), map_(map) {}
 
   [[nodiscard]] Flux flux(std::size_t texel) {
     arriving_.clear();
     double all = 0.0;
     const dvec3 middle = point(texel, dvec3(0.5));
-    for (const std::uint32_t i : lights_.with_flux) {
+    for (const std::uint32_t i : input_.chosen.flux) {
       dvec3 to_light;
-      const double lux = strength(illuminance_of(lights_.all.lights[i], middle, to_light));
+      const double lux = strength(illuminance_of(lights_.lights[i], middle, to_light));
       if (lux > 0.0) arriving_.push_back({i, lux});
       all += lux;
     }
     Flux sum;
     for (const Arriving& one : arriving_) {
       const double share = one.lux / all;
-      const auto rays =
-          static_cast<std::uint32_t>(std::clamp(std::ceil(share * kRaysPerTexel), 1.0, double{kRaysPerLight}));
+      const double wanted = std::ceil(share * input_.options.rays_per_texel);
+      const auto most = static_cast<double>(input_.options.rays_per_light);
+      const auto rays = static_cast<std::uint32_t>(std::max(std::min(wanted, most), 1.0));
       add(sum, texel, one.light, rays);
     }
     return sum;
   }
 
-  /// Share of kVisibilityRays rays that reach the light.
+  /// Share of the rays that reach the light.
   [[nodiscard]] double visibility(std::size_t texel, std::uint32_t light) {
-    trace(texel, light, kVisibilityRays);
+    const std::uint32_t rays = std::max(input_.options.visibility_rays, 1u);
+    trace(texel, light, rays);
     double seen = 0.0;
-    for (std::uint32_t i = 0; i < kVisibilityRays; ++i) seen += blocked_[i] == 0 ? 1.0 : 0.0;
-    return seen / kVisibilityRays;
+    for (std::uint32_t i = 0; i < rays; ++i) seen += blocked_[i] == 0 ? 1.0 : 0.0;
+    return seen / rays;
   }
 
  private:
@@ -84,7 +86,7 @@ class TexelBaker {
 
   /// Sets points_ and blocked_ of `count` rays to the light.
   void trace(std::size_t texel, std::uint32_t index, std::uint32_t count) {
-    const TwinLight& light = lights_.all.lights[index];
+    const TwinLight& light = lights_.lights[index];
     const RaySamples samples(texel, light.entity.index);
     points_.resize(count);
     blocked_.assign(count, 0);
@@ -99,7 +101,7 @@ class TexelBaker {
       numbers_.push_back(i);
     }
     hits_.resize(rays_.size());
-    tracer_.occluded(rays_, hits_, lights_.all.bulbs[light.bulbs]);
+    tracer_.occluded(rays_, hits_, lights_.bulbs[light.bulbs]);
     for (std::size_t r = 0; r < rays_.size(); ++r) blocked_[numbers_[r]] = hits_[r];
   }
 
@@ -108,14 +110,15 @@ class TexelBaker {
     for (std::uint32_t i = 0; i < count; ++i) {
       if (blocked_[i] != 0) continue;
       dvec3 to_light(0.0);
-      const dvec3 lux = illuminance_of(lights_.all.lights[index], points_[i], to_light) / static_cast<double>(count);
+      const dvec3 lux = illuminance_of(lights_.lights[index], points_[i], to_light) / static_cast<double>(count);
       sum.fluence += lux;
       for (int c = 0; c < 3; ++c) sum.along[c] += lux[c] * to_light;
     }
   }
 
+  const TexelInput& input_;
   const SceneTracer& tracer_;
-  const BakeLights& lights_;
+  const TwinLights& lights_;
   const ParticleLightMap& map_;
   std::vector<Arriving> arriving_;
   std::vector<dvec3> points_;
@@ -142,18 +145,18 @@ Flux ambient_flux(const SceneEnvironment& sky) {
   return flux;
 }
 
-void bake_texels(const SceneTracer& tracer, const BakeLights& lights, std::span<const std::uint32_t> cookies,
-                 const Flux& ambient, std::size_t begin, std::size_t end, ParticleLightMap& map) {
-  TexelBaker baker(tracer, lights, map);
+void bake_texels(const TexelInput& input, std::size_t begin, std::size_t end, ParticleLightMap& map) {
+  const std::vector<std::uint32_t>& dynamic = input.chosen.visibility;
+  TexelBaker baker(input, map);
   for (std::size_t texel = begin; texel < end; ++texel) {
     const Flux flux = baker.flux(texel);
     for (std::size_t c = 0; c < 3; ++c) {
       const auto channel = static_cast<int>(c);
-      map.flux[c][texel] =
-          packed(flux.along[channel] + ambient.along[channel], flux.fluence[channel] + ambient.fluence[channel]);
+      map.flux[c][texel] = packed(flux.along[channel] + input.ambient.along[channel],
+                                  flux.fluence[channel] + input.ambient.fluence[channel]);
     }
-    for (std::size_t i = 0; i < cookies.size(); ++i)
-      map.visibility[texel][i] = static_cast<std::uint8_t>(std::lround(255.0 * baker.visibility(texel, cookies[i])));
+    for (std::size_t i = 0; i < dynamic.size(); ++i)
+      map.visibility[texel][i] = static_cast<std::uint8_t>(std::lround(255.0 * baker.visibility(texel, dynamic[i])));
   }
 }
 

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <cstddef>
 
 #include "engine/math/types.h"
 #include "engine/render/reference/scene_tracer.h"
 #include "engine/scene/resources.h"
+#include "modules/particles/bake.h"
 #include "modules/particles/bake/bake_lights.h"
-#include "modules/particles/baked_light.h"
 
 namespace gloam {
 
@@ -23,17 +22,18 @@ struct Flux {
 /// (fluence + 2 n · along) / 4 from it.
 [[nodiscard]] Flux ambient_flux(const SceneEnvironment& sky);
 
-/// Rays of a texel for all its lights together. A light has as many of them as it has of the texel's light, at least
-/// one, at most kRaysPerLight.
-inline constexpr std::uint32_t kRaysPerTexel = 64;
-inline constexpr std::uint32_t kRaysPerLight = 16;
-/// Rays of a light with a cookie.
-inline constexpr std::uint32_t kVisibilityRays = 16;
+/// What bake_texels() fills a map with. The rays of `options`.
+struct TexelInput {
+  const SceneTracer& tracer;
+  const TwinLights& lights;
+  const LightsOfMap& chosen;  ///< positions in `lights`
+  const Flux& ambient;
+  const ParticleBakeOptions& options;
+};
 
-/// Fills texels [begin, end) of a map; flux and visibility have their sizes. cookies: positions in `lights` of
-/// map.lights. Each ray goes from a point of the texel's cell to a point of the emitter: so a texel that a wall cuts
-/// has the mean of its cell, and a lamp in a cell does not give infinity.
-void bake_texels(const SceneTracer& tracer, const BakeLights& lights, std::span<const std::uint32_t> cookies,
-                 const Flux& ambient, std::size_t begin, std::size_t end, ParticleLightMap& map);
+/// Fills texels [begin, end) of a map; flux and visibility have their sizes. Each ray goes from a point of the texel's
+/// cell to a point of the emitter: so a texel that a wall cuts has the mean of its cell, and a lamp in a cell does not
+/// give infinity.
+void bake_texels(const TexelInput& input, std::size_t begin, std::size_t end, ParticleLightMap& map);
 
 }  // namespace gloam

@@ -88,6 +88,17 @@ const ParticleLightMap* find_light_map(const ParticleLightMaps& maps, Entity emi
   return &*found;
 }
 
+std::vector<std::uint32_t> first_slices(std::span<const ParticleLightMap> maps) {
+  std::vector<std::uint32_t> first;
+  std::uint32_t next = 0;
+  for (const ParticleLightMap& map : maps) {
+    const bool fits = is_usable(map) && next + map.size.z <= kMostMapSlices;
+    first.push_back(fits ? next : kNoSlices);
+    if (fits) next += map.size.z;
+  }
+  return first;
+}
+
 bool is_usable(const ParticleLightMap& map) {
   for (int i = 0; i < 3; ++i)
     if (map.size[i] == 0 || map.size[i] > kMostMapSide || !(map.box.min[i] < map.box.max[i])) return false;
@@ -106,10 +117,12 @@ void particle_lights_system(View<const Light, const WorldTransform> lights, Reso
     EmitterLight found;
     if (place_light(entity, light, transform.matrix, found)) placed.push_back(found);
   });
+  const std::vector<std::uint32_t> slices = first_slices(maps->maps);
   chosen->emitters.clear();
   chosen->outdated = 0;
   for (const PlacedEmitter& emitter : set->emitters) {
     const ParticleLightMap* map = find_light_map(*maps, emitter.entity);
+    if (map != nullptr && slices[static_cast<std::size_t>(map - maps->maps.data())] == kNoSlices) map = nullptr;
     const bool current = map != nullptr && map->origin == emitter.origin &&
                          states.of(map->static_lights) == map->static_state &&
                          states.of(map->lights) == map->dynamic_state;

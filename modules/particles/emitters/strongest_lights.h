@@ -63,6 +63,10 @@ struct EmitterLights {
 
 /// The emitter's baked light, or null. maps: as ParticleLightMaps::maps.
 [[nodiscard]] const ParticleLightMap* find_light_map(const ParticleLightMaps& maps, Entity emitter);
+/// First slice of each map if they are stacked along z; kNoSlices for maps that are not usable or do not fit below
+/// kMostMapSlices. These are not used.
+inline constexpr std::uint32_t kNoSlices = ~0u;
+[[nodiscard]] std::vector<std::uint32_t> first_slices(std::span<const ParticleLightMap> maps);
 /// Whether sizes and box of a map fit each other and its limits. Others are not used.
 [[nodiscard]] bool is_usable(const ParticleLightMap& map);
 

@@ -12,9 +12,6 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kMostSlices = 2048;  // every device has volumes of this depth
-constexpr std::uint32_t kNoRoom = ~0u;
-
 /// Copies a map's texels to its place in an atlas of `size`.
 template <class Texel>
 void place_texels(const std::vector<Texel>& texels, const ParticleLightMap& map, std::uint32_t slice, uvec3 size,
@@ -57,11 +54,11 @@ ImageRef add_volume(FrameBuilder& frame, const char* name, gpu::Format format, u
 
 AtlasPlan plan_atlas(std::span<const ParticleLightMap> maps) {
   AtlasPlan plan;
-  for (const ParticleLightMap& map : maps) {
-    const bool fits = is_usable(map) && plan.size.z + map.size.z <= kMostSlices;
-    plan.first_slice.push_back(fits ? plan.size.z : kNoRoom);
-    if (!fits) continue;
-    plan.size = uvec3(std::max(plan.size.x, map.size.x), std::max(plan.size.y, map.size.y), plan.size.z + map.size.z);
+  plan.first_slice = first_slices(maps);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const uvec3& size = maps[i].size;
+    if (plan.first_slice[i] == kNoSlices) continue;
+    plan.size = uvec3(std::max(plan.size.x, size.x), std::max(plan.size.y, size.y), plan.size.z + size.z);
   }
   return plan;
 }
@@ -76,7 +73,7 @@ BakedLightAtlas add_atlas(FrameBuilder& frame, const ParticleLightMaps& maps, co
         add_volume<BakedFlux>(frame, kNames[channel], gpu::Format::rgba16_float, plan.size, maps.version, [&] {
           std::vector<BakedFlux> texels(count, BakedFlux{});
           for (std::size_t i = 0; i < maps.maps.size(); ++i)
-            if (plan.first_slice[i] != kNoRoom)
+            if (plan.first_slice[i] != kNoSlices)
               place_texels(maps.maps[i].flux[channel], maps.maps[i], plan.first_slice[i], plan.size, texels);
           return texels;
         });
@@ -84,7 +81,7 @@ BakedLightAtlas add_atlas(FrameBuilder& frame, const ParticleLightMaps& maps, co
       add_volume<BakedVisibility>(frame, "particle_visibility", gpu::Format::rgba8_unorm, plan.size, maps.version, [&] {
         std::vector<BakedVisibility> texels(count, BakedVisibility{255, 255, 255, 255});
         for (std::size_t i = 0; i < maps.maps.size(); ++i)
-          if (plan.first_slice[i] != kNoRoom && !maps.maps[i].visibility.empty())
+          if (plan.first_slice[i] != kNoSlices && !maps.maps[i].visibility.empty())
             place_texels(maps.maps[i].visibility, maps.maps[i], plan.first_slice[i], plan.size, texels);
         return texels;
       });
@@ -93,7 +90,7 @@ BakedLightAtlas add_atlas(FrameBuilder& frame, const ParticleLightMaps& maps, co
 
 void set_map(const ParticleLightMap& map, std::uint32_t slice, const RenderView& view,
              shaders::ParticleEmitterRow& row) {
-  if (slice == kNoRoom) return;
+  if (slice == kNoSlices) return;
   row.map_slice = static_cast<float>(slice);
   row.map_from = vec3(map.origin + dvec3(map.box.min) - view.position);
   row.map_size = vec3(map.size);

@@ -14,9 +14,8 @@ namespace gloam {
 /// Places of maps in an atlas: slices of one volume, stacked along z, each map in the corner of its slices.
 struct AtlasPlan {
   uvec3 size = uvec3(0);                   ///< texels; 0: no map is usable
-  std::vector<std::uint32_t> first_slice;  ///< of each map; ~0u: the map is not usable or found no room
+  std::vector<std::uint32_t> first_slice;  ///< first_slices() of the maps
 };
-/// Maps beyond 2048 slices find no room.
 [[nodiscard]] AtlasPlan plan_atlas(std::span<const ParticleLightMap> maps);
 
 /// The world's maps on the GPU; uploaded when their version has changed.

@@ -136,7 +136,7 @@ TEST(BakedParticleLight, of_many_lamps_needs_few_rays) {
   for (int i = 0; i < 1024; ++i) scene.add_lamp({5.0 + i % 32, 1.0, 5.0 + i / 32}, 10.0f, 0.1f);
   const WallTracer wall(1.0);
   const ParticleLightMap map = scene.bake(wall).maps.at(0);
-  EXPECT_LE(wall.traced, map.texels() * (1024 + kRaysPerTexel));
+  EXPECT_LE(wall.traced, map.texels() * (1024 + ParticleBakeOptions{}.rays_per_texel));
   EXPECT_GE(wall.traced, map.texels() * 1000);
 }
 
@@ -252,6 +252,59 @@ TEST(ParticleLightMaps, are_not_used_once_a_light_or_the_emitter_has_changed) {
   EXPECT_EQ(lights().count, 1u) << "a new lamp lights beside the map";
   scene.world.destroy(lamp);
   EXPECT_TRUE(outdated());
+}
+
+TEST(ParticleLightMaps, without_room_in_the_atlas_are_not_used) {
+  BakeScene scene;
+  constexpr std::uint32_t kFitting = kMostMapSlices / kMostMapSide;
+  const Entity lamp = scene.add_lamp({0.0, 2.0, 0.0});
+  ParticleLightMaps maps;
+  for (std::uint32_t i = 0; i <= kFitting; ++i) {
+    ParticleLightMap map;
+    map.emitter = scene.add_emitter({0.0, 0.0, 0.0});
+    map.box = {vec3(-1.0f), vec3(1.0f)};
+    map.size = uvec3(1, 1, kMostMapSide);
+    for (auto& channel : map.flux) channel.resize(map.texels());
+    map.static_lights = {lamp};
+    maps.maps.push_back(map);
+  }
+  mark_as_current(scene.world, maps);
+  scene.world.set_resource(maps);
+  scene.world.set_resource(EmitterSet{});
+  scene.world.set_resource(EmitterLights{});
+  Schedule schedule;
+  schedule.add_system("particle_emitters", "particles", Stage::world, &particle_emitters_system);
+  schedule.add_system("particle_lights", "particles", Stage::world, &particle_lights_system);
+  schedule.run(Stage::world, scene.world, *make_serial_executor());
+  const EmitterLights& lights = scene.world.resource<EmitterLights>();
+  ASSERT_EQ(lights.emitters.size(), kFitting + 1);
+  EXPECT_EQ(lights.emitters[kFitting - 1].map, kFitting - 1);
+  EXPECT_EQ(lights.emitters[kFitting - 1].count, 0u);
+  EXPECT_EQ(lights.emitters[kFitting].map, ~0u);
+  EXPECT_EQ(lights.emitters[kFitting].count, 1u) << "the lamp lights it instead";
+}
+
+TEST(BakedParticleLight, of_this_moment_has_moving_lamps_and_the_exact_light_of_four) {
+  const WallTracer wall(1.0);
+  BakeScene scene;
+  const Entity moving = scene.add_emitter({1.5, 1.0, 0.0});
+  const Entity other = scene.add_emitter({1.5, 1.0, 0.0});
+  std::vector<Entity> lamps;
+  for (int i = 0; i < 6; ++i) lamps.push_back(scene.add_lamp({-1.5, 0.0, 0.0}, 10.0f + static_cast<float>(i)));
+  scene.world.get<Light>(lamps[1]).cookie = 1;
+  scene.world.resource<AnimationBindings>().poses = {{moving, 0, 0}, {lamps[5], 0, 0}, {lamps[0], 0, 0}};
+  const ParticleBakeOptions options = {.moment = BakedMoment::now, .emitters = {moving}, .texel_m = 0.5};
+  const auto executor = make_serial_executor();
+  const ParticleLightMaps maps =
+      bake_particle_light({.world = scene.world, .tracer = wall, .executor = *executor, .options = options});
+  ASSERT_EQ(maps.maps.size(), 1u);
+  const ParticleLightMap& map = maps.maps[0];
+  EXPECT_EQ(map.emitter, moving);
+  EXPECT_LT(map.texels(), scene.bake(wall).maps.at(0).texels());
+  EXPECT_EQ(map.lights, (std::vector<Entity>{lamps[1], lamps[5], lamps[4], lamps[3]}));
+  EXPECT_EQ(map.static_lights, (std::vector<Entity>{lamps[0], lamps[2]}));
+  EXPECT_EQ(scene.bake(wall).maps.at(0).emitter, other);
+  EXPECT_NE(particle_light_content(scene.world, wall, options), particle_light_content(scene.world, wall));
 }
 
 TEST(ParticleLightContent, changes_with_lights_sky_emitters_and_triangles_only) {
