@@ -8,6 +8,7 @@
 
 #include "engine/scene/image_file.h"
 #include "sandbox/output/image_io.h"
+#include "sandbox/session/particle_light.h"
 #include "sandbox/session/session.h"
 #include "tests/golden/whole_pictures.h"
 #include "tests/support/gpu_device.h"
@@ -39,6 +40,7 @@ Picture draw(const Options& options, int frames = 1) {
     return {};
   }
   Session& s = **session;
+  EXPECT_TRUE(ensure_particle_light(s, options, gpu_log(), {}).ok());
   const ViewRequest request{s.view_settings(kWidth, kHeight, options.view), {}};
   for (int frame = 0; frame < frames; ++frame) {
     s.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
@@ -90,6 +92,12 @@ TEST_F(Golden, grass_that_wind_has_bent_looks_as_it_did) {
   Options options = golden_options("builtin:meadow", "near");
   options.time_s = 2.0;
   expect_golden(draw(options, 20), "meadow");
+}
+
+TEST_F(Golden, smoke_fire_and_dust_with_baked_light_look_as_they_did) {
+  Options options = golden_options("builtin:smoke", "near");
+  options.time_s = 4.0;
+  expect_golden(draw(options), "smoke");
 }
 
 class Courtyard : public Golden {
