@@ -25,7 +25,7 @@ std::uint64_t area(std::uint32_t size) { return std::uint64_t{size} * size; }
 std::uint32_t level_of(std::uint32_t size) { return static_cast<std::uint32_t>(std::bit_width(size / kSmallest)) - 1; }
 
 /// Spreads the low 16 bits of v: bit i moves to bit 2 i.
-std::uint32_t spread_bits(std::uint32_t v) {
+std::uint32_t spread_place_bits(std::uint32_t v) {
   v = (v | v << 8) & 0x00FF00FFu;
   v = (v | v << 4) & 0x0F0F0F0Fu;
   v = (v | v << 2) & 0x33333333u;
@@ -41,7 +41,7 @@ std::uint32_t gather_bits(std::uint32_t v) {
 }
 
 std::uint32_t block_of(const AtlasSquare& square) {
-  return spread_bits(square.origin.x / square.size) | spread_bits(square.origin.y / square.size) << 1;
+  return spread_place_bits(square.origin.x / square.size) | spread_place_bits(square.origin.y / square.size) << 1;
 }
 
 AtlasSquare square_of(std::uint32_t block, std::uint32_t size) {
@@ -49,7 +49,7 @@ AtlasSquare square_of(std::uint32_t block, std::uint32_t size) {
 }
 
 /// Adjacent requests that are shrunk or left out together.
-struct FaceGroup {
+struct PlacedGroup {
   std::size_t first = 0;
   std::uint32_t count = 0;
   std::uint32_t size = 0;
@@ -58,8 +58,8 @@ struct FaceGroup {
   [[nodiscard]] std::uint64_t texels() const { return count * area(size); }
 };
 
-std::vector<FaceGroup> group_faces(std::uint32_t atlas_size, std::span<const FaceRequest> requests) {
-  std::vector<FaceGroup> groups;
+std::vector<PlacedGroup> group_faces(std::uint32_t atlas_size, std::span<const FaceRequest> requests) {
+  std::vector<PlacedGroup> groups;
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const FaceRequest& face = requests[i];
     GLOAM_ASSERT(std::has_single_bit(face.size) && face.size >= kSmallest,
@@ -77,31 +77,31 @@ std::vector<FaceGroup> group_faces(std::uint32_t atlas_size, std::span<const Fac
 }
 
 /// Shrinks groups until all fit. Size 0: left out.
-void shrink_to_fit(std::uint32_t atlas_size, std::vector<FaceGroup>& groups) {
+void shrink_to_fit(std::uint32_t atlas_size, std::vector<PlacedGroup>& groups) {
   std::uint64_t texels = 0;
-  for (const FaceGroup& group : groups) texels += group.texels();
+  for (const PlacedGroup& group : groups) texels += group.texels();
   if (texels <= area(atlas_size)) return;
 
-  std::vector<FaceGroup*> order;
-  for (FaceGroup& group : groups) order.push_back(&group);
-  std::sort(order.begin(), order.end(), [](const FaceGroup* a, const FaceGroup* b) {
+  std::vector<PlacedGroup*> order;
+  for (PlacedGroup& group : groups) order.push_back(&group);
+  std::sort(order.begin(), order.end(), [](const PlacedGroup* a, const PlacedGroup* b) {
     return a->importance != b->importance ? a->importance < b->importance : a->first > b->first;
   });
-  const auto resize = [&](FaceGroup& group, std::uint32_t size) {
+  const auto resize = [&](PlacedGroup& group, std::uint32_t size) {
     texels -= group.texels();
     group.size = size;
     texels += group.texels();
   };
   for (bool halved = true; halved;) {
     halved = false;
-    for (FaceGroup* group : order) {
+    for (PlacedGroup* group : order) {
       if (group->size == kSmallest) continue;
       resize(*group, group->size / 2);
       if (texels <= area(atlas_size)) return;
       halved = true;
     }
   }
-  for (FaceGroup* group : order) {
+  for (PlacedGroup* group : order) {
     resize(*group, 0);
     if (texels <= area(atlas_size)) return;
   }
@@ -264,7 +264,7 @@ FacePlaces ShadowAtlas::place(std::uint32_t size, std::span<const FaceRequest> r
                "an atlas' side is a power of two, at least the smallest face's");
   if (size != size_) places_.clear();
   size_ = size;
-  std::vector<FaceGroup> groups = group_faces(size, requests);
+  std::vector<PlacedGroup> groups = group_faces(size, requests);
   shrink_to_fit(size, groups);
 
   FacePlaces result;
@@ -272,7 +272,7 @@ FacePlaces ShadowAtlas::place(std::uint32_t size, std::span<const FaceRequest> r
   FacePlacer placer(size, result.squares);
   bool changed = false;
   std::size_t count = 0;
-  for (const FaceGroup& group : groups) {
+  for (const PlacedGroup& group : groups) {
     if (group.size == 0) {
       result.left_out += group.count;
       continue;

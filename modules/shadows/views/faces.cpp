@@ -18,7 +18,7 @@ constexpr float kWidestSpot = kPi / 3.0f * 1.0001f;  // half angle in radians: w
 constexpr float kNarrowestSpot = kPi / 180.0f;       // half angle in radians
 constexpr float kWidestCookie = kPi * 0.47f;         // half angle in radians: below 90°, which has no tangent
 /// Boxes are enlarged by this share of the lengths involved, as axes are floats.
-constexpr double kRounding = 1e-6;
+constexpr double kBoundsRounding = 1e-6;
 
 /// The unit vector of v; zero when v is zero or not finite.
 dvec3 direction_of(const dvec3& v) {
@@ -158,7 +158,7 @@ bool face_may_see(const ShadowFace& face, const dvec3& min, const dvec3& max) {
   const dvec3 center = (min + max) * 0.5 - face.origin;
   const dvec3 half = (max - min) * 0.5;
   const double slack =
-      kRounding * (std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + half.x + half.y + half.z);
+      kBoundsRounding * (std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + half.x + half.y + half.z);
   // How far the box extends from the face's origin along v. NaN makes all comparisons below false, so the box counts as
   // seen.
   const auto reach = [&](const dvec3& v) { return glm::dot(v, center) + glm::dot(glm::abs(v), half) + slack; };
