@@ -100,6 +100,11 @@ TEST_F(Golden, smoke_fire_and_dust_with_baked_light_look_as_they_did) {
   expect_golden(draw(options), "smoke");
 }
 
+TEST_F(Golden, depth_of_field_looks_as_it_did) {
+  for (const char* camera : {"round", "hexagonal"})
+    expect_golden(draw(golden_options("builtin:lens", camera)), std::string("lens_") + camera);
+}
+
 class Courtyard : public Golden {
  protected:
   void SetUp() override {
