@@ -24,7 +24,7 @@ void filter_texel(ivec2 texel, int taps) {
   float radius = kernel_radius(inside(texel), own.a);
   LineSum up = no_sum(), right = no_sum();
   add(up, own, line_weight(0, radius));
-  add(right, own, line_weight(0, kSlanted * radius));
+  add_row_trio(right, layer_image, texel, line_weight(0, kSlanted * radius));
   for (int n = 1; n <= taps; n += 2) {
     add(up, texelFetch(layer_image, inside(texel - ivec2(0, n)), 0), line_weight(n, radius));
     add(up, texelFetch(layer_image, inside(texel - ivec2(0, n + 1)), 0), line_weight(n + 1, radius));

@@ -23,8 +23,8 @@ void filter_texel(ivec2 texel, int taps) {
   vec4 own_upright = texelFetch(upright_image, inside(texel), 0), own_both = texelFetch(both_image, inside(texel), 0);
   float radius = kernel_radius(inside(texel), own_upright.a);
   LineSum right = no_sum(), left = no_sum();
-  add(right, own_upright, line_weight(0, kSlanted * radius));
-  add(left, own_both, line_weight(0, kSlanted * radius));
+  add_row_trio(right, upright_image, texel, line_weight(0, kSlanted * radius));
+  add_row_trio(left, both_image, texel, line_weight(0, kSlanted * radius));
   for (int n = 1; n <= taps; n += 2) {
     add_slanted(right, upright_image, texel, 1, n, kSlanted * radius);
     add_slanted(left, both_image, texel, -1, n, kSlanted * radius);

@@ -11,8 +11,9 @@
 // columns. Hexagonal: White and Barré-Brisebois 2011, "More Performance! Five Rendering Ideas from Battlefield 3 and
 // Need For Speed: The Run". Three rhombi meet at a corner. Each is a line of equal weights along one of three
 // directions, filtered along another: up and right, up and left, left and right (both downwards). Here the slanted
-// directions have a slope of 1/2 in place of 0.58: every second step of a line falls on a texel of the image, and every
-// other one halfway between two, which then count by half. The lengths of the sides differ by 2 %, the widths of the
+// directions have a slope of 1/2 in place of 0.58. Every odd step of a line falls halfway between two texels, which
+// count by half. An even step falls on a texel, which counts by half, and its neighbours above and below by a quarter:
+// so all rows get equal light in the rhombus of both slants. The lengths of the sides differ by 2 %, the widths of the
 // hexagon by 5 %. A texel counts by the part of it that the line covers, so kernels grow evenly.
 
 layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel of the layers
@@ -50,9 +51,16 @@ struct LineSum {
 };
 LineSum no_sum() { return LineSum(vec4(0.0), 0.0); }
 void add(inout LineSum sum, vec4 texel, float weight) {
-  float counted = kNear != 0u ? weight : weight * texel.a;
-  sum.light += counted * texel;
+  vec4 known = weight > 0.0 ? texel : vec4(0.0);  // a texel without weight may not have been written
+  float counted = kNear != 0u ? weight : weight * known.a;
+  sum.light += counted * known;
   sum.weight += counted;
+}
+// Adds an even step of a slanted line: half of a texel, and a quarter of those above and below it.
+void add_row_trio(inout LineSum sum, sampler2D image, ivec2 at, float weight) {
+  add(sum, texelFetch(image, inside(at), 0), 0.5 * weight);
+  add(sum, texelFetch(image, inside(at - ivec2(0, 1)), 0), 0.25 * weight);
+  add(sum, texelFetch(image, inside(at + ivec2(0, 1)), 0), 0.25 * weight);
 }
 // Adds steps n and n + 1 of a slanted line from a texel. n: odd. turn: 1 to the right, −1 to the left.
 void add_slanted(inout LineSum sum, sampler2D image, ivec2 texel, int turn, int n, float length) {
@@ -60,7 +68,7 @@ void add_slanted(inout LineSum sum, sampler2D image, ivec2 texel, int turn, int 
   float weight = 0.5 * line_weight(n, length);
   add(sum, texelFetch(image, inside(between), 0), weight);
   add(sum, texelFetch(image, inside(between + ivec2(0, 1)), 0), weight);
-  add(sum, texelFetch(image, inside(next), 0), line_weight(n + 1, length));
+  add_row_trio(sum, image, next, line_weight(n + 1, length));
 }
 // The mean; alpha of the far layer stays the texel's own.
 vec4 mean(LineSum sum, float own_alpha) {

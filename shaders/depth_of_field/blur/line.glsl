@@ -36,6 +36,13 @@ ivec2 on_line(int along) {
   return ivec2(along, line - ((along + 1) >> 1));
 }
 
+// add_row_trio() from workgroup memory.
+void add_kept_trio(inout LineSum sum, int at, float weight) {
+  add(sum, kept(at), 0.5 * weight);
+  add(sum, kept(at + 2 * kRoom), 0.25 * weight);
+  add(sum, kept(at + kRoom), 0.25 * weight);
+}
+
 bool is_round() { return kDirection == kRow || kDirection == kColumn; }
 
 void main() {
@@ -65,6 +72,8 @@ void main() {
   }
   barrier();
   if (!is_listed) return;
+  // Texels beyond the tile's own reach may not have been written.
+  taps = int(flags >> (8u + 8u * kNear) & 0xFFu);
   int own_place = lane + before;
   vec4 own = kept(own_place);
   float radius = kernel_radius(texel, own.a);
@@ -85,13 +94,13 @@ void main() {
     // The line's texels are those of whole steps from even columns. An odd step from an even column lies between such a
     // texel and the one below it, and one from an odd column between it and the one above.
     int low = (texel.x & 1) == 0 ? 0 : 2 * kRoom, high = (texel.x & 1) == 0 ? kRoom : 0;
-    add(sum, own, line_weight(0, length));
+    add_kept_trio(sum, own_place, line_weight(0, length));
     for (int n = 1; n <= taps; n += 2) {
       int between = own_place + turn * n;
       float weight = 0.5 * line_weight(n, length);
       add(sum, kept(between + low), weight);
       add(sum, kept(between + high), weight);
-      add(sum, kept(between + turn), line_weight(n + 1, length));
+      add_kept_trio(sum, between + turn, line_weight(n + 1, length));
     }
   }
   vec4 light = mean(sum, own.a);

@@ -30,10 +30,12 @@ void compose(ivec2 pixel, float depth, vec4 far, vec4 near) {
   bool counts = is_finite(light.rgb);
   float coc = circle_of_confusion(depth);
   float share = far.a > 0.0 ? layer_share(coc) : 0.0;
-  // Light that is not finite does not stay in what is blurred.
-  if (!counts && far.a > 0.0 && coc >= kInFocus) share = 1.0;
+  // Light that is not finite does not stay in what is blurred. If there is no other light near, it becomes black.
+  if (!counts && coc >= kInFocus) share = 1.0;
+  bool replaced = !counts && coc <= -kInFocus;
   vec3 sharp = counts ? light.rgb : vec3(0.0);
-  vec3 composed = mix(sharp, far.rgb / max(far.a, 1e-9), share);
+  // The far layer is not written where nothing near is behind the focus.
+  vec3 composed = share > 0.0 ? mix(sharp, far.rgb / max(far.a, 1e-9), share) : sharp;
   float covered = 0.0;
   if (kNear != 0u) {
     // Half of the kernel lies on the object at its edge. There the layer must cover all, because the light behind the
@@ -41,7 +43,8 @@ void compose(ivec2 pixel, float depth, vec4 far, vec4 near) {
     covered = min(2.0 * near.a, 1.0);
     composed = composed * (1.0 - covered) + near.rgb * (covered / max(near.a, 1e-6));
   }
-  if (share > 0.0 || covered > 0.0) imageStore(lit_image, pixel, vec4(min(composed, vec3(65504.0)), light.a));
+  if (share > 0.0 || covered > 0.0 || replaced)
+    imageStore(lit_image, pixel, vec4(min(composed, vec3(65504.0)), light.a));
 }
 
 vec4 far_texel(ivec2 texel) {

@@ -119,22 +119,24 @@ class DofTwin {
   }
 
   /// The weighted mean of texels of a line. place(n): of the n-th step from (x, y); a place between two rows counts
-  /// half for each. weight(n, radius): of a step, for n from `first`.
+  /// half for each. weight(n, radius): of a step, for n from `first`. spread: the light of a place is the mean of those
+  /// this far above and below it.
   [[nodiscard]] dvec4 line(const Layer& layer, bool near, int x, int y, double radius, int first,
                            const std::function<glm::dvec2(int)>& place,
-                           const std::function<double(int, double)>& weight) const {
+                           const std::function<double(int, double)>& weight, double spread = 0.0) const {
     dvec4 sum(0.0);
     double total = 0.0;
     for (int n = first; n <= 40; ++n) {
       const double w = weight(n, radius);
       if (w <= 0.0) continue;
       const glm::dvec2 at = place(n);
-      for (const double row : {std::floor(at.y), std::ceil(at.y)}) {
-        const dvec4 value = texel(layer, static_cast<int>(at.x), static_cast<int>(row));
-        const double counted = 0.5 * w * (near ? 1.0 : value.w);
-        sum += counted * value;
-        total += counted;
-      }
+      for (const double y_at : {at.y - spread, at.y + spread})
+        for (const double row : {std::floor(y_at), std::ceil(y_at)}) {
+          const dvec4 value = texel(layer, static_cast<int>(at.x), static_cast<int>(row));
+          const double counted = 0.25 * w * (near ? 1.0 : value.w);
+          sum += counted * value;
+          total += counted;
+        }
     }
     const dvec4 mean = total > 0.0 ? sum / total : dvec4(0.0);
     return near ? mean : dvec4(dvec3(mean), texel(layer, x, y).w);
@@ -182,11 +184,11 @@ class DofTwin {
     };
     const auto right = [&](const Layer& from, int x, int y, double radius) {
       return line(
-          from, near, x, y, kSlanted * radius, 0, [&](int n) { return glm::dvec2(x + n, y + 0.5 * n); }, cover);
+          from, near, x, y, kSlanted * radius, 0, [&](int n) { return glm::dvec2(x + n, y + 0.5 * n); }, cover, 0.5);
     };
     const auto left = [&](const Layer& from, int x, int y, double radius) {
       return line(
-          from, near, x, y, kSlanted * radius, 0, [&](int n) { return glm::dvec2(x - n, y + 0.5 * n); }, cover);
+          from, near, x, y, kSlanted * radius, 0, [&](int n) { return glm::dvec2(x - n, y + 0.5 * n); }, cover, 0.5);
     };
     const Layer up = each([&](int x, int y, double radius) { return upright(layer, x, y, radius); });
     const Layer both = each([&](int x, int y, double radius) {
