@@ -48,7 +48,7 @@ class DofTwin {
         vec3(dof_light(dof_half(in_.light[in_.at(static_cast<std::uint32_t>(cx), static_cast<std::uint32_t>(cy))]))));
   }
   [[nodiscard]] double share(double circle) const {
-    return std::clamp((circle - 0.5) / (scale_ == 2 ? 1.5 : 0.75), 0.0, 1.0);
+    return std::clamp((circle - 0.5) / (scale_ == 2 ? 2.5 : 0.75), 0.0, 1.0);
   }
   static dvec4 rounded(const dvec4& v) { return dvec4(dof_light(dof_half(vec4(v)))); }
 
