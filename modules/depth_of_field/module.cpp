@@ -25,7 +25,8 @@ constexpr const char* kListsResult = "lists";
 Demand view_demand(const World& world, const RenderView& view) {
   if (view.purpose == ViewPurpose::capture) return {false, "captures are in focus"};
   if (view.is_companion()) return {false, "the view's main view is blurred"};
-  if (world.try_resource<LensPoint>() != nullptr) return {false, "the view is drawn from a point of the lens"};
+  if (const auto* lens = world.try_resource<LensPoint>(); lens != nullptr && lens->camera == view.camera_entity)
+    return {false, "the view is drawn from a point of the lens"};
   if (find_lens_picture(world, view) != nullptr) return {true, "the view shows a lens picture"};
   const DepthOfField* values = find_depth_of_field(world, view);
   if (values == nullptr) return {false, "the view's camera has no focus"};

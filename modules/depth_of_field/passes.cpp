@@ -10,7 +10,8 @@ namespace gloam {
 namespace {
 
 // Pixels of the circle's radius over which the picture passes from sharp to blurred. Layers of half the size are as
-// soft as a circle of 2 pixels; a later end of the passage lowers FLIP against the lens, but shows sharp edges in blurs.
+// soft as a circle of 2 pixels. A later end of the passage lowers FLIP against the lens, but shows sharp edges in
+// blurs.
 constexpr float kHalfBlend_px = 2.5f;
 constexpr float kFullBlend_px = 0.75f;
 

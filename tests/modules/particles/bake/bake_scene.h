@@ -10,6 +10,7 @@
 
 #include "engine/ecs/world.h"
 #include "engine/render/reference/scene_tracer.h"
+#include "engine/scene/components.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
