@@ -5,38 +5,17 @@
 
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <set>
 #include <string>
 
-#include "engine/gpu/recording_device.h"
-#include "engine/jobs/executor.h"
-#include "engine/render/renderer.h"
-#include "modules/module_list/module_list.h"
 #include "tests/modules/particles/support/particle_stage.h"
+#include "tests/support/module_demand.h"
 
 namespace gloam::test {
 namespace {
 
-/// A renderer of all modules on a device that records commands.
-struct ParticleDemand : testing::Test {
-  void SetUp() override {
-    device = gpu::make_recording_device();
-    RendererOptions options;
-    options.device = device.get();
-    options.executor = executor.get();
-    options.log = &gpu_log();
-    options.zones = &zones;
-    options.modules = make_all_modules();
-    renderer = Renderer::create(std::move(options)).value();
-    renderer->prepare_world(world);
-    request.settings = look_at(dvec3(0.0, 0.5, 5.0), dvec3(0.0), 64, 48);
-  }
-  void TearDown() override {
-    renderer.reset();
-    EXPECT_THAT(device->faults(), testing::IsEmpty());
-    EXPECT_THAT(device->memory(), testing::Each(testing::Field(&gpu::ModuleMemory::bytes, 0u)));
-  }
+/// Frames of worlds with emitters on a device that records commands.
+struct ParticleDemand : ModuleDemand {
+  ParticleDemand() : ModuleDemand("particles") { request.settings = look_at(dvec3(0.0, 0.5, 5.0), dvec3(0.0), 64, 48); }
   Entity emit(float rate = 50.0f, float lifetime_s = 2.0f, EmitterKind kind = EmitterKind::smoke) {
     ParticleEmitter values;
     values.kind = kind;
@@ -44,37 +23,6 @@ struct ParticleDemand : testing::Test {
     values.lifetime_s = lifetime_s;
     return world.create(values, WorldTransform{});
   }
-  void frames(int count = 3) {
-    for (int i = 0; i < count; ++i) {
-      static_cast<void>(zones.take());
-      const Status drawn = renderer->render(world, std::span(&request, 1));
-      ASSERT_TRUE(drawn.ok()) << drawn.error().message;
-    }
-    passes.clear();
-    for (const PassTime& pass : renderer->report().passes)
-      if (pass.module == "particles") passes.insert(pass.name);
-    systems.clear();
-    for (const Zone& zone : zones.take())
-      if (zone.module == "particles") systems.insert(zone.name);
-    for (const ModuleState& found : renderer->report().modules)
-      if (found.name == "particles") state = found;
-  }
-  void expect_nothing() {
-    EXPECT_THAT(passes, testing::IsEmpty());
-    EXPECT_THAT(systems, testing::IsEmpty());
-    EXPECT_EQ(state.pipelines, 0u);
-    EXPECT_EQ(state.gpu_bytes, 0u);
-    EXPECT_FALSE(state.demanded) << state.reason;
-  }
-
-  std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
-  ZoneRecorder zones;
-  std::unique_ptr<gpu::RecordingDevice> device;
-  std::unique_ptr<Renderer> renderer;
-  World world;
-  ViewRequest request;
-  std::set<std::string> passes, systems;
-  ModuleState state;
 };
 
 TEST_F(ParticleDemand, a_scene_without_an_emitter_has_no_particles_at_all) {
