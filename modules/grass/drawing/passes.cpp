@@ -3,9 +3,9 @@
 #include "modules/grass/drawing/passes.h"
 
 #include <cstddef>
-#include <span>
 #include <utility>
 
+#include "engine/render/declare/kept_indices.h"
 #include "modules/grass/lod/detail.h"
 #include "shaders/grass/drawing/pose_shared.h"
 #include "shaders/grass/shaders.h"
@@ -14,25 +14,6 @@ namespace gloam {
 namespace {
 
 constexpr std::size_t kCasterClass = GLOAM_GRASS_CAST_CLASS;
-
-BufferRef index_buffer(FrameBuilder& frame) {
-  const std::vector<std::uint32_t> indices = blade_indices();
-  gpu::BufferDesc desc;
-  desc.name = "grass_indices";
-  desc.module = "grass";
-  desc.size = indices.size() * sizeof(std::uint32_t);
-  desc.usage = gpu::BufferUsage::index | gpu::BufferUsage::transfer_target;
-  const auto kept = frame.history_buffer(desc, {.scope = HistoryScope::world, .rest = gpu::Access::vertex_input});
-  if (!frame.check(kept)) return {};
-  if (kept->filled()) return kept->buffer;
-  const auto source = frame.upload_items(std::span<const std::uint32_t>(indices));
-  PassBuilder pass = frame.graph().add_pass("grass_indices", frame.module());
-  const BufferRef written = pass.write(kept->buffer, gpu::Access::transfer_write);
-  pass.execute([source, written](PassContext& context) {
-    context.commands().copy_buffer(source.buffer, source.offset, context.buffer(written), 0, source.size);
-  });
-  return written;
-}
 
 }  // namespace
 
@@ -90,7 +71,7 @@ void add_pose_pass(FrameBuilder& frame, GrassFrame& grass) {
 }
 
 void add_blade_pass(FrameBuilder& frame, GrassFrame& grass) {
-  grass.indices = index_buffer(frame);
+  grass.indices = kept_indices(frame, "grass_indices", blade_indices());
   if (!frame.status().ok()) return;
   GeometryOutputs& geometry = frame.get<GeometryOutputs>();
   const bool motion = static_cast<bool>(geometry.motion);

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/particles/drawing/pass.h"
 
-#include <span>
-
+#include "engine/render/declare/kept_indices.h"
 #include "shaders/particles/shaders.h"
 
 namespace gloam {
@@ -29,24 +28,7 @@ DrawProgram sprite_program(std::uint32_t lit_points, bool clipped, const Particl
   return program;
 }
 
-BufferRef sprite_index_buffer(FrameBuilder& frame) {
-  const std::vector<std::uint32_t> indices = sprite_indices();
-  gpu::BufferDesc desc;
-  desc.name = "particle_indices";
-  desc.module = "particles";
-  desc.size = indices.size() * sizeof(std::uint32_t);
-  desc.usage = gpu::BufferUsage::index | gpu::BufferUsage::transfer_target;
-  const auto kept = frame.history_buffer(desc, {.scope = HistoryScope::world, .rest = gpu::Access::vertex_input});
-  if (!frame.check(kept)) return {};
-  if (kept->filled()) return kept->buffer;
-  const auto source = frame.upload_items(std::span<const std::uint32_t>(indices));
-  PassBuilder pass = frame.graph().add_pass("particle_indices", frame.module());
-  const BufferRef written = pass.write(kept->buffer, gpu::Access::transfer_write);
-  pass.execute([source, written](PassContext& context) {
-    context.commands().copy_buffer(source.buffer, source.offset, context.buffer(written), 0, source.size);
-  });
-  return written;
-}
+BufferRef sprite_index_buffer(FrameBuilder& frame) { return kept_indices(frame, "particle_indices", sprite_indices()); }
 
 void draw_sprites(DrawPass& pass, FrameBuilder& frame, const ParticlesFrame& particles, BufferRef indices) {
   pass.read("frame", particles.constants_range);
