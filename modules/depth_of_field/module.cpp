@@ -96,7 +96,7 @@ class DepthOfFieldModule final : public Module {
     if (lens) add_dof_passes(frame, *values, *lens);
   }
 
-  LensPictureStaging staging_;
+  Staging staging_{"depth_of_field"};
 };
 
 }  // namespace

@@ -159,7 +159,7 @@ class ReflectionsModule final : public Module {
     return settings;
   }
 
-  ReflectionStaging staging_;
+  Staging staging_{"reflections"};
   std::size_t last_probes_ = 0;  ///< captured probes of the last frame
 };
 

@@ -54,7 +54,7 @@ shaders::ReflectionConstants constants_of(const RenderView& view, const Reflecti
 }
 
 /// An image array of the world with these layers. Copied to the GPU when the captures have changed.
-ImageRef captured_image(FrameBuilder& frame, ReflectionStaging& staging, const char* name, const CapturedLayers& layers,
+ImageRef captured_image(FrameBuilder& frame, Staging& staging, const char* name, const CapturedLayers& layers,
                         std::uint64_t version) {
   if (layers.count == 0) return {};
   gpu::ImageDesc desc;
@@ -93,7 +93,7 @@ const TracedReflections* traced_of(const World& world, const RenderView& view) {
   return fits ? traced : nullptr;
 }
 
-ImageRef upload_traced(FrameBuilder& frame, ReflectionStaging& staging, const TracedReflections& traced) {
+ImageRef upload_traced(FrameBuilder& frame, Staging& staging, const TracedReflections& traced) {
   const auto slice = staging.ring(frame.services().device).allocate(traced.radiance.size() * sizeof(float));
   if (!frame.check(slice)) return {};
   std::memcpy(slice->bytes.data(), traced.radiance.data(), slice->bytes.size());
@@ -115,14 +115,6 @@ void add_fog(const FrameBuilder& frame, shaders::ReflectionConstants& constants)
 }
 
 }  // namespace
-
-UploadRing& ReflectionStaging::ring(gpu::Device& device) {
-  if (ring_ == nullptr)
-    ring_ = std::make_unique<UploadRing>(device, "reflections", gpu::BufferUsage::transfer_source, 1 << 16);
-  if (frame_ != device.frame_number()) ring_->begin_frame();
-  frame_ = device.frame_number();
-  return *ring_;
-}
 
 void announce_reflections(FrameBuilder& frame) {
   const ReflectionKnobs knobs = reflection_knobs(frame.knobs());
@@ -153,7 +145,7 @@ void announce_reflections(FrameBuilder& frame) {
   frame.put(std::move(reflections));
 }
 
-void add_reflection_passes(FrameBuilder& frame, ReflectionStaging& staging) {
+void add_reflection_passes(FrameBuilder& frame, Staging& staging) {
   ReflectionFrame* found = frame.find<ReflectionFrame>();
   if (found == nullptr || found->no_specular) return;
   ReflectionFrame& reflections = *found;

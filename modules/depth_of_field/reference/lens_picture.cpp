@@ -12,15 +12,7 @@ const LensPicture* find_lens_picture(const World& world, const RenderView& view)
   return picture != nullptr && picture->width == view.width && picture->height == view.height ? picture : nullptr;
 }
 
-UploadRing& LensPictureStaging::ring(gpu::Device& device) {
-  if (ring_ == nullptr)
-    ring_ = std::make_unique<UploadRing>(device, "depth_of_field", gpu::BufferUsage::transfer_source, 1 << 16);
-  if (frame_ != device.frame_number()) ring_->begin_frame();
-  frame_ = device.frame_number();
-  return *ring_;
-}
-
-void add_lens_picture_pass(FrameBuilder& frame, LensPictureStaging& staging, const LensPicture& picture) {
+void add_lens_picture_pass(FrameBuilder& frame, Staging& staging, const LensPicture& picture) {
   const auto texels = std::as_bytes(std::span(picture.light));
   const auto slice = staging.ring(frame.services().device).allocate(texels.size());
   if (!frame.check(slice)) return;

@@ -3,10 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "engine/frame/upload.h"
+#include "engine/frame/staging.h"
 #include "engine/render/frame_builder.h"
 
 namespace gloam {
@@ -22,18 +21,7 @@ struct LensPicture {
 /// The world's lens picture, if it has one of the view's size; else null.
 [[nodiscard]] const LensPicture* find_lens_picture(const World& world, const RenderView& view);
 
-/// Memory that lens pictures are copied from.
-class LensPictureStaging {
- public:
-  [[nodiscard]] UploadRing& ring(gpu::Device& device);
-  void release() { ring_.reset(); }
-
- private:
-  std::unique_ptr<UploadRing> ring_;
-  std::uint64_t frame_ = ~0ull;
-};
-
 /// PassPhase::post: LitOutput becomes the picture.
-void add_lens_picture_pass(FrameBuilder& frame, LensPictureStaging& staging, const LensPicture& picture);
+void add_lens_picture_pass(FrameBuilder& frame, Staging& staging, const LensPicture& picture);
 
 }  // namespace gloam
