@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "modules/depth_of_field/passes.h"
 
+#include <cmath>
+
+#include "engine/core/assert.h"
 #include "modules/depth_of_field/blur/passes.h"
 #include "modules/depth_of_field/compose/pass.h"
 #include "modules/depth_of_field/tiles/passes.h"
@@ -15,7 +18,17 @@ namespace {
 constexpr float kHalfBlend_px = 2.5f;
 constexpr float kFullBlend_px = 0.75f;
 
-shaders::DofConstants constants_of(const RenderView& view, const DofKnobs& knobs, const Lens& lens) {
+// Radius of the round kernel as a multiple of the circle's. Its light falls to a half at 0.51 radii of the circle and
+// to a hundredth at 1.2, in nearly all directions alike.
+constexpr float kRoundReach = 1.4f;
+
+// Tiles that a kernel of this radius in pixels reaches (taps_of(), list.comp.glsl).
+int spread_of(float radius, float scale) {
+  const float taps = std::ceil(radius * 1.001f / scale + 0.5f) - 1.0f;
+  return static_cast<int>(std::ceil(taps * scale / static_cast<float>(GLOAM_DOF_TILE)));
+}
+
+shaders::DofConstants constants_of(const RenderView& view, const DofKnobs& knobs, const Lens& lens, Bokeh bokeh) {
   shaders::DofConstants c{};
   c.size = {view.width, view.height};
   c.layer_size = (c.size + knobs.scale() - 1u) / knobs.scale();
@@ -25,6 +38,9 @@ shaders::DofConstants constants_of(const RenderView& view, const DofKnobs& knobs
   c.coc_slope = static_cast<float>(lens.slope_px);
   c.radius = knobs.radius;
   c.blend = knobs.full_resolution ? kFullBlend_px : kHalfBlend_px;
+  c.reach = bokeh == Bokeh::round ? kRoundReach : 1.0f;
+  c.spread = spread_of(c.radius * c.reach, static_cast<float>(knobs.scale()));
+  GLOAM_ASSERT(c.spread <= GLOAM_DOF_MOST_SPREAD, "a kernel reaches farther than its tiles are searched");
   return c;
 }
 
@@ -34,7 +50,7 @@ void add_dof_passes(FrameBuilder& frame, const DepthOfField& values, const Lens&
   DofFrame dof;
   dof.knobs = dof_knobs(frame.knobs());
   dof.bokeh = values.bokeh;
-  dof.constants = constants_of(frame.view(), dof.knobs, lens);
+  dof.constants = constants_of(frame.view(), dof.knobs, lens, dof.bokeh);
   dof.block = frame.upload_uniform(dof.constants);
   dof.depth = frame.get<GeometryOutputs>().depth;
   add_dof_tile_passes(frame, dof);

@@ -89,7 +89,7 @@ void add_lens_lights(SceneBuilder& builder) {
   Light key;
   key.kind = LightKind::spot;
   key.color = vec3(1.0f, 0.86f, 0.7f);
-  key.intensity = 900.0f;
+  key.intensity = 2400.0f;
   key.range_m = 20.0f;
   key.inner_angle = 0.5f;
   key.outer_angle = 0.7f;
@@ -98,7 +98,7 @@ void add_lens_lights(SceneBuilder& builder) {
   Light rim;
   rim.kind = LightKind::directional;
   rim.color = vec3(0.6f, 0.72f, 1.0f);
-  rim.intensity = 12.0f;
+  rim.intensity = 24.0f;
   builder.add_light("rim", rim, {0.0, 4.0, -4.0}, {-0.5, -0.6, 0.5}, false);
 }
 

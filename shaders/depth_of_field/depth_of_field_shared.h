@@ -5,10 +5,14 @@
 
 #include "shaders/common/prelude.h"
 
-/// Side of a tile, in pixels of the picture. Twice it exceeds GLOAM_DOF_MOST_RADIUS, so blurs reach two tiles far.
+/// Side of a tile, in pixels of the picture.
 #define GLOAM_DOF_TILE 16
 /// Greatest value of dof.radius, in pixels of the picture.
 #define GLOAM_DOF_MOST_RADIUS 31
+/// Farthest texel that a kernel reads, and the tiles that it reaches at most. The round kernel is wider than its
+/// circle.
+#define GLOAM_DOF_MOST_TAPS 44
+#define GLOAM_DOF_MOST_SPREAD 3
 /// Threads of a workgroup that filters a line.
 #define GLOAM_DOF_LINE 64
 /// Side of a workgroup that filters a block of texels.
@@ -41,6 +45,8 @@ struct DofConstants {
   float coc_slope;
   float radius;  // greatest radius, pixels
   float blend;   // pixels over which the picture passes from sharp to blurred
+  float reach;   // radius of a kernel, as a multiple of the circle's
+  int spread;    // tiles that a kernel of the greatest radius reaches
 };
 
 /// A list of tiles: arguments of an indirect dispatch with one workgroup for each, then their number.

@@ -7,14 +7,15 @@
 
 // One line of a kernel. Include this after the uniform `dof`.
 //
-// Round: a Gaussian with the variance of the disc of the circle of confusion, cut at its radius, along rows, then along
-// columns. Hexagonal: White and Barré-Brisebois 2011, "More Performance! Five Rendering Ideas from Battlefield 3 and
-// Need For Speed: The Run". Three rhombi meet at a corner. Each is a line of equal weights along one of three
-// directions, filtered along another: up and right, up and left, left and right (both downwards). Here the slanted
-// directions have a slope of 1/2 in place of 0.58. Every odd step of a line falls halfway between two texels, which
-// count by half. An even step falls on a texel, which counts by half, and its neighbours above and below by a quarter:
-// so all rows get equal light in the rhombus of both slants. The lengths of the sides differ by 2 %, the widths of the
-// hexagon by 5 %. A texel counts by the part of it that the line covers, so kernels grow evenly.
+// Round: a Gaussian that fades out, along rows, then along columns. A Gaussian that is cut at the radius of the circle
+// of confusion shows its square window when a lamp is far brighter than white. Hexagonal: White and Barré-Brisebois
+// 2011, "More Performance! Five Rendering Ideas from Battlefield 3 and Need For Speed: The Run". Three rhombi meet at a
+// corner. Each is a line of equal weights along one of three directions, filtered along another: up and right, up and
+// left, left and right (both downwards). Here the slanted directions have a slope of 1/2 in place of 0.58. Every odd
+// step of a line falls halfway between two texels, which count by half. An even step falls on a texel, which counts by
+// half, and its neighbours above and below by a quarter: so all rows get equal light in the rhombus of both slants. The
+// lengths of the sides differ by 2 %, the widths of the hexagon by 5 %. A texel counts by the part of it that the line
+// covers, so kernels grow evenly.
 
 layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel of the layers
 layout(constant_id = 1) const uint kNear = 0u;   // 1: the near layer
@@ -37,10 +38,11 @@ float line_weight(int n, float length) {
   return n == 0 ? clamp(length, 1e-3, 0.5) : clamp(length + 0.5 - float(n), 0.0, 1.0);
 }
 
-// Weight at a distance of n texels of the Gaussian with a standard deviation of half the radius.
+// Weight at a distance of n texels: exp(−3 t²) · (1 − t²)² with t = n / radius.
 float round_weight(int n, float radius) {
-  float falloff = -2.8853901 / max(radius * radius, 1e-4);  // −2 log₂ e / r²
-  return exp2(falloff * float(n * n)) * clamp(radius + 0.5 - float(n), 0.0, 1.0);
+  float t = float(n) / max(radius, 1e-3), squared = t * t;
+  float fade = max(1.0 - squared, 0.0);
+  return exp2(-4.3280851 * squared) * fade * fade;
 }
 
 // Sum of weighted texels. A texel of the far layer counts by its circle (alpha), so nothing in focus bleeds into what

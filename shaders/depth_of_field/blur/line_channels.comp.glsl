@@ -7,7 +7,7 @@
 // Filters lines through workgroup memory, in one array for each channel: neighbouring threads then read neighbouring
 // words, in different banks of the memory.
 
-const int kRoom = GLOAM_DOF_LINE + 2 * GLOAM_DOF_MOST_RADIUS;
+const int kRoom = GLOAM_DOF_LINE + 2 * GLOAM_DOF_MOST_TAPS;
 shared float cached_r[3 * kRoom], cached_g[3 * kRoom], cached_b[3 * kRoom], cached_a[3 * kRoom];
 void keep(int at, vec4 texel) {
   cached_r[at] = texel.r;

@@ -6,7 +6,7 @@
 
 // Filters lines through workgroup memory, in one array of vectors.
 
-const int kRoom = GLOAM_DOF_LINE + 2 * GLOAM_DOF_MOST_RADIUS;
+const int kRoom = GLOAM_DOF_LINE + 2 * GLOAM_DOF_MOST_TAPS;
 shared vec4 cached[3 * kRoom];
 void keep(int at, vec4 texel) { cached[at] = texel; }
 vec4 kept(int at) { return cached[at]; }

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/depth_of_field/depth_of_field_shared.h"
 
-// The greatest circles of confusion of each tile, before and behind the focus, one thread a tile. They follow from the
+// The greatest radii of kernels of each tile, before and behind the focus, one thread a tile. They follow from the
 // nearest and the farthest depth, because the circle grows with depth.
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -32,6 +32,7 @@ void main() {
       far = min(far, least(depths));
     }
   float before = max(-circle_of_confusion(near), 0.0), behind = max(circle_of_confusion(far), 0.0);
-  imageStore(tile_image, ivec2(tile),
-             vec4(before < kInFocus ? 0.0 : before, behind < kInFocus ? 0.0 : behind, 0.0, 0.0));
+  imageStore(
+      tile_image, ivec2(tile),
+      vec4(before < kInFocus ? 0.0 : before * dof.reach, behind < kInFocus ? 0.0 : behind * dof.reach, 0.0, 0.0));
 }

@@ -32,22 +32,23 @@ uint taps_of(float radius) { return radius > 0.0 ? uint(ceil(radius * 1.001 / fl
 void main() {
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(tile, ivec2(dof.tiles)))) return;
-  float widest = 0.0;  // radius before the focus, over the tile and its neighbours
-  int near = 0;        // as y of reach_image
-  for (int y = -2; y <= 2; ++y)
-    for (int x = -2; x <= 2; ++x) {
+  int here = dof.spread + 1;  // y of reach_image where the tile itself is blurred
+  float widest = 0.0;         // radius before the focus, over the tile and its neighbours
+  int near = 0;               // as y of reach_image
+  for (int y = -GLOAM_DOF_MOST_SPREAD; y <= GLOAM_DOF_MOST_SPREAD; ++y)
+    for (int x = -GLOAM_DOF_MOST_SPREAD; x <= GLOAM_DOF_MOST_SPREAD; ++x) {
       float radius = texelFetch(reach_image, clamp(tile + ivec2(x, y), ivec2(0), ivec2(dof.tiles) - 1), 0).x;
       int apart = max(abs(x), abs(y));
-      near = max(near, radius > 0.0 ? 3 - apart : 0);
+      near = max(near, radius > 0.0 ? here - apart : 0);
       widest = max(widest, apart <= 1 ? radius : 0.0);
     }
   vec4 reach = texelFetch(reach_image, tile, 0);
   int far = int(reach.y);
-  uint far_taps = taps_of(reach.z), near_taps = near == 3 ? taps_of(widest) : 0u;
+  uint far_taps = taps_of(reach.z), near_taps = near == here ? taps_of(widest) : 0u;
   uint place = uint(tile.x) | uint(tile.y) << 12;
   uint flags = far_taps << 8 | near_taps << 16;
-  bool wanted[GLOAM_DOF_LISTS] = bool[](far >= 1 && near == 0, near >= 1, far >= 1, near >= 1, far >= 2, near >= 2,
-                                        far == 3 && near < 3, near == 3);
+  bool wanted[GLOAM_DOF_LISTS] = bool[](far >= 1 && near == 0, near >= 1, far >= 1, near >= 1, far >= here - 1,
+                                        near >= here - 1, far == here && near < here, near == here);
   for (uint list = 0u; list < uint(GLOAM_DOF_LISTS); ++list) {
     bool is_near = (list & 1u) != 0u;
     if (wanted[list]) {

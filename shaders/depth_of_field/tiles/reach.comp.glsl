@@ -4,30 +4,31 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/depth_of_field/depth_of_field_shared.h"
 
-// What reaches each tile: the greatest circle before the focus of all tiles that it may spread from, and how near a
+// What reaches each tile: the greatest kernel before the focus of all tiles that it may spread from, and how near a
 // tile with circles behind the focus is.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D tile_image;
-// x: radius that reaches the tile from before the focus; y: 3, 2, 1, 0: something is blurred behind the focus in the
-// tile, a neighbour, a neighbour's neighbour, none of them; z: greatest radius behind the focus in the tile.
+// x: radius that reaches the tile from before the focus; y: something is blurred behind the focus in the tile (spread +
+// 1), in a neighbour (spread), … spread tiles away (1), nowhere near (0); z: greatest radius behind the focus in the
+// tile.
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D reach_image;
 
 void main() {
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(tile, ivec2(dof.tiles)))) return;
   float near = 0.0, far = 0.0;
-  for (int y = -2; y <= 2; ++y)
-    for (int x = -2; x <= 2; ++x) {
+  for (int y = -GLOAM_DOF_MOST_SPREAD; y <= GLOAM_DOF_MOST_SPREAD; ++y)
+    for (int x = -GLOAM_DOF_MOST_SPREAD; x <= GLOAM_DOF_MOST_SPREAD; ++x) {
       ivec2 other = tile + ivec2(x, y);
       vec2 radius = texelFetch(tile_image, clamp(other, ivec2(0), ivec2(dof.tiles) - 1), 0).xy;
       int apart = max(abs(x), abs(y));
       // Pixels of tiles that touch are 1 pixel apart, of others a whole tile more.
       bool reaches = radius.x > float(max(apart - 1, 0) * GLOAM_DOF_TILE);
       near = max(near, reaches ? radius.x : 0.0);
-      far = max(far, radius.y > 0.0 ? float(3 - apart) : 0.0);
+      far = max(far, radius.y > 0.0 ? float(dof.spread + 1 - apart) : 0.0);
     }
   imageStore(reach_image, tile, vec4(near, far, texelFetch(tile_image, tile, 0).y, 0.0));
 }

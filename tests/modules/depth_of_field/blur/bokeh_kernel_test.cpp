@@ -89,8 +89,26 @@ TEST_P(DofBokeh, is_the_same_in_all_directions_if_it_is_round) {
       most = std::max(most, reach);
     }
     EXPECT_LT(most / least, 1.05) << setting.name();
-    EXPECT_GT(least, 0.5 * setting.radius) << setting.name();  // half of the maximum: at 0.59 radii of a Gaussian
+    EXPECT_GT(least, 0.5 * setting.radius) << setting.name();  // a Gaussian as wide as a disc: 0.59
     EXPECT_LT(most, 0.68 * setting.radius) << setting.name();
+  });
+}
+
+// A lamp far brighter than white shows the outline of its faint light.
+TEST_P(DofBokeh, stays_round_if_it_is_overexposed) {
+  each_setting(Bokeh::round, [](const Setting& setting) {
+    const Spot spot = draw(setting);
+    for (const auto& [level, most_ratio] : {std::pair{0.01, 1.12}, {0.001, 1.2}}) {
+      double least = 1e9, most = 0.0;
+      for (int i = 0; i < 64; ++i) {
+        const double reach =
+            glm::distance(spot.outline(i * std::numbers::pi / 32.0, level * spot.mean_within(1.0)), spot.centre());
+        least = std::min(least, reach);
+        most = std::max(most, reach);
+      }
+      EXPECT_LT(most / least, most_ratio) << setting.name() << ", level " << level;
+      EXPECT_LT(most, 1.6 * setting.radius) << setting.name() << ", level " << level;
+    }
   });
 }
 

@@ -75,10 +75,12 @@ TEST_P(DofLayersTest, pixels_in_focus_keep_their_light_to_the_bit_where_no_near_
     std::size_t kept = 0;
     for (std::uint32_t y = 0; y < kHeight; ++y)
       for (std::uint32_t x = 0; x < kWidth; ++x) {
-        // The kernel reaches 9 pixels far, and interpolation of layers of half the size two more. Each of the two
-        // passes of the hexagon spreads slanted lines over one more row of texels.
-        const std::uint32_t rows = 12 + (drawn.bokeh == Bokeh::hexagonal ? 2 * drawn.knobs.scale() : 0);
-        const bool reached = x + 12 > near.left && x < near.right + 12 && y + rows > near.top && y < near.bottom + rows;
+        // The kernel of the hexagon reaches 9 pixels far, the round one 13, and interpolation of layers of half the
+        // size two more. Each of the two passes of the hexagon spreads slanted lines over one more row of texels.
+        const bool hexagonal = drawn.bokeh == Bokeh::hexagonal;
+        const std::uint32_t columns = hexagonal ? 12 : 16, rows = hexagonal ? 12 + 2 * drawn.knobs.scale() : 16;
+        const bool reached =
+            x + columns > near.left && x < near.right + columns && y + rows > near.top && y < near.bottom + rows;
         if (reached || std::abs(drawn.coc[drawn.at(x, y)]) > 0.5f) continue;
         ASSERT_EQ(result.halves[drawn.at(x, y)], dof_half(drawn.light[drawn.at(x, y)]))
             << name << " " << x << ", " << y;
@@ -117,10 +119,10 @@ TEST_P(DofLayersTest, near_objects_spread_over_a_sharp_background) {
     EXPECT_NEAR(light(64), 1.0f, 4e-3f) << name;
     EXPECT_GT(light(object.left - 3), 0.2f) << name;
     EXPECT_GT(light(object.right + 2), 0.2f) << name;
-    EXPECT_EQ(light(object.left - 13), light(0)) << name;
-    EXPECT_EQ(light(object.right + 12), light(0)) << name;
-    for (std::uint32_t x = object.left - 14; x < 64; ++x) EXPECT_LE(light(x), light(x + 1) + 2e-3f) << name << " " << x;
-    for (std::uint32_t x = object.right + 13; x > 65; --x)
+    EXPECT_EQ(light(object.left - 17), light(0)) << name;  // the round kernel is 1.4 circles wide
+    EXPECT_EQ(light(object.right + 16), light(0)) << name;
+    for (std::uint32_t x = object.left - 18; x < 64; ++x) EXPECT_LE(light(x), light(x + 1) + 2e-3f) << name << " " << x;
+    for (std::uint32_t x = object.right + 17; x > 65; --x)
       EXPECT_LE(light(x), light(x - 1) + 2e-3f) << name << " " << x;
   });
 }

@@ -81,7 +81,9 @@ class DofTwin {
     return layer[static_cast<std::size_t>(std::clamp(y, 0, rows_ - 1) * columns_ + std::clamp(x, 0, columns_ - 1))];
   }
 
-  /// The greatest circle before the focus that reaches a tile.
+  /// Radius of a kernel as a multiple of the circle's.
+  [[nodiscard]] double widening() const { return in_.bokeh == Bokeh::round ? 1.4 : 1.0; }
+  /// The greatest kernel before the focus that reaches a tile.
   [[nodiscard]] double reach(int tx, int ty) const {
     const int across = (static_cast<int>(in_.width) + kTile - 1) / kTile;
     const int down = (static_cast<int>(in_.height) + kTile - 1) / kTile;
@@ -91,8 +93,8 @@ class DofTwin {
     for (int y = 0; y < static_cast<int>(in_.height); ++y)
       for (int x = 0; x < static_cast<int>(in_.width); ++x) {
         const int apart = std::max(std::abs(x / kTile - tx), std::abs(y / kTile - ty));
-        const double radius = -coc(x, y);
-        if (apart <= 2 && radius >= 0.5 && radius > kTile * std::max(apart - 1, 0)) most = std::max(most, radius);
+        const double radius = -coc(x, y) * widening();
+        if (-coc(x, y) >= 0.5 && radius > kTile * std::max(apart - 1, 0)) most = std::max(most, radius);
       }
     return dof_light(dof_half(vec4(static_cast<float>(most)))).x;
   }
@@ -126,7 +128,7 @@ class DofTwin {
                            const std::function<double(int, double)>& weight, double spread = 0.0) const {
     dvec4 sum(0.0);
     double total = 0.0;
-    for (int n = first; n <= 40; ++n) {
+    for (int n = first; n <= 45; ++n) {
       const double w = weight(n, radius);
       if (w <= 0.0) continue;
       const glm::dvec2 at = place(n);
@@ -148,25 +150,25 @@ class DofTwin {
       Layer result;
       for (int y = 0; y < rows_; ++y)
         for (int x = 0; x < columns_; ++x) {
-          const double radius = near ? reaching[static_cast<std::size_t>(y * columns_ + x)]
-                                     : texel(layer, x, y).w * static_cast<double>(in_.knobs.radius) / scale_;
+          const double radius =
+              near ? reaching[static_cast<std::size_t>(y * columns_ + x)]
+                   : texel(layer, x, y).w * widening() * static_cast<double>(in_.knobs.radius) / scale_;
           result.push_back(rounded(filter(x, y, radius)));
         }
       return result;
     };
     if (in_.bokeh == Bokeh::round) {
       const auto gauss = [](int n, double radius) {
-        if (n == 0) return 1.0;
-        const double sigma = 0.5 * std::max(radius, 0.01);
-        return std::exp(-0.5 * n * n / (sigma * sigma)) * std::clamp(radius + 0.5 - std::abs(n), 0.0, 1.0);
+        const double t = n / std::max(radius, 0.001);
+        return std::exp(-3.0 * t * t) * std::pow(std::max(1.0 - t * t, 0.0), 2);
       };
       const Layer rows = each([&](int x, int y, double radius) {
         return line(
-            layer, near, x, y, radius, -40, [&](int n) { return glm::dvec2(x + n, y); }, gauss);
+            layer, near, x, y, radius, -45, [&](int n) { return glm::dvec2(x + n, y); }, gauss);
       });
       return each([&](int x, int y, double radius) {
         return line(
-            rows, near, x, y, radius, -40, [&](int n) { return glm::dvec2(x, y + n); }, gauss);
+            rows, near, x, y, radius, -45, [&](int n) { return glm::dvec2(x, y + n); }, gauss);
       });
     }
     return hexagon(layer, near, each);
