@@ -2,45 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/view.h"
 
-#include <algorithm>
 #include <cmath>
-#include <glm/ext/matrix_transform.hpp>
-#include <limits>
 #include <utility>
 
 #include "engine/core/assert.h"
-#include "engine/ecs/view.h"
-#include "engine/scene/assets.h"
+#include "engine/render/framing.h"
 
 namespace gloam {
 namespace {
-
-struct WideBounds {
-  dvec3 min = dvec3(std::numeric_limits<double>::infinity());
-  dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
-};
-
-/// World bounds of everything drawn. In double: float rounding far from the world's origin would move it out of the
-/// picture.
-WideBounds drawn_bounds(const World& world) {
-  WideBounds bounds;
-  const SceneAssets* assets = world.try_resource<SceneAssets>();
-  if (assets == nullptr) return bounds;
-  world.view<const MeshInstance, const WorldTransform>().each(
-      [&](const MeshInstance& instance, const WorldTransform& transform) {
-        if (instance.mesh >= assets->meshes.size()) return;
-        const Aabb& box = assets->meshes[instance.mesh].bounds;
-        if (box.empty()) return;
-        const dmat4& m = transform.matrix;
-        const dvec3 center = dvec3(m * dvec4(dvec3(box.center()), 1.0));
-        const dvec3 half(box.half_extent());
-        const dvec3 reach =
-            glm::abs(dvec3(m[0])) * half.x + glm::abs(dvec3(m[1])) * half.y + glm::abs(dvec3(m[2])) * half.z;
-        bounds.min = glm::min(bounds.min, center - reach);
-        bounds.max = glm::max(bounds.max, center + reach);
-      });
-  return bounds;
-}
 
 /// The rotation and translation of a matrix that may also scale.
 dmat4 rigid(const dmat4& m) {
@@ -141,26 +110,12 @@ RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uin
 }
 
 ViewSettings settings_for_camera(const World& world, Entity camera, std::uint32_t width, std::uint32_t height) {
+  if (camera == kNoEntity) return framed_view(world, width, height);
   ViewSettings settings;
   settings.width = width;
   settings.height = height;
-  if (camera != kNoEntity) {
-    settings.camera_entity = camera;
-    follow_camera(world, settings);
-    return settings;
-  }
-  const WideBounds bounds = drawn_bounds(world);
-  const bool empty = !(bounds.min.x <= bounds.max.x);
-  const dvec3 center = empty ? dvec3(0.0) : (bounds.min + bounds.max) * 0.5;
-  const double radius = empty ? 1.0 : std::max(1e-3, 0.5 * glm::length(bounds.max - bounds.min));
-  // The narrower field of view decides the distance.
-  const double half_fov_y = 0.5 * static_cast<double>(settings.camera.fov_y);
-  const double aspect = static_cast<double>(width) / static_cast<double>(height);
-  const double half_fov = std::min(half_fov_y, std::atan(std::tan(half_fov_y) * aspect));
-  const double distance = radius / std::sin(half_fov);
-  const dvec3 eye = center + glm::normalize(dvec3(0.6, 0.45, 1.0)) * distance;
-  settings.camera.near_m = static_cast<float>(std::clamp(distance * 0.01, 1e-4, 0.1));
-  settings.world_from_camera = glm::inverse(glm::lookAt(eye, center, dvec3(0.0, 1.0, 0.0)));
+  settings.camera_entity = camera;
+  follow_camera(world, settings);
   return settings;
 }
 

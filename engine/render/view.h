@@ -163,8 +163,8 @@ void follow_camera(const World& world, ViewSettings& settings);
 /// cut_frame: see RenderView.
 [[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame = 0);
 
-/// Settings for the view of a camera entity, from its Camera and WorldTransform. kNoEntity: of a camera fitted to the
-/// bounds of everything drawn. width, height: pixels.
+/// Settings for the view of a camera entity, from its Camera and WorldTransform. kNoEntity: framed_view(). width,
+/// height: pixels.
 [[nodiscard]] ViewSettings settings_for_camera(const World& world, Entity camera, std::uint32_t width,
                                                std::uint32_t height);
 

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/commands/commands.h"
 #include "sandbox/session/loaded_scene.h"
+#include "sandbox/session/program_knobs.h"
 #include "sandbox/session/scene_summary.h"
 
 namespace gloam {
 
 Status run_inspect(const CommandContext& context) {
   const Options& options = context.options;
+  KnobRegistry knobs = all_knobs(make_all_modules());
+  GLOAM_TRY(set_knobs(knobs, options));
   // Posed: modules warn about things by their places.
-  const auto scene =
-      load_and_pose_scene({.scene = options.scene, .animation = options.animation}, options.threads, context.log);
+  const auto scene = load_and_pose_scene(scene_request(options, knobs), options.threads, context.log);
   if (!scene) return scene.error();
   const auto& [modules, executor, world, info] = **scene;
   const auto camera = find_camera(world, info, options.camera);

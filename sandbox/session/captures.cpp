@@ -58,7 +58,7 @@ Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, 
   World world;
   (*renderer)->prepare_world(world);
   // The session's own load has logged the warnings.
-  const auto info = load_scene({.scene = options.scene, .animation = options.animation}, (*renderer)->modules(), world,
+  const auto info = load_scene(scene_request(options, session.renderer->knobs()), (*renderer)->modules(), world,
                                *session.executor, null_log());
   if (!info) return info.error();
   world.resource<SceneClock>() = {.time_s = 0.0};

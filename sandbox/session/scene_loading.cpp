@@ -12,6 +12,7 @@
 #include "modules/reflections/bake.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/scenes/builtin.h"
+#include "sandbox/session/default_light.h"
 
 namespace gloam {
 namespace {
@@ -57,6 +58,11 @@ std::string scene_stem(const std::string& scene) {
   return std::filesystem::path(scene).stem().string();
 }
 
+SceneRequest scene_request(const Options& options, const KnobRegistry& knobs) {
+  return {
+      .scene = options.scene, .animation = options.animation, .default_light = knobs.is("scene.default_light", "on")};
+}
+
 void prepare_world(World& world, const ModuleList& modules) {
   prepare_scene_world(world);
   for (const auto& module : modules) module->register_components(world);
@@ -78,6 +84,7 @@ Result<SceneInfo> load_scene(const SceneRequest& request, const ModuleList& modu
     info = std::move(imported).value();
   }
   GLOAM_TRY(check_animation(world, request.animation));
+  if (request.default_light && add_default_light(world, info)) log.warning(kDefaultLightSentence);
   return info;
 }
 

@@ -10,16 +10,22 @@
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/knobs/knobs.h"
 #include "engine/render/module.h"
 #include "engine/scene/gltf_import.h"
+#include "sandbox/options.h"
 
 namespace gloam {
 
 /// The scene and the animation that the command line names.
 struct SceneRequest {
-  std::string scene;      ///< path or "builtin:NAME"
-  std::string animation;  ///< clip to play where several move the same target; empty: the first
+  std::string scene;          ///< path or "builtin:NAME"
+  std::string animation;      ///< clip to play where several move the same target; empty: the first
+  bool default_light = true;  ///< add_default_light(), with a warning
 };
+
+/// The request of a command line with these knobs (add_program_knobs()).
+[[nodiscard]] SceneRequest scene_request(const Options& options, const KnobRegistry& knobs);
 
 /// Cheap check that needs no world. An unknown built-in scene is ErrorKind::usage; a file that cannot be opened is
 /// ErrorKind::input.

@@ -11,6 +11,7 @@
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 #include "sandbox/output/json_text.h"
+#include "sandbox/session/default_light.h"
 
 namespace gloam {
 namespace {
@@ -35,10 +36,14 @@ std::vector<std::pair<const char*, std::uint64_t>> counts_of(const SceneSummary&
           {"skins", summary.skins}};
 }
 
-std::string joined(const std::vector<std::string>& names) {
+constexpr std::size_t kMostNames = 24;  // in one line of text
+
+/// At most `most` names; the others are counted.
+std::string joined(const std::vector<std::string>& names, std::size_t most = ~std::size_t{0}) {
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
+  return names.empty() ? "none" : text;
 }
 
 std::string padded(std::string text, std::size_t width) {
@@ -59,7 +64,11 @@ SceneSummary summarize_scene(const std::string& scene, const World& world, const
   SceneSummary out;
   out.scene = scene;
   out.name = info.name;
+  const auto* added = world.try_resource<DefaultLight>();
+  const Entity sun = added != nullptr ? added->sun : kNoEntity;
+  out.default_light = added != nullptr;
   world.view<const WorldTransform>().each([&](Entity entity, const WorldTransform&) {
+    if (entity == sun) return;  // no node of the file
     ++out.nodes;
     if (registry.is_light(world, entity)) ++out.lights;
   });
@@ -74,6 +83,8 @@ SceneSummary summarize_scene(const std::string& scene, const World& world, const
   out.images = assets.images.size();
   out.skins = assets.skins.size();
   const auto& names = world.resource<SceneNames>();
+  for (std::string& name : names.names("light"))
+    if (added == nullptr || name != names.name_of(sun)) out.light_names.push_back(std::move(name));
   for (const Entity camera : info.cameras) out.cameras.emplace_back(names.name_of(camera));
   for (const AnimationClip& clip : assets.clips) out.animations.push_back(clip.name);
   for (const auto& module : modules) {
@@ -102,6 +113,8 @@ std::string summary_text(const SceneSummary& summary) {
   constexpr std::size_t kColumn = 18;
   std::string text = padded("scene", kColumn) + summary.scene + "\n";
   for (const auto& [name, count] : counts_of(summary)) text += padded(name, kColumn) + std::to_string(count) + "\n";
+  text += padded("light names", kColumn) + joined(summary.light_names, kMostNames) + "\n";
+  if (summary.default_light) text += padded("default light", kColumn) + kDefaultLightSentence + "\n";
   text += padded("cameras", kColumn) + joined(summary.cameras) + "\n";
   text += padded("animations", kColumn) + joined(summary.animations) + "\n";
   text += "modules\n";
@@ -116,6 +129,8 @@ std::string summary_text(const SceneSummary& summary) {
 std::string summary_json(const SceneSummary& summary) {
   Json json = {{"version", 1}, {"scene", summary.scene}, {"name", summary.name}};
   for (const auto& [name, count] : counts_of(summary)) json[name] = count;
+  json["light_names"] = summary.light_names;
+  json["default_light"] = summary.default_light;
   json["cameras"] = summary.cameras;
   json["animations"] = summary.animations;
   json["modules"] = Json::array();

@@ -27,6 +27,8 @@ struct SceneSummary {
   std::uint64_t images = 0;
   std::uint64_t lights = 0;
   std::uint64_t skins = 0;
+  std::vector<std::string> light_names;  ///< of the scene, without the default sun
+  bool default_light = false;            ///< add_default_light() has added one
   std::vector<std::string> cameras;
   std::vector<std::string> animations;
 
@@ -49,7 +51,8 @@ struct SceneSummary {
 
 /// The summary as readable text.
 [[nodiscard]] std::string summary_text(const SceneSummary& summary);
-/// The summary as JSON: {"version": 1, "scene", counts…, "cameras": […], "animations": […], "modules": [{"name",
+/// The summary as JSON: {"version": 1, "scene", counts…, "light_names": […],
+/// "default_light", "cameras": […], "animations": […], "modules": [{"name",
 /// "built", "demanded", "reason"}], "warnings": […]}
 [[nodiscard]] std::string summary_json(const SceneSummary& summary);
 

@@ -10,22 +10,12 @@
 #include "engine/scene/resources.h"
 #include "engine/scene/systems.h"
 #include "modules/module_list/module_list.h"
-#include "sandbox/output/file_io.h"
 #include "sandbox/session/frame_run.h"
+#include "sandbox/session/program_knobs.h"
 #include "sandbox/session/scene_loading.h"
 
 namespace gloam {
 namespace {
-
-Status set_knobs(KnobRegistry& knobs, const Options& options) {
-  if (!options.config.empty()) {
-    const auto text = read_text_file(options.config, ErrorKind::usage);
-    if (!text) return text.error();
-    GLOAM_TRY(knobs.set_from_json(*text, options.config));
-  }
-  for (const std::string& assignment : options.assignments) GLOAM_TRY(knobs.set_assignment(assignment));
-  return {};
-}
 
 Status open_renderer(Session& session, const Options& options, LogSink& log, ModuleList more_modules) {
   ModuleList modules = make_all_modules();
@@ -37,6 +27,7 @@ Status open_renderer(Session& session, const Options& options, LogSink& log, Mod
                                     .modules = std::move(modules)});
   if (!renderer) return renderer.error();
   session.renderer = std::move(renderer).value();
+  add_program_knobs(session.renderer->knobs());
   return set_knobs(session.renderer->knobs(), options);
 }
 
@@ -94,7 +85,7 @@ Result<std::unique_ptr<Session>> open_session_on(std::unique_ptr<gpu::Device> de
   session->device = std::move(device);
   GLOAM_TRY(open_renderer(*session, options, log, std::move(more_modules)));
   session->renderer->prepare_world(session->world);
-  auto info = load_scene({.scene = options.scene, .animation = options.animation}, session->renderer->modules(),
+  auto info = load_scene(scene_request(options, session->renderer->knobs()), session->renderer->modules(),
                          session->world, *session->executor, log);
   if (!info) return info.error();
   session->info = std::move(info).value();

@@ -178,7 +178,8 @@ class Render(ProgramCase):
             node = {"mesh": 0, "name": "leaf", "extras": extras}
             camera = {"camera": 0, "name": "eye", "translation": [0, 0, 3], "extras": {"gloam.dof.focus": 1.0}}
             (self.folder / "dark.gltf").write_text(json.dumps({**TRIANGLE, "nodes": [node, camera]}), encoding="utf-8")
-            self.expect(0, "render", "dark.gltf", "--size", "64x36", "--frames", "2", "--out", "dark.png")
+            self.expect(0, "render", "dark.gltf", "--set", "scene.default_light=off", "--size", "64x36", "--frames", "2",
+                        "--out", "dark.png")
 
     def test_unknown_knobs_views_and_cameras_are_wrong_usage(self):
         (self.folder / "bad.json").write_text('{"no.such": 1}')

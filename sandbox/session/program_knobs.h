@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/render/knobs/knobs.h"
+#include "engine/render/module.h"
+#include "sandbox/options.h"
+
+namespace gloam {
+
+/// Adds the knobs of the program itself, which no module owns: scene.default_light. They are read when a scene is
+/// loaded.
+void add_program_knobs(KnobRegistry& knobs);
+
+/// The knobs of these modules and of the program, with their defaults.
+[[nodiscard]] KnobRegistry all_knobs(const ModuleList& modules);
+
+/// Sets knobs from --config, then from --set. Usage error for an unknown knob or value.
+[[nodiscard]] Status set_knobs(KnobRegistry& knobs, const Options& options);
+
+}  // namespace gloam
