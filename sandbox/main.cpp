@@ -60,6 +60,8 @@ Status run_command(const gloam::CommandContext& context) {
       return run_cost(context);
     case gloam::Command::bench:
       return run_bench(context);
+    case gloam::Command::knobs:
+      return run_knobs(context);
     case gloam::Command::scenes:
       return run_scenes(context);
   }

@@ -59,8 +59,9 @@ void add_frame_options(CLI::App& app, Options& options, RawTexts& raw) {
 void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
   app.add_option(
          "--out", options.out,
-         "Picture to write: .png, or .exr for linear light (default out/<scene>.png); cost: folder of the ledger; "
-         "bake: folder for pictures of the captures")
+         "Picture to write: .png, or .exr for linear light, or with --view for its values (default out/<scene>.png); "
+         "render --frames N: frame_%04d.png writes all frames; cost: folder of the ledger; bake: folder for pictures "
+         "of the captures")
       ->type_name("FILE");
   app.add_option("--stats", options.stats, "Write times, memory and counters as JSON")->type_name("FILE");
   app.add_option("--trace", options.trace, "Write a Chrome trace of systems and passes")->type_name("FILE");
@@ -121,6 +122,8 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
       "jobs.empty is one batch: 100,000 jobs that exist already, in one call. jobs.spawn creates, runs and destroys\n"
       "100,000 separate jobs on two workers. Every row carries a hash of its result, except rows that quote a figure\n"
       "from a paper. If a row fails, the rows before it are still written.");
+  CLI::App* knobs = add(Command::knobs, "knobs", "List the knobs with their values, units and meanings");
+  knobs->add_flag("--json", options.json, "Print JSON");
   add(Command::scenes, "scenes", "List the built-in scenes and the effect each shows");
   return commands;
 }
@@ -231,7 +234,7 @@ Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::
     chosen = candidate.app;
     options.command = candidate.command;
   }
-  if (chosen == nullptr) return usage("a command is needed: play, render, inspect, bake, cost, bench or scenes");
+  if (chosen == nullptr) return usage("a command is needed: play, render, inspect, bake, cost, bench, scenes or knobs");
   if (options.command == Command::play && chosen->count("--frames") == 0) options.frames = 0;
   options.fixed_step = options.command != Command::play || chosen->count("--dt") > 0;
   if (chosen->count("--cache-dir") == 0) options.cache_dir = default_cache_directory();

@@ -13,7 +13,7 @@
 
 namespace gloam {
 
-enum class Command { play, render, inspect, bake, cost, bench, scenes };
+enum class Command { play, render, inspect, bake, cost, bench, scenes, knobs };
 
 struct PixelPosition {
   std::uint32_t x = 0;
@@ -49,7 +49,7 @@ struct Options {
   std::optional<PixelPosition> pick;
   bool quiet = false;
 
-  bool json = false;               ///< inspect
+  bool json = false;               ///< inspect, knobs
   std::uint32_t fit_proxies = 0;   ///< bake
   bool beside = false;             ///< bake: write the captures beside the scene file
   std::string knobs;               ///< cost: comma-separated

@@ -58,6 +58,7 @@ struct VisualizerInfo {
   /// into the world, for the frame that shows it. `picture` and `redraw` of the input may be absent. Callers that
   /// cannot wait must not offer the visualizer.
   std::function<Status(World& world, const ReferenceInput& input)> trace = {};
+  std::string image = {};  ///< exposed image with the values that it shows (FrameBuilder::expose); empty: called `name`
   /// The visualizer shows lists whose buffers may be too small in the first frames after a change: callers that show a
   /// single frame draw until no tile overflows.
   bool shows_lists = false;

@@ -11,6 +11,7 @@
 #include "sandbox/session/scene_loading.h"
 #include "sandbox/session/scene_summary.h"
 #include "sandbox/session/stats.h"
+#include "sandbox/session/view_values.h"
 
 namespace gloam {
 namespace {
@@ -38,9 +39,9 @@ void warn_of_missing_effects(const Session& session, LogSink& log) {
 Status write_picture(const DrawnRun& run, const std::string& path) {
   GLOAM_TRY(make_folder_of(path));
   if (path.ends_with(".exr")) {
-    const auto linear = run.session.renderer->read_linear(run.view.id);
-    if (!linear) return linear.error();
-    return write_exr(path, linear->width, linear->height, linear->rgba);
+    const auto values = read_view_values(run.session, run.view);
+    if (!values) return values.error();
+    return write_exr(path, values->width, values->height, values->rgba);
   }
   auto picture = run.session.renderer->read_picture(run.view.id);
   if (!picture) return picture.error();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -58,7 +60,18 @@ std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-void expect_golden(const Picture& picture, const std::string& name) {
+/// Eight times the difference of each channel.
+std::vector<std::uint8_t> difference_picture(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  std::vector<std::uint8_t> rgba(a.size(), 255);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (i % 4 != 3) rgba[i] = static_cast<std::uint8_t>(std::min(8 * std::abs(a[i] - b[i]), 255));
+  return rgba;
+}
+
+/// Compares the picture with tests/golden/NAME.png and writes it into the build folder; beside it, if they differ, a
+/// difference picture. tolerance: root mean square of the encoded channels, 0…1. The default allows for differences in
+/// rounding and edge coverage between devices. A wrong light, material or matrix exceeds it by far.
+void expect_golden(const Picture& picture, const std::string& name, double tolerance = 0.01) {
   const std::filesystem::path folder = std::filesystem::path(GLOAM_BINARY_DIR) / "golden";
   std::filesystem::create_directories(folder);
   const std::string drawn = (folder / (name + ".png")).string();
@@ -68,9 +81,14 @@ void expect_golden(const Picture& picture, const std::string& name) {
   ASSERT_TRUE(golden.ok()) << golden.error().message << "; the drawn picture is " << drawn;
   ASSERT_EQ(golden->width, picture.width);
   ASSERT_EQ(golden->height, picture.height);
-  // Allows for differences in rounding and edge coverage between devices. A wrong light, material or matrix exceeds it
-  // by far.
-  EXPECT_LT(root_mean_square(picture.rgba, golden->rgba), 0.01) << "look at " << drawn;
+  const double difference = root_mean_square(picture.rgba, golden->rgba);
+  const std::string differences = (folder / (name + "_difference.png")).string();
+  std::filesystem::remove(differences);
+  if (difference >= tolerance) {
+    ASSERT_TRUE(
+        write_png(differences, picture.width, picture.height, difference_picture(picture.rgba, golden->rgba)).ok());
+  }
+  EXPECT_LT(difference, tolerance) << "look at " << drawn << " and, eight times brighter, at " << differences;
 }
 
 class Golden : public testing::Test {

@@ -181,6 +181,16 @@ class Render(ProgramCase):
             self.expect(0, "render", "dark.gltf", "--set", "scene.default_light=off", "--size", "64x36", "--frames", "2",
                         "--out", "dark.png")
 
+    def test_a_numbered_name_writes_all_frames_of_a_sequence(self):
+        frames = ("--frames", "3", "--time", "0.5", "--dt", "0.1")
+        self.expect(0, "render", "builtin:meadow", *SMALL, *frames, "--out", "out/frame_%03d.png")
+        self.expect(0, "render", "builtin:meadow", *SMALL, *frames, "--out", "last.png")
+        names = sorted(path.name for path in (self.folder / "out").iterdir())
+        self.assertEqual(names, ["frame_000.png", "frame_001.png", "frame_002.png"])
+        pictures = [(self.folder / "out" / name).read_bytes() for name in names]
+        self.assertTrue(pictures[2] == (self.folder / "last.png").read_bytes(), "the last frame of a run is the same")
+        self.assertFalse(pictures[0] == pictures[2], "wind moves the grass")
+
     def test_unknown_knobs_views_and_cameras_are_wrong_usage(self):
         (self.folder / "bad.json").write_text('{"no.such": 1}')
         for option in (("--set", "no.such=1"), ("--view", "no_such"), ("--camera", "nobody"), ("--config", "absent.json"),

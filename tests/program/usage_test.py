@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 """Tests exit codes and error lines of all commands that need no device."""
+import json
 import os
 import subprocess
 
@@ -12,7 +13,7 @@ NO_VULKAN = {"VK_ICD_FILENAMES": "/nonexistent", "VK_DRIVER_FILES": "/nonexisten
 class Usage(ProgramCase):
     def test_alone_it_prints_its_help_and_leaves_with_2(self):
         run = self.expect(2)
-        for command in ("play", "render", "inspect", "bake", "cost", "bench", "scenes"):
+        for command in ("play", "render", "inspect", "bake", "cost", "bench", "scenes", "knobs"):
             self.assertIn(command, run.stdout)
 
     def test_help_and_version_are_results(self):
@@ -68,11 +69,23 @@ class Usage(ProgramCase):
         self.expect(NO_DEVICE, "cost", "builtin:plain", "--out", "ledger", env=NO_VULKAN)
         self.expect(0, "inspect", "builtin:plain", env=NO_VULKAN)
         self.expect(0, "scenes", env=NO_VULKAN)
+        self.expect(0, "knobs", env=NO_VULKAN)
         self.expect(0, "bench", "--list", env=NO_VULKAN)
         self.expect(0, "bench", "jobs.fork_join", env=NO_VULKAN)
 
     def test_play_without_a_display_is_1(self):
         self.expect(1, "play", env={"DISPLAY": "", "WAYLAND_DISPLAY": ""}, says="display")
+
+    def test_knobs_are_listed_with_values_unit_and_sentence(self):
+        text = self.expect(0, "knobs").stdout
+        self.assertIn("dof.radius=15  (3 … 31 pixels)\n      greatest radius", text)
+        knobs = json.loads(self.expect(0, "knobs", "--json", "--set", "dof.radius=7").stdout)["knobs"]
+        radius = next(knob for knob in knobs if knob["name"] == "dof.radius")
+        self.assertEqual((radius["value"], radius["default"], radius["unit"]), ("7", "15", "pixels"))
+        for knob in knobs:
+            self.assertTrue(knob["meaning"], knob["name"])
+            self.assertTrue("values" in knob or "min" in knob, knob["name"])
+        self.expect(2, "knobs", "--set", "no.such=1")
 
     def test_scenes_are_one_a_line(self):
         lines = self.expect(0, "scenes").stdout.splitlines()

@@ -29,6 +29,7 @@ std::vector<VisualizerInfo> shadow_reference_visualizers() {
     view.value = "monolithic|deferred";
     view.trace = put_traced_visibility;
   }
+  views.back().image = "shadow_error";
   return views;
 }
 

@@ -105,6 +105,7 @@ std::vector<VisualizerInfo> shadow_visualizers() {
     view.knob = "shadows.mode";
     view.value = "monolithic|deferred";
   }
+  views.front().image = "shadow_visibility";
   return views;
 }
 
