@@ -32,6 +32,12 @@ class LightingModule final : public Module {
     table.meaning = "entries of the tone curve's lookup table; exact: no table, computed for every pixel";
     table.choices = {"exact", "1024", "256", "64"};
     registry.add(table);
+    Knob dither;
+    dither.name = "lighting.dither";
+    dither.module = "lighting";
+    dither.meaning = "rounding of the picture to 8 bits with a fixed pattern, so that gradients show no bands";
+    dither.choices = {"on", "off"};
+    registry.add(dither);
   }
 
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {

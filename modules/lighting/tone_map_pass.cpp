@@ -51,6 +51,11 @@ ImageRef add_tone_table_pass(FrameBuilder& frame) {
   return table;
 }
 
+/// Visualizers are drawn over a picture without noise.
+bool dithers(const FrameBuilder& frame) {
+  return frame.knobs().is("lighting.dither", "on") && frame.visualizer() == "none";
+}
+
 }  // namespace
 
 void add_tone_map_passes(FrameBuilder& frame) {
@@ -70,7 +75,8 @@ void add_tone_map_passes(FrameBuilder& frame) {
   }
 
   const ImageRef table = add_tone_table_pass(frame);
-  DrawPass pass(frame, "tone_map", {shaders::lighting::tone_map_frag, {{0, table ? 1u : 0u}}});
+  DrawPass pass(frame, "tone_map",
+                {shaders::lighting::tone_map_frag, {{0, table ? 1u : 0u}, {1, dithers(frame) ? 1u : 0u}}});
   pass.read("lit_image", frame.get<LitOutput>().color);
   pass.read("metered_exposure", metered->buffer);
   pass.read("table_image", table, Sampling::linear);

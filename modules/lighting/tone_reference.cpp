@@ -39,6 +39,15 @@ double metered_exposure(const LinearPicture& lit) {
   return (1.03 - 2.0 / (2.0 + std::log10(mean + 1.0))) / mean;
 }
 
+std::uint8_t dithered_step(double encoded, uvec2 pixel, std::uint32_t channel) {
+  const std::uint32_t number = pixel.x * 3242174889u + pixel.y * 2447445414u + channel * 1431655765u;
+  const double even = (number >> 8) / 16777216.0;
+  const double triangle = even < 0.5 ? std::sqrt(2.0 * even) - 0.5 : 1.5 - std::sqrt(2.0 - 2.0 * even);
+  const double steps = 255.0 * encoded;
+  const double noise = std::abs(steps - 127.5) > 127.0 ? even : triangle;
+  return static_cast<std::uint8_t>(std::min(std::floor(steps + noise), 255.0));
+}
+
 Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
   const LinearPicture& lit = input.frame.linear;
   const auto& environment = input.world.resource<SceneEnvironment>();
@@ -46,15 +55,18 @@ Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
                               ? 1.0 / (1.2 * std::exp2(static_cast<double>(environment.exposure_ev100)))
                               : metered_exposure(lit);
   const std::uint32_t curve = input.knobs.choice("lighting.tone_map");
+  const bool dithers = input.knobs.is("lighting.dither", "on");
   FramePictures right;
   right.picture = {lit.width, lit.height, std::vector<std::uint8_t>(lit.rgba.size(), 255)};
   constexpr std::size_t kGrain = 16384;
   input.executor.parallel_for(lit.rgba.size() / 4, kGrain, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
+      const uvec2 pixel(i % lit.width, i / lit.width);
+      for (std::uint32_t c = 0; c < 3; ++c) {
         const double exposed = std::clamp(static_cast<double>(lit.rgba[4 * i + c]) * exposure, 0.0, 1e6);
+        const double encoded = encode_srgb(tone_curve(curve, exposed));
         right.picture.rgba[4 * i + c] =
-            static_cast<std::uint8_t>(std::lround(encode_srgb(tone_curve(curve, exposed)) * 255.0));
+            dithers ? dithered_step(encoded, pixel, c) : static_cast<std::uint8_t>(std::lround(encoded * 255.0));
       }
     }
   });

@@ -27,7 +27,7 @@ double encoded(double linear) {
 }
 
 /// The mean of log2 luminance over a grid of 32×32 pixels, and the key of Krawczyk et al. 2005.
-double metered_exposure(const LinearPicture& p) {
+double expected_exposure(const LinearPicture& p) {
   double sum = 0.0;
   for (std::uint32_t row = 0; row < 32; ++row) {
     for (std::uint32_t column = 0; column < 32; ++column) {
@@ -48,7 +48,9 @@ struct PictureOfLight : test::LitSceneTest {
     if (IsSkipped()) return;
     settings.camera.fov_y = 2.4f;  // much sky, so that every value of its gradient occurs
     set_sky(1.0f);
+    set("lighting.dither", "off");  // pictures are compared with the curves to one step; dithering has its own tests
   }
+  void set(std::string_view knob, std::string_view value) { ASSERT_TRUE(renderer->knobs().set(knob, value).ok()); }
   void set_sky(float factor) {
     environment().sky_zenith = factor * vec3(8.0f, 0.02f, 0.5f);
     environment().sky_horizon = factor * vec3(0.0f, 0.9f, 3.0f);
@@ -81,20 +83,23 @@ TEST_F(PictureOfLight, is_white_or_black_at_the_ends_of_the_exposures) {
   environment().has_exposure = true;
   set_sky(1e4f);
   environment().sky_horizon = environment().sky_ground = environment().sky_zenith = vec3(6e4f);
-  for (const char* name : {"filmic", "reinhard", "linear"}) {
-    ASSERT_TRUE(renderer->knobs().set("lighting.tone_map", name).ok());
-    for (const auto& [ev, byte] : {std::pair(-100.0f, 255), std::pair(100.0f, 0)}) {
-      environment().exposure_ev100 = ev;
-      ASSERT_NO_FATAL_FAILURE(draw());
-      const Picture shown = picture();
-      for (std::size_t i = 0; i < shown.rgba.size(); ++i)
-        ASSERT_EQ(shown.rgba[i], i % 4 == 3 ? 255 : byte) << name << " " << ev;
+  for (const char* dither : {"off", "on"})
+    for (const char* name : {"filmic", "reinhard", "linear"}) {
+      set("lighting.dither", dither);
+      set("lighting.tone_map", name);
+      for (const auto& [ev, byte] : {std::pair(-100.0f, 255), std::pair(100.0f, 0)}) {
+        environment().exposure_ev100 = ev;
+        ASSERT_NO_FATAL_FAILURE(draw());
+        const Picture shown = picture();
+        for (std::size_t i = 0; i < shown.rgba.size(); ++i)
+          ASSERT_EQ(shown.rgba[i], i % 4 == 3 ? 255 : byte) << name << " " << ev << ", dither " << dither;
+      }
     }
-  }
 }
 
 TEST_F(PictureOfLight, is_the_same_in_a_target_that_does_not_encode) {
   environment().has_exposure = true;
+  set("lighting.dither", "on");
   ASSERT_NO_FATAL_FAILURE(draw());
   const Picture own = picture();
   gpu::Device& device = *test::shared_device();
@@ -119,7 +124,7 @@ TEST_F(PictureOfLight, is_the_same_in_a_target_that_does_not_encode) {
 TEST_F(PictureOfLight, is_metered_in_the_first_frame_and_then_fixed) {
   ASSERT_TRUE(renderer->knobs().set("lighting.tone_map", "linear").ok());
   ASSERT_NO_FATAL_FAILURE(draw());
-  const double exposure = metered_exposure(linear());
+  const double exposure = expected_exposure(linear());
   expect_shown(linear(), picture().rgba, "linear", exposure);
   const Picture first = picture();
   set_sky(0.2f);
@@ -141,11 +146,11 @@ TEST_F(PictureOfLight, is_metered_once_a_camera_and_view) {
   ViewSettings other = settings;
   other.id = ViewId{1};
   ASSERT_NO_FATAL_FAILURE(draw(world, other));
-  expect_shown(linear(1), picture(1).rgba, "linear", metered_exposure(linear(1)));
+  expect_shown(linear(1), picture(1).rgba, "linear", expected_exposure(linear(1)));
   ViewSettings followed = settings;
   followed.camera_entity = world.create(Camera{.fov_y = 2.4f}, WorldTransform{settings.world_from_camera});
   ASSERT_NO_FATAL_FAILURE(draw(world, followed));
-  expect_shown(linear(), picture().rgba, "linear", metered_exposure(linear()));
+  expect_shown(linear(), picture().rgba, "linear", expected_exposure(linear()));
 }
 
 TEST_F(PictureOfLight, is_metered_anew_for_a_world_that_was_prepared_again) {
@@ -154,7 +159,7 @@ TEST_F(PictureOfLight, is_metered_anew_for_a_world_that_was_prepared_again) {
   renderer->prepare_world(world);
   set_sky(0.1f);
   ASSERT_NO_FATAL_FAILURE(draw());
-  expect_shown(linear(), picture().rgba, "linear", metered_exposure(linear()));
+  expect_shown(linear(), picture().rgba, "linear", expected_exposure(linear()));
 }
 
 TEST_F(PictureOfLight, of_two_views_in_one_frame_is_metered_for_each) {
@@ -166,13 +171,14 @@ TEST_F(PictureOfLight, of_two_views_in_one_frame_is_metered_for_each) {
   for (int frame = 0; frame < 2; ++frame) {
     ASSERT_TRUE(renderer->render(world, requests).ok());
     ASSERT_TRUE(renderer->wait().ok());
-    expect_shown(linear(0), picture(0).rgba, "linear", metered_exposure(linear(0)));
-    expect_shown(linear(1), picture(1).rgba, "linear", metered_exposure(linear(1)));
+    expect_shown(linear(0), picture(0).rgba, "linear", expected_exposure(linear(0)));
+    expect_shown(linear(1), picture(1).rgba, "linear", expected_exposure(linear(1)));
   }
 }
 
 TEST_F(PictureOfLight, of_a_black_world_is_black) {
   set_sky(0.0f);
+  set("lighting.dither", "on");
   ASSERT_NO_FATAL_FAILURE(draw());
   const Picture shown = picture();
   for (std::size_t i = 0; i < shown.rgba.size(); ++i) ASSERT_EQ(shown.rgba[i], i % 4 == 3 ? 255 : 0);
@@ -181,7 +187,7 @@ TEST_F(PictureOfLight, of_a_black_world_is_black) {
 TEST_F(PictureOfLight, takes_the_scenes_exposure_before_a_metered_one) {
   ASSERT_TRUE(renderer->knobs().set("lighting.tone_map", "linear").ok());
   ASSERT_NO_FATAL_FAILURE(draw());
-  const double metered = metered_exposure(linear());
+  const double metered = expected_exposure(linear());
   environment().has_exposure = true;
   environment().exposure_ev100 = 1.0f;
   ASSERT_NO_FATAL_FAILURE(draw());
