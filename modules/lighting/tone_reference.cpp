@@ -14,6 +14,29 @@ double encode_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
+struct LitPixels {
+  double log2_sum = 0.0;  ///< of luminance
+  std::uint32_t count = 0;
+};
+
+/// The pixels with light on a grid of side × side.
+LitPixels meter(const LinearPicture& lit, std::uint32_t side) {
+  LitPixels metered;
+  for (std::uint32_t row = 0; row < side; ++row) {
+    for (std::uint32_t column = 0; column < side; ++column) {
+      const std::size_t x = (column * 2 + 1) * lit.width / (2 * side);
+      const std::size_t y = (row * 2 + 1) * lit.height / (2 * side);
+      const float* light = &lit.rgba[4 * (y * lit.width + x)];
+      const double luminance = 0.2126 * static_cast<double>(light[0]) + 0.7152 * static_cast<double>(light[1]) +
+                               0.0722 * static_cast<double>(light[2]);
+      if (!(luminance > 0.0)) continue;
+      metered.log2_sum += std::log2(std::clamp(luminance, 1e-4, 1e6));
+      ++metered.count;
+    }
+  }
+  return metered;
+}
+
 }  // namespace
 
 double tone_curve(std::uint32_t curve, double x) {
@@ -23,19 +46,10 @@ double tone_curve(std::uint32_t curve, double x) {
 }
 
 double metered_exposure(const LinearPicture& lit) {
-  constexpr std::uint32_t kGrid = 32;
-  double sum = 0.0;
-  for (std::uint32_t row = 0; row < kGrid; ++row) {
-    for (std::uint32_t column = 0; column < kGrid; ++column) {
-      const std::size_t x = (column * 2 + 1) * lit.width / (2 * kGrid);
-      const std::size_t y = (row * 2 + 1) * lit.height / (2 * kGrid);
-      const float* light = &lit.rgba[4 * (y * lit.width + x)];
-      const double luminance = 0.2126 * static_cast<double>(light[0]) + 0.7152 * static_cast<double>(light[1]) +
-                               0.0722 * static_cast<double>(light[2]);
-      sum += std::log2(std::clamp(luminance, 1e-4, 1e6));
-    }
-  }
-  const double mean = std::exp2(sum / (kGrid * kGrid));
+  constexpr std::uint32_t kFewest = 32;
+  LitPixels metered = meter(lit, 32);
+  if (metered.count < kFewest) metered = meter(lit, 256);
+  const double mean = metered.count != 0 ? std::exp2(metered.log2_sum / metered.count) : 1e-4;
   return (1.03 - 2.0 / (2.0 + std::log10(mean + 1.0))) / mean;
 }
 

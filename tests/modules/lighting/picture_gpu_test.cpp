@@ -26,19 +26,24 @@ double encoded(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-/// The mean of log2 luminance over a grid of 32×32 pixels, and the key of Krawczyk et al. 2005.
-double expected_exposure(const LinearPicture& p) {
+/// The mean of log2 luminance over the lit pixels of a grid of 32×32, of 256×256 if there are less than 32, and the key
+/// of Krawczyk et al. 2005.
+double expected_exposure(const LinearPicture& p, std::uint32_t side = 32) {
   double sum = 0.0;
-  for (std::uint32_t row = 0; row < 32; ++row) {
-    for (std::uint32_t column = 0; column < 32; ++column) {
-      const std::size_t x = (column * 2 + 1) * p.width / 64;
-      const std::size_t y = (row * 2 + 1) * p.height / 64;
+  std::uint32_t count = 0;
+  for (std::uint32_t row = 0; row < side; ++row) {
+    for (std::uint32_t column = 0; column < side; ++column) {
+      const std::size_t x = (column * 2 + 1) * p.width / (2 * side);
+      const std::size_t y = (row * 2 + 1) * p.height / (2 * side);
       const float* at = &p.rgba[(y * p.width + x) * 4];
       const double luminance = 0.2126 * at[0] + 0.7152 * at[1] + 0.0722 * at[2];
+      if (!(luminance > 0.0)) continue;
       sum += std::log2(std::clamp(luminance, 1e-4, 1e6));
+      ++count;
     }
   }
-  const double mean = std::exp2(sum / 1024.0);
+  if (count < 32 && side == 32) return expected_exposure(p, 256);
+  const double mean = count > 0 ? std::exp2(sum / count) : 1e-4;
   return (1.03 - 2.0 / (2.0 + std::log10(mean + 1.0))) / mean;
 }
 
@@ -173,6 +178,28 @@ TEST_F(PictureOfLight, of_two_views_in_one_frame_is_metered_for_each) {
     ASSERT_TRUE(renderer->wait().ok());
     expect_shown(linear(0), picture(0).rgba, "linear", expected_exposure(linear(0)));
     expect_shown(linear(1), picture(1).rgba, "linear", expected_exposure(linear(1)));
+  }
+}
+
+TEST_F(PictureOfLight, is_exposed_for_what_is_lit_before_black) {
+  set("lighting.tone_map", "linear");
+  set_sky(0.0f);
+  Material lamp{.base_color = vec4(0.0f, 0.0f, 0.0f, 1.0f)};
+  lamp.emissive = vec3(5.0f);
+  settings.width = 240;
+  settings.height = 160;
+  // From most of the picture to less than a point of the coarse grid. All lit pixels have the same light.
+  for (const float half : {2.5f, 0.5f, 0.06f}) {
+    World dark;
+    renderer->prepare_world(dark);
+    test::SceneMaker maker(dark);
+    maker.draw(maker.mesh(test::quad(half, maker.material(lamp))));
+    ASSERT_NO_FATAL_FAILURE(draw(dark, settings));
+    expect_shown(linear(), picture().rgba, "linear", expected_exposure(linear()));
+    const double key = 1.03 - 2.0 / (2.0 + std::log10(5.0 + 1.0));
+    const std::size_t middle = (std::size_t{settings.height} / 2 * settings.width + settings.width / 2) * 4;
+    EXPECT_NEAR(picture().rgba[middle], 255.0 * encoded(key), 1.0) << "a lamp of " << half << " m";
+    renderer->release_world(dark);
   }
 }
 
