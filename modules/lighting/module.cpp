@@ -24,7 +24,7 @@ class LightingModule final : public Module {
     curve.name = "lighting.tone_map";
     curve.module = "lighting";
     curve.meaning = "tone curve that maps exposed linear light to the picture";
-    curve.choices = {"filmic", "reinhard", "linear"};
+    curve.choices = {"filmic", "reinhard", "linear", "agx"};
     registry.add(curve);
     Knob table;
     table.name = "lighting.tone_map_table";

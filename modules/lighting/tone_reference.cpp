@@ -14,6 +14,33 @@ double encode_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
+constexpr std::uint32_t kAgx = 3;
+
+double mean_of(const dvec3& x) { return (x.x + x.y + x.z) / 3.0; }
+
+/// The half of the sigmoid that begins at middle grey with slope 2.4 and ends at (width, height).
+double agx_half(double x, double width, double height) {
+  const double scale = 2.4 * width / std::cbrt(std::pow(2.4 * width / height, 3.0) - 1.0);
+  const double t = 2.4 * x / scale;
+  return scale * t / std::cbrt(1.0 + t * t * t);
+}
+
+double agx_sigmoid(double x) {
+  const double middle = 10.0 / 16.5, shown = std::pow(0.267, 1.0 / 2.2);
+  const double from_middle = std::clamp((std::log2(std::max(x, 1e-9) / 0.18) + 10.0) / 16.5, 0.0, 1.0) - middle;
+  const double value = from_middle < 0.0 ? shown - agx_half(-from_middle, middle, shown)
+                                         : shown + agx_half(from_middle, 1.0 - middle, 1.0 - shown);
+  return std::pow(std::clamp(value, 0.0, 1.0), 2.2);
+}
+
+/// The curve of one channel.
+double tone_curve(std::uint32_t curve, double x) {
+  if (curve == 0) return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+  if (curve == 1) return std::clamp(x / (1.0 + x), 0.0, 1.0);
+  if (curve == kAgx) return agx_sigmoid(x);
+  return std::clamp(x, 0.0, 1.0);
+}
+
 struct LitPixels {
   double log2_sum = 0.0;  ///< of luminance
   std::uint32_t count = 0;
@@ -39,10 +66,11 @@ LitPixels meter(const LinearPicture& lit, std::uint32_t side) {
 
 }  // namespace
 
-double tone_curve(std::uint32_t curve, double x) {
-  if (curve == 0) return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-  if (curve == 1) return std::clamp(x / (1.0 + x), 0.0, 1.0);
-  return std::clamp(x, 0.0, 1.0);
+dvec3 tone_mapped(std::uint32_t curve, const dvec3& light) {
+  const dvec3 x = curve == kAgx ? glm::mix(light, dvec3(mean_of(light)), 0.2) : light;
+  const dvec3 shown(tone_curve(curve, x.x), tone_curve(curve, x.y), tone_curve(curve, x.z));
+  if (curve != kAgx) return shown;
+  return glm::clamp((shown - 0.15 * mean_of(shown)) / 0.85, dvec3(0.0), dvec3(1.0));
 }
 
 double metered_exposure(const LinearPicture& lit) {
@@ -76,9 +104,11 @@ Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
   input.executor.parallel_for(lit.rgba.size() / 4, kGrain, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const uvec2 pixel(i % lit.width, i / lit.width);
+      const float* light = &lit.rgba[4 * i];
+      const dvec3 exposed = glm::clamp(dvec3(light[0], light[1], light[2]) * exposure, 0.0, 1e6);
+      const dvec3 shown = tone_mapped(curve, exposed);
       for (std::uint32_t c = 0; c < 3; ++c) {
-        const double exposed = std::clamp(static_cast<double>(lit.rgba[4 * i + c]) * exposure, 0.0, 1e6);
-        const double encoded = encode_srgb(tone_curve(curve, exposed));
+        const double encoded = encode_srgb(shown[static_cast<int>(c)]);
         right.picture.rgba[4 * i + c] =
             dithers ? dithered_step(encoded, pixel, c) : static_cast<std::uint8_t>(std::lround(encoded * 255.0));
       }

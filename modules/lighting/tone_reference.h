@@ -9,9 +9,9 @@
 
 namespace gloam {
 
-/// The curves of shaders/lighting/tone_curve.glsl in double precision. `curve`: index of the choice of
-/// lighting.tone_map. x ≥ 0.
-[[nodiscard]] double tone_curve(std::uint32_t curve, double x);
+/// The displayed linear light of shaders/lighting/tone_curve.glsl in double precision. `curve`: index of the choice of
+/// lighting.tone_map. light: exposed, ≥ 0.
+[[nodiscard]] dvec3 tone_mapped(std::uint32_t curve, const dvec3& light);
 
 /// The exposure that meter.comp computes for a frame's light, in double precision.
 [[nodiscard]] double metered_exposure(const LinearPicture& lit);

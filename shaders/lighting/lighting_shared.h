@@ -16,7 +16,7 @@ struct EnvironmentConstants {
 
 /// Constants of the pass from linear light to picture.
 struct ToneMapConstants {
-  uint curve;        // 0 filmic, 1 reinhard, 2 linear
+  uint curve;        // of tone_curve.glsl
   uint metered;      // 1: use the metered exposure; 0: use `exposure`
   float exposure;    // factor for cd/m²
   uint encode_srgb;  // 1: the target's format does not encode sRGB, so the shader does

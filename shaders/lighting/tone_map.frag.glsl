@@ -41,10 +41,11 @@ vec3 shown_in_target(vec3 shown) {
 void main() {
   float exposure = c.metered != 0u ? metered_exposure : c.exposure;
   vec3 x = clamp(texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb * exposure, vec3(0.0), vec3(1e6));
+  x = before_curve(c.curve, x);
   vec3 shown;
   if (kTable != 0u)
     shown = vec3(looked_up(x.r), looked_up(x.g), looked_up(x.b));
   else
     shown = tone_curve(c.curve, x);
-  out_color = vec4(shown_in_target(shown), 1.0);
+  out_color = vec4(shown_in_target(after_curve(c.curve, shown)), 1.0);
 }

@@ -7,6 +7,7 @@
 
 #include "engine/render/readback/capture.h"
 #include "modules/lighting/exposure.h"
+#include "modules/lighting/tone_reference.h"
 #include "tests/modules/lighting/lit_scene.h"
 
 namespace gloam {
@@ -84,12 +85,32 @@ TEST_F(PictureOfLight, follows_the_curves) {
   }
 }
 
+TEST_F(PictureOfLight, follows_the_curve_that_mixes_channels) {
+  environment().has_exposure = true;
+  set("lighting.tone_map", "agx");
+  for (const float ev : {-2.0f, 0.0f, 3.0f})
+    for (const char* table : {"exact", "1024"}) {
+      set("lighting.tone_map_table", table);
+      environment().exposure_ev100 = ev;
+      ASSERT_NO_FATAL_FAILURE(draw());
+      const LinearPicture light = linear();
+      const Picture shown = picture();
+      for (std::size_t i = 0; i < shown.rgba.size(); i += 4) {
+        const float* at = &light.rgba[i];
+        const dvec3 right = tone_mapped(3, dvec3(at[0], at[1], at[2]) * static_cast<double>(exposure_from_ev100(ev)));
+        for (int c = 0; c < 3; ++c)
+          ASSERT_NEAR(shown.rgba[i + static_cast<std::size_t>(c)], 255.0 * encoded(right[c]), 1.0)
+              << table << " " << ev;
+      }
+    }
+}
+
 TEST_F(PictureOfLight, is_white_or_black_at_the_ends_of_the_exposures) {
   environment().has_exposure = true;
   set_sky(1e4f);
   environment().sky_horizon = environment().sky_ground = environment().sky_zenith = vec3(6e4f);
   for (const char* dither : {"off", "on"})
-    for (const char* name : {"filmic", "reinhard", "linear"}) {
+    for (const char* name : {"filmic", "reinhard", "linear", "agx"}) {
       set("lighting.dither", dither);
       set("lighting.tone_map", name);
       for (const auto& [ev, byte] : {std::pair(-100.0f, 255), std::pair(100.0f, 0)}) {
