@@ -20,6 +20,7 @@
 #include "engine/scene/gltf/node_import.h"
 #include "engine/scene/gltf/place.h"
 #include "engine/scene/gltf/poses.h"
+#include "engine/scene/gltf/scene_totals.h"
 #include "engine/scene/gltf/tinygltf_reader.h"
 #include "engine/scene/plain_text.h"
 #include "engine/scene/scene_path.h"
@@ -81,7 +82,7 @@ Decoded decode(const Document& document, std::vector<EncodedImage> encoded, JobE
   std::vector<std::function<void()>> jobs;
   for (const std::size_t i : order)
     jobs.emplace_back([&, i] {
-      decoded.images[i] = import_image(document, encoded[i], i);
+      decoded.images[i] = import_image(document, encoded[i]);
       encoded[i] = {};
     });
   for (std::size_t i = 0; i < document.meshes.size(); ++i)
@@ -127,11 +128,15 @@ Status build_world(OpenScene& scene, const std::string& directory, const ImportO
   if (!clips) return clips.error();
   Result<std::vector<Skin>> skins = import_skins(document);
   if (!skins) return skins.error();
-  Result<std::vector<EncodedImage>> encoded = open_images(document, directory);
-  if (!encoded) return encoded.error();
+  Result<OpenedImages> opened = open_images(document, directory);
+  if (!opened) return opened.error();
+  for (Texture& texture : *textures)
+    if (texture.image != kNone) texture.image = opened->by_index[texture.image];
   const Result<std::vector<std::uint32_t>> joint_counts =
-      collect(decode(document, std::move(*encoded), executor), document, assets, info);
+      collect(decode(document, std::move(opened->images), executor), document, assets, info);
   if (!joint_counts) return joint_counts.error();
+  if (Status status = check_scene_totals(document, *nodes, *joint_counts, assets.meshes); !status)
+    return status.error();
   assets.materials = document.materials;
   assets.textures = std::move(*textures);
   assets.clips = std::move(*clips);

@@ -8,8 +8,6 @@
 #include <array>
 #include <climits>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <string>
@@ -17,6 +15,7 @@
 #include <vector>
 
 #include "engine/scene/png_rows.h"
+#include "engine/scene/scene_path.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -55,9 +54,16 @@ std::uint64_t png_bits_per_pixel(std::span<const std::uint8_t> file) {
 /// Whether the file is large enough for its stated size. Deflate shrinks to 1/1032 at best; a progressive JPEG spends
 /// 0.75 byte on 256 flat pixels.
 bool can_hold(std::span<const std::uint8_t> file, const ImageSize& size) {
-  const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
-  if (is_png(file)) return pixels * png_bits_per_pixel(file) / 8 <= 1040 * std::uint64_t{file.size()};
-  return pixels <= 400 * std::uint64_t{file.size()};
+  if (is_png(file)) return size.pixels() * png_bits_per_pixel(file) / 8 <= 1040 * std::uint64_t{file.size()};
+  return size.pixels() <= 400 * std::uint64_t{file.size()};
+}
+
+/// Upper bound of the scans of a JPEG: the markers that begin one. Inside a scan, 0xff is followed by 0 or by a marker.
+std::uint32_t count_scans(std::span<const std::uint8_t> file) {
+  constexpr std::uint8_t kStartOfScan = 0xda;
+  std::uint32_t scans = 0;
+  for (std::size_t i = 0; i + 1 < file.size(); ++i) scans += file[i] == 0xff && file[i + 1] == kStartOfScan ? 1 : 0;
+  return std::max(scans, 1u);
 }
 
 std::uint32_t big_endian_word(std::span<const std::uint8_t> file, std::size_t at) {
@@ -127,12 +133,16 @@ Result<ImageSize> image_size(std::span<const std::uint8_t> file) {
   if (stbi_info_from_memory(file.data(), static_cast<int>(file.size()), &width, &height, &channels) == 0 || width < 1 ||
       height < 1)
     return fault("is not an image that can be read (its header is damaged or over 16384 pixels a side)");
-  const ImageSize size{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+  const ImageSize size{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+                       is_jpeg(file) ? count_scans(file) : 1};
   if (size.width > kMaxImageSide || size.height > kMaxImageSide)
     return fault("is " + std::to_string(width) + "×" + std::to_string(height) + " pixels, more than 16384 a side");
   if (!can_hold(file, size))
     return fault("says it is " + std::to_string(width) + "×" + std::to_string(height) +
                  " pixels, more than its bytes can hold");
+  if (size.work() > decoding_work_limit(file.size()))
+    return fault("has " + std::to_string(size.scans) + " scans of " + std::to_string(width) + "×" +
+                 std::to_string(height) + " pixels, more work than its bytes justify");
   return size;
 }
 
@@ -156,10 +166,9 @@ Result<Image> decode_image(std::span<const std::uint8_t> file) {
 }
 
 Result<Image> read_image_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return fault("cannot be read");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return decode_image(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+  const Result<std::vector<std::uint8_t>> bytes = read_scene_file(path);
+  if (!bytes) return bytes.error();
+  return decode_image(*bytes);
 }
 
 }  // namespace gloam

@@ -68,7 +68,8 @@ Result<std::string> resolve_scene_path(const std::string& directory, std::string
   const bool scheme = path.find(':') < path.find_first_of("/\\");
   if (absolute || scheme || leaves_folder(path))
     return fault("the path " + in_quotes(path) + " leaves the scene's folder");
-  return directory.empty() ? path : directory + "/" + path;
+  const std::string normal = std::filesystem::path(path).lexically_normal().string();
+  return directory.empty() ? normal : directory + "/" + normal;
 }
 
 Result<std::vector<std::uint8_t>> read_scene_file(const std::string& path, std::uint64_t wanted_bytes) {

@@ -12,6 +12,7 @@
 namespace gloam {
 
 /// Path of a file that a scene names. `uri` is relative to the scene's folder `directory` and may be percent-encoded.
+/// Spellings that differ only in "." and ".." give the same path.
 /// Input error if it is empty, absolute, has a scheme, holds a zero byte or leaves the folder, encoded or not. The
 /// message holds only the fault, not the place.
 [[nodiscard]] Result<std::string> resolve_scene_path(const std::string& directory, std::string_view uri);

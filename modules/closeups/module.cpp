@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "engine/render/frame_builder.h"
+#include "engine/scene/components.h"
 #include "engine/scene/key_table.h"
 #include "modules/closeups/components.h"
 #include "modules/closeups/compose/frame.h"
@@ -22,12 +24,33 @@
 namespace gloam {
 namespace {
 
-Status check_light_names(World& world) {
+// Limit of a scene file: the pairs that may form, in reach or not. Each is tested in each frame.
+constexpr std::uint64_t kMaxPossiblePairs = std::uint64_t{1} << 20;
+
+std::uint64_t casting_light_count(const World& world) {
+  std::uint64_t count = 0;
+  world.view<const Light, Maybe<const ShadowCaster>>().each(
+      [&](const Light&, const ShadowCaster* caster) { count += caster == nullptr || caster->enabled ? 1 : 0; });
+  return count;
+}
+
+Status check_subjects(World& world) {
+  const std::uint64_t casting = casting_light_count(world);
+  std::uint64_t pairs = 0;
   Status status;
-  world.view<const CloseupSubject>().each([&](const CloseupSubject& subject) {
+  world.view<const CloseupSubject>().each([&](Entity entity, const CloseupSubject& subject) {
     const std::string& names = world.resource<SceneStrings>().text(subject.lights);
-    if (auto lights = resolve_light_names(world, names, "gloam.closeup.lights"); status.ok() && !lights.ok())
-      status = lights.error();
+    auto lights = resolve_light_names(world, names, "gloam.closeup.lights");
+    if (status.ok() && !lights.ok()) status = lights.error();
+    if (!status.ok() || !subject.enabled) return;
+    pairs += names.empty() ? casting : lights->size();
+    if (pairs <= kMaxPossiblePairs) return;
+    const auto* node = world.try_get<SourceNode>(entity);
+    status =
+        Error{ErrorKind::input, "node " + std::to_string(node == nullptr ? 0 : node->index) +
+                                    ": gloam.closeup: the subjects up to here and their lights form " +
+                                    std::to_string(pairs) + " pairs, at most " + std::to_string(kMaxPossiblePairs) +
+                                    " are read; name fewer lights in gloam.closeup.lights"};
   });
   return status;
 }
@@ -40,13 +63,6 @@ struct CloseupWorld {
 bool has_subjects(const World& world) {
   bool found = false;
   world.view<const CloseupSubject>().each([&](const CloseupSubject& subject) { found = found || subject.enabled; });
-  return found;
-}
-
-bool has_casting_light(const World& world) {
-  bool found = false;
-  world.view<const Light, Maybe<const ShadowCaster>>().each(
-      [&](const Light&, const ShadowCaster* caster) { found = found || caster == nullptr || caster->enabled; });
   return found;
 }
 
@@ -80,7 +96,7 @@ class CloseupsModule final : public Module {
     registry.add(number_key(key_line("closeups", KeyElement::node, "gloam.closeup.priority", "1", "",
                                      "pairs of subjects with higher priority get close-up maps first"),
                             -1e6, 1e6, &CloseupSubject::priority));
-    registry.add_finish("closeups", &check_light_names);
+    registry.add_finish("closeups", &check_subjects);
   }
   /// For a view: needed if a pair touches it, even if no pair gets a map (counter closeups.skipped).
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
@@ -88,7 +104,7 @@ class CloseupsModule final : public Module {
     world.view<const CloseupSubject>().each([&](const CloseupSubject& s) { subjects += s.enabled ? 1 : 0; });
     if (subjects == 0) return {false, "no close-up subject"};
     const std::string words = std::to_string(subjects) + (subjects == 1 ? " close-up subject" : " close-up subjects");
-    if (!has_casting_light(world)) return {false, words + ", but no light casts shadows"};
+    if (casting_light_count(world) == 0) return {false, words + ", but no light casts shadows"};
     if (view == nullptr) return {true, words};
     // Captures share standard maps, so subjects stay in them.
     if (view->purpose == ViewPurpose::capture) return {false, "captures have no close-ups"};

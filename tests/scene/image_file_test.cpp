@@ -94,6 +94,16 @@ TEST(ImageFile, gigantic_sizes_are_refused_before_any_memory_is_taken) {
   EXPECT_FALSE(image_size(png).ok());
 }
 
+TEST(ImageFile, a_progressive_jpeg_of_thousands_of_scans_is_refused) {
+  Bytes jpeg = {0xff, 0xd8, 0xff, 0xc2, 0, 17, 8, 4, 0, 4, 0, 3, 1, 0x11, 0, 2, 0x11, 0, 3, 0x11, 0};  // 1024×1024
+  jpeg.resize(jpeg.size() + 4096);
+  const Result<ImageSize> size = image_size(jpeg);
+  ASSERT_TRUE(size.ok()) << size.error().message;
+  EXPECT_EQ(size->work(), 1024u * 1024u);
+  for (int scan = 0; scan < 2000; ++scan) jpeg.insert(jpeg.end(), {0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0, 0x55});
+  EXPECT_EQ(decode_image(jpeg).error().message, "has 2000 scans of 1024×1024 pixels, more work than its bytes justify");
+}
+
 TEST(PngRows, an_unknown_filter_is_refused) {
   Bytes rows(2 * (3 * 2 + 1) + kPngRowPadding);
   Bytes rgba(2 * 2 * 4);

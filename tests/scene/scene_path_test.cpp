@@ -15,7 +15,8 @@ TEST(ScenePath, stays_below_the_scenes_folder) {
   EXPECT_EQ(*resolve_scene_path("dir", "textures/wall.png"), "dir/textures/wall.png");
   EXPECT_EQ(*resolve_scene_path("", "a.bin"), "a.bin");
   EXPECT_EQ(*resolve_scene_path("dir", "a%20b+c.bin"), "dir/a b+c.bin");
-  EXPECT_EQ(*resolve_scene_path("dir", "a/../b.bin"), "dir/a/../b.bin");
+  EXPECT_EQ(*resolve_scene_path("dir", "a/../b.bin"), "dir/b.bin");
+  EXPECT_EQ(*resolve_scene_path("dir", "./././b.bin"), "dir/b.bin");
   EXPECT_EQ(*resolve_scene_path("dir", "100%.bin"), "dir/100%.bin");
 }
 

@@ -3,6 +3,8 @@
 #include "engine/render/scene/gpu_scene.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "engine/render/scene/caster_bounds.h"
 #include "engine/render/scene/closed_surface.h"
@@ -76,11 +78,12 @@ struct GpuScene::Streams {
 void GpuScene::release() {
   for (const GpuMaterial& material : materials_)
     if (material.set) device_.destroy(material.set);
-  for (const gpu::ImageHandle texture : textures_) device_.destroy(texture);
+  for (const gpu::ImageHandle image : images_) device_.destroy(image);
   for (const gpu::BufferHandle buffer : buffers_)
     if (buffer) device_.destroy(buffer);
   if (material_constants_) device_.destroy(material_constants_);
   materials_.clear();
+  images_.clear();
   textures_.clear();
   meshes_.clear();
   buffers_ = {};
@@ -150,9 +153,15 @@ Status GpuScene::upload_meshes(const SceneAssets& assets, JobExecutor& executor,
 }
 
 Status GpuScene::upload_textures(const SceneAssets& assets, Uploader& uploader) {
+  std::map<std::pair<std::uint32_t, bool>, gpu::ImageHandle> uploaded;  // by image and Texture::srgb
   for (const Texture& texture : assets.textures) {
     if (texture.image == kNone) {
       GLOAM_TRY(add_white_texel(uploader));
+      continue;
+    }
+    gpu::ImageHandle& shared = uploaded[{texture.image, texture.srgb}];
+    if (shared) {
+      textures_.push_back(shared);
       continue;
     }
     const Image& image = assets.images[texture.image];
@@ -164,6 +173,8 @@ Status GpuScene::upload_textures(const SceneAssets& assets, Uploader& uploader) 
     desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
     auto made = device_.create_image(desc);
     if (!made.ok()) return made.error();
+    shared = *made;
+    images_.push_back(*made);
     textures_.push_back(*made);
     uploader.image(
         *made,
@@ -180,6 +191,7 @@ Status GpuScene::add_white_texel(Uploader& uploader) {
   desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
   auto image = device_.create_image(desc);
   if (!image.ok()) return image.error();
+  images_.push_back(*image);
   textures_.push_back(*image);
   uploader.image(*image, std::vector<std::byte>(4, std::byte{255}), gpu::Access::fragment_read);
   return {};

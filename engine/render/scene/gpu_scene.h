@@ -104,7 +104,8 @@ class GpuScene {
   std::vector<GpuMaterial> materials_;
   std::array<gpu::BufferHandle, 6> buffers_{};
   gpu::BufferHandle material_constants_;
-  std::vector<gpu::ImageHandle> textures_;  ///< by texture index; the last one is a white texel
+  std::vector<gpu::ImageHandle> images_;
+  std::vector<gpu::ImageHandle> textures_;  ///< of images_, by texture index; the last one is a white texel
 };
 
 }  // namespace gloam

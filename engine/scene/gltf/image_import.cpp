@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/gltf/image_import.h"
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
+#include <iterator>
+#include <map>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "engine/scene/gltf/place.h"
@@ -13,8 +18,11 @@
 namespace gloam::gltf {
 namespace {
 
-// Limit for all decoded images of a scene.
+// Limits for all decoded images of a scene: kFreeImageBytes, plus kImageBytesPerByte for each byte of their files, but
+// at most kMaxImageBytes. A flat image of any size has hardly any bytes, so some must be free.
 constexpr std::uint64_t kMaxImageBytes = std::uint64_t{8} << 30;
+constexpr std::uint64_t kFreeImageBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kImageBytesPerByte = 256;
 
 std::span<const std::uint8_t> bytes_of(const Document& document, const EncodedImage& encoded) {
   if (encoded.view == kNone) return encoded.file;
@@ -22,27 +30,90 @@ std::span<const std::uint8_t> bytes_of(const Document& document, const EncodedIm
   return std::span(document.buffers[view.buffer]).subspan(view.offset, view.length);
 }
 
-Result<EncodedImage> open_image(ImageSource& source, const std::string& directory) {
-  EncodedImage encoded;
-  encoded.view = source.view;
-  if (source.view != kNone) return encoded;
-  encoded.file = std::move(source.bytes);
-  if (!encoded.file.empty()) return encoded;
-  if (source.uri.empty()) return Error{ErrorKind::input, "it has neither a uri nor a bufferView"};
-  if (source.uri.starts_with("data:"))
-    return Error{ErrorKind::input, "its data URI is not image/png or image/jpeg in base64"};
-  const Result<std::string> path = resolve_scene_path(directory, source.uri);
-  if (!path) return path.error();
-  Result<std::vector<std::uint8_t>> file = read_scene_file(*path);
-  if (!file) return file.error();
-  encoded.file = std::move(*file);
-  return encoded;
-}
-
 std::string image_place(const Document& document, std::size_t index) {
   const ImageSource& image = document.images[index];
   return place("image", index, image.uri.empty() || image.uri.starts_with("data:") ? image.name : image.uri);
 }
+
+Error image_fault(std::string sentence) { return {ErrorKind::input, std::move(sentence)}; }
+
+/// Opens images one by one. An image whose bytes are already open is not opened again: a file is known by its canonical
+/// path, a range of a buffer by its place.
+class ImageOpener {
+ public:
+  ImageOpener(Document& document, const std::string& directory) : document_(document), directory_(directory) {}
+
+  Status open(std::uint32_t index) {
+    ImageSource& source = document_.images[index];
+    if (source.view != kNone) return open_view(index, source.view);
+    if (!source.bytes.empty()) return add({.file = std::move(source.bytes), .index = index});
+    if (source.uri.empty()) return image_fault("it has neither a uri nor a bufferView");
+    if (source.uri.starts_with("data:")) return image_fault("its data URI is not image/png or image/jpeg in base64");
+    return open_file(index, source.uri);
+  }
+
+  [[nodiscard]] OpenedImages& opened() { return opened_; }
+
+ private:
+  Status open_view(std::uint32_t index, std::uint32_t view_index) {
+    const BufferView& view = document_.views[view_index];
+    const auto [known, added] = ranges_.try_emplace({view.buffer, view.offset}, view.length, next());
+    if (!added && known->second.first == view.length) return repeat(known->second.second);
+    const auto touches = [](const auto& low, const auto& high) {
+      return low.first.first == high.first.first && low.first.second + low.second.first > high.first.second;
+    };
+    const bool overlaps = !added || (known != ranges_.begin() && touches(*std::prev(known), *known)) ||
+                          (std::next(known) != ranges_.end() && touches(*known, *std::next(known)));
+    if (overlaps) return image_fault("its buffer view overlaps that of another image");
+    return add({.view = view_index, .index = index});
+  }
+
+  Status open_file(std::uint32_t index, const std::string& uri) {
+    const Result<std::string> path = resolve_scene_path(directory_, uri);
+    if (!path) return path.error();
+    std::error_code code;
+    const std::filesystem::path canonical = std::filesystem::canonical(*path, code);
+    const auto [known, added] = files_.try_emplace(code ? *path : canonical.string(), next());
+    if (!added) return repeat(known->second);
+    Result<std::vector<std::uint8_t>> file = read_scene_file(*path);
+    if (!file) return file.error();
+    return add({.file = std::move(*file), .index = index});
+  }
+
+  [[nodiscard]] std::uint32_t next() const { return static_cast<std::uint32_t>(opened_.images.size()); }
+
+  Status repeat(std::uint32_t image) {
+    opened_.by_index.push_back(image);
+    return {};
+  }
+
+  Status add(EncodedImage image) {
+    const std::span<const std::uint8_t> bytes = bytes_of(document_, image);
+    const Result<ImageSize> size = image_size(bytes);
+    if (!size) return size.error();
+    image.pixels = size->pixels();
+    encoded_bytes_ += bytes.size();
+    decoded_bytes_ += size->pixels() * 4;
+    work_ += size->work();
+    const std::uint64_t most = kFreeImageBytes + kImageBytesPerByte * encoded_bytes_;
+    if (decoded_bytes_ > std::min(most, kMaxImageBytes) || work_ > decoding_work_limit(encoded_bytes_))
+      return image_fault("the scene's images up to here have " + std::to_string(decoded_bytes_ / 4) +
+                         " pixels, more than their " + std::to_string(encoded_bytes_) + " bytes justify");
+    opened_.by_index.push_back(next());
+    opened_.images.push_back(std::move(image));
+    return {};
+  }
+
+  Document& document_;
+  const std::string& directory_;
+  OpenedImages opened_;
+  std::map<std::string, std::uint32_t> files_;  ///< image of each canonical path
+  /// Length and image of each range, by buffer and offset.
+  std::map<std::pair<std::uint32_t, std::uint64_t>, std::pair<std::uint64_t, std::uint32_t>> ranges_;
+  std::uint64_t encoded_bytes_ = 0;
+  std::uint64_t decoded_bytes_ = 0;
+  std::uint64_t work_ = 0;
+};
 
 Result<WrapMode> wrap_mode(int value) {
   switch (value) {
@@ -85,27 +156,18 @@ class SlotResolver {
 
 }  // namespace
 
-Result<std::vector<EncodedImage>> open_images(Document& document, const std::string& directory) {
-  std::vector<EncodedImage> images;
-  std::uint64_t total = 0;
-  for (std::size_t i = 0; i < document.images.size(); ++i) {
-    Result<EncodedImage> opened = open_image(document.images[i], directory);
-    if (!opened) return fault_at(image_place(document, i), opened.error().message);
-    const Result<ImageSize> size = image_size(bytes_of(document, *opened));
-    if (!size) return fault_at(image_place(document, i), size.error().message);
-    opened->pixels = std::uint64_t{size->width} * size->height;
-    total += opened->pixels * 4;
-    if (total > kMaxImageBytes)
-      return fault_at(image_place(document, i), "the scene's images take more than 8 GiB up to here");
-    images.push_back(std::move(*opened));
-  }
-  return images;
+Result<OpenedImages> open_images(Document& document, const std::string& directory) {
+  ImageOpener opener(document, directory);
+  for (std::uint32_t i = 0; i < document.images.size(); ++i)
+    if (const Status status = opener.open(i); !status)
+      return fault_at(image_place(document, i), status.error().message);
+  return std::move(opener.opened());
 }
 
-Result<Image> import_image(const Document& document, const EncodedImage& encoded, std::size_t index) {
+Result<Image> import_image(const Document& document, const EncodedImage& encoded) {
   Result<Image> image = decode_image(bytes_of(document, encoded));
-  if (!image) return fault_at(image_place(document, index), image.error().message);
-  const ImageSource& source = document.images[index];
+  if (!image) return fault_at(image_place(document, encoded.index), image.error().message);
+  const ImageSource& source = document.images[encoded.index];
   image->name = source.name.empty() ? source.uri : source.name;
   return image;
 }

@@ -165,6 +165,59 @@ TEST(ImageImport, images_come_from_text_from_the_buffer_and_from_files) {
               ElementsAre(0, 0, 255, 255));
 }
 
+TEST(ImageImport, bytes_that_several_images_name_are_decoded_once) {
+  const test::TemporaryFolder folder;
+  folder.write("a.png", test::make_png(1, 1, kBlue));
+  GltfText gltf;
+  const std::string view = std::to_string(gltf.view_of(test::make_png(2, 1, kRed)));
+  for (const char* uri : {"a.png", "./a.png", "%61.png"}) gltf.add("images", R"({"uri": ")" + std::string(uri) + "\"}");
+  for (int i = 0; i < 2; ++i) gltf.add("images", R"({"mimeType": "image/png", "bufferView": )" + view + "}");
+  for (int i = 0; i < 5; ++i) gltf.add("textures", R"({"source": )" + std::to_string(i) + "}");
+  Import import;
+  test::import_file(folder.write("scene.gltf", gltf.text()), import);
+  ASSERT_EQ(import.fault(), "");
+  const SceneAssets& assets = import.world.resource<SceneAssets>();
+  EXPECT_EQ(assets.images.size(), 2u);
+  std::vector<std::uint32_t> images;
+  for (const Texture& texture : assets.textures) images.push_back(texture.image);
+  EXPECT_THAT(images, ElementsAre(0, 0, 0, 1, 1));
+}
+
+/// The header of a PNG of 16384×16384 pixels of one bit, and as many bytes as could hold them.
+std::vector<std::uint8_t> png_bomb() {
+  std::vector<std::uint8_t> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D',
+                                   'R',  0,   0,   64,  0,    0,    0,    64,   0, 1, 0, 0,  0,   0};
+  png.resize(33000);
+  return png;
+}
+
+TEST(ImageImport, images_larger_than_their_files_justify_are_refused_before_any_is_decoded) {
+  GltfText gltf;
+  for (int i = 0; i < 3; ++i)
+    gltf.add("images", R"({"mimeType": "image/png", "bufferView": )" + std::to_string(gltf.view_of(png_bomb())) + "}");
+  Import import;
+  test::import_text(gltf.text(), import);
+  EXPECT_EQ(import.fault(),
+            "scene.gltf: image 1: the scene's images up to here have 536870912 pixels, more than their 66000 bytes "
+            "justify");
+}
+
+TEST(ImageImport, images_in_overlapping_ranges_of_a_buffer_are_refused) {
+  GltfText gltf;
+  const auto png = test::make_png(2, 1, kRed);
+  gltf.view_of(png);
+  const auto image = [&gltf](std::size_t offset, std::size_t length) {
+    const int view = gltf.add("bufferViews", R"({"buffer": 0, "byteOffset": )" + std::to_string(offset) +
+                                                 R"(, "byteLength": )" + std::to_string(length) + "}");
+    gltf.add("images", R"({"mimeType": "image/png", "bufferView": )" + std::to_string(view) + "}");
+  };
+  image(0, png.size());
+  image(0, png.size() - 1);
+  Import import;
+  test::import_text(gltf.text(), import);
+  EXPECT_EQ(import.fault(), "scene.gltf: image 1: its buffer view overlaps that of another image");
+}
+
 TEST(MeshImport, tangents_are_made_exactly_where_a_normal_texture_is_used) {
   GltfText gltf;
   gltf.add("images", data_uri("image/png", test::make_png(1, 1, kRed)));
