@@ -11,9 +11,11 @@
 
 #include "engine/scene/assets.h"
 #include "engine/scene/gltf/animation_import.h"
+#include "engine/scene/gltf/compressed_views.h"
 #include "engine/scene/gltf/container.h"
 #include "engine/scene/gltf/document_check.h"
 #include "engine/scene/gltf/image_import.h"
+#include "engine/scene/gltf/instancing.h"
 #include "engine/scene/gltf/json_scan.h"
 #include "engine/scene/gltf/key_import.h"
 #include "engine/scene/gltf/mesh_import.h"
@@ -55,8 +57,10 @@ Result<OpenScene> open_scene(const std::string& path, const std::string& directo
   if (!document) return fault_at(name, document.error().message);
   document->warnings.insert(document->warnings.begin(), warnings.begin(), warnings.end());
   const auto check = [&]() -> Status {
+    GLOAM_TRY(decompress_views(*document, file->bytes.size()));
     GLOAM_TRY(check_document(*document, file->bytes.size()));
     GLOAM_TRY(check_node_tree(*document));
+    GLOAM_TRY(expand_instances(*document));
     return resolve_poses(*document);
   };
   if (Status status = check(); !status) return fault_at(name, status.error().message);

@@ -22,7 +22,7 @@ struct ImportOptions {
 struct SceneInfo {
   std::string path;
   std::string name;
-  std::vector<Entity> node_entities;   ///< indexed by glTF node; kNoEntity for nodes outside the chosen scene
+  std::vector<Entity> node_entities;   ///< by glTF node, then instances; kNoEntity outside the chosen scene
   std::vector<Entity> cameras;         ///< in order of their glTF node index
   std::uint64_t triangles = 0;         ///< of all mesh nodes of the scene
   std::uint64_t replaced_normals = 0;  ///< normals of zero length, computed from the faces around them

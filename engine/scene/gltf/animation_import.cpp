@@ -31,7 +31,8 @@ Interpolation interpolation_of(std::string_view text) {
 }
 
 std::uint32_t target_count(const Document& document, std::uint32_t node) {
-  const std::uint32_t mesh = document.nodes[node].mesh;
+  const NodeSource& source = document.nodes[node];
+  const std::uint32_t mesh = source.mesh == kNone ? source.instanced_mesh : source.mesh;
   if (mesh == kNone || document.meshes[mesh].primitives.empty()) return 0;
   return static_cast<std::uint32_t>(document.meshes[mesh].primitives[0].targets.size());
 }

@@ -33,6 +33,7 @@ Status read_chunks(Container& file) {
   if (length > bytes.size())
     return fault("is cut short: its header says " + std::to_string(length) + " bytes, there are " +
                  std::to_string(bytes.size()));
+  file.length = length;
   file.json_offset = kHeaderSize + kChunkHeaderSize;
   file.json_size = word(bytes, kHeaderSize);
   const std::uint64_t json_end = file.json_offset + file.json_size;
@@ -56,7 +57,7 @@ Result<Container> open_container(std::vector<std::uint8_t> bytes) {
   if (file.bytes.size() >= std::numeric_limits<std::uint32_t>::max()) return fault("is larger than 4 GiB");
   if (file.bytes.empty()) return fault("is empty");
   file.binary = file.bytes.size() >= 4 && word(file.bytes, 0) == kMagic;
-  file.json_size = file.bytes.size();
+  file.json_size = file.length = file.bytes.size();
   if (file.binary) GLOAM_TRY(read_chunks(file));
   return file;
 }

@@ -19,6 +19,7 @@ struct Container {
   bool has_binary_chunk = false;
   std::size_t json_offset = 0;
   std::size_t json_size = 0;
+  std::size_t length = 0;  ///< bytes that belong to the file; a .glb may have more behind them
 
   [[nodiscard]] std::string_view json() const {
     return {reinterpret_cast<const char*>(bytes.data()) + json_offset, json_size};

@@ -16,11 +16,26 @@
 /// check_document has succeeded.
 namespace gloam::gltf {
 
+/// Compressed content of a buffer view (EXT_meshopt_compression).
+struct CompressedSource {
+  enum class Mode : std::uint8_t { attributes, triangles, indices };
+  enum class Filter : std::uint8_t { none, octahedral, quaternion, exponential };
+
+  std::uint32_t buffer = kNone;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;
+  std::uint64_t stride = 0;  ///< bytes of a decoded element
+  std::uint64_t count = 0;
+  Mode mode = Mode::attributes;
+  Filter filter = Filter::none;
+};
+
 struct BufferView {
   std::uint32_t buffer = kNone;
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
   std::uint64_t stride = 0;  ///< bytes; 0: packed
+  std::optional<CompressedSource> compressed;
 };
 
 /// Values of glTF's componentType.
@@ -125,6 +140,13 @@ struct CameraSource {
   double zfar = 0.0;
 };
 
+/// Accessors of the poses of a node's instances (EXT_mesh_gpu_instancing).
+struct InstancingSource {
+  std::uint32_t translation = kNone;
+  std::uint32_t rotation = kNone;
+  std::uint32_t scale = kNone;
+};
+
 struct NodeSource {
   std::string name;
   std::vector<std::uint32_t> children;
@@ -135,6 +157,11 @@ struct NodeSource {
   LocalTransform pose;
   std::vector<double> weights;
   std::uint32_t parent = kNone;  ///< filled by check_node_tree
+  std::optional<InstancingSource> instancing;
+  // Filled by expand_instances:
+  std::uint32_t instanced_mesh = kNone;  ///< mesh of the node's instances, if it has any
+  std::uint32_t first_instance = 0;      ///< index of the first instance's node
+  std::uint32_t instance_count = 0;
 };
 
 struct SceneSource {
@@ -143,7 +170,8 @@ struct SceneSource {
 };
 
 struct Document {
-  std::vector<std::vector<std::uint8_t>> buffers;
+  std::vector<std::vector<std::uint8_t>> buffers;  ///< those of the file, then decompressed ones
+  std::size_t file_buffers = 0;                    ///< number of buffers of the file
   std::vector<BufferView> views;
   std::vector<Accessor> accessors;
   std::vector<MeshSource> meshes;

@@ -210,10 +210,16 @@ std::uint64_t component_size(ComponentType type) {
   return 0;
 }
 
+std::uint64_t bytes_read(const Document& document, std::uint64_t file_bytes) {
+  for (std::size_t i = 0; i < document.file_buffers; ++i) file_bytes += document.buffers[i].size();
+  return file_bytes;
+}
+
+std::uint64_t import_budget(std::uint64_t bytes_read) { return kFreeBytes + kBytesPerByte * bytes_read; }
+
 Status check_document(const Document& document, std::uint64_t file_bytes) {
-  Budget budget{.file_bytes = file_bytes};
-  for (const std::vector<std::uint8_t>& buffer : document.buffers) budget.file_bytes += buffer.size();
-  budget.left = kFreeBytes + kBytesPerByte * budget.file_bytes;
+  Budget budget{.file_bytes = bytes_read(document, file_bytes)};
+  budget.left = import_budget(budget.file_bytes);
   for (std::size_t i = 0; i < document.views.size(); ++i) GLOAM_TRY(check_view(document, i));
   for (std::size_t i = 0; i < document.accessors.size(); ++i) GLOAM_TRY(check_accessor(document, i));
   for (std::size_t i = 0; i < document.meshes.size(); ++i) GLOAM_TRY(check_mesh(document, i, budget));

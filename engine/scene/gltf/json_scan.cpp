@@ -272,6 +272,8 @@ void Scanner::take(const SceneValue& value) {
     return;
   }
   if (top.type == "asset" && top.member == "version") scan_.version = value.text;
+  if (top.type == "compressed buffer" && top.member == "fallback" && value.boolean && !scan_.buffers.empty())
+    scan_.buffers.back().fallback = true;
   const bool buffer = top.type == "buffer";
   if (frames_.size() != 3 || (!buffer && top.type != "image")) return;
   ByteSource& source = (buffer ? scan_.buffers : scan_.images).back();

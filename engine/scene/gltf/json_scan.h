@@ -23,6 +23,7 @@ struct ByteSource {
   std::string uri;  ///< empty: none; a data URI is cut to its first 64 characters
   std::uint64_t byte_length = 0;
   bool data_uri = false;
+  bool fallback = false;  ///< buffer of decompressed views (EXT_meshopt_compression), whose content is not needed
 };
 
 /// A "gloam." key in the extras of an element that takes no keys.

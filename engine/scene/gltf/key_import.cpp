@@ -12,7 +12,9 @@
 namespace gloam::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 2> kOwnExtensions = {"KHR_texture_transform", "KHR_materials_emissive_strength"};
+constexpr std::array<std::string_view, 7> kOwnExtensions = {
+    "KHR_texture_transform", "KHR_mesh_quantization",   "KHR_materials_emissive_strength", "KHR_materials_transmission",
+    "KHR_materials_unlit",   "EXT_meshopt_compression", "EXT_mesh_gpu_instancing"};
 constexpr std::string_view kKeyPrefix = "gloam.";
 
 bool is_supported(const KeyRegistry& registry, std::string_view name) {
@@ -53,6 +55,8 @@ struct Element {
   bool has_mesh = false;
   bool has_camera = false;
   KeyElement kind = KeyElement::node;  ///< material or scene, if it is not a node
+  /// Entities that draw the node's mesh, if it has instances (EXT_mesh_gpu_instancing).
+  std::span<const Entity> instances = {};
 };
 
 class KeyImporter {
@@ -71,13 +75,24 @@ class KeyImporter {
       const Result<KeyValue> converted = KeyRegistry::convert(*key, value);
       if (!converted) return fault_at(element.place, name + " " + converted.error().message);
       if (!set || !key->set) continue;
-      if (const Status status = key->set(target, *converted); !status)
+      if (const Status status = set_key(*key, element, target, *converted); !status)
         return fault_at(element.place, name + " " + status.error().message);
     }
     return {};
   }
 
  private:
+  /// Sets the key of a mesh on every instance of the mesh.
+  static Status set_key(const SceneKey& key, const Element& element, KeyTarget& target, const KeyValue& value) {
+    if (key.on != KeyElement::mesh_node || element.instances.empty()) return key.set(target, value);
+    for (const Entity instance : element.instances) {
+      KeyTarget instance_target = target;
+      instance_target.entity = instance;
+      GLOAM_TRY(key.set(instance_target, value));
+    }
+    return {};
+  }
+
   bool stands_on(const SceneKey& key, const Element& element, Entity entity) const {
     switch (key.on) {
       case KeyElement::node:
@@ -157,8 +172,13 @@ Status import_keys(const JsonScan& scan, const Document& document, std::uint32_t
     const std::string where = place("node", i, node.name);
     if (entities[i] != kNoEntity)
       GLOAM_TRY(import_node_extensions(member_of(scan.nodes, i, &Attachments::extensions), where, registry, target));
-    const Element element{where, member_of(scan.nodes, i, &Attachments::extras), true, node.mesh != kNone,
-                          node.camera != kNone};
+    const Element element{where,
+                          member_of(scan.nodes, i, &Attachments::extras),
+                          true,
+                          node.mesh != kNone || node.instanced_mesh != kNone,
+                          node.camera != kNone,
+                          KeyElement::node,
+                          entities.subspan(node.first_instance, node.instance_count)};
     GLOAM_TRY(importer.import(element, target, entities[i] != kNoEntity));
   }
   for (std::size_t i = 0; i < document.materials.size(); ++i) {

@@ -62,7 +62,9 @@ class NodeImporter {
                                    ": its mesh has no joints, its skin moves nothing");
     }
     world_.add(entity, instance);
-    if (const std::string& name = name_or(node, mesh.name); !name.empty())
+    const bool unnamed = node.parent != kNone && document_.nodes[node.parent].instance_count > 0 &&
+                         index >= document_.nodes[node.parent].first_instance;
+    if (const std::string& name = name_or(node, mesh.name); !name.empty() && !unnamed)
       world_.resource<SceneNames>().add("mesh", name, entity);
     add_morphs(node, mesh, entity);
     return {};

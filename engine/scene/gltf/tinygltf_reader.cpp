@@ -5,10 +5,12 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
+#include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 
+#include "engine/scene/gltf/material_read.h"
 #include "engine/scene/gltf/place.h"
 #include "engine/scene/scene_path.h"
 
@@ -42,7 +44,7 @@ bool read_file(std::vector<unsigned char>* out, std::string*, const std::string&
   auto& requests = *static_cast<FileRequests*>(user);
   const std::vector<ByteSource>& buffers = requests.scan.buffers;
   std::size_t& i = requests.buffer;
-  while (i < buffers.size() && (buffers[i].uri.empty() || buffers[i].data_uri)) ++i;
+  while (i < buffers.size() && (buffers[i].uri.empty() || buffers[i].data_uri || buffers[i].fallback)) ++i;
   if (i >= buffers.size()) {
     out->assign(1, 0);  // an image: its file is read later, when it is decoded
     return true;
@@ -73,6 +75,7 @@ bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, in
 Status check_byte_sources(const JsonScan& scan, const Container& file) {
   for (std::size_t i = 0; i < scan.buffers.size(); ++i) {
     const ByteSource& source = scan.buffers[i];
+    if (source.fallback) continue;
     if (source.byte_length == 0) return fault_at(place("buffer", i), "byteLength must be ≥ 1");
     if (source.uri.empty() && !(file.binary && i == 0 && file.has_binary_chunk))
       return fault_at(place("buffer", i), "it has no uri, and there is no binary chunk for it");
@@ -80,6 +83,42 @@ Status check_byte_sources(const JsonScan& scan, const Container& file) {
       return fault_at(place("buffer", i), "its data URI must be application/octet-stream in base64");
   }
   return {};
+}
+
+/// A copy of the file in which fallback buffers hold one byte. Their content is never read, and tinygltf wants a uri.
+Container without_fallbacks(const Container& file, const JsonScan& scan) {
+  nlohmann::json root = nlohmann::json::parse(file.json());
+  for (std::size_t i = 0; i < scan.buffers.size(); ++i)
+    if (scan.buffers[i].fallback)
+      root["buffers"][i] = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
+  const std::string text = root.dump();
+  std::vector<std::uint8_t> bytes;
+  if (!file.binary) {
+    bytes.assign(text.begin(), text.end());
+  } else {
+    const auto put_word = [&bytes](std::uint64_t value) {
+      for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+    };
+    const std::size_t end = file.json_offset + file.json_size;
+    const std::span<const std::uint8_t> chunks = std::span(file.bytes).first(file.length).subspan(end);
+    const std::uint64_t json_size = (text.size() + 3) / 4 * 4;
+    const std::uint64_t json_offset = file.json_offset;
+    bytes.assign(file.bytes.begin(), file.bytes.begin() + 8);
+    put_word(json_offset + json_size + chunks.size());
+    put_word(json_size);
+    bytes.insert(bytes.end(), file.bytes.begin() + 16, file.bytes.begin() + 20);
+    bytes.insert(bytes.end(), text.begin(), text.end());
+    bytes.resize(json_offset + json_size, ' ');
+    bytes.insert(bytes.end(), chunks.begin(), chunks.end());
+  }
+  Container copy;
+  copy.binary = file.binary;
+  copy.has_binary_chunk = file.has_binary_chunk;
+  copy.json_offset = file.json_offset;
+  copy.json_size = text.size();
+  copy.length = bytes.size();
+  copy.bytes = std::move(bytes);
+  return copy;
 }
 
 Result<tinygltf::Model> load_model(const Container& file, const JsonScan& scan, const std::string& directory) {
@@ -124,6 +163,41 @@ std::uint32_t component_count(int type) {
     default:
       return 0;
   }
+}
+
+std::uint64_t size_at(const tinygltf::Value& object, const char* name) {
+  return object.Has(name) ? static_cast<std::uint64_t>(object.Get(name).GetNumberAsDouble()) : 0;
+}
+
+std::string text_at(const tinygltf::Value& object, const char* name) {
+  return object.Has(name) ? object.Get(name).Get<std::string>() : std::string();
+}
+
+/// The scan has checked types and words.
+CompressedSource translate_compressed(const tinygltf::Value& source) {
+  using Mode = CompressedSource::Mode;
+  using Filter = CompressedSource::Filter;
+  CompressedSource compressed;
+  compressed.buffer = index_of(source.Get("buffer").GetNumberAsInt());
+  compressed.offset = size_at(source, "byteOffset");
+  compressed.length = size_at(source, "byteLength");
+  compressed.stride = size_at(source, "byteStride");
+  compressed.count = size_at(source, "count");
+  const std::string mode = text_at(source, "mode");
+  const std::string filter = text_at(source, "filter");
+  compressed.mode = mode == "TRIANGLES" ? Mode::triangles : mode == "INDICES" ? Mode::indices : Mode::attributes;
+  compressed.filter = filter == "OCTAHEDRAL"    ? Filter::octahedral
+                      : filter == "QUATERNION"  ? Filter::quaternion
+                      : filter == "EXPONENTIAL" ? Filter::exponential
+                                                : Filter::none;
+  return compressed;
+}
+
+BufferView translate(const tinygltf::BufferView& source) {
+  BufferView view{index_of(source.buffer), source.byteOffset, source.byteLength, source.byteStride, {}};
+  if (const auto found = source.extensions.find("EXT_meshopt_compression"); found != source.extensions.end())
+    view.compressed = translate_compressed(found->second);
+  return view;
 }
 
 Accessor translate(const tinygltf::Accessor& source) {
@@ -179,74 +253,7 @@ MeshSource translate(const tinygltf::Mesh& source) {
   return mesh;
 }
 
-// ---- materials ----
-
-/// Number i of a list in an extension. The scan has checked the size of the list.
-double number_at(const tinygltf::Value& list, int i) { return list.Get(i).GetNumberAsDouble(); }
-
-TextureSlot translate_slot(int index, int uv_set, const tinygltf::ExtensionMap& extensions) {
-  TextureSlot slot;
-  slot.texture = index_of(index);
-  slot.uv_set = index_of(uv_set);
-  const auto found = extensions.find("KHR_texture_transform");
-  if (found == extensions.end()) return slot;
-  const tinygltf::Value& transform = found->second;
-  double offset[2] = {0.0, 0.0};
-  double scale[2] = {1.0, 1.0};
-  double rotation = 0.0;
-  for (int i = 0; i < 2; ++i) {
-    if (transform.Has("offset")) offset[i] = number_at(transform.Get("offset"), i);
-    if (transform.Has("scale")) scale[i] = number_at(transform.Get("scale"), i);
-  }
-  if (transform.Has("rotation")) rotation = transform.Get("rotation").GetNumberAsDouble();
-  if (transform.Has("texCoord")) slot.uv_set = index_of(transform.Get("texCoord").GetNumberAsInt());
-  // KHR_texture_transform: translation · rotation · scale, rotation counter-clockwise with v pointing down.
-  const double c = std::cos(rotation);
-  const double s = std::sin(rotation);
-  slot.transform_row0 = vec3(c * scale[0], s * scale[1], offset[0]);
-  slot.transform_row1 = vec3(-s * scale[0], c * scale[1], offset[1]);
-  return slot;
-}
-
-template <class Info>
-TextureSlot translate_slot(const Info& info) {
-  return translate_slot(info.index, info.texCoord, info.extensions);
-}
-
-float unit_number(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
-
-Result<Material> translate(const tinygltf::Material& source) {
-  const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-  Material material;
-  material.name = source.name;
-  for (int i = 0; i < 4; ++i) material.base_color[i] = unit_number(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
-  double strength = 1.0;
-  if (const auto found = source.extensions.find("KHR_materials_emissive_strength");
-      found != source.extensions.end() && found->second.Has("emissiveStrength"))
-    strength = std::max(found->second.Get("emissiveStrength").GetNumberAsDouble(), 0.0);
-  for (int i = 0; i < 3; ++i)
-    material.emissive[i] =
-        static_cast<float>(unit_number(source.emissiveFactor[static_cast<std::size_t>(i)]) * strength);
-  material.metallic = unit_number(pbr.metallicFactor);
-  material.roughness = unit_number(pbr.roughnessFactor);
-  material.normal_scale = static_cast<float>(source.normalTexture.scale);
-  material.occlusion_strength = unit_number(source.occlusionTexture.strength);
-  material.alpha_cutoff = static_cast<float>(std::max(source.alphaCutoff, 0.0));
-  if (!std::isfinite(material.normal_scale) || !std::isfinite(material.alpha_cutoff) ||
-      !std::isfinite(material.emissive.x + material.emissive.y + material.emissive.z))
-    return Error{ErrorKind::input, "a factor is too large"};
-  material.double_sided = source.doubleSided;
-  if (source.alphaMode == "MASK")
-    material.alpha_mode = AlphaMode::mask;
-  else if (source.alphaMode == "BLEND")
-    material.alpha_mode = AlphaMode::blend;
-  material.base_color_texture = translate_slot(pbr.baseColorTexture);
-  material.metallic_roughness_texture = translate_slot(pbr.metallicRoughnessTexture);
-  material.normal_texture = translate_slot(source.normalTexture);
-  material.occlusion_texture = translate_slot(source.occlusionTexture);
-  material.emissive_texture = translate_slot(source.emissiveTexture);
-  return material;
-}
+// ---- content ----
 
 ImageSource translate(tinygltf::Image&& source) {
   ImageSource image;
@@ -256,8 +263,6 @@ ImageSource translate(tinygltf::Image&& source) {
   image.bytes = std::move(source.image);
   return image;
 }
-
-// ---- scene ----
 
 dvec3 vec3_of(const std::vector<double>& values, const dvec3& otherwise) {
   return values.size() == 3 ? dvec3(values[0], values[1], values[2]) : otherwise;
@@ -279,6 +284,13 @@ NodeSource translate(const tinygltf::Node& source) {
   node.pose.translation = vec3_of(source.translation, dvec3(0.0));
   node.pose.scale = vec3_of(source.scale, dvec3(1.0));
   if (const std::vector<double>& r = source.rotation; r.size() == 4) node.pose.rotation = dquat(r[3], r[0], r[1], r[2]);
+  if (const auto found = source.extensions.find("EXT_mesh_gpu_instancing"); found != source.extensions.end()) {
+    const tinygltf::Value& attributes = found->second.Get("attributes");
+    const auto accessor = [&](const char* name) {
+      return attributes.Has(name) ? index_of(attributes.Get(name).GetNumberAsInt()) : kNone;
+    };
+    node.instancing = {accessor("TRANSLATION"), accessor("ROTATION"), accessor("SCALE")};
+  }
   return node;
 }
 
@@ -318,19 +330,24 @@ void translate_all(const std::vector<From>& from, std::vector<To>& to) {
 
 Result<Document> read_document(const Container& file, const JsonScan& scan, const std::string& directory) {
   GLOAM_TRY(check_byte_sources(scan, file));
-  Result<tinygltf::Model> loaded = load_model(file, scan, directory);
+  const bool fallbacks = std::ranges::any_of(scan.buffers, &ByteSource::fallback);
+  Result<tinygltf::Model> loaded =
+      fallbacks ? load_model(without_fallbacks(file, scan), scan, directory) : load_model(file, scan, directory);
   if (!loaded) return loaded.error();
   tinygltf::Model& model = *loaded;
   Document document;
   for (tinygltf::Buffer& buffer : model.buffers) document.buffers.push_back(std::move(buffer.data));
-  for (const tinygltf::BufferView& view : model.bufferViews)
-    document.views.push_back({index_of(view.buffer), view.byteOffset, view.byteLength, view.byteStride});
+  document.file_buffers = document.buffers.size();
+  translate_all(model.bufferViews, document.views);
   translate_all(model.accessors, document.accessors);
   translate_all(model.meshes, document.meshes);
   for (std::size_t i = 0; i < model.materials.size(); ++i) {
-    Result<Material> material = translate(model.materials[i]);
-    if (!material) return fault_at(place("material", i, model.materials[i].name), material.error().message);
+    const std::string where = place("material", i, model.materials[i].name);
+    Result<Material> material = read_material(model.materials[i]);
+    if (!material) return fault_at(where, material.error().message);
     document.materials.push_back(std::move(*material));
+    if (has_transmission_texture(model.materials[i]))
+      document.warnings.push_back(where + ": the texture of KHR_materials_transmission is not read, only its factor");
   }
   for (const tinygltf::Texture& texture : model.textures)
     document.textures.push_back({texture.name, index_of(texture.source), index_of(texture.sampler)});

@@ -94,6 +94,43 @@ TEST(MaterialImport, a_texture_transform_is_a_matrix_and_may_change_the_set) {
   EXPECT_NEAR(glm::distance(transformed(vec3(0, 1, 1)), vec2(3.25f, 0.5f)), 0.0f, 1e-6f);
 }
 
+TEST(MaterialImport, transmission_is_thin_glass_blended_by_what_it_reflects) {
+  GltfText gltf;
+  gltf.set("extensionsRequired", R"(["KHR_materials_transmission"])");
+  const auto glass = [](const std::string& factor, const std::string& more) {
+    return R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": )" + factor + "}}" + more + "}";
+  };
+  gltf.add("materials", glass("1", R"(, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]})"));
+  gltf.add("materials",
+           glass("0.5", R"(, "alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]})"));
+  gltf.add("materials", glass("0", ""));
+  Import import;
+  const SceneAssets& assets = assets_of(gltf, import);
+  ASSERT_EQ(assets.materials.size(), 3u);
+  EXPECT_EQ(assets.materials[0].alpha_mode, AlphaMode::blend);  // blended surfaces cast no shadows
+  EXPECT_NEAR(assets.materials[0].base_color.w, 0.08f, 1e-6f);  // an opaque material has no alpha
+  EXPECT_NEAR(assets.materials[1].base_color.w, 0.27f, 1e-6f);
+  EXPECT_EQ(assets.materials[2].alpha_mode, AlphaMode::opaque);
+}
+
+TEST(MaterialImport, an_unlit_material_emits_its_base_colour) {
+  GltfText gltf;
+  gltf.set("extensionsRequired", R"(["KHR_materials_unlit"])");
+  gltf.add("images", data_uri("image/png", test::make_png(1, 1, kRed)));
+  gltf.add("textures", R"({"source": 0})");
+  gltf.add("materials",
+           R"({"extensions": {"KHR_materials_unlit": {}, "KHR_materials_emissive_strength": {"emissiveStrength": 4}},
+      "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 0.5], "baseColorTexture": {"index": 0}}})");
+  Import import;
+  const SceneAssets& assets = assets_of(gltf, import);
+  ASSERT_EQ(assets.materials.size(), 1u);
+  const Material& material = assets.materials[0];
+  EXPECT_EQ(material.emissive, vec3(2, 1, 4));
+  EXPECT_EQ(material.emissive_texture.texture, 0u);
+  EXPECT_EQ(material.base_color, vec4(0, 0, 0, 0.5f));
+  EXPECT_EQ(material.reflectivity, 0.0f);
+}
+
 TEST(TextureImport, a_texture_read_as_colour_and_as_data_becomes_two) {
   GltfText gltf;
   gltf.add("images", data_uri("image/png", test::make_png(1, 1, kRed)));
