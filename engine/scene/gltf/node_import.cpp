@@ -24,9 +24,9 @@ Result<Camera> import_camera(const CameraSource& source) {
       return refuse("xmag and ymag must not be 0");
     if (source.znear < 0.0) return refuse("znear must be ≥ 0");
   } else {
-    if (!(source.yfov > 0.0 && source.yfov < static_cast<double>(kPi))) return refuse("yfov must be in 0…π");
+    camera.fov_y = static_cast<float>(source.yfov);  // rounding may give 0 or π
+    if (!(camera.fov_y > 0.0f && camera.fov_y < kPi)) return refuse("yfov must be in 0…π");
     if (!(static_cast<float>(source.znear) > 0.0f)) return refuse("znear must be > 0");
-    camera.fov_y = static_cast<float>(source.yfov);
   }
   camera.near_m = static_cast<float>(source.znear);
   camera.far_m = static_cast<float>(source.zfar);

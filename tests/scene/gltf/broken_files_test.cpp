@@ -327,6 +327,14 @@ std::vector<Broken> broken_parts() {
        file(
            R"("nodes": [{"camera": 0}], "cameras": [{"type": "perspective", "perspective": {"yfov": 0, "znear": 1}}])"),
        {"camera 0: yfov must be in 0…π"}},
+      {"camera_rounded_to_half_a_turn",
+       file(
+           R"("nodes": [{"camera": 0}], "cameras": [{"type": "perspective", "perspective": {"yfov": 3.14159265, "znear": 1}}])"),
+       {"camera 0: yfov must be in 0…π"}},
+      {"camera_rounded_to_0",
+       file(
+           R"("nodes": [{"camera": 0}], "cameras": [{"type": "perspective", "perspective": {"yfov": 1e-60, "znear": 1}}])"),
+       {"camera 0: yfov must be in 0…π"}},
       {"camera_near_0",
        file(
            R"("nodes": [{"camera": 0}], "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0}}])"),
