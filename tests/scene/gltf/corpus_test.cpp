@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
 
 #include "tests/support/gltf_files.h"
 
@@ -27,19 +30,41 @@ std::vector<std::string> model_files() {
 
 TEST(Corpus, every_model_loads_or_is_refused_in_one_sentence) {
   if (!fs::exists(kModels)) GTEST_SKIP() << kModels << " is absent (package assimp-testmodels)";
+  const std::vector<std::string> files = model_files();
   int loaded = 0;
-  for (const std::string& file : model_files()) {
+  for (const std::string& file : files) {
     test::Import import;
     test::import_file(file, import);
     if (import.ok()) {
       ++loaded;
       continue;
     }
+    std::cout << "refused: " << import.fault() << '\n';
     EXPECT_EQ(import.result.error().kind, ErrorKind::input) << file;
     EXPECT_THAT(import.fault(), ::testing::StartsWith(fs::path(file).filename().string())) << file;
     EXPECT_EQ(import.fault().find('\n'), std::string::npos) << import.fault();
   }
+  std::cout << files.size() << " files: " << loaded << " loaded, " << files.size() - static_cast<std::size_t>(loaded)
+            << " refused\n";
+  RecordProperty("files", static_cast<int>(files.size()));
+  RecordProperty("loaded", loaded);
   EXPECT_GT(loaded, 0);
+}
+
+TEST(Corpus, models_cut_at_every_kilobyte_load_or_are_refused) {
+  if (!fs::exists(kModels)) GTEST_SKIP() << kModels << " is absent (package assimp-testmodels)";
+  const test::TemporaryFolder folder;
+  for (const char* name : {"BoxTextured-glTF-Embedded/BoxTextured.gltf", "BoxTextured-glTF-Binary/BoxTextured.glb"}) {
+    std::ifstream file(kModels / "glTF2" / name, std::ios::binary);
+    const std::string content{std::istreambuf_iterator<char>(file), {}};
+    ASSERT_GT(content.size(), 1024u) << name;
+    for (std::size_t size = 0; size < content.size(); size += 1024) {
+      test::Import import;
+      test::import_file(folder.write("cut.gltf", std::string_view(content).substr(0, size)), import);
+      EXPECT_FALSE(import.ok()) << name << " cut at " << size;
+      EXPECT_THAT(import.fault(), ::testing::StartsWith("cut.gltf")) << size;
+    }
+  }
 }
 
 TEST(Corpus, sound_models_load) {
