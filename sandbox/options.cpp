@@ -28,6 +28,7 @@ struct RawTexts {
   std::string size;
   std::string pick;
   std::optional<std::string> in_flight;
+  std::optional<std::string> scale;
   std::optional<std::string> budget;
   std::optional<std::string> ledger;
   bool version = false;
@@ -93,6 +94,12 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   const char* const scene_text = "A .gltf or .glb file, or builtin:NAME";
   CLI::App* play = add(Command::play, "play", "Open a window");
   play->add_option("SCENE", options.scene, scene_text);
+  play->add_option("--scale", raw.scale,
+                   "Share of the window's width and height that is drawn: auto (default; 1 with --stats or --trace) "
+                   "keeps the picture fluent, or a number in 0.25…1")
+      ->type_name("SCALE");
+  // For tests: see sandbox/play/input_script.h.
+  play->add_option("--script", options.script)->group("");
   CLI::App* render = add(Command::render, "render", "Render without a window");
   render->add_option("SCENE", options.scene, scene_text)->required();
   render
@@ -130,6 +137,17 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
 
 Error usage(std::string message) { return {ErrorKind::usage, std::move(message)}; }
 
+Status read_scale(const std::string& text, double& scale) {
+  if (text == "auto") {
+    scale = 0.0;
+    return {};
+  }
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, scale);
+  if (read.ec == std::errc() && read.ptr == end && scale >= 0.25 && scale <= 1.0) return {};
+  return usage("--scale wants auto or a number in 0.25…1, not '" + text + "'");
+}
+
 Status check_texts(Options& options, const RawTexts& raw) {
   for (const auto& [name, text] : {std::pair("--budget", &raw.budget), std::pair("--ledger", &raw.ledger)})
     if (text->has_value()) return usage(std::string(name) + " is not built yet; set knobs with --set or --config");
@@ -138,6 +156,9 @@ Status check_texts(Options& options, const RawTexts& raw) {
     if (!read || options.width < 1 || options.height < 1 || options.width > kMaxSize || options.height > kMaxSize)
       return usage("--size wants WxH with numbers in 1…" + std::to_string(kMaxSize) + ", not '" + raw.size + "'");
   }
+  options.size_given = !raw.size.empty();
+  options.scale_given = raw.scale.has_value();
+  if (raw.scale) GLOAM_TRY(read_scale(*raw.scale, options.scale));
   if (raw.in_flight) {
     if (raw.in_flight != "1" && raw.in_flight != "2")
       return usage("--in-flight wants 1 or 2, not '" + *raw.in_flight + "'");
@@ -236,6 +257,7 @@ Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::
   }
   if (chosen == nullptr) return usage("a command is needed: play, render, inspect, bake, cost, bench, scenes or knobs");
   if (options.command == Command::play && chosen->count("--frames") == 0) options.frames = 0;
+  if (options.command == Command::play && !(options.stats.empty() && options.trace.empty())) options.scale = 1.0;
   options.fixed_step = options.command != Command::play || chosen->count("--dt") > 0;
   if (chosen->count("--cache-dir") == 0) options.cache_dir = default_cache_directory();
   if (options.scene.empty() && (options.command == Command::play || options.command == Command::bench)) {

@@ -28,8 +28,12 @@ struct Options {
 
   std::uint32_t width = 1280;  ///< pixels, 1…kMaxSize
   std::uint32_t height = 720;
+  bool size_given = false;      ///< by --size
   std::string camera;           ///< empty: the scene's first camera; if it has none, one fitted to the scene
   std::uint32_t frames = 1;     ///< play: 0 runs until the window is closed
+  bool scale_given = false;     ///< by --scale
+  double scale = 0.0;           ///< play: share of the window's size that is drawn, 0.25…1; 0: automatic
+  std::string script;           ///< play: file of input events, for tests
   std::uint32_t in_flight = 1;  ///< render: frames that may be unfinished at a time, 1…gpu::Device::kFramesInFlight
   double time_s = 0.0;
   double dt_s = 1.0 / 60.0;

@@ -1,143 +1,26 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/core/env.h"
 #include "engine/gpu/vulkan_device.h"
 #include "sandbox/commands/commands.h"
-#include "sandbox/session/captures.h"
+#include "sandbox/output/file_io.h"
+#include "sandbox/play/loading_screen.h"
+#include "sandbox/play/play_settings.h"
+#include "sandbox/play/player.h"
+#include "sandbox/play/scene_opening.h"
+#include "sandbox/play/window_pictures.h"
 #include "sandbox/session/frame_tracing.h"
 #include "sandbox/session/run_output.h"
 #include "sandbox/session/scene_loading.h"
 #include "sandbox/session/session.h"
-#include "sandbox/window/fly_camera.h"
-#include "sandbox/window/play_panel.h"
 #include "sandbox/window/window.h"
 
 namespace gloam {
 namespace {
-
-constexpr double kRadiansPerPixel = 0.003;
-constexpr double kFastFactor = 5.0;
-constexpr double kLongestStep = 0.1;  // seconds: limits the time step after a pause
-
-/// Shows a scene in a window, frame by frame.
-class Player {
- public:
-  Player(const Options& options, Window& window, Session& session, gpu::Swapchain& swapchain, LogSink& log)
-      : options_(options),
-        window_(window),
-        session_(session),
-        swapchain_(swapchain),
-        log_(log),
-        panel_(session, window.content_scale(), environment_text("GLOAM_PANEL") == "1"),
-        time_s_(options.time_s) {
-    settings_ = session.view_settings(options.width, options.height, options.view);
-    last_ns_ = session.zones.now_ns();
-  }
-
-  [[nodiscard]] Status run() {
-    std::uint32_t frames = 0;
-    while (options_.frames == 0 || frames < options_.frames) {
-      WindowInput input = window_.poll();
-      count_step();
-      GLOAM_TRY(panel_.update(input, {window_.width(), window_.height(), frame_s_}, settings_));
-      if (window_.should_close() || input.leave) break;
-      drop_view_without_its_knob();
-      move_camera(input);
-      const auto drawn = draw();
-      if (!drawn) return drawn.error();
-      if (*drawn) ++frames;
-    }
-    return session_.renderer->wait();
-  }
-
-  [[nodiscard]] const ViewSettings& settings() const { return settings_; }
-  [[nodiscard]] const std::vector<FrameSample>& samples() const { return samples_; }
-
- private:
-  /// A changed knob may make the visualizer unavailable. Then warn, return to the lit picture and go on.
-  void drop_view_without_its_knob() {
-    if (settings_.visualizer == "none") return;
-    Status shows = session_.renderer->check_visualizer(session_.world, settings_.visualizer);
-    if (shows.ok()) shows = check_shown_live(*session_.renderer, settings_.visualizer);
-    if (shows.ok()) return;
-    log_.warning(shows.error().message);
-    settings_.visualizer = "none";
-  }
-  void count_step() {
-    const std::uint64_t now = session_.zones.now_ns();
-    frame_s_ = static_cast<double>(now - last_ns_) * 1e-9;
-    step_s_ = std::min(frame_s_, kLongestStep);
-    last_ns_ = now;
-  }
-
-  void move_camera(const WindowInput& input) {
-    const FlyInput flight = {.forward = input.forward,
-                             .right = input.right,
-                             .up = input.up,
-                             .turn = -input.drag_x * kRadiansPerPixel,
-                             .tilt = -input.drag_y * kRadiansPerPixel,
-                             .speed = input.fast ? kFastFactor : 1.0};
-    flight_.advance(session_.world, flight, step_s_, settings_);
-  }
-
-  /// Draws a frame. Returns false if none was shown, because the window is minimised or changes its size.
-  [[nodiscard]] Result<bool> draw() {
-    const std::uint32_t width = window_.width();
-    const std::uint32_t height = window_.height();
-    if (width == 0 || height == 0) return false;
-    if (!fits_ || width != settings_.width || height != settings_.height) {
-      GLOAM_TRY(swapchain_.resize(width, height));
-      settings_.width = width;
-      settings_.height = height;
-      fits_ = true;
-    }
-    const double dt_s = options_.fixed_step ? options_.dt_s : step_s_;
-    session_.set_clock(time_s_, dt_s);
-    const auto acquire = [this]() -> Result<gpu::ImageHandle> {
-      auto image = swapchain_.acquire();
-      fits_ = image.ok() && *image;
-      return image;
-    };
-    GLOAM_TRY(render({.settings = settings_,
-                      .target = {.after = gpu::Access::present, .acquire = acquire, .overlay = panel_.overlay()},
-                      .keep_linear = false}));
-    GLOAM_TRY(swapchain_.present());
-    if (!fits_) return false;
-    time_s_ += dt_s;
-    return true;
-  }
-
-  /// Waits for the frame only if its times are needed (--stats, --trace).
-  [[nodiscard]] Status render(const ViewRequest& request) {
-    if (options_.stats.empty() && options_.trace.empty()) {
-      static_cast<void>(session_.zones.take());
-      return session_.renderer->render(session_.world, {&request, 1});
-    }
-    auto sample = session_.render_frame(request);
-    if (!sample) return sample.error();
-    samples_.push_back(std::move(sample).value());
-    return {};
-  }
-
-  const Options& options_;
-  Window& window_;
-  Session& session_;
-  gpu::Swapchain& swapchain_;
-  LogSink& log_;
-  ViewSettings settings_;
-  ViewFlight flight_;
-  PlayPanel panel_;
-  std::vector<FrameSample> samples_;
-  double time_s_ = 0.0;
-  double frame_s_ = 0.0;  ///< since the last frame
-  double step_s_ = 0.0;   ///< frame_s_, at most kLongestStep
-  std::uint64_t last_ns_ = 0;
-  bool fits_ = false;
-};
 
 /// Writes the picture and reports that the options ask for, from one more frame that is drawn into the renderer's own
 /// image.
@@ -154,26 +37,97 @@ Status leave_results(const CommandContext& context, Session& session, const Play
   return write_reports(run, options, context.console);
 }
 
+/// Shows one scene in the window. Returns the scene to show next; empty: the user has left.
+Result<std::string> play_scene(const CommandContext& context, Window& window, Player::Lasting& lasting) {
+  const Options& options = context.options;
+  auto device = open_device(options, context.log,
+                            {.extensions = window.vulkan_extensions(), .create_surface = window.surface_maker()});
+  if (!device) return device.error();
+  const auto session = open_empty_session(std::move(device).value(), options, context.log);
+  if (!session) return session.error();
+  const auto swapchain = gpu::create_swapchain(*session.value()->device, window.surface_maker());
+  if (!swapchain) return swapchain.error();
+  WindowPictures pictures(window, **swapchain);
+  {
+    LoadingScreen screen(*session.value()->device, pictures, window.content_scale());
+    const auto go_on = open_scene(**session, options, context.log, window, screen);
+    if (!go_on) return go_on.error();
+    if (!*go_on) {
+      GLOAM_TRY(session.value()->renderer->wait());
+      return std::string();
+    }
+  }
+  GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));
+  Player player(options, **session, pictures, lasting, context.log);
+  GLOAM_TRY(player.run());
+  if (player.next_scene().empty()) GLOAM_TRY(leave_results(context, **session, player));
+  GLOAM_TRY(session.value()->check_validation());
+  return player.next_scene();
+}
+
+/// Shows scenes until the user leaves. A dropped scene that cannot be shown is a warning, and the last one returns.
+Status play_scenes(const CommandContext& context, Window& window, Player::Lasting& lasting) {
+  Options options = context.options;
+  std::string last;
+  while (true) {
+    auto next = play_scene({options, context.console, context.log}, window, lasting);
+    if (!next && !last.empty() && next.error().kind == ErrorKind::input) {
+      context.log.warning(next.error().message);
+      next = std::exchange(last, {});
+    } else {
+      last = options.scene;
+    }
+    if (!next) return next.error();
+    if (next->empty()) return {};
+    options.scene = *next;
+    options.camera.clear();  // camera and animation are names of the first scene
+    options.animation.clear();
+    window.set_title("gloam: " + options.scene);
+  }
+}
+
+Result<InputScript> read_script(const std::string& path) {
+  if (path.empty()) return InputScript();
+  const auto text = read_text_file(path, ErrorKind::usage);
+  if (!text) return text.error();
+  return InputScript::parse(*text, path);
+}
+
+/// Takes over what the last run left, except what the command line gives.
+void apply_settings(const PlaySettings& settings, Options& options) {
+  if (!options.size_given) {
+    options.width = settings.width;
+    options.height = settings.height;
+  }
+  if (!options.scale_given && options.stats.empty() && options.trace.empty()) options.scale = settings.scale;
+}
+
 }  // namespace
 
 Status run_play(const CommandContext& context) {
-  const Options& options = context.options;
+  Options options = context.options;
   GLOAM_TRY(check_scene_exists(options.scene));
-  const auto window = Window::open("gloam: " + options.scene, options.width, options.height);
-  if (!window) return window.error();
-  const auto session = open_session(
-      options, context.log,
-      {.extensions = window.value()->vulkan_extensions(), .create_surface = window.value()->surface_maker()});
-  if (!session) return session.error();
-  warn_of_missing_effects(*session.value(), context.log);
-  GLOAM_TRY(ensure_baked(*session.value(), options, context.log, &context.console));
-  GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));
-  const auto swapchain = gpu::create_swapchain(*session.value()->device, window.value()->surface_maker());
-  if (!swapchain) return swapchain.error();
-  Player player(options, *window.value(), *session.value(), *swapchain.value(), context.log);
-  GLOAM_TRY(player.run());
-  GLOAM_TRY(leave_results(context, *session.value(), player));
-  return session.value()->check_validation();
+  auto script = read_script(options.script);
+  if (!script) return script.error();
+  // Runs of a number of frames are tests and measurements.
+  const std::string settings_path = options.frames == 0 ? play_settings_path() : std::string();
+  PlaySettings settings = load_play_settings(settings_path, context.log);
+  if (!settings_path.empty()) apply_settings(settings, options);
+  const auto opened = Window::open("gloam: " + options.scene, options.width, options.height);
+  if (!opened) return opened.error();
+  Window& window = **opened;
+  Player::Lasting lasting = {.scale = options.scale,
+                             .panel = settings.panel || environment_text("GLOAM_PANEL") == "1",
+                             .script = std::move(*script)};
+  GLOAM_TRY(play_scenes({options, context.console, context.log}, window, lasting));
+  if (const auto [width, height] = window.desktop_size(); width > 0 && !window.is_full_screen()) {
+    settings.width = width;
+    settings.height = height;
+  }
+  settings.scale = lasting.scale;
+  settings.panel = lasting.panel;
+  save_play_settings(settings_path, settings, context.log);
+  return {};
 }
 
 }  // namespace gloam

@@ -64,15 +64,19 @@ Status Session::check_validation() const {
                "Vulkan validation has " + std::to_string(count) + (count == 1 ? " message" : " messages")};
 }
 
+Result<std::unique_ptr<gpu::Device>> open_device(const Options& options, LogSink& log, const WindowNeeds& window) {
+  return gpu::create_vulkan_device({.device = options.device,
+                                    .validate = options.validate,
+                                    .cache_directory = options.cache_dir,
+                                    .log = &log,
+                                    .window_extensions = window.extensions,
+                                    .create_surface = window.create_surface});
+}
+
 Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& log, const WindowNeeds& window,
                                               ModuleList more_modules) {
   GLOAM_TRY(check_scene_exists(options.scene));
-  auto device = gpu::create_vulkan_device({.device = options.device,
-                                           .validate = options.validate,
-                                           .cache_directory = options.cache_dir,
-                                           .log = &log,
-                                           .window_extensions = window.extensions,
-                                           .create_surface = window.create_surface});
+  auto device = open_device(options, log, window);
   if (!device) return device.error();
   return open_session_on(std::move(device).value(), options, log, std::move(more_modules));
 }
@@ -80,22 +84,32 @@ Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& l
 Result<std::unique_ptr<Session>> open_session_on(std::unique_ptr<gpu::Device> device, const Options& options,
                                                  LogSink& log, ModuleList more_modules) {
   GLOAM_TRY(check_scene_exists(options.scene));
+  auto session = open_empty_session(std::move(device), options, log, std::move(more_modules));
+  if (session) GLOAM_TRY(fill_session(**session, options, log));
+  return session;
+}
+
+Result<std::unique_ptr<Session>> open_empty_session(std::unique_ptr<gpu::Device> device, const Options& options,
+                                                    LogSink& log, ModuleList more_modules) {
   auto session = std::make_unique<Session>();
   session->executor = make_pool_executor(options.threads);
   session->device = std::move(device);
   GLOAM_TRY(open_renderer(*session, options, log, std::move(more_modules)));
   session->renderer->prepare_world(session->world);
-  auto info = load_scene(scene_request(options, session->renderer->knobs()), session->renderer->modules(),
-                         session->world, *session->executor, log);
-  if (!info) return info.error();
-  session->info = std::move(info).value();
-  const auto camera = find_camera(session->world, session->info, options.camera);
-  if (!camera) return camera.error();
-  session->camera = *camera;
-  session->set_clock(options.time_s, options.dt_s);
-  pose_scene(*session);
-  GLOAM_TRY(session->renderer->check_visualizer(session->world, options.view));
   return session;
+}
+
+Status fill_session(Session& session, const Options& options, LogSink& log) {
+  auto info = load_scene(scene_request(options, session.renderer->knobs()), session.renderer->modules(), session.world,
+                         *session.executor, log);
+  if (!info) return info.error();
+  session.info = std::move(info).value();
+  const auto camera = find_camera(session.world, session.info, options.camera);
+  if (!camera) return camera.error();
+  session.camera = *camera;
+  session.set_clock(options.time_s, options.dt_s);
+  pose_scene(session);
+  return session.renderer->check_visualizer(session.world, options.view);
 }
 
 }  // namespace gloam

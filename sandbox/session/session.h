@@ -52,6 +52,10 @@ struct WindowNeeds {
   std::function<std::uint64_t(void* instance)> create_surface;
 };
 
+/// Opens the device of --device, --validate and --cache-dir.
+[[nodiscard]] Result<std::unique_ptr<gpu::Device>> open_device(const Options& options, LogSink& log,
+                                                               const WindowNeeds& window = {});
+
 /// Opens the device, creates the renderer with all modules, sets the knobs (--config, then --set), loads the scene,
 /// poses it at --time and checks camera and visualizer. log must outlive the session. more_modules: added after the
 /// program's own modules.
@@ -62,5 +66,12 @@ struct WindowNeeds {
 [[nodiscard]] Result<std::unique_ptr<Session>> open_session_on(std::unique_ptr<gpu::Device> device,
                                                                const Options& options, LogSink& log,
                                                                ModuleList more_modules = {});
+
+/// The two halves of open_session_on: a session without a scene, and its scene. fill_session draws nothing, so it may
+/// run on another thread than the one that draws frames on the device; the session is not used meanwhile.
+[[nodiscard]] Result<std::unique_ptr<Session>> open_empty_session(std::unique_ptr<gpu::Device> device,
+                                                                  const Options& options, LogSink& log,
+                                                                  ModuleList more_modules = {});
+[[nodiscard]] Status fill_session(Session& session, const Options& options, LogSink& log);
 
 }  // namespace gloam

@@ -6,60 +6,14 @@
 #include <imgui/imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
-
-#include "engine/core/assert.h"
 
 namespace gloam {
 namespace {
 
-constexpr float kFontPixels = 13.0f;  // size for which ImGui's default font is designed
 constexpr float kMargin = 10.0f;
 constexpr float kWidth = 460.0f;
-constexpr double kShortestFrame = 1e-6;  // seconds; above 0 because ImGui divides by the frame time
-
-struct KeyPair {
-  ImGuiKey_ imgui;
-  EditKey key;
-};
-constexpr KeyPair kKeys[] = {
-    {ImGuiKey_Tab, EditKey::tab},
-    {ImGuiKey_LeftArrow, EditKey::left},
-    {ImGuiKey_RightArrow, EditKey::right},
-    {ImGuiKey_UpArrow, EditKey::up},
-    {ImGuiKey_DownArrow, EditKey::down},
-    {ImGuiKey_PageUp, EditKey::page_up},
-    {ImGuiKey_PageDown, EditKey::page_down},
-    {ImGuiKey_Home, EditKey::home},
-    {ImGuiKey_End, EditKey::end},
-    {ImGuiKey_Insert, EditKey::insert},
-    {ImGuiKey_Delete, EditKey::erase},
-    {ImGuiKey_Backspace, EditKey::backspace},
-    {ImGuiKey_Space, EditKey::space},
-    {ImGuiKey_Enter, EditKey::enter},
-    {ImGuiKey_Escape, EditKey::escape},
-    {ImGuiKey_KeyPadEnter, EditKey::keypad_enter},
-    {ImGuiKey_A, EditKey::a},
-    {ImGuiKey_C, EditKey::c},
-    {ImGuiKey_V, EditKey::v},
-    {ImGuiKey_X, EditKey::x},
-    {ImGuiKey_Y, EditKey::y},
-    {ImGuiKey_Z, EditKey::z},
-};
-static_assert(std::size(kKeys) == kEditKeyCount);
-
-void feed(ImGuiIO& io, const PanelInput& input, const PanelFrame& frame) {
-  io.DisplaySize = ImVec2(static_cast<float>(frame.width), static_cast<float>(frame.height));
-  io.DeltaTime = static_cast<float>(std::max(frame.dt_s, kShortestFrame));
-  io.MousePos = ImVec2(static_cast<float>(input.mouse_x), static_cast<float>(input.mouse_y));
-  for (std::size_t i = 0; i < input.buttons.size(); ++i) io.MouseDown[i] = input.buttons[i];
-  io.MouseWheel = static_cast<float>(input.wheel);
-  io.KeyCtrl = input.control;
-  io.KeyShift = input.shift;
-  io.KeyAlt = input.alt;
-  for (std::size_t i = 0; i < kEditKeyCount; ++i) io.KeysDown[i] = input.keys[i];
-  for (const char32_t c : input.text) io.AddInputCharacter(c);
-}
 
 void show_text(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
 
@@ -126,76 +80,22 @@ void show_modules(std::span<const ModuleState> modules) {
 
 }  // namespace
 
-Panel::Panel(double scale) : context_(ImGui::CreateContext()) {
-  ImGui::SetCurrentContext(context_);
-  const float size = static_cast<float>(scale);
-  ImGui::StyleColorsDark();
-  ImGuiStyle& style = ImGui::GetStyle();
-  style.WindowRounding = 4.0f;
-  style.FrameRounding = 2.0f;
-  style.Colors[ImGuiCol_WindowBg].w = 0.9f;
-  style.ScaleAllSizes(size);
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // write no files into the user's folder
-  io.LogFilename = nullptr;
-  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-  for (const KeyPair& pair : kKeys) io.KeyMap[pair.imgui] = static_cast<int>(pair.key);
-  ImFontConfig font;
-  font.SizePixels = kFontPixels * size;
-  io.Fonts->AddFontDefault(&font);
-  unsigned char* texels = nullptr;
-  int width = 0;
-  int height = 0;
-  io.Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
-}
-
-Panel::~Panel() { ImGui::DestroyContext(context_); }
-
-FontTexels Panel::font() const {
-  ImGui::SetCurrentContext(context_);
-  unsigned char* texels = nullptr;
-  int width = 0;
-  int height = 0;
-  ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
-  const std::span all(texels, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), std::as_bytes(all)};
-}
-
-bool Panel::wants_mouse() const {
-  ImGui::SetCurrentContext(context_);
-  return ImGui::GetIO().WantCaptureMouse;
-}
-
-bool Panel::wants_keyboard() const {
-  ImGui::SetCurrentContext(context_);
-  return ImGui::GetIO().WantCaptureKeyboard || ImGui::GetIO().WantTextInput;
-}
-
-const ImDrawData& Panel::draw_data() const {
-  ImGui::SetCurrentContext(context_);
-  const ImDrawData* data = ImGui::GetDrawData();
-  GLOAM_ASSERT(data != nullptr, "a panel has draw data from its first update on");
-  return *data;
-}
-
 void Panel::update(const PanelInput& input, const PanelFrame& frame, const PanelContent& content) {
-  ImGui::SetCurrentContext(context_);
   widgets_.clear();
-  feed(ImGui::GetIO(), input, frame);
-  ImGui::NewFrame();
-  const float scale = ImGui::GetFontSize() / kFontPixels;
-  const float width = std::min(kWidth * scale, static_cast<float>(frame.width) - 2.0f * kMargin);
+  gui_.begin(input, frame);
+  const float width = std::min(kWidth * gui_.scale(), static_cast<float>(frame.width) - 2.0f * kMargin);
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize(ImVec2(width, static_cast<float>(frame.height) - 2.0f * kMargin), ImGuiCond_FirstUseEver);
   if (ImGui::Begin("gloam")) {
     show_times(content.times);
+    show_scale(content, frame);
     show_views(content);
     show_knobs(content.knobs);
     show_passes(content.times);
     show_modules(content.modules);
   }
   ImGui::End();
-  ImGui::Render();
+  gui_.end();
 }
 
 void Panel::remember_widget(const std::string& name) {
@@ -208,6 +108,26 @@ void Panel::show_times(const FrameTimes& times) {
   ImGui::Text("frame %.2f ms   CPU %.2f ms   GPU %.2f ms", times.frame_ms(), times.cpu_ms(), times.gpu_ms());
   show_tooltip("medians of the last " + std::to_string(FrameTimes::kFrames) +
                " frames. CPU: systems, declaration and recording, with what they waited for. GPU: all passes.");
+}
+
+void Panel::show_scale(const PanelContent& content, const PanelFrame& frame) {
+  if (!content.set_scale) return;
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("drawn at %.0f x %.0f", std::round(frame.width * content.scale),
+              std::round(frame.height * content.scale));
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool open = ImGui::BeginCombo("##scale", scale_text(content.scale_setting, content.scale).c_str());
+  remember_widget("scale");
+  if (!open) return;
+  if (ImGui::Selectable("auto", content.scale_setting == 0.0)) content.set_scale(0.0);
+  remember_widget("scale auto");
+  for (const double step : content.scale_steps) {
+    const std::string name = scale_text(step, step);
+    if (ImGui::Selectable(name.c_str(), content.scale_setting == step)) content.set_scale(step);
+    remember_widget("scale " + name);
+  }
+  ImGui::EndCombo();
 }
 
 void Panel::show_views(const PanelContent& content) {

@@ -11,11 +11,8 @@
 
 #include "engine/core/result.h"
 #include "engine/render/renderer.h"
-#include "sandbox/window/panel_input.h"
+#include "sandbox/window/gui.h"
 #include "sandbox/window/panel_model.h"
-
-struct ImDrawData;
-struct ImGuiContext;
 
 namespace gloam {
 
@@ -28,25 +25,17 @@ struct PanelContent {
   std::string visualizer;  ///< the current visualizer: NAME or NAME:ARGUMENT
   /// Changes the visualizer. The panel shows the error if it fails.
   std::function<Status(const std::string& visualizer)> show;
-};
-
-/// The picture that the panel is drawn over.
-struct PanelFrame {
-  std::uint32_t width = 0;  ///< pixels, > 0
-  std::uint32_t height = 0;
-  double dt_s = 0.0;  ///< since the last frame
-};
-
-/// The font's texture: one coverage byte per texel, row by row from the top.
-struct FontTexels {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  std::span<const std::byte> bytes;
+  double scale = 1.0;          ///< of the frame's width and height to the window's
+  double scale_setting = 1.0;  ///< 0: automatic
+  std::span<const double> scale_steps = {};
+  std::function<void(double setting)> set_scale = {};
 };
 
 /// Rectangle of a widget in the last frame, in pixels from the picture's upper left corner.
 struct PanelWidget {
-  std::string name;  ///< KNOB, "KNOB reset", "KNOB CHOICE", "view", "view VISUALIZER" or "view argument"
+  /// KNOB, "KNOB reset", "KNOB CHOICE", "view", "view VISUALIZER", "view argument", "scale", "scale auto" or "scale NN
+  /// %"
+  std::string name;
   float left = 0.0f;
   float top = 0.0f;
   float right = 0.0f;
@@ -58,33 +47,28 @@ struct PanelWidget {
 class Panel {
  public:
   /// scale: factor on the size of text and widgets; 1 for a standard display.
-  explicit Panel(double scale = 1.0);
-  ~Panel();
-  Panel(const Panel&) = delete;
-  Panel& operator=(const Panel&) = delete;
+  explicit Panel(double scale = 1.0) : gui_(scale) {}
 
   /// Handles one frame's input, applies the user's changes to knobs and visualizer, and makes the draw data.
   void update(const PanelInput& input, const PanelFrame& frame, const PanelContent& content);
 
-  /// Whether the panel used the mouse or keyboard input of the last update, so that nothing else may use it.
-  [[nodiscard]] bool wants_mouse() const;
-  [[nodiscard]] bool wants_keyboard() const;
-
-  /// Draw data of the last update, valid until the next. There must have been an update.
-  [[nodiscard]] const ImDrawData& draw_data() const;
-  /// Valid as long as the panel.
-  [[nodiscard]] FontTexels font() const;
+  /// See Gui; of the last update.
+  [[nodiscard]] bool wants_mouse() const { return gui_.wants_mouse(); }
+  [[nodiscard]] bool wants_keyboard() const { return gui_.wants_keyboard(); }
+  [[nodiscard]] const ImDrawData& draw_data() const { return gui_.draw_data(); }
+  [[nodiscard]] FontTexels font() const { return gui_.font(); }
   [[nodiscard]] std::span<const PanelWidget> widgets() const { return widgets_; }
 
  private:
   void show_times(const FrameTimes& times);
+  void show_scale(const PanelContent& content, const PanelFrame& frame);
   void show_views(const PanelContent& content);
   void show_view_argument(const PanelContent& content, const VisualizerInfo& info);
   void show_knobs(KnobRegistry& knobs);
   void show_knob(KnobRegistry& knobs, const Knob& knob);
   void remember_widget(const std::string& name);
 
-  ImGuiContext* context_ = nullptr;
+  Gui gui_;
   std::vector<PanelWidget> widgets_;
   std::string asked_;     ///< chosen visualizer that waits for its argument
   std::string argument_;  ///< text typed as the argument

@@ -75,6 +75,11 @@ bool is_default(const KnobRegistry& registry, const Knob& knob) {
   return knob_value(registry, knob) == knob.default_number;
 }
 
+std::string scale_text(double setting, double scale) {
+  const std::string percent = std::to_string(std::lround(scale * 100.0)) + " %";
+  return setting == 0.0 ? "auto (" + percent + ")" : percent;
+}
+
 void FrameTimes::add(double frame_ms, const FrameReport& report) {
   remember(frame_ms_, frame_ms);
   remember(cpu_ms_, report.cpu_ms);

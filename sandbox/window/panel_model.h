@@ -35,6 +35,9 @@ void set_knob_value(KnobRegistry& registry, const Knob& knob, double value);
 void reset_knob(KnobRegistry& registry, const Knob& knob);
 [[nodiscard]] bool is_default(const KnobRegistry& registry, const Knob& knob);
 
+/// "42 %", or "auto (42 %)" if the setting is 0. scale: of the last frame.
+[[nodiscard]] std::string scale_text(double setting, double scale);
+
 /// Medians of the times of the last frames, which are steady enough to read.
 class FrameTimes {
  public:

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <bitset>
+#include <cmath>
 #include <iterator>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "sandbox/console.h"
@@ -43,6 +46,15 @@ struct Strikes {
   std::bitset<GLFW_MOUSE_BUTTON_LAST + 1> buttons;
   double wheel = 0.0;
   std::u32string text;
+  std::vector<std::string> dropped;
+};
+
+/// What an input script holds down.
+struct Scripted {
+  std::bitset<GLFW_KEY_LAST + 1> keys;
+  bool button = false;
+  bool minimised = false;
+  std::optional<std::pair<double, double>> pointer;
 };
 
 Strikes& strikes_of(GLFWwindow* window) { return *static_cast<Strikes*>(glfwGetWindowUserPointer(window)); }
@@ -57,6 +69,44 @@ void listen(GLFWwindow* window, Strikes& strikes) {
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double /*x*/, double y) { strikes_of(w).wheel += y; });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int c) { strikes_of(w).text += static_cast<char32_t>(c); });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    strikes_of(w).dropped.insert(strikes_of(w).dropped.end(), paths, paths + count);
+  });
+}
+
+/// Sticks rest a little off their middle.
+double stick(float value) {
+  constexpr double kRest = 0.15;
+  const double size = std::abs(static_cast<double>(value));
+  return size <= kRest ? 0.0 : std::copysign((size - kRest) / (1.0 - kRest), static_cast<double>(value));
+}
+
+void add_gamepad(WindowInput& input) {
+  GLFWgamepadstate pad;
+  if (glfwGetGamepadState(GLFW_JOYSTICK_1, &pad) == GLFW_FALSE) return;
+  input.right += stick(pad.axes[GLFW_GAMEPAD_AXIS_LEFT_X]);
+  input.forward -= stick(pad.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
+  input.turn = -stick(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]);
+  input.tilt = -stick(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]);
+  // Triggers rest at −1.
+  input.up +=
+      0.5 * static_cast<double>(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - pad.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]);
+  input.fast |= pad.buttons[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] == GLFW_PRESS ||
+                pad.buttons[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER] == GLFW_PRESS;
+}
+
+/// GLFW's number of a key of InputScript; GLFW_KEY_UNKNOWN for other names.
+int script_key(const std::string& name) {
+  constexpr std::pair<std::string_view, int> kNamed[] = {
+      {"escape", GLFW_KEY_ESCAPE}, {"tab", GLFW_KEY_TAB},       {"space", GLFW_KEY_SPACE},
+      {"enter", GLFW_KEY_ENTER},   {"period", GLFW_KEY_PERIOD}, {"left_shift", GLFW_KEY_LEFT_SHIFT}};
+  for (const auto& [named, key] : kNamed)
+    if (named == name) return key;
+  if (name.size() == 1 && name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + (name[0] - 'a');
+  if (name.size() == 1 && name[0] >= '0' && name[0] <= '9') return GLFW_KEY_0 + (name[0] - '0');
+  for (int i = 1; i <= 12; ++i)
+    if (name == "f" + std::to_string(i)) return GLFW_KEY_F1 + (i - 1);
+  return GLFW_KEY_UNKNOWN;
 }
 
 }  // namespace
@@ -64,9 +114,14 @@ void listen(GLFWwindow* window, Strikes& strikes) {
 struct Window::State {
   GLFWwindow* window = nullptr;
   Strikes strikes;
+  Strikes injected;
+  Scripted scripted;
   double mouse_x = 0.0;
   double mouse_y = 0.0;
   bool dragging = false;
+  bool left = false;     ///< the left button is down, or was since the last poll
+  bool moved = false;    ///< since a button went down
+  int windowed[4] = {};  ///< place and size before full screen
 
   State() = default;
   State(const State&) = delete;
@@ -75,15 +130,24 @@ struct Window::State {
     if (window != nullptr) glfwDestroyWindow(window);
     glfwTerminate();
   }
-  [[nodiscard]] bool held(int key) const { return glfwGetKey(window, key) == GLFW_PRESS; }
+  [[nodiscard]] bool held(int key) const {
+    return glfwGetKey(window, key) == GLFW_PRESS || scripted.keys[static_cast<std::size_t>(key)];
+  }
+  [[nodiscard]] bool struck(int key) const { return strikes.keys[static_cast<std::size_t>(key)]; }
+  [[nodiscard]] bool pressed(int button) const {
+    return glfwGetMouseButton(window, button) == GLFW_PRESS || (button == GLFW_MOUSE_BUTTON_LEFT && scripted.button);
+  }
   [[nodiscard]] double axis(int positive, int negative) const {
     return (held(positive) ? 1.0 : 0.0) - (held(negative) ? 1.0 : 0.0);
   }
+  void take_events();
+  void move_pointer(WindowInput& input);
   [[nodiscard]] PanelInput panel_input() const;
   [[nodiscard]] std::pair<int, int> size() const {
     int width = 0;
     int height = 0;
-    if (glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_FALSE) glfwGetFramebufferSize(window, &width, &height);
+    const bool iconified = scripted.minimised || glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_TRUE;
+    if (!iconified) glfwGetFramebufferSize(window, &width, &height);
     return width > 0 && height > 0 ? std::pair(width, height) : std::pair(0, 0);
   }
 };
@@ -99,8 +163,7 @@ PanelInput Window::State::panel_input() const {
   input.mouse_x = mouse_x * pixels_x / std::max(width, 1);
   input.mouse_y = mouse_y * pixels_y / std::max(height, 1);
   for (std::size_t i = 0; i < std::size(kButtons); ++i)
-    input.buttons[i] =
-        strikes.buttons[static_cast<std::size_t>(kButtons[i])] || glfwGetMouseButton(window, kButtons[i]) == GLFW_PRESS;
+    input.buttons[i] = strikes.buttons[static_cast<std::size_t>(kButtons[i])] || pressed(kButtons[i]);
   for (std::size_t i = 0; i < kEditKeyCount; ++i)
     input.keys[i] = strikes.keys[static_cast<std::size_t>(kEditKeys[i])] || held(kEditKeys[i]);
   input.wheel = strikes.wheel;
@@ -141,40 +204,132 @@ std::function<std::uint64_t(void* instance)> Window::surface_maker() const {
   };
 }
 
-WindowInput Window::poll() {
-  State& s = *state_;
-  s.strikes = {};
-  if (s.size().first == 0 && !should_close()) {
+void Window::State::take_events() {
+  strikes = {};
+  if (size().first == 0 && glfwWindowShouldClose(window) == GLFW_FALSE) {
     glfwWaitEventsTimeout(0.1);
   } else {
     glfwPollEvents();
   }
+  strikes.keys |= injected.keys;
+  strikes.buttons |= injected.buttons;
+  strikes.wheel += injected.wheel;
+  strikes.text += injected.text;
+  strikes.dropped.insert(strikes.dropped.end(), injected.dropped.begin(), injected.dropped.end());
+  injected = {};
+}
 
+void Window::State::move_pointer(WindowInput& input) {
+  double x = 0.0;
+  double y = 0.0;
+  glfwGetCursorPos(window, &x, &y);
+  if (scripted.pointer) std::tie(x, y) = *scripted.pointer;
+  const bool down = pressed(GLFW_MOUSE_BUTTON_LEFT) || pressed(GLFW_MOUSE_BUTTON_RIGHT);
+  if (down && dragging) {
+    input.drag_x = x - mouse_x;
+    input.drag_y = y - mouse_y;
+    moved |= input.drag_x != 0.0 || input.drag_y != 0.0;
+  }
+  // A press and its lift may both lie between two polls.
+  const bool struck_left = strikes.buttons[GLFW_MOUSE_BUTTON_LEFT];
+  if (struck_left) left = true;
+  if (struck_left || !dragging) moved = false;
+  input.clicked = left && !pressed(GLFW_MOUSE_BUTTON_LEFT) && !moved;
+  if (!pressed(GLFW_MOUSE_BUTTON_LEFT)) left = false;
+  dragging = down;
+  mouse_x = x;
+  mouse_y = y;
+}
+
+WindowInput Window::poll() {
+  State& s = *state_;
+  s.take_events();
   WindowInput input = {.forward = s.axis(GLFW_KEY_W, GLFW_KEY_S),
                        .right = s.axis(GLFW_KEY_D, GLFW_KEY_A),
                        .up = s.axis(GLFW_KEY_E, GLFW_KEY_Q),
                        .fast = s.held(GLFW_KEY_LEFT_SHIFT),
-                       .leave = s.strikes.keys[GLFW_KEY_ESCAPE],
-                       .toggle_panel = s.strikes.keys[GLFW_KEY_TAB] || s.strikes.keys[GLFW_KEY_F1]};
-  double x = 0.0;
-  double y = 0.0;
-  glfwGetCursorPos(s.window, &x, &y);
-  const bool pressed = glfwGetMouseButton(s.window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
-                       glfwGetMouseButton(s.window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
-  if (pressed && s.dragging) {
-    input.drag_x = x - s.mouse_x;
-    input.drag_y = y - s.mouse_y;
-  }
-  s.dragging = pressed;
-  s.mouse_x = x;
-  s.mouse_y = y;
+                       .leave = s.struck(GLFW_KEY_ESCAPE),
+                       .toggle_panel = s.struck(GLFW_KEY_TAB) || s.struck(GLFW_KEY_F1),
+                       .pause = s.struck(GLFW_KEY_SPACE) || s.struck(GLFW_KEY_P),
+                       .step = s.struck(GLFW_KEY_PERIOD),
+                       .screenshot = s.struck(GLFW_KEY_F12),
+                       .full_screen = s.struck(GLFW_KEY_F11),
+                       .dropped = s.strikes.dropped};
+  for (int i = 1; i <= 9; ++i)
+    if (s.struck(GLFW_KEY_0 + i) || s.struck(GLFW_KEY_KP_0 + i)) input.camera = static_cast<std::uint32_t>(i);
+  add_gamepad(input);
+  s.move_pointer(input);
   input.panel = s.panel_input();
+  input.pointer_x = input.panel.mouse_x;
+  input.pointer_y = input.panel.mouse_y;
   return input;
+}
+
+void Window::inject(const ScriptEvent& event) {
+  using Kind = ScriptEvent::Kind;
+  State& s = *state_;
+  const int key = script_key(event.text);
+  const bool is_key = event.kind == Kind::key || event.kind == Kind::hold || event.kind == Kind::release;
+  if (is_key && key == GLFW_KEY_UNKNOWN) return;
+  switch (event.kind) {
+    case Kind::key:
+      s.injected.keys.set(static_cast<std::size_t>(key));
+      break;
+    case Kind::hold:
+      s.injected.keys.set(static_cast<std::size_t>(key));
+      s.scripted.keys.set(static_cast<std::size_t>(key));
+      break;
+    case Kind::release:
+      s.scripted.keys.reset(static_cast<std::size_t>(key));
+      break;
+    case Kind::move:
+      s.scripted.pointer = {event.x, event.y};
+      break;
+    case Kind::press:
+      s.injected.buttons.set(GLFW_MOUSE_BUTTON_LEFT);
+      s.scripted.button = true;
+      break;
+    case Kind::lift:
+      s.scripted.button = false;
+      break;
+    case Kind::scroll:
+      s.injected.wheel += event.y;
+      break;
+    case Kind::type:
+      s.injected.text.append(event.text.begin(), event.text.end());
+      break;
+    case Kind::resize:
+      glfwSetWindowSize(s.window, static_cast<int>(event.x), static_cast<int>(event.y));
+      break;
+    case Kind::minimise:
+    case Kind::restore:
+      s.scripted.minimised = event.kind == Kind::minimise;
+      break;
+    case Kind::drop:
+      s.injected.dropped.push_back(event.text);
+      break;
+    case Kind::close:
+      glfwSetWindowShouldClose(s.window, GLFW_TRUE);
+      break;
+    case Kind::wait:
+    case Kind::widget:
+    case Kind::say:
+    case Kind::until:
+      break;
+  }
 }
 
 bool Window::should_close() const { return glfwWindowShouldClose(state_->window) == GLFW_TRUE; }
 std::uint32_t Window::width() const { return static_cast<std::uint32_t>(state_->size().first); }
 std::uint32_t Window::height() const { return static_cast<std::uint32_t>(state_->size().second); }
+
+std::pair<std::uint32_t, std::uint32_t> Window::desktop_size() const {
+  if (state_->size().first == 0) return {0, 0};
+  int width = 0;
+  int height = 0;
+  glfwGetWindowSize(state_->window, &width, &height);
+  return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+}
 
 double Window::content_scale() const {
   float x = 0.0f;
@@ -186,5 +341,26 @@ double Window::content_scale() const {
 void Window::resize(std::uint32_t width, std::uint32_t height) {
   glfwSetWindowSize(state_->window, static_cast<int>(width), static_cast<int>(height));
 }
+
+bool Window::is_full_screen() const { return glfwGetWindowMonitor(state_->window) != nullptr; }
+
+void Window::toggle_full_screen() {
+  State& s = *state_;
+  int* const place = s.windowed;
+  if (is_full_screen()) {
+    glfwSetWindowMonitor(s.window, nullptr, place[0], place[1], place[2], place[3], GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* const mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+  if (mode == nullptr) return;
+  glfwGetWindowPos(s.window, place, place + 1);
+  glfwGetWindowSize(s.window, place + 2, place + 3);
+  glfwSetWindowMonitor(s.window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
+
+void Window::hide() { glfwHideWindow(state_->window); }
 
 }  // namespace gloam

@@ -6,24 +6,37 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "sandbox/window/input_script.h"
 #include "sandbox/window/panel_input.h"
 
 namespace gloam {
 
-/// Keyboard and mouse input of one frame.
+/// Input of one frame: keyboard, mouse and the first gamepad.
 struct WindowInput {
-  double forward = 0.0;       ///< W, S
-  double right = 0.0;         ///< D, A
-  double up = 0.0;            ///< E, Q
-  double drag_x = 0.0;        ///< pixels that the mouse moved to the right with a button held
-  double drag_y = 0.0;        ///< downwards
-  bool fast = false;          ///< shift
-  bool leave = false;         ///< Escape was pressed
-  bool toggle_panel = false;  ///< Tab or F1 was pressed
-  PanelInput panel;           ///< the same input in the form that a panel takes
+  double forward = 0.0;     ///< W, S, left stick
+  double right = 0.0;       ///< D, A, left stick
+  double up = 0.0;          ///< E, Q, triggers
+  double turn = 0.0;        ///< right stick, −1…1 to the left
+  double tilt = 0.0;        ///< right stick, upwards
+  double drag_x = 0.0;      ///< pixels that the mouse moved to the right with a button held
+  double drag_y = 0.0;      ///< downwards
+  double pointer_x = -1.0;  ///< pixels from the picture's upper left corner
+  double pointer_y = -1.0;
+  bool fast = false;                 ///< shift, a shoulder button of the gamepad
+  bool leave = false;                ///< Escape was pressed
+  bool toggle_panel = false;         ///< Tab or F1 was pressed
+  bool pause = false;                ///< Space or P was pressed
+  bool step = false;                 ///< . was pressed
+  bool screenshot = false;           ///< F12 was pressed
+  bool full_screen = false;          ///< F11 was pressed
+  bool clicked = false;              ///< the left button went down and up again without a movement
+  std::uint32_t camera = 0;          ///< 1…9: number key that was pressed; 0: none
+  std::vector<std::string> dropped;  ///< paths of files that were dropped onto the window
+  PanelInput panel;                  ///< the same input in the form that a panel takes
 };
 
 /// A desktop window for Vulkan. Use it on the main thread only; at most one window may exist at a time.
@@ -51,9 +64,19 @@ class Window {
   /// Size in pixels; 0 × 0 while minimised.
   [[nodiscard]] std::uint32_t width() const;
   [[nodiscard]] std::uint32_t height() const;
+  /// Size in desktop units, as for resize(); 0 × 0 while minimised.
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> desktop_size() const;
   /// The desktop's scale factor for text; 1 if unknown.
   [[nodiscard]] double content_scale() const;
   void resize(std::uint32_t width, std::uint32_t height);
+  /// Changes between a window and the whole screen.
+  void toggle_full_screen();
+  [[nodiscard]] bool is_full_screen() const;
+  void set_title(const std::string& title);
+  /// Adds an event to those of the next poll(). Nothing for `widget`, `say` and `until`.
+  void inject(const ScriptEvent& event);
+  /// Takes the window from the screen, before work that ends after it was closed.
+  void hide();
 
  private:
   struct State;

@@ -46,7 +46,7 @@ ROOMS = {
                       ("view", "view_constants", "outputs", "pipelines", "frame_builder", "module", "renderer_state")),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections", "grass",
                        "particles", "dof"), ()),
-    "sandbox": (("output", "scenes", "session", "window", "bench", "commands"), ("options", "console", "log")),
+    "sandbox": (("output", "scenes", "session", "window", "play", "bench", "commands"), ("options", "console", "log")),
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
     "shaders/particles": (("simulation", "sorting", "lighting", "drawing", "debug"), None),

@@ -1,46 +1,17 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""Tests `play` on a virtual display: it draws, follows a change of size, and closes. Needs Vulkan and xvfb-run."""
-import ctypes
-import ctypes.util
-import os
+"""Tests `play` on a virtual display: it draws, follows a change of size, and closes; its picture is that of `render`. Needs
+Vulkan and xvfb-run."""
+import math
 import shutil
-import subprocess
-import time
 
-from program_case import ProgramCase, main
+from program_case import main
+from window_case import Picture, WindowCase, read_png
 
 PREFIX = ("xvfb-run", "-a", "-s", "-screen 0 800x600x24")
 
 
-class Display:
-    """The Xlib calls that find and resize windows."""
-
-    def __init__(self, name):
-        self.x11 = ctypes.CDLL(ctypes.util.find_library("X11") or "libX11.so.6")
-        self.x11.XOpenDisplay.restype = ctypes.c_void_p
-        self.handle = ctypes.c_void_p(self.x11.XOpenDisplay(name.encode()))
-        self.x11.XDefaultRootWindow.restype = ctypes.c_ulong
-        self.root = self.x11.XDefaultRootWindow(self.handle)
-
-    def windows(self):
-        root, parent, count = ctypes.c_ulong(), ctypes.c_ulong(), ctypes.c_uint()
-        children = ctypes.POINTER(ctypes.c_ulong)()
-        self.x11.XQueryTree(self.handle, ctypes.c_ulong(self.root), ctypes.byref(root), ctypes.byref(parent),
-                            ctypes.byref(children), ctypes.byref(count))
-        return [children[i] for i in range(count.value)]
-
-    def title(self, window):
-        text = ctypes.c_char_p()
-        self.x11.XFetchName(self.handle, ctypes.c_ulong(window), ctypes.byref(text))
-        return (text.value or b"").decode()
-
-    def resize(self, window, width, height):
-        self.x11.XResizeWindow(self.handle, ctypes.c_ulong(window), width, height)
-        self.x11.XFlush(self.handle)
-
-
-class Play(ProgramCase):
+class Play(WindowCase):
     def setUp(self):
         super().setUp()
         self.assertIsNotNone(shutil.which("xvfb-run"), "xvfb-run is not installed (package xvfb)")
@@ -65,28 +36,69 @@ class Play(ProgramCase):
         self.assertNotIn("panel", passes[1])
 
     def test_it_follows_the_window(self):
-        server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"],
-                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        self.addCleanup(server.wait)
-        self.addCleanup(server.terminate)
-        self.addCleanup(server.stdout.close)
-        name = ":" + server.stdout.readline().strip()
-        program = subprocess.Popen([self.program, "play", "builtin:plain", "--size", "160x90", "--frames", "60", "--stats", "s.json"],
-                                   cwd=self.folder, env=dict(os.environ, DISPLAY=name, WAYLAND_DISPLAY=""),
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        display = Display(name)
-        until = time.monotonic() + 240  # generous: only a hang may reach it, not a slow machine
-        resized = False
-        while program.poll() is None and time.monotonic() < until:
-            for window in display.windows():
-                if not resized and display.title(window).startswith("gloam"):
-                    display.resize(window, 240, 200)
-                    resized = True
-            time.sleep(0.02)
-        output, errors = program.communicate(timeout=40)
-        self.assertEqual(program.returncode, 0, output + errors)
-        self.assertTrue(resized, "the window never appeared")
+        run = self.start("builtin:plain", "--size", "160x90", "--frames", "60", "--stats", "s.json")
+        run.wait_for("the window", run.display.find)
+        run.display.resize(run.display.find(), 240, 200)
+        run.end()
         self.assertEqual(self.read_json("s.json")["size"], [240, 200])
+
+    def photograph(self, scene, scale):
+        """The window at this scale, when its picture has settled."""
+        run = self.start(scene, "--size", "192x108", "--scale", str(scale), "--dt", "0", "--time", "0.5", "--validate",
+                         script="wait 3\nsay a\nuntil a.seen\nclose\n")
+        picture = run.photograph_at("a")
+        self.assertEqual(run.end(), "")
+        return picture
+
+    def rendered(self, scene, size):
+        self.expect(0, "render", scene, "--size", size, "--time", "0.5", "--dt", "0", "--out", "r.png")
+        return read_png(self.folder / "r.png")
+
+    def test_at_scale_1_the_window_shows_what_render_draws(self):
+        most, _ = self.photograph("builtin:shadows", 1).differences(self.rendered("builtin:shadows", "192x108"))
+        self.assertLessEqual(most, 1, "the shader and the hardware may round a code apart")
+
+    def test_a_reduced_picture_is_enlarged_by_the_stated_filter(self):
+        small = self.rendered("builtin:shadows", "96x54")
+        most, mean = self.photograph("builtin:shadows", 0.5).differences(enlarged(small, 192, 108))
+        self.assertLessEqual(most, 4)
+        self.assertLess(mean, 0.6)
+
+
+def kernel(x):
+    """Lanczos-2 as the polynomial of upscale.frag."""
+    x2 = min(x * x, 4.0)
+    return (25 / 16 * (0.4 * x2 - 1) ** 2 - 9 / 16) * (0.25 * x2 - 1) ** 2
+
+
+def enlarged_lines(lines, size):
+    """Each line, a list of values, enlarged to this many values."""
+    taps = []
+    count = len(lines[0])
+    for at in range(size):
+        along = (at + 0.5) * count / size - 0.5
+        first, part = math.floor(along), along - math.floor(along)
+        weights = [kernel(1 + part), kernel(part), kernel(1 - part), kernel(2 - part)]
+        taps.append(([min(max(first - 1 + i, 0), count - 1) for i in range(4)], [w / sum(weights) for w in weights]))
+    result = []
+    for line in lines:
+        values = []
+        for at, weights in taps:
+            a, b, c, d = (line[i] for i in at)
+            mixed = weights[0] * a + weights[1] * b + weights[2] * c + weights[3] * d
+            values.append(min(max(mixed, min(b, c)), max(b, c)))
+        result.append(values)
+    return result
+
+
+def enlarged(picture, width, height):
+    """The twin of upscale.frag: along x, then along y."""
+    channels = []
+    for channel in range(3):
+        lines = [[picture.rgb[3 * (y * picture.width + x) + channel] for x in range(picture.width)] for y in range(picture.height)]
+        columns = enlarged_lines([list(column) for column in zip(*enlarged_lines(lines, width))], height)
+        channels.append([value for line in zip(*columns) for value in line])
+    return Picture(width, height, bytes(round(value) for pixel in zip(*channels) for value in pixel))
 
 
 if __name__ == "__main__":

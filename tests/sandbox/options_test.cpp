@@ -93,6 +93,15 @@ TEST(Options, play_shows_the_lanterns_until_the_window_is_closed) {
   EXPECT_EQ(parsed({"play", "--frames", "3"}).frames, 3u);
 }
 
+TEST(Options, play_draws_at_an_automatic_scale_unless_it_measures) {
+  EXPECT_EQ(parsed({"play"}).scale, 0.0);
+  EXPECT_EQ(parsed({"play", "--scale", "0.4"}).scale, 0.4);
+  EXPECT_EQ(parsed({"play", "--stats", "s.json"}).scale, 1.0);
+  EXPECT_EQ(parsed({"play", "--stats", "s.json", "--scale", "auto"}).scale, 0.0);
+  for (const char* wrong : {"0.2", "1.01", "x", "", "0.5x", "nan"}) fault({"play", "--scale", wrong});
+  fault({"render", "a.gltf", "--scale", "0.5"});
+}
+
 TEST(Options, bench_takes_names_and_a_scene) {
   const Options options = parsed({"bench", "ecs", "jobs", "--strict", "--json", "rows.json"});
   EXPECT_EQ(options.names, (Arguments{"ecs", "jobs"}));

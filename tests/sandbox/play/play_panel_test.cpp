@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "sandbox/window/play_panel.h"
+#include "sandbox/play/play_panel.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ class PlayPanelTest : public ::testing::Test {
 
   /// Updates the panel and renders a frame under it.
   void frame(PlayPanel& panel, WindowInput& input, const PanelFrame& window = kFrame) {
-    const Status updated = panel.update(input, window, settings_);
+    const Status updated = panel.update(input, window, settings_, scale_);
     ASSERT_TRUE(updated.ok()) << updated.error().message;
     ViewRequest request = {.settings = settings_, .target = {}};
     request.target.overlay = panel.overlay();
@@ -64,6 +64,7 @@ class PlayPanelTest : public ::testing::Test {
   Session session_;
   gpu::RecordingDevice* device_ = nullptr;
   ViewSettings settings_;
+  ResolutionScale scale_{80.0, 1.0};
   std::set<std::string> passes_;
 };
 

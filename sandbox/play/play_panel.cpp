@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "sandbox/window/play_panel.h"
+#include "sandbox/play/play_panel.h"
 
 #include <utility>
 
@@ -20,7 +20,7 @@ Status PlayPanel::open() {
   return {};
 }
 
-Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettings& view) {
+Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettings& view, ResolutionScale& scale) {
   // Tab does not hide the panel while the user types text.
   if (input.toggle_panel && !(drawn_ && panel_->wants_keyboard())) shown_ = !shown_;
   drawn_ = shown_ && frame.width > 0 && frame.height > 0;
@@ -44,13 +44,37 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
                   .modules = report.modules,
                   .visualizers = visualizers_,
                   .visualizer = view.visualizer,
-                  .show = show});
-  if (panel_->wants_mouse()) input.drag_x = input.drag_y = 0.0;
+                  .show = show,
+                  .scale = scale.scale(),
+                  .scale_setting = scale.setting(),
+                  .scale_steps = ResolutionScale::kSteps,
+                  .set_scale = [&](double setting) { scale.set(setting); }});
+  if (panel_->wants_mouse()) {
+    input.drag_x = input.drag_y = 0.0;
+    input.clicked = false;
+  }
   if (typing || panel_->wants_keyboard()) {
     input.forward = input.right = input.up = 0.0;
     input.fast = input.leave = false;
+    input.pause = input.step = false;
+    input.camera = 0;
   }
   return {};
+}
+
+void PlayPanel::set_scale(double scale) {
+  if (scale == scale_) return;
+  scale_ = scale;
+  drawn_ = false;
+  renderer_.reset();
+  panel_.reset();
+}
+
+std::optional<vec2> PlayPanel::widget(std::string_view name) const {
+  if (!drawn_) return std::nullopt;
+  for (const PanelWidget& widget : panel_->widgets())
+    if (widget.name == name) return 0.5f * vec2(widget.left + widget.right, widget.top + widget.bottom);
+  return std::nullopt;
 }
 
 std::function<Status(FrameGraph&, ImageRef&)> PlayPanel::overlay() {

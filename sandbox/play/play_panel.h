@@ -4,9 +4,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <vector>
 
+#include "engine/math/types.h"
 #include "engine/render/renderer.h"
+#include "sandbox/play/resolution_scale.h"
 #include "sandbox/session/session.h"
 #include "sandbox/window/panel.h"
 #include "sandbox/window/panel_renderer.h"
@@ -22,8 +26,14 @@ class PlayPanel {
   PlayPanel(Session& session, double scale, bool shown);
 
   /// Call it before each frame. frame: the window's size in pixels and the time step. Updates the panel, applies the
-  /// user's changes to knobs and view, and removes the input that the panel used from `input`.
-  [[nodiscard]] Status update(WindowInput& input, const PanelFrame& frame, ViewSettings& view);
+  /// user's changes to knobs, view and scale, and removes the input that the panel used from `input`.
+  [[nodiscard]] Status update(WindowInput& input, const PanelFrame& frame, ViewSettings& view, ResolutionScale& scale);
+
+  [[nodiscard]] bool shown() const { return shown_; }
+  /// Changes the factor on the size of text.
+  void set_scale(double scale);
+  /// The middle of a widget in the last update, in pixels (Panel::widgets); none if it was not shown.
+  [[nodiscard]] std::optional<vec2> widget(std::string_view name) const;
 
   /// The function for ViewTarget::overlay in the frame after an update; empty while the panel is hidden.
   [[nodiscard]] std::function<Status(FrameGraph&, ImageRef&)> overlay();

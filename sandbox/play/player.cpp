@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/play/player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "sandbox/output/file_io.h"
+#include "sandbox/session/frame_tracing.h"
+#include "sandbox/session/run_output.h"
+#include "sandbox/session/scene_loading.h"
+
+namespace gloam {
+namespace {
+
+constexpr double kRadiansPerPixel = 0.003;
+constexpr double kStickRadians = 1.8;  // per second
+constexpr double kFastFactor = 5.0;
+constexpr double kLongestStep = 0.1;  // seconds: limits the time step after a pause
+// A frame's time that the automatic scale aims at. Software devices must keep 10 frames a second.
+constexpr double kSoftwareBudgetMs = 85.0;
+constexpr double kGpuBudgetMs = 20.0;
+// Pixels of the first frames on a software device, which take about 80 ms for them.
+constexpr double kSoftwarePixels = 115000.0;
+constexpr double kGpuPixels = 1e9;
+constexpr std::uint32_t kSmallestSide = 16;
+
+std::uint32_t scaled(std::uint32_t size, double scale) {
+  const auto pixels = static_cast<std::uint32_t>(std::lround(size * scale));
+  return std::clamp(pixels, std::min(kSmallestSide, size), size);
+}
+
+}  // namespace
+
+Player::Player(const Options& options, Session& session, WindowPictures& pictures, Lasting& lasting, LogSink& log)
+    : options_(options),
+      session_(session),
+      pictures_(pictures),
+      lasting_(lasting),
+      log_(log),
+      on_software_(session.device->info().type == gpu::DeviceType::cpu),
+      scale_(on_software_ ? kSoftwareBudgetMs : kGpuBudgetMs, lasting.scale),
+      upscaler_(*session.device),
+      panel_(session, pictures.window().content_scale(), lasting.panel),
+      time_s_(options.time_s) {
+  settings_ = session.view_settings(options.width, options.height, options.view);
+  last_ns_ = session.zones.now_ns();
+}
+
+Status Player::run() {
+  Window& window = pictures_.window();
+  std::uint32_t frames = 0;
+  while (options_.frames == 0 || frames < options_.frames) {
+    WindowInput input = poll();
+    count_step();
+    adapt_scale();
+    panel_.set_scale(window.content_scale());
+    GLOAM_TRY(panel_.update(input, {window.width(), window.height(), frame_s_}, settings_, scale_));
+    if (window.should_close() || input.leave) break;
+    GLOAM_TRY(obey(input));
+    if (!next_scene_.empty()) break;
+    drop_view_without_its_knob();
+    move_camera(input);
+    const auto drawn = draw();
+    if (!drawn) return drawn.error();
+    shown_ = *drawn;
+    if (shown_) ++frames;
+  }
+  lasting_.scale = scale_.setting();
+  lasting_.panel = panel_.shown();
+  return session_.renderer->wait();
+}
+
+WindowInput Player::poll() {
+  play_script();
+  return pictures_.window().poll();
+}
+
+/// The events that are not the window's are done here.
+void Player::play_script() {
+  const ScriptEvent event = lasting_.script.next([](const std::string& path) {
+    std::error_code fault;
+    return std::filesystem::exists(path, fault);
+  });
+  if (event.kind == ScriptEvent::Kind::say) {
+    if (const Status said = write_file(event.text, ""); !said.ok()) log_.warning(said.error().message);
+  } else if (event.kind == ScriptEvent::Kind::widget) {
+    if (const auto middle = panel_.widget(event.text)) {
+      pictures_.window().inject({.kind = ScriptEvent::Kind::move, .x = middle->x, .y = middle->y});
+    } else {
+      log_.warning("the panel shows no widget '" + event.text + "'");
+    }
+  } else {
+    pictures_.window().inject(event);
+  }
+}
+
+/// Does what keys and dropped files ask for.
+Status Player::obey(const WindowInput& input) {
+  if (input.full_screen) pictures_.window().toggle_full_screen();
+  if (input.pause) paused_ = !paused_;
+  step_once_ = input.step;
+  paused_ |= input.step;
+  if (input.camera > 0) show_camera(input.camera);
+  accept(input.dropped);
+  return input.screenshot && shown_ ? save_screenshot() : Status();
+}
+
+/// Shows the scene's camera of this number, from 1 on, and ends the flight.
+void Player::show_camera(std::uint32_t number) {
+  if (number > session_.info.cameras.size()) return;
+  session_.camera = session_.info.cameras[number - 1];
+  settings_ = session_.view_settings(settings_.width, settings_.height, settings_.visualizer);
+  settings_.camera_cut = true;
+  flight_ = {};
+}
+
+/// Draws the picture at the window's size without the panel, as `gloam render` does, and writes it to the first free
+/// out/<scene>-NNN.png. A file that cannot be written is a warning.
+Status Player::save_screenshot() {
+  session_.set_clock(time_s_, 0.0);
+  auto sample = session_.render_frame({.settings = settings_, .target = {}});
+  if (!sample) return sample.error();
+  const std::vector<FrameSample> samples = {std::move(sample).value()};
+  std::string path;
+  std::error_code fault;
+  for (int number = 1; path.empty() || std::filesystem::exists(path, fault); ++number) {
+    const std::string digits = std::to_string(number);
+    path = "out/" + scene_stem(options_.scene) + "-" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') +
+           digits + ".png";
+  }
+  const Status written = write_picture({.session = session_, .view = settings_, .samples = samples}, path);
+  if (!written.ok()) log_.warning(written.error().message);
+  pictures_.window().set_title(written.ok() ? "gloam: wrote " + path : "gloam: " + options_.scene);
+  drawn_scale_ = -1.0;  // the next frame has another size
+  return {};
+}
+
+/// The last of the dropped files that is a scene is shown next.
+void Player::accept(const std::vector<std::string>& dropped) {
+  for (const std::string& path : dropped) {
+    const bool scene = path.ends_with(".gltf") || path.ends_with(".glb");
+    const Status exists =
+        scene ? check_scene_exists(path) : Status(Error{ErrorKind::input, path + ": is no scene: .gltf or .glb"});
+    if (!exists.ok()) {
+      log_.warning(exists.error().message);
+      continue;
+    }
+    next_scene_ = path;
+  }
+}
+
+/// A changed knob may make the visualizer unavailable. Then warn, return to the lit picture and go on.
+void Player::drop_view_without_its_knob() {
+  if (settings_.visualizer == "none") return;
+  Status shows = session_.renderer->check_visualizer(session_.world, settings_.visualizer);
+  if (shows.ok()) shows = check_shown_live(*session_.renderer, settings_.visualizer);
+  if (shows.ok()) return;
+  log_.warning(shows.error().message);
+  settings_.visualizer = "none";
+}
+
+void Player::count_step() {
+  const std::uint64_t now = session_.zones.now_ns();
+  frame_s_ = static_cast<double>(now - last_ns_) * 1e-9;
+  step_s_ = std::min(frame_s_, kLongestStep);
+  last_ns_ = now;
+}
+
+void Player::move_camera(const WindowInput& input) {
+  const FlyInput flight = {.forward = input.forward,
+                           .right = input.right,
+                           .up = input.up,
+                           .turn = input.turn * kStickRadians * step_s_ - input.drag_x * kRadiansPerPixel,
+                           .tilt = input.tilt * kStickRadians * step_s_ - input.drag_y * kRadiansPerPixel,
+                           .speed = input.fast ? kFastFactor : 1.0};
+  flight_.advance(session_.world, flight, step_s_, settings_);
+}
+
+/// On a software device the whole turn counts. A GPU waits for the display, so there its own time counts.
+void Player::adapt_scale() {
+  if (shown_) scale_.add(on_software_ ? frame_s_ * 1e3 : session_.renderer->report().gpu_ms);
+}
+
+/// Draws a frame. Returns false if none was shown, because the window is minimised or changes its size.
+Result<bool> Player::draw() {
+  const auto visible = pictures_.follow_window();
+  if (!visible.ok() || !*visible) return visible;
+  if (settings_.width != pictures_.width() || settings_.height != pictures_.height() || drawn_scale_ == 0.0) {
+    settings_.width = pictures_.width();
+    settings_.height = pictures_.height();
+    scale_.start(settings_.width, settings_.height, on_software_ ? kSoftwarePixels : kGpuPixels);
+  }
+  const bool stands = paused_ && !step_once_;
+  const double dt_s = stands ? 0.0 : options_.fixed_step || step_once_ ? options_.dt_s : step_s_;
+  session_.set_clock(time_s_, dt_s);
+  const auto asked = request();
+  if (!asked) return asked.error();
+  GLOAM_TRY(render(*asked));
+  const auto shown = pictures_.present();
+  if (shown.ok() && *shown) {
+    time_s_ += dt_s;
+    step_once_ = settings_.camera_cut = false;
+  }
+  return shown;
+}
+
+/// The next frame's view: drawn into the window's picture, or at a reduced size and then enlarged into it.
+Result<ViewRequest> Player::request() {
+  ViewRequest request = {.settings = settings_, .target = {}, .keep_linear = false};
+  const double scale = scale_.scale();
+  request.settings.width = scaled(settings_.width, scale);
+  request.settings.height = scaled(settings_.height, scale);
+  if (scale != drawn_scale_ && drawn_scale_ != 0.0) session_.renderer->free_idle_memory();
+  drawn_scale_ = scale;
+  if (request.settings.width == settings_.width && request.settings.height == settings_.height) {
+    upscaler_.release();
+    request.target.after = gpu::Access::present;
+    request.target.acquire = [this] { return pictures_.acquire(); };
+    request.target.overlay = panel_.overlay();
+    return request;
+  }
+  const auto image = upscaler_.image(request.settings.width, request.settings.height);
+  if (!image.ok()) return image.error();
+  request.settings.aspect = static_cast<float>(settings_.width) / static_cast<float>(settings_.height);
+  request.target.image = *image;
+  request.target.after = gpu::Access::fragment_read;
+  request.target.overlay = [this](FrameGraph& graph, ImageRef& picture) { return show_enlarged(graph, picture); };
+  return request;
+}
+
+Status Player::show_enlarged(FrameGraph& graph, ImageRef picture) {
+  const auto image = pictures_.acquire();
+  if (!image.ok()) return image.error();
+  if (!*image) return {};
+  ImageRef window = graph.import_image("window", *image, gpu::Access::none, gpu::Access::present);
+  GLOAM_TRY(upscaler_.add_passes(graph, picture, window));
+  const auto overlay = panel_.overlay();
+  return overlay ? overlay(graph, window) : Status();
+}
+
+/// Waits for the frame only if its times are needed (--stats, --trace).
+Status Player::render(const ViewRequest& request) {
+  if (options_.stats.empty() && options_.trace.empty()) {
+    static_cast<void>(session_.zones.take());
+    return session_.renderer->render(session_.world, {&request, 1});
+  }
+  auto sample = session_.render_frame(request);
+  if (!sample) return sample.error();
+  samples_.push_back(std::move(sample).value());
+  return {};
+}
+
+}  // namespace gloam

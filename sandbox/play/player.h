@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/core/log.h"
+#include "engine/core/result.h"
+#include "sandbox/options.h"
+#include "sandbox/output/frame_sample.h"
+#include "sandbox/play/play_panel.h"
+#include "sandbox/play/resolution_scale.h"
+#include "sandbox/play/upscaler.h"
+#include "sandbox/play/window_pictures.h"
+#include "sandbox/session/session.h"
+#include "sandbox/window/fly_camera.h"
+#include "sandbox/window/input_script.h"
+
+namespace gloam {
+
+/// Shows a scene in a window, frame by frame.
+class Player {
+ public:
+  /// What lasts longer than a scene.
+  struct Lasting {
+    double scale = 0.0;  ///< ResolutionScale::setting
+    bool panel = false;  ///< the panel is shown
+    InputScript script;
+  };
+
+  /// The arguments must outlive it. session: with its scene.
+  Player(const Options& options, Session& session, WindowPictures& pictures, Lasting& lasting, LogSink& log);
+
+  /// Returns when the user leaves, after --frames, or when another scene is to be shown.
+  [[nodiscard]] Status run();
+  /// The scene file that was dropped onto the window; empty: none.
+  [[nodiscard]] const std::string& next_scene() const { return next_scene_; }
+
+  /// The view at the window's size.
+  [[nodiscard]] const ViewSettings& settings() const { return settings_; }
+  /// The frames of a run with --stats or --trace.
+  [[nodiscard]] const std::vector<FrameSample>& samples() const { return samples_; }
+
+ private:
+  [[nodiscard]] WindowInput poll();
+  void play_script();
+  [[nodiscard]] Status obey(const WindowInput& input);
+  void show_camera(std::uint32_t number);
+  [[nodiscard]] Status save_screenshot();
+  void accept(const std::vector<std::string>& dropped);
+  void drop_view_without_its_knob();
+  void count_step();
+  void move_camera(const WindowInput& input);
+  void adapt_scale();
+  [[nodiscard]] Result<bool> draw();
+  [[nodiscard]] Result<ViewRequest> request();
+  [[nodiscard]] Status show_enlarged(FrameGraph& graph, ImageRef picture);
+  [[nodiscard]] Status render(const ViewRequest& request);
+
+  const Options& options_;
+  Session& session_;
+  WindowPictures& pictures_;
+  Lasting& lasting_;
+  LogSink& log_;
+  ViewSettings settings_;
+  ViewFlight flight_;
+  bool on_software_;
+  ResolutionScale scale_;
+  double drawn_scale_ = 0.0;  ///< of the last frame; 0: none yet
+  Upscaler upscaler_;
+  PlayPanel panel_;
+  std::vector<FrameSample> samples_;
+  double time_s_ = 0.0;
+  double frame_s_ = 0.0;  ///< since the last frame
+  double step_s_ = 0.0;   ///< frame_s_, at most kLongestStep
+  std::uint64_t last_ns_ = 0;
+  bool paused_ = false;
+  bool step_once_ = false;
+  std::string next_scene_;
+  bool shown_ = false;  ///< the last turn showed a picture
+};
+
+}  // namespace gloam

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gloam {
+
+/// The share of the window's width and height that frames are drawn at: fixed, or chosen so that frames stay within a
+/// time. Automatic changes are rare and go between few sizes, because a change of size makes new images and resets
+/// effects that accumulate over frames.
+class ResolutionScale {
+ public:
+  static constexpr std::array kSteps = {0.25, 0.3, 0.35, 0.42, 0.5, 0.6, 0.7, 0.85, 1.0};
+  /// Frames after a change that are not judged: they make images and draw what is cached later.
+  static constexpr std::size_t kUnjudged = 2;
+  /// Judged frames before a change to fewer or to more pixels.
+  static constexpr std::size_t kBeforeDown = 3;
+  static constexpr std::size_t kBeforeUp = 8;
+  /// Frames for which a step that was too slow is not tried again.
+  static constexpr std::uint64_t kBlockedFrames = 400;
+
+  /// budget_ms: the time of a frame that automatic changes aim at, > 0. setting: as for set().
+  ResolutionScale(double budget_ms, double setting);
+
+  /// setting: 0 for automatic, otherwise the fixed scale, 0.25…1.
+  void set(double setting);
+  [[nodiscard]] double setting() const { return setting_; }
+  /// The scale of the next frame.
+  [[nodiscard]] double scale() const { return setting_ > 0.0 ? setting_ : kSteps[step_]; }
+
+  /// Before the first frame, and after a change of the window's size: the largest step with at most this many pixels,
+  /// at least the smallest step. Width and height in pixels, > 0.
+  void start(std::uint32_t width, std::uint32_t height, double most_pixels);
+
+  /// Adds a frame's time. Returns whether the automatic scale has changed.
+  bool add(double frame_ms);
+
+ private:
+  /// The largest step whose time is expected within `budget_ms`; at least 0. Of a frame's time, `fixed_share` does not
+  /// depend on its pixels.
+  [[nodiscard]] std::size_t fitting_step(double frame_ms, double budget_ms, double fixed_share) const;
+  void change_to(std::size_t step);
+
+  double budget_ms_;
+  double setting_;
+  std::size_t step_ = kSteps.size() - 1;
+  std::vector<double> times_;  ///< since the last change, without unjudged frames; kBeforeUp at most
+  std::size_t unjudged_ = kUnjudged;
+  std::uint64_t frame_ = 0;
+  std::array<std::uint64_t, kSteps.size()> blocked_until_ = {};
+};
+
+}  // namespace gloam

@@ -1,0 +1,206 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""A virtual display for tests of `gloam play`: finds, resizes and photographs windows. Needs Xvfb and libX11."""
+import ctypes
+import ctypes.util
+import os
+import struct
+import subprocess
+import time
+import zlib
+
+from program_case import CACHE, ProgramCase
+
+Z_PIXMAP = 2
+CLIENT_MESSAGE = 33
+ALL_PLANES = ctypes.c_ulong(-1)
+
+
+class XImage(ctypes.Structure):
+    _fields_ = [("width", ctypes.c_int), ("height", ctypes.c_int), ("xoffset", ctypes.c_int), ("format", ctypes.c_int),
+                ("data", ctypes.POINTER(ctypes.c_ubyte)), ("byte_order", ctypes.c_int), ("bitmap_unit", ctypes.c_int),
+                ("bitmap_bit_order", ctypes.c_int), ("bitmap_pad", ctypes.c_int), ("depth", ctypes.c_int),
+                ("bytes_per_line", ctypes.c_int)]
+
+
+class ClientMessage(ctypes.Structure):
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int), ("display", ctypes.c_void_p),
+                ("window", ctypes.c_ulong), ("message_type", ctypes.c_ulong), ("format", ctypes.c_int),
+                ("data", ctypes.c_long * 5), ("rest_of_union", ctypes.c_long * 24)]
+
+
+class Picture:
+    """width, height, and three bytes a pixel, row by row from the top."""
+
+    def __init__(self, width, height, rgb):
+        self.width, self.height, self.rgb = width, height, rgb
+
+    def pixel(self, x, y):
+        at = 3 * (y * self.width + x)
+        return tuple(self.rgb[at:at + 3])
+
+    def differences(self, other):
+        """The largest and the mean difference of a channel."""
+        assert (self.width, self.height) == (other.width, other.height)
+        steps = [abs(a - b) for a, b in zip(self.rgb, other.rgb)]
+        return max(steps), sum(steps) / len(steps)
+
+    def mean(self):
+        return sum(self.rgb) / len(self.rgb)
+
+    def write(self, path):
+        rows = b"".join(b"\0" + self.rgb[3 * self.width * y:3 * self.width * (y + 1)] for y in range(self.height))
+
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+        head = struct.pack(">IIBBBBB", self.width, self.height, 8, 2, 0, 0, 0)
+        path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def paeth(a, b, c):
+    da, db, dc = abs(b - c), abs(a - c), abs(a + b - 2 * c)
+    return a if da <= db and da <= dc else b if db <= dc else c
+
+
+def read_png(path):
+    """A PNG of 8 bits a channel, RGB or RGBA, as the program writes it."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, _, color = struct.unpack(">IIBB", body[:10])
+        if kind == b"IDAT":
+            packed += body
+        at += size + 12
+    step = 4 if color == 6 else 3
+    raw, stride, above, rgb = zlib.decompress(packed), step * width, bytearray(step * width), bytearray()
+    for y in range(height):
+        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride if kind else 0):
+            left, corner = (line[i - step], above[i - step]) if i >= step else (0, 0)
+            line[i] = (line[i] + (0, left, above[i], (left + above[i]) // 2, paeth(left, above[i], corner))[kind]) & 255
+        above = line
+        for x in range(width):
+            rgb += line[step * x:step * x + 3]
+    return Picture(width, height, bytes(rgb))
+
+
+class Display:
+    """The Xlib calls that find, resize and photograph windows."""
+
+    def __init__(self, name):
+        self.x11 = ctypes.CDLL(ctypes.util.find_library("X11") or "libX11.so.6")
+        self.x11.XOpenDisplay.restype = ctypes.c_void_p
+        self.x11.XGetImage.restype = ctypes.POINTER(XImage)
+        self.handle = ctypes.c_void_p(self.x11.XOpenDisplay(name.encode()))
+        self.x11.XDefaultRootWindow.restype = ctypes.c_ulong
+        self.x11.XInternAtom.restype = ctypes.c_ulong
+        self.root = self.x11.XDefaultRootWindow(self.handle)
+
+    def windows(self):
+        root, parent, count = ctypes.c_ulong(), ctypes.c_ulong(), ctypes.c_uint()
+        children = ctypes.POINTER(ctypes.c_ulong)()
+        self.x11.XQueryTree(self.handle, ctypes.c_ulong(self.root), ctypes.byref(root), ctypes.byref(parent),
+                            ctypes.byref(children), ctypes.byref(count))
+        return [children[i] for i in range(count.value)]
+
+    def title(self, window):
+        text = ctypes.c_char_p()
+        self.x11.XFetchName(self.handle, ctypes.c_ulong(window), ctypes.byref(text))
+        return (text.value or b"").decode()
+
+    def find(self):
+        """The program's window, or None."""
+        for window in self.windows():
+            if self.title(window).startswith("gloam"):
+                return window
+        return None
+
+    def resize(self, window, width, height):
+        self.x11.XResizeWindow(self.handle, ctypes.c_ulong(window), width, height)
+        self.x11.XFlush(self.handle)
+
+    def close(self, window):
+        """Asks the program to close its window, as a window manager does."""
+        protocols, delete = (self.x11.XInternAtom(self.handle, name, 0) for name in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW"))
+        message = ClientMessage(type=CLIENT_MESSAGE, window=window, message_type=protocols, format=32)
+        message.data[0] = delete
+        self.x11.XSendEvent(self.handle, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.byref(message))
+        self.x11.XFlush(self.handle)
+
+    def size(self, window):
+        root, x, y = ctypes.c_ulong(), ctypes.c_int(), ctypes.c_int()
+        width, height, border, depth = (ctypes.c_uint() for _ in range(4))
+        self.x11.XGetGeometry(self.handle, ctypes.c_ulong(window), *map(ctypes.byref, (root, x, y, width, height, border, depth)))
+        return width.value, height.value
+
+    def photograph(self, window):
+        """What the window shows."""
+        width, height = self.size(window)
+        image = self.x11.XGetImage(self.handle, ctypes.c_ulong(window), 0, 0, width, height, ALL_PLANES, Z_PIXMAP).contents
+        raw = ctypes.string_at(image.data, image.bytes_per_line * height)
+        rgb = bytearray(3 * width * height)
+        for y in range(height):
+            row = raw[y * image.bytes_per_line:y * image.bytes_per_line + 4 * width]
+            for channel in range(3):
+                rgb[3 * width * y + channel:3 * width * (y + 1):3] = row[2 - channel::4]
+        return Picture(width, height, bytes(rgb))
+
+
+class Running:
+    """A program in a window, which an input script drives."""
+
+    def __init__(self, test, program, folder, display):
+        self.test, self.program, self.folder, self.display = test, program, folder, display
+
+    def wait_for(self, what, happened):
+        until = time.monotonic() + 240  # generous: only a hang may reach it, not a slow machine
+        while time.monotonic() < until:
+            if happened():
+                return
+            if self.program.poll() is not None:
+                break
+            time.sleep(0.01)
+        self.program.kill()
+        output, errors = self.program.communicate()
+        self.test.fail(f"{what} did not happen: {output}{errors}")
+
+    def wait_said(self, name):
+        self.wait_for(f"'say {name}'", (self.folder / name).exists)
+
+    def photograph_at(self, name):
+        """Photographs the window at the events `say NAME` and `until NAME.seen` of the script."""
+        self.wait_said(name)
+        # The picture of the last frame before `say` may be on its way.
+        time.sleep(0.3)
+        picture = self.display.photograph(self.display.find())
+        (self.folder / (name + ".seen")).touch()
+        return picture
+
+    def end(self):
+        output, errors = self.program.communicate(timeout=240)
+        self.test.assertEqual(self.program.returncode, 0, output + errors)
+        return errors
+
+
+class WindowCase(ProgramCase):
+    def start(self, *arguments, script="", size=(800, 600), env=None):
+        """Starts `gloam play` on a display of its own. script: the text of an input script."""
+        server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", f"{size[0]}x{size[1]}x24", "-nolisten", "tcp"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.terminate)
+        self.addCleanup(server.stdout.close)
+        name = ":" + server.stdout.readline().strip()
+        if script:
+            (self.folder / "script.txt").write_text(script, encoding="utf-8")
+            arguments = (*arguments, "--script", "script.txt")
+        environment = dict(os.environ, DISPLAY=name, WAYLAND_DISPLAY="", XDG_CACHE_HOME=CACHE.name,
+                           XDG_CONFIG_HOME=str(self.folder / "config"), **(env or {}))
+        environment.pop("GLOAM_LOG", None)
+        program = subprocess.Popen([self.program, "play", *map(str, arguments)], cwd=self.folder, env=environment,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: program.poll() is None and program.kill())
+        return Running(self, program, self.folder, Display(name))
