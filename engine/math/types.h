@@ -2,6 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// The library is compiled with GLM's packed types. These settings change their layout.
+#if defined(GLM_FORCE_DEFAULT_ALIGNED_GENTYPES) || defined(GLM_FORCE_ALIGNED_GENTYPES)
+#error "gloam's types are packed: compile sources that include gloam without GLM_FORCE_(DEFAULT_)ALIGNED_GENTYPES"
+#endif
+#ifdef GLM_FORCE_QUAT_DATA_WXYZ
+#error "gloam's quaternions are stored x, y, z, w: compile sources that include gloam without GLM_FORCE_QUAT_DATA_WXYZ"
+#endif
+
 #ifndef GLM_FORCE_DEPTH_ZERO_TO_ONE
 #define GLM_FORCE_DEPTH_ZERO_TO_ONE
 #endif
@@ -41,6 +49,9 @@ using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
+
+static_assert(sizeof(vec3) == 12 && alignof(vec3) == 4 && sizeof(dvec3) == 24 && sizeof(mat3) == 36,
+              "gloam's types are packed: GLM is configured with aligned types");
 
 inline constexpr float kPi = 3.14159265358979323846f;
 

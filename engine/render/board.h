@@ -3,9 +3,10 @@
 #pragma once
 
 #include <any>
-#include <typeindex>
 #include <unordered_map>
 #include <utility>
+
+#include "engine/ecs/type_key.h"
 
 namespace gloam {
 
@@ -15,23 +16,23 @@ class Board {
   /// Replaces a value of the same type.
   template <class T>
   T& put(T value) {
-    return std::any_cast<T&>(values_.insert_or_assign(std::type_index(typeid(T)), std::move(value)).first->second);
+    return std::any_cast<T&>(values_.insert_or_assign(type_key<T>(), std::move(value)).first->second);
   }
   /// The value of this type, or null if there is none.
   template <class T>
   [[nodiscard]] T* find() {
-    const auto found = values_.find(std::type_index(typeid(T)));
+    const auto found = values_.find(type_key<T>());
     return found == values_.end() ? nullptr : &std::any_cast<T&>(found->second);
   }
   template <class T>
   [[nodiscard]] const T* find() const {
-    const auto found = values_.find(std::type_index(typeid(T)));
+    const auto found = values_.find(type_key<T>());
     return found == values_.end() ? nullptr : &std::any_cast<const T&>(found->second);
   }
   void clear() { values_.clear(); }
 
  private:
-  std::unordered_map<std::type_index, std::any> values_;
+  std::unordered_map<const void*, std::any> values_;
 };
 
 }  // namespace gloam

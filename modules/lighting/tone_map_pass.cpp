@@ -51,10 +51,7 @@ ImageRef add_tone_table_pass(FrameBuilder& frame) {
   return table;
 }
 
-/// Visualizers are drawn over a picture without noise.
-bool dithers(const FrameBuilder& frame) {
-  return frame.knobs().is("lighting.dither", "on") && frame.visualizer() == "none";
-}
+bool dithers(const FrameBuilder& frame) { return frame.knobs().is("lighting.dither", "on"); }
 
 }  // namespace
 

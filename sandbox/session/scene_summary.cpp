@@ -41,7 +41,8 @@ constexpr std::size_t kMostNames = 24;  // in one line of text
 /// At most `most` names; the others are counted.
 std::string joined(const std::vector<std::string>& names, std::size_t most = ~std::size_t{0}) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i == 0 ? "" : ", ") + (names[i].empty() ? "(no name)" : names[i]);
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
+    text += (i == 0 ? "" : ", ") + (names[i].empty() ? "(no name)" : names[i]);
   if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
   return names.empty() ? "none" : text;
 }

@@ -31,6 +31,32 @@ def header_faults(include):
     return faults if headers else ["no headers were installed"]
 
 
+WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wno-sign-conversion", "-Wno-missing-field-initializers",
+            "-Werror"]
+
+
+def compile_headers(compiler, include, file, *flags):
+    """Compiles all installed headers together, without code. Returns what the compiler says; empty: nothing."""
+    file.write_text("".join(f'#include "{header.relative_to(include).as_posix()}"\n' for header in sorted(include.rglob("*.h"))
+                            if not header.name.endswith(("_shared.h", "shaders.h")) and header.relative_to(include).as_posix() != INTEROP),
+                    encoding="utf-8")
+    return subprocess.run([compiler, "-std=c++20", "-fsyntax-only", f"-I{include}", *WARNINGS, *flags, file], check=False,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+
+
+def compiler_faults(compilers, include, work):
+    """Headers compile with each compiler, also without exceptions and type information, and refuse other layouts of GLM's types."""
+    faults = []
+    for compiler in compilers:
+        for flags in ([], ["-fno-exceptions", "-fno-rtti"]):
+            said = compile_headers(compiler, include, work / "headers.cpp", *flags)
+            faults += [f"{compiler} {' '.join(flags)}: {said[:2000]}"] if said else []
+        for setting in ("GLM_FORCE_DEFAULT_ALIGNED_GENTYPES", "GLM_FORCE_QUAT_DATA_WXYZ"):
+            if "compile sources that include gloam without" not in compile_headers(compiler, include, work / "headers.cpp", f"-D{setting}"):
+                faults.append(f"{compiler}: {setting} is not refused in a sentence")
+    return faults
+
+
 def guide_faults(host):
     """Checks that docs/adding-a-module.md quotes the class in veil_module.cpp verbatim."""
     text = (host / "veil_module.cpp").read_text(encoding="utf-8")
@@ -43,15 +69,21 @@ def main(cmake, source, build, *arguments):
     work = Path(build) / "embedding"
     prefix = work / "prefix"
     shutil.rmtree(prefix, ignore_errors=True)
-    shutil.rmtree(work / "host", ignore_errors=True)
     run(cmake, "--install", build, "--prefix", prefix, "--component", "gloam")
-    faults = header_faults(prefix / "include" / "gloam") + guide_faults(Path(source))
+    include = prefix / "include" / "gloam"
+    compilers = [name for name in ("g++", "clang++") if shutil.which(name)]
+    faults = header_faults(include) + guide_faults(Path(source)) + compiler_faults(compilers, include, work)
     if faults:
         sys.exit("\n".join(faults))
-    run(cmake, "-S", source, "-B", work / "host", f"-DCMAKE_PREFIX_PATH={prefix}", *arguments)
-    run(cmake, "--build", work / "host", "--parallel", "2")
-    run(work / "host" / "host")
-    run(work / "host" / "host_module")
+    if "clang++" not in compilers:
+        print("SKIPPED: clang++ is absent, the hosts are built by one compiler only")
+    for compiler in compilers:
+        host = work / ("host" if compiler == "g++" else "host_clang")
+        shutil.rmtree(host, ignore_errors=True)
+        run(cmake, "-S", source, "-B", host, f"-DCMAKE_PREFIX_PATH={prefix}", *arguments, f"-DCMAKE_CXX_COMPILER={compiler}")
+        run(cmake, "--build", host, "--parallel", "2")
+        run(host / "host")
+        run(host / "host_module")
 
 
 if __name__ == "__main__":

@@ -96,16 +96,5 @@ TEST_F(DitheredPicture, rounds_as_the_reference) {
   EXPECT_LT(apart, shown.rgba.size() / 200) << "only where a number in float rounds to the other side";
 }
 
-TEST_F(DitheredPicture, has_no_noise_under_a_view) {
-  settings.visualizer = "light_count";  // draws nothing without lights
-  ASSERT_NO_FATAL_FAILURE(draw());
-  const LinearPicture light = linear();
-  const Picture shown = picture();
-  for (std::size_t i = 0; i < shown.rgba.size(); ++i)
-    if (i % 4 != 3) {
-      ASSERT_NEAR(shown.rgba[i], steps(light.rgba[i]), 0.75);
-    }
-}
-
 }  // namespace
 }  // namespace gloam
