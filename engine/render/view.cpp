@@ -48,14 +48,15 @@ ViewId CompanionViews::add(ViewSettings settings) {
 
 void follow_camera(const World& world, ViewSettings& settings) {
   if (!settings.follow_camera) return;
+  const auto* lens = world.try_resource<LensPoint>();
+  const bool from_point = lens != nullptr && lens->camera == settings.camera_entity;
+  if (from_point) settings.lens = *lens;  // also for a camera without an entity
   const Camera* camera = world.try_get<Camera>(settings.camera_entity);
   const WorldTransform* transform = world.try_get<WorldTransform>(settings.camera_entity);
   if (camera == nullptr || transform == nullptr) return;
   settings.camera = *camera;
   settings.world_from_camera = rigid(transform->matrix);
-  settings.lens.reset();
-  if (const auto* lens = world.try_resource<LensPoint>(); lens != nullptr && lens->camera == settings.camera_entity)
-    settings.lens = *lens;
+  if (!from_point) settings.lens.reset();
 }
 
 RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame) {

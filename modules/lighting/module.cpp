@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "modules/lighting/antialiasing/reference.h"
 #include "modules/lighting/components.h"
 #include "modules/lighting/passes.h"
 #include "modules/lighting/tone_reference.h"
@@ -38,12 +39,19 @@ class LightingModule final : public Module {
     dither.meaning = "rounding of the picture to 8 bits with a fixed pattern, so that gradients show no bands";
     dither.choices = {"on", "off"};
     registry.add(dither);
+    Knob antialiasing;
+    antialiasing.name = "lighting.antialiasing";
+    antialiasing.module = "lighting";
+    antialiasing.meaning = "smoothing of slanted edges in the picture; play and render set smaa";
+    antialiasing.choices = {"off", "smaa"};
+    registry.add(antialiasing);
   }
 
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
     std::vector<ReferenceInfo> list;
     for (const char* knob : {"lighting.tone_map", "lighting.tone_map_table"})
       list.push_back({knob, "double precision", "tone curve on the CPU", true, false, &draw_tone_reference});
+    list.push_back(antialiasing_reference());
     return list;
   }
 

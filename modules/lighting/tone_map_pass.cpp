@@ -3,6 +3,7 @@
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
 #include "engine/scene/resources.h"
+#include "modules/lighting/antialiasing/passes.h"
 #include "modules/lighting/exposure.h"
 #include "modules/lighting/passes.h"
 #include "shaders/lighting/lighting_shared.h"
@@ -72,14 +73,20 @@ void add_tone_map_passes(FrameBuilder& frame) {
   }
 
   const ImageRef table = add_tone_table_pass(frame);
-  DrawPass pass(frame, "tone_map",
-                {shaders::lighting::tone_map_frag, {{0, table ? 1u : 0u}, {1, dithers(frame) ? 1u : 0u}}});
-  pass.read("lit_image", frame.get<LitOutput>().color);
-  pass.read("metered_exposure", metered->buffer);
-  pass.read("table_image", table, Sampling::linear);
-  pass.push(constants);
-  target.color = pass.target(target.color);
-  pass.draw_triangle();
+  const bool smooth = antialiases(frame), dither = dithers(frame);
+  const std::uint32_t output = smooth ? 2u : (dither ? 1u : 0u);  // kOutput of tone_map.frag
+  ImageRef shown = smooth ? create_view_image(frame, "shown", kShownFormat) : target.color;
+  {
+    DrawPass pass(frame, "tone_map", {shaders::lighting::tone_map_frag, {{0, table ? 1u : 0u}, {1, output}}});
+    pass.read("lit_image", frame.get<LitOutput>().color);
+    pass.read("metered_exposure", metered->buffer);
+    pass.read("table_image", table, Sampling::linear);
+    pass.push(constants);
+    shown = pass.target(shown);
+    pass.draw_triangle();
+  }
+  if (smooth) return add_antialiasing_passes(frame, shown, dither);
+  target.color = shown;
 }
 
 }  // namespace gloam

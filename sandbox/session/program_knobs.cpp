@@ -26,6 +26,9 @@ KnobRegistry all_knobs(const ModuleList& modules) {
 }
 
 Status set_knobs(KnobRegistry& knobs, const Options& options) {
+  // Pictures for users are antialiased. Measurements compare pictures as they were drawn.
+  if (options.command == Command::play || options.command == Command::render)
+    GLOAM_TRY(knobs.set("lighting.antialiasing", "smaa"));
   if (!options.config.empty()) {
     const auto text = read_text_file(options.config, ErrorKind::usage);
     if (!text) return text.error();

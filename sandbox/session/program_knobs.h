@@ -16,7 +16,8 @@ void add_program_knobs(KnobRegistry& knobs);
 /// The knobs of these modules and of the program, with their defaults.
 [[nodiscard]] KnobRegistry all_knobs(const ModuleList& modules);
 
-/// Sets knobs from --config, then from --set. Usage error for an unknown knob or value.
+/// Sets knobs from --config, then from --set; `play` and `render` turn antialiasing on before. Usage error for an
+/// unknown knob or value.
 [[nodiscard]] Status set_knobs(KnobRegistry& knobs, const Options& options);
 
 }  // namespace gloam

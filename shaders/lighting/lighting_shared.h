@@ -33,6 +33,22 @@ struct MeterConstants {
   uvec2 size;  // pixels of the picture
 };
 
+/// Constants for finding the edges of a picture along rows or columns (shaders/lighting/antialiasing/edge_bits.glsl).
+struct EdgeConstants {
+  ivec2 along;   // step from a pixel of a line to the next one
+  ivec2 across;  // step from a line to the next one
+  uint pixels;   // of a line
+  uint lines;    // one more than the picture has
+  uint words;    // of a line
+  uint first;    // word of the buffer at which the lines begin
+};
+
+/// Constants for the weights of antialiasing, and for blending with them.
+struct AntialiasingConstants {
+  uvec2 size;        // pixels of the picture
+  uint encode_srgb;  // 1: the target's format does not encode sRGB, so the shader does
+};
+
 GLOAM_SHARED_END
 
 #endif

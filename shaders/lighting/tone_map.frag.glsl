@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/common/math.glsl"
-#include "shaders/lighting/dither_api.glsl"
 #include "shaders/lighting/lighting_shared.h"
+#include "shaders/lighting/target.glsl"
 #include "shaders/lighting/tone_curve.glsl"
 
-// Maps linear light to the picture: exposure, then the curve, computed (kTable = 0) or looked up in a table (1), and
-// rounding to 8 bits by the target (kDither = 0) or here (1).
+// Maps linear light to the picture: exposure, then the curve, computed (kTable = 0) or looked up in a table (1). The
+// output is rounded to 8 bits by the target (kOutput = 0) or here (1), or is displayed linear light for antialiasing,
+// with the brightness to the eye in alpha (2).
 
 layout(constant_id = 0) const uint kTable = 0u;
-layout(constant_id = 1) const uint kDither = 0u;
+layout(constant_id = 1) const uint kOutput = 0u;
 
 layout(push_constant, scalar) uniform ToneMap { ToneMapConstants c; };
 layout(set = 0, binding = 0) uniform sampler2D lit_image;
@@ -26,18 +26,6 @@ float looked_up(float x) {
   return textureLod(table_image, vec2((at * (size - 1.0) + 0.5) / size, 0.5), 0.0).r;
 }
 
-// The value for a target of 8 bits that encodes sRGB itself or not.
-vec3 shown_in_target(vec3 shown) {
-  if (kDither == 0u) return c.encode_srgb != 0u ? linear_to_srgb(shown) : shown;
-  vec3 encoded = linear_to_srgb(shown);
-  vec3 rounded = dithered(encoded, uvec2(gl_FragCoord.xy));
-  if (c.encode_srgb != 0u) return rounded;
-  // The target encodes once more. The tangent of the decoding curve is exact to 0.07 steps, so the target rounds to the
-  // same step.
-  vec3 slope = mix(2.4 * shown / (encoded + 0.055), vec3(1.0 / 12.92), lessThanEqual(shown, vec3(0.0031308)));
-  return shown + (rounded - encoded) * slope;
-}
-
 void main() {
   float exposure = c.metered != 0u ? metered_exposure : c.exposure;
   vec3 x = clamp(texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb * exposure, vec3(0.0), vec3(1e6));
@@ -47,5 +35,9 @@ void main() {
     shown = vec3(looked_up(x.r), looked_up(x.g), looked_up(x.b));
   else
     shown = tone_curve(c.curve, x);
-  out_color = vec4(shown_in_target(after_curve(c.curve, shown)), 1.0);
+  shown = after_curve(c.curve, shown);
+  if (kOutput == 2u)
+    out_color = vec4(shown, sqrt(dot(shown, vec3(0.2126, 0.7152, 0.0722))));
+  else
+    out_color = vec4(value_for_target(shown, uvec2(gl_FragCoord.xy), c.encode_srgb != 0u, kOutput == 1u), 1.0);
 }

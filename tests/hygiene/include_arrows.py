@@ -34,6 +34,7 @@ ROOMS = {
     "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
                         ("components", "outputs", "knobs", "reference")),
     "modules/closeups": (("pairs", "umbra", "compose", "debug"), ("components", "knobs")),
+    "modules/lighting": (("antialiasing",), ("components", "outputs", "environment", "exposure", "passes")),
     "modules/reflections": (("surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
                              "fitting", "bake", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials")),

@@ -162,6 +162,14 @@ TEST(SharedStructs, lighting) {
   expect_same_layout(
       shaders::lighting::tone_map_frag, "ToneMapConstants", sizeof(T),
       {GLOAM_MEMBER(T, curve), GLOAM_MEMBER(T, metered), GLOAM_MEMBER(T, exposure), GLOAM_MEMBER(T, encode_srgb)});
+  using G = shaders::EdgeConstants;
+  using A = shaders::AntialiasingConstants;
+  expect_same_layout(shaders::lighting::edges_comp, "EdgeConstants", sizeof(G),
+                     {GLOAM_MEMBER(G, along), GLOAM_MEMBER(G, across), GLOAM_MEMBER(G, pixels), GLOAM_MEMBER(G, lines),
+                      GLOAM_MEMBER(G, words), GLOAM_MEMBER(G, first)});
+  for (const gpu::ShaderCode& shader : {shaders::lighting::weights_comp, shaders::lighting::blend_frag})
+    expect_same_layout(shader, "AntialiasingConstants", sizeof(A),
+                       {GLOAM_MEMBER(A, size), GLOAM_MEMBER(A, encode_srgb)});
   expect_same_layout(shaders::lighting::meter_comp, "MeterConstants", sizeof(M), {GLOAM_MEMBER(M, size)});
 }
 

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/render/frame_builder.h"
+
+namespace gloam {
+
+/// Format of the displayed linear light that antialiasing reads; alpha is the brightness to the eye, 0…1.
+inline constexpr gpu::Format kShownFormat = gpu::Format::rgba16_float;
+
+/// Whether the picture of this view is antialiased: lighting.antialiasing is on, and neither a visualizer nor a
+/// reference is drawn.
+[[nodiscard]] bool antialiases(const FrameBuilder& frame);
+
+struct AntialiasingWeights {
+  /// A word for each pixel, row by row: the shares that its upper, lower, left and right neighbours cover, 8 bits each.
+  /// Undefined for pixels without a bit in masks; they have no share.
+  BufferRef weights;
+  BufferRef masks;  ///< a bit for each pixel, (width + 31) / 32 words for a row
+};
+/// shown: of kShownFormat and the view's size.
+[[nodiscard]] AntialiasingWeights add_antialiasing_weights(FrameBuilder& frame, ImageRef shown);
+
+/// Writes the antialiased picture to TargetOutput. dither: rounds it to 8 bits by the pattern of lighting.dither.
+void add_antialiasing_passes(FrameBuilder& frame, ImageRef shown, bool dither);
+
+}  // namespace gloam

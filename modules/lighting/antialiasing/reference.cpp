@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/lighting/antialiasing/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/math/low_discrepancy.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kMostSamples = 64;
+
+double decoded(double value) { return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4); }
+double encoded(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+/// The point of a pixel that the sample shows, from the pixel's centre; pixels.
+glm::dvec2 sample_point(std::uint32_t index) {
+  constexpr double kStep = 1.0 / 4294967296.0;
+  return {kStep * reversed_bits(index) - 0.5, kStep * second_sobol(index) - 0.5};
+}
+
+/// Shifts the picture of the frame's camera by part of a pixel, to the right and up. A perspective camera looks from a
+/// point so near to the centre of its lens that only the shear of the projection shows; an orthographic one moves.
+LensPoint shifted(const RenderView& view, const glm::dvec2& pixels) {
+  const glm::dvec2 scale(view.clip_from_view[0][0], view.clip_from_view[1][1]);
+  const glm::dvec2 offset = -2.0 * pixels / (scale * glm::dvec2(view.width, view.height));
+  if (view.camera.orthographic) return {view.camera_entity, offset, std::numeric_limits<double>::infinity()};
+  constexpr double kFocus = 1e-6;
+  return {view.camera_entity, -kFocus * offset, kFocus};
+}
+
+}  // namespace
+
+Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
+  if (!input.redraw) return Error{ErrorKind::usage, "a supersampled picture needs a frame that can be drawn again"};
+  const std::uint32_t samples = std::clamp(input.samples, 1u, kMostSamples);
+  FramePictures mean;
+  mean.picture = input.frame.picture;
+  std::vector<double> linear(256);
+  for (std::size_t value = 0; value < linear.size(); ++value)
+    linear[value] = decoded(static_cast<double>(value) / 255.0);
+  std::vector<double> sums(mean.picture.rgba.size(), 0.0);
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    const auto frame = input.redraw([&](World& world) { world.set_resource(shifted(input.view, sample_point(i))); },
+                                    [](World& world) { world.remove_resource<LensPoint>(); });
+    if (!frame) return frame.error();
+    if (frame->picture.rgba.size() != sums.size()) return Error{ErrorKind::usage, "a frame was drawn in another size"};
+    for (std::size_t at = 0; at < sums.size(); ++at) sums[at] += linear[frame->picture.rgba[at]];
+    if (input.progress) input.progress(i + 1, samples);
+  }
+  for (std::size_t at = 0; at < sums.size(); ++at)
+    mean.picture.rgba[at] =
+        at % 4 == 3 ? 255 : static_cast<std::uint8_t>(std::lround(255.0 * encoded(sums[at] / samples)));
+  return mean;
+}
+
+ReferenceInfo antialiasing_reference() {
+  return {.knob = "lighting.antialiasing",
+          .kind = "accumulated",
+          .name = "pictures sampled at points of each pixel",
+          .samples = true,
+          .draw = &draw_supersampled};
+}
+
+}  // namespace gloam
