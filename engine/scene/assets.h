@@ -15,23 +15,24 @@ namespace gloam {
 inline constexpr std::uint32_t kNone = ~0u;
 
 /// Vertex data of one triangle list, one array per attribute. An optional array is empty or as long as `positions`.
+/// complete_primitive() (mesh_builder.h) computes what it says below.
 struct Primitive {
   std::uint32_t material = kNone;  ///< index into SceneAssets::materials; kNone: the default material
-  std::vector<vec3> positions;
-  std::vector<vec3> normals;   ///< unit length, always present after import
-  std::vector<vec4> tangents;  ///< xyz unit tangent, w = ±1 handedness; present when the material has a normal texture
-  std::vector<vec2> uv0;
-  std::vector<vec2> uv1;
-  std::vector<vec4> colors;
-  std::vector<std::array<std::uint16_t, 4>> joints;
-  std::vector<vec4> weights;  ///< sum to 1 per vertex
-  std::vector<std::uint32_t> indices;
+  std::vector<vec3> positions;     ///< required, finite
+  std::vector<vec3> normals;       ///< required, unit length; complete_primitive() computes them
+  std::vector<vec4> tangents;  ///< optional; xyz unit tangent, w = ±1 handedness; for materials with a normal texture
+  std::vector<vec2> uv0;       ///< optional
+  std::vector<vec2> uv1;       ///< optional
+  std::vector<vec4> colors;    ///< optional; linear, multiplied with the base colour
+  std::vector<std::array<std::uint16_t, 4>> joints;  ///< optional, together with weights
+  std::vector<vec4> weights;                         ///< sum to 1 per vertex
+  std::vector<std::uint32_t> indices;                ///< required, three a triangle; complete_primitive(): 0, 1, 2, …
   struct MorphTarget {
     std::vector<vec3> positions;  ///< offsets from the rest positions
     std::vector<vec3> normals;    ///< offsets from the rest normals; may be empty
   };
   std::vector<MorphTarget> morph_targets;
-  Aabb bounds;  ///< bounds of the rest positions
+  Aabb bounds;  ///< required: of the rest positions; complete_primitive() computes it
 };
 
 struct Mesh {
@@ -123,7 +124,8 @@ struct AnimationClip {
 };
 
 /// Data that the entities of a scene share. A resource of the world, filled by the importer or by code. Increment
-/// `version` when meshes, materials, images or textures change after the first frame.
+/// `version` when meshes, materials, images or textures change after the first frame; what was only added is drawn
+/// without that.
 struct SceneAssets {
   std::vector<Mesh> meshes;
   std::vector<Material> materials;

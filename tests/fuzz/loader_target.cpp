@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "engine/jobs/executor.h"
+#include "engine/scene/asset_check.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/systems.h"
 #include "modules/module_list/module_list.h"
@@ -52,6 +53,8 @@ LoadOutcome load_bytes(std::span<const std::uint8_t> bytes) {
   Schedule schedule;
   add_scene_systems(schedule);
   schedule.run(Stage::world, world, *shared.executor);
+  if (const std::string fault = asset_fault(world.resource<SceneAssets>()); !fault.empty())
+    return {true, {}, "what was loaded cannot be drawn: " + fault};
   return {true, {}, {}};
 }
 

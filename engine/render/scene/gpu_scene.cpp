@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
+#include "engine/core/assert.h"
 #include "engine/render/scene/caster_bounds.h"
 #include "engine/render/scene/closed_surface.h"
 #include "engine/render/scene/material_packing.h"
 #include "engine/render/scene/mip_chain.h"
 #include "engine/render/scene/smooth_shading.h"
+#include "engine/scene/asset_check.h"
 #include "shaders/render/shaders.h"
 
 namespace gloam {
@@ -93,7 +96,10 @@ void GpuScene::release() {
 }
 
 Status GpuScene::sync(const SceneAssets& assets, JobExecutor& executor) {
-  if (version_ == assets.version) return {};
+  const Sizes sizes = {assets.meshes.size(), assets.materials.size(), assets.textures.size(), assets.images.size()};
+  if (version_ == assets.version && sizes_ == sizes) return {};
+  const std::string fault = asset_fault(assets);
+  GLOAM_ASSERT(fault.empty(), fault);
   release();
   Uploader uploader(device_);
   GLOAM_TRY(upload_meshes(assets, executor, uploader));
@@ -103,6 +109,7 @@ Status GpuScene::sync(const SceneAssets& assets, JobExecutor& executor) {
   GLOAM_TRY(uploader.flush(executor));
   GLOAM_TRY(make_material_sets(assets, materials));
   version_ = assets.version;
+  sizes_ = sizes;
   return {};
 }
 

@@ -98,6 +98,9 @@ class GpuScene {
   gpu::Device& device_;
   Pipelines& pipelines_;
   std::uint64_t version_ = 0;
+  /// Numbers of meshes, materials, textures and images. Assets that were added are uploaded without a new version.
+  using Sizes = std::array<std::size_t, 4>;
+  Sizes sizes_{};
   bool smooth_shading_ = false;
   bool casters_simplified_ = false;  ///< simplify_casters has run for version_
   std::vector<std::vector<GpuPrimitive>> meshes_;

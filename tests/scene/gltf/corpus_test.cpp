@@ -8,6 +8,7 @@
 #include <iostream>
 #include <iterator>
 
+#include "engine/scene/asset_check.h"
 #include "tests/support/gltf_files.h"
 
 namespace gloam {
@@ -37,6 +38,7 @@ TEST(Corpus, every_model_loads_or_is_refused_in_one_sentence) {
     test::import_file(file, import);
     if (import.ok()) {
       ++loaded;
+      EXPECT_EQ(asset_fault(import.world.resource<SceneAssets>()), "") << file;
       continue;
     }
     std::cout << "refused: " << import.fault() << '\n';
