@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <climits>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -14,9 +15,14 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/scene/jpeg_segments.h"
 #include "engine/scene/png_rows.h"
 #include "engine/scene/scene_path.h"
 
+// Zeroed memory: stb_image 2.27 reads tables that a damaged JPEG does not define.
+#define STBI_MALLOC(size) std::calloc(1, size)
+#define STBI_REALLOC(memory, size) std::realloc(memory, size)
+#define STBI_FREE(memory) std::free(memory)
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
@@ -56,14 +62,6 @@ std::uint64_t png_bits_per_pixel(std::span<const std::uint8_t> file) {
 bool can_hold(std::span<const std::uint8_t> file, const ImageSize& size) {
   if (is_png(file)) return size.pixels() * png_bits_per_pixel(file) / 8 <= 1040 * std::uint64_t{file.size()};
   return size.pixels() <= 400 * std::uint64_t{file.size()};
-}
-
-/// Upper bound of the scans of a JPEG: the markers that begin one. Inside a scan, 0xff is followed by 0 or by a marker.
-std::uint32_t count_scans(std::span<const std::uint8_t> file) {
-  constexpr std::uint8_t kStartOfScan = 0xda;
-  std::uint32_t scans = 0;
-  for (std::size_t i = 0; i + 1 < file.size(); ++i) scans += file[i] == 0xff && file[i + 1] == kStartOfScan ? 1 : 0;
-  return std::max(scans, 1u);
 }
 
 std::uint32_t big_endian_word(std::span<const std::uint8_t> file, std::size_t at) {
@@ -133,8 +131,9 @@ Result<ImageSize> image_size(std::span<const std::uint8_t> file) {
   if (stbi_info_from_memory(file.data(), static_cast<int>(file.size()), &width, &height, &channels) == 0 || width < 1 ||
       height < 1)
     return fault("is not an image that can be read (its header is damaged or over 16384 pixels a side)");
-  const ImageSize size{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
-                       is_jpeg(file) ? count_scans(file) : 1};
+  const Result<std::uint32_t> scans = is_jpeg(file) ? count_jpeg_scans(file) : Result<std::uint32_t>(1u);
+  if (!scans) return scans.error();
+  const ImageSize size{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), *scans};
   if (size.width > kMaxImageSide || size.height > kMaxImageSide)
     return fault("is " + std::to_string(width) + "×" + std::to_string(height) + " pixels, more than 16384 a side");
   if (!can_hold(file, size))

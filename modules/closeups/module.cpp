@@ -25,7 +25,7 @@ namespace gloam {
 namespace {
 
 // Limit of a scene file: the pairs that may form, in reach or not. Each is tested in each frame.
-constexpr std::uint64_t kMaxPossiblePairs = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxPossiblePairs = std::uint64_t{1} << 18;
 
 std::uint64_t casting_light_count(const World& world) {
   std::uint64_t count = 0;

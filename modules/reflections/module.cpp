@@ -35,6 +35,18 @@ Status check_light_names(World& world) {
   return status;
 }
 
+// Limit of a scene file: each proxy has a layer of an array image, of which devices allow 2048 and more.
+constexpr std::size_t kMostFileProxies = 2048;
+
+Status add_and_count_proxies(World& world) {
+  add_flame_proxies(world);
+  const std::size_t count = world.view<const IbrProxy>().size();
+  if (count <= kMostFileProxies) return {};
+  return Error{ErrorKind::input, "gloam.ibr_proxy: the scene has " + std::to_string(count) +
+                                     " reflection proxies, those of fires included, at most " +
+                                     std::to_string(kMostFileProxies) + " are read"};
+}
+
 /// What reflected rays see beside the surfaces of the scene.
 ReflectionExtras traced_extras(const World& world) {
   ReflectionExtras extras;
@@ -84,10 +96,7 @@ class ReflectionsModule final : public Module {
     registry.add(boolean_key(line("gloam.cube_probe.global", "false", "", "whether this is the global probe"),
                              &CubeProbe::global));
     registry.add_finish("reflections", &check_light_names);
-    registry.add_finish("reflections", [](World& world) {
-      add_flame_proxies(world);
-      return Status();
-    });
+    registry.add_finish("reflections", &add_and_count_proxies);
   }
   void knobs(KnobRegistry& registry) const override { add_reflection_knobs(registry); }
   /// Knobs whose values differ in the model are judged by traced reflections.

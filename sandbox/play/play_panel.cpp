@@ -4,12 +4,22 @@
 
 #include <utility>
 
+#include "engine/scene/resources.h"
+#include "sandbox/output/file_io.h"
 #include "sandbox/session/frame_tracing.h"
+#include "sandbox/session/scene_loading.h"
 
 namespace gloam {
 
 PlayPanel::PlayPanel(Session& session, double scale, bool shown)
-    : session_(session), scale_(scale), shown_(shown), visualizers_(session.renderer->visualizers()) {}
+    : session_(session),
+      scale_(scale),
+      shown_(shown),
+      lights_(session.world),
+      visualizers_(session.renderer->visualizers()) {
+  const auto& names = session.world.resource<SceneNames>();
+  for (const Entity camera : session.info.cameras) cameras_.emplace_back(names.name_of(camera));
+}
 
 Status PlayPanel::open() {
   auto panel = std::make_unique<Panel>(scale_);
@@ -20,7 +30,8 @@ Status PlayPanel::open() {
   return {};
 }
 
-Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettings& view, ResolutionScale& scale) {
+Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettings& view, ResolutionScale& scale,
+                         const PlayControls& controls) {
   // Tab does not hide the panel while the user types text.
   if (input.toggle_panel && !(drawn_ && panel_->wants_keyboard())) shown_ = !shown_;
   drawn_ = shown_ && frame.width > 0 && frame.height > 0;
@@ -38,6 +49,7 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
     view.visualizer = visualizer;
     return {};
   };
+  const PanelScene scene = scene_of(controls, view);
   panel_->update(input.panel, frame,
                  {.knobs = renderer.knobs(),
                   .times = times_,
@@ -48,7 +60,9 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
                   .scale = scale.scale(),
                   .scale_setting = scale.setting(),
                   .scale_steps = ResolutionScale::kSteps,
-                  .set_scale = [&](double setting) { scale.set(setting); }});
+                  .set_scale = [&](double setting) { scale.set(setting); },
+                  .scene = controls.pause ? &scene : nullptr});
+  if (input.clicked && !panel_->wants_mouse() && !report.passes.empty()) pick(input, frame, view, scale.scale());
   if (panel_->wants_mouse()) {
     input.drag_x = input.drag_y = 0.0;
     input.clicked = false;
@@ -60,6 +74,70 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
     input.camera = 0;
   }
   return {};
+}
+
+PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings& view) {
+  constexpr const char* kKinds[] = {"point", "spot", "directional"};
+  shown_lights_.clear();
+  for (const ControlledLight& light : lights_.lights())
+    shown_lights_.push_back({.name = light.name,
+                             .kind = kKinds[static_cast<int>(light.kind)],
+                             .unit = light.kind == LightKind::directional ? "lx" : "cd",
+                             .intensity = light.intensity,
+                             .muted = light.muted,
+                             .solo = light.solo});
+  auto& environment = session_.world.resource<SceneEnvironment>();
+  return {.cameras = cameras_,
+          .show_camera = controls.show_camera,
+          .time_s = controls.time_s,
+          .paused = controls.paused,
+          .pause = controls.pause,
+          .automatic_exposure = !environment.has_exposure,
+          .ev100 = environment.exposure_ev100,
+          .set_exposure =
+              [&environment](bool automatic, float ev100) {
+                environment.has_exposure = !automatic;
+                environment.exposure_ev100 = ev100;
+              },
+          .lights = shown_lights_,
+          .set_intensity = [this](std::size_t light, float value) { lights_.set_intensity(light, value); },
+          .mute = [this](std::size_t light, bool muted) { lights_.mute(light, muted); },
+          .solo = [this](std::size_t light, bool solo) { lights_.solo(light, solo); },
+          .picked = picked_,
+          .save_config = [this, scene = controls.scene] { save_config(scene); },
+          .copy_command =
+              [this, &controls, &view] {
+                controls.copy(command_line(controls, view));
+                said_ = "the command line is on the clipboard";
+              },
+          .said = said_};
+}
+
+/// A pixel of the drawn picture, which may be smaller than the window.
+void PlayPanel::pick(const WindowInput& input, const PanelFrame& frame, const ViewSettings& view, double scale) {
+  if (input.pointer_x < 0.0 || input.pointer_y < 0.0 || input.pointer_x >= frame.width ||
+      input.pointer_y >= frame.height)
+    return;
+  const auto lines =
+      session_.renderer->pick(session_.world, view.id, static_cast<std::uint32_t>(input.pointer_x * scale),
+                              static_cast<std::uint32_t>(input.pointer_y * scale));
+  picked_ = lines.ok() ? *lines : std::vector<std::string>{lines.error().message};
+}
+
+void PlayPanel::save_config(const std::string& scene) {
+  const std::string path = "out/" + scene_stem(scene) + ".config.json";
+  Status written = make_folder_of(path);
+  if (written.ok()) written = write_file(path, config_text(session_.renderer->knobs()));
+  said_ = written.ok() ? "wrote " + path : written.error().message;
+}
+
+std::string PlayPanel::command_line(const PlayControls& controls, const ViewSettings& view) const {
+  const std::string camera(session_.world.resource<SceneNames>().name_of(session_.camera));
+  std::string line = "gloam render '" + controls.scene + "' --size " + std::to_string(view.width) + "x" +
+                     std::to_string(view.height) + " --time " + std::to_string(controls.time_s);
+  if (!camera.empty()) line += " --camera '" + camera + "'";
+  if (view.visualizer != "none") line += " --view '" + view.visualizer + "'";
+  return line + assignments_text(session_.renderer->knobs());
 }
 
 void PlayPanel::set_scale(double scale) {

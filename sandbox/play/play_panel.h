@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/math/types.h"
 #include "engine/render/renderer.h"
+#include "sandbox/play/light_controls.h"
 #include "sandbox/play/resolution_scale.h"
 #include "sandbox/session/session.h"
 #include "sandbox/window/panel.h"
@@ -17,6 +21,17 @@
 #include "sandbox/window/window.h"
 
 namespace gloam {
+
+/// What the panel shows and changes of the run that it belongs to. Functions that are not set are not offered: then the
+/// panel has no section for the scene.
+struct PlayControls {
+  std::string scene;    ///< path or "builtin:NAME"
+  double time_s = 0.0;  ///< of the next frame
+  bool paused = false;
+  std::function<void(bool paused)> pause = {};
+  std::function<void(std::uint32_t number)> show_camera = {};  ///< from 1 on
+  std::function<void(const std::string& text)> copy = {};      ///< to the clipboard
+};
 
 /// The panel of `play`: shows and hides it, and connects it with the session. Panel and renderer are created when it is
 /// first shown.
@@ -27,7 +42,10 @@ class PlayPanel {
 
   /// Call it before each frame. frame: the window's size in pixels and the time step. Updates the panel, applies the
   /// user's changes to knobs, view and scale, and removes the input that the panel used from `input`.
-  [[nodiscard]] Status update(WindowInput& input, const PanelFrame& frame, ViewSettings& view, ResolutionScale& scale);
+  [[nodiscard]] Status update(WindowInput& input, const PanelFrame& frame, ViewSettings& view, ResolutionScale& scale,
+                              const PlayControls& controls = {});
+  /// The zones of a frame, for its systems' times.
+  void add_systems(std::span<const Zone> zones) { times_.add_systems(zones); }
 
   [[nodiscard]] bool shown() const { return shown_; }
   /// Changes the factor on the size of text.
@@ -40,12 +58,21 @@ class PlayPanel {
 
  private:
   [[nodiscard]] Status open();
+  [[nodiscard]] PanelScene scene_of(const PlayControls& controls, const ViewSettings& view);
+  void pick(const WindowInput& input, const PanelFrame& frame, const ViewSettings& view, double scale);
+  void save_config(const std::string& scene);
+  [[nodiscard]] std::string command_line(const PlayControls& controls, const ViewSettings& view) const;
 
   Session& session_;
   double scale_;
   bool shown_;
   bool drawn_ = false;  ///< shown by the last update
   FrameTimes times_;
+  LightControls lights_;
+  std::vector<PanelLight> shown_lights_;
+  std::vector<std::string> cameras_;
+  std::vector<std::string> picked_;
+  std::string said_;
   std::vector<VisualizerInfo> visualizers_;
   std::unique_ptr<Panel> panel_;
   std::unique_ptr<PanelRenderer> renderer_;

@@ -58,7 +58,7 @@ Status Player::run() {
     count_step();
     adapt_scale();
     panel_.set_scale(window.content_scale());
-    GLOAM_TRY(panel_.update(input, {window.width(), window.height(), frame_s_}, settings_, scale_));
+    GLOAM_TRY(panel_.update(input, {window.width(), window.height(), frame_s_}, settings_, scale_, controls()));
     if (window.should_close() || input.leave) break;
     GLOAM_TRY(obey(input));
     if (!next_scene_.empty()) break;
@@ -72,6 +72,15 @@ Status Player::run() {
   lasting_.scale = scale_.setting();
   lasting_.panel = panel_.shown();
   return session_.renderer->wait();
+}
+
+PlayControls Player::controls() {
+  return {.scene = options_.scene,
+          .time_s = time_s_,
+          .paused = paused_,
+          .pause = [this](bool paused) { paused_ = paused; },
+          .show_camera = [this](std::uint32_t number) { show_camera(number); },
+          .copy = [this](const std::string& text) { pictures_.window().copy(text); }};
 }
 
 WindowInput Player::poll() {
@@ -245,7 +254,7 @@ Status Player::show_enlarged(FrameGraph& graph, ImageRef picture) {
 /// Waits for the frame only if its times are needed (--stats, --trace).
 Status Player::render(const ViewRequest& request) {
   if (options_.stats.empty() && options_.trace.empty()) {
-    static_cast<void>(session_.zones.take());
+    panel_.add_systems(session_.zones.take());
     return session_.renderer->render(session_.world, {&request, 1});
   }
   auto sample = session_.render_frame(request);

@@ -44,6 +44,7 @@ class Player {
   [[nodiscard]] const std::vector<FrameSample>& samples() const { return samples_; }
 
  private:
+  [[nodiscard]] PlayControls controls();
   [[nodiscard]] WindowInput poll();
   void play_script();
   [[nodiscard]] Status obey(const WindowInput& input);

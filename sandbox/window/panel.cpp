@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 
 namespace gloam {
@@ -53,6 +54,24 @@ void show_passes(const FrameTimes& times) {
   ImGui::EndTable();
 }
 
+void show_systems(const FrameTimes& times) {
+  if (!ImGui::CollapsingHeader("Systems")) return;
+  if (!ImGui::BeginTable("systems", 3, kTableFlags)) return;
+  ImGui::TableSetupColumn("system", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("module");
+  ImGui::TableSetupColumn("ms");
+  ImGui::TableHeadersRow();
+  for (const SystemTime& system : times.systems()) {
+    ImGui::TableNextColumn();
+    show_text(system.name);
+    ImGui::TableNextColumn();
+    show_text(system.module);
+    ImGui::TableNextColumn();
+    ImGui::Text("%8.3f", system.ms);
+  }
+  ImGui::EndTable();
+}
+
 void show_modules(std::span<const ModuleState> modules) {
   if (!ImGui::CollapsingHeader("Modules", ImGuiTreeNodeFlags_DefaultOpen)) return;
   if (!ImGui::BeginTable("modules", 4, kTableFlags)) return;
@@ -89,9 +108,15 @@ void Panel::update(const PanelInput& input, const PanelFrame& frame, const Panel
   if (ImGui::Begin("gloam")) {
     show_times(content.times);
     show_scale(content, frame);
+    show_settings(content);
     show_views(content);
+    if (content.scene != nullptr) {
+      show_scene(*content.scene);
+      show_lights(*content.scene);
+    }
     show_knobs(content.knobs);
     show_passes(content.times);
+    show_systems(content.times);
     show_modules(content.modules);
   }
   ImGui::End();
@@ -108,6 +133,15 @@ void Panel::show_times(const FrameTimes& times) {
   ImGui::Text("frame %.2f ms   CPU %.2f ms   GPU %.2f ms", times.frame_ms(), times.cpu_ms(), times.gpu_ms());
   show_tooltip("medians of the last " + std::to_string(FrameTimes::kFrames) +
                " frames. CPU: systems, declaration and recording, with what they waited for. GPU: all passes.");
+  const std::span<const double> history = times.frame_history();
+  if (history.size() < 2) return;
+  const auto value = [](void* data, int at) { return static_cast<float>(static_cast<const double*>(data)[at]); };
+  const double longest = *std::ranges::max_element(history);
+  ImGui::PlotLines("##history", value, const_cast<double*>(history.data()), static_cast<int>(history.size()), 0,
+                   nullptr, 0.0f, static_cast<float>(1.2 * longest), ImVec2(-1.0f, 36.0f * gui_.scale()));
+  char text[64];
+  std::snprintf(text, sizeof(text), "times of the last frames; the longest: %.1f ms", longest);
+  show_tooltip(text);
 }
 
 void Panel::show_scale(const PanelContent& content, const PanelFrame& frame) {
@@ -173,11 +207,23 @@ void Panel::show_view_argument(const PanelContent& content, const VisualizerInfo
 
 void Panel::show_knobs(KnobRegistry& knobs) {
   if (!ImGui::CollapsingHeader("Knobs", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::InputTextWithHint("##search", "search", &search_);
+  remember_widget("search");
   if (!ImGui::BeginTable("knobs", 3, ImGuiTableFlags_SizingFixedFit)) return;
   ImGui::TableSetupColumn("name");
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("reset");
+  std::string_view module;
   for (const Knob& knob : knobs.knobs()) {
+    if (!matches(knob, search_)) continue;
+    if (knob.module != module) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", knob.module.c_str());
+      ImGui::TableNextRow();
+      module = knob.module;
+    }
     ImGui::PushID(knob.name.c_str());
     show_knob(knobs, knob);
     ImGui::PopID();

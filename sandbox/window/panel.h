@@ -13,6 +13,7 @@
 #include "engine/render/renderer.h"
 #include "sandbox/window/gui.h"
 #include "sandbox/window/panel_model.h"
+#include "sandbox/window/panel_scene.h"
 
 namespace gloam {
 
@@ -29,12 +30,14 @@ struct PanelContent {
   double scale_setting = 1.0;  ///< 0: automatic
   std::span<const double> scale_steps = {};
   std::function<void(double setting)> set_scale = {};
+  const PanelScene* scene = nullptr;  ///< null: not shown
 };
 
 /// Rectangle of a widget in the last frame, in pixels from the picture's upper left corner.
 struct PanelWidget {
-  /// KNOB, "KNOB reset", "KNOB CHOICE", "view", "view VISUALIZER", "view argument", "scale", "scale auto" or "scale NN
-  /// %"
+  /// KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "view argument", "scale", "scale auto",
+  /// "scale NN %", "camera", "camera NAME", "pause", "exposure auto", "exposure", "lights", "LIGHT mute", "LIGHT solo",
+  /// "LIGHT intensity", "keep A", "show A", "keep B", "show B", "save config" or "copy command"
   std::string name;
   float left = 0.0f;
   float top = 0.0f;
@@ -64,6 +67,10 @@ class Panel {
   void show_scale(const PanelContent& content, const PanelFrame& frame);
   void show_views(const PanelContent& content);
   void show_view_argument(const PanelContent& content, const VisualizerInfo& info);
+  void show_settings(const PanelContent& content);
+  void show_scene(const PanelScene& scene);
+  void show_lights(const PanelScene& scene);
+  void show_light(const PanelScene& scene, std::size_t index);
   void show_knobs(KnobRegistry& knobs);
   void show_knob(KnobRegistry& knobs, const Knob& knob);
   void remember_widget(const std::string& name);
@@ -72,7 +79,9 @@ class Panel {
   std::vector<PanelWidget> widgets_;
   std::string asked_;     ///< chosen visualizer that waits for its argument
   std::string argument_;  ///< text typed as the argument
-  std::string fault_;     ///< error of the last chosen visualizer; empty: none
+  std::string search_;    ///< text that the shown knobs contain
+  KnobSlots slots_;
+  std::string fault_;  ///< error of the last chosen visualizer; empty: none
 };
 
 }  // namespace gloam

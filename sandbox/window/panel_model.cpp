@@ -3,9 +3,13 @@
 #include "sandbox/window/panel_model.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
 
 #include "engine/core/assert.h"
+#include "sandbox/output/json_text.h"
 #include "sandbox/session/summary.h"
 
 namespace gloam {
@@ -75,9 +79,67 @@ bool is_default(const KnobRegistry& registry, const Knob& knob) {
   return knob_value(registry, knob) == knob.default_number;
 }
 
+bool matches(const Knob& knob, std::string_view search) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  const auto has = [&](const std::string& text) {
+    return std::search(text.begin(), text.end(), search.begin(), search.end(), same) != text.end() || search.empty();
+  };
+  return has(knob.name) || has(knob.meaning);
+}
+
+std::string config_text(const KnobRegistry& registry) {
+  Json json = Json::object();
+  for (const Knob& knob : registry.knobs()) {
+    if (is_default(registry, knob)) continue;
+    if (knob.type == Knob::Type::choice)
+      json[knob.name] = registry.text(knob.name);
+    else
+      json[knob.name] = registry.number(knob.name);
+  }
+  return json_text(json);
+}
+
+std::string assignments_text(const KnobRegistry& registry) {
+  std::string text;
+  for (const Knob& knob : registry.knobs())
+    if (!is_default(registry, knob)) text += " --set " + knob.name + "=" + registry.text(knob.name);
+  return text;
+}
+
+void KnobSlots::keep(const KnobRegistry& registry, std::size_t slot) {
+  slots_[slot].clear();
+  for (const Knob& knob : registry.knobs()) slots_[slot][knob.name] = registry.text(knob.name);
+}
+
+void KnobSlots::show(KnobRegistry& registry, std::size_t slot) const {
+  for (const auto& [name, value] : slots_[slot]) {
+    if (registry.text(name) == value) continue;
+    const Status set = registry.set(name, value);
+    GLOAM_ASSERT(set.ok(), "a knob takes a value that it had");
+  }
+}
+
 std::string scale_text(double setting, double scale) {
   const std::string percent = std::to_string(std::lround(scale * 100.0)) + " %";
   return setting == 0.0 ? "auto (" + percent + ")" : percent;
+}
+
+void FrameTimes::add_systems(std::span<const Zone> zones) {
+  std::map<std::pair<std::string, std::string>, double> sums;
+  for (const Zone& zone : zones)
+    sums[{zone.module, zone.name}] += static_cast<double>(zone.end_ns - zone.begin_ns) * 1e-6;
+  decltype(system_ms_) kept;
+  systems_.clear();
+  for (const auto& [key, ms] : sums) {
+    History& history = kept[key];
+    if (const auto found = system_ms_.find(key); found != system_ms_.end()) history = std::move(found->second);
+    remember(history, ms);
+    systems_.push_back({key.second, key.first, summarize(history).median});
+  }
+  system_ms_ = std::move(kept);
+  std::ranges::stable_sort(systems_, std::greater(), &SystemTime::ms);
 }
 
 void FrameTimes::add(double frame_ms, const FrameReport& report) {

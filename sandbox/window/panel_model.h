@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "engine/core/zones.h"
 #include "engine/render/knobs/knobs.h"
 #include "engine/render/renderer.h"
 
@@ -35,8 +39,36 @@ void set_knob_value(KnobRegistry& registry, const Knob& knob, double value);
 void reset_knob(KnobRegistry& registry, const Knob& knob);
 [[nodiscard]] bool is_default(const KnobRegistry& registry, const Knob& knob);
 
+/// Whether a knob's name or meaning contains the text, in letters of any case. An empty text is in all of them.
+[[nodiscard]] bool matches(const Knob& knob, std::string_view search);
+
+/// The knobs that are not at their defaults, as a file for --config.
+[[nodiscard]] std::string config_text(const KnobRegistry& registry);
+/// The same as " --set NAME=VALUE …".
+[[nodiscard]] std::string assignments_text(const KnobRegistry& registry);
+
+/// Two kept settings of all knobs, to compare them in turn.
+class KnobSlots {
+ public:
+  static constexpr std::size_t kSlots = 2;
+  void keep(const KnobRegistry& registry, std::size_t slot);
+  [[nodiscard]] bool has(std::size_t slot) const { return !slots_[slot].empty(); }
+  /// Sets the knobs to what was kept.
+  void show(KnobRegistry& registry, std::size_t slot) const;
+
+ private:
+  std::array<std::map<std::string, std::string>, kSlots> slots_;  ///< name → value
+};
+
 /// "42 %", or "auto (42 %)" if the setting is 0. scale: of the last frame.
 [[nodiscard]] std::string scale_text(double setting, double scale);
+
+/// Time of a system in a frame, all its calls added.
+struct SystemTime {
+  std::string name;
+  std::string module;
+  double ms = 0.0;
+};
 
 /// Medians of the times of the last frames, which are steady enough to read.
 class FrameTimes {
@@ -46,7 +78,14 @@ class FrameTimes {
   /// Adds a frame. frame_ms: from the start of the last frame to the start of this one.
   void add(double frame_ms, const FrameReport& report);
 
+  /// Adds the zones of a frame.
+  void add_systems(std::span<const Zone> zones);
+
   [[nodiscard]] double frame_ms() const;
+  /// The last frames, newest last, kFrames at most.
+  [[nodiscard]] std::span<const double> frame_history() const { return frame_ms_; }
+  /// The newest frame's systems, the longest first. ms: median over the consecutive frames that had the system.
+  [[nodiscard]] const std::vector<SystemTime>& systems() const { return systems_; }
   [[nodiscard]] double cpu_ms() const;
   [[nodiscard]] double gpu_ms() const;  ///< 0 until the GPU has completed a frame
   /// The newest frame's passes. ms: median over the consecutive frames, up to kFrames, that had the pass.
@@ -61,6 +100,8 @@ class FrameTimes {
   /// Key: the pass's name, and the number of passes of that name before it in its frame.
   std::map<std::pair<std::string, std::size_t>, History> pass_ms_;
   std::vector<PassTime> passes_;
+  std::map<std::pair<std::string, std::string>, History> system_ms_;  ///< key: module, name
+  std::vector<SystemTime> systems_;
 };
 
 }  // namespace gloam

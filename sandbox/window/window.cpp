@@ -360,6 +360,7 @@ void Window::toggle_full_screen() {
 }
 
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
+void Window::copy(const std::string& text) { glfwSetClipboardString(state_->window, text.c_str()); }
 
 void Window::hide() { glfwHideWindow(state_->window); }
 

@@ -73,6 +73,8 @@ class Window {
   void toggle_full_screen();
   [[nodiscard]] bool is_full_screen() const;
   void set_title(const std::string& title);
+  /// Puts a text on the clipboard.
+  void copy(const std::string& text);
   /// Adds an event to those of the next poll(). Nothing for `widget`, `say` and `until`.
   void inject(const ScriptEvent& event);
   /// Takes the window from the screen, before work that ends after it was closed.

@@ -66,6 +66,11 @@ class HardInput(ProgramCase):
         scene["nodes"] += [{"mesh": 0, "extras": {"gloam.closeup": True}}] * 4000
         self.refused(self.write("pairs.gltf", every_node(scene)), "gloam.closeup: the subjects up to here")
 
+    def test_more_reflection_proxies_than_an_image_has_layers(self):
+        scene = copy.deepcopy(TRIANGLE)
+        scene["nodes"] += [{"extras": {"gloam.ibr_proxy.size": [1, 1]}}] * 2049
+        self.refused(self.write("proxies.gltf", every_node(scene)), "the scene has 2049 reflection proxies")
+
     def test_a_node_cycle_a_gigantic_count_and_a_path_that_leaves(self):
         cycle = copy.deepcopy(TRIANGLE)
         cycle["nodes"] = [{"children": [1]}, {"children": [0]}]

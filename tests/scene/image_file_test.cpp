@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <random>
 
 #include "engine/scene/png_rows.h"
@@ -102,6 +103,31 @@ TEST(ImageFile, a_progressive_jpeg_of_thousands_of_scans_is_refused) {
   EXPECT_EQ(size->work(), 1024u * 1024u);
   for (int scan = 0; scan < 2000; ++scan) jpeg.insert(jpeg.end(), {0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0, 0x55});
   EXPECT_EQ(decode_image(jpeg).error().message, "has 2000 scans of 1024×1024 pixels, more work than its bytes justify");
+}
+
+TEST(ImageFile, a_jpeg_whose_huffman_table_has_too_many_codes_is_refused) {
+  Bytes jpeg = test::make_jpeg(16, 8, kColor);
+  const Bytes marker = {0xff, 0xc4};
+  const auto tables = std::search(jpeg.begin(), jpeg.end(), marker.begin(), marker.end());
+  ASSERT_NE(tables, jpeg.end());
+  // Behind marker, length and the table's number: 16 counts of codes.
+  for (int i = 0; i < 2; ++i) tables[5 + 14 + i] = 150;
+  EXPECT_EQ(decode_image(jpeg).error().message, "is a damaged image (a Huffman table has more than 256 codes)");
+}
+
+TEST(ImageFile, a_jpeg_without_tables_is_refused_or_a_picture) {
+  const Bytes whole = test::make_jpeg(16, 8, kColor);
+  for (const std::uint8_t marker : {std::uint8_t{0xc4}, std::uint8_t{0xdb}}) {
+    Bytes jpeg = whole;
+    for (std::size_t i = 2; i + 1 < jpeg.size(); ++i)
+      if (jpeg[i] == 0xff && jpeg[i + 1] == marker) jpeg[i + 1] = 0xfe;  // a comment
+    const Result<Image> first = decode_image(jpeg);
+    const Result<Image> second = decode_image(jpeg);
+    ASSERT_EQ(first.ok(), second.ok());
+    if (first.ok()) {
+      EXPECT_EQ(first->rgba, second->rgba);
+    }
+  }
 }
 
 TEST(PngRows, an_unknown_filter_is_refused) {

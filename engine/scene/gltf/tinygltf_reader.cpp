@@ -143,7 +143,9 @@ Result<tinygltf::Model> load_model(const Container& file, const JsonScan& scan, 
   if (failed < scan.buffers.size() && scan.buffers[failed].data_uri)
     return fault_at(place("buffer", failed), "its data URI does not hold byteLength = " +
                                                  std::to_string(scan.buffers[failed].byte_length) + " bytes of base64");
-  return Error{ErrorKind::input, one_line(errors.substr(0, errors.find('\n')), 200)};
+  // Remarks that are no errors come first.
+  while (errors.ends_with('\n')) errors.pop_back();
+  return Error{ErrorKind::input, one_line(errors.substr(errors.rfind('\n') + 1), 200)};
 }
 
 // ---- geometry ----

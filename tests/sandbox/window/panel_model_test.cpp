@@ -124,5 +124,55 @@ TEST(FrameTimes, forget_what_is_more_than_their_number_of_frames_ago) {
   EXPECT_EQ(times.frame_ms(), 10.0);
 }
 
+TEST(KnobSearch, finds_names_and_meanings_in_any_case) {
+  Knob knob;
+  knob.name = "fog.radius";
+  knob.meaning = "how far light reaches";
+  EXPECT_TRUE(matches(knob, ""));
+  EXPECT_TRUE(matches(knob, "RADI"));
+  EXPECT_TRUE(matches(knob, "light"));
+  EXPECT_FALSE(matches(knob, "shadow"));
+}
+
+TEST(KnobTexts, hold_what_is_not_at_its_default) {
+  KnobRegistry knobs = test::small_knobs();
+  EXPECT_EQ(assignments_text(knobs), "");
+  EXPECT_EQ(config_text(knobs), "{}\n");
+  for (const Knob& knob : knobs.knobs()) set_knob_value(knobs, knob, knob.min == knob.max ? 1.0 : knob.max);
+  const std::string config = config_text(knobs), assignments = assignments_text(knobs);
+  KnobRegistry read = test::small_knobs();
+  ASSERT_TRUE(read.set_from_json(config, "test").ok());
+  for (const Knob& knob : knobs.knobs()) {
+    EXPECT_EQ(read.text(knob.name), knobs.text(knob.name));
+    EXPECT_EQ(assignments.find(" --set " + knob.name + "=" + knobs.text(knob.name)) != std::string::npos,
+              !is_default(knobs, knob));
+  }
+}
+
+TEST(KnobSlotsTest, show_what_was_kept) {
+  KnobRegistry knobs = test::small_knobs();
+  KnobSlots slots;
+  EXPECT_FALSE(slots.has(0));
+  slots.keep(knobs, 0);
+  const Knob& knob = knobs.knobs().back();
+  const std::string before = knobs.text(knob.name);
+  set_knob_value(knobs, knob, knob.max);
+  slots.keep(knobs, 1);
+  slots.show(knobs, 0);
+  EXPECT_EQ(knobs.text(knob.name), before);
+  slots.show(knobs, 1);
+  EXPECT_EQ(knob_value(knobs, knob), knob.max);
+}
+
+TEST(FrameTimesOfSystems, add_the_calls_of_a_frame_and_put_the_longest_first) {
+  FrameTimes times;
+  const std::vector<Zone> zones = {
+      {"sort", "lights", 0, 1000000}, {"bake", "fog", 0, 3000000}, {"sort", "lights", 0, 1000000}};
+  times.add_systems(zones);
+  ASSERT_EQ(times.systems().size(), 2u);
+  EXPECT_EQ(times.systems()[0].name, "bake");
+  EXPECT_NEAR(times.systems()[1].ms, 2.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace gloam

@@ -27,7 +27,8 @@ class PanelTest : public ::testing::Test {
                                     if (name == "light_list:moon") return Error{ErrorKind::usage, "no light moon"};
                                     visualizer_ = name;
                                     return {};
-                                  }};
+                                  },
+                                  .scene = scene_};
     panel_.update(input, {.width = 800, .height = 600, .dt_s = 0.02}, content);
   }
 
@@ -79,6 +80,7 @@ class PanelTest : public ::testing::Test {
                                               {"light_list", "lamp", "LIGHT", "pixels of a list"},
                                               {"later", "lamp", "", "nothing", false}};
   std::string visualizer_ = "none";
+  const PanelScene* scene_ = nullptr;
   Panel panel_;
   PanelInput last_;
 };
@@ -190,6 +192,53 @@ TEST_F(PanelTest, a_picture_smaller_than_the_panel_is_no_fault) {
   for (const std::uint32_t size : {1u, 20u, 100u})
     panel_.update({}, {.width = size, .height = size, .dt_s = 0.0}, content);
   EXPECT_GE(panel_.draw_data().TotalIdxCount, 0);
+}
+
+TEST_F(PanelTest, keeps_two_settings_and_shows_them_in_turn) {
+  const Knob knob = knobs_.knobs().front();
+  const std::string before = knobs_.text(knob.name);
+  click("keep A");
+  set_knob_value(knobs_, knob, knob_value(knobs_, knob) == 0.0 ? 1.0 : 0.0);
+  const std::string after = knobs_.text(knob.name);
+  ASSERT_NE(before, after);
+  click("keep B");
+  click("show A");
+  EXPECT_EQ(knobs_.text(knob.name), before);
+  click("show B");
+  EXPECT_EQ(knobs_.text(knob.name), after);
+}
+
+TEST_F(PanelTest, lights_and_scene_pass_on_what_the_user_changes) {
+  const std::vector<PanelLight> lights = {{.name = "lamp", .kind = "spot", .unit = "cd", .intensity = 5.0f}};
+  const std::vector<std::string> cameras = {"near", "far"}, picked = {"a pixel"};
+  std::string done;
+  PanelScene scene = {.cameras = cameras,
+                      .show_camera = [&](std::uint32_t number) { done = "camera " + std::to_string(number); },
+                      .pause = [&](bool paused) { done = paused ? "paused" : "running"; },
+                      .set_exposure = [&](bool automatic, float) { done = automatic ? "automatic" : "by hand"; },
+                      .lights = lights,
+                      .set_intensity = [&](std::size_t, float) { done = "intensity"; },
+                      .mute = [&](std::size_t light, bool) { done = "mute " + std::to_string(light); },
+                      .solo = [&](std::size_t light, bool) { done = "solo " + std::to_string(light); },
+                      .picked = picked,
+                      .save_config = [&] { done = "saved"; },
+                      .copy_command = [&] { done = "copied"; }};
+  scene_ = &scene;
+  const auto expect = [&](const char* widget, const char* what, double share = 0.5) {
+    done.clear();
+    click(widget, share);
+    EXPECT_EQ(done, what) << widget;
+  };
+  expect("pause", "paused", 0.1);
+  expect("exposure auto", "by hand", 0.05);
+  expect("save config", "saved");
+  expect("copy command", "copied");
+  click("camera");
+  expect("camera far", "camera 2");
+  click("lights");
+  expect("lamp mute", "mute 0");
+  expect("lamp solo", "solo 0");
+  expect("lamp intensity", "intensity", 0.8);
 }
 
 }  // namespace

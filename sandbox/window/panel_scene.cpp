@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/window/panel_scene.h"
+
+#include <imgui/imgui.h>
+
+#include "sandbox/window/panel.h"
+
+namespace gloam {
+namespace {
+
+void show_line(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
+
+}  // namespace
+
+void Panel::show_settings(const PanelContent& content) {
+  const auto button = [this](const char* label, const char* name) {
+    const bool pressed = ImGui::Button(label);
+    remember_widget(name);
+    ImGui::SameLine();
+    return pressed;
+  };
+  constexpr const char* kNames[KnobSlots::kSlots][2] = {{"keep A", "show A"}, {"keep B", "show B"}};
+  for (std::size_t slot = 0; slot < KnobSlots::kSlots; ++slot) {
+    if (button(kNames[slot][0], kNames[slot][0])) slots_.keep(content.knobs, slot);
+    ImGui::BeginDisabled(!slots_.has(slot));
+    if (button(kNames[slot][1], kNames[slot][1])) slots_.show(content.knobs, slot);
+    ImGui::EndDisabled();
+  }
+  if (content.scene == nullptr) {
+    ImGui::NewLine();
+    return;
+  }
+  if (button("save --config", "save config")) content.scene->save_config();
+  if (button("copy command", "copy command")) content.scene->copy_command();
+  ImGui::NewLine();
+  if (!content.scene->said.empty()) ImGui::TextWrapped("%s", content.scene->said.c_str());
+}
+
+void Panel::show_scene(const PanelScene& scene) {
+  if (!ImGui::CollapsingHeader("Scene", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  bool paused = scene.paused;
+  if (ImGui::Checkbox("paused", &paused)) scene.pause(paused);
+  remember_widget("pause");
+  ImGui::SameLine();
+  ImGui::Text("time %.2f s", scene.time_s);
+  bool automatic = scene.automatic_exposure;
+  if (ImGui::Checkbox("automatic exposure", &automatic)) scene.set_exposure(automatic, scene.ev100);
+  remember_widget("exposure auto");
+  if (!scene.automatic_exposure) {
+    float ev100 = scene.ev100;
+    ImGui::SetNextItemWidth(-1.0f);
+    if (ImGui::SliderFloat("##exposure", &ev100, -6.0f, 18.0f, "EV100 %.1f")) scene.set_exposure(false, ev100);
+    remember_widget("exposure");
+  }
+  if (!scene.cameras.empty()) {
+    ImGui::SetNextItemWidth(-1.0f);
+    const bool open = ImGui::BeginCombo("##camera", "cameras");
+    remember_widget("camera");
+    if (open) {
+      for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const std::string label = std::to_string(i + 1) + "  " + scene.cameras[i];
+        if (ImGui::Selectable(label.c_str())) scene.show_camera(static_cast<std::uint32_t>(i + 1));
+        remember_widget("camera " + scene.cameras[i]);
+      }
+      ImGui::EndCombo();
+    }
+  }
+  if (scene.picked.empty()) {
+    ImGui::TextDisabled("click a pixel to see its lights");
+    return;
+  }
+  for (const std::string& line : scene.picked) ImGui::TextWrapped("%s", line.c_str());
+}
+
+void Panel::show_lights(const PanelScene& scene) {
+  const std::string title = "Lights (" + std::to_string(scene.lights.size()) + ")###lights";
+  const bool open = ImGui::CollapsingHeader(title.c_str());
+  remember_widget("lights");
+  if (!open) return;
+  if (!ImGui::BeginTable("lights", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
+  ImGui::TableSetupColumn("light");
+  ImGui::TableSetupColumn("solo");
+  ImGui::TableSetupColumn("mute");
+  ImGui::TableSetupColumn("intensity", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableHeadersRow();
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(scene.lights.size()));
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      ImGui::PushID(i);
+      show_light(scene, static_cast<std::size_t>(i));
+      ImGui::PopID();
+    }
+  ImGui::EndTable();
+}
+
+void Panel::show_light(const PanelScene& scene, std::size_t index) {
+  const PanelLight& light = scene.lights[index];
+  ImGui::TableNextColumn();
+  show_line(light.name.empty() ? "(no name)" : light.name);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", light.kind.c_str());
+  ImGui::TableNextColumn();
+  bool solo = light.solo;
+  if (ImGui::Checkbox("##solo", &solo)) scene.solo(index, solo);
+  remember_widget(light.name + " solo");
+  ImGui::TableNextColumn();
+  bool muted = light.muted;
+  if (ImGui::Checkbox("##mute", &muted)) scene.mute(index, muted);
+  remember_widget(light.name + " mute");
+  ImGui::TableNextColumn();
+  ImGui::SetNextItemWidth(-1.0f);
+  float intensity = light.intensity;
+  const std::string format = "%.4g " + light.unit;
+  if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, 100000.0f, format.c_str(), ImGuiSliderFlags_Logarithmic))
+    scene.set_intensity(index, intensity);
+  remember_widget(light.name + " intensity");
+}
+
+}  // namespace gloam

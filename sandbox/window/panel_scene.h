@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace gloam {
+
+/// A light in the panel.
+struct PanelLight {
+  std::string name;
+  std::string kind;  ///< "spot"
+  std::string unit;  ///< of the intensity
+  float intensity = 0.0f;
+  bool muted = false;
+  bool solo = false;
+};
+
+/// What the panel shows of the scene, and the functions that carry out the user's changes. All functions are set.
+struct PanelScene {
+  std::span<const std::string> cameras;
+  std::function<void(std::uint32_t number)> show_camera;  ///< from 1 on
+
+  double time_s = 0.0;
+  bool paused = false;
+  std::function<void(bool paused)> pause;
+
+  bool automatic_exposure = true;
+  float ev100 = 0.0f;
+  std::function<void(bool automatic, float ev100)> set_exposure;
+
+  std::span<const PanelLight> lights;
+  std::function<void(std::size_t light, float intensity)> set_intensity;
+  std::function<void(std::size_t light, bool muted)> mute;
+  std::function<void(std::size_t light, bool solo)> solo;
+
+  std::span<const std::string> picked;  ///< lines about the pixel that was clicked last
+
+  std::function<void()> save_config;   ///< writes the knobs to a file for --config
+  std::function<void()> copy_command;  ///< puts the command line of this picture on the clipboard
+  std::string said;                    ///< result of the last of the two; empty: none
+};
+
+}  // namespace gloam
