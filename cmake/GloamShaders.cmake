@@ -89,3 +89,30 @@ const std::span<const gpu::ShaderCode* const> every_shader = kEveryShader;
   target_link_libraries(gloam_shaders_${folder} PUBLIC gloam::options)
   set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_shaders_${folder})
 endfunction()
+
+# Defines the library gloam_every_shader. Its header shaders/every/shaders.h in the build tree declares
+# gloam::every_shader(), which returns all shaders that were embedded so far.
+function(gloam_list_shaders)
+  get_property(folders GLOBAL PROPERTY GLOAM_SHADER_FOLDERS)
+  set(includes "")
+  set(appends "")
+  foreach(folder IN LISTS folders)
+    string(APPEND includes "#include \"shaders/${folder}/shaders.h\"\n")
+    string(APPEND appends "  all.insert(all.end(), shaders::${folder}::every_shader.begin(), shaders::${folder}::every_shader.end());\n")
+  endforeach()
+  list(TRANSFORM folders PREPEND gloam::shaders_ OUTPUT_VARIABLE libraries)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/shaders/every/shaders.h CONTENT
+"#pragma once
+#include <vector>
+#include \"engine/gpu/types.h\"
+${includes}
+namespace gloam {
+[[nodiscard]] inline std::vector<const gpu::ShaderCode*> every_shader() {
+  std::vector<const gpu::ShaderCode*> all;
+${appends}  return all;
+}
+}
+")
+  add_library(gloam_every_shader INTERFACE)
+  target_link_libraries(gloam_every_shader INTERFACE ${libraries})
+endfunction()

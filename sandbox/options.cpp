@@ -98,6 +98,11 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
                    "Share of the window's width and height that is drawn: auto (default; 1 with --stats or --trace) "
                    "keeps the picture fluent, or a number in 0.25…1")
       ->type_name("SCALE");
+  options.shaders = GLOAM_SOURCE_ROOT;
+  play->add_option("--shaders", options.shaders,
+                   "Source tree whose changed shaders are compiled while the program runs; default: the one that the "
+                   "program was built from, if it is there")
+      ->type_name("FOLDER");
   // For tests: see sandbox/play/input_script.h.
   play->add_option("--script", options.script)->group("");
   CLI::App* render = add(Command::render, "render", "Render without a window");

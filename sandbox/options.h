@@ -34,6 +34,7 @@ struct Options {
   bool scale_given = false;     ///< by --scale
   double scale = 0.0;           ///< play: share of the window's size that is drawn, 0.25…1; 0: automatic
   std::string script;           ///< play: file of input events, for tests
+  std::string shaders;          ///< play: source tree whose shaders are watched
   std::uint32_t in_flight = 1;  ///< render: frames that may be unfinished at a time, 1…gpu::Device::kFramesInFlight
   double time_s = 0.0;
   double dt_s = 1.0 / 60.0;

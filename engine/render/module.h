@@ -68,8 +68,10 @@ struct VisualizerInfo {
 struct PickedPixel {
   std::uint32_t x = 0;
   std::uint32_t y = 0;
-  float depth = 0.0f;         ///< reversed Z; 0 is sky
-  float view_depth_m = 0.0f;  ///< 0 for sky
+  float depth = 0.0f;          ///< reversed Z; 0 is sky
+  float view_depth_m = 0.0f;   ///< 0 for sky
+  vec3 position = vec3(0.0f);  ///< camera-relative, metres; not set for sky
+  vec3 normal = vec3(0.0f);    ///< shading normal, unit length; 0 for sky
 };
 
 /// Receives counters of a frame, by name ("lights.visible").

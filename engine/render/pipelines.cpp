@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/pipelines.h"
 
+#include <type_traits>
+
 #include "engine/core/hash.h"
 #include "engine/gpu/pipeline_hash.h"
 
@@ -20,6 +22,13 @@ std::uint64_t hash_of(const Desc& desc) {
 }
 std::uint64_t key_of_any(const AnyDesc& desc) {
   return std::visit([](const auto& d) { return hash_of(d); }, desc);
+}
+
+std::array<std::string, 2> shaders_of(const gpu::ComputePipelineDesc& desc) {
+  return {std::string(desc.shader.name), ""};
+}
+std::array<std::string, 2> shaders_of(const gpu::GraphicsPipelineDesc& desc) {
+  return {std::string(desc.vertex.name), std::string(desc.fragment.name)};
 }
 
 std::string_view shader_of(const gpu::ComputePipelineDesc& desc) { return desc.shader.name; }
@@ -56,11 +65,20 @@ Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
   }
   Desc named = desc;
   named.name = name_of(desc);
+  {
+    const std::lock_guard lock(mutex_);
+    if constexpr (std::is_same_v<Desc, gpu::ComputePipelineDesc>) {
+      named.shader = current(desc.shader);
+    } else {
+      named.vertex = current(desc.vertex);
+      named.fragment = current(desc.fragment);
+    }
+  }
   auto made = device_.create_pipeline(named);  // outside the lock: compiling takes long
   if (!made.ok()) return made.error();
   const std::lock_guard lock(mutex_);
   failed_.erase(key);
-  const auto [place, fresh] = entries_.try_emplace(key, Entry{desc.module, *made});
+  const auto [place, fresh] = entries_.try_emplace(key, Entry{desc.module, *made, shaders_of(desc)});
   if (!fresh) device_.destroy(*made);  // another thread was faster
   return place->second.pipeline;
 }
@@ -110,6 +128,23 @@ void Pipelines::run_worker(const std::stop_token& stop, LogSink& log) {
     begun_.erase(key_of_any(desc));
     if (!made.ok()) failed_.insert_or_assign(key_of_any(desc), module_of(desc));
   }
+}
+
+gpu::ShaderCode Pipelines::current(const gpu::ShaderCode& shader) const {
+  const auto found = replaced_.find(std::string(shader.name));
+  return found == replaced_.end() ? shader : gpu::ShaderCode{shader.name, found->second.back()};
+}
+
+void Pipelines::replace_shader(std::string_view name, std::vector<std::uint32_t> words) {
+  const std::lock_guard lock(mutex_);
+  replaced_[std::string(name)].push_back(std::move(words));
+  failed_.clear();  // they may succeed now
+  std::erase_if(entries_, [&](const auto& entry) {
+    const auto& shaders = entry.second.shaders;
+    if (shaders[0] != name && shaders[1] != name) return false;
+    device_.destroy(entry.second.pipeline);
+    return true;
+  });
 }
 
 void Pipelines::release(std::string_view module) {

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 #include <stop_token>
 #include <string>
@@ -50,6 +52,9 @@ class Pipelines {
   [[nodiscard]] bool request(const PipelineList& list, LogSink& log);
   /// Number of pipelines that are queued or compiled in the background.
   [[nodiscard]] std::size_t pending() const;
+  /// From now on, pipelines whose descriptions name this shader are made from these words. Existing ones are destroyed.
+  /// No frame may be recorded meanwhile.
+  void replace_shader(std::string_view name, std::vector<std::uint32_t> words);
   /// Destroys all pipelines of a module, removes its queued ones and forgets its failures. A pipeline that is being
   /// compiled in the background stays.
   void release(std::string_view module);
@@ -63,7 +68,10 @@ class Pipelines {
   struct Entry {
     std::string module;
     gpu::PipelineHandle pipeline;
+    std::array<std::string, 2> shaders;  ///< names
   };
+  /// The words that replace those of a shader; without words, the shader itself.
+  [[nodiscard]] gpu::ShaderCode current(const gpu::ShaderCode& shader) const;
   void run_worker(const std::stop_token& stop, LogSink& log);
 
   gpu::Device& device_;
@@ -71,6 +79,8 @@ class Pipelines {
   std::unordered_map<std::uint64_t, Entry> entries_;       ///< by hash of module and description, as the members below
   std::unordered_set<std::uint64_t> begun_;                ///< queued or being compiled
   std::unordered_map<std::uint64_t, std::string> failed_;  ///< failed in the background: module
+  /// By name. Devices may identify shaders by the address of their words, so that replaced words stay.
+  std::unordered_map<std::string, std::deque<std::vector<std::uint32_t>>> replaced_;
   PipelineList queue_;
   std::condition_variable_any wake_;
   std::jthread worker_;  ///< started by the first request; destroyed before the members above

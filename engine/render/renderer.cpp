@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include "engine/render/renderer.h"
+#include "engine/gpu/shader_interface.h"
 
 #include <algorithm>
 #include <iterator>
@@ -343,6 +344,19 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   Status drawn = attempt([] { return std::string("the frame"); }, [&] { return state_->draw_frame(world, requests); });
   state_->cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return drawn;
+}
+
+Status Renderer::replace_shader(const gpu::ShaderCode& embedded, std::vector<std::uint32_t> words) {
+  const auto from = gpu::reflect_spirv(embedded);
+  if (!from.ok()) return from.error();
+  const auto to = gpu::reflect_spirv({embedded.name, words});
+  if (!to.ok()) return Error{ErrorKind::usage, to.error().message};
+  const std::string difference = gpu::interface_difference(*from, *to);
+  if (!difference.empty())
+    return Error{ErrorKind::usage,
+                 std::string(embedded.name) + ": " + difference + ": the program must be built again"};
+  state_->pipelines.replace_shader(embedded.name, std::move(words));
+  return {};
 }
 
 Status Renderer::wait() { return state_->options.device->wait_idle(); }

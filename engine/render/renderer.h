@@ -170,6 +170,13 @@ class Renderer {
   /// Facts that the engine and the modules know about a pixel of the last frame, as lines of text. Draws that frame
   /// again and waits for the GPU. Usage error if the pixel lies outside the picture.
   [[nodiscard]] Result<std::vector<std::string>> pick(World& world, ViewId view, std::uint32_t x, std::uint32_t y);
+  /// World position of the surface that a pixel of the view's last frame shows; none for the sky. Draws that frame
+  /// again and waits for the GPU. Usage error if the pixel lies outside the picture.
+  [[nodiscard]] Result<std::optional<dvec3>> pick_position(World& world, ViewId view, std::uint32_t x, std::uint32_t y);
+  /// Replaces a shader in all pipelines from the next frame on, for tools that compile shaders while they run. Usage
+  /// error if the words are no SPIR-V, or if passes that were written for the embedded shader cannot use them
+  /// (gpu::interface_difference); then nothing changes.
+  [[nodiscard]] Status replace_shader(const gpu::ShaderCode& embedded, std::vector<std::uint32_t> words);
   /// Lists systems and passes as text, for users and tests.
   [[nodiscard]] std::string describe() const;
 

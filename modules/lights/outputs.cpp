@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "engine/core/assert.h"
 #include "modules/lights/masks/mask_population.h"
@@ -11,6 +12,11 @@
 #include "shaders/lights/lights_shared.h"
 
 namespace gloam {
+namespace {
+
+double luminance(const vec3& color) { return glm::dot(dvec3(color), dvec3(0.2126, 0.7152, 0.0722)); }
+
+}  // namespace
 
 std::span<const Entity> local_lights(const VisibleLights& visible) { return visible.local_entities; }
 
@@ -25,6 +31,26 @@ std::vector<DirectionalLook> directional_looks(const VisibleLights& visible) {
     looks.push_back({light.direction, std::max({light.color.r, light.color.g, light.color.b})});
   }
   return looks;
+}
+
+double local_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& point, const vec3& normal) {
+  GLOAM_ASSERT(light < visible.block.local_count, "no such local light");
+  const shaders::LocalLight& l = visible.block.local[light];
+  const dvec3 offset = dvec3(l.position) - dvec3(point);
+  const double d2 = std::max(glm::dot(offset, offset), 1e-6);
+  const dvec3 to_light = offset / std::sqrt(d2);
+  const double ratio = d2 * static_cast<double>(l.inverse_range_squared);
+  const double window = std::clamp(1.0 - ratio * ratio, 0.0, 1.0);
+  const double cone = std::clamp(
+      -glm::dot(to_light, dvec3(l.direction)) * static_cast<double>(l.spot_scale) + static_cast<double>(l.spot_offset),
+      0.0, 1.0);
+  return luminance(l.color) * window * window * cone * cone / d2 * std::max(glm::dot(dvec3(normal), to_light), 0.0);
+}
+
+double directional_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& normal) {
+  GLOAM_ASSERT(light < visible.block.directional_count, "no such directional light");
+  const shaders::DirectionalLight& l = visible.block.directional[light];
+  return luminance(l.color) * std::max(-glm::dot(dvec3(normal), dvec3(l.direction)), 0.0);
 }
 
 void read_light_lists(ShaderPass& pass, const LightsOutputs& lights) {

@@ -86,6 +86,12 @@ struct DirectionalLook {
 /// Indexed as LightBlock::directional.
 [[nodiscard]] std::vector<DirectionalLook> directional_looks(const VisibleLights& visible);
 
+/// Illuminance in lux, the luminance of its linear RGB, that a light sheds on a camera-relative point of a surface, if
+/// nothing casts a shadow. normal: unit length. light: indexed as LightBlock::local, or LightBlock::directional.
+[[nodiscard]] double local_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& point,
+                                          const vec3& normal);
+[[nodiscard]] double directional_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& normal);
+
 /// Side of a shadow tile in pixels. Each shadow tile has one light list.
 inline constexpr std::uint32_t kShadowTile = 8;
 

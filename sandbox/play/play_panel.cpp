@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "engine/scene/resources.h"
+#include "modules/depth_of_field/components.h"
 #include "sandbox/output/file_io.h"
+#include "sandbox/play/orbit_controls.h"
 #include "sandbox/session/frame_tracing.h"
 #include "sandbox/session/scene_loading.h"
 
@@ -61,15 +63,16 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
                   .scale_setting = scale.setting(),
                   .scale_steps = ResolutionScale::kSteps,
                   .set_scale = [&](double setting) { scale.set(setting); },
-                  .scene = controls.pause ? &scene : nullptr});
-  if (input.clicked && !panel_->wants_mouse() && !report.passes.empty()) pick(input, frame, view, scale.scale());
+                  .scene = controls.pause ? &scene : nullptr,
+                  .notice = notice_});
+  if (input.clicked && !panel_->wants_mouse() && !report.passes.empty()) pick(input, view, scale.scale());
   if (panel_->wants_mouse()) {
-    input.drag_x = input.drag_y = 0.0;
-    input.clicked = false;
+    input.drag_x = input.drag_y = input.orbit_x = input.orbit_y = input.wheel = 0.0;
+    input.clicked = input.grabbed = input.look_at = false;
   }
   if (typing || panel_->wants_keyboard()) {
     input.forward = input.right = input.up = 0.0;
-    input.fast = input.leave = false;
+    input.fast = input.leave = input.look_at = false;
     input.pause = input.step = false;
     input.camera = 0;
   }
@@ -87,6 +90,7 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
                              .muted = light.muted,
                              .solo = light.solo});
   auto& environment = session_.world.resource<SceneEnvironment>();
+  const auto* lens = std::as_const(session_.world).try_get<DepthOfField>(session_.camera);
   return {.cameras = cameras_,
           .show_camera = controls.show_camera,
           .time_s = controls.time_s,
@@ -99,6 +103,11 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
                 environment.has_exposure = !automatic;
                 environment.exposure_ev100 = ev100;
               },
+          .has_camera = session_.world.alive(session_.camera),
+          .focus_m = lens != nullptr ? lens->focus_m : 0.0f,
+          .f_number = lens != nullptr ? lens->f_number : DepthOfField{}.f_number,
+          .picked_m = picked_m_,
+          .set_lens = [this](float focus_m, float f_number) { set_lens(focus_m, f_number); },
           .lights = shown_lights_,
           .set_intensity = [this](std::size_t light, float value) { lights_.set_intensity(light, value); },
           .mute = [this](std::size_t light, bool muted) { lights_.mute(light, muted); },
@@ -113,15 +122,33 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
           .said = said_};
 }
 
+void PlayPanel::set_lens(float focus_m, float f_number) {
+  World& world = session_.world;
+  DepthOfField lens;
+  if (const auto* old = std::as_const(world).try_get<DepthOfField>(session_.camera)) lens = *old;
+  lens.focus_m = focus_m;
+  lens.f_number = f_number;
+  world.add<DepthOfField>(session_.camera, lens);
+}
+
 /// A pixel of the drawn picture, which may be smaller than the window.
-void PlayPanel::pick(const WindowInput& input, const PanelFrame& frame, const ViewSettings& view, double scale) {
-  if (input.pointer_x < 0.0 || input.pointer_y < 0.0 || input.pointer_x >= frame.width ||
-      input.pointer_y >= frame.height)
-    return;
-  const auto lines =
-      session_.renderer->pick(session_.world, view.id, static_cast<std::uint32_t>(input.pointer_x * scale),
-                              static_cast<std::uint32_t>(input.pointer_y * scale));
+void PlayPanel::pick(const WindowInput& input, const ViewSettings& view, double scale) {
+  const auto pixel = pixel_at(view, {input.pointer_x, input.pointer_y, scale});
+  if (!pixel) return;
+  const auto lines = session_.renderer->pick(session_.world, view.id, pixel->x, pixel->y);
   picked_ = lines.ok() ? *lines : std::vector<std::string>{lines.error().message};
+  const auto position = session_.renderer->pick_position(session_.world, view.id, pixel->x, pixel->y);
+  picked_m_ = 0.0f;
+  if (!position.ok() || !*position) return;
+  ViewSettings camera = view;
+  if (camera.follow_camera) follow_camera(session_.world, camera);
+  const dvec4 seen = glm::inverse(camera.world_from_camera) * dvec4(**position, 1.0);
+  picked_m_ = static_cast<float>(-seen.z);
+}
+
+void PlayPanel::tell(std::string message, bool urgent) {
+  notice_ = {std::move(message), urgent};
+  shown_ |= urgent;
 }
 
 void PlayPanel::save_config(const std::string& scene) {

@@ -47,6 +47,9 @@ class PlayPanel {
   /// The zones of a frame, for its systems' times.
   void add_systems(std::span<const Zone> zones) { times_.add_systems(zones); }
 
+  /// Shows a message at the top of the panel until the next one. urgent: also shows the panel if it is hidden.
+  void tell(std::string message, bool urgent);
+
   [[nodiscard]] bool shown() const { return shown_; }
   /// Changes the factor on the size of text.
   void set_scale(double scale);
@@ -59,7 +62,8 @@ class PlayPanel {
  private:
   [[nodiscard]] Status open();
   [[nodiscard]] PanelScene scene_of(const PlayControls& controls, const ViewSettings& view);
-  void pick(const WindowInput& input, const PanelFrame& frame, const ViewSettings& view, double scale);
+  void pick(const WindowInput& input, const ViewSettings& view, double scale);
+  void set_lens(float focus_m, float f_number);
   void save_config(const std::string& scene);
   [[nodiscard]] std::string command_line(const PlayControls& controls, const ViewSettings& view) const;
 
@@ -72,7 +76,9 @@ class PlayPanel {
   std::vector<PanelLight> shown_lights_;
   std::vector<std::string> cameras_;
   std::vector<std::string> picked_;
+  float picked_m_ = 0.0f;  ///< PanelScene::picked_m
   std::string said_;
+  PanelNotice notice_;
   std::vector<VisualizerInfo> visualizers_;
   std::unique_ptr<Panel> panel_;
   std::unique_ptr<PanelRenderer> renderer_;

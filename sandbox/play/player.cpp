@@ -41,10 +41,12 @@ Player::Player(const Options& options, Session& session, WindowPictures& picture
       pictures_(pictures),
       lasting_(lasting),
       log_(log),
+      orbit_(session),
       on_software_(session.device->info().type == gpu::DeviceType::cpu),
       scale_(on_software_ ? kSoftwareBudgetMs : kGpuBudgetMs, lasting.scale),
       upscaler_(*session.device),
       panel_(session, pictures.window().content_scale(), lasting.panel),
+      shaders_(options.shaders),
       time_s_(options.time_s) {
   settings_ = session.view_settings(options.width, options.height, options.view);
   last_ns_ = session.zones.now_ns();
@@ -57,13 +59,14 @@ Status Player::run() {
     WindowInput input = poll();
     count_step();
     adapt_scale();
+    reload_shaders();
     panel_.set_scale(window.content_scale());
     GLOAM_TRY(panel_.update(input, {window.width(), window.height(), frame_s_}, settings_, scale_, controls()));
     if (window.should_close() || input.leave) break;
     GLOAM_TRY(obey(input));
     if (!next_scene_.empty()) break;
     drop_view_without_its_knob();
-    move_camera(input);
+    GLOAM_TRY(move_camera(input));
     const auto drawn = draw();
     if (!drawn) return drawn.error();
     shown_ = *drawn;
@@ -125,6 +128,7 @@ void Player::show_camera(std::uint32_t number) {
   settings_ = session_.view_settings(settings_.width, settings_.height, settings_.visualizer);
   settings_.camera_cut = true;
   flight_ = {};
+  orbit_.reset();
 }
 
 /// Draws the picture at the window's size without the panel, as `gloam render` does, and writes it to the first free
@@ -179,19 +183,37 @@ void Player::count_step() {
   last_ns_ = now;
 }
 
-void Player::move_camera(const WindowInput& input) {
-  const FlyInput flight = {.forward = input.forward,
-                           .right = input.right,
-                           .up = input.up,
-                           .turn = input.turn * kStickRadians * step_s_ - input.drag_x * kRadiansPerPixel,
-                           .tilt = input.tilt * kStickRadians * step_s_ - input.drag_y * kRadiansPerPixel,
-                           .speed = input.fast ? kFastFactor : 1.0};
+Status Player::move_camera(const WindowInput& input) {
+  FlyInput flight = {.forward = input.forward,
+                     .right = input.right,
+                     .up = input.up,
+                     .turn = input.turn * kStickRadians * step_s_ - input.drag_x * kRadiansPerPixel,
+                     .tilt = input.tilt * kStickRadians * step_s_ - input.drag_y * kRadiansPerPixel,
+                     .speed = input.fast ? kFastFactor : 1.0};
+  if (shown_) GLOAM_TRY(orbit_.add(input, settings_, drawn_scale_, flight));
   flight_.advance(session_.world, flight, step_s_, settings_);
+  return {};
 }
 
 /// On a software device the whole turn counts. A GPU waits for the display, so there its own time counts.
 void Player::adapt_scale() {
   if (shown_) scale_.add(on_software_ ? frame_s_ * 1e3 : session_.renderer->report().gpu_ms);
+}
+
+/// Draws with the shaders that were changed; the panel shows why one cannot be used.
+void Player::reload_shaders() {
+  auto change = shaders_.take();
+  if (!change) return;
+  std::string fault = std::move(change->fault);
+  std::size_t count = 0;
+  for (ShaderReload::Compiled& compiled : change->compiled) {
+    const Status replaced = session_.renderer->replace_shader(*compiled.shader, std::move(compiled.words));
+    if (replaced.ok()) ++count;
+    if (!replaced.ok() && fault.empty()) fault = replaced.error().message;
+  }
+  if (!fault.empty()) log_.warning(fault);
+  panel_.tell(fault.empty() ? std::to_string(count) + (count == 1 ? " shader" : " shaders") + " compiled again" : fault,
+              !fault.empty());
 }
 
 /// Draws a frame. Returns false if none was shown, because the window is minimised or changes its size.

@@ -10,8 +10,10 @@
 #include "engine/core/result.h"
 #include "sandbox/options.h"
 #include "sandbox/output/frame_sample.h"
+#include "sandbox/play/orbit_controls.h"
 #include "sandbox/play/play_panel.h"
 #include "sandbox/play/resolution_scale.h"
+#include "sandbox/play/shader_reload.h"
 #include "sandbox/play/upscaler.h"
 #include "sandbox/play/window_pictures.h"
 #include "sandbox/session/session.h"
@@ -53,8 +55,9 @@ class Player {
   void accept(const std::vector<std::string>& dropped);
   void drop_view_without_its_knob();
   void count_step();
-  void move_camera(const WindowInput& input);
+  [[nodiscard]] Status move_camera(const WindowInput& input);
   void adapt_scale();
+  void reload_shaders();
   [[nodiscard]] Result<bool> draw();
   [[nodiscard]] Result<ViewRequest> request();
   [[nodiscard]] Status show_enlarged(FrameGraph& graph, ImageRef picture);
@@ -67,11 +70,13 @@ class Player {
   LogSink& log_;
   ViewSettings settings_;
   ViewFlight flight_;
+  OrbitControls orbit_;
   bool on_software_;
   ResolutionScale scale_;
   double drawn_scale_ = 0.0;  ///< of the last frame; 0: none yet
   Upscaler upscaler_;
   PlayPanel panel_;
+  ShaderReload shaders_;
   std::vector<FrameSample> samples_;
   double time_s_ = 0.0;
   double frame_s_ = 0.0;  ///< since the last frame

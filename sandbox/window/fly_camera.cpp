@@ -8,8 +8,9 @@
 namespace gloam {
 namespace {
 
-constexpr double kSpeed = 3.0;      // metres per second
-constexpr double kMaxTilt = 1.553;  // 89°: at 90° the heading is undefined
+constexpr double kSpeed = 3.0;          // metres per second
+constexpr double kMaxTilt = 1.553;      // 89°: at 90° the heading is undefined
+constexpr double kNearestPivot = 0.01;  // metres
 
 struct Axes {
   dvec3 right;
@@ -36,9 +37,32 @@ FlyCamera::FlyCamera(const dmat4& world_from_camera) : position_(world_from_came
   }
 }
 
+void FlyCamera::set_direction(double heading, double tilt) {
+  heading_ = std::remainder(heading, 2.0 * std::acos(-1.0));
+  tilt_ = std::clamp(tilt, -kMaxTilt, kMaxTilt);
+}
+
+void FlyCamera::move_about_pivot(const FlyInput& input) {
+  const double distance = glm::distance(input.pivot, position_);
+  if (input.look_at_pivot && distance > kNearestPivot) {
+    const dvec3 back = (position_ - input.pivot) / distance;
+    set_direction(std::atan2(back.x, back.z), std::asin(std::clamp(-back.y, -1.0, 1.0)));
+  }
+  if (input.orbit_turn != 0.0 || input.orbit_tilt != 0.0) {
+    const Axes before = axes_of(heading_, tilt_);
+    const dvec3 away = position_ - input.pivot;
+    const dvec3 seen(glm::dot(away, before.right), glm::dot(away, before.up), glm::dot(away, before.back));
+    set_direction(heading_ + input.orbit_turn, tilt_ - input.orbit_tilt);
+    const Axes after = axes_of(heading_, tilt_);
+    position_ = input.pivot + after.right * seen.x + after.up * seen.y + after.back * seen.z;
+  }
+  if (input.approach != 1.0 && distance > 0.0)
+    position_ = input.pivot + (position_ - input.pivot) * std::max(input.approach, kNearestPivot / distance);
+}
+
 void FlyCamera::advance(const FlyInput& input, double dt_s) {
-  heading_ = std::remainder(heading_ + input.turn, 2.0 * std::acos(-1.0));
-  tilt_ = std::clamp(tilt_ + input.tilt, -kMaxTilt, kMaxTilt);
+  move_about_pivot(input);
+  set_direction(heading_ + input.turn, tilt_ + input.tilt);
   const Axes axes = axes_of(heading_, tilt_);
   dvec3 movement = axes.right * input.right - axes.back * input.forward + dvec3(0.0, input.up, 0.0);
   const double length = glm::length(movement);
@@ -48,8 +72,9 @@ void FlyCamera::advance(const FlyInput& input, double dt_s) {
 
 void ViewFlight::advance(const World& world, const FlyInput& input, double dt_s, ViewSettings& settings) {
   if (!camera_) {
-    const bool moved =
-        input.forward != 0.0 || input.right != 0.0 || input.up != 0.0 || input.turn != 0.0 || input.tilt != 0.0;
+    const bool moved = input.forward != 0.0 || input.right != 0.0 || input.up != 0.0 || input.turn != 0.0 ||
+                       input.tilt != 0.0 || input.orbit_turn != 0.0 || input.orbit_tilt != 0.0 ||
+                       input.approach != 1.0 || input.look_at_pivot;
     if (!moved) return;
     follow_camera(world, settings);
     settings.follow_camera = false;

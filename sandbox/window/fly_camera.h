@@ -13,10 +13,15 @@ namespace gloam {
 struct FlyInput {
   double forward = 0.0;
   double right = 0.0;
-  double up = 0.0;     ///< along the world's +Y
-  double turn = 0.0;   ///< radians to the left
-  double tilt = 0.0;   ///< radians upwards
-  double speed = 1.0;  ///< factor on the camera's speed
+  double up = 0.0;             ///< along the world's +Y
+  double turn = 0.0;           ///< radians to the left
+  double tilt = 0.0;           ///< radians upwards
+  double speed = 1.0;          ///< factor on the camera's speed
+  double orbit_turn = 0.0;     ///< radians to the right around the pivot
+  double orbit_tilt = 0.0;     ///< radians upwards around the pivot
+  double approach = 1.0;       ///< factor on the distance to the pivot
+  bool look_at_pivot = false;  ///< turns the camera so that the pivot is in the middle of the picture
+  dvec3 pivot = dvec3(0.0);    ///< world position, metres
 };
 
 /// A camera that flies along its view direction. It never rolls, and its tilt stays within ±89°.
@@ -25,12 +30,17 @@ class FlyCamera {
   /// Takes position and direction of a rigid pose (the camera looks along −Z); its roll is dropped.
   explicit FlyCamera(const dmat4& world_from_camera = dmat4(1.0));
 
-  /// Turns and moves the camera. dt_s ≥ 0. Diagonal movement is no faster than straight movement.
+  /// Looks at the pivot, orbits and approaches it, then turns and moves the camera. dt_s ≥ 0. Diagonal movement is no
+  /// faster than straight movement. While it orbits, the pivot keeps its place in the picture; the camera comes no
+  /// nearer to the pivot than a centimetre.
   void advance(const FlyInput& input, double dt_s);
 
   [[nodiscard]] dmat4 world_from_camera() const;
 
  private:
+  void move_about_pivot(const FlyInput& input);
+  void set_direction(double heading, double tilt);
+
   dvec3 position_ = dvec3(0.0);
   double heading_ = 0.0;  ///< radians about +Y, 0 looks along −Z
   double tilt_ = 0.0;     ///< radians above the horizon

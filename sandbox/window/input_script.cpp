@@ -27,6 +27,8 @@ constexpr EventName kNames[] = {
     {"move", Kind::move, Arguments::point},
     {"press", Kind::press, Arguments::none},
     {"lift", Kind::lift, Arguments::none},
+    {"grab", Kind::grab, Arguments::none},
+    {"let_go", Kind::let_go, Arguments::none},
     {"widget", Kind::widget, Arguments::text},
     {"scroll", Kind::scroll, Arguments::steps},
     {"type", Kind::type, Arguments::text},

@@ -22,6 +22,8 @@ struct ScriptEvent {
     move,      ///< the pointer to x, y in pixels
     press,     ///< the left button goes down
     lift,      ///< and up
+    grab,      ///< the right button goes down
+    let_go,    ///< and up
     widget,    ///< the pointer to the middle of the panel's widget of this name
     scroll,    ///< y: steps
     type,      ///< text: typed characters, ASCII

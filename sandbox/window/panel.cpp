@@ -32,6 +32,17 @@ std::string stem_of(const std::string& visualizer) { return visualizer.substr(0,
 constexpr ImGuiTableFlags kTableFlags =
     ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingFixedFit;
 
+void show_notice(const PanelNotice& notice) {
+  if (notice.text.empty()) return;
+  const ImVec4 color =
+      notice.is_error ? ImVec4(1.0f, 0.45f, 0.4f, 1.0f) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::PushTextWrapPos(0.0f);
+  show_text(notice.text);
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
 void show_passes(const FrameTimes& times) {
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) return;
   if (!ImGui::BeginTable("passes", 4, kTableFlags)) return;
@@ -106,6 +117,7 @@ void Panel::update(const PanelInput& input, const PanelFrame& frame, const Panel
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize(ImVec2(width, static_cast<float>(frame.height) - 2.0f * kMargin), ImGuiCond_FirstUseEver);
   if (ImGui::Begin("gloam")) {
+    show_notice(content.notice);
     show_times(content.times);
     show_scale(content, frame);
     show_settings(content);
@@ -113,6 +125,7 @@ void Panel::update(const PanelInput& input, const PanelFrame& frame, const Panel
     if (content.scene != nullptr) {
       show_scene(*content.scene);
       show_lights(*content.scene);
+      show_pixel(*content.scene);
     }
     show_knobs(content.knobs);
     show_passes(content.times);
@@ -136,9 +149,13 @@ void Panel::show_times(const FrameTimes& times) {
   const std::span<const double> history = times.frame_history();
   if (history.size() < 2) return;
   const auto value = [](void* data, int at) { return static_cast<float>(static_cast<const double*>(data)[at]); };
+  // Single long frames, such as the first one, would make the others invisible.
+  constexpr double kMostMedians = 3.0;
   const double longest = *std::ranges::max_element(history);
+  const double top = std::min(1.2 * longest, kMostMedians * times.frame_ms());
+  ImGui::SetNextItemWidth(-1.0f);
   ImGui::PlotLines("##history", value, const_cast<double*>(history.data()), static_cast<int>(history.size()), 0,
-                   nullptr, 0.0f, static_cast<float>(1.2 * longest), ImVec2(-1.0f, 36.0f * gui_.scale()));
+                   nullptr, 0.0f, static_cast<float>(top), ImVec2(0.0f, 36.0f * gui_.scale()));
   char text[64];
   std::snprintf(text, sizeof(text), "times of the last frames; the longest: %.1f ms", longest);
   show_tooltip(text);

@@ -17,6 +17,12 @@
 
 namespace gloam {
 
+/// A message at the top of the panel; none if the text is empty.
+struct PanelNotice {
+  std::string text;
+  bool is_error = false;
+};
+
 /// The data that one frame of the panel shows and may change.
 struct PanelContent {
   KnobRegistry& knobs;
@@ -31,12 +37,14 @@ struct PanelContent {
   std::span<const double> scale_steps = {};
   std::function<void(double setting)> set_scale = {};
   const PanelScene* scene = nullptr;  ///< null: not shown
+  PanelNotice notice = {};
 };
 
 /// Rectangle of a widget in the last frame, in pixels from the picture's upper left corner.
 struct PanelWidget {
   /// KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "view argument", "scale", "scale auto",
-  /// "scale NN %", "camera", "camera NAME", "pause", "exposure auto", "exposure", "lights", "LIGHT mute", "LIGHT solo",
+  /// "scale NN %", "camera", "camera NAME", "pause", "exposure auto", "exposure",
+  /// "lens", "lens here", "lens focus", "lens f-number", "pixel", "lights", "LIGHT mute", "LIGHT solo",
   /// "LIGHT intensity", "keep A", "show A", "keep B", "show B", "save config" or "copy command"
   std::string name;
   float left = 0.0f;
@@ -69,6 +77,8 @@ class Panel {
   void show_view_argument(const PanelContent& content, const VisualizerInfo& info);
   void show_settings(const PanelContent& content);
   void show_scene(const PanelScene& scene);
+  void show_lens(const PanelScene& scene);
+  void show_pixel(const PanelScene& scene);
   void show_lights(const PanelScene& scene);
   void show_light(const PanelScene& scene, std::size_t index);
   void show_knobs(KnobRegistry& knobs);

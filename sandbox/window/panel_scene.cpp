@@ -66,8 +66,38 @@ void Panel::show_scene(const PanelScene& scene) {
       ImGui::EndCombo();
     }
   }
+  if (scene.has_camera) show_lens(scene);
+}
+
+void Panel::show_lens(const PanelScene& scene) {
+  constexpr float kFirstFocus = 5.0f;
+  bool on = scene.focus_m > 0.0f;
+  const float wanted = scene.picked_m > 0.0f ? scene.picked_m : kFirstFocus;
+  if (ImGui::Checkbox("depth of field", &on)) scene.set_lens(on ? wanted : 0.0f, scene.f_number);
+  remember_widget("lens");
+  if (scene.focus_m <= 0.0f) return;
+  ImGui::SameLine();
+  ImGui::BeginDisabled(scene.picked_m <= 0.0f);
+  if (ImGui::Button("focus on the clicked pixel")) scene.set_lens(scene.picked_m, scene.f_number);
+  ImGui::EndDisabled();
+  remember_widget("lens here");
+  float focus = scene.focus_m, f_number = scene.f_number;
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::SliderFloat("##focus", &focus, 0.1f, 1000.0f, "focus %.2f m", ImGuiSliderFlags_Logarithmic))
+    scene.set_lens(focus, f_number);
+  remember_widget("lens focus");
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::SliderFloat("##f_number", &f_number, 0.5f, 32.0f, "f/%.1f", ImGuiSliderFlags_Logarithmic))
+    scene.set_lens(focus, f_number);
+  remember_widget("lens f-number");
+}
+
+void Panel::show_pixel(const PanelScene& scene) {
+  const bool open = ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen);
+  remember_widget("pixel");
+  if (!open) return;
   if (scene.picked.empty()) {
-    ImGui::TextDisabled("click a pixel to see its lights");
+    ImGui::TextDisabled("click a pixel to see its surface and what each light adds");
     return;
   }
   for (const std::string& line : scene.picked) ImGui::TextWrapped("%s", line.c_str());

@@ -33,6 +33,12 @@ struct PanelScene {
   float ev100 = 0.0f;
   std::function<void(bool automatic, float ev100)> set_exposure;
 
+  bool has_camera = false;  ///< the view's camera can have a lens
+  float focus_m = 0.0f;     ///< 0: no depth of field
+  float f_number = 2.8f;
+  float picked_m = 0.0f;  ///< view depth of the pixel that was clicked last; 0: none, or the sky
+  std::function<void(float focus_m, float f_number)> set_lens;
+
   std::span<const PanelLight> lights;
   std::function<void(std::size_t light, float intensity)> set_intensity;
   std::function<void(std::size_t light, bool muted)> mute;

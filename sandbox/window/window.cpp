@@ -52,7 +52,8 @@ struct Strikes {
 /// What an input script holds down.
 struct Scripted {
   std::bitset<GLFW_KEY_LAST + 1> keys;
-  bool button = false;
+  bool left = false;
+  bool right = false;
   bool minimised = false;
   std::optional<std::pair<double, double>> pointer;
 };
@@ -135,7 +136,8 @@ struct Window::State {
   }
   [[nodiscard]] bool struck(int key) const { return strikes.keys[static_cast<std::size_t>(key)]; }
   [[nodiscard]] bool pressed(int button) const {
-    return glfwGetMouseButton(window, button) == GLFW_PRESS || (button == GLFW_MOUSE_BUTTON_LEFT && scripted.button);
+    return glfwGetMouseButton(window, button) == GLFW_PRESS || (button == GLFW_MOUSE_BUTTON_LEFT && scripted.left) ||
+           (button == GLFW_MOUSE_BUTTON_RIGHT && scripted.right);
   }
   [[nodiscard]] double axis(int positive, int negative) const {
     return (held(positive) ? 1.0 : 0.0) - (held(negative) ? 1.0 : 0.0);
@@ -224,11 +226,14 @@ void Window::State::move_pointer(WindowInput& input) {
   double y = 0.0;
   glfwGetCursorPos(window, &x, &y);
   if (scripted.pointer) std::tie(x, y) = *scripted.pointer;
-  const bool down = pressed(GLFW_MOUSE_BUTTON_LEFT) || pressed(GLFW_MOUSE_BUTTON_RIGHT);
+  const bool right = pressed(GLFW_MOUSE_BUTTON_RIGHT);
+  const bool down = pressed(GLFW_MOUSE_BUTTON_LEFT) || right;
+  input.grabbed = strikes.buttons[GLFW_MOUSE_BUTTON_RIGHT];
+  input.wheel = strikes.wheel;
   if (down && dragging) {
-    input.drag_x = x - mouse_x;
-    input.drag_y = y - mouse_y;
-    moved |= input.drag_x != 0.0 || input.drag_y != 0.0;
+    (right ? input.orbit_x : input.drag_x) = x - mouse_x;
+    (right ? input.orbit_y : input.drag_y) = y - mouse_y;
+    moved |= x != mouse_x || y != mouse_y;
   }
   // A press and its lift may both lie between two polls.
   const bool struck_left = strikes.buttons[GLFW_MOUSE_BUTTON_LEFT];
@@ -254,6 +259,7 @@ WindowInput Window::poll() {
                        .step = s.struck(GLFW_KEY_PERIOD),
                        .screenshot = s.struck(GLFW_KEY_F12),
                        .full_screen = s.struck(GLFW_KEY_F11),
+                       .look_at = s.struck(GLFW_KEY_F),
                        .dropped = s.strikes.dropped};
   for (int i = 1; i <= 9; ++i)
     if (s.struck(GLFW_KEY_0 + i) || s.struck(GLFW_KEY_KP_0 + i)) input.camera = static_cast<std::uint32_t>(i);
@@ -287,10 +293,17 @@ void Window::inject(const ScriptEvent& event) {
       break;
     case Kind::press:
       s.injected.buttons.set(GLFW_MOUSE_BUTTON_LEFT);
-      s.scripted.button = true;
+      s.scripted.left = true;
       break;
     case Kind::lift:
-      s.scripted.button = false;
+      s.scripted.left = false;
+      break;
+    case Kind::grab:
+      s.injected.buttons.set(GLFW_MOUSE_BUTTON_RIGHT);
+      s.scripted.right = true;
+      break;
+    case Kind::let_go:
+      s.scripted.right = false;
       break;
     case Kind::scroll:
       s.injected.wheel += event.y;

@@ -17,13 +17,16 @@ namespace gloam {
 
 /// Input of one frame: keyboard, mouse and the first gamepad.
 struct WindowInput {
-  double forward = 0.0;     ///< W, S, left stick
-  double right = 0.0;       ///< D, A, left stick
-  double up = 0.0;          ///< E, Q, triggers
-  double turn = 0.0;        ///< right stick, −1…1 to the left
-  double tilt = 0.0;        ///< right stick, upwards
-  double drag_x = 0.0;      ///< pixels that the mouse moved to the right with a button held
-  double drag_y = 0.0;      ///< downwards
+  double forward = 0.0;  ///< W, S, left stick
+  double right = 0.0;    ///< D, A, left stick
+  double up = 0.0;       ///< E, Q, triggers
+  double turn = 0.0;     ///< right stick, −1…1 to the left
+  double tilt = 0.0;     ///< right stick, upwards
+  double drag_x = 0.0;   ///< pixels that the mouse moved to the right with the left button held
+  double drag_y = 0.0;   ///< downwards
+  double orbit_x = 0.0;  ///< as drag_x, with the right button
+  double orbit_y = 0.0;
+  double wheel = 0.0;       ///< steps, positive away from the user
   double pointer_x = -1.0;  ///< pixels from the picture's upper left corner
   double pointer_y = -1.0;
   bool fast = false;                 ///< shift, a shoulder button of the gamepad
@@ -34,6 +37,8 @@ struct WindowInput {
   bool screenshot = false;           ///< F12 was pressed
   bool full_screen = false;          ///< F11 was pressed
   bool clicked = false;              ///< the left button went down and up again without a movement
+  bool grabbed = false;              ///< the right button went down
+  bool look_at = false;              ///< F was pressed
   std::uint32_t camera = 0;          ///< 1…9: number key that was pressed; 0: none
   std::vector<std::string> dropped;  ///< paths of files that were dropped onto the window
   PanelInput panel;                  ///< the same input in the form that a panel takes

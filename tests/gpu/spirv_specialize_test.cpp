@@ -128,7 +128,7 @@ TEST(SpirvSpecialize, gives_nothing_for_a_module_without_specialisation_constant
 }
 
 TEST(SpirvSpecialize, keeps_the_interface_of_every_shader) {
-  for (const ShaderCode* code : test::every_shader()) {
+  for (const ShaderCode* code : every_shader()) {
     const Words words = spirv::specialize(code->words, {});
     EXPECT_EQ(words.empty(), !has_specialisation(code->words)) << code->name;
     if (words.empty()) continue;
@@ -144,7 +144,7 @@ TEST(SpirvSpecialize, keeps_the_interface_of_every_shader) {
 }
 
 TEST(SpirvSpecialize, names_only_blocks_and_functions_that_exist) {
-  for (const ShaderCode* code : test::every_shader()) {
+  for (const ShaderCode* code : every_shader()) {
     for (std::uint32_t value = 0; value < 4; ++value) {
       std::vector<SpecConstant> constants;
       for (std::uint32_t id = 0; id < 32; ++id) constants.push_back({.id = id, .value = value});

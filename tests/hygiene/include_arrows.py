@@ -120,6 +120,9 @@ def cpp_arrow(parts, target):
     if target[0] == "shaders":
         if to_own == "common" and target[-1].endswith(".h"):
             return None
+        # The generated list of all embedded shaders, for the sandbox's reload.
+        if kind == "sandbox" and to_own == "every":
+            return None
         own_shaders = "sandbox" if kind == "sandbox" else own
         if to_own != own_shaders:
             return "C++ includes only its own shaders folder and shaders/common"

@@ -88,6 +88,68 @@ class PlayTour(WindowCase):
         self.assertLess(sum(abs(a - b) for a, b in zip(albedo.pixel(600, 300), half.pixel(600, 300))), 12)
         self.assertEqual(self.settings(), {"width": 640, "height": 360, "scale": 0.5, "panel": True})
 
+    def test_the_camera_orbits_approaches_and_looks_at_points(self):
+        run = self.start("builtin:shadows", *SIZE, "--dt", "0", "--validate",
+                         script=stop("begin") + "move 120 80\nscroll 4\n" + stop("near") + "scroll -4\n" + stop("back") +
+                         "grab\nmove 180 80\nlet_go\n" + stop("around") + "move 40 100\nkey f\n" + stop("looked") + "close\n")
+        begin, near, back, around, looked = (run.photograph_at(name) for name in ("begin", "near", "back", "around", "looked"))
+        self.assertEqual(run.end(), "")
+        self.assertGreater(begin.differences(near)[1], 1.0, "the wheel moves the camera")
+        self.assertLess(begin.differences(back)[1], 0.2, "and back")
+        self.assertGreater(back.differences(around)[1], 1.0, "the right button orbits")
+        self.assertGreater(around.differences(looked)[1], 1.0, "F looks at the pointer's point")
+
+    def test_the_panel_changes_lights_modules_and_the_lens(self):
+        def wide(picture):
+            """The picture beside the panel."""
+            columns = range(480, picture.width)
+            return [picture.pixel(x, y) for y in range(0, picture.height, 3) for x in columns]
+
+        def still(name):
+            """Stops with the pointer away from the panel's widgets, so that no tooltip covers the picture."""
+            return "move 700 20\n" + stop(name)
+
+        run = self.start("builtin:shadows", "--size", "760x740", "--scale", "1", "--dt", "0", "--validate", size=(800, 760),
+                         script="key tab\n" + still("open") + "click_widget lights\nwait 2\nclick_widget moon mute\n" + still("muted") +
+                         "click_widget moon mute\nwait 2\nclick_widget lamp solo\n" + still("solo") +
+                         "click_widget lamp solo\nclick_widget lights\nwait 2\nclick_widget keep A\nclick_widget search\n"
+                         "type shadows.mode\nwait 2\nclick_widget shadows.mode\nwait 2\nclick_widget shadows.mode off\n" +
+                         still("unshadowed") + "click_widget keep B\nclick_widget show A\n" + still("a") +
+                         "click_widget show B\n" + still("b") + "click_widget save config\nclick_widget show A\n" + still("before_pick") +
+                         "click 640 500\n" + still("picked") + "click_widget lens\nwait 2\nwidget lens f-number\npress\nmove 20 20\nlift\n" + still("blurred") + "close\n")
+        names = ("open", "muted", "solo", "unshadowed", "a", "b", "before_pick", "picked", "blurred")
+        opened, muted, solo, unshadowed, a, b, before_pick, picked, blurred = (run.photograph_at(name) for name in names)
+        self.assertEqual(run.end(), "")
+        self.assertNotEqual(wide(opened), wide(muted), "without the moon")
+        self.assertNotEqual(wide(muted), wide(solo), "with the lamp alone")
+        self.assertNotEqual(wide(opened), wide(unshadowed), "without the module of shadows")
+        self.assertEqual(wide(opened), wide(a))
+        self.assertEqual(wide(unshadowed), wide(b))
+        self.assertEqual(wide(before_pick), wide(picked), "a click moves nothing")
+        self.assertNotEqual(before_pick.rgb, picked.rgb, "the panel tells about the pixel")
+        self.assertNotEqual(wide(picked), wide(blurred), "the module of depth of field runs")
+        config = json.loads((self.folder / "out/shadows.config.json").read_text(encoding="utf-8"))
+        self.assertEqual(config["shadows.mode"], "off")
+
+    def test_a_changed_shader_is_compiled_and_a_broken_one_is_shown(self):
+        shutil.copytree(self.source / "shaders", self.folder / "tree/shaders")
+        shader = self.folder / "tree/shaders/lighting/tone_map.frag.glsl"
+        text = shader.read_text(encoding="utf-8")
+        self.assertIn("exposure;", text)
+        run = self.start("builtin:plain", *SIZE, "--dt", "0", "--set", "lighting.antialiasing=off", "--validate", "--shaders", "tree",
+                         script=stop("begin") + "until end\nclose\n")
+        begin = run.photograph_at("begin")
+        picture = lambda: run.display.photograph(run.display.find())
+        shader.write_text(text.replace("shown = after_curve(c.curve, shown);", "shown = vec3(0.2, 0.9, 0.1);"), encoding="utf-8")
+        run.wait_for("the green picture", lambda: picture().pixel(120, 70)[1] > 200)
+        green = picture().mean()
+        shader.write_text(text.replace("shown = after_curve", "shown = no_such_function"), encoding="utf-8")
+        run.wait_for("the panel", lambda: picture().mean() < 0.7 * green)
+        shader.write_text(text, encoding="utf-8")
+        run.wait_for("the first picture", lambda: picture().pixel(200, 130) == begin.pixel(200, 130))
+        (self.folder / "end").touch()
+        self.assertIn("no_such_function", run.end())
+
     def test_a_dropped_scene_is_shown_and_others_are_refused(self):
         write_scene(self.folder / "small scene.gltf")
         run = self.start("builtin:plain", *SIZE, "--dt", "0",

@@ -15,10 +15,21 @@ std::string vector_text(const vec3& v) {
   return line;
 }
 
-void add_surface_lines(const Captures& copies, std::size_t at, float view_depth_m, std::vector<std::string>& lines) {
-  const GeometryTexel g =
-      decode_geometry(copies.item<std::uint32_t>("engine.base_color", at),
-                      copies.item<glm::uvec2>("engine.normals", at), copies.item<std::uint32_t>("engine.material", at));
+/// Camera-relative position of a pixel's middle at a depth.
+dvec3 position_of(const RenderView& view, std::uint32_t x, std::uint32_t y, float depth) {
+  const dvec4 clip((x + 0.5) / view.width * 2.0 - 1.0, 1.0 - (y + 0.5) / view.height * 2.0, static_cast<double>(depth),
+                   1.0);
+  const dvec4 at = glm::inverse(dmat4(view.clip_from_relative)) * clip;
+  return dvec3(at) / at.w;
+}
+
+GeometryTexel geometry_at(const Captures& copies, std::size_t at) {
+  return decode_geometry(copies.item<std::uint32_t>("engine.base_color", at),
+                         copies.item<glm::uvec2>("engine.normals", at),
+                         copies.item<std::uint32_t>("engine.material", at));
+}
+
+void add_surface_lines(const GeometryTexel& g, float view_depth_m, std::vector<std::string>& lines) {
   lines.push_back("view depth " + std::to_string(view_depth_m) + " m");
   lines.push_back("base colour " + vector_text(g.base_color) + (g.subsurface ? ", subsurface" : ""));
   lines.push_back("normal " + vector_text(g.normal) + ", face normal " + vector_text(g.face_normal));
@@ -42,12 +53,15 @@ std::vector<std::string> Renderer::State::picked_lines(std::uint32_t x, std::uin
   FrameBuilder& frame = *builders.back();
   const RenderView& view = frame.view();
   const std::size_t at = std::size_t{y} * view.width + x;
-  PickedPixel pixel{x, y, copies->item<float>("engine.depth", at), 0.0f};
+  PickedPixel pixel = {.x = x, .y = y, .depth = copies->item<float>("engine.depth", at)};
   std::vector<std::string> lines = {"pixel " + std::to_string(pixel.x) + "," + std::to_string(pixel.y) + " of tile " +
                                     std::to_string(pixel.x / kTileSize) + "," + std::to_string(pixel.y / kTileSize)};
   if (pixel.depth > 0.0f) {
+    const GeometryTexel surface = geometry_at(*copies, at);
     pixel.view_depth_m = view.view_depth(pixel.depth);
-    add_surface_lines(*copies, at, pixel.view_depth_m, lines);
+    pixel.position = vec3(position_of(view, x, y, pixel.depth));
+    pixel.normal = surface.normal;
+    add_surface_lines(surface, pixel.view_depth_m, lines);
   } else {
     lines.emplace_back("sky");
   }
@@ -69,6 +83,22 @@ Result<std::vector<std::string>> Renderer::pick(World& world, ViewId view, std::
   std::vector<std::string> lines = s.picked_lines(x, y);
   s.copies.reset();
   return lines;
+}
+
+Result<std::optional<dvec3>> Renderer::pick_position(World& world, ViewId view, std::uint32_t x, std::uint32_t y) {
+  State& s = *state_;
+  const auto images = s.images.find(view.value);
+  GLOAM_ASSERT(images != s.images.end(), "pick_position needs a view of the last frame");
+  if (x >= images->second.width || y >= images->second.height)
+    return Error{ErrorKind::usage, "the picked pixel lies outside the picture"};
+  GLOAM_TRY(draw_again(world, view, [&s](FrameBuilder& frame) {
+    return s.copies->add(s.graph, "engine.depth", frame.get<GeometryOutputs>().depth);
+  }));
+  const RenderView& drawn = s.builders.back()->view();
+  const float depth = s.copies->item<float>("engine.depth", std::size_t{y} * drawn.width + x);
+  s.copies.reset();
+  if (!(depth > 0.0f)) return std::optional<dvec3>();
+  return std::optional(drawn.position + position_of(drawn, x, y, depth));
 }
 
 }  // namespace gloam

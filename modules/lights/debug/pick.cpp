@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <optional>
 
 #include "engine/scene/resources.h"
@@ -40,6 +41,14 @@ bool reaches(const shaders::LocalLight& light, const dvec3& point) {
          cosine * static_cast<double>(light.spot_scale) + static_cast<double>(light.spot_offset) > 0.0;
 }
 
+constexpr std::size_t kMostContributions = 16;
+
+/// What a light adds to a surface.
+struct Contribution {
+  std::string light;
+  double lux = 0.0;
+};
+
 class PickLines {
  public:
   PickLines(FrameBuilder& frame, const PickedPixel& pixel, const Captures& copies)
@@ -53,6 +62,7 @@ class PickLines {
         tile_(pixel.x / GLOAM_SHADOW_TILE, pixel.y / GLOAM_SHADOW_TILE) {}
 
   std::vector<std::string> take(bool tiled) {
+    if (pixel_.depth > 0.0f) add_contributions();
     if (tiled && masks_ != nullptr && bins_ != nullptr) {
       add_places();
       add_cpu_lists();
@@ -146,13 +156,38 @@ class PickLines {
   }
 
   void add_reaching() {
-    const dvec4 clip((pixel_.x + 0.5) / view_.width * 2.0 - 1.0, 1.0 - (pixel_.y + 0.5) / view_.height * 2.0,
-                     static_cast<double>(pixel_.depth), 1.0);
-    const dvec4 at = glm::inverse(dmat4(view_.clip_from_relative)) * clip;
     Indices lights;
     for (std::uint32_t i = 0; i < visible_.block.local_count; ++i)
-      if (reaches(visible_.block.local[i], dvec3(at) / at.w)) lights.push_back(i);
+      if (reaches(visible_.block.local[i], dvec3(pixel_.position))) lights.push_back(i);
     say("local lights in range of the pixel: " + list_text(lights));
+  }
+
+  /// The brightest first.
+  void add_contributions() {
+    std::vector<Contribution> lights;
+    double sum = 0.0;
+    const auto add = [&](double lux, Entity entity, const std::string& number) {
+      const std::string_view name = names_.name_of(entity);
+      if (lux > 0.0) lights.push_back({name.empty() ? number : std::string(name), lux});
+      sum += lux;
+    };
+    for (std::uint32_t i = 0; i < visible_.block.directional_count; ++i)
+      add(directional_illuminance_at(visible_, i, pixel_.normal), visible_.directional_entities[i],
+          "directional " + std::to_string(i));
+    for (std::uint32_t i = 0; i < visible_.block.local_count; ++i)
+      add(local_illuminance_at(visible_, i, pixel_.position, pixel_.normal), visible_.local_entities[i],
+          "local " + std::to_string(i));
+    std::ranges::stable_sort(lights, std::ranges::greater(), &Contribution::lux);
+    char text[64];
+    std::snprintf(text, sizeof(text), "illuminance before shadows %.4g lx", sum);
+    std::string line = text;
+    for (std::size_t i = 0; i < std::min(lights.size(), kMostContributions); ++i) {
+      std::snprintf(text, sizeof(text), " %.4g lx (%.1f %%)", lights[i].lux, 100.0 * lights[i].lux / sum);
+      line += (i == 0 ? ": " : ", ") + lights[i].light + text;
+    }
+    if (lights.size() > kMostContributions)
+      line += " and " + std::to_string(lights.size() - kMostContributions) + " more";
+    say(line);
   }
 
   const PickedPixel& pixel_;

@@ -40,6 +40,8 @@ class PickLines {
         lists_(lists),
         local_{"local", local_lights(frame.world().view_resource<VisibleLights>(frame.view().id))},
         directional_{"directional", directional_lights(frame.world().view_resource<VisibleLights>(frame.view().id))},
+        visible_(frame.world().view_resource<VisibleLights>(frame.view().id)),
+        at_(pixel),
         pixel_((pixel.y % kShadowTile) * kShadowTile + pixel.x % kShadowTile) {
     const std::uint32_t columns = (frame.view().width + kShadowTile - 1) / kShadowTile;
     tile_ = std::size_t{pixel.y / kShadowTile} * columns + pixel.x / kShadowTile;
@@ -78,19 +80,30 @@ class PickLines {
     return std::string(run.kind) + " " + std::to_string(light) + (name.empty() ? "" : " " + std::string(name));
   }
 
-  [[nodiscard]] std::string state_text(FinalEntry entry) const {
-    if (entry.slot == GLOAM_ALL_LIT) return "lit as a whole";
-    char text[64];
-    std::snprintf(text, sizeof(text), "slot %u, visibility %.4f", entry.slot,
-                  static_cast<double>(decode_visibility(entry, pixel_, visibilities_, lists_.visibility_bits)));
+  /// `lux`: before shadows.
+  [[nodiscard]] std::string state_text(FinalEntry entry, double lux) const {
+    char text[96];
+    if (entry.slot == GLOAM_ALL_LIT) {
+      std::snprintf(text, sizeof(text), "lit as a whole, %.4g lx", lux);
+      return text;
+    }
+    const auto visibility =
+        static_cast<double>(decode_visibility(entry, pixel_, visibilities_, lists_.visibility_bits));
+    std::snprintf(text, sizeof(text), "slot %u, visibility %.4f, %.4g lx", entry.slot, visibility, visibility * lux);
     return text;
+  }
+
+  [[nodiscard]] double illuminance(const LightRun& run, std::uint32_t light) const {
+    if (at_.depth <= 0.0f || light >= run.lights.size()) return 0.0;
+    return &run == &directional_ ? directional_illuminance_at(visible_, light, at_.normal)
+                                 : local_illuminance_at(visible_, light, at_.position, at_.normal);
   }
 
   /// Adds a line per entry, and removes its light from `left_out`.
   void add_run(const LightRun& run, std::uint32_t first, std::uint32_t count, Words& left_out) {
     for (std::uint32_t i = first; i < first + count && i < entries_.size(); ++i) {
       const FinalEntry entry = decode_final_entry(entries_[i]);
-      say("  " + light_text(run, entry.light) + ": " + state_text(entry));
+      say("  " + light_text(run, entry.light) + ": " + state_text(entry, illuminance(run, entry.light)));
       std::erase(left_out, entry.light);
     }
   }
@@ -117,6 +130,8 @@ class PickLines {
   const FinalLists& lists_;
   LightRun local_;
   LightRun directional_;
+  const VisibleLights& visible_;
+  const PickedPixel& at_;
   std::uint32_t pixel_;  ///< index in the tile, row by row
   std::size_t tile_ = 0;
   Words entries_, visibilities_;

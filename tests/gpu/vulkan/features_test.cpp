@@ -62,7 +62,7 @@ Names needs_of(const ShaderCode& shader) {
 
 TEST(RequiredFeatures, of_shaders_are_exactly_those_that_their_spirv_needs) {
   Names needed;
-  for (const ShaderCode* shader : test::every_shader()) needed.merge(needs_of(*shader));
+  for (const ShaderCode* shader : every_shader()) needed.merge(needs_of(*shader));
   EXPECT_EQ(required(true), needed);
 }
 

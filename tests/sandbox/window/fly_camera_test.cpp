@@ -117,5 +117,43 @@ TEST_F(Flight, needs_no_camera_in_the_scene) {
   expect_near(dvec3(settings.world_from_camera[3]), {1, 5, 3});
 }
 
+/// Where a world position lies in the camera's axes.
+dvec3 seen_from(const FlyCamera& camera, const dvec3& point) {
+  return dvec3(glm::inverse(camera.world_from_camera()) * dvec4(point, 1.0));
+}
+
+TEST(FlyCamera, orbits_a_point_that_keeps_its_place_in_the_picture) {
+  FlyCamera camera(glm::inverse(glm::lookAt(dvec3(3, 2, 5), dvec3(0, 1, 0), dvec3(0, 1, 0))));
+  const dvec3 pivot(1, 0.5, -2);
+  const dvec3 before = seen_from(camera, pivot);
+  const dvec3 from = position_of(camera);
+  for (int i = 0; i < 40; ++i) camera.advance({.orbit_turn = 0.3, .orbit_tilt = 0.2, .pivot = pivot}, 0.1);
+  expect_near(seen_from(camera, pivot), before);
+  EXPECT_GT(glm::distance(position_of(camera), from), 1.0);
+  EXPECT_LT(glm::dot(dvec3(camera.world_from_camera()[2]), dvec3(0, 1, 0)), 1.0) << "the tilt stays within its limits";
+}
+
+TEST(FlyCamera, approaches_a_point_but_never_reaches_it) {
+  FlyCamera camera;
+  const dvec3 pivot(0, 3, -4);
+  camera.advance({.approach = 0.5, .pivot = pivot}, 0.1);
+  expect_near(position_of(camera), dvec3(0, 1.5, -2));
+  for (int i = 0; i < 60; ++i) camera.advance({.approach = 0.5, .pivot = pivot}, 0.1);
+  EXPECT_NEAR(glm::distance(position_of(camera), pivot), 0.01, 1e-9);
+  camera.advance({.approach = 100.0, .pivot = pivot}, 0.1);
+  EXPECT_NEAR(glm::distance(position_of(camera), pivot), 1.0, 1e-9);
+}
+
+TEST(FlyCamera, looks_at_a_point) {
+  for (const dvec3& pivot : {dvec3(4, 1, 3), dvec3(-2, 5, -1), dvec3(0, -3, 0.1)}) {
+    FlyCamera camera;
+    camera.advance({.look_at_pivot = true, .pivot = pivot}, 0.1);
+    expect_near(seen_from(camera, pivot), dvec3(0, 0, -glm::length(pivot)));
+  }
+  FlyCamera inside;
+  inside.advance({.orbit_turn = 0.4, .approach = 0.5, .look_at_pivot = true}, 0.1);
+  EXPECT_TRUE(std::isfinite(inside.world_from_camera()[3].x)) << "the pivot is the camera's position";
+}
+
 }  // namespace
 }  // namespace gloam

@@ -4,6 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/modules/lighting/lit_scene.h"
 
 namespace gloam {
@@ -62,6 +65,28 @@ TEST_F(LightPickTest, tells_the_tiles_bins_and_lists_of_a_pixel) {
   EXPECT_THAT(lines, Contains(StartsWith("slot ")));
   EXPECT_THAT(lines, Contains("local lights in range of the pixel: 1 light: 1 lamp"));
   EXPECT_THAT(lines, Contains("directional lights: sun"));
+}
+
+/// The lamp is half a metre in front of the wall at (−2.5, 0.5); the sun shines onto the wall with 1 lx.
+TEST_F(LightPickTest, tells_what_each_light_adds) {
+  const uvec2 p = pixel_of(dvec3(-2.2, 0.5, -5.0));
+  const std::vector<std::string> lines = pick(p.x, p.y);
+  const auto position = test::value_of(renderer->pick_position(world, ViewId{0}, p.x, p.y));
+  ASSERT_TRUE(position);
+  EXPECT_NEAR(position->z, -5.0, 1e-3);
+  EXPECT_NEAR(position->x, -2.2, 0.12) << "pixels are 0.1 m wide";
+  // One candela per colour channel at the distance d, the cosine 0.5 / d, and the window of a range of 1.5 m.
+  const double d = glm::distance(*position, dvec3(-2.5, 0.5, -4.5));
+  const double window = 1.0 - std::pow(d / 1.5, 4.0);
+  const double lux = 1.0 + window * window * 0.5 / (d * d * d);
+  const auto line = std::find_if(lines.begin(), lines.end(),
+                                 [](const std::string& l) { return l.starts_with("illuminance before shadows "); });
+  ASSERT_NE(line, lines.end());
+  EXPECT_NEAR(std::stod(line->substr(27)), lux, 0.01 * lux) << *line;
+  EXPECT_THAT(*line, HasSubstr(": lamp "));
+  EXPECT_THAT(*line, HasSubstr(", sun 1 lx ("));
+  EXPECT_FALSE(test::value_of(renderer->pick_position(world, ViewId{0}, 129, 1))) << "the sky has no position";
+  EXPECT_FALSE(renderer->pick_position(world, ViewId{0}, 130, 1).ok());
 }
 
 TEST_F(LightPickTest, tells_of_a_tile_without_lights) {
