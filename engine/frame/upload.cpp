@@ -165,7 +165,7 @@ Status Uploader::submit(std::span<const Batch> batches, std::span<const gpu::Buf
   if (batches.empty()) return {};
   for (std::size_t i = 0; i < batches.size(); ++i) {
     // Waits for the frame that last used this staging buffer: there are as many buffers as frames in flight.
-    Result<gpu::CommandList*> commands = device_.begin_frame();
+    Result<gpu::CommandList*> commands = device_.begin_side_frame();
     if (!commands.ok()) return commands.error();
     const gpu::BufferHandle buffer = staging[i % staging.size()];
     const std::span<std::byte> mapped = device_.mapped(buffer);

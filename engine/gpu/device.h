@@ -73,6 +73,9 @@ class Device {
   /// Waits until the frame kFramesInFlight frames ago has finished on the GPU, then starts recording. Frames are
   /// numbered from 0.
   [[nodiscard]] virtual Result<CommandList*> begin_frame() = 0;
+  /// The same for uploads and copies between frames: devices that record the next frame for a host
+  /// (record_next_frame_into) submit this one themselves.
+  [[nodiscard]] virtual Result<CommandList*> begin_side_frame() { return begin_frame(); }
   [[nodiscard]] virtual Status submit_frame() = 0;
   /// Ends the frame like submit_frame, but drops its commands, wherever the recording has stopped: the GPU executes
   /// none of them, and images are as the frame before has left them. The frame still completes in order, and its

@@ -95,6 +95,19 @@ struct HostSemaphore {
 void add_frame_semaphores(Device& device, std::span<const HostSemaphore> waits,
                           std::span<const HostSemaphore> signals = {});
 
+/// The next frame (begin_frame; with a Renderer, the next call of render) is recorded into a command buffer of the host
+/// and not submitted. The command buffer is a primary one for `queue_family`; the host has begun it, and records before
+/// and after gloam what it likes, outside of rendering. Then it ends the command buffer, submits it once to
+/// HostDevice::queue, and calls host_submitted before it uses gloam's device or renderer again. Such a frame has no
+/// semaphores of its own (add_frame_semaphores, swapchains): those of the host's submission hold for it.
+///
+/// If render returns an error, its commands may be incomplete: the host resets the command buffer, and must not call
+/// host_submitted.
+void record_next_frame_into(Device& device, VkCommandBuffer commands);
+/// Tells that the host has submitted the frame that was recorded into its command buffer. Submits a signal of gloam's
+/// timeline to the same queue.
+[[nodiscard]] Status host_submitted(Device& device);
+
 /// gloam's timeline semaphore, and the value it reaches when all work submitted so far has finished. Work on another
 /// queue, or vkWaitSemaphores, can wait for this value. The semaphore lives as long as the device; the host must not
 /// signal it.

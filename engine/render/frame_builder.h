@@ -91,7 +91,12 @@ class FrameBuilder {
   void set_previous_instances(const DrawnInstances* instances) { previous_instances_ = instances; }
   [[nodiscard]] const KnobRegistry& knobs() const { return services_.knobs; }
   [[nodiscard]] std::string_view visualizer() const { return visualizer_; }
-  void set_visualizer(std::string_view name) { visualizer_ = name; }
+  /// ViewSettings::heat_range.
+  [[nodiscard]] float heat_range() const { return heat_range_; }
+  void set_visualizer(std::string_view name, float heat_range) {
+    visualizer_ = name;
+    heat_range_ = heat_range;
+  }
 
   /// The module that is adding passes: passes, images and pipelines made by name belong to it. "engine" outside of
   /// Module::add_passes.
@@ -232,6 +237,7 @@ class FrameBuilder {
   bool caster_sources_read_ = false;
   const DrawnInstances* previous_instances_ = nullptr;
   std::string_view visualizer_ = "none";
+  float heat_range_ = 1.0f;
   std::string_view module_ = "engine";
   Status status_;
   gpu::Binding::BufferRange view_range_;

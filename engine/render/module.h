@@ -45,6 +45,12 @@ inline constexpr PassPhase kAllPhases[] = {PassPhase::announce, PassPhase::geome
                                            PassPhase::shading,  PassPhase::translucent, PassPhase::post,
                                            PassPhase::output,   PassPhase::visualize};
 
+/// The colour scale of a visualizer that shows numbers: heat colours from 0 to `most` times ViewSettings::heat_range.
+struct HeatScale {
+  double most = 0.0;  ///< 0: the visualizer has no such scale
+  std::string unit = {};
+};
+
 /// A picture a module can show instead of the lit one.
 struct VisualizerInfo {
   std::string name;  ///< "light_list"; takes an argument after ':' when `argument` is not empty
@@ -62,6 +68,7 @@ struct VisualizerInfo {
   /// The visualizer shows lists whose buffers may be too small in the first frames after a change: callers that show a
   /// single frame draw until no tile overflows.
   bool shows_lists = false;
+  HeatScale heat = {};
 };
 
 /// The pixel of a call of Renderer::pick, and its depth.

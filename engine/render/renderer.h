@@ -18,6 +18,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/device.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/host_geometry.h"
 #include "engine/render/module.h"
 #include "engine/render/readback/geometry_picture.h"
 #include "engine/render/readback/picture.h"
@@ -73,6 +74,8 @@ struct ViewTarget {
 struct ViewRequest {
   ViewSettings settings;
   ViewTarget target;
+  /// Geometry that the host has drawn, at the view's size. None: gloam draws all geometry.
+  std::optional<HostGeometry> geometry = {};
   /// Whether Renderer::read_linear may be called for this frame. It costs a copy of the view's light in frames in which
   /// a pass has moved LitOutput to another image, and nothing in other frames.
   bool keep_linear = true;

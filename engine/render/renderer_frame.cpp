@@ -41,6 +41,10 @@ Status acquire_target(const gpu::Device& device, ViewRequest& request) {
 }
 
 void check_target(const gpu::Device& device, const ViewRequest& request) {
+  if (request.geometry)
+    GLOAM_ASSERT(
+        request.geometry->width() == request.settings.width && request.geometry->height() == request.settings.height,
+        "the host's geometry has the size of its view");
   if (!request.target.image) return;
   const gpu::ImageDesc& desc = device.desc(request.target.image);
   GLOAM_ASSERT(desc.width == request.settings.width && desc.height == request.settings.height,
@@ -75,12 +79,12 @@ Status Renderer::State::add_view(World& world, std::size_t index) {
                                                     draws, index, shared));
   FrameBuilder& frame = *builders.back();
   graph.set_view(view.id.value);
-  frame.set_visualizer(request.settings.visualizer);
+  frame.set_visualizer(request.settings.visualizer, request.settings.heat_range);
   if (view_needs(&Module::needs_motion, world, own_view)) frame.set_previous_instances(&motion.instances());
   const std::uint32_t code = engine_visualizer_code(request.settings.visualizer);
   frame.upload_view_constants(code);
   add_deform_pass(frame);
-  add_geometry_pass(frame);
+  add_geometry_pass(frame, request.geometry ? &*request.geometry : nullptr, copy_request.has_value());
   GLOAM_TRY(frame.status());
   const GeometryOutputs& geometry = frame.get<GeometryOutputs>();
   for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth})
@@ -258,7 +262,11 @@ Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   for (const FrameView& view : frame_views) views.push_back(view.view.get());
   GpuScene& scene = scene_of(world);
   draws = build_frame_draws(world, views, scene, *options.executor, any_needs(&Module::needs_casters, world));
-  for (std::size_t i = 0; i < frame_views.size(); ++i) GLOAM_TRY(add_view(world, i));
+  for (std::size_t i = 0; i < frame_views.size(); ++i) {
+    const auto& geometry = frame_views[i].request.geometry;
+    if (geometry && !geometry->desc().draws_meshes) draws.views[i] = {};
+    GLOAM_TRY(add_view(world, i));
+  }
   graph.set_view(0);
   GLOAM_TRY(results.add_pass(graph));
   {

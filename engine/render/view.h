@@ -59,6 +59,7 @@ struct ViewSettings {
   dmat4 world_from_camera = dmat4(1.0);  ///< rigid; the camera looks along −Z
   Camera camera;
   std::string visualizer = "none";  ///< a name of Renderer::visualizers()
+  float heat_range = 1.0f;          ///< factor on the ends of visualizers' heat scales (HeatScale), > 0
   ViewPurpose purpose = ViewPurpose::main;
   std::vector<KnobOverride> knobs;   ///< replace the renderer's values in this view; an unknown one is a usage error
   std::vector<std::string> without;  ///< names of modules that this view leaves out

@@ -3,10 +3,14 @@
 #include "sandbox/output/legend.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
+
+#include "engine/render/passes/visualizer_pass.h"
+#include "shaders/common/heat_shared.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -21,6 +25,8 @@ namespace {
 
 constexpr int kMargin = 4;
 constexpr int kLineHeight = 12;  // pixels at scale 1
+constexpr int kBarHeight = 8;
+constexpr int kBarWidth = 240;
 
 /// Vertex layout of stb_easy_font. Four vertices are a rectangle.
 struct FontVertex {
@@ -55,6 +61,15 @@ class Canvas {
       if (i % 4 != 3) picture_.rgba[i] = static_cast<std::uint8_t>(picture_.rgba[i] / 4);
   }
 
+  /// Colours from left to right. Sizes in pixels.
+  void draw_bar(int left, int top, int width, int height) {
+    for (int x = 0; x < width; ++x) {
+      const vec3 color = heat_color((x + 0.5) / width);
+      const auto channel = [&](float value) { return static_cast<std::uint8_t>(std::lround(255.0f * encoded(value))); };
+      fill(left + x, top, left + x + 1, top + height, {channel(color.r), channel(color.g), channel(color.b), 255});
+    }
+  }
+
   void draw_line(std::string text, int left, int top) {
     std::vector<FontVertex> vertices(text.size() * 4 * 20 + 4);
     const int rectangles = stb_easy_font_print(0.0f, 0.0f, text.data(), nullptr, vertices.data(),
@@ -69,28 +84,48 @@ class Canvas {
  private:
   [[nodiscard]] int scaled(float at) const { return static_cast<int>(std::lround(at)) * scale_; }
 
-  void fill(int left, int top, int right, int bottom) {
+  static float encoded(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+  }
+
+  void fill(int left, int top, int right, int bottom, std::array<std::uint8_t, 4> color = {255, 255, 255, 255}) {
     const int width = static_cast<int>(picture_.width), height = static_cast<int>(picture_.height);
     for (int y = std::max(top, 0); y < std::min(bottom, height); ++y)
       for (int x = std::max(left, 0); x < std::min(right, width); ++x)
-        std::memset(&picture_.rgba[4 * (static_cast<std::size_t>(y) * picture_.width + static_cast<std::size_t>(x))],
-                    255, 4);
+        std::memcpy(&picture_.rgba[4 * (static_cast<std::size_t>(y) * picture_.width + static_cast<std::size_t>(x))],
+                    color.data(), color.size());
   }
 
   Picture& picture_;
   int scale_;
 };
 
+/// A bar with its values below it.
+void draw_scale(Canvas& canvas, int top, int width, int scale, const HeatScale& heat, float heat_range) {
+  canvas.draw_bar(scale * kMargin, top, width, scale * (kBarHeight - 2));
+  for (int stop = 0; stop < GLOAM_HEAT_STOPS; ++stop) {
+    std::string number = heat_number(heat_value(heat, heat_range, stop));
+    const bool last = stop == GLOAM_HEAT_STOPS - 1;
+    if (last && !heat.unit.empty()) number += " " + heat.unit;
+    const int at = scale * kMargin + width * stop / (GLOAM_HEAT_STOPS - 1);
+    const int wide = scale * text_width(number);
+    canvas.draw_line(number, stop == 0 ? at : last ? at - wide : at - wide / 2, top + scale * kBarHeight);
+  }
+}
+
 }  // namespace
 
-void draw_legend(Picture& picture, std::string_view text) {
+void draw_legend(Picture& picture, std::string_view text, const HeatScale& heat, float heat_range) {
   if (text.empty() || picture.width < 64 || picture.height < 32) return;
   const int scale = picture.height >= 720 ? 2 : 1;
   const int room = static_cast<int>(picture.width) / scale - 2 * kMargin;
   const std::vector<std::string> lines = wrapped(text, room);
+  const bool has_bar = heat.most > 0.0 && picture.width >= 128 && picture.height >= 72;
+  const int bar = has_bar ? scale * (kBarHeight + kLineHeight) : 0;
   const int top = static_cast<int>(picture.height) - scale * (static_cast<int>(lines.size()) * kLineHeight + kMargin);
   Canvas canvas(picture, scale);
-  canvas.darken_below(top - scale * kMargin);
+  canvas.darken_below(top - scale * kMargin - bar);
+  if (has_bar) draw_scale(canvas, top - bar, std::min(scale * room, scale * kBarWidth), scale, heat, heat_range);
   for (std::size_t i = 0; i < lines.size(); ++i)
     canvas.draw_line(lines[i], scale * kMargin, top + scale * static_cast<int>(i) * kLineHeight);
 }

@@ -64,7 +64,8 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
                   .scale_steps = ResolutionScale::kSteps,
                   .set_scale = [&](double setting) { scale.set(setting); },
                   .scene = controls.pause ? &scene : nullptr,
-                  .notice = notice_});
+                  .notice = notice_,
+                  .heat_range = view.heat_range});
   if (input.clicked && !panel_->wants_mouse() && !report.passes.empty()) pick(input, view, scale.scale());
   if (panel_->wants_mouse()) {
     input.drag_x = input.drag_y = input.orbit_x = input.orbit_y = input.wheel = 0.0;

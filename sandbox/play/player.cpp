@@ -10,6 +10,7 @@
 
 #include "sandbox/output/file_io.h"
 #include "sandbox/session/frame_tracing.h"
+#include "sandbox/session/program_knobs.h"
 #include "sandbox/session/run_output.h"
 #include "sandbox/session/scene_loading.h"
 
@@ -66,6 +67,7 @@ Status Player::run() {
     GLOAM_TRY(obey(input));
     if (!next_scene_.empty()) break;
     drop_view_without_its_knob();
+    settings_.heat_range = heat_range(session_.renderer->knobs());
     GLOAM_TRY(move_camera(input));
     const auto drawn = draw();
     if (!drawn) return drawn.error();

@@ -2,11 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/session/program_knobs.h"
 
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "sandbox/output/file_io.h"
 
 namespace gloam {
+namespace {
+
+constexpr std::string_view kRange = "views.range";
+
+}  // namespace
 
 void add_program_knobs(KnobRegistry& knobs) {
   Knob light;
@@ -16,6 +23,20 @@ void add_program_knobs(KnobRegistry& knobs) {
       "a soft sky and a low sun for a scene that has neither a light nor a sky; read when a scene is loaded";
   light.choices = {"on", "off"};
   knobs.add(std::move(light));
+  Knob range;
+  range.name = std::string(kRange);
+  range.module = "views";
+  range.meaning = "factor on the value at the end of the colour scales of views";
+  range.choices = {"1", "1/16", "1/8", "1/4", "1/2", "2", "4", "8", "16"};
+  knobs.add(std::move(range));
+}
+
+float heat_range(const KnobRegistry& knobs) {
+  if (knobs.find(kRange) == nullptr) return 1.0f;
+  const std::string text = knobs.text(kRange);
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return std::stof(text);
+  return std::stof(text.substr(0, slash)) / std::stof(text.substr(slash + 1));
 }
 
 KnobRegistry all_knobs(const ModuleList& modules) {

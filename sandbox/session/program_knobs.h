@@ -9,9 +9,12 @@
 
 namespace gloam {
 
-/// Adds the knobs of the program itself, which no module owns: scene.default_light. They are read when a scene is
-/// loaded.
+/// Adds the knobs of the program itself, which no module owns: scene.default_light, which is read when a scene is
+/// loaded, and views.range.
 void add_program_knobs(KnobRegistry& knobs);
+
+/// Value of views.range, for ViewSettings::heat_range.
+[[nodiscard]] float heat_range(const KnobRegistry& knobs);
 
 /// The knobs of these modules and of the program, with their defaults.
 [[nodiscard]] KnobRegistry all_knobs(const ModuleList& modules);

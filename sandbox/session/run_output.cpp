@@ -47,7 +47,8 @@ Status write_picture(const DrawnRun& run, const std::string& path) {
   if (!picture) return picture.error();
   const std::string_view shown = std::string_view(run.view.visualizer).substr(0, run.view.visualizer.find(':'));
   for (const VisualizerInfo& info : run.session.renderer->visualizers())
-    if (info.name == shown && shown != "none") draw_legend(*picture, info.name + ": " + info.legend);
+    if (info.name == shown && shown != "none")
+      draw_legend(*picture, info.name + ": " + info.legend, info.heat, run.view.heat_range);
   return write_png(path, picture->width, picture->height, picture->rgba);
 }
 

@@ -43,6 +43,7 @@ void pose_scene(Session& session) {
 
 ViewSettings Session::view_settings(std::uint32_t width, std::uint32_t height, const std::string& visualizer) const {
   ViewSettings settings = settings_for_camera(world, camera, width, height);
+  settings.heat_range = heat_range(renderer->knobs());
   settings.visualizer = visualizer;
   return settings;
 }

@@ -10,6 +10,9 @@
 #include <cstdio>
 #include <string_view>
 
+#include "engine/render/passes/visualizer_pass.h"
+#include "shaders/common/heat_shared.h"
+
 namespace gloam {
 namespace {
 
@@ -207,7 +210,39 @@ void Panel::show_views(const PanelContent& content) {
   }
   if (shown != nullptr && !shown->argument.empty()) show_view_argument(content, *shown);
   if (!fault_.empty()) ImGui::TextWrapped("%s", fault_.c_str());
-  if (shown != nullptr) ImGui::TextWrapped("%s", shown->legend.c_str());
+  if (shown == nullptr) return;
+  ImGui::TextWrapped("%s", shown->legend.c_str());
+  if (shown->heat.most > 0.0) show_heat_scale(content, shown->heat);
+}
+
+/// A bar of the scale's colours with its values, and the knob of its range.
+void Panel::show_heat_scale(const PanelContent& content, const HeatScale& heat) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = 0.6f * ImGui::GetFontSize();
+  const auto color_of = [](int stop) {
+    const vec3 c = glm::pow(heat_color(static_cast<double>(stop) / (GLOAM_HEAT_STOPS - 1)), vec3(1.0f / 2.2f));
+    return ImGui::GetColorU32(ImVec4(c.r, c.g, c.b, 1.0f));
+  };
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (int stop = 0; stop < GLOAM_HEAT_STOPS; ++stop) {
+    const float left = at.x + width * static_cast<float>(stop) / (GLOAM_HEAT_STOPS - 1);
+    const float right = at.x + width * static_cast<float>(stop + 1) / (GLOAM_HEAT_STOPS - 1);
+    if (stop + 1 < GLOAM_HEAT_STOPS)
+      draw.AddRectFilledMultiColor(ImVec2(left, at.y), ImVec2(right, at.y + height), color_of(stop), color_of(stop + 1),
+                                   color_of(stop + 1), color_of(stop));
+    std::string number = heat_number(heat_value(heat, content.heat_range, stop));
+    if (stop + 1 == GLOAM_HEAT_STOPS && !heat.unit.empty()) number += " " + heat.unit;
+    const float wide = ImGui::CalcTextSize(number.c_str()).x;
+    const float shift = stop == 0 ? 0.0f : stop + 1 == GLOAM_HEAT_STOPS ? wide : 0.5f * wide;
+    draw.AddText(ImVec2(left - shift, at.y + height), ImGui::GetColorU32(ImGuiCol_Text), number.c_str());
+  }
+  ImGui::Dummy(ImVec2(width, height + ImGui::GetTextLineHeightWithSpacing()));
+  const Knob* range = content.knobs.find("views.range");
+  if (range == nullptr || !ImGui::BeginTable("range", 3, ImGuiTableFlags_SizingFixedFit)) return;
+  ImGui::TableSetupColumn("name");
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  show_knob(content.knobs, *range);
+  ImGui::EndTable();
 }
 
 void Panel::show_view_argument(const PanelContent& content, const VisualizerInfo& info) {

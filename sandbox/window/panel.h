@@ -38,6 +38,7 @@ struct PanelContent {
   std::function<void(double setting)> set_scale = {};
   const PanelScene* scene = nullptr;  ///< null: not shown
   PanelNotice notice = {};
+  float heat_range = 1.0f;  ///< ViewSettings::heat_range
 };
 
 /// Rectangle of a widget in the last frame, in pixels from the picture's upper left corner.
@@ -74,6 +75,7 @@ class Panel {
   void show_times(const FrameTimes& times);
   void show_scale(const PanelContent& content, const PanelFrame& frame);
   void show_views(const PanelContent& content);
+  void show_heat_scale(const PanelContent& content, const HeatScale& heat);
   void show_view_argument(const PanelContent& content, const VisualizerInfo& info);
   void show_settings(const PanelContent& content);
   void show_scene(const PanelScene& scene);

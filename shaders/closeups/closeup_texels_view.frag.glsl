@@ -54,6 +54,6 @@ void main() {
     for (uint i = 0u; i < closeup_count; ++i)
       if (in_tiles(closeups[i], pixel)) texels = max(texels, texels_of(closeups[i], footprint));
   }
-  show(texels < 0.0 ? vec3(0.0) : heat(0.5 + kOctave * log2(max(texels, 1e-9))), texels < 0.0 ? kDarkened : 0.85);
+  show(texels < 0.0 ? vec3(0.0) : heat_color(0.5 + kOctave * log2(max(texels, 1e-9))), texels < 0.0 ? kDarkened : 0.85);
   out_named = vec4(min(texels, kMost), 0.0, 0.0, 1.0);
 }

@@ -3,14 +3,19 @@
 #ifndef GLOAM_SHADERS_COMMON_HEAT_GLSL
 #define GLOAM_SHADERS_COMMON_HEAT_GLSL
 
-// Heat scale in linear RGB for a value in 0…1: black, blue, cyan, green, yellow, red; white above 1.
-vec3 heat(float share) {
-  const vec3 stops[6] = vec3[](vec3(0.0), vec3(0.02, 0.05, 0.6), vec3(0.0, 0.45, 0.6), vec3(0.05, 0.5, 0.05),
-                               vec3(0.8, 0.6, 0.0), vec3(0.8, 0.02, 0.02));
-  if (share > 1.0) return vec3(1.0);
-  float at = clamp(share, 0.0, 1.0) * 5.0;
-  int low = min(int(at), 4);
-  return mix(stops[low], stops[low + 1], at - float(low));
+#include "shaders/common/heat_shared.h"
+
+layout(constant_id = GLOAM_HEAT_RANGE_CONSTANT) const float kHeatRange = 1.0;
+
+// The colour at a position of the heat scale, 0…1.
+vec3 heat_color(float share) {
+  const vec3 stops[GLOAM_HEAT_STOPS] = vec3[](GLOAM_HEAT_COLORS);
+  float at = clamp(share, 0.0, 1.0) * float(GLOAM_HEAT_STOPS - 1);
+  int low = min(int(at), GLOAM_HEAT_STOPS - 2);
+  return share > 1.0 ? vec3(1.0) : mix(stops[low], stops[low + 1], at - float(low));
 }
+
+// The colour of a value, as a share of the value at the end of the visualizer's usual scale.
+vec3 heat(float share) { return heat_color(share / kHeatRange); }
 
 #endif

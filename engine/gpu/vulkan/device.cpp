@@ -92,8 +92,8 @@ VulkanDevice::~VulkanDevice() {
   graveyard_.collect_all();
 }
 
-Result<CommandList*> VulkanDevice::begin_frame() {
-  const Result<VkCommandBuffer> commands = frames_->begin();
+Result<CommandList*> VulkanDevice::begin(bool side_frame) {
+  const Result<VkCommandBuffer> commands = frames_->begin(side_frame);
   if (!commands) return commands.error();
   frame_sets_.begin(frames_->number());
   commands_->start(*commands);

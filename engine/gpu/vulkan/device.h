@@ -74,7 +74,8 @@ class VulkanDevice final : public Device {
   void destroy(MemoryHandle memory) override { blocks_.destroy(memory); }
   void account(MemoryHandle memory, std::span<const ModuleMemory> shares) override { blocks_.account(memory, shares); }
 
-  [[nodiscard]] Result<CommandList*> begin_frame() override;
+  [[nodiscard]] Result<CommandList*> begin_frame() override { return begin(false); }
+  [[nodiscard]] Result<CommandList*> begin_side_frame() override { return begin(true); }
   [[nodiscard]] Status submit_frame() override;
   [[nodiscard]] Status abandon_frame() override;
   [[nodiscard]] Status wait_frame(std::uint64_t frame) override { return frames_->wait_frame(frame); }
@@ -98,6 +99,7 @@ class VulkanDevice final : public Device {
   [[nodiscard]] const FrameSets& frame_sets() const { return frame_sets_; }
 
  private:
+  [[nodiscard]] Result<CommandList*> begin(bool side_frame);
   VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context, const std::string& cache_directory,
                std::size_t retained_pipelines);
   static Result<std::unique_ptr<Device>> assemble(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,

@@ -87,13 +87,15 @@ std::uint64_t Frames::completed() const {
   return value;
 }
 
-Result<VkCommandBuffer> Frames::begin() {
+Result<VkCommandBuffer> Frames::begin(bool side_frame) {
   GLOAM_ASSERT(!recording_, "a frame is submitted before the next one begins");
+  GLOAM_ASSERT(!host_must_submit_,
+               "gpu::host_submitted is called for a frame in the host's command buffer before the next frame begins");
   if (lost_) return failure("Beginning frame " + std::to_string(number()), VK_ERROR_DEVICE_LOST);
   Slot& slot = current();
   if (number() >= Device::kFramesInFlight) GLOAM_TRY(wait_for_frames(number() - Device::kFramesInFlight + 1));
   settle();
-  GLOAM_TRY(begin_commands(slot));
+  GLOAM_TRY(begin_commands(slot, side_frame ? VK_NULL_HANDLE : host_commands_));
   {
     const std::lock_guard lock(timestamps_mutex_);
     slot.frame = number();
@@ -102,18 +104,37 @@ Result<VkCommandBuffer> Frames::begin() {
   }
   recording_ = true;
   graveyard_.set_begun(number() + 1);
-  return slot.commands;
+  return slot.recorded;
 }
 
-Status Frames::begin_commands(Slot& slot) {
+void Frames::record_next_into(VkCommandBuffer commands) {
+  GLOAM_ASSERT(!recording_, "a frame's command buffer is given before the frame begins");
+  GLOAM_ASSERT(commands != VK_NULL_HANDLE, "the host's command buffer is VK_NULL_HANDLE");
+  host_commands_ = commands;
+}
+
+Status Frames::host_submitted() {
+  GLOAM_ASSERT(host_must_submit_, "no frame was recorded into the host's command buffer");
+  host_must_submit_ = false;
+  // Signals after all that was submitted to the queue before.
+  const VkResult result = submit_commands(VK_NULL_HANDLE, number());
+  waits_.clear();
+  signals_.clear();
+  if (result == VK_SUCCESS) return {};
+  lost_ = true;
+  return failure("Submitting frame " + std::to_string(number() - 1), result);
+}
+
+Status Frames::begin_commands(Slot& slot, VkCommandBuffer host_commands) {
   VkResult result = context_.vk.vkResetCommandPool(context_.device, slot.pool, 0);
-  if (result == VK_SUCCESS) {
+  slot.recorded = host_commands != VK_NULL_HANDLE ? host_commands : slot.commands;
+  if (result == VK_SUCCESS && slot.recorded == slot.commands) {
     const VkCommandBufferBeginInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     result = context_.vk.vkBeginCommandBuffer(slot.commands, &info);
   }
   if (result != VK_SUCCESS) return failure("Beginning frame " + std::to_string(number()), result);
-  context_.vk.vkCmdResetQueryPool(slot.commands, slot.queries, 0, Device::kTimestampsPerFrame);
+  context_.vk.vkCmdResetQueryPool(slot.recorded, slot.queries, 0, Device::kTimestampsPerFrame);
   return {};
 }
 
@@ -122,10 +143,18 @@ Status Frames::submit(bool discard) {
   Slot& slot = current();
   recording_ = false;
   // A discarded command buffer may be inside rendering, where it cannot be ended. begin() resets its pool.
-  VkResult result = discard ? VK_SUCCESS : context_.vk.vkEndCommandBuffer(slot.commands);
+  const bool for_host = slot.recorded != slot.commands;
+  if (for_host) host_commands_ = VK_NULL_HANDLE;
+  VkResult result = discard || for_host ? VK_SUCCESS : context_.vk.vkEndCommandBuffer(slot.commands);
   last_discarded_ = discard;
   if (discard) slot.written.assign(Device::kTimestampsPerFrame, false);
-  if (result == VK_SUCCESS) result = submit_commands(slot, discard);
+  host_must_submit_ = for_host && !discard;
+  if (host_must_submit_) {
+    GLOAM_ASSERT(waits_.empty() && signals_.empty(),
+                 "a frame in the host's command buffer has no semaphores of its own: the host submits it");
+  } else if (result == VK_SUCCESS) {
+    result = submit_commands(discard ? VK_NULL_HANDLE : slot.commands, number() + 1);
+  }
   waits_.clear();
   signals_.clear();
   if (result != VK_SUCCESS) {
@@ -149,14 +178,14 @@ void Frames::signal(VkSemaphore semaphore, std::uint64_t value) {
   signals_.push_back(at_all_commands(semaphore, value));
 }
 
-VkResult Frames::submit_commands(const Slot& slot, bool discard) {
-  signals_.push_back(at_all_commands(timeline_, number() + 1));
+VkResult Frames::submit_commands(VkCommandBuffer commands, std::uint64_t timeline_value) {
+  signals_.push_back(at_all_commands(timeline_, timeline_value));
   const VkCommandBufferSubmitInfo command = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-                                             .commandBuffer = slot.commands};
+                                             .commandBuffer = commands};
   const VkSubmitInfo2 info = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
                               .waitSemaphoreInfoCount = static_cast<std::uint32_t>(waits_.size()),
                               .pWaitSemaphoreInfos = waits_.data(),
-                              .commandBufferInfoCount = discard ? 0u : 1u,
+                              .commandBufferInfoCount = commands == VK_NULL_HANDLE ? 0u : 1u,
                               .pCommandBufferInfos = &command,
                               .signalSemaphoreInfoCount = static_cast<std::uint32_t>(signals_.size()),
                               .pSignalSemaphoreInfos = signals_.data()};
@@ -166,6 +195,7 @@ VkResult Frames::submit_commands(const Slot& slot, bool discard) {
 
 Status Frames::wait_idle() {
   if (lost_) return failure("Waiting for the device", VK_ERROR_DEVICE_LOST);
+  GLOAM_ASSERT(!host_must_submit_, "gpu::host_submitted is called before gloam waits for the frame");
   if (number() > 0) GLOAM_TRY(wait_for_frames(number()));
   settle();
   return {};
@@ -173,6 +203,8 @@ Status Frames::wait_idle() {
 
 Status Frames::wait_frame(std::uint64_t frame) {
   GLOAM_ASSERT(frame < number(), "a frame is submitted before it is waited for");
+  GLOAM_ASSERT(!host_must_submit_ || frame + 1 < number(),
+               "gpu::host_submitted is called before gloam waits for the frame");
   if (lost_) return failure("Waiting for frame " + std::to_string(frame), VK_ERROR_DEVICE_LOST);
   return wait_for_frames(frame + 1);
 }
@@ -193,7 +225,7 @@ void Frames::write_timestamp(std::uint32_t index) {
   Slot& slot = current();
   GLOAM_ASSERT(!slot.written[index], "a timestamp is written once a frame");
   slot.written[index] = true;
-  context_.vk.vkCmdWriteTimestamp2(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.queries, index);
+  context_.vk.vkCmdWriteTimestamp2(slot.recorded, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.queries, index);
 }
 
 void Frames::read_timestamps(Slot& slot) {

@@ -28,7 +28,13 @@ class Frames {
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
 
-  [[nodiscard]] Result<VkCommandBuffer> begin();
+  /// side_frame: Device::begin_side_frame.
+  [[nodiscard]] Result<VkCommandBuffer> begin(bool side_frame = false);
+  /// The next frame is recorded into this command buffer, which the owner has begun and will submit to the device's
+  /// queue.
+  void record_next_into(VkCommandBuffer commands);
+  /// Tells that the owner of the command buffer has submitted it.
+  [[nodiscard]] Status host_submitted();
   /// `discard`: drops the recorded commands, which may be incomplete; the frame is still submitted and completes in
   /// order.
   [[nodiscard]] Status submit(bool discard = false);
@@ -57,6 +63,7 @@ class Frames {
   struct Slot {
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkCommandBuffer recorded = VK_NULL_HANDLE;  ///< `commands`, or the host's
     VkQueryPool queries = VK_NULL_HANDLE;
     std::uint64_t frame = 0;
     std::vector<bool> written;    ///< by timestamp index: written in this frame
@@ -71,8 +78,9 @@ class Frames {
   Status make_slot(Slot& slot, std::uint32_t index);
   [[nodiscard]] Slot& current() { return slots_[number() % Device::kFramesInFlight]; }
   [[nodiscard]] Status wait_for_frames(std::uint64_t completed);
-  [[nodiscard]] Status begin_commands(Slot& slot);
-  [[nodiscard]] VkResult submit_commands(const Slot& slot, bool discard);
+  [[nodiscard]] Status begin_commands(Slot& slot, VkCommandBuffer host_commands);
+  /// commands: none: only waits and signals.
+  [[nodiscard]] VkResult submit_commands(VkCommandBuffer commands, std::uint64_t timeline_value);
   /// Reads the timestamps of finished frames and destroys the objects that waited for these frames.
   void settle();
   void read_timestamps(Slot& slot);
@@ -83,6 +91,8 @@ class Frames {
   VkSemaphore timeline_ = VK_NULL_HANDLE;
   std::atomic<std::uint64_t> number_ = 0;
   bool recording_ = false;
+  VkCommandBuffer host_commands_ = VK_NULL_HANDLE;  ///< of the frame that is recorded, or of the next one
+  bool host_must_submit_ = false;                   ///< the newest frame's commands were recorded for the host
   bool last_discarded_ = false;
   std::atomic<bool> lost_ = false;
   std::vector<VkSemaphoreSubmitInfo> waits_;

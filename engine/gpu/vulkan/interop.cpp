@@ -57,6 +57,12 @@ void add_frame_semaphores(Device& device, std::span<const HostSemaphore> waits,
   for (const HostSemaphore& signal : signals) frames.signal(signal.semaphore, signal.value);
 }
 
+void record_next_frame_into(Device& device, VkCommandBuffer commands) {
+  vulkan_device(device).frames().record_next_into(commands);
+}
+
+Status host_submitted(Device& device) { return vulkan_device(device).frames().host_submitted(); }
+
 HostSemaphore frame_timeline(Device& device) {
   const vulkan::Frames& frames = vulkan_device(device).frames();
   return {frames.timeline(), frames.number()};

@@ -8,10 +8,22 @@
 
 namespace gloam {
 
-void add_geometry_pass(FrameBuilder& frame) {
+void add_geometry_pass(FrameBuilder& frame, const HostGeometry* host, bool drawn_again) {
   const bool with_motion = frame.previous_instances() != nullptr;
   const SurfacePass& surfaces = geometry_surface_pass(with_motion);
   GeometryOutputs outputs;
+  if (host != nullptr) {
+    add_host_geometry_pass(frame, *host, drawn_again, outputs);
+    if (!frame.draws().solid.empty()) {
+      DrawPass pass(frame, "geometry");
+      geometry_targets(pass, outputs);
+      pass.use(surfaces);
+      bind_motion(pass, frame.view());
+      pass.surfaces(frame.draws().solid);
+    }
+    frame.put(outputs);
+    return;
+  }
   DrawPass pass(frame, "geometry");
   // Depth alone marks sky; colours are cleared only so that every texel is defined.
   const auto target = [&](const char* name, gpu::Format format) {

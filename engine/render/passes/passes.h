@@ -4,6 +4,8 @@
 
 #include "engine/core/result.h"
 #include "engine/render/frame_builder.h"
+#include "engine/render/host_geometry.h"
+#include "engine/render/outputs.h"
 
 /// The renderer's own passes, in the order of declaration. Each reads outputs from the view's board and puts its own
 /// there.
@@ -14,8 +16,12 @@ namespace gloam {
 void add_deform_pass(FrameBuilder& frame);
 
 /// Draws solid surfaces into the geometry buffer; puts GeometryOutputs, with motion if the view has
-/// FrameBuilder::previous_instances.
-void add_geometry_pass(FrameBuilder& frame);
+/// FrameBuilder::previous_instances. host: geometry that is there already, or null. drawn_again: the frame was drawn
+/// before, and the host's images are as gloam left them.
+void add_geometry_pass(FrameBuilder& frame, const HostGeometry* host = nullptr, bool drawn_again = false);
+
+/// Writes the host's geometry into the images of `outputs`, which it creates.
+void add_host_geometry_pass(FrameBuilder& frame, const HostGeometry& host, bool drawn_again, GeometryOutputs& outputs);
 
 /// Writes the motion of sky pixels, if GeometryOutputs has a motion image.
 void add_sky_motion_pass(FrameBuilder& frame);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/render/declare/draw_pass.h"
+#include "engine/render/module.h"
 
 namespace gloam {
 
@@ -14,7 +16,17 @@ namespace gloam {
 void add_visualizer_targets(FrameBuilder& frame, DrawPass& pass, std::string name, gpu::Format values,
                             gpu::LoadOp picture = gpu::LoadOp::load);
 
-/// Specialisation constant 0 of visualizers' shaders: whether the shader encodes sRGB itself.
-[[nodiscard]] gpu::SpecConstant encoding_constant(FrameBuilder& frame);
+/// Specialisation constants of visualizers' shaders: 0, whether the shader encodes sRGB itself, and the factor on the
+/// end of heat scales (shaders/common/heat.glsl).
+[[nodiscard]] std::vector<gpu::SpecConstant> visualizer_constants(FrameBuilder& frame);
+
+/// The value at a stop of a heat scale, 0…GLOAM_HEAT_STOPS − 1, and the text of a whole scale: "black 0, blue 6, cyan
+/// 12, green 19, yellow 25, red 31, white more".
+[[nodiscard]] double heat_value(const HeatScale& scale, float heat_range, int stop);
+[[nodiscard]] std::string heat_text(const HeatScale& scale, float heat_range);
+/// A number with three significant digits, without zeros at the end.
+[[nodiscard]] std::string heat_number(double value);
+/// The colour at a position of a heat scale, 0…1, in linear RGB.
+[[nodiscard]] vec3 heat_color(double share);
 
 }  // namespace gloam

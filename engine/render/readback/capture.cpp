@@ -106,7 +106,7 @@ Result<std::vector<std::byte>> read_image_now(gpu::Device& device, gpu::ImageHan
   auto capture = make_capture(device, device.desc(image));
   if (!capture.ok()) return capture.error();
   const auto copy = [&]() -> Status {
-    auto commands = device.begin_frame();
+    auto commands = device.begin_side_frame();
     if (!commands.ok()) return commands.error();
     (*commands)->copy_image_to_buffer(image, 0, 0, capture->buffer, 0);
     const gpu::BufferBarrier ready{capture->buffer, gpu::Access::transfer_write, gpu::Access::host_read};

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "engine/render/readback/geometry_picture.h"
 #include "engine/render/renderer_state.h"
 
 namespace gloam {
@@ -13,14 +14,6 @@ std::string vector_text(const vec3& v) {
   std::snprintf(line, sizeof(line), "%.4f %.4f %.4f", static_cast<double>(v.x), static_cast<double>(v.y),
                 static_cast<double>(v.z));
   return line;
-}
-
-/// Camera-relative position of a pixel's middle at a depth.
-dvec3 position_of(const RenderView& view, std::uint32_t x, std::uint32_t y, float depth) {
-  const dvec4 clip((x + 0.5) / view.width * 2.0 - 1.0, 1.0 - (y + 0.5) / view.height * 2.0, static_cast<double>(depth),
-                   1.0);
-  const dvec4 at = glm::inverse(dmat4(view.clip_from_relative)) * clip;
-  return dvec3(at) / at.w;
 }
 
 GeometryTexel geometry_at(const Captures& copies, std::size_t at) {
@@ -59,7 +52,7 @@ std::vector<std::string> Renderer::State::picked_lines(std::uint32_t x, std::uin
   if (pixel.depth > 0.0f) {
     const GeometryTexel surface = geometry_at(*copies, at);
     pixel.view_depth_m = view.view_depth(pixel.depth);
-    pixel.position = vec3(position_of(view, x, y, pixel.depth));
+    pixel.position = vec3(surface_position(view, x, y, pixel.depth));
     pixel.normal = surface.normal;
     add_surface_lines(surface, pixel.view_depth_m, lines);
   } else {
@@ -98,7 +91,7 @@ Result<std::optional<dvec3>> Renderer::pick_position(World& world, ViewId view, 
   const float depth = s.copies->item<float>("engine.depth", std::size_t{y} * drawn.width + x);
   s.copies.reset();
   if (!(depth > 0.0f)) return std::optional<dvec3>();
-  return std::optional(drawn.position + position_of(drawn, x, y, depth));
+  return std::optional(drawn.position + surface_position(drawn, x, y, depth));
 }
 
 }  // namespace gloam

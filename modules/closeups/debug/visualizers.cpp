@@ -71,7 +71,7 @@ void add_view(FrameBuilder& frame, std::span<const CloseupView> pairs, bool texe
   const std::string name = texels ? kTexels : kFrusta;
   DrawPass pass(frame, name + "_view",
                 {.fragment = texels ? closeup_texels_view_frag : closeup_frusta_view_frag,
-                 .constants = {encoding_constant(frame)},
+                 .constants = visualizer_constants(frame),
                  .blend = gpu::BlendMode::alpha});
   pass.read("depth_image", geometry.depth);
   pass.items<shaders::ShownCloseup>("closeups", shown.closeups);

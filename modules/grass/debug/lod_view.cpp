@@ -28,7 +28,7 @@ std::vector<VisualizerInfo> grass_visualizers() {
 
 void add_grass_view_pass(FrameBuilder& frame, const GrassFrame& grass) {
   if (frame.visualizer() != "grass_lod" || grass.patches.empty()) return;
-  const bool encode = encoding_constant(frame).value != 0;
+  const bool encode = visualizer_constants(frame).front().value != 0;
   DrawPass pass(frame, "grass_lod_view", view_program(0, encode));
   add_visualizer_targets(frame, pass, "grass_lod", gpu::Format::rgba16_float);
   pass.test_depth(frame.get<GeometryOutputs>().depth);

@@ -43,7 +43,7 @@ bool shows_counts(LightView view) { return view < LightView::culling; }
 DrawProgram program_of(FrameBuilder& frame, LightView view) {
   using namespace shaders::lights;
   DrawProgram program{
-      .fragment = light_count_view_frag, .constants = {encoding_constant(frame)}, .blend = gpu::BlendMode::alpha};
+      .fragment = light_count_view_frag, .constants = visualizer_constants(frame), .blend = gpu::BlendMode::alpha};
   if (view == LightView::culling) program.fragment = light_culling_view_frag;
   if (view == LightView::list) program.fragment = light_list_view_frag;
   if (view == LightView::nothing) program.fragment = light_nothing_view_frag;
@@ -54,9 +54,8 @@ DrawProgram program_of(FrameBuilder& frame, LightView view) {
 }  // namespace
 
 std::vector<VisualizerInfo> light_visualizers() {
-  const std::string heat = ": black 0, blue 6, cyan 12, green 19, yellow 25, red 31, white 32 and more";
   std::vector<VisualizerInfo> views = {
-      {"tile_masks", "lights", "", "number of lights in the CPU's mask of each 32x32 tile" + heat},
+      {"tile_masks", "lights", "", "number of lights in the CPU's mask of each 32x32 tile"},
       {"light_culling", "lights", "LIGHT",
        "last culling test that the light passes in each tile: the CPU's tile mask (grey), the zBins (blue), the "
        "mask of the tile group (orange), the tile's list (green); red: the light is not in the list but reaches a "
@@ -65,14 +64,14 @@ std::vector<VisualizerInfo> light_visualizers() {
        "tiles whose list holds the light: blue, yellow at pixels that it reaches; red: reached by the light, but "
        "not in the list. With shadows.mode=deferred: yellow lit in the whole tile, green a visibility slot (brighter "
        "where more visible), blue unlit in the whole tile, magenta shaded from shadow maps"},
-      {"lights_approx", "lights", "", "number of lights in each 8x8 tile after the approximate search" + heat},
-      {"lights_accurate", "lights", "", "number of lights in each 8x8 tile after the accurate search" + heat},
-      {"lights_difference", "lights", "",
-       "number of lights that only the approximate search finds in each 8x8 tile" + heat}};
+      {"lights_approx", "lights", "", "number of lights in each 8x8 tile after the approximate search"},
+      {"lights_accurate", "lights", "", "number of lights in each 8x8 tile after the accurate search"},
+      {"lights_difference", "lights", "", "number of lights that only the approximate search finds in each 8x8 tile"}};
   for (VisualizerInfo& view : views) {
     view.knob = "lights.culling";
     view.value = "tiled";
     view.shows_lists = true;
+    if (view.argument.empty()) view.heat = {31.0};
   }
   return views;
 }

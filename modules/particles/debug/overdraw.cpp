@@ -9,8 +9,9 @@
 namespace gloam {
 
 std::vector<VisualizerInfo> particle_visualizers() {
-  return {{"overdraw", "particles", "",
-           "sprites at each pixel: black 0, blue 13, cyan 25, green 38, yellow 50, red 63, white more"}};
+  VisualizerInfo view = {"overdraw", "particles", "", "sprites at each pixel"};
+  view.heat = {63.0};
+  return {view};
 }
 
 void add_overdraw_passes(FrameBuilder& frame, const ParticlesFrame* particles) {
@@ -26,7 +27,7 @@ void add_overdraw_passes(FrameBuilder& frame, const ParticlesFrame* particles) {
   count.test_depth(frame.get<GeometryOutputs>().depth);
   draw_sprites(count, frame, *particles, indices);
 
-  DrawPass view(frame, "overdraw_view", {shaders::particles::overdraw_view_frag, {encoding_constant(frame)}});
+  DrawPass view(frame, "overdraw_view", {shaders::particles::overdraw_view_frag, visualizer_constants(frame)});
   view.read("layers", layers);
   add_visualizer_targets(frame, view, "overdraw", gpu::Format::rgba16_float, gpu::LoadOp::clear);
   view.draw_triangle();

@@ -26,17 +26,17 @@ std::vector<VisualizerInfo> reflection_visualizers(const ExtrasOf& extras) {
        "the tier that each reflection comes from: green screen space, orange proxies, blue probes with a box, violet "
        "the global probe and the sky; dark: no reflection",
        true, "reflections.mode", "tiers"},
-      {"reflection_confidence", "reflections", "",
-       "confidence of screen space at each pixel: black 0, blue, green, yellow, red 1", true, "reflections.mode",
+      {"reflection_confidence", "reflections", "", "confidence of screen space at each pixel", true, "reflections.mode",
        "tiers"},
-      {"ibr_tiles", "reflections", "",
-       "number of proxies in the list of each vertical screen tile: black 0, blue 6, cyan 12, green 19, yellow 25, red "
-       "31, white 32 and more"},
-      {"ibr_layers", "reflections", "",
-       "layers along each mirrored ray, proxies and the hit of screen space: black 0, blue 1, cyan 2, green 3, yellow "
-       "4, red 5"},
+      {"ibr_tiles", "reflections", "", "number of proxies in the list of each vertical screen tile"},
+      {"ibr_layers", "reflections", "", "layers along each mirrored ray, proxies and the hit of screen space"},
       {"probes", "reflections", "", "radiance of the probes in the mirror direction of each pixel, as x / (1 + x)"},
       {"reflection_reference", "reflections", "", "the picture with traced reflections in place of all tiers"}};
+  for (VisualizerInfo& view : views) {
+    if (view.name == "reflection_confidence") view.heat = {1.0};
+    if (view.name == "ibr_tiles") view.heat = {31.0};
+    if (view.name == "ibr_layers") view.heat = {5.0};
+  }
   views.back().trace = [extras](World& world, const ReferenceInput& input) {
     return put_traced_reflections(world, input, extras);
   };
@@ -49,8 +49,9 @@ void add_reflection_view_pass(FrameBuilder& frame) {
   if (shown == std::end(kReflectionViews) || reflections == nullptr) return;
   const auto code = static_cast<std::uint32_t>(shown - std::begin(kReflectionViews));
   DrawProgram program{.fragment = shaders::reflections::reflection_view_frag,
-                      .constants = {encoding_constant(frame), {1, code}},
+                      .constants = visualizer_constants(frame),
                       .blend = gpu::BlendMode::alpha};
+  program.constants.push_back({1, code});
   DrawPass pass(frame, std::string(*shown) + "_view", program);
   read_geometry(pass, frame.get<GeometryOutputs>());
   pass.read("reflection", reflections->block);

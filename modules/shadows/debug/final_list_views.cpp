@@ -45,16 +45,16 @@ std::string reason_without_lists(const FrameBuilder& frame) {
 std::vector<VisualizerInfo> final_list_visualizers() {
   std::vector<VisualizerInfo> views = {
       {"visibility_slots", "shadows", "",
-       "number of visibility slots of each 8x8 tile: blue 2, cyan 4, green 6, yellow 8, red 10, white more; no slots: "
+       "number of visibility slots of each 8x8 tile; no slots: "
        "darkened if lights are fully visible in the whole tile, dark blue if all lights are unlit in it, black if no "
        "light reaches it; magenta: a buffer was full, the tile is shaded from shadow maps"},
       {"lights_final", "shadows", "",
-       "number of lights in the final list of each 8x8 tile: black 0, blue 6, cyan 12, green 19, yellow 25, red 31, "
-       "white 32 and more; magenta: a buffer was full, the tile has no final list"}};
+       "number of lights in the final list of each 8x8 tile; magenta: a buffer was full, the tile has no final list"}};
   for (VisualizerInfo& view : views) {
     view.knob = "shadows.mode";
     view.value = "deferred";
     view.shows_lists = true;
+    view.heat = {view.name == "lights_final" ? 31.0 : 10.0};
   }
   return views;
 }

@@ -52,7 +52,7 @@ std::vector<shaders::AtlasFaceConstants> atlas_squares(const ShadowViews& views,
 void add_atlas_view(FrameBuilder& frame, const ShadowsOutputs& shadows, const ViewShadows& kept) {
   TargetOutput& target = frame.get<TargetOutput>();
   DrawPass pass(frame, "shadow_atlas_view",
-                {.fragment = shaders::shadows::atlas_view_frag, .constants = {encoding_constant(frame)}});
+                {.fragment = shaders::shadows::atlas_view_frag, .constants = visualizer_constants(frame)});
   target.color = pass.target(target.color, gpu::LoadOp::clear);
   pass.read("atlas", shadows.atlas);
   const auto& views = frame.world().view_resource<ShadowViews>(frame.view().id);
@@ -80,7 +80,7 @@ DrawProgram drawn_visibility_program(const ShadowsOutputs& shadows, const gpu::S
 void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture) {
   const ShadowsOutputs& shadows = frame.get<ShadowsOutputs>();
   const bool over = picture.program.blend != gpu::BlendMode::opaque;
-  picture.program.constants.push_back(encoding_constant(frame));
+  for (const gpu::SpecConstant& constant : visualizer_constants(frame)) picture.program.constants.push_back(constant);
   DrawPass pass(frame, picture.pass, picture.program);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_light_lists(pass, frame.get<LightsOutputs>());

@@ -180,15 +180,15 @@ VkDeviceMemory VulkanHost::allocate(const VkMemoryRequirements& needs, VkMemoryP
 }
 
 HostImage VulkanHost::create_image(VkFormat format, std::uint32_t width, std::uint32_t height) {
-  const VkImageCreateInfo info = {
-      .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-      .imageType = VK_IMAGE_TYPE_2D,
-      .format = format,
-      .extent = {width, height, 1},
-      .mipLevels = 1,
-      .arrayLayers = 1,
-      .samples = VK_SAMPLE_COUNT_1_BIT,
-      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
+  const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                  .imageType = VK_IMAGE_TYPE_2D,
+                                  .format = format,
+                                  .extent = {width, height, 1},
+                                  .mipLevels = 1,
+                                  .arrayLayers = 1,
+                                  .samples = VK_SAMPLE_COUNT_1_BIT,
+                                  .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                           VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
   HostImage image = {.format = format, .width = width, .height = height};
   require(vkCreateImage(device_, &info, nullptr, &image.image), "vkCreateImage");
   VkMemoryRequirements needs;
@@ -236,6 +236,81 @@ void VulkanHost::submit_and_wait(VkCommandBuffer commands, const gloam::gpu::Hos
   require(vkQueueWaitIdle(queue_), "vkQueueWaitIdle");
 }
 
+VkCommandBuffer VulkanHost::begin_commands() {
+  const VkCommandBufferAllocateInfo allocation = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                                  .commandPool = pool_,
+                                                  .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                                  .commandBufferCount = 1};
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  require(vkAllocateCommandBuffers(device_, &allocation, &commands), "vkAllocateCommandBuffers");
+  const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  require(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
+  return commands;
+}
+
+void VulkanHost::submit(VkCommandBuffer commands) {
+  require(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+  const VkCommandBufferSubmitInfo buffer = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                            .commandBuffer = commands};
+  const VkSubmitInfo2 info = {
+      .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer};
+  const std::lock_guard lock(queue_mutex_);
+  require(vkQueueSubmit2(queue_, 1, &info, VK_NULL_HANDLE), "vkQueueSubmit2");
+}
+
+namespace {
+
+VkImageMemoryBarrier2 layout_barrier(const HostImage& image, const gloam::gpu::HostImageLayout& from,
+                                     const gloam::gpu::HostImageLayout& to) {
+  return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+          .srcStageMask = from.stages,
+          .srcAccessMask = from.access,
+          .dstStageMask = to.stages,
+          .dstAccessMask = to.access,
+          .oldLayout = from.layout,
+          .newLayout = to.layout,
+          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .image = image.image,
+          .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+}
+
+void record(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier) {
+  const VkDependencyInfo dependency = {
+      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+}  // namespace
+
+void VulkanHost::write(const HostImage& image, const std::vector<std::uint8_t>& texels,
+                       const gloam::gpu::HostImageLayout& layout) {
+  const VkBufferCreateInfo buffer_info = {
+      .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = texels.size(), .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+  VkBuffer buffer = VK_NULL_HANDLE;
+  require(vkCreateBuffer(device_, &buffer_info, nullptr, &buffer), "vkCreateBuffer");
+  VkMemoryRequirements needs;
+  vkGetBufferMemoryRequirements(device_, buffer, &needs);
+  const VkDeviceMemory memory =
+      allocate(needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  require(vkBindBufferMemory(device_, buffer, memory, 0), "vkBindBufferMemory");
+  void* mapped = nullptr;
+  require(vkMapMemory(device_, memory, 0, texels.size(), 0, &mapped), "vkMapMemory");
+  std::memcpy(mapped, texels.data(), texels.size());
+  const gloam::gpu::HostImageLayout written = gloam::gpu::host_image_layout(gloam::gpu::Access::transfer_write);
+  const VkCommandBuffer commands = begin_commands();
+  record(commands, layout_barrier(image, {}, written));
+  const VkBufferImageCopy region = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                    .imageExtent = {image.width, image.height, 1}};
+  vkCmdCopyBufferToImage(commands, buffer, image.image, written.layout, 1, &region);
+  record(commands, layout_barrier(image, written, layout));
+  require(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+  submit_and_wait(commands, {});
+  vkFreeCommandBuffers(device_, pool_, 1, &commands);
+  vkDestroyBuffer(device_, buffer, nullptr);
+  vkFreeMemory(device_, memory, nullptr);
+}
+
 std::vector<std::uint8_t> VulkanHost::read(const HostImage& image, const gloam::gpu::HostImageLayout& left,
                                            const gloam::gpu::HostSemaphore& after) {
   const VkDeviceSize bytes = VkDeviceSize{image.width} * image.height * 4;
@@ -249,28 +324,8 @@ std::vector<std::uint8_t> VulkanHost::read(const HostImage& image, const gloam::
       allocate(needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
   require(vkBindBufferMemory(device_, buffer, memory, 0), "vkBindBufferMemory");
 
-  const VkCommandBufferAllocateInfo allocation = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                  .commandPool = pool_,
-                                                  .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                  .commandBufferCount = 1};
-  VkCommandBuffer commands = VK_NULL_HANDLE;
-  require(vkAllocateCommandBuffers(device_, &allocation, &commands), "vkAllocateCommandBuffers");
-  const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-  require(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
-  const VkImageMemoryBarrier2 barrier = {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                         .srcStageMask = left.stages,
-                                         .srcAccessMask = left.access,
-                                         .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                         .dstAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT,
-                                         .oldLayout = left.layout,
-                                         .newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                         .image = image.image,
-                                         .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-  const VkDependencyInfo dependency = {
-      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
-  vkCmdPipelineBarrier2(commands, &dependency);
+  const VkCommandBuffer commands = begin_commands();
+  record(commands, layout_barrier(image, left, gloam::gpu::host_image_layout(gloam::gpu::Access::transfer_read)));
   const VkBufferImageCopy region = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {image.width, image.height, 1}};
   vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &region);

@@ -43,6 +43,12 @@ class VulkanHost {
   /// Creates an image of four bytes per texel that can be rendered to, sampled and copied from.
   [[nodiscard]] HostImage create_image(VkFormat format, std::uint32_t width, std::uint32_t height);
   void destroy(const HostImage& image);
+  /// Fills an image with texels of four bytes, rows from the top, and leaves it in `layout`.
+  void write(const HostImage& image, const std::vector<std::uint8_t>& texels,
+             const gloam::gpu::HostImageLayout& layout);
+  /// Begins a command buffer. submit ends and submits it, without waiting; it is freed by close().
+  [[nodiscard]] VkCommandBuffer begin_commands();
+  void submit(VkCommandBuffer commands);
   /// Creates a timeline semaphore with value 0. It lives until close().
   [[nodiscard]] VkSemaphore create_timeline();
   void signal(VkSemaphore semaphore, std::uint64_t value);

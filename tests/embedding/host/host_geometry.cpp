@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+// A host that draws its own geometry: it traces rays to the boxes of the little world and writes depth, normals,
+// colours and material into its own images. gloam lights them, in the host's command buffer. The picture must be the
+// one that gloam draws of meshes of the same boxes. Shadows come from meshes that only cast, or from the host's own
+// draws. Exit code 77: there is no Vulkan device.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "box_casters.h"
+#include "engine/gpu/vulkan_device.h"
+#include "engine/gpu/vulkan_interop.h"
+#include "engine/render/renderer.h"
+#include "little_world.h"
+#include "modules/module_list/module_list.h"
+#include "thread_executor.h"
+#include "vulkan_host.h"
+
+namespace {
+
+namespace gpu = gloam::gpu;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr int kSkipped = 77;
+constexpr std::uint32_t kWidth = 240;
+constexpr std::uint32_t kHeight = 136;
+constexpr double kNear = 0.2, kFar = 80.0;  // of the host's projection
+
+[[noreturn]] void fail(const std::string& why) {
+  std::fprintf(stderr, "%s\n", why.c_str());
+  std::exit(1);
+}
+
+template <class T>
+T value_of(gloam::Result<T> result) {
+  if (!result.ok()) fail(result.error().message);
+  return std::move(*result);
+}
+void check(const gloam::Status& status) {
+  if (!status.ok()) fail(status.error().message);
+}
+
+gloam::ViewSettings camera() {
+  gloam::ViewSettings settings;
+  settings.width = kWidth;
+  settings.height = kHeight;
+  settings.world_from_camera[3] = gloam::dvec4(0.0, 1.3, 6.0, 1.0);
+  return settings;
+}
+
+/// The first surface along a ray. distance: infinite if there is none.
+struct Hit {
+  double distance = std::numeric_limits<double>::infinity();
+  gloam::dvec3 normal = gloam::dvec3(0.0);
+  const host::LittleBox* box = nullptr;
+};
+
+Hit trace(const gloam::dvec3& origin, const gloam::dvec3& direction) {
+  Hit hit;
+  for (const host::LittleBox& box : host::kLittleBoxes) {
+    double enter = 0.0, leave = std::numeric_limits<double>::infinity();
+    int axis_of_entry = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double half = static_cast<double>(box.half_m[axis]);
+      double near = (box.position[axis] - half - origin[axis]) / direction[axis];
+      double far = (box.position[axis] + half - origin[axis]) / direction[axis];
+      if (near > far) std::swap(near, far);
+      if (near > enter) axis_of_entry = axis;
+      enter = std::max(enter, near);
+      leave = std::min(leave, far);
+    }
+    if (!(enter < leave) || enter <= 0.0 || enter >= hit.distance) continue;
+    hit = {enter, gloam::dvec3(0.0), &box};
+    hit.normal[axis_of_entry] = direction[axis_of_entry] > 0.0 ? -1.0 : 1.0;
+  }
+  return hit;
+}
+
+/// The host's images, four bytes a texel, as it would have drawn them.
+struct Drawn {
+  Bytes depth, normals, colors, material;
+};
+
+template <class T>
+void append(Bytes& bytes, const T& value) {
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(&value);
+  bytes.insert(bytes.end(), begin, begin + sizeof(value));
+}
+
+std::uint32_t unorm(double value, int bits) {
+  return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * ((1 << bits) - 1)));
+}
+
+double srgb(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+Drawn draw_boxes() {
+  const gloam::ViewSettings view = camera();
+  const double half_height = std::tan(0.5 * static_cast<double>(view.camera.fov_y));
+  const double half_width = half_height * kWidth / kHeight;
+  const gloam::dvec3 origin(view.world_from_camera[3]);
+  Drawn drawn;
+  for (std::uint32_t y = 0; y < kHeight; ++y)
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      // The view depth along this direction is the distance itself.
+      const gloam::dvec3 direction(half_width * (2.0 * (x + 0.5) / kWidth - 1.0),
+                                   half_height * (1.0 - 2.0 * (y + 0.5) / kHeight), -1.0);
+      const Hit hit = trace(origin, direction);
+      const bool sky = hit.box == nullptr;
+      append(drawn.depth,
+             sky ? 1.0f : static_cast<float>(kFar * (hit.distance - kNear) / (hit.distance * (kFar - kNear))));
+      std::uint32_t normal = 0, color = 0;
+      for (int i = 0; i < 3; ++i) {
+        normal |= unorm(0.5 + 0.5 * hit.normal[i], 10) << (10 * i);
+        color |= sky ? 0u : unorm(srgb(static_cast<double>(hit.box->color[i])), 8) << (8 * i);
+      }
+      append(drawn.normals, normal);
+      append(drawn.colors, color);
+      append(drawn.material, 255u | unorm(static_cast<double>(host::kLittleRoughness), 8) << 8);
+    }
+  return drawn;
+}
+
+/// One of the host's images with its handle in gloam.
+struct Shared {
+  host::HostImage image;
+  gpu::ImageHandle handle;
+};
+
+Shared share(host::VulkanHost& vulkan, gpu::Device& device, VkFormat vulkan_format, gpu::Format format) {
+  Shared shared;
+  shared.image = vulkan.create_image(vulkan_format, kWidth, kHeight);
+  gpu::ImageDesc desc;
+  desc.name = "host geometry";
+  desc.module = "host";
+  desc.format = format;
+  desc.width = kWidth;
+  desc.height = kHeight;
+  desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_source;
+  shared.handle = gpu::import_image(device, shared.image.image, desc);
+  return shared;
+}
+
+/// What casts the boxes' shadows.
+enum class Casters { meshes, own_draws, none };
+
+class Stage {
+ public:
+  Stage(host::VulkanHost& vulkan, gpu::Device& device, gloam::LogSink& log)
+      : vulkan_(vulkan), device_(device), log_(log) {
+    const Drawn drawn = draw_boxes();
+    const auto filled = [&](VkFormat vulkan_format, gpu::Format format, const Bytes& texels) {
+      images_.push_back(share(vulkan, device, vulkan_format, format));
+      vulkan.write(images_.back().image, texels, gpu::host_image_layout(gpu::Access::fragment_read));
+      return images_.back().handle;
+    };
+    desc_.depth = filled(VK_FORMAT_R32_SFLOAT, gpu::Format::r32_float, drawn.depth);
+    desc_.depth_kind = gloam::HostDepth::standard;
+    desc_.near_m = static_cast<float>(kNear);
+    desc_.far_m = static_cast<float>(kFar);
+    desc_.normals = filled(VK_FORMAT_A2B10G10R10_UNORM_PACK32, gpu::Format::rgb10a2_unorm, drawn.normals);
+    desc_.base_color = filled(VK_FORMAT_R8G8B8A8_SRGB, gpu::Format::rgba8_srgb, drawn.colors);
+    desc_.material = filled(VK_FORMAT_R8G8B8A8_UNORM, gpu::Format::rgba8_unorm, drawn.material);
+    picture_ = share(vulkan, device, VK_FORMAT_R8G8B8A8_SRGB, gpu::Format::rgba8_srgb);
+    images_.push_back(picture_);
+  }
+  ~Stage() {
+    for (const Shared& shared : images_) device_.destroy(shared.handle);
+    check(device_.wait_idle());
+    for (const Shared& shared : images_) vulkan_.destroy(shared.image);
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  /// Lights the host's images, in the host's command buffers.
+  Bytes light(Casters casters) {
+    gloam::HostGeometryDesc desc = desc_;
+    desc.draws_meshes = false;
+    gloam::ViewRequest request = this->request();
+    request.geometry = value_of(gloam::HostGeometry::create(device_, desc));
+    return draw({.meshes = casters == Casters::meshes, .shadows = true}, request, casters == Casters::own_draws, true);
+  }
+  /// gloam draws the boxes itself.
+  Bytes draw_meshes() { return draw({.meshes = true, .shadows = true}, request(), false, false); }
+
+ private:
+  [[nodiscard]] gloam::ViewRequest request() const {
+    gloam::ViewRequest request;
+    request.settings = camera();
+    request.target = {.image = picture_.handle, .after = gpu::Access::transfer_read};
+    return request;
+  }
+  Bytes draw(const host::LittleWorld& wanted, const gloam::ViewRequest& request, bool own_casters,
+             bool in_host_commands) {
+    gloam::ModuleList modules = gloam::make_all_modules();
+    if (own_casters) modules.push_back(host::make_box_casters());
+    auto renderer = value_of(gloam::Renderer::create(
+        {.device = &device_, .executor = &executor_, .log = &log_, .modules = std::move(modules)}));
+    check(renderer->knobs().set("lighting.dither", "off"));
+    gloam::World world;
+    renderer->prepare_world(world);
+    host::build_little_world(world, wanted);
+    auto& environment = world.resource<gloam::SceneEnvironment>();
+    environment.has_exposure = true;
+    environment.exposure_ev100 = 7.0f;
+    for (int frame = 0; frame < 3; ++frame) {
+      const VkCommandBuffer commands = in_host_commands ? vulkan_.begin_commands() : VK_NULL_HANDLE;
+      if (in_host_commands) gpu::record_next_frame_into(device_, commands);
+      check(renderer->render(world, {&request, 1}));
+      if (!in_host_commands) continue;
+      vulkan_.submit(commands);
+      check(gpu::host_submitted(device_));
+    }
+    return vulkan_.read(picture_.image, gpu::host_image_layout(gpu::Access::transfer_read),
+                        gpu::frame_timeline(device_));
+  }
+
+  host::VulkanHost& vulkan_;
+  gpu::Device& device_;
+  gloam::LogSink& log_;
+  host::ThreadExecutor executor_{2};
+  gloam::HostGeometryDesc desc_;
+  Shared picture_;
+  std::vector<Shared> images_;
+};
+
+/// Mean difference of a channel, and the share of pixels with a difference above 8 of 255.
+struct Difference {
+  double mean = 0.0;
+  double share = 0.0;
+};
+
+Difference difference(const Bytes& a, const Bytes& b) {
+  Difference d;
+  for (std::size_t i = 0; i < a.size(); i += 4) {
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int step = std::abs(int{a[i + c]} - int{b[i + c]});
+      d.mean += step;
+      most = std::max(most, step);
+    }
+    d.share += most > 8 ? 1.0 : 0.0;
+  }
+  d.mean /= 0.75 * static_cast<double>(a.size());
+  d.share /= 0.25 * static_cast<double>(a.size());
+  return d;
+}
+
+}  // namespace
+
+int main() {
+  std::string why;
+  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open(why);
+  if (vulkan == nullptr) {
+    std::printf("skipped: %s\n", why.c_str());
+    return kSkipped;
+  }
+  gloam::FunctionLog log([](gloam::LogLevel level, std::string_view line) {
+    if (level >= gloam::LogLevel::warning) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+  });
+  gpu::separate_driver_caches();
+  gpu::HostDevice description = vulkan->describe();
+  description.log = &log;
+  auto device = value_of(gpu::create_vulkan_device_on(description));
+  bool right = true;
+  {
+    Stage stage(*vulkan, *device, log);
+    const Bytes meshes = stage.draw_meshes();
+    const Bytes unshadowed = stage.light(Casters::none);
+    for (const auto& [name, casters] :
+         {std::pair("meshes that only cast", Casters::meshes), {"the host's draws", Casters::own_draws}}) {
+      const Bytes lit = stage.light(casters);
+      const Difference same = difference(meshes, lit), other = difference(unshadowed, lit);
+      std::printf(
+          "shadows of %s: %.3f of 255 from gloam's picture, %.2f %% of pixels by more than 8; %.2f without shadows\n",
+          name, same.mean, 100.0 * same.share, other.mean);
+      right = right && same.mean < 0.5 && same.share < 0.01 && other.mean > 1.0;
+    }
+  }
+  device.reset();
+  const std::uint64_t messages = vulkan->close();
+  std::printf("gloam lights a host's geometry: %s, %llu validation messages\n", right ? "right" : "wrong",
+              static_cast<unsigned long long>(messages));
+  return right && messages == 0 ? 0 : 1;
+}
