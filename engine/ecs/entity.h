@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace gloam {
 
@@ -17,6 +18,9 @@ struct Entity {
 };
 
 inline constexpr Entity kNoEntity{};
+
+/// "entity 7 (generation 2)", for sentences about it.
+[[nodiscard]] std::string text_of(Entity entity);
 
 /// Id of one view (a camera's, a mirror's, …). Resources can be stored per view.
 struct ViewId {

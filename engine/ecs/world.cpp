@@ -20,6 +20,13 @@ std::string World::absent_sentence(std::string_view type, std::string_view where
   return std::string(where) + std::string(type);
 }
 
+std::string World::dead_sentence(Entity e) { return text_of(e) + " is not alive in this world"; }
+
+std::string text_of(Entity e) {
+  if (e == kNoEntity) return "kNoEntity";
+  return "entity " + std::to_string(e.index) + " (generation " + std::to_string(e.generation) + ")";
+}
+
 std::size_t World::ComponentsHash::operator()(const std::vector<ComponentId>& ids) const {
   Hasher hasher;
   for (const ComponentId id : ids) hasher.value(id);

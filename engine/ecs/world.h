@@ -268,6 +268,7 @@ class World {
 
   static std::string unregistered_sentence(std::string_view type);
   static std::string absent_sentence(std::string_view type, std::string_view where);
+  static std::string dead_sentence(Entity e);
 
   ComponentId register_type(const void* key, std::uint32_t name_hash, std::string_view name, std::uint32_t size);
   [[nodiscard]] ComponentId find_id(const void* key, std::string_view type) const;
@@ -298,7 +299,7 @@ class World {
   bool remove_component(Entity e, ComponentId id);
 
   [[nodiscard]] const Record& living(Entity e) const {
-    GLOAM_ASSERT(alive(e), "the entity is not alive");
+    GLOAM_ASSERT(alive(e), dead_sentence(e));
     return records_[e.index];
   }
   template <class T>

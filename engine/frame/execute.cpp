@@ -83,6 +83,15 @@ void FrameGraph::execute(gpu::CommandList& commands) {
   s.record_barriers(commands, plan.first_final_barrier, static_cast<std::uint32_t>(plan.barriers.size()));
 }
 
+std::vector<FrameGraph::UselessPass> FrameGraph::useless_passes() const {
+  std::vector<UselessPass> useless;
+  const frame::Declaration& declaration = state_->declaration;
+  for (const frame::DeclaredPass& pass : declaration.passes.all())
+    if (!pass.keep && std::ranges::none_of(declaration.uses_of(pass), &DeclaredUse::writes))
+      useless.push_back({pass.name, pass.module});
+  return useless;
+}
+
 void FrameGraph::give_up_frame() { state_->cache.give_up_execution(); }
 
 const Status& FrameGraph::recorded() const { return state_->recorded; }
@@ -158,6 +167,10 @@ std::vector<GpuFrameTimes> FrameGraph::take_times() {
 void FrameGraph::free_idle_memory() {
   // A plan whose frame has not been declared anew belongs to the declaration that is still there.
   state_->cache.free_memory_except(state_->plan, state_->declaration);
+}
+void FrameGraph::free_memory() {
+  GLOAM_ASSERT(state_->stage != State::Stage::compiled, "a compiled frame is executed before its memory is freed");
+  state_->cache.free_memory_except(nullptr, state_->declaration);
 }
 std::uint64_t FrameGraph::plans_compiled() const { return state_->cache.plans_compiled(); }
 std::uint64_t FrameGraph::plan_hash() const { return state_->hash; }

@@ -155,6 +155,25 @@ BufferRef FrameGraph::create_buffer(gpu::BufferDesc desc) {
   return {state_->declaration.resources.size() - 1, 0, state_->frame_number};
 }
 
+namespace {
+
+/// Asserts that the image may be left ready for the access by its usage.
+void check_import(std::string_view name, const gpu::ImageDesc& desc, gpu::Access access) {
+  if (access == gpu::Access::none) return;
+  const std::string subject = "import '" + std::string(name) + "': ";
+  GLOAM_ASSERT(gpu::fits_image(access), subject + "images have no access " + std::string(name_of(access)));
+  const gpu::ImageUsage needed = gpu::image_usage_of(access);
+  const bool allowed = (static_cast<std::uint32_t>(needed) & ~static_cast<std::uint32_t>(desc.usage)) == 0;
+  GLOAM_ASSERT(allowed,
+               subject + "the usage of image \"" + desc.name + "\" does not allow " + std::string(name_of(access)));
+}
+void check_import(std::string_view name, const gpu::BufferDesc&, gpu::Access access) {
+  GLOAM_ASSERT(access == gpu::Access::none || gpu::fits_buffer(access),
+               "import '" + std::string(name) + "': buffers have no access " + std::string(name_of(access)));
+}
+
+}  // namespace
+
 ImageRef FrameGraph::import_image(std::string_view name, gpu::ImageHandle image, gpu::Access before,
                                   gpu::Access after) {
   state_->check_declaring();
@@ -162,6 +181,7 @@ ImageRef FrameGraph::import_image(std::string_view name, gpu::ImageHandle image,
   for (const DeclaredResource& other : state_->declaration.resources.all()) {
     GLOAM_ASSERT(other.image != image, "an image is imported once a frame: '" + std::string(name) + "'");
   }
+  for (const gpu::Access access : {before, after}) check_import(name, state_->device.desc(image), access);
   DeclaredResource& resource = add_resource(state_->declaration, true, true);
   resource.image_desc.name = name;
   resource.image_desc.mips = resource.image_desc.layers = 1;
@@ -178,6 +198,7 @@ BufferRef FrameGraph::import_buffer(std::string_view name, gpu::BufferHandle buf
   for (const DeclaredResource& other : state_->declaration.resources.all()) {
     GLOAM_ASSERT(other.buffer != buffer, "a buffer is imported once a frame: '" + std::string(name) + "'");
   }
+  for (const gpu::Access access : {before, after}) check_import(name, state_->device.desc(buffer), access);
   DeclaredResource& resource = add_resource(state_->declaration, false, true);
   resource.buffer_desc.name = name;
   resource.buffer = buffer;

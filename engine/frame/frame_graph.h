@@ -134,6 +134,14 @@ class FrameGraph {
   /// Call it if the GPU does not execute the commands of the last execute().
   void give_up_frame();
 
+  /// The declared passes that write nothing and are not kept, so they are always culled: a mistake in their
+  /// declaration.
+  struct UselessPass {
+    std::string_view name;
+    std::string_view module;
+  };
+  [[nodiscard]] std::vector<UselessPass> useless_passes() const;
+
   /// The newest version of the resource after all passes declared so far.
   [[nodiscard]] ImageRef newest(ImageRef image) const;
   [[nodiscard]] BufferRef newest(BufferRef buffer) const;
@@ -162,6 +170,8 @@ class FrameGraph {
   /// Shrinks transient memory to what the current plan needs; without a current plan (after begin) all is freed. What
   /// only plans need that were not used for 60 frames is freed automatically.
   void free_idle_memory();
+  /// Frees all transient memory; the next compile allocates it anew. Not between compile and execute.
+  void free_memory();
 
  private:
   friend class PassBuilder;

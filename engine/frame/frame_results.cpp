@@ -124,7 +124,14 @@ std::vector<ResultKey> FrameResults::kept_keys() const {
 
 void FrameResults::erase_if(const std::function<bool(const ResultKey&)>& unwanted) {
   std::erase_if(settled_, [&](const auto& entry) { return unwanted(entry.first); });
-  for (Slot& slot : slots_) std::erase_if(slot.requests, [&](const Request& request) { return unwanted(request.key); });
+  for (Slot& slot : slots_) {
+    const std::size_t erased =
+        std::erase_if(slot.requests, [&](const Request& request) { return unwanted(request.key); });
+    if (erased == 0 || !slot.requests.empty()) continue;
+    if (slot.buffer) device_.destroy(slot.buffer);
+    slot.buffer = {};
+    slot.recorded = false;
+  }
 }
 
 void FrameResults::forget_world(std::uint64_t world) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,7 +23,11 @@ class Device {
   static constexpr std::uint32_t kFramesInFlight = 2;
   static constexpr std::uint32_t kTimestampsPerFrame = 1024;
 
-  virtual ~Device() = default;
+  Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  /// Asserts that no DeviceUser is left.
+  virtual ~Device();
 
   [[nodiscard]] virtual const DeviceInfo& info() const = 0;
 
@@ -94,6 +99,22 @@ class Device {
   [[nodiscard]] virtual std::vector<ModuleMemory> memory() const = 0;  ///< bytes per module, sorted by module name
   [[nodiscard]] virtual std::uint32_t pipeline_count(std::string_view module) const = 0;
   [[nodiscard]] virtual std::uint64_t validation_messages() const = 0;
+
+ private:
+  friend class DeviceUser;
+  std::atomic<std::uint32_t> users_ = 0;
+};
+
+/// Member of an object that destroys its GPU objects at its end, and so must end before the device.
+class DeviceUser {
+ public:
+  explicit DeviceUser(Device& device) : device_(device) { ++device_.users_; }
+  ~DeviceUser() { --device_.users_; }
+  DeviceUser(const DeviceUser&) = delete;
+  DeviceUser& operator=(const DeviceUser&) = delete;
+
+ private:
+  Device& device_;
 };
 
 }  // namespace gloam::gpu

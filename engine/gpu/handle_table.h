@@ -7,12 +7,26 @@
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "engine/core/assert.h"
+#include "engine/gpu/types.h"
 
 namespace gloam::gpu {
+
+/// The kind of object that handles of this type name.
+template <class H>
+[[nodiscard]] constexpr const char* kind_of_handle() {
+  if constexpr (std::is_same_v<H, BufferHandle>) return "buffer";
+  if constexpr (std::is_same_v<H, ImageHandle>) return "image";
+  if constexpr (std::is_same_v<H, PipelineHandle>) return "pipeline";
+  if constexpr (std::is_same_v<H, ResourceSetHandle>) return "resource set";
+  if constexpr (std::is_same_v<H, MemoryHandle>) return "memory block";
+  return "object";
+}
 
 /// A table of objects addressed by handles. All methods may be called from any thread. A reference stays valid until
 /// its object is removed; the table does not synchronise access to the object itself.
@@ -42,19 +56,19 @@ class HandleTable {
 
   [[nodiscard]] T& get(H handle) {
     const std::lock_guard lock(mutex_);
-    GLOAM_ASSERT(holds(handle), "a handle must name an object that is alive");
+    GLOAM_ASSERT(holds(handle), dead_sentence());
     return *slots_[handle.index].object;
   }
   [[nodiscard]] const T& get(H handle) const {
     const std::lock_guard lock(mutex_);
-    GLOAM_ASSERT(holds(handle), "a handle must name an object that is alive");
+    GLOAM_ASSERT(holds(handle), dead_sentence());
     return *slots_[handle.index].object;
   }
 
   /// Removes and returns the object; its handle becomes stale.
   [[nodiscard]] T remove(H handle) {
     const std::lock_guard lock(mutex_);
-    GLOAM_ASSERT(holds(handle), "an object is destroyed once, by a handle that is alive");
+    GLOAM_ASSERT(holds(handle), dead_sentence() + "; an object is destroyed once");
     return take(handle.index);
   }
 
@@ -83,6 +97,9 @@ class HandleTable {
     std::optional<T> object;
   };
 
+  [[nodiscard]] static std::string dead_sentence() {
+    return std::string("this ") + kind_of_handle<H>() + " is not alive: it was destroyed, or is of another device";
+  }
   [[nodiscard]] bool holds(H handle) const {
     return handle.index < slots_.size() && slots_[handle.index].object.has_value() &&
            slots_[handle.index].generation == handle.generation;

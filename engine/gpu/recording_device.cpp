@@ -176,17 +176,17 @@ class Recorder final : public RecordingDevice {
 
   const BufferDesc& desc(BufferHandle handle) const override {
     const Buffer* buffer = objects_.buffers.find(handle);
-    GLOAM_ASSERT(buffer != nullptr, "this buffer is not alive");
+    GLOAM_ASSERT(buffer != nullptr, "this buffer is not alive: it was destroyed, or is of another device");
     return buffer->desc;
   }
   const ImageDesc& desc(ImageHandle handle) const override {
     const Image* image = objects_.images.find(handle);
-    GLOAM_ASSERT(image != nullptr, "this image is not alive");
+    GLOAM_ASSERT(image != nullptr, "this image is not alive: it was destroyed, or is of another device");
     return image->desc;
   }
   std::span<std::byte> mapped(BufferHandle handle) override {
     Buffer* buffer = objects_.buffers.find(handle);
-    GLOAM_ASSERT(buffer != nullptr, "this buffer is not alive");
+    GLOAM_ASSERT(buffer != nullptr, "this buffer is not alive: it was destroyed, or is of another device");
     GLOAM_ASSERT(buffer->desc.memory != MemoryKind::device, "device memory is not mapped");
     return bytes_of(*buffer);
   }

@@ -41,6 +41,7 @@ ImageRange range_of(const ImagePart& part) { return {part.mip, 1, part.layer, 1}
 void VulkanCommandList::start(VkCommandBuffer commands) {
   commands_ = commands;
   pipeline_ = {};
+  bound_.start();
   fault_.reset();
   earlier_accesses_.clear();
 }
@@ -76,6 +77,7 @@ void VulkanCommandList::write_timestamp(std::uint32_t index) { frames_.write_tim
 
 void VulkanCommandList::barrier(std::span<const BufferBarrier> buffers, std::span<const ImageBarrier> images) {
   if (buffers.empty() && images.empty()) return;
+  bound_.check_outside("a barrier");
   buffer_barriers_.clear();
   image_barriers_.clear();
   for (const BufferBarrier& b : buffers) buffer_barriers_.push_back(to_vulkan(b, buffers_.get(b.buffer).buffer));
@@ -95,6 +97,7 @@ void VulkanCommandList::barrier(std::span<const BufferBarrier> buffers, std::spa
 
 void VulkanCommandList::copy_buffer(BufferHandle source, std::uint64_t source_offset, BufferHandle target,
                                     std::uint64_t target_offset, std::uint64_t size) {
+  bound_.check_outside("a copy");
   if (size == 0) return;
   check_range(source, source_offset, size);
   check_range(target, target_offset, size);
@@ -104,6 +107,7 @@ void VulkanCommandList::copy_buffer(BufferHandle source, std::uint64_t source_of
 
 void VulkanCommandList::copy_buffer_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target,
                                              std::uint32_t mip, std::uint32_t first_layer, std::uint32_t layer_count) {
+  bound_.check_outside("a copy");
   const Image& image = images_.get(target);
   check_transfer_layout(image, {mip, 1, first_layer, layer_count}, Access::transfer_write);
   const VkBufferImageCopy region = packed_region(image.desc, source_offset, mip, first_layer, layer_count);
@@ -114,6 +118,7 @@ void VulkanCommandList::copy_buffer_to_image(BufferHandle source, std::uint64_t 
 
 void VulkanCommandList::copy_image_to_buffer(ImageHandle source, std::uint32_t mip, std::uint32_t layer,
                                              BufferHandle target, std::uint64_t target_offset) {
+  bound_.check_outside("a copy");
   const Image& image = images_.get(source);
   check_transfer_layout(image, {mip, 1, layer, 1}, Access::transfer_read);
   const VkBufferImageCopy region = packed_region(image.desc, target_offset, mip, layer, 1);
@@ -123,6 +128,7 @@ void VulkanCommandList::copy_image_to_buffer(ImageHandle source, std::uint32_t m
 }
 
 void VulkanCommandList::fill_buffer(BufferHandle buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t word) {
+  bound_.check_outside("a fill");
   if (size == 0) return;
   GLOAM_ASSERT(offset % 4 == 0 && size % 4 == 0, "a buffer is filled in whole words");
   check_range(buffer, offset, size);
@@ -130,6 +136,7 @@ void VulkanCommandList::fill_buffer(BufferHandle buffer, std::uint64_t offset, s
 }
 
 void VulkanCommandList::clear_color_image(ImageHandle handle, std::array<std::uint32_t, 4> bits, ImageRange range) {
+  bound_.check_outside("a clear");
   const Image& image = images_.get(handle);
   GLOAM_ASSERT(!is_depth(image.desc.format), "a depth image is cleared by rendering to it");
   check_transfer_layout(image, range, Access::transfer_write);
@@ -140,6 +147,7 @@ void VulkanCommandList::clear_color_image(ImageHandle handle, std::array<std::ui
 }
 
 void VulkanCommandList::blit(ImageHandle source, ImageHandle target, ImagePart from, ImagePart to) {
+  bound_.check_outside("a blit");
   const Image& source_image = images_.get(source);
   const Image& target_image = images_.get(target);
   GLOAM_ASSERT((source_image.desc.shape == ImageShape::volume) == (target_image.desc.shape == ImageShape::volume),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/gpu/command_list.h"
+#include "engine/gpu/vulkan/bound_state.h"
 #include "engine/gpu/vulkan/buffers.h"
 #include "engine/gpu/vulkan/context.h"
 #include "engine/gpu/vulkan/descriptor_writer.h"
@@ -37,6 +38,8 @@ class VulkanCommandList final : public CommandList {
   void start(VkCommandBuffer commands);
   /// Undoes Image::access of this frame's barriers: the frame's commands are dropped.
   void forget_barriers();
+  /// Whether the last command came between begin_rendering and end_rendering.
+  [[nodiscard]] bool rendering() const { return bound_.rendering(); }
   /// The first error of this frame's recording, if any.
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
 
@@ -96,6 +99,7 @@ class VulkanCommandList final : public CommandList {
   Frames& frames_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   PipelineHandle pipeline_;
+  BoundState bound_;
   std::optional<Error> fault_;
   /// Image::access before each image barrier of the frame, in order.
   std::vector<std::pair<ImageHandle, Subresources<Access>>> earlier_accesses_;

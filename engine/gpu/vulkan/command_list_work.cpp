@@ -32,6 +32,7 @@ std::optional<VkRenderingAttachmentInfo> VulkanCommandList::attachment(const Ima
 }
 
 void VulkanCommandList::begin_rendering(const RenderingDesc& desc) {
+  bound_.begin_rendering();
   std::uint32_t layers = std::numeric_limits<std::uint32_t>::max();
   std::vector<VkRenderingAttachmentInfo> colors;
   for (const ColorTarget& target : desc.colors) {
@@ -66,7 +67,10 @@ void VulkanCommandList::begin_rendering(const RenderingDesc& desc) {
   set_scissor(corner.x, corner.y, desc.width, desc.height);
 }
 
-void VulkanCommandList::end_rendering() { context_.vk.vkCmdEndRendering(commands_); }
+void VulkanCommandList::end_rendering() {
+  bound_.end_rendering();
+  context_.vk.vkCmdEndRendering(commands_);
+}
 
 void VulkanCommandList::set_viewport(float x, float y, float width, float height) {
   const VkViewport viewport = {x, y + height, width, -height, 0.0f, 1.0f};
@@ -90,6 +94,7 @@ const Pipeline& VulkanCommandList::bound_pipeline() const {
 void VulkanCommandList::bind_pipeline(PipelineHandle handle) {
   const Pipeline& pipeline = pipelines_.get(handle);
   pipeline_ = handle;
+  bound_.bind_pipeline(pipeline);
   context_.vk.vkCmdBindPipeline(commands_, pipeline.bind_point, pipeline.object->get());
 }
 
@@ -103,6 +108,7 @@ void VulkanCommandList::bind(std::span<const Binding> bindings) {
   }
   const auto writes = writer_.build(pipeline, 0, bindings, set, DescriptorWriter::Layouts::as_recorded);
   if (!writes) return fail(writes.error());
+  bound_.bind_set(0);
   if (writes->empty()) return;
   if (set != VK_NULL_HANDLE) {
     context_.vk.vkUpdateDescriptorSets(context_.device, static_cast<std::uint32_t>(writes->size()), writes->data(), 0,
@@ -120,6 +126,7 @@ void VulkanCommandList::bind_set(std::uint32_t set, ResourceSetHandle resources)
   GLOAM_ASSERT(set >= 1 && set < pipeline.layout->sets.size(),
                "pipeline \"" + pipeline.name + "\" has no prepared set " + std::to_string(set));
   const VkDescriptorSet vk_set = sets_.get(resources);
+  bound_.bind_set(set);
   context_.vk.vkCmdBindDescriptorSets(commands_, pipeline.bind_point, pipeline.layout->layout, set, 1, &vk_set, 0,
                                       nullptr);
 }
@@ -139,30 +146,36 @@ void VulkanCommandList::bind_vertex_stream(std::uint32_t stream, BufferHandle bu
   check_range(buffer, offset, 0);
   const VkBuffer vk_buffer = buffers_.get(buffer).buffer;
   const VkDeviceSize vk_offset = offset;
+  bound_.bind_vertex_stream(stream);
   context_.vk.vkCmdBindVertexBuffers(commands_, stream, 1, &vk_buffer, &vk_offset);
 }
 
 void VulkanCommandList::bind_indices(BufferHandle buffer, std::uint64_t offset) {
   check_range(buffer, offset, 0);
+  bound_.bind_indices();
   context_.vk.vkCmdBindIndexBuffer(commands_, buffers_.get(buffer).buffer, offset, VK_INDEX_TYPE_UINT32);
 }
 
 void VulkanCommandList::draw(std::uint32_t vertices, std::uint32_t instances, std::uint32_t first_vertex,
                              std::uint32_t first_instance) {
+  bound_.check_draw(pipelines_, pipeline_, false);
   context_.vk.vkCmdDraw(commands_, vertices, instances, first_vertex, first_instance);
 }
 
 void VulkanCommandList::draw_indexed(std::uint32_t indices, std::uint32_t instances, std::uint32_t first_index,
                                      std::int32_t vertex_offset, std::uint32_t first_instance) {
+  bound_.check_draw(pipelines_, pipeline_, true);
   context_.vk.vkCmdDrawIndexed(commands_, indices, instances, first_index, vertex_offset, first_instance);
 }
 
 void VulkanCommandList::draw_indirect(BufferHandle buffer, std::uint64_t offset) {
+  bound_.check_draw(pipelines_, pipeline_, false);
   check_range(buffer, offset, sizeof(VkDrawIndirectCommand));
   context_.vk.vkCmdDrawIndirect(commands_, buffers_.get(buffer).buffer, offset, 1, 0);
 }
 
 void VulkanCommandList::draw_indexed_indirect(BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) {
+  bound_.check_draw(pipelines_, pipeline_, true);
   check_range(buffer, offset, std::uint64_t{draw_count} * kIndirectDrawBytes);
   const PhysicalDevice& device = context_.physical;
   const bool many = device.features.core.features.multiDrawIndirect == VK_TRUE;
@@ -176,10 +189,12 @@ void VulkanCommandList::draw_indexed_indirect(BufferHandle buffer, std::uint64_t
 }
 
 void VulkanCommandList::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  bound_.check_dispatch(pipelines_, pipeline_);
   context_.vk.vkCmdDispatch(commands_, x, y, z);
 }
 
 void VulkanCommandList::dispatch_indirect(BufferHandle buffer, std::uint64_t offset) {
+  bound_.check_dispatch(pipelines_, pipeline_);
   check_range(buffer, offset, sizeof(VkDispatchIndirectCommand));
   context_.vk.vkCmdDispatchIndirect(commands_, buffers_.get(buffer).buffer, offset);
 }

@@ -35,8 +35,14 @@ Result<Pipeline> Pipelines::prepare(std::string_view name, std::string_view modu
   if (!shader) return shader.error();
   const Result<const PipelineLayout*> layout = layouts_.find_or_create(*shader);
   if (!layout) return layout.error();
-  return Pipeline{
-      .name = std::string(name), .module = std::string(module), .layout = *layout, .shader = std::move(*shader)};
+  std::uint32_t used_sets = 0;
+  for (const ReflectedBinding& binding : shader->bindings)
+    if (binding.used) used_sets |= 1u << binding.set;
+  return Pipeline{.name = std::string(name),
+                  .module = std::string(module),
+                  .layout = *layout,
+                  .shader = std::move(*shader),
+                  .used_sets = used_sets};
 }
 
 template <class Compile>
@@ -80,6 +86,7 @@ Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
   Result<Pipeline> pipeline = prepare(desc.name, desc.module, std::span(shaders).first(count), kStages);
   if (!pipeline) return pipeline.error();
   pipeline->bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  pipeline->vertex_streams = static_cast<std::uint32_t>(desc.stream_strides.size());
   ShaderStages stages(context_, desc.constants);
   for (std::size_t i = 0; i < count; ++i) GLOAM_TRY(stages.add(shaders[i], kStages[i]));
 

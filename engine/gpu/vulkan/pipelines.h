@@ -26,6 +26,8 @@ struct Pipeline {
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
   const PipelineLayout* layout = nullptr;
   ShaderInterface shader;
+  std::uint32_t used_sets = 0;  ///< bit i: the shaders use something of set i
+  std::uint32_t vertex_streams = 0;
 };
 
 /// Creates, stores and destroys pipelines. Compiles on the calling thread. Thread-safe.

@@ -26,7 +26,7 @@ class VulkanSwapchain final : public Swapchain {
  private:
   static constexpr std::uint32_t kNone = ~0u;
 
-  VulkanSwapchain(VulkanDevice& device, VkSurfaceKHR surface) : device_(device), surface_(surface) {}
+  VulkanSwapchain(VulkanDevice& device, VkSurfaceKHR surface) : device_(device), user_(device), surface_(surface) {}
   Status check_surface();
   Status make_acquire_semaphores();
   Status make_swapchain(const VkSurfaceCapabilitiesKHR& capabilities, VkExtent2D extent);
@@ -35,6 +35,7 @@ class VulkanSwapchain final : public Swapchain {
   Result<VkSemaphore> make_semaphore(std::string_view name);
 
   VulkanDevice& device_;
+  DeviceUser user_;
   VkSurfaceKHR surface_;
   VkSurfaceFormatKHR format_ = {};
   VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
