@@ -7,6 +7,11 @@
 
 namespace gloam {
 
+std::string FrameBuilder::absent_output(std::string_view type) const {
+  return "module \"" + std::string(module_) + "\" needs the output " + std::string(type) +
+         ", which no pass before it has put: a module is missing in the list, comes later or is not demanded";
+}
+
 void FrameBuilder::upload_view_constants(std::uint32_t visualizer_code) {
   shaders::ViewConstants constants = view_constants(view_);
   constants.visualizer = visualizer_code;

@@ -137,7 +137,7 @@ class FrameBuilder {
   template <class T>
   [[nodiscard]] T& get() {
     T* found = find<T>();
-    GLOAM_ASSERT(found != nullptr, "a pass needs an output that no earlier pass has put");
+    GLOAM_ASSERT(found != nullptr, absent_output(type_name<T>()));
     return *found;
   }
 
@@ -221,6 +221,7 @@ class FrameBuilder {
   };
 
  private:
+  [[nodiscard]] std::string absent_output(std::string_view type) const;
   void bind_previous_vertices(PassContext& context, const Draw& draw) const;
   [[nodiscard]] HistoryView history_view() const;
 

@@ -81,6 +81,12 @@ struct PickedPixel {
   vec3 normal = vec3(0.0f);    ///< shading normal, unit length; 0 for sky
 };
 
+/// Something in a world that has no effect as it is, for the log: "ENTITY FAULT".
+struct Oversight {
+  Entity entity;
+  std::string fault;  ///< "has a Light but no WorldTransform: it lights nothing"
+};
+
 /// Receives counters of a frame, by name ("lights.visible").
 class CounterSink {
  public:
@@ -97,6 +103,11 @@ class Module {
   [[nodiscard]] virtual std::string_view name() const = 0;
   /// False if only its components and keys exist: its demand is reported, but nothing is drawn.
   [[nodiscard]] virtual bool built() const { return true; }
+
+  /// Names of the modules that must be in the list, and of all that must come earlier if they are in it. The renderer
+  /// asserts both.
+  [[nodiscard]] virtual std::vector<std::string_view> needs() const { return {}; }
+  [[nodiscard]] virtual std::vector<std::string_view> follows() const { return {}; }
 
   virtual void register_components(World& world) const = 0;
   virtual void scene_keys(KeyRegistry& registry) const = 0;
@@ -143,6 +154,12 @@ class Module {
   }
   /// Sentences about things in a loaded scene that are likely mistakes, without a full stop. For `inspect`.
   [[nodiscard]] virtual std::vector<std::string> warnings(const World& world) const {
+    static_cast<void>(world);
+    return {};
+  }
+  /// Entities that have components of the module without any effect. Called in every frame, so it must be cheap. The
+  /// renderer logs each fault once per world.
+  [[nodiscard]] virtual std::vector<Oversight> oversights(const World& world) const {
     static_cast<void>(world);
     return {};
   }
@@ -241,6 +258,10 @@ class Module {
 };
 
 using ModuleList = std::vector<std::unique_ptr<Module>>;
+
+/// Asserts that no module is null, that all have different names, and that they come in the order that they ask for
+/// (Module::needs, Module::follows).
+void check_modules(const ModuleList& modules);
 
 /// The scene keys of the engine and all modules, for import_gltf.
 [[nodiscard]] KeyRegistry make_key_registry(const ModuleList& modules);

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <utility>
 
-#include "engine/core/nearest_name.h"
 #include "engine/ecs/view.h"
 #include "engine/render/attempt.h"
 #include "engine/render/passes/passes.h"
@@ -32,14 +31,14 @@ bool is_one_of(const KnobRegistry& knobs, std::string_view knob, std::string_vie
 
 Renderer::State::State(RendererOptions given)
     : options(std::move(given)),
+      device_user(*options.device),
       pipelines(*options.device),
-      uniforms(*options.device, "engine", gpu::BufferUsage::uniform),
-      storage(*options.device, "engine", gpu::BufferUsage::storage | gpu::BufferUsage::transfer_source),
       results(*options.device),
       declared(*options.device),
       history(*options.device),
       graph(*options.device),
       runtimes(options.modules.size()) {
+  make_rings();
   add_scene_systems(schedule);
   for (const auto& module : options.modules) {
     module->knobs(knobs);
@@ -59,8 +58,8 @@ FrameServices Renderer::State::services(const KnobRegistry& view_knobs) {
           .log = *options.log,
           .knobs = view_knobs,
           .pipelines = pipelines,
-          .uniforms = uniforms,
-          .storage = storage,
+          .uniforms = *uniforms,
+          .storage = *storage,
           .results = results,
           .declared = declared,
           .history = history,
@@ -68,9 +67,7 @@ FrameServices Renderer::State::services(const KnobRegistry& view_knobs) {
 }
 
 GpuScene& Renderer::State::scene_of(const World& world) {
-  const RenderSlot* slot = world.try_resource<RenderSlot>();
-  GLOAM_ASSERT(slot != nullptr, "a world must be prepared by the renderer that draws it (Renderer::prepare_world)");
-  std::unique_ptr<GpuScene>& scene = scenes[slot->value];
+  std::unique_ptr<GpuScene>& scene = scenes[slot_of(world).value];
   if (scene == nullptr) scene = std::make_unique<GpuScene>(*options.device, pipelines);
   return *scene;
 }
@@ -178,6 +175,7 @@ bool Renderer::State::takes_part(std::size_t index, const FrameBuilder& builder,
   const Module& module = *options.modules[index];
   if (!may_draw(index, builder.world(), view)) return false;
   runtimes[index].in_view = true;
+  runtimes[index].views.emplace(slot_of(builder.world()).value, builder.view().id.value);
   if (options.readiness == Readiness::wait || module.essential()) return true;
   PipelineList needed;
   module.pipelines(knobs_of(view), options.device->info(), needed);
@@ -218,8 +216,7 @@ void Renderer::State::warn_of_idle_visualizer(const FrameBuilder& builder) {
     if (runtimes[i].in_last_view || demand.needed) continue;
     for (const VisualizerInfo& info : module.visualizers()) {
       if (info.name != stem) continue;
-      const auto [sentence, fresh] = told.insert("view " + info.name + " shows the picture as it is: " + demand.reason);
-      if (fresh) options.log->warning(*sentence);
+      warn_once("view " + info.name + " shows the picture as it is: " + demand.reason);
     }
   }
 }
@@ -229,11 +226,7 @@ void Renderer::State::release_idle_modules() {
     ModuleRuntime& runtime = runtimes[i];
     runtime.idle_frames = runtime.in_view ? 0 : runtime.idle_frames + 1;
     runtime.absent_frames = runtime.demand.needed ? 0 : runtime.absent_frames + 1;
-    if (runtime.idle_frames == kFramesUntilRelease) {
-      options.modules[i]->release();
-      results.forget_module(options.modules[i]->name());
-      history.release_module(options.modules[i]->name());
-    }
+    if (runtime.idle_frames == kFramesUntilRelease) release_module(i);
     // Repeated, because a pipeline that was being compiled may have been added since.
     if (runtime.absent_frames != 0 && runtime.absent_frames % kFramesUntilRelease == 0)
       pipelines.release(options.modules[i]->name());
@@ -244,7 +237,9 @@ Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::create(RendererOptions options) {
-  GLOAM_ASSERT(options.device != nullptr && options.executor != nullptr, "a renderer needs a device and an executor");
+  GLOAM_ASSERT(options.device != nullptr, "RendererOptions::device is null: a renderer needs a device");
+  GLOAM_ASSERT(options.executor != nullptr, "RendererOptions::executor is null: a renderer needs an executor");
+  check_modules(options.modules);
   if (options.log == nullptr) options.log = &null_log();
   return std::unique_ptr<Renderer>(new Renderer(std::make_unique<State>(std::move(options))));
 }
@@ -252,24 +247,12 @@ Result<std::unique_ptr<Renderer>> Renderer::create(RendererOptions options) {
 KnobRegistry& Renderer::knobs() { return state_->knobs; }
 const ModuleList& Renderer::modules() const { return state_->options.modules; }
 
-std::vector<VisualizerInfo> Renderer::visualizers() const {
-  std::vector<VisualizerInfo> all = {
-      {"none", "engine", "", "the lit picture"},
-      {"albedo", "engine", "", "base colour without light"},
-      {"normal", "engine", "", "shading normal: x, y, z as red, green, blue; -1 is 0, 0 is 128 and 1 is 255"},
-      {"depth", "engine", "", "distance: white near, grey far, black sky"}};
-  for (const auto& module : state_->options.modules)
-    for (VisualizerInfo& info : module->visualizers()) all.push_back(std::move(info));
-  return all;
-}
+std::vector<VisualizerInfo> Renderer::visualizers() const { return state_->visualizers(); }
 
 Status Renderer::check_visualizer(const World& world, std::string_view name) const {
+  GLOAM_TRY(state_->check_visualizer_name(name));
   const std::string_view stem = name.substr(0, name.find(':'));
-  std::vector<std::string> names;
-  std::string list;
   for (const VisualizerInfo& info : visualizers()) {
-    names.push_back(info.name);
-    list += (list.empty() ? "" : ", ") + info.name + (info.argument.empty() ? "" : ":" + info.argument);
     if (info.name != stem) continue;
     if (!info.built) return Error{ErrorKind::usage, "view " + info.name + " is not built yet"};
     if (!info.knob.empty() && !is_one_of(state_->knobs, info.knob, info.value))
@@ -278,39 +261,25 @@ Status Renderer::check_visualizer(const World& world, std::string_view name) con
       return Error{ErrorKind::usage,
                    "view " + info.name + (info.argument.empty() ? " takes no argument" : " needs :" + info.argument)};
     if (info.argument == "LIGHT") {
+      static_cast<void>(state_->slot_of(world));
       auto light = world.resource<SceneNames>().find("light", name.substr(stem.size() + 1));
       if (!light.ok()) return Error{ErrorKind::usage, light.error().message};
     }
     return {};
   }
-  return Error{ErrorKind::usage,
-               "unknown view " + std::string(name) + "; " + did_you_mean(stem, names) + "there are " + list};
+  return {};
 }
 
 void Renderer::prepare_world(World& world) const {
+  state_->check_idle("prepare_world");
+  const RenderSlot* before = world.try_resource<RenderSlot>();
+  if (before != nullptr && before->renderer.lock() == state_->token) {
+    state_->worlds.erase(before->value);
+    state_->release_slot(before->value);
+  }
   prepare_scene_world(world);
   for (const auto& module : state_->options.modules) module->register_components(world);
-  world.set_resource(RenderSlot{state_->next_slot++});
-}
-
-void Renderer::release_world(const World& world) {
-  const RenderSlot* slot = world.try_resource<RenderSlot>();
-  if (slot == nullptr) return;
-  state_->scenes.erase(slot->value);
-  state_->results.forget_world(slot->value);
-  state_->motion.forget_world(slot->value);
-  state_->history.release_world(slot->value);
-  state_->cuts.forget_world(slot->value);
-  state_->release_images([&](std::uint32_t, const ViewImages& view) { return view.world == slot->value; });
-}
-
-void Renderer::State::release_view(ViewId view) {
-  motion.forget_view(view);
-  history.release_view(view.value);
-  cuts.forget_view(view);
-  release_images([&](std::uint32_t id, const ViewImages&) { return id == view.value; });
-  results.forget_view(view.value);
-  for (const auto& module : options.modules) module->release_view(view);
+  state_->take_world(world, 0);
 }
 
 void Renderer::State::release_idle_companions() {
@@ -325,21 +294,8 @@ void Renderer::State::release_idle_companions() {
   }
 }
 
-void Renderer::release_view(ViewId view) {
-  for (const ViewId companion : CompanionViews::ids_of(view)) {
-    state_->companion_idle_frames.erase(companion.value);
-    state_->release_view(companion);
-  }
-  state_->release_view(view);
-}
-
-void Renderer::release_view(World& world, ViewId view) {
-  release_view(view);
-  world.remove_view(view);
-  for (const ViewId companion : CompanionViews::ids_of(view)) world.remove_view(companion);
-}
-
 Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
+  state_->check_idle("render");
   const auto start = std::chrono::steady_clock::now();
   Status drawn = attempt([] { return std::string("the frame"); }, [&] { return state_->draw_frame(world, requests); });
   state_->cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

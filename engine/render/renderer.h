@@ -127,15 +127,19 @@ class Renderer {
   /// unknown name it lists the valid ones.
   [[nodiscard]] Status check_visualizer(const World& world, std::string_view name) const;
 
-  /// Registers the components and resources of the scene and of every module. Call it once per world, before the world
-  /// is filled.
+  /// Registers the components and resources of the scene and of every module. Call it before the world is filled. A
+  /// world that is prepared again is released. One renderer at a time draws a world: the one that has prepared it, and
+  /// after its end one with the same modules.
   void prepare_world(World& world) const;
-  /// Frees the GPU data of a world, its history, and the images of the views that it drew last. Call it before the
-  /// world is destroyed. If the world is drawn again, its data is uploaded again.
+  /// Frees the GPU data of a world, its history, the images of the views that it drew last, and the memory of modules
+  /// that no view of another world has needed. Call it before the world is destroyed; a world that is destroyed without
+  /// it is released in the next frame. If the world is drawn again, its data is uploaded again.
+  /// This and the next functions wait for the GPU, and the memory is free when they return. They must not be called
+  /// while a frame is being drawn.
   void release_world(const World& world);
   /// Frees all that the renderer and the modules keep for a view: images, its picture included, maps, histories and
-  /// results. Drawing the view again creates it again. The images of a view that is not drawn for a while are freed
-  /// without this call.
+  /// results; and all memory of modules that no other view has needed. Drawing the view again creates it again. The
+  /// images of a view that is not drawn for a while are freed without this call. An unknown view has nothing to free.
   void release_view(ViewId view);
   /// The same, and removes the view's resources from the world.
   void release_view(World& world, ViewId view);
@@ -152,8 +156,9 @@ class Renderer {
   /// The GPU times of every frame that has completed since the last call, oldest first; at most the last 4. For callers
   /// that keep several frames in flight.
   [[nodiscard]] std::vector<GpuFrameTimes> take_times();
-  /// Frees the memory of cached plans except the last frame's (FrameGraph::free_idle_memory). Without this call, memory
-  /// of unused plans is kept for a while, in case frames with the same passes return.
+  /// Waits for the GPU, then frees the memory of cached plans except the last frame's (FrameGraph::free_idle_memory),
+  /// and of all objects that were destroyed before. Without this call, memory of unused plans is kept for a while, in
+  /// case frames with the same passes return.
   void free_idle_memory();
   /// Reads the picture of a view's last frame. The view must have had no target image. Waits for the GPU. Fails if all
   /// frames that drew the view since its images were made were given up.

@@ -3,6 +3,8 @@
 //
 // One frame of a renderer: its views, their passes, recording and submission.
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "engine/render/attempt.h"
@@ -27,6 +29,18 @@ bool is_picture(gpu::Format format) {
   return format == rgba8_unorm || format == rgba8_srgb || format == bgra8_unorm || format == bgra8_srgb;
 }
 
+/// Marks that a frame is being drawn.
+class Drawing {
+ public:
+  explicit Drawing(bool& flag) : flag_(flag) { flag_ = true; }
+  ~Drawing() { flag_ = false; }
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
+
+ private:
+  bool& flag_;
+};
+
 /// Acquires a target that exists only while a frame is recorded. The view takes its size.
 Status acquire_target(const gpu::Device& device, ViewRequest& request) {
   if (!request.target.acquire) return {};
@@ -40,17 +54,54 @@ Status acquire_target(const gpu::Device& device, ViewRequest& request) {
   return {};
 }
 
+std::string size_text(std::uint32_t width, std::uint32_t height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+void check_light_target(const gpu::Device& device, const ViewRequest& request, const std::string& view) {
+  const LightTarget& light = *request.target.light;
+  GLOAM_ASSERT(!request.target.image && !request.target.acquire && !request.target.overlay,
+               view + ": a view has a picture or a LightTarget, not both");
+  GLOAM_ASSERT(light.image, view + ": LightTarget has no image");
+  const gpu::ImageDesc& desc = device.desc(light.image);
+  GLOAM_ASSERT(light.mip < desc.mips && light.layer < desc.layers,
+               view + ": LightTarget names mip " + std::to_string(light.mip) + " of layer " +
+                   std::to_string(light.layer) + ", and its image \"" + desc.name + "\" has " +
+                   std::to_string(desc.mips) + " mips and " + std::to_string(desc.layers) + " layers");
+  GLOAM_ASSERT(gpu::has(desc.usage, gpu::ImageUsage::color_target),
+               view + ": the image \"" + desc.name + "\" of LightTarget was made without ImageUsage::color_target");
+}
+
+/// Asserts that the view can be drawn into its target.
 void check_target(const gpu::Device& device, const ViewRequest& request) {
-  if (request.geometry)
-    GLOAM_ASSERT(
-        request.geometry->width() == request.settings.width && request.geometry->height() == request.settings.height,
-        "the host's geometry has the size of its view");
+  const ViewSettings& settings = request.settings;
+  const std::string view = "view " + std::to_string(settings.id.value);
+  if (request.geometry) {
+    GLOAM_ASSERT(request.geometry->width() == settings.width && request.geometry->height() == settings.height,
+                 view + " is " + size_text(settings.width, settings.height) + " pixels, the host's geometry " +
+                     size_text(request.geometry->width(), request.geometry->height()) + ": they must have one size");
+  }
+  if (request.target.light) check_light_target(device, request, view);
   if (!request.target.image) return;
   const gpu::ImageDesc& desc = device.desc(request.target.image);
-  GLOAM_ASSERT(desc.width == request.settings.width && desc.height == request.settings.height,
-               "a target image has the size of its view");
-  GLOAM_ASSERT(is_picture(desc.format), "a target image is rgba8 or bgra8, UNORM or sRGB");
-  GLOAM_ASSERT(gpu::has(desc.usage, gpu::ImageUsage::color_target), "a target image was made to be a color_target");
+  GLOAM_ASSERT(desc.width == settings.width && desc.height == settings.height,
+               view + " is " + size_text(settings.width, settings.height) + " pixels, its target image \"" + desc.name +
+                   "\" " + size_text(desc.width, desc.height) + ": they must have one size");
+  GLOAM_ASSERT(is_picture(desc.format), view + ": a target image is rgba8 or bgra8, UNORM or sRGB, and \"" + desc.name +
+                                            "\" is " + std::string(name_of(desc.format)));
+  GLOAM_ASSERT(gpu::has(desc.usage, gpu::ImageUsage::color_target),
+               view + ": the target image \"" + desc.name + "\" was made without ImageUsage::color_target");
+}
+
+/// Asserts that no view is requested twice, and that none has the id of a companion.
+void check_ids(std::span<const ViewRequest> requests) {
+  std::set<std::uint32_t> ids;
+  for (const ViewRequest& request : requests) {
+    const std::uint32_t id = request.settings.id.value;
+    GLOAM_ASSERT(id - CompanionViews::kFirstId >= CompanionViews::kMost * CompanionViews::kMostMainIds,
+                 "view " + std::to_string(id) + ": ids from CompanionViews::kFirstId on are for companions");
+    GLOAM_ASSERT(ids.insert(id).second, "view " + std::to_string(id) + " is requested twice in one frame");
+  }
 }
 
 }  // namespace
@@ -163,6 +214,7 @@ const KnobRegistry& Renderer::State::settled_knobs() {
 Result<FrameView> Renderer::State::begin_view(const ViewRequest& request) const {
   FrameView own;
   own.request = request;
+  GLOAM_TRY(check_visualizer_name(request.settings.visualizer));
   if (request.settings.knobs.empty()) return own;
   auto overridden = std::make_unique<KnobRegistry>(*frame_knobs);
   for (const KnobOverride& knob : request.settings.knobs) GLOAM_TRY(overridden->set(knob.name, knob.value));
@@ -172,10 +224,8 @@ Result<FrameView> Renderer::State::begin_view(const ViewRequest& request) const 
 
 Status Renderer::State::begin_views(std::span<const ViewRequest> requests) {
   frame_views.clear();
+  check_ids(requests);
   for (const ViewRequest& request : requests) {
-    GLOAM_ASSERT(
-        request.settings.id.value - CompanionViews::kFirstId >= CompanionViews::kMost * CompanionViews::kMostMainIds,
-        "ids from CompanionViews::kFirstId on are for companions");
     Result<FrameView> own = begin_view(request);
     if (!own.ok()) return own.error();
     frame_views.push_back(std::move(*own));
@@ -210,6 +260,7 @@ Status Renderer::State::add_companions(World& world) {
     GLOAM_TRY(acquire_target(*options.device, own.request));
     check_target(*options.device, own.request);
     follow_camera(world, own.request.settings);
+    check_settings(own.request.settings);
     GLOAM_TRY(add_companions_of(world, own));
     frame_views.push_back(std::move(own));
   }
@@ -243,8 +294,8 @@ Status Renderer::State::prepare_views(World& world) {
 }
 
 Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
-  uniforms.begin_frame();
-  storage.begin_frame();
+  uniforms->begin_frame();
+  storage->begin_frame();
   results.begin_frame();
   graph.begin();
   declared.recordings.begin_frame();
@@ -276,6 +327,9 @@ Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   {
     const ScopedZone zone(options.zones, "compile_frame_graph", "engine");
     GLOAM_TRY(graph.compile());
+    for (const FrameGraph::UselessPass& pass : graph.useless_passes())
+      warn_once("pass '" + std::string(pass.name) + "' of module '" + std::string(pass.module) +
+                "' writes nothing, so it is culled: declare its writes, or call PassBuilder::keep");
   }
   {
     const ScopedZone zone(options.zones, "record_passes", "engine");
@@ -323,6 +377,11 @@ void Renderer::State::give_up_frame(std::uint64_t frame) {
 }
 
 Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> requests) {
+  const RenderSlot* slot = world.try_resource<RenderSlot>();
+  if (slot != nullptr && slot->renderer.expired()) take_world(world, slot->frames);
+  static_cast<void>(slot_of(world));
+  release_lost_worlds();
+  const Drawing mark(drawing);
   update_demand(world);
   frame_knobs = &settled_knobs();
   for (std::size_t i = 0; i < options.modules.size(); ++i)
@@ -330,6 +389,7 @@ Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> re
       options.modules[i]->prepare_world(world, *frame_knobs);
   GLOAM_TRY(run_systems(world, std::nullopt));
   GLOAM_TRY(begin_views(requests));
+  warn_of_oversights(world, requests);
   const SceneAssets& assets = world.resource<SceneAssets>();
   GLOAM_TRY(scene_of(world).sync(assets, *options.executor));
   if (any_needs(&Module::needs_simplified_casters, world))

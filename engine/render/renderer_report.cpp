@@ -93,18 +93,17 @@ FrameReport Renderer::report() {
 
 std::vector<GpuFrameTimes> Renderer::take_times() { return state_->graph.take_times(); }
 
-void Renderer::free_idle_memory() { state_->graph.free_idle_memory(); }
-
 Status Renderer::State::check_drawn(const ViewImages& view) {
   if (view.drawn) return {};
   return Error{ErrorKind::failed, "the view has no picture yet: its frames were given up"};
 }
 
 Result<Picture> Renderer::read_picture(ViewId view) {
+  state_->check_idle("read_picture");
   State& s = *state_;
   const auto found = s.images.find(view.value);
   GLOAM_ASSERT(found != s.images.end() && found->second.picture,
-               "read_picture needs a view that was rendered without a target");
+               "view " + std::to_string(view.value) + ": read_picture needs a view that was rendered without a target");
   GLOAM_TRY(State::check_drawn(found->second));
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.picture);
@@ -116,11 +115,14 @@ Result<Picture> Renderer::read_picture(ViewId view) {
 }
 
 Result<LinearPicture> Renderer::read_linear(ViewId view) {
+  state_->check_idle("read_linear");
   State& s = *state_;
   const auto found = s.images.find(view.value);
-  GLOAM_ASSERT(found != s.images.end() && found->second.lit, "read_linear needs a view that was rendered");
+  GLOAM_ASSERT(found != s.images.end() && found->second.lit,
+               "view " + std::to_string(view.value) + ": read_linear needs a view that was rendered");
   GLOAM_TRY(State::check_drawn(found->second));
-  GLOAM_ASSERT(found->second.lit_is_last, "read_linear needs a frame drawn with ViewRequest::keep_linear");
+  GLOAM_ASSERT(found->second.lit_is_last, "view " + std::to_string(view.value) +
+                                              ": read_linear needs a frame drawn with ViewRequest::keep_linear");
   GLOAM_TRY(wait());
   auto bytes = read_image_now(*s.options.device, found->second.lit);
   if (!bytes.ok()) return bytes.error();

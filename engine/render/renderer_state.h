@@ -23,12 +23,24 @@
 
 namespace gloam {
 
+/// Live as long as a renderer, and as a world that a renderer has prepared.
+struct RendererToken {};
+struct WorldToken {};
+
 /// A world's number among a renderer's GPU scenes, and its frame count. A resource of the world.
 struct RenderSlot {
   std::uint64_t value = 0;
   /// Frames drawn so far, without those that were given up or drew a frame again. Counted per world, so that pictures
   /// of one world do not depend on others.
   std::uint64_t frames = 0;
+  std::weak_ptr<const RendererToken> renderer;  ///< that has prepared the world
+  std::shared_ptr<const WorldToken> token;
+};
+
+/// What was checked of a world's MeshInstances: changes up to a tick, against a number of meshes.
+struct CheckedInstances {
+  Tick tick = 0;
+  std::size_t meshes = 0;
 };
 
 /// Images a renderer keeps for one view between frames.
@@ -60,6 +72,8 @@ struct ModuleRuntime {
   bool in_last_view = false;        ///< took part in the last declared view
   std::uint32_t idle_frames = 0;    ///< since a view demanded it
   std::uint32_t absent_frames = 0;  ///< since a world demanded it
+  /// The views that it has taken part in since it was released last: RenderSlot and id.
+  std::set<std::pair<std::uint64_t, std::uint32_t>> views;
 };
 
 /// A view of the current frame.
@@ -74,6 +88,33 @@ struct FrameView {
 struct Renderer::State {
   explicit State(RendererOptions given);
   ~State();
+
+  /// The number of a world, which must have been prepared by this renderer.
+  [[nodiscard]] const RenderSlot& slot_of(const World& world) const;
+  /// Gives the world a number of this renderer.
+  void take_world(World& world, std::uint64_t frames);
+  /// Asserts that no frame is being drawn: modules and targets must not call the renderer. call: "render".
+  void check_idle(std::string_view call) const;
+  /// Logs a warning, unless it was logged before.
+  void warn_once(const std::string& sentence);
+  /// Logs what has no effect as it is: components of the world, the views' cameras and names of modules.
+  /// The first changed MeshInstance that names no mesh, if there is one.
+  [[nodiscard]] std::optional<Oversight> find_absent_mesh(const World& world);
+  void warn_of_oversights(const World& world, std::span<const ViewRequest> requests);
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const;
+  /// Usage error unless there is a visualizer of this name, with or without an argument.
+  [[nodiscard]] Status check_visualizer_name(std::string_view name) const;
+  /// Frees all that the renderer keeps for a world but what GPU frames still use.
+  void release_slot(std::uint64_t slot);
+  /// Releases worlds that were destroyed without Renderer::release_world.
+  void release_lost_worlds();
+  void make_rings();
+  /// Frees the memory that all views of a frame share: transient, staging and that of placeholders.
+  void free_frame_memory();
+  /// Frees the memory of a module: its own, its results and its history.
+  void release_module(std::size_t index);
+  /// Releases the modules that took part in views of which `gone` is true, and in no others.
+  void release_modules_of(const std::function<bool(std::uint64_t slot, std::uint32_t id)>& gone);
 
   [[nodiscard]] FrameServices services(const KnobRegistry& view_knobs);
   [[nodiscard]] const KnobRegistry& knobs_of(const FrameView& view) const {
@@ -158,13 +199,15 @@ struct Renderer::State {
   void add_result_counters(std::map<std::string, double>& all) const;
 
   RendererOptions options;
+  gpu::DeviceUser device_user;
+  bool drawing = false;  ///< a frame is being drawn
   KnobRegistry knobs;
   std::optional<KnobRegistry> settled;       ///< the last values whose pipelines were ready; background only
   const KnobRegistry* frame_knobs = &knobs;  ///< of the current frame
   Schedule schedule;
   Pipelines pipelines;
-  UploadRing uniforms;
-  UploadRing storage;
+  std::optional<UploadRing> uniforms;
+  std::optional<UploadRing> storage;
   FrameResults results;
   declare::State declared;
   MotionHistory motion;
@@ -172,7 +215,10 @@ struct Renderer::State {
   CameraCuts cuts;
   FrameGraph graph;
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
+  std::shared_ptr<const RendererToken> token = std::make_shared<const RendererToken>();
   std::uint64_t next_slot = 1;
+  std::map<std::uint64_t, CheckedInstances> checked_instances;      ///< by RenderSlot
+  std::map<std::uint64_t, std::weak_ptr<const WorldToken>> worlds;  ///< that were prepared, by RenderSlot
   std::map<std::uint32_t, ViewImages> images;
   std::map<std::uint32_t, std::uint32_t> companion_idle_frames;  ///< of the companions that frames have drawn, by id
   /// The following members are of the current frame; pass functions refer to them.

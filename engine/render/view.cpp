@@ -3,6 +3,7 @@
 #include "engine/render/view.h"
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "engine/core/assert.h"
@@ -26,6 +27,21 @@ dvec3 reflected(const dvec3& position, const MirrorPlane& mirror) {
   return position - 2.0 * (glm::dot(mirror.normal, position) - mirror.offset) * mirror.normal;
 }
 
+bool is_positive(float value) { return value > 0.0f && std::isfinite(value); }
+
+/// Whether the matrix only turns and moves, up to rounding.
+bool is_rigid(const dmat4& m) {
+  constexpr double kRounding = 1e-3;
+  const glm::dmat3 turn(m);
+  const glm::dmat3 square = glm::transpose(turn) * turn - glm::dmat3(1.0);
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row)
+      if (!(std::abs(square[column][row]) < kRounding)) return false;  // also for NaN
+  const dvec3 position(m[3]);
+  return glm::determinant(turn) > 0.0 && std::isfinite(position.x) && std::isfinite(position.y) &&
+         std::isfinite(position.z);
+}
+
 }  // namespace
 
 CompanionViews::CompanionViews(ViewId main) : main_(main) {}
@@ -46,6 +62,36 @@ ViewId CompanionViews::add(ViewSettings settings) {
   return all_.back().id;
 }
 
+void check_settings(const ViewSettings& settings) {
+  const std::string view = "view " + std::to_string(settings.id.value);
+  GLOAM_ASSERT(settings.width > 0 && settings.height > 0, view + " is " + std::to_string(settings.width) + "x" +
+                                                              std::to_string(settings.height) +
+                                                              " pixels: a view has at least one pixel");
+  GLOAM_ASSERT(is_rigid(settings.world_from_camera),
+               view + ": ViewSettings::world_from_camera is no finite matrix of a rotation and a translation");
+  const Camera& camera = settings.camera;
+  if (camera.orthographic) {
+    GLOAM_ASSERT(is_positive(camera.half_height_m), view + ": Camera::half_height_m is not positive and finite");
+    GLOAM_ASSERT(!settings.exact_width || is_positive(camera.half_width_m),
+                 view + ": Camera::half_width_m is not positive and finite");
+    GLOAM_ASSERT(std::isfinite(camera.near_m), view + ": Camera::near_m is not finite");
+  } else {
+    GLOAM_ASSERT(camera.fov_y > 0.0f && camera.fov_y < kPi, view + ": Camera::fov_y is not in (0, pi) radians");
+    GLOAM_ASSERT(is_positive(camera.near_m), view + ": Camera::near_m is not positive and finite");
+  }
+  GLOAM_ASSERT(settings.aspect >= 0.0f && std::isfinite(settings.aspect),
+               view + ": ViewSettings::aspect is not at least 0 and finite");
+  GLOAM_ASSERT(!settings.mirror || std::abs(glm::length(settings.mirror->normal) - 1.0) < 1e-6,
+               view + ": the normal of a mirror has unit length");
+}
+
+std::string camera_fault(const World& world, Entity camera) {
+  if (!world.alive(camera)) return text_of(camera) + " is not alive";
+  if (!world.has<Camera>(camera)) return text_of(camera) + " has no Camera";
+  if (!world.has<WorldTransform>(camera)) return text_of(camera) + " has no WorldTransform";
+  return {};
+}
+
 void follow_camera(const World& world, ViewSettings& settings) {
   if (!settings.follow_camera) return;
   const auto* lens = world.try_resource<LensPoint>();
@@ -60,7 +106,7 @@ void follow_camera(const World& world, ViewSettings& settings) {
 }
 
 RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame) {
-  GLOAM_ASSERT(settings.width > 0 && settings.height > 0, "a view has at least one pixel");
+  check_settings(settings);
   RenderView view;
   view.id = view.main_view = settings.id;
   view.width = settings.width;
@@ -78,7 +124,6 @@ RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uin
   rotation[3] = dvec4(0.0, 0.0, 0.0, 1.0);
   if (settings.mirror) {
     const MirrorPlane& mirror = *settings.mirror;
-    GLOAM_ASSERT(std::abs(glm::length(mirror.normal) - 1.0) < 1e-6, "the normal of a mirror has unit length");
     view.position = reflected(view.position, mirror);
     rotation = reflection(mirror.normal) * rotation;
     view.mirrored = view.clipped = true;
@@ -112,6 +157,8 @@ RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uin
 
 ViewSettings settings_for_camera(const World& world, Entity camera, std::uint32_t width, std::uint32_t height) {
   if (camera == kNoEntity) return framed_view(world, width, height);
+  const std::string fault = camera_fault(world, camera);
+  GLOAM_ASSERT(fault.empty(), "settings_for_camera: " + fault);
   ViewSettings settings;
   settings.width = width;
   settings.height = height;

@@ -58,7 +58,7 @@ struct ViewSettings {
   bool follow_camera = true;
   dmat4 world_from_camera = dmat4(1.0);  ///< rigid; the camera looks along −Z
   Camera camera;
-  std::string visualizer = "none";  ///< a name of Renderer::visualizers()
+  std::string visualizer = "none";  ///< a name of Renderer::visualizers(); an unknown one is a usage error
   float heat_range = 1.0f;          ///< factor on the ends of visualizers' heat scales (HeatScale), > 0
   ViewPurpose purpose = ViewPurpose::main;
   std::vector<KnobOverride> knobs;   ///< replace the renderer's values in this view; an unknown one is a usage error
@@ -157,6 +157,12 @@ struct RenderView {
   }
 };
 
+/// Asserts that a view can be drawn with these settings: its size, matrix, lens and mirror. Names the view.
+void check_settings(const ViewSettings& settings);
+
+/// Why no camera can be taken from the entity, in one sentence that names it; empty if one can.
+[[nodiscard]] std::string camera_fault(const World& world, Entity camera);
+
 /// If settings.follow_camera is set and settings.camera_entity is alive, sets pose and lens from its current state, and
 /// settings.lens from the world's LensPoint.
 void follow_camera(const World& world, ViewSettings& settings);
@@ -164,8 +170,8 @@ void follow_camera(const World& world, ViewSettings& settings);
 /// cut_frame: see RenderView.
 [[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame = 0);
 
-/// Settings for the view of a camera entity, from its Camera and WorldTransform. kNoEntity: framed_view(). width,
-/// height: pixels.
+/// Settings for the view of a camera entity, from its Camera and WorldTransform, which it must have. kNoEntity:
+/// framed_view(). width, height: pixels.
 [[nodiscard]] ViewSettings settings_for_camera(const World& world, Entity camera, std::uint32_t width,
                                                std::uint32_t height);
 

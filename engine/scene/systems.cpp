@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include "engine/core/assert.h"
@@ -69,6 +70,11 @@ dmat4 world_or(const View<const WorldTransform>& worlds, Entity entity, const dm
 
 }  // namespace
 
+std::string absent_mesh(Entity entity, std::uint32_t mesh, std::size_t meshes) {
+  return text_of(entity) + " names mesh " + std::to_string(mesh) + ", and SceneAssets has " + std::to_string(meshes) +
+         " meshes";
+}
+
 void add_scene_systems(Schedule& schedule) {
   schedule.add_system("animation", "engine", Stage::world, &animation_system);
   schedule.add_system("transforms", "engine", Stage::world, &transform_system);
@@ -110,7 +116,9 @@ void joint_system(View<const MeshInstance> instances, View<const WorldTransform>
   joints->ranges.clear();
   std::uint32_t total = 0;
   for (const SkinnedInstance& instance : skinned) {
-    GLOAM_ASSERT(instance.skin < assets->skins.size(), "a MeshInstance names a skin of SceneAssets");
+    GLOAM_ASSERT(instance.skin < assets->skins.size(), text_of(instance.entity) + " names skin " +
+                                                           std::to_string(instance.skin) + ", and SceneAssets has " +
+                                                           std::to_string(assets->skins.size()) + " skins");
     const auto count = static_cast<std::uint32_t>(assets->skins[instance.skin].joint_nodes.size());
     joints->ranges.push_back({.instance = instance.entity, .first = total, .count = count});
     total += count;
@@ -139,7 +147,7 @@ void morph_system(View<const MeshInstance, MorphInstance> instances, Resource<co
                   Resource<MorphWeights> weights) {
   std::vector<std::pair<Entity, MorphRow>> rows;
   instances.each([&](Entity entity, const MeshInstance& mesh, MorphInstance& instance) {
-    GLOAM_ASSERT(mesh.mesh < assets->meshes.size(), "a MeshInstance names a mesh of SceneAssets");
+    GLOAM_ASSERT(mesh.mesh < assets->meshes.size(), absent_mesh(entity, mesh.mesh, assets->meshes.size()));
     rows.push_back({entity, {.instance = &instance, .mesh = &assets->meshes[mesh.mesh]}});
   });
   std::ranges::sort(rows, {}, [](const auto& row) { return row.first.index; });

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
 #include "engine/ecs/view.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/assets.h"
@@ -14,6 +18,9 @@ namespace gloam {
 
 /// Adds animation, transform, joint-matrix and morph systems (module "engine", world stage), in that order.
 void add_scene_systems(Schedule& schedule);
+
+/// A sentence about a MeshInstance whose mesh is not below `meshes`, the number of meshes of SceneAssets.
+[[nodiscard]] std::string absent_mesh(Entity entity, std::uint32_t mesh, std::size_t meshes);
 
 /// Writes the poses at SceneClock's time to LocalTransform. All clips play at once; each loops with its own duration.
 void animation_system(View<const SourceNode> sources, View<LocalTransform> poses, Resource<const SceneAssets> assets,

@@ -69,6 +69,7 @@ bool has_subjects(const World& world) {
 class CloseupsModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "closeups"; }
+  [[nodiscard]] std::vector<std::string_view> needs() const override { return {"lights", "shadows"}; }
   void register_components(World& world) const override {
     world.register_component<CloseupSubject>("closeup_subject");
     world.register_component<CloseupPair>("closeup_pair");

@@ -37,6 +37,9 @@ Demand view_demand(const World& world, const RenderView& view) {
 class DepthOfFieldModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "depth_of_field"; }
+  [[nodiscard]] std::vector<std::string_view> follows() const override {
+    return {"lights", "shadows", "closeups", "lighting", "reflections", "grass", "particles", "fog"};
+  }
   void register_components(World& world) const override { world.register_component<DepthOfField>("depth_of_field"); }
   void scene_keys(KeyRegistry& registry) const override {
     const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {

@@ -26,6 +26,9 @@ HomogeneousFog homogeneous(const Fog& fog) { return {fog.density, fog.color, kFo
 class FogModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "fog"; }
+  [[nodiscard]] std::vector<std::string_view> follows() const override {
+    return {"lights", "shadows", "closeups", "lighting"};
+  }
 
   void register_components(World& world) const override { world.register_component<Fog>("fog"); }
 

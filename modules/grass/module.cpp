@@ -38,6 +38,9 @@ void grass_patches_system(Resource<const GrassField> field, ViewResource<const R
 class GrassModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "grass"; }
+  [[nodiscard]] std::vector<std::string_view> follows() const override {
+    return {"lights", "shadows", "closeups", "lighting"};
+  }
   void register_components(World& world) const override {
     world.register_component<GrassSurface>("grass_surface");
     world.register_component<Collider>("collider");

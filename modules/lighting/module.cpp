@@ -16,6 +16,7 @@ namespace {
 class LightingModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "lighting"; }
+  [[nodiscard]] std::vector<std::string_view> follows() const override { return {"lights", "shadows", "closeups"}; }
 
   void register_components(World& world) const override { world.set_resource(FlameSource{}); }
   void scene_keys(KeyRegistry&) const override {}

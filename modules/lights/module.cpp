@@ -7,6 +7,7 @@
 #include "engine/ecs/view.h"
 #include "engine/render/frame_builder.h"
 #include "modules/lights/debug/measures.h"
+#include "modules/lights/debug/oversights.h"
 #include "modules/lights/debug/pick.h"
 #include "modules/lights/debug/visualizers.h"
 #include "modules/lights/keys.h"
@@ -89,6 +90,8 @@ class LightsModule final : public Module {
       return {false, lights + ", none in view"};
     return {true, lights};
   }
+
+  [[nodiscard]] std::vector<Oversight> oversights(const World& world) const override { return dark_lights(world); }
 
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
     list_light_pipelines(knobs, device, list);

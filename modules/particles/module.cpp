@@ -29,6 +29,8 @@ constexpr const char* kDrawsResult = "draws";
 class ParticlesModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "particles"; }
+  [[nodiscard]] std::vector<std::string_view> needs() const override { return {"lights"}; }
+  [[nodiscard]] std::vector<std::string_view> follows() const override { return {"shadows", "closeups", "lighting"}; }
   void register_components(World& world) const override {
     world.register_component<ParticleEmitter>("particle_emitter");
     world.set_resource(particle_flames());

@@ -60,6 +60,8 @@ ReflectionExtras traced_extras(const World& world) {
 class ReflectionsModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "reflections"; }
+  [[nodiscard]] std::vector<std::string_view> needs() const override { return {"lights"}; }
+  [[nodiscard]] std::vector<std::string_view> follows() const override { return {"shadows", "closeups", "lighting"}; }
   void register_components(World& world) const override {
     world.register_component<IbrProxy>("ibr_proxy");
     world.register_component<FlameProxy>("flame_proxy");

@@ -37,6 +37,7 @@ namespace {
 class ShadowsModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "shadows"; }
+  [[nodiscard]] std::vector<std::string_view> needs() const override { return {"lights"}; }
 
   void register_components(World& world) const override {
     world.register_component<ShadowCaster>("shadow_caster");

@@ -20,9 +20,14 @@ gpu::ImageDesc desc_for(const InterfaceBinding& binding) {
 
 }  // namespace
 
-Placeholders::~Placeholders() {
-  for (auto& [key, image] : images_) device_.destroy(image.image);
+Placeholders::~Placeholders() { release(); }
+
+void Placeholders::release() {
+  for (auto& [key, image] : images_)
+    if (image.image) device_.destroy(image.image);
+  images_.clear();
   if (buffer_) device_.destroy(buffer_);
+  buffer_ = {};
 }
 
 Result<ImageRef> Placeholders::image(FrameGraph& graph, const InterfaceBinding& binding) {

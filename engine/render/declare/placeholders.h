@@ -26,6 +26,8 @@ class Placeholders {
   /// A uniform and storage buffer of kBufferBytes.
   [[nodiscard]] Result<gpu::Binding::BufferRange> buffer();
   static constexpr std::uint64_t kBufferBytes = 65536;
+  /// Destroys all; they are created again when they are needed.
+  void release();
 
  private:
   using Key = std::tuple<gpu::ImageDimension, bool, gpu::TexelKind, bool>;  ///< dimension, arrayed, texels, storage

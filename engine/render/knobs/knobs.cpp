@@ -53,14 +53,15 @@ std::string value_text(const Knob& knob, double value) {
 }
 
 void KnobRegistry::add(Knob knob) {
-  GLOAM_ASSERT(find(knob.name) == nullptr, "a knob's name is declared twice");
+  GLOAM_ASSERT(find(knob.name) == nullptr, "knob " + knob.name + " is declared twice");
   if (knob.type == Knob::Type::choice) {
     knob.min = 0.0;
     knob.max = static_cast<double>(knob.choices.size()) - 1.0;
   }
   GLOAM_ASSERT(knob.default_number >= knob.min && knob.default_number <= knob.max,
-               "a knob's default lies outside its range");
-  GLOAM_ASSERT(knob.exact.empty() || parse_value(knob, knob.exact), "a knob's exact value is none of its values");
+               "knob " + knob.name + ": its default lies outside its range");
+  GLOAM_ASSERT(knob.exact.empty() || parse_value(knob, knob.exact),
+               "knob " + knob.name + ": its exact value is none of its values");
   values_.push_back(knob.default_number);
   knobs_.push_back(std::move(knob));
 }
@@ -106,13 +107,13 @@ const Knob* KnobRegistry::find(std::string_view name) const {
 
 std::size_t KnobRegistry::index_of(std::string_view name) const {
   const Knob* knob = find(name);
-  GLOAM_ASSERT(knob != nullptr, "a knob must be declared before it is read");
+  GLOAM_ASSERT(knob != nullptr, "knob " + std::string(name) + " must be declared before it is read");
   return static_cast<std::size_t>(knob - knobs_.data());
 }
 
 std::uint32_t KnobRegistry::choice(std::string_view name) const {
   const std::size_t i = index_of(name);
-  GLOAM_ASSERT(knobs_[i].type == Knob::Type::choice, "the knob has no choices");
+  GLOAM_ASSERT(knobs_[i].type == Knob::Type::choice, "knob " + std::string(name) + " has no choices");
   return static_cast<std::uint32_t>(values_[i]);
 }
 

@@ -69,7 +69,8 @@ std::vector<std::string> Renderer::State::picked_lines(std::uint32_t x, std::uin
 Result<std::vector<std::string>> Renderer::pick(World& world, ViewId view, std::uint32_t x, std::uint32_t y) {
   State& s = *state_;
   const auto images = s.images.find(view.value);
-  GLOAM_ASSERT(images != s.images.end(), "pick needs a view of the last frame");
+  GLOAM_ASSERT(images != s.images.end(),
+               "view " + std::to_string(view.value) + ": pick needs a view of the last frame");
   if (x >= images->second.width || y >= images->second.height)
     return Error{ErrorKind::usage, "the picked pixel lies outside the picture"};
   GLOAM_TRY(draw_again(world, view, [&s](FrameBuilder& frame) { return s.add_pick_copies(frame); }));

@@ -33,7 +33,10 @@ Status Renderer::draw_again(World& world, ViewId view, std::function<Status(Fram
   State& s = *state_;
   const std::vector<ViewRequest> all = s.last_requests;
   const auto last = std::ranges::find(all, view, [](const ViewRequest& request) { return request.settings.id; });
-  GLOAM_ASSERT(last != all.end(), "what is read back must be of a view of the last frame");
+  GLOAM_ASSERT(last != all.end(),
+               "view " + std::to_string(view.value) + ": what is read back must be of a view of the last frame");
+  GLOAM_ASSERT(s.images.at(view.value).world == s.slot_of(world).value,
+               "view " + std::to_string(view.value) + " was drawn of another world");
   ViewRequest again = *last;
   again.target = {};  // the image of a window may be gone
   again.settings.width = s.images.at(view.value).width;

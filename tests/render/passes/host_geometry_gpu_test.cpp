@@ -312,7 +312,7 @@ TEST_F(HostGeometryTest, images_are_checked) {
   request.settings.width = 65;
   request.geometry = *HostGeometry::create(*test::drawing_device(), good);
   EXPECT_ASSERT((void)host->renderer->render(host->world, {&request, 1}),
-                "the host's geometry has the size of its view");
+                "the host's geometry 64x36: they must have one size");
 }
 
 }  // namespace
