@@ -4,6 +4,8 @@
 
 #include <glm/ext/matrix_transform.hpp>
 
+#include "engine/render/draws/caster_source.h"
+#include "engine/render/frame_builder.h"
 #include "little_world.h"
 #include "shaders/boxes/shaders.h"
 
@@ -19,6 +21,8 @@ gpu::GraphicsPipelineDesc pipeline_of_boxes() {
 class BoxCasters final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "boxes"; }
+  void register_components(World&) const override {}
+  void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "the host's boxes"}; }
   void pipelines(const KnobRegistry&, const gpu::DeviceInfo&, PipelineList& list) const override {
     list.push_back(pipeline_of_boxes());
