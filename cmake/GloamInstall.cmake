@@ -13,31 +13,63 @@ set_target_properties(gloam_gloam PROPERTIES EXPORT_NAME gloam)
 target_link_libraries(gloam_gloam INTERFACE ${gloam_layers})
 set_target_properties(gloam_options PROPERTIES EXPORT_NAME options)
 
-# Packages that gloamConfig.cmake must find, as pairs: a pattern of target names that the layers link, and the package
-# of those targets.
-set(gloam_packages
+# Pairs: a pattern of target names that layers link, and the package of those targets.
+set(gloam_package_patterns
   "^Threads::" Threads "^glm::" glm "^TBB::" TBB "^Vulkan::" Vulkan "^TinyGLTF::" TinyGLTF "^OpenMesh" OpenMesh
   "^(OpenEXR|Imath)::" OpenEXR "^meshoptimizer::" meshoptimizer "^nlohmann_json::" nlohmann_json "^embree" embree)
-set(GLOAM_FIND_DEPENDENCIES "")
-set(gloam_links "")
-foreach(layer IN LISTS gloam_layers)
-  get_target_property(links ${layer} LINK_LIBRARIES)
-  list(APPEND gloam_links ${links})
-endforeach()
-list(REMOVE_DUPLICATES gloam_links)
-while(gloam_packages)
-  list(POP_FRONT gloam_packages pattern package)
-  set(matches ${gloam_links})
-  list(FILTER matches INCLUDE REGEX "${pattern}")
-  if(matches)
-    string(APPEND GLOAM_FIND_DEPENDENCIES "find_dependency(${package})\n")
-  endif()
-endwhile()
 
+# gloam_find_packages(<variable> <target>…): the packages of these targets.
+function(gloam_find_packages variable)
+  set(packages "")
+  set(patterns ${gloam_package_patterns})
+  while(patterns)
+    list(POP_FRONT patterns pattern package)
+    set(matches ${ARGN})
+    list(FILTER matches INCLUDE REGEX "${pattern}")
+    if(matches)
+      list(APPEND packages ${package})
+    endif()
+  endwhile()
+  set(${variable} ${packages} PARENT_SCOPE)
+endfunction()
+
+# gloam_find_parts(<variable> <component>): appends the components that this one links, each after those that it links
+# itself.
+function(gloam_find_parts variable component)
+  set(parts ${${variable}})
+  get_target_property(links gloam_${component} LINK_LIBRARIES)
+  if(component STREQUAL "gloam" OR component STREQUAL "options")
+    get_target_property(links gloam_${component} INTERFACE_LINK_LIBRARIES)
+  endif()
+  list(FILTER links INCLUDE REGEX "^gloam(_|::)")
+  list(TRANSFORM links REPLACE "^gloam(_|::)" "")
+  foreach(part IN LISTS links)
+    if(NOT part IN_LIST parts)
+      gloam_find_parts(parts ${part})
+      list(APPEND parts ${part})
+    endif()
+  endforeach()
+  set(${variable} ${parts} PARENT_SCOPE)
+endfunction()
+
+# Each layer is a component of the package: an export set, so that its target exists only if it is asked for.
 set(gloam_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gloam)
-install(TARGETS ${gloam_layers} gloam_options gloam_gloam EXPORT gloamTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT gloam)
-install(EXPORT gloamTargets NAMESPACE gloam:: DESTINATION ${gloam_package_dir} COMPONENT gloam)
+set(GLOAM_COMPONENTS ${gloam_layers} gloam_gloam)
+list(TRANSFORM GLOAM_COMPONENTS REPLACE "^gloam_" "")
+set(GLOAM_COMPONENT_TABLE "")
+foreach(component IN LISTS GLOAM_COMPONENTS ITEMS options)
+  set(parts "")
+  gloam_find_parts(parts ${component})
+  get_target_property(links gloam_${component} LINK_LIBRARIES)
+  gloam_find_packages(packages ${links})
+  list(JOIN parts " " parts)
+  list(JOIN packages " " packages)
+  string(APPEND GLOAM_COMPONENT_TABLE "set(gloam_stands_on_${component} ${parts})\nset(gloam_packages_${component} ${packages})\n")
+  install(TARGETS gloam_${component} EXPORT gloam_${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT gloam)
+  install(EXPORT gloam_${component} NAMESPACE gloam:: FILE gloamTargets-${component}.cmake DESTINATION ${gloam_package_dir}
+    COMPONENT gloam)
+endforeach()
+list(JOIN GLOAM_COMPONENTS " " GLOAM_COMPONENTS)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/gloamConfig.cmake.in ${PROJECT_BINARY_DIR}/gloamConfig.cmake
   INSTALL_DESTINATION ${gloam_package_dir} NO_SET_AND_CHECK_MACRO)
 # Below 1.0 a minor version may change the interface.
@@ -46,13 +78,14 @@ install(FILES ${PROJECT_BINARY_DIR}/gloamConfig.cmake ${PROJECT_BINARY_DIR}/gloa
   ${PROJECT_SOURCE_DIR}/cmake/GloamShaders.cmake ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake DESTINATION ${gloam_package_dir} COMPONENT gloam)
 
 # Headers keep their paths relative to the root, below include/gloam. Targets add that folder to the include path, so
-# that `#include "engine/…"` works and nothing else in include/ is shadowed. Of modules only the public headers are
-# installed; engine/gpu/vulkan is not.
+# that `#include "engine/…"` works and nothing else in include/ is shadowed. Of modules only the public headers and those
+# of CPU rooms are installed; engine/gpu/vulkan is not.
 set(gloam_include_dir include/gloam)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING PATTERN "*.h" PATTERN "engine/gpu/vulkan" EXCLUDE PATTERN "engine/render/attempt.h" EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION ${gloam_include_dir} COMPONENT gloam
-  FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|module_list)\\.h$")
+  FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|light_names|module_list)\\.h$"
+  REGEX "/modules/(lights/(bins|masks|selection)|closeups/umbra|reflections/culling|grass/growth)/[a-z_]+\\.h$")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING REGEX "_(shared\\.h|api\\.glsl)$|/shaders/common/[a-z_]+\\.(h|glsl)$" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam

@@ -14,6 +14,8 @@ target_compile_definitions(gloam_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE)
 # No contraction to fused multiply-add: a CPU clone of a shader and the same code in another translation unit must agree
 # bit for bit.
 target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
+# A section for each function and object, so that a host that links with -Wl,--gc-sections drops what it does not use.
+target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffunction-sections;-fdata-sections>)
 if(GLOAM_SANITIZE)
   target_compile_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE})

@@ -9,8 +9,8 @@
 
 #include "engine/ecs/entity.h"
 #include "engine/ecs/world.h"
-#include "engine/math/frustum.h"
 #include "engine/math/types.h"
+#include "engine/math/view_projection.h"
 #include "engine/scene/components.h"
 
 namespace gloam {
@@ -114,20 +114,13 @@ struct ViewCamera {
 };
 
 /// One view of one frame, for systems and passes. A view resource. Positions on the GPU are relative to `position`.
-struct RenderView {
+struct RenderView : ViewProjection {
   ViewId id{0};
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
   /// Number among the drawn frames of its world, from 0. A frame that is given up or drawn again gives its number on.
   std::uint64_t frame = 0;
-  std::uint64_t cut_frame = 0;          ///< the view's newest frame with a camera cut, ≤ frame; its first is one
-  Entity camera_entity = kNoEntity;     ///< camera whose effects the view has, or kNoEntity
-  dvec3 position = dvec3(0.0);          ///< world position of the camera
-  mat4 view_from_relative = mat4(1.0);  ///< rotation only
-  mat4 clip_from_view = mat4(1.0);      ///< reversed Z
-  mat4 clip_from_relative = mat4(1.0);
+  std::uint64_t cut_frame = 0;       ///< the view's newest frame with a camera cut, ≤ frame; its first is one
+  Entity camera_entity = kNoEntity;  ///< camera whose effects the view has, or kNoEntity
   Camera camera;
-  float near_m = 0.1f;
   ViewPurpose purpose = ViewPurpose::main;
   bool mirrored = false;  ///< front faces of unmirrored meshes are clockwise; `position` is the mirrored camera's
   bool clipped = false;   ///< only what is on the visible side of clip_plane is drawn
@@ -136,7 +129,6 @@ struct RenderView {
   /// The view that this one is a companion of; its own id if it is none.
   ViewId main_view{0};
   bool has_companions = false;
-  Frustum frustum;  ///< in camera-relative space
   /// The view's camera in the world's previous drawn frame. If there is none (has_previous), the current camera. There
   /// is none after a camera cut, and if the world's previous frame did not draw the view.
   ViewCamera previous;
@@ -148,8 +140,6 @@ struct RenderView {
   [[nodiscard]] bool is_companion() const { return main_view != id; }
   /// Whether the camera was cut between the view's last frame and this one.
   [[nodiscard]] bool camera_cut() const { return cut_frame == frame; }
-  /// Camera-relative float position of a world position.
-  [[nodiscard]] vec3 relative(const dvec3& world) const { return vec3(world - position); }
   /// View depth in metres of a value of the depth image (reversed Z); not for the sky's 0.
   [[nodiscard]] float view_depth(float depth) const {
     const mat4& m = clip_from_view;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/plain_text.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/gltf/animation_import.h"
 #include "engine/scene/gltf/compressed_views.h"
@@ -24,7 +25,6 @@
 #include "engine/scene/gltf/poses.h"
 #include "engine/scene/gltf/scene_totals.h"
 #include "engine/scene/gltf/tinygltf_reader.h"
-#include "engine/scene/plain_text.h"
 #include "engine/scene/scene_path.h"
 
 namespace gloam {

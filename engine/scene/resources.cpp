@@ -4,7 +4,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/core/nearest_name.h"
-#include "engine/scene/plain_text.h"
+#include "engine/core/plain_text.h"
 
 namespace gloam {
 

@@ -18,6 +18,7 @@
 #include "modules/closeups/passes.h"
 #include "modules/closeups/systems.h"
 #include "modules/lights/components.h"
+#include "modules/lights/light_names.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/components.h"
 

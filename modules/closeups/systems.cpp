@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "modules/closeups/pairs/frustum.h"
-#include "modules/closeups/pairs/light.h"
 #include "modules/closeups/pairs/pairs.h"
+#include "modules/closeups/umbra/light.h"
 #include "modules/closeups/umbra/umbra_projection.h"
 
 namespace gloam {

@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
+#include "modules/grass/field/entities.h"
 #include "modules/grass/frame.h"
-#include "modules/grass/growth/entities.h"
 #include "modules/grass/lod/store.h"
 
 namespace gloam {

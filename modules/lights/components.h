@@ -4,16 +4,10 @@
 
 #include <cmath>
 #include <cstdint>
-#include <string_view>
-#include <vector>
 
-#include "engine/core/result.h"
-#include "engine/ecs/world.h"
 #include "engine/math/types.h"
 
 namespace gloam {
-
-class SceneNames;
 
 enum class LightKind : std::uint8_t { point, spot, directional };
 
@@ -57,12 +51,7 @@ struct LightBounds {
   return unusual_light_direction(node_z);
 }
 
-/// The lights named in a comma-separated list. Input error when a name is unknown or shared by two lights; the message
-/// names `key`.
-[[nodiscard]] Result<std::vector<Entity>> resolve_light_names(const SceneNames& scene, std::string_view names,
-                                                              std::string_view key);
-/// The same with the world's SceneNames.
-[[nodiscard]] Result<std::vector<Entity>> resolve_light_names(const World& world, std::string_view names,
-                                                              std::string_view key);
+/// Side of a shadow tile in pixels. Each shadow tile has one light list.
+inline constexpr std::uint32_t kShadowTile = 8;
 
 }  // namespace gloam

@@ -13,6 +13,7 @@
 #include "engine/math/types.h"
 #include "engine/render/declare/shader_pass.h"
 #include "engine/render/frame_builder.h"
+#include "modules/lights/components.h"
 
 namespace gloam {
 
@@ -91,9 +92,6 @@ struct DirectionalLook {
 [[nodiscard]] double local_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& point,
                                           const vec3& normal);
 [[nodiscard]] double directional_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& normal);
-
-/// Side of a shadow tile in pixels. Each shadow tile has one light list.
-inline constexpr std::uint32_t kShadowTile = 8;
 
 /// Bytes of a LightBlock with no lights, for shading a scene that has none.
 [[nodiscard]] std::span<const std::byte> empty_light_block();

@@ -150,7 +150,7 @@ struct BoundsJob {
   }
 };
 
-bool same_view(const RenderView& a, const RenderView& b) {
+bool same_view(const ViewProjection& a, const ViewProjection& b) {
   return a.width == b.width && a.height == b.height && a.position == b.position && a.near_m == b.near_m &&
          a.view_from_relative == b.view_from_relative && a.clip_from_view == b.clip_from_view;
 }

@@ -5,6 +5,7 @@
 #include "engine/ecs/view.h"
 #include "engine/scene/components.h"
 #include "engine/schedule/schedule.h"
+#include "modules/lights/light_set.h"
 #include "modules/lights/selection/light_list.h"
 
 namespace gloam {

@@ -22,7 +22,7 @@
 #include "modules/reflections/bake/proxy_capture.h"
 #include "modules/reflections/bake/proxy_texture.h"
 #include "modules/reflections/components.h"
-#include "modules/reflections/proxies/placed.h"
+#include "modules/reflections/culling/placed.h"
 
 namespace gloam {
 namespace {

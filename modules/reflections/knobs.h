@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "engine/render/knobs/knobs.h"
-#include "modules/reflections/proxies/tiles.h"
+#include "modules/reflections/culling/tiles.h"
 
 namespace gloam {
 

@@ -7,6 +7,7 @@
 #include "engine/scene/key_table.h"
 #include "modules/lighting/outputs.h"
 #include "modules/lights/components.h"
+#include "modules/lights/light_names.h"
 #include "modules/reflections/bake.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/components.h"

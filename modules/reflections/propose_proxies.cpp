@@ -8,13 +8,13 @@
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/components.h"
+#include "modules/reflections/culling/placed.h"
 #include "modules/reflections/fitting/caught_rays.h"
 #include "modules/reflections/fitting/choose_quads.h"
 #include "modules/reflections/fitting/reflected_rays.h"
 #include "modules/reflections/fitting/region_quads.h"
 #include "modules/reflections/fitting/scene_surfaces.h"
 #include "modules/reflections/module.h"
-#include "modules/reflections/proxies/placed.h"
 
 namespace gloam {
 namespace {

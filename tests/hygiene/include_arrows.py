@@ -22,23 +22,32 @@ MODULES = {
     "depth_of_field": ("fog", "reflections", "grass", "particles"),
     "visualizers": ("depth_of_field",), "accuracy": ("depth_of_field",),
 }
-HOST = "tests/embedding/host/"  # a separate project, which sees our headers as installed and its own headers by their names
+# Separate projects, which see our headers as installed and their own headers by their names.
+HOSTS = ("tests/embedding/host/", "tests/embedding/host_cpu/")
 MODULE_LIST = "module_list"  # knows every module; no module may include it
-MODULE_PUBLIC = ("components.h", "module.h", "outputs.h", "bake.h", "captures.h", "baked_light.h", "reference.h")
+MODULE_PUBLIC = ("components.h", "module.h", "outputs.h", "bake.h", "captures.h", "baked_light.h", "reference.h", "light_names.h")
+
+# The rooms of modules that are also a target <module>_cpu, for hosts without a GPU, and the files directly in the folder that
+# belong to it. They include one another along the arrows of modules, the layers below, and nothing else.
+CPU_ROOMS = {
+    "lights": (("bins", "masks", "selection"), ("components", "cpu_clones")), "closeups": (("umbra",), ("components",)),
+    "reflections": (("culling",), ("components",)), "grass": (("growth",), ("components",)),
+}
+CPU_LAYERS = ("core", "math", "jobs", "ecs")
 
 # Folders with rooms: the rooms in the order in which data flows through them, and the headers directly in the folder
 # that rooms may include. A room may include itself and earlier rooms. Other files directly in the folder may include
 # any room.
 ROOMS = {
-    "modules/lights": (("bins", "masks", "selection", "lists", "debug"), ("components", "outputs", "cpu_clones")),
+    "modules/lights": (("bins", "masks", "selection", "lists", "debug"), ("components", "outputs", "cpu_clones", "light_names", "light_set")),
     "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
                         ("components", "outputs", "knobs", "reference")),
-    "modules/closeups": (("pairs", "umbra", "compose", "debug"), ("components", "knobs")),
+    "modules/closeups": (("umbra", "pairs", "compose", "debug"), ("components", "knobs")),
     "modules/lighting": (("antialiasing",), ("components", "outputs", "environment", "exposure", "passes")),
-    "modules/reflections": (("surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
+    "modules/reflections": (("culling", "surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
                              "fitting", "bake", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials")),
-    "modules/grass": (("growth", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
+    "modules/grass": (("growth", "field", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
     "modules/particles": (("emitters", "bake", "simulation", "sorting", "lighting", "drawing", "reference", "debug"),
                           ("components", "baked_light", "bake", "knobs", "frame")),
     "modules/depth_of_field": (("lens", "tiles", "blur", "compose", "reference", "debug"), ("components", "knobs", "frame")),
@@ -51,7 +60,7 @@ ROOMS = {
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
     "shaders/particles": (("simulation", "sorting", "lighting", "drawing", "debug"), None),
-    "shaders/reflections": (("surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
+    "shaders/reflections": (("culling", "surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
                              "debug"), None),
 }
 
@@ -96,6 +105,26 @@ def is_public_header(name):
     if not name.endswith(".h") or parts[0] not in ("engine", "modules"):
         return False
     return parts[0] == "engine" or parts[1] == MODULE_LIST or (len(parts) == 3 and parts[-1] in MODULE_PUBLIC)
+
+
+def is_cpu_file(parts):
+    """Whether a file belongs to the target <module>_cpu."""
+    rooms, base = CPU_ROOMS.get(parts[1], ((), ())) if parts[0] == "modules" else ((), ())
+    return parts[2] in rooms if len(parts) > 3 else len(parts) == 3 and parts[2].partition(".")[0] in base
+
+
+def is_installed_header(name):
+    parts = name.split("/")
+    return is_public_header(name) or (name.endswith(".h") and len(parts) > 3 and is_cpu_file(parts))
+
+
+def cpu_fault(parts, target):
+    """The reason why a file of a CPU target may not include a project path, or None."""
+    if not is_cpu_file(parts) or is_cpu_file(target) or (target[0] == "shaders" and target[-1] != "shaders.h"):
+        return None
+    if target[0] == "engine" and len(target) > 2 and target[1] in CPU_LAYERS:
+        return None
+    return f"{parts[1]}_cpu stands on {', '.join(CPU_LAYERS)} and CPU rooms only"
 
 
 def cpp_arrow(parts, target):
@@ -163,7 +192,7 @@ def third_party_fault(name, include):
     for pattern, places, what in HEAVY:
         if pattern.search(include) and not name.startswith(places):
             return f"<{include}>: {what} stay in {', '.join(p.rstrip('/') for p in places)}"
-    if is_public_header(name) and NOT_IN_PUBLIC_HEADERS.search(include):
+    if is_installed_header(name) and NOT_IN_PUBLIC_HEADERS.search(include):
         # Exceptions: headers of engine/gpu that include Vulkan and are not installed, and the header for hosts with a
         # VkDevice.
         if not re.fullmatch(r"engine/gpu/vulkan/.*|engine/gpu/vulkan_interop\.h|engine/gpu/.*_internal\.h|engine/gpu/vk_.*\.h", name):
@@ -213,9 +242,10 @@ def check_file(root, name):
         return [f"{name}: {fault}"]
     faults = []
     found = includes(source_text.read(root, name))
-    if name.startswith(HOST):
-        found = [(line, HOST + include if quoted and (root / HOST / include).is_file() else include, quoted)
-                 for line, include, quoted in found]
+    for host in HOSTS:
+        if name.startswith(host):
+            found = [(line, host + include if quoted and (root / host / include).is_file() else include, quoted)
+                     for line, include, quoted in found]
     own_header = re.sub(r"\.cpp$", ".h", name)
     if name.endswith(".cpp") and (root / own_header).is_file() and (not found or found[0][1] != own_header):
         faults.append(f"{name}: its own header comes first")
@@ -227,7 +257,8 @@ def check_file(root, name):
             fault = None if not quoted and name.endswith(".h") else shader_arrow(parts, target)
         elif ours:
             fault = cpp_arrow(parts, target)
-            if fault is None and is_public_header(name) and target[0] == "modules" and not is_public_header(include):
+            fault = fault or cpu_fault(parts, target)
+            if fault is None and is_installed_header(name) and target[0] == "modules" and not is_installed_header(include):
                 fault = "a public header includes public headers only"
         else:
             fault = third_party_fault(name, include)

@@ -153,8 +153,25 @@ class IncludeArrows(Tree):
         self.check_include("modules/grass/a.cpp", "modules/module_list/module_list.h", "does not stand on")
         self.check_include("modules/module_list/a.cpp", "modules/accuracy/module.h")
         self.check_include("modules/module_list/a.cpp", "modules/lights/bins/z_bins.h", "of another module only")
-        self.check_include("modules/lights/module.h", "modules/lights/bins/z_bins.h", "public headers only")
+        self.check_include("modules/lights/module.h", "modules/lights/lists/buffers.h", "public headers only")
         self.check_include("modules/unheard_of/a.cpp", "engine/core/b.h", "not in the architecture")
+
+    def test_cpu_rooms_stand_on_layers_without_a_gpu(self):
+        self.check_include("modules/lights/masks/a.cpp", "engine/math/b.h")
+        self.check_include("modules/lights/masks/a.cpp", "modules/lights/components.h")
+        self.check_include("modules/lights/masks/a.cpp", "shaders/lights/lights_shared.h")
+        self.check_include("modules/closeups/umbra/a.cpp", "modules/lights/components.h")
+        self.check_include("modules/lights/debug/a.cpp", "engine/render/view.h")
+        self.check_include("modules/lights/masks/a.cpp", "engine/render/view.h", "CPU rooms only")
+        self.check_include("modules/lights/masks/a.cpp", "engine/scene/assets.h", "CPU rooms only")
+        self.check_include("modules/lights/masks/a.cpp", "modules/lights/outputs.h", "CPU rooms only")
+        self.check_include("modules/lights/components.h", "engine/gpu/types.h", "CPU rooms only")
+        self.check_include("modules/lights/masks/a.cpp", "shaders/lights/shaders.h", "CPU rooms only")
+        self.check_include("modules/closeups/umbra/a.cpp", "modules/shadows/components.h", "CPU rooms only")
+
+    def test_installed_headers_include_installed_headers_only(self):
+        self.check_include("modules/lights/masks/a.h", "modules/lights/bins/z_bins.h")
+        self.check_include("modules/lights/masks/a.h", "modules/lights/cpu_clones.h", "public headers only")
 
     def test_the_sandbox_sees_public_headers_and_tests_see_all(self):
         self.check_include("sandbox/a.cpp", "modules/lights/outputs.h")

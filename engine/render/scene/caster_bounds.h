@@ -3,33 +3,17 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/math/bounds.h"
+#include "engine/math/world_box.h"
 #include "engine/render/scene/gpu_scene.h"
 #include "engine/scene/resources.h"
 
-/// World-space bounds of drawn primitives. In double: floats are too coarse far from the world's origin.
+/// World-space bounds of drawn primitives.
 namespace gloam {
-
-/// Axis-aligned box in the world; a default box is unknown.
-struct WorldBox {
-  dvec3 min = dvec3(std::numeric_limits<double>::infinity());
-  dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
-
-  /// False for empty boxes and for boxes computed from values that are not finite.
-  [[nodiscard]] bool known() const;
-};
-
-/// World-space bounds of a transformed box. The matrix must be affine.
-[[nodiscard]] WorldBox world_box(const Aabb& box, const dmat4& world_from_box);
-
-/// Length of half the diagonal of a transformed box, in metres; exact if the matrix does not shear. It does not change
-/// when the box turns.
-[[nodiscard]] double half_diagonal(const Aabb& box, const dmat4& world_from_box);
 
 /// Computes GpuPrimitive::joint_bounds. `influences`: one per position. Uses the packed weights, because the GPU skins
 /// with them.

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "engine/render/scene/caster_bounds.h"
-#include "modules/closeups/pairs/light.h"
 #include "modules/closeups/pairs/views.h"
+#include "modules/closeups/umbra/light.h"
 
 /// Frustum of a close-up pair's face: FF XVI §3.1, figure 9. Changed: it encloses exactly the penumbra of a wide
 /// emitter (FF's umbra is that of a point). If the subject hides part of the emitter from a receiver, then the

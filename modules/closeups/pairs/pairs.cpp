@@ -7,7 +7,8 @@
 #include <cmath>
 
 #include "engine/math/bounds.h"
-#include "modules/closeups/pairs/light.h"
+#include "modules/closeups/umbra/light.h"
+#include "modules/lights/light_names.h"
 
 namespace gloam {
 namespace {

@@ -16,7 +16,7 @@ const ScreenRect kNowhere{dvec2(std::numeric_limits<double>::infinity()),
                           dvec2(-std::numeric_limits<double>::infinity())};
 
 /// Projected points whose hull is the projection of the points' hull, clipped at the near plane.
-std::vector<dvec2> projected(std::span<const dvec3> points, const RenderView& view) {
+std::vector<dvec2> projected(std::span<const dvec3> points, const ViewProjection& view) {
   const dmat4 clip(view.clip_from_view);
   const double near = view.near_m;
   std::vector<dvec2> seen;
@@ -96,7 +96,7 @@ ScreenRect bounds_of(std::span<const dvec2> points) {
 
 }  // namespace
 
-ScreenRect hull_on_screen(std::span<const dvec3> points, const RenderView& view, const ScreenRect& limit) {
+ScreenRect hull_on_screen(std::span<const dvec3> points, const ViewProjection& view, const ScreenRect& limit) {
   if (limit.empty()) return kNowhere;
   std::vector<dvec2> seen = projected(points, view);
   const ScreenRect all = bounds_of(seen);

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "engine/math/types.h"
-#include "engine/render/view.h"
+#include "engine/math/view_projection.h"
 
 namespace gloam {
 
@@ -19,6 +19,7 @@ struct ScreenRect {
 
 /// The tight rectangle of the part of a convex hull that is beyond the near plane and inside `limit` on the screen.
 /// `points`: in view space.
-[[nodiscard]] ScreenRect hull_on_screen(std::span<const dvec3> points, const RenderView& view, const ScreenRect& limit);
+[[nodiscard]] ScreenRect hull_on_screen(std::span<const dvec3> points, const ViewProjection& view,
+                                        const ScreenRect& limit);
 
 }  // namespace gloam

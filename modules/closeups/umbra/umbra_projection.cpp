@@ -9,7 +9,7 @@
 
 #include "engine/math/screen_bounds.h"
 #include "modules/closeups/umbra/hull_on_screen.h"
-#include "modules/lights/outputs.h"
+#include "modules/lights/components.h"
 
 namespace gloam {
 namespace {
@@ -25,23 +25,23 @@ constexpr double kFarthestCone = 1e4;        // metres: an apex farther away is 
 
 /// The camera, for world positions in double.
 struct CameraFrame {
-  const RenderView& view;
+  const ViewProjection& view;
   glm::dmat3 turn;
 
-  explicit CameraFrame(const RenderView& v) : view(v), turn(glm::mat3(v.view_from_relative)) {}
+  explicit CameraFrame(const ViewProjection& v) : view(v), turn(glm::mat3(v.view_from_relative)) {}
   [[nodiscard]] dvec3 seen(const dvec3& world) const { return turn * (world - view.position); }
 };
 
-TileRange whole_view(const RenderView& view) {
+TileRange whole_view(const ViewProjection& view) {
   return {uvec2(0), {(view.width + kShadowTile - 1) / kShadowTile, (view.height + kShadowTile - 1) / kShadowTile}};
 }
 
-ScreenRect screen_with_slack(const RenderView& view) {
+ScreenRect screen_with_slack(const ViewProjection& view) {
   const dvec2 slack = 2.0 * kSlackPixels / dvec2(view.width, view.height);
   return {-1.0 - slack, 1.0 + slack};
 }
 
-TileRange tiles_of(const ScreenRect& rect, const RenderView& view) {
+TileRange tiles_of(const ScreenRect& rect, const ViewProjection& view) {
   if (rect.empty()) return {};
   const dvec2 size(view.width, view.height);
   const dvec2 low = (dvec2(rect.low.x, -rect.high.y) * 0.5 + 0.5) * size - kSlackPixels;
@@ -52,7 +52,7 @@ TileRange tiles_of(const ScreenRect& rect, const RenderView& view) {
   return {first / kShadowTile, last / kShadowTile + 1u};
 }
 
-void cut_off(const NdcRect& rect, const RenderView& view, ScreenRect& limit) {
+void cut_off(const NdcRect& rect, const ViewProjection& view, ScreenRect& limit) {
   const dvec2 slack = 2.0 * kSlackPixels / dvec2(view.width, view.height);
   if (rect.empty) {
     limit = {dvec2(1.0), dvec2(-1.0)};
@@ -64,7 +64,7 @@ void cut_off(const NdcRect& rect, const RenderView& view, ScreenRect& limit) {
 
 /// The part of the screen that the light can reach.
 ScreenRect light_limit(const CloseupLight& light, const CameraFrame& camera) {
-  const RenderView& view = camera.view;
+  const ViewProjection& view = camera.view;
   ScreenRect limit = screen_with_slack(view);
   const mat4& clip = view.clip_from_view;
   const dvec3 at = camera.seen(light.position);
@@ -276,7 +276,7 @@ bool finite_light(const CloseupLight& light) {
 }  // namespace
 
 TileRange umbra_tiles(const CloseupLight& light, const WorldBox& subject, const WorldBox& receivers,
-                      const RenderView& view) {
+                      const ViewProjection& view) {
   const CameraFrame camera(view);
   const bool finite_view = std::isfinite(view.position.x + view.position.y + view.position.z);
   if (!finite_view || !finite_light(light) || !subject.known()) return whole_view(view);
@@ -284,7 +284,7 @@ TileRange umbra_tiles(const CloseupLight& light, const WorldBox& subject, const 
                                               : local_tiles(light, subject, camera);
 }
 
-TileRange box_tiles(const WorldBox& box, const RenderView& view) {
+TileRange box_tiles(const WorldBox& box, const ViewProjection& view) {
   const dvec3 sum = box.min + box.max + view.position;
   if (!box.known() || !std::isfinite(sum.x + sum.y + sum.z)) return whole_view(view);
   const CameraFrame camera(view);

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/render/scene/caster_bounds.h"
-#include "engine/render/view.h"
-#include "modules/closeups/pairs/light.h"
-#include "modules/closeups/pairs/views.h"
+#include "engine/math/view_projection.h"
+#include "engine/math/world_box.h"
+#include "modules/closeups/umbra/light.h"
+#include "modules/closeups/umbra/tile_range.h"
 
 namespace gloam {
 
@@ -17,9 +17,9 @@ namespace gloam {
 /// FF XVI §3.4, figure 10: rays through the corners of the bound. Changed: includes the penumbra, clips at the near
 /// plane, and the far end encloses the curved end of the range.
 [[nodiscard]] TileRange umbra_tiles(const CloseupLight& light, const WorldBox& subject, const WorldBox& receivers,
-                                    const RenderView& view);
+                                    const ViewProjection& view);
 
 /// The tiles of all pixels that a world-space box may cover. The whole view if the box is unknown or not finite.
-[[nodiscard]] TileRange box_tiles(const WorldBox& box, const RenderView& view);
+[[nodiscard]] TileRange box_tiles(const WorldBox& box, const ViewProjection& view);
 
 }  // namespace gloam

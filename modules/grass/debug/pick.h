@@ -7,8 +7,8 @@
 
 #include "engine/render/module.h"
 #include "engine/render/readback/capture.h"
+#include "modules/grass/field/grow.h"
 #include "modules/grass/frame.h"
-#include "modules/grass/growth/grow.h"
 
 namespace gloam {
 

@@ -120,7 +120,7 @@ class SurfaceWalk {
       leaving = i;
     }
     const std::size_t edge = (leaving + 1) % 3;
-    const bool border = leaving < 3 && triangle.neighbors[edge] == kNone;
+    const bool border = leaving < 3 && triangle.neighbors[edge] == kNoTriangle;
     if (border) return false;  // a step to the border would gather roots on it
     for (std::size_t i = 0; i < 3; ++i) weights_[i] += share * change[i];
     if (leaving == 3) return false;

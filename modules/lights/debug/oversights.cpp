@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/render/placeless.h"
-#include "modules/lights/selection/light_list.h"
+#include "modules/lights/light_set.h"
 
 namespace gloam {
 namespace {

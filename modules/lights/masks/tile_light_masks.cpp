@@ -21,7 +21,7 @@ constexpr std::size_t kRowGrain = 4;        // rows of tiles per job
 /// State that the jobs of one call share.
 struct MaskJob {
   std::span<const MaskLight> lights;
-  const RenderView& view;
+  const ViewProjection& view;
   TileProjection projection;
   OutlineDetail detail;
   TileLightMasks& masks;
@@ -64,7 +64,7 @@ void build_line_masks(std::span<const std::int32_t> begins, std::span<const std:
 
 }  // namespace
 
-void build_tile_light_masks(std::span<const MaskLight> lights, const RenderView& view, TileBound bound,
+void build_tile_light_masks(std::span<const MaskLight> lights, const ViewProjection& view, TileBound bound,
                             JobExecutor& executor, TileLightMasks& masks) {
   GLOAM_ASSERT(lights.size() <= GLOAM_MAX_LOCAL_LIGHTS,
                "masks have a bit for each of at most GLOAM_MAX_LOCAL_LIGHTS lights");

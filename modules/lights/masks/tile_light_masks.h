@@ -9,7 +9,7 @@
 #include "engine/jobs/executor.h"
 #include "engine/math/bounds.h"
 #include "engine/math/types.h"
-#include "engine/render/view.h"
+#include "engine/math/view_projection.h"
 #include "modules/lights/masks/tile_outlines.h"
 #include "modules/lights/masks/tile_row_intervals.h"
 #include "shaders/lights/lights_shared.h"
@@ -57,7 +57,7 @@ struct MaskLight {
 
 /// Builds the masks. A light's bit is set in every tile where the light may be visible (conservative). `lights`: at
 /// most GLOAM_MAX_LOCAL_LIGHTS. Resizes `masks`; allocates only when the image size or the light count grows.
-void build_tile_light_masks(std::span<const MaskLight> lights, const RenderView& view, TileBound bound,
+void build_tile_light_masks(std::span<const MaskLight> lights, const ViewProjection& view, TileBound bound,
                             JobExecutor& executor, TileLightMasks& masks);
 
 }  // namespace gloam

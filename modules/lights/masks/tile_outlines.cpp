@@ -354,7 +354,7 @@ void load_cones(std::span<const MaskLight> lights, const Rotation& rotation, Job
 
 }  // namespace
 
-TileProjection tile_projection(const RenderView& view) {
+TileProjection tile_projection(const ViewProjection& view) {
   const mat4& clip = view.clip_from_view;
   TileProjection p;
   p.perspective = clip[2][3] != 0.0f;
@@ -390,7 +390,7 @@ void TileOutlines::resize(std::size_t count) {
       column->resize(count);
 }
 
-void find_outlines(std::span<const MaskLight> lights, const RenderView& view, const TileProjection& projection,
+void find_outlines(std::span<const MaskLight> lights, const ViewProjection& view, const TileProjection& projection,
                    OutlineDetail detail, JobRange range, TileOutlines& outlines) {
   const Rotation rotation(view.view_from_relative);
   load_bounds(lights, rotation, range, outlines);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/jobs/executor.h"
-#include "engine/render/view.h"
+#include "engine/math/view_projection.h"
 
 namespace gloam {
 
@@ -31,7 +31,7 @@ struct TileProjection {
   double greatest_ray = 1.0;  ///< length of the longest vector (slope x, slope y, 1) on the screen
 };
 
-[[nodiscard]] TileProjection tile_projection(const RenderView& view);
+[[nodiscard]] TileProjection tile_projection(const ViewProjection& view);
 
 /// Outlines of lights in tile coordinates, one item per light. Each property is a separate array (structure of arrays),
 /// so that loops process many lights at once.
@@ -65,7 +65,7 @@ enum class OutlineDetail : std::uint8_t { rectangles, ellipses, cones };
 
 /// Fills the outlines of lights [range.begin, range.end). All are conservative: they contain every pixel whose ray
 /// meets the light beyond the near plane. A light with NaN or infinity covers the whole image.
-void find_outlines(std::span<const MaskLight> lights, const RenderView& view, const TileProjection& projection,
+void find_outlines(std::span<const MaskLight> lights, const ViewProjection& view, const TileProjection& projection,
                    OutlineDetail detail, JobRange range, TileOutlines& outlines);
 
 }  // namespace gloam

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "engine/ecs/entity.h"
+#include "engine/jobs/executor.h"
 #include "engine/math/bounds.h"
-#include "engine/render/view.h"
-#include "engine/scene/components.h"
+#include "engine/math/view_projection.h"
 #include "modules/lights/bins/z_bins.h"
 #include "modules/lights/components.h"
 #include "modules/lights/masks/tile_light_masks.h"
@@ -18,29 +18,6 @@
 #include "shaders/lights/lights_shared.h"
 
 namespace gloam {
-
-/// The lights of one archetype chunk.
-struct LightRows {
-  std::span<const Entity> entities;
-  std::span<const Light> lights;
-  std::span<const WorldTransform> transforms;
-  std::span<LightBounds> bounds;  ///< empty: the entities have no LightBounds yet
-  std::size_t first = 0;          ///< row number of the chunk's first light
-};
-
-/// Every light of the world that has a WorldTransform, sorted by entity index; a world resource kept up to date by
-/// system light_bounds.
-struct LightSet {
-  std::vector<PlacedLight> lights;
-  LightTable table;           ///< derived data of `lights`, same order
-  std::uint64_t version = 1;  ///< changes whenever anything in this struct changes
-  std::uint32_t updated = 0;  ///< lights added or changed in the last run
-
-  /// The rows of the last run, in the order of the ECS views. The spans in `chunks` are valid only during the run.
-  std::vector<LightRows> chunks;
-  std::vector<Entity> rows;
-  std::vector<std::uint32_t> slot_of_row;  ///< index into `lights`
-};
 
 /// Scratch memory of select_lights, reused between frames.
 struct LightSelection {
@@ -65,7 +42,7 @@ struct VisibleLights {
   std::uint64_t version = 0;           ///< changes whenever the lists are rebuilt
 
   std::uint64_t set_version = 0;  ///< LightSet::version the lists were built from
-  RenderView view;                ///< view the lists were built for
+  ViewProjection view;            ///< view the lists were built for
   LightSelection selection;
 };
 
@@ -79,10 +56,10 @@ struct VisibleLights {
 /// solid angle × intensity stay, and the brightest directional lights; ties go to the lower index in `lights`. Lights
 /// that emit nothing, or are made unusable by NaN or infinity, are left out. Local lights are sorted by the nearest
 /// view depth of VisibleLights::depths, ties by index in `lights` (a LightSet is sorted by entity).
-void select_lights(std::span<const PlacedLight> lights, const RenderView& view, VisibleLights& visible);
+void select_lights(std::span<const PlacedLight> lights, const ViewProjection& view, VisibleLights& visible);
 /// The same with prepared lights: `table` must describe `lights`, in the same order. Allocates only when there are more
 /// lights than in any call before.
-void select_lights(std::span<const PlacedLight> lights, const LightTable& table, const RenderView& view,
+void select_lights(std::span<const PlacedLight> lights, const LightTable& table, const ViewProjection& view,
                    JobExecutor& executor, VisibleLights& visible);
 
 }  // namespace gloam

@@ -32,7 +32,7 @@ struct CullView {
   float near_m;
 };
 
-CullView cull_view(const RenderView& view) {
+CullView cull_view(const ViewProjection& view) {
   CullView cull{};
   float reach = 0.0f;
   for (std::size_t p = 0; p < 6; ++p) {
@@ -94,7 +94,8 @@ struct CullJob {
   void run(JobRange range) const { cull_lights(columns, view, range.begin, range.end); }
 };
 
-void find_visible(const LightTable& table, const RenderView& view, JobExecutor& executor, LightSelection& selection) {
+void find_visible(const LightTable& table, const ViewProjection& view, JobExecutor& executor,
+                  LightSelection& selection) {
   const std::size_t count = table.size();
   for (auto* column : {&selection.x, &selection.y, &selection.z, &selection.nearest, &selection.farthest})
     column->resize(count);
@@ -136,7 +137,7 @@ float farthest_along(const SpotDirections& spot, vec3 forward) {
 
 /// Narrows the view depths of a spot from those of its sphere to those of its cone: a spherical sector extends from its
 /// apex to the points of its cap that are nearest and farthest along the view.
-void narrow_to_cone(const LightRecord& record, const PlacedLight& placed, const RenderView& view, float& nearest,
+void narrow_to_cone(const LightRecord& record, const PlacedLight& placed, const ViewProjection& view, float& nearest,
                     float& farthest) {
   // Shading rounds the cosine of the angle to the axis, so that it lights a slightly wider cone.
   constexpr float kCosineRounding = 1e-6f;
@@ -174,7 +175,7 @@ std::uint32_t keep_most_important(std::vector<std::uint32_t>& lights, std::size_
 }
 
 /// Solid angle of the light's bound as seen from the camera, up to a constant factor, times its brightness.
-float importance_of(const LightTable& table, const RenderView& view, std::uint32_t i) {
+float importance_of(const LightTable& table, const ViewProjection& view, std::uint32_t i) {
   const vec3 center = view.relative(dvec3(table.x[i], table.y[i], table.z[i]));
   const float radius = table.radius[i];
   const float distance = std::max(glm::length(center), radius);
@@ -236,7 +237,7 @@ void sort_by_depth(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>&
 struct PackJob {
   std::span<const PlacedLight> lights;
   const LightTable& table;
-  const RenderView& view;
+  const ViewProjection& view;
   VisibleLights& visible;
 
   /// Lights are visited in depth order, which the hardware prefetcher cannot predict.
@@ -283,7 +284,7 @@ void pack_directional(std::span<const PlacedLight> lights, const LightTable& tab
 
 }  // namespace
 
-void select_lights(std::span<const PlacedLight> lights, const LightTable& table, const RenderView& view,
+void select_lights(std::span<const PlacedLight> lights, const LightTable& table, const ViewProjection& view,
                    JobExecutor& executor, VisibleLights& visible) {
   LightSelection& selection = visible.selection;
   visible.total = static_cast<std::uint32_t>(lights.size());
@@ -314,7 +315,7 @@ void select_lights(std::span<const PlacedLight> lights, const LightTable& table,
   pack_directional(lights, table, visible);
 }
 
-void select_lights(std::span<const PlacedLight> lights, const RenderView& view, VisibleLights& visible) {
+void select_lights(std::span<const PlacedLight> lights, const ViewProjection& view, VisibleLights& visible) {
   LightTable table;
   table.resize(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {

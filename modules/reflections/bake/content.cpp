@@ -18,6 +18,7 @@
 #include "engine/scene/resources.h"
 #include "modules/lighting/components.h"
 #include "modules/lights/components.h"
+#include "modules/lights/light_names.h"
 #include "modules/reflections/components.h"
 #include "modules/shadows/components.h"
 

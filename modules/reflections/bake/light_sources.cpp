@@ -8,6 +8,7 @@
 
 #include "engine/ecs/view.h"
 #include "engine/scene/components.h"
+#include "modules/lights/light_names.h"
 #include "modules/reflections/bake/picture.h"
 
 namespace gloam {

@@ -11,7 +11,7 @@
 #include "engine/ecs/world.h"
 #include "modules/lights/components.h"
 #include "modules/reflections/captures.h"
-#include "modules/reflections/proxies/placed.h"
+#include "modules/reflections/culling/placed.h"
 
 namespace gloam {
 

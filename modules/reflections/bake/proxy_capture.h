@@ -8,7 +8,7 @@
 #include "engine/ecs/world.h"
 #include "engine/render/renderer.h"
 #include "modules/reflections/bake/picture.h"
-#include "modules/reflections/proxies/placed.h"
+#include "modules/reflections/culling/placed.h"
 
 namespace gloam {
 

@@ -12,9 +12,9 @@
 #include "engine/render/readback/geometry_picture.h"
 #include "engine/render/view_constants.h"
 #include "engine/scene/resources.h"
+#include "modules/reflections/culling/placed.h"
+#include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/frame.h"
-#include "modules/reflections/proxies/placed.h"
-#include "modules/reflections/proxies/tiles.h"
 
 namespace gloam {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "engine/render/passes/visualizer_pass.h"
 #include "modules/reflections/bindings.h"
-#include "modules/reflections/proxies/tiles.h"
+#include "modules/reflections/culling/tiles.h"
 #include "shaders/reflections/shaders.h"
 
 namespace gloam {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "engine/jobs/executor.h"
+#include "modules/reflections/culling/placed.h"
+#include "modules/reflections/culling/rooms.h"
 #include "modules/reflections/fitting/reflected_rays.h"
-#include "modules/reflections/proxies/placed.h"
-#include "modules/reflections/proxies/rooms.h"
 
 namespace gloam {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/jobs/executor.h"
+#include "modules/reflections/culling/placed.h"
 #include "modules/reflections/fitting/planar_regions.h"
-#include "modules/reflections/proxies/placed.h"
 
 namespace gloam {
 

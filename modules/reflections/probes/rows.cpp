@@ -8,7 +8,7 @@
 
 #include "engine/scene/components.h"
 #include "modules/reflections/components.h"
-#include "modules/reflections/proxies/placed.h"
+#include "modules/reflections/culling/placed.h"
 
 namespace gloam {
 

@@ -3,7 +3,7 @@
 #include "modules/reflections/proxies/pass.h"
 
 #include "modules/reflections/bindings.h"
-#include "modules/reflections/proxies/tiles.h"
+#include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/surfaces/pass.h"
 #include "shaders/reflections/shaders.h"
 

@@ -9,7 +9,7 @@
 #include "engine/scene/components.h"
 #include "modules/lights/components.h"
 #include "modules/reflections/components.h"
-#include "modules/reflections/proxies/rooms.h"
+#include "modules/reflections/culling/rooms.h"
 
 namespace gloam {
 namespace {

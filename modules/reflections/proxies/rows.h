@@ -7,8 +7,8 @@
 #include "engine/ecs/world.h"
 #include "engine/render/view.h"
 #include "modules/reflections/captures.h"
-#include "modules/reflections/proxies/placed.h"
-#include "modules/reflections/proxies/tiles.h"
+#include "modules/reflections/culling/placed.h"
+#include "modules/reflections/culling/tiles.h"
 #include "shaders/reflections/reflections_shared.h"
 
 namespace gloam {

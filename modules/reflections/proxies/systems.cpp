@@ -9,10 +9,9 @@
 namespace gloam {
 namespace {
 
-bool same_view(const RenderView& a, const RenderView& b) {
+bool same_view(const ViewProjection& a, const ViewProjection& b) {
   return a.width == b.width && a.height == b.height && a.position == b.position && a.near_m == b.near_m &&
-         a.camera.orthographic == b.camera.orthographic && a.view_from_relative == b.view_from_relative &&
-         a.clip_from_view == b.clip_from_view;
+         a.view_from_relative == b.view_from_relative && a.clip_from_view == b.clip_from_view;
 }
 
 bool by_entity(const auto& a, const auto& b) { return a.entity.index < b.entity.index; }

@@ -7,8 +7,8 @@
 #include "engine/scene/components.h"
 #include "engine/schedule/schedule.h"
 #include "modules/reflections/components.h"
-#include "modules/reflections/proxies/placed.h"
-#include "modules/reflections/proxies/tiles.h"
+#include "modules/reflections/culling/placed.h"
+#include "modules/reflections/culling/tiles.h"
 
 namespace gloam {
 

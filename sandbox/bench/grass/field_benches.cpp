@@ -10,7 +10,7 @@
 #include "engine/ecs/view.h"
 #include "engine/scene/components.h"
 #include "modules/grass/components.h"
-#include "modules/grass/growth/grow.h"
+#include "modules/grass/field/grow.h"
 #include "sandbox/bench/grass/case.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"

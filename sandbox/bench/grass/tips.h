@@ -11,7 +11,7 @@
 
 #include "engine/jobs/executor.h"
 #include "modules/accuracy/metrics/statistics.h"
-#include "modules/grass/growth/grow.h"
+#include "modules/grass/field/grow.h"
 #include "modules/grass/reference/blade_solver.h"
 #include "sandbox/bench/grass/probe.h"
 

@@ -10,7 +10,7 @@
 
 #include "engine/render/scene/caster_bounds.h"
 #include "engine/render/view.h"
-#include "modules/closeups/pairs/light.h"
+#include "modules/closeups/umbra/light.h"
 
 namespace gloam::test {
 

@@ -17,8 +17,8 @@
 #include "modules/lights/components.h"
 #include "modules/module_list/module_list.h"
 #include "modules/reflections/components.h"
-#include "modules/reflections/proxies/placed.h"
-#include "modules/reflections/proxies/rooms.h"
+#include "modules/reflections/culling/placed.h"
+#include "modules/reflections/culling/rooms.h"
 #include "modules/shadows/components.h"
 
 namespace gloam {

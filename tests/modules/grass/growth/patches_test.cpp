@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "modules/grass/field/mesh_surface.h"
 #include "tests/jobs/executors.h"
 #include "tests/modules/grass/growth/lawns.h"
 

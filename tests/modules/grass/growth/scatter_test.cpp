@@ -9,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "modules/grass/field/mesh_surface.h"
 #include "modules/grass/growth/curve.h"
 #include "modules/grass/growth/relax.h"
 #include "tests/jobs/executors.h"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "modules/reflections/proxies/rooms.h"
+#include "modules/reflections/culling/rooms.h"
 #include "modules/reflections/proxies/rows.h"
 #include "shaders/reflections_test/shaders.h"
 #include "tests/modules/reflections/support/proxy_world.h"

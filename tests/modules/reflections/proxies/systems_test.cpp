@@ -11,7 +11,7 @@
 #include "engine/core/hash.h"
 #include "modules/reflections/module.h"
 #include "tests/jobs/executors.h"
-#include "tests/modules/reflections/proxies/proxy_oracle.h"
+#include "tests/modules/reflections/culling/proxy_oracle.h"
 #include "tests/support/module_world.h"
 
 namespace gloam {

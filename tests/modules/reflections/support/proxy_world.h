@@ -10,7 +10,7 @@
 #include "engine/scene/components.h"
 #include "modules/lights/components.h"
 #include "modules/reflections/proxies/rows.h"
-#include "tests/modules/reflections/proxies/proxy_oracle.h"
+#include "tests/modules/reflections/culling/proxy_oracle.h"
 
 namespace gloam::test {
 

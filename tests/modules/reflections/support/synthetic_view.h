@@ -12,7 +12,7 @@
 #include "engine/render/view.h"
 #include "engine/render/view_constants.h"
 #include "shaders/reflections/reflections_shared.h"
-#include "tests/modules/reflections/proxies/proxy_oracle.h"
+#include "tests/modules/reflections/culling/proxy_oracle.h"
 
 /// Geometry buffers of small scenes, traced in double at pixel centres, for kernels of reflections.
 namespace gloam::test {

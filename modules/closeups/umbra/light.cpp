@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/closeups/pairs/light.h"
+#include "modules/closeups/umbra/light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/grass/growth/surface.h"
+#include "modules/grass/field/mesh_surface.h"
 
 #include <cmath>
 #include <cstddef>
@@ -51,7 +51,7 @@ class PrimitiveGrowth {
         surface_(surface) {}
 
   void append() {
-    std::vector<std::uint32_t> place(topology_.faces.size(), kNone);
+    std::vector<std::uint32_t> place(topology_.faces.size(), kNoTriangle);
     const std::size_t first = surface_.triangles.size();
     std::vector<std::uint32_t> sources;
     for (std::uint32_t face = 0; face < topology_.faces.size(); ++face) {
@@ -90,8 +90,8 @@ class PrimitiveGrowth {
     const Corners& corners = topology_.faces[face];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t across = topology_.neighbors[face][i];
-      triangle.neighbors[i] = across == kNone ? kNone : place[across];
-      if (triangle.neighbors[i] != kNone)
+      triangle.neighbors[i] = across == kNone ? kNoTriangle : place[across];
+      if (triangle.neighbors[i] != kNoTriangle)
         triangle.neighbor_edges[i] = edge_number(topology_.faces[across], corners[(i + 1) % 3], corners[i]);
     }
   }

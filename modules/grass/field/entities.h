@@ -8,7 +8,7 @@
 #include "engine/ecs/view.h"
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
-#include "modules/grass/growth/grow.h"
+#include "modules/grass/field/grow.h"
 #include "shaders/grass/grass_shared.h"
 
 namespace gloam {

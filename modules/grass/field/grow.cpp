@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/grass/growth/grow.h"
+#include "modules/grass/field/grow.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "engine/core/hash.h"
+#include "modules/grass/field/mesh_surface.h"
 #include "modules/grass/growth/patches.h"
 #include "modules/grass/growth/scatter.h"
-#include "modules/grass/growth/surface.h"
 
 namespace gloam {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <bit>
 
-#include "modules/reflections/proxies/tiles.h"
-#include "tests/modules/reflections/proxies/proxy_oracle.h"
+#include "modules/reflections/culling/tiles.h"
+#include "tests/modules/reflections/culling/proxy_oracle.h"
 #include "tests/support/scale.h"
 
 namespace gloam {

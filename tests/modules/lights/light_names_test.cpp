@@ -5,6 +5,7 @@
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
+#include "modules/lights/light_names.h"
 
 namespace gloam {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/grass/growth/entities.h"
+#include "modules/grass/field/entities.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,7 @@
 // IBR rooms: P. Sikachev et al., Next-Generation Rendering in Thief, GPU Pro 6, section 1.2.4. Not from the paper:
 // rooms may be rotated and overlap, a room may state its reflecting heights, and proxies outside all rooms are
 // reflected while the camera is outside too.
-#include "modules/reflections/proxies/rooms.h"
+#include "modules/reflections/culling/rooms.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "engine/math/types.h"
-#include "engine/render/view.h"
-#include "modules/reflections/proxies/placed.h"
-#include "modules/reflections/proxies/rooms.h"
+#include "engine/math/view_projection.h"
+#include "modules/reflections/culling/placed.h"
+#include "modules/reflections/culling/rooms.h"
 
 namespace gloam {
 
@@ -23,7 +23,7 @@ struct ReflectionViewer {
   double near_m = 0.1;      ///< a little nearer than the view's near plane, so that rounding loses no receiver
   double row_margin = 0.0;  ///< NDC height added at the top and bottom of the screen: two pixels
 };
-[[nodiscard]] ReflectionViewer reflection_viewer(const RenderView& view);
+[[nodiscard]] ReflectionViewer reflection_viewer(const ViewProjection& view);
 
 /// Interval of NDC x; empty if min > max. It may reach beyond −1…1.
 struct ScreenRange {

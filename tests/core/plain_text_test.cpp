@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/scene/plain_text.h"
+#include "engine/core/plain_text.h"
 
 #include <gtest/gtest.h>
 

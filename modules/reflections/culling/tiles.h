@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/jobs/executor.h"
-#include "engine/render/view.h"
-#include "modules/reflections/proxies/placed.h"
+#include "engine/math/view_projection.h"
+#include "modules/reflections/culling/placed.h"
 
 namespace gloam {
 
@@ -45,7 +45,7 @@ struct ProxyTiles {
 
   std::uint64_t set_version = 0;         ///< ProxySet::version the tiles were built from
   ProxyTileSettings settings;            ///< settings they were built with
-  RenderView view;                       ///< view they were built for
+  ViewProjection view;                   ///< view they were built for
   std::vector<std::uint64_t> tile_sets;  ///< scratch: bit t of each proxy of the ProxySet: tile t may reflect it
 
   [[nodiscard]] std::uint32_t count(ProxyOutcome outcome) const;
@@ -67,7 +67,7 @@ struct ProxyTiles {
 /// is one column of the reflection image wider on each side, so pixels may be taken anywhere in their column.
 ///
 /// The result does not depend on the executor. Allocates only when there are more proxies than in any call before.
-void build_proxy_tiles(const ProxySet& set, const RenderView& view, const ProxyTileSettings& settings,
+void build_proxy_tiles(const ProxySet& set, const ViewProjection& view, const ProxyTileSettings& settings,
                        JobExecutor& executor, ProxyTiles& tiles);
 
 }  // namespace gloam

@@ -13,7 +13,7 @@
 
 #include "engine/jobs/executor.h"
 #include "engine/render/view.h"
-#include "modules/reflections/proxies/tiles.h"
+#include "modules/reflections/culling/tiles.h"
 
 /// Brute-force oracle of proxy tiles, in double: it mirrors the view ray of a pixel at its receiver and intersects all
 /// proxies.

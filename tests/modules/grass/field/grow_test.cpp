@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/grass/growth/grow.h"
+#include "modules/grass/field/grow.h"
 
 #include <gmock/gmock.h>
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/reflections/proxies/tiles.h"
+#include "modules/reflections/culling/tiles.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "engine/core/assert.h"
-#include "modules/reflections/proxies/reflected_quad.h"
-#include "modules/reflections/proxies/rooms.h"
+#include "modules/reflections/culling/reflected_quad.h"
+#include "modules/reflections/culling/rooms.h"
 
 namespace gloam {
 namespace {
@@ -83,7 +83,7 @@ std::uint32_t ProxyTiles::count(ProxyOutcome outcome) const {
   return static_cast<std::uint32_t>(std::ranges::count(outcomes, outcome));
 }
 
-void build_proxy_tiles(const ProxySet& set, const RenderView& view, const ProxyTileSettings& settings,
+void build_proxy_tiles(const ProxySet& set, const ViewProjection& view, const ProxyTileSettings& settings,
                        JobExecutor& executor, ProxyTiles& tiles) {
   GLOAM_ASSERT(settings.tiles >= 1 && settings.tiles <= kMostProxyTiles, "a screen has 1 to kMostProxyTiles tiles");
   tiles.settings = settings;

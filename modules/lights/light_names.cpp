@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "modules/lights/light_names.h"
+
+#include <string>
+
 #include "engine/scene/resources.h"
-#include "modules/lights/components.h"
 
 namespace gloam {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/reflections/proxies/tiles.h"
+#include "modules/reflections/culling/tiles.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <bit>
 
 #include "tests/jobs/executors.h"
-#include "tests/modules/reflections/proxies/proxy_oracle.h"
+#include "tests/modules/reflections/culling/proxy_oracle.h"
 #include "tests/support/scale.h"
 
 namespace gloam {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/reflections/proxies/reflected_quad.h"
+#include "modules/reflections/culling/reflected_quad.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/modules/reflections/proxies/proxy_oracle.h"
+#include "tests/modules/reflections/culling/proxy_oracle.h"
 #include "tests/support/scale.h"
 
 namespace gloam {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "modules/grass/field/mesh_surface.h"
 #include "modules/grass/growth/surface.h"
 
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/math/types.h"
-#include "modules/reflections/proxies/placed.h"
+#include "modules/reflections/culling/placed.h"
 
 namespace gloam {
 

@@ -17,7 +17,7 @@
 // A projection maps a convex set beyond the near plane to a convex set, so the extreme x of the part on the screen are
 // at its corners. All pairs of points are cut instead of the hull's edges: they include the edges and stay inside the
 // hull.
-#include "modules/reflections/proxies/reflected_quad.h"
+#include "modules/reflections/culling/reflected_quad.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,12 +111,12 @@ void grow_to_crossings(std::span<const dvec2> points, double height, ScreenRange
 
 }  // namespace
 
-ReflectionViewer reflection_viewer(const RenderView& view) {
+ReflectionViewer reflection_viewer(const ViewProjection& view) {
   ReflectionViewer viewer;
   viewer.eye = view.position;
   const mat4& m = view.view_from_relative;
   viewer.forward = -dvec3(m[0][2], m[1][2], m[2][2]);
-  viewer.orthographic = view.camera.orthographic;
+  viewer.orthographic = view.orthographic();
   viewer.clip_from_relative = dmat4(view.clip_from_view) * dmat4(view.view_from_relative);
   const double near = view.near_m;
   viewer.near_m = near - kNearSlack * std::abs(near);

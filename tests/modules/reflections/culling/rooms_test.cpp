@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/reflections/proxies/rooms.h"
+#include "modules/reflections/culling/rooms.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
-#include "tests/modules/reflections/proxies/proxy_oracle.h"
+#include "tests/modules/reflections/culling/proxy_oracle.h"
 
 namespace gloam {
 namespace {
