@@ -23,7 +23,7 @@ MODULES = {
     "visualizers": ("depth_of_field",), "accuracy": ("depth_of_field",),
 }
 # Separate projects, which see our headers as installed and their own headers by their names.
-HOSTS = ("tests/embedding/host/", "tests/embedding/host_cpu/")
+HOSTS = ("tests/embedding/host/", "tests/embedding/host_cpu/", "tests/embedding/host_ecs/")
 MODULE_LIST = "module_list"  # knows every module; no module may include it
 MODULE_PUBLIC = ("components.h", "module.h", "outputs.h", "bake.h", "captures.h", "baked_light.h", "reference.h", "light_names.h")
 
@@ -242,10 +242,10 @@ def check_file(root, name):
         return [f"{name}: {fault}"]
     faults = []
     found = includes(source_text.read(root, name))
-    for host in HOSTS:
-        if name.startswith(host):
-            found = [(line, host + include if quoted and (root / host / include).is_file() else include, quoted)
-                     for line, include, quoted in found]
+    if name.startswith(HOSTS):
+        def of_host(include):
+            return next((host + include for host in (str(Path(name).parent) + "/", *HOSTS) if (root / host / include).is_file()), include)
+        found = [(line, of_host(include) if quoted else include, quoted) for line, include, quoted in found]
     own_header = re.sub(r"\.cpp$", ".h", name)
     if name.endswith(".cpp") and (root / own_header).is_file() and (not found or found[0][1] != own_header):
         faults.append(f"{name}: its own header comes first")
