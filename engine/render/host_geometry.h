@@ -8,9 +8,13 @@
 #include <cstdint>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/types.h"
 
 namespace gloam {
+
+namespace gpu {
+class Device;
+}
 
 /// How a depth image stores the distance along the view direction.
 enum class HostDepth : std::uint8_t {

@@ -6,6 +6,9 @@
 #include <cstddef>
 
 #include "engine/core/assert.h"
+#include "engine/render/knobs/measure.h"
+#include "engine/render/reference/reference.h"
+#include "engine/scene/key_registry.h"
 
 namespace gloam {
 namespace {
@@ -21,6 +24,10 @@ std::size_t place_of(const ModuleList& modules, std::string_view name) {
 }
 
 }  // namespace
+
+std::vector<ReferenceInfo> Module::references() const { return {}; }
+
+std::vector<MeasureInfo> Module::measures() const { return {}; }
 
 void check_modules(const ModuleList& modules) {
   check_present(modules);

@@ -9,20 +9,24 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/ecs/world.h"
-#include "engine/frame/frame_results.h"
+#include "engine/ecs/entity.h"
+#include "engine/math/types.h"
 #include "engine/render/knobs/knobs.h"
-#include "engine/render/knobs/measure.h"
-#include "engine/render/pipelines.h"
-#include "engine/render/reference/reference.h"
+#include "engine/render/pipeline_list.h"
 #include "engine/render/view.h"
-#include "engine/scene/key_registry.h"
-#include "engine/schedule/schedule.h"
 
 namespace gloam {
 
+// Declared only, because they are costly to include: a module's source includes the headers of those that it uses.
 class Captures;
 class FrameBuilder;
+class KeyRegistry;
+class Schedule;
+class World;
+struct FrameResult;
+struct MeasureInfo;
+struct ReferenceInfo;
+struct ReferenceInput;
 
 /// A module's answer to the question whether a world or a view needs it, with the reason in a few words for users.
 struct Demand {
@@ -113,10 +117,10 @@ class Module {
   virtual void scene_keys(KeyRegistry& registry) const = 0;
   virtual void knobs(KnobRegistry& registry) const { static_cast<void>(registry); }
   /// References for knobs that are not judged by the frame at their exact value; at most one per knob.
-  [[nodiscard]] virtual std::vector<ReferenceInfo> references() const { return {}; }
+  [[nodiscard]] virtual std::vector<ReferenceInfo> references() const;
   /// Measures for knobs whose values all draw the same picture; at most one per knob. A knob with a measure needs no
   /// reference.
-  [[nodiscard]] virtual std::vector<MeasureInfo> measures() const { return {}; }
+  [[nodiscard]] virtual std::vector<MeasureInfo> measures() const;
   virtual void add_systems(Schedule& schedule) { static_cast<void>(schedule); }
   [[nodiscard]] virtual std::vector<VisualizerInfo> visualizers() const { return {}; }
 

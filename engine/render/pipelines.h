@@ -21,11 +21,9 @@
 #include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/render/pipeline_list.h"
 
 namespace gloam {
-
-/// Descriptions of the pipelines that a module needs.
-using PipelineList = std::vector<std::variant<gpu::ComputePipelineDesc, gpu::GraphicsPipelineDesc>>;
 
 /// Pipelines by module and description (gpu::description_hash), compiled on first use. A description without a name
 /// gets the name of its shader and its constants. Thread-safe.

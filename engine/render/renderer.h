@@ -14,16 +14,21 @@
 
 #include "engine/core/log.h"
 #include "engine/core/result.h"
-#include "engine/core/zones.h"
 #include "engine/frame/frame_graph.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/types.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/host_geometry.h"
 #include "engine/render/module.h"
-#include "engine/render/readback/geometry_picture.h"
 #include "engine/render/readback/picture.h"
 
 namespace gloam {
+
+class World;
+class ZoneRecorder;
+struct GeometryPicture;
+namespace gpu {
+class Device;
+}
 
 /// Handling of a demanded module whose pipelines are not compiled yet.
 enum class Readiness {

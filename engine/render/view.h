@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "engine/ecs/entity.h"
-#include "engine/ecs/world.h"
 #include "engine/math/types.h"
 #include "engine/math/view_projection.h"
 #include "engine/scene/components.h"
 
 namespace gloam {
+
+class World;
 
 /// What a view is drawn for. Modules decide by it whether they take part (Module::demand): a capture, for example, has
 /// no fog.
