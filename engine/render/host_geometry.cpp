@@ -7,6 +7,8 @@
 #include <initializer_list>
 #include <string>
 
+#include "engine/gpu/device.h"
+
 namespace gloam {
 namespace {
 

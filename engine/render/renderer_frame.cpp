@@ -7,10 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/zones.h"
 #include "engine/render/attempt.h"
 #include "engine/render/passes/passes.h"
 #include "engine/render/renderer_state.h"
 #include "engine/scene/resources.h"
+#include "engine/schedule/schedule.h"
 
 namespace gloam {
 namespace {

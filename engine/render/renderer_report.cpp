@@ -4,6 +4,7 @@
 
 #include "engine/math/packing.h"
 #include "engine/render/renderer_state.h"
+#include "engine/schedule/schedule.h"
 
 namespace gloam {
 namespace {

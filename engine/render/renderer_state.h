@@ -20,6 +20,7 @@
 #include "engine/render/readback/capture.h"
 #include "engine/render/renderer.h"
 #include "engine/render/scene/gpu_scene.h"
+#include "engine/schedule/schedule.h"
 
 namespace gloam {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/render/frame_builder.h"
+#include "engine/schedule/schedule.h"
 #include "modules/particles/baked_light.h"
 #include "modules/particles/components.h"
 #include "modules/particles/debug/overdraw.h"

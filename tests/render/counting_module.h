@@ -9,6 +9,8 @@
 #include "engine/ecs/view.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
+#include "engine/schedule/parameters.h"
+#include "engine/schedule/schedule.h"
 
 namespace gloam::test {
 

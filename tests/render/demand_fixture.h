@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/zones.h"
 #include "engine/gpu/recording_device.h"
 #include "engine/render/renderer.h"
 #include "modules/fog/components.h"

@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "engine/schedule/schedule.h"
+
 namespace gloam {
 namespace {
 

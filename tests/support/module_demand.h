@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/core/zones.h"
 #include "engine/gpu/recording_device.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/renderer.h"

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/passes/passes.h"
 #include "engine/scene/resources.h"

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "engine/core/nearest_name.h"
+#include "engine/render/readback/geometry_picture.h"
 #include "engine/render/renderer_state.h"
 
 namespace gloam {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/ext/vector_double2.hpp>
 
+#include "engine/ecs/world.h"
+
 namespace gloam {
 namespace {
 

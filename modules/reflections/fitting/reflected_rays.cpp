@@ -5,6 +5,7 @@
 // shifted by a hash.
 #include "modules/reflections/fitting/reflected_rays.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>

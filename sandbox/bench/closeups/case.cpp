@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/ecs/view.h"
 #include "modules/accuracy/module.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/atlas/view_faces.h"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/core/hash.h"
+#include "engine/ecs/view.h"
 #include "engine/scene/resources.h"
 #include "modules/closeups/components.h"
 #include "sandbox/bench/closeups/case.h"

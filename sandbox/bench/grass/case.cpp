@@ -6,6 +6,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
+#include "engine/render/readback/geometry_picture.h"
 #include "modules/grass/components.h"
 #include "modules/grass/simulation/steps.h"
 #include "sandbox/session/scene_loading.h"

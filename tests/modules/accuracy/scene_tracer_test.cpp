@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <glm/ext/matrix_transform.hpp>
 #include <limits>
 #include <memory>

@@ -7,6 +7,8 @@
 
 #include "tests/modules/closeups/scene.h"
 
+#include "engine/ecs/view.h"
+
 // A separate program: memory and pipelines are counted per module, over all renderers of the device.
 
 namespace gloam::test {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/render/readback/geometry_picture.h"
 #include "tests/modules/grass/support/stems.h"
 #include "tests/support/scale.h"
 

@@ -9,6 +9,8 @@
 
 #include "tests/modules/grass/support/stems.h"
 
+#include "engine/render/readback/geometry_picture.h"
+
 namespace gloam::test {
 namespace {
 

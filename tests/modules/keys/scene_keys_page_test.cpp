@@ -9,6 +9,8 @@
 
 #include "modules/module_list/module_list.h"
 
+#include "engine/scene/key_registry.h"
+
 // The table in docs/scene-keys.md must match the registry, line by line.
 
 namespace gloam {

@@ -5,6 +5,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/ecs/view.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "engine/render/frame_builder.h"
+#include "engine/scene/key_registry.h"
 #include "tests/render/misuse/careless_host.h"
 
 namespace gloam {

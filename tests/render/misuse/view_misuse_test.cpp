@@ -6,6 +6,8 @@
 
 #include "tests/render/misuse/careless_host.h"
 
+#include "engine/render/readback/geometry_picture.h"
+
 namespace gloam {
 namespace {
 

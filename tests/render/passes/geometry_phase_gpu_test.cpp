@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/render/declare/draw_pass.h"
+#include "engine/render/readback/geometry_picture.h"
 #include "modules/shadows/components.h"
 #include "shaders/gpu_test/shaders.h"
 #include "tests/render/passes/projected_motion.h"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/math/packing.h"
+#include "engine/render/readback/geometry_picture.h"
 #include "tests/render/draws/drawn_scene.h"
 #include "tests/support/expect_assert.h"
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "engine/render/readback/geometry_picture.h"
 #include "tests/render/draws/drawn_scene.h"
 #include "tests/render/passes/smooth_surface_oracle.h"
 

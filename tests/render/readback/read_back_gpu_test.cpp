@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/render/frame_builder.h"
+#include "engine/render/readback/geometry_picture.h"
 #include "tests/render/draws/drawn_scene.h"
 
 // Renderer::read_image, read_images and read_geometry.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string_view>
 
+#include "engine/ecs/view.h"
 #include "modules/module_list/module_list.h"
 
 namespace gloam {

@@ -16,6 +16,8 @@
 
 #include "tests/modules/grass/support/stems.h"
 
+#include "engine/render/readback/geometry_picture.h"
+
 // GeometryOutputs::motion of blades against the stems of two frames, projected in double precision.
 
 namespace gloam::test {

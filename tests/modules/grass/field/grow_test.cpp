@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "engine/scene/gltf_import.h"
+#include "engine/schedule/schedule.h"
 #include "modules/grass/module.h"
 #include "tests/jobs/executors.h"
 #include "tests/modules/grass/growth/lawns.h"

@@ -19,6 +19,7 @@
 
 #include "engine/math/packing.h"
 #include "engine/render/readback/capture.h"
+#include "engine/render/readback/geometry_picture.h"
 #include "modules/grass/components.h"
 #include "modules/grass/field/grow.h"
 #include "modules/grass/frame.h"

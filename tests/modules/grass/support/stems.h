@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/render/readback/geometry_picture.h"
 #include "modules/grass/reference/slave_pose.h"
 #include "tests/modules/grass/support/grass_stage.h"
 

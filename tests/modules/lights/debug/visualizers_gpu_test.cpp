@@ -8,6 +8,7 @@
 #include <array>
 #include <set>
 
+#include "engine/ecs/view.h"
 #include "modules/lights/masks/tile_light_masks.h"
 #include "modules/lights/outputs.h"
 #include "modules/lights/selection/light_list.h"

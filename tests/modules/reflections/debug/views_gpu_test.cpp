@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/render/readback/geometry_picture.h"
 #include "engine/scene/resources.h"
 #include "tests/modules/reflections/support/reflection_frames.h"
 

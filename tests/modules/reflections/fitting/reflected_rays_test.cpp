@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/fitting/reflected_rays.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <glm/ext/matrix_transform.hpp>

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/ecs/view.h"
 #include "modules/accuracy/module.h"
 #include "modules/lighting/outputs.h"
 #include "modules/reflections/reference/reflection_tracing.h"

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/ecs/view.h"
 #include "engine/math/packing.h"
+#include "engine/render/readback/geometry_picture.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/components.h"
 #include "tests/modules/lighting/guest_module.h"

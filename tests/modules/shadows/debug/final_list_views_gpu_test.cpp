@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/ecs/view.h"
 #include "tests/modules/shadows/support/final_list_scene.h"
 
 namespace gloam {

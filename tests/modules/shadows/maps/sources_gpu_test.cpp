@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/ecs/view.h"
 #include "modules/shadows/outputs.h"
 #include "tests/modules/shadows/support/blades_module.h"
 #include "tests/modules/shadows/support/held_faces.h"
