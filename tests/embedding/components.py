@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 """Builds hosts that use parts of the installed package, where the packages of other parts cannot be found.
-usage: components.py CMAKE PREFIX WORK [CMAKE_ARGUMENT…]"""
+usage: components.py COMPILER CMAKE PREFIX WORK [CMAKE_ARGUMENT…]
+
+Exit status 77: the compiler is absent."""
 import shutil
 import subprocess
 import sys
@@ -54,25 +56,24 @@ def stripped_size(program):
     return stripped.stat().st_size
 
 
-def main(cmake, prefix, work, *arguments):
-    work = Path(work)
-    faults = probe_faults(cmake, prefix, work, arguments)
+def main(compiler, cmake, prefix, work, *arguments):
+    if not shutil.which(compiler):
+        print(f"{compiler} is absent")
+        sys.exit(77)
+    work = Path(work) / compiler.rstrip("+")
+    arguments = [*arguments, f"-DCMAKE_CXX_COMPILER={compiler}"]
+    faults = probe_faults(cmake, prefix, work, arguments) if compiler == "g++" else []
     if faults:
         sys.exit("\n".join(faults))
-    compilers = [name for name in ("g++", "clang++") if shutil.which(name)]
-    if "clang++" not in compilers:
-        print("SKIPPED: clang++ is absent, the hosts are built by one compiler only")
-    for compiler in compilers:
-        for host, options, programs in (("host_ecs", NO_GPU + NO_GLM, ("host_jobs", "host_ecs")),
-                                        ("host_cpu", NO_GPU, ("host_cpu", "host_cpu_unsectioned"))):
-            build = work / f"{host}_{compiler.rstrip('+')}"
-            shutil.rmtree(build, ignore_errors=True)
-            run(cmake, "-S", HERE / host, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}", *options, *arguments,
-                f"-DCMAKE_CXX_COMPILER={compiler}")
-            run(cmake, "--build", build, "--parallel", "2")
-            for program in programs:
-                run(build / program)
-    sectioned, whole = (stripped_size(work / "host_cpu_g" / name) for name in ("host_cpu", "host_cpu_unsectioned"))
+    for host, options, programs in (("host_ecs", NO_GPU + NO_GLM, ("host_jobs", "host_ecs")),
+                                    ("host_cpu", NO_GPU, ("host_cpu", "host_cpu_unsectioned"))):
+        build = work / host
+        shutil.rmtree(build, ignore_errors=True)
+        run(cmake, "-S", HERE / host, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}", *options, *arguments)
+        run(cmake, "--build", build, "--parallel", "2")
+        for program in programs:
+            run(build / program)
+    sectioned, whole = (stripped_size(work / "host_cpu" / name) for name in ("host_cpu", "host_cpu_unsectioned"))
     print(f"host_cpu has {sectioned} bytes; {whole} without --gc-sections")
     if sectioned >= whole:
         sys.exit("--gc-sections drops nothing: the library's objects have no section for each function")
