@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/ecs/view.h"
+#include "engine/render/view.h"
 #include "engine/scene/components.h"
 #include "engine/schedule/schedule.h"
 #include "modules/lights/light_set.h"

@@ -9,6 +9,7 @@
 #include "engine/scene/components.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/schedule/schedule.h"
+#include "modules/lights/light_set.h"
 #include "modules/lights/module.h"
 #include "modules/lights/selection/light_list.h"
 #include "tests/modules/lights/masks/mask_oracle.h"

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "engine/scene/components.h"
+#include "modules/lights/light_set.h"
 #include "modules/lights/selection/light_list.h"
 #include "tests/jobs/executors.h"
 #include "tests/support/module_world.h"

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/jobs/executor.h"
+#include "engine/render/view.h"
 #include "modules/lights/selection/light_list.h"
 
 namespace gloam {

@@ -12,6 +12,8 @@
 
 #include "modules/lights/selection/light_list.h"
 
+#include "engine/render/view.h"
+
 namespace gloam {
 namespace {
 
