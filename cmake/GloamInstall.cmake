@@ -57,3 +57,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION ${gloam_include_dir}
   FILES_MATCHING REGEX "_(shared\\.h|api\\.glsl)$|/shaders/common/[a-z_]+\\.(h|glsl)$" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING PATTERN "shaders.h" PATTERN "*_test" EXCLUDE PATTERN "every" EXCLUDE PATTERN "sandbox" EXCLUDE)
+# Shaders that installed *_api.glsl include.
+install(FILES ${PROJECT_SOURCE_DIR}/shaders/lighting/arriving_light.glsl
+  DESTINATION ${gloam_include_dir}/shaders/lighting COMPONENT gloam)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/shadows/filter DESTINATION ${gloam_include_dir}/shaders/shadows
+  COMPONENT gloam FILES_MATCHING PATTERN "*.glsl" PATTERN "probe*" EXCLUDE)

@@ -18,9 +18,9 @@ def run(*command):
 
 
 def header_faults(include):
-    """Lists headers that include project headers which are not installed, or headers of private libraries."""
+    """Lists headers and shaders that include files of the project which are not installed, or headers of private libraries."""
     faults = []
-    headers = sorted(include.rglob("*.h"))
+    headers = sorted([*include.rglob("*.h"), *include.rglob("*.glsl")])
     for header in headers:
         text = header.read_text(encoding="utf-8")
         name = header.relative_to(include).as_posix()
