@@ -62,3 +62,6 @@ install(FILES ${PROJECT_SOURCE_DIR}/shaders/lighting/arriving_light.glsl
   DESTINATION ${gloam_include_dir}/shaders/lighting COMPONENT gloam)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/shadows/filter DESTINATION ${gloam_include_dir}/shaders/shadows
   COMPONENT gloam FILES_MATCHING PATTERN "*.glsl" PATTERN "probe*" EXCLUDE)
+# Programs that use the package; tests/embedding builds and runs them as they are installed.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tests/embedding/host/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gloam/examples
+  COMPONENT gloam)

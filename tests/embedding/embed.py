@@ -58,11 +58,24 @@ def compiler_faults(compilers, include, work):
 
 
 def guide_faults(host):
-    """Checks that docs/adding-a-module.md quotes the class in veil_module.cpp verbatim."""
+    """Checks that the documents quote the examples verbatim: docs/adding-a-module.md the class and the shaders of the veil
+    module, README.md the smallest host."""
+    root = host.parents[2]
+    guide = (root / "docs/adding-a-module.md").read_text(encoding="utf-8")
     text = (host / "veil_module.cpp").read_text(encoding="utf-8")
-    shown = text[text.index("class VeilModule"):text.index("}  // namespace\n")].strip()
-    guide = (host.parents[2] / "docs/adding-a-module.md").read_text(encoding="utf-8")
-    return [] if shown in guide else ["docs/adding-a-module.md does not show veil_module.cpp as it is"]
+    shown = {"veil_module.cpp": text[text.index("class VeilModule"):text.index("}  // namespace\n")].strip()}
+    for shader in sorted((host / "shaders/veil").iterdir()):
+        shown[f"shaders/veil/{shader.name}"] = f"```glsl\n{without_licence(shader)}\n```\n"
+    faults = [f"docs/adding-a-module.md does not show {name} as it is" for name, part in shown.items() if part not in guide]
+    minimal = f"```cpp\n{without_licence(host / 'minimal.cpp')}\n```\n"
+    if minimal not in (root / "README.md").read_text(encoding="utf-8"):
+        faults.append("README.md does not show minimal.cpp as it is")
+    return faults
+
+
+def without_licence(path):
+    """The text of a source file without its first two lines."""
+    return path.read_text(encoding="utf-8").split("\n", 2)[2].strip()
 
 
 def main(cmake, source, build, *arguments):
@@ -71,6 +84,7 @@ def main(cmake, source, build, *arguments):
     shutil.rmtree(prefix, ignore_errors=True)
     run(cmake, "--install", build, "--prefix", prefix, "--component", "gloam")
     include = prefix / "include" / "gloam"
+    examples = prefix / "share" / "gloam" / "examples"
     compilers = [name for name in ("g++", "clang++") if shutil.which(name)]
     faults = header_faults(include) + guide_faults(Path(source)) + compiler_faults(compilers, include, work)
     if faults:
@@ -80,7 +94,7 @@ def main(cmake, source, build, *arguments):
     for compiler in compilers:
         host = work / ("host" if compiler == "g++" else "host_clang")
         shutil.rmtree(host, ignore_errors=True)
-        run(cmake, "-S", source, "-B", host, f"-DCMAKE_PREFIX_PATH={prefix}", *arguments, f"-DCMAKE_CXX_COMPILER={compiler}")
+        run(cmake, "-S", examples, "-B", host, f"-DCMAKE_PREFIX_PATH={prefix}", *arguments, f"-DCMAKE_CXX_COMPILER={compiler}")
         run(cmake, "--build", host, "--parallel", "2")
         run(host / "host")
         run(host / "host_module")

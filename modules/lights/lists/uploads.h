@@ -23,8 +23,9 @@ struct TileMaskHash {
   std::shared_ptr<Computed> computed = std::make_shared<Computed>();
 };
 
-/// Fills LightsOutputs::z_bins and LightsOutputs::mask_tiles with buffers of the view that keep their contents between frames. Pass
-/// light_uploads copies the arrays that differ from what the buffers hold; without such an array there is no pass.
+/// Fills LightsOutputs::z_bins and LightsOutputs::mask_tiles with buffers of the view that keep their contents between
+/// frames. Pass light_uploads copies the arrays that differ from what the buffers hold; without such an array there is
+/// no pass.
 void add_light_uploads(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks, LightsOutputs& outputs);
 
 }  // namespace gloam
