@@ -23,10 +23,10 @@ def main(build):
     def red(x, y):
         return picture[len(head) + 3 * (WIDTH * y + x)]
 
-    places = {"sky": red(600, 20), "pyramid": red(350, 220), "floor": red(560, 300), "shadow": red(230, 220)}
+    places = {"sky": red(600, 20), "pyramid": red(350, 260), "floor": red(560, 310), "shadow": red(220, 265)}
     print("red of", places)
-    if not (places["sky"] < 60 and places["pyramid"] > 100 and places["floor"] > 80 and places["shadow"] < places["floor"] / 2):
-        sys.exit("minimal.ppm does not show a lit pyramid on a lit floor, its shadow and a dark sky")
+    if not (places["sky"] < 110 and places["pyramid"] > 150 and places["floor"] > 150 and places["shadow"] < places["floor"] / 2):
+        sys.exit("minimal.ppm does not show a lit pyramid on a lit floor, its shadow and a blue sky")
 
 
 if __name__ == "__main__":

@@ -57,7 +57,7 @@ gloam::ViewSettings camera() {
   gloam::ViewSettings settings;
   settings.width = kWidth;
   settings.height = kHeight;
-  settings.world_from_camera[3] = gloam::dvec4(0.0, 1.3, 6.0, 1.0);
+  settings.world_from_camera[3] = gloam::dvec4(0.0, 2.2, 6.0, 1.0);
   return settings;
 }
 
@@ -219,7 +219,7 @@ class Stage {
     host::build_little_world(world, wanted);
     auto& environment = world.resource<gloam::SceneEnvironment>();
     environment.has_exposure = true;
-    environment.exposure_ev100 = 7.0f;
+    environment.exposure_ev100 = 9.0f;
     for (int frame = 0; frame < 3; ++frame) {
       const VkCommandBuffer commands = in_host_commands ? vulkan_.begin_commands() : VK_NULL_HANDLE;
       if (in_host_commands) gpu::record_next_frame_into(device_, commands);

@@ -210,7 +210,7 @@ TEST_F(ViewMisuse, host_geometry_that_is_missing_of_a_wrong_kind_or_wrongly_desc
       {[](auto&, auto& d) { d.depth = {}; }, "the image of depth is missing"},
       {[](auto&, auto& d) { d.material = {}; }, "the image of material is missing"},
       {[](auto& s, auto& d) { d.normals = s.image(sampled); }, "the image of normals"},
-      {[](auto& s, auto& d) { d.base_color = s.image(color_target); }, "the image of base_color"},
+      {[](auto& s, auto& d) { d.base_color = s.image(color_target); }, "the image of base colour was not made with ImageUsage::sampled"},
       {[](auto&, auto& d) { d.near_m = 0.0f; }, "near_m must be above 0"},
       {[](auto&, auto& d) { d.far_m = 0.05f; }, "far_m must be 0 (infinitely far) or above near_m"},
       {[](auto&, auto& d) { d.roughness = HostChannel::none; }, "roughness needs a channel"},
