@@ -210,7 +210,8 @@ TEST_F(ViewMisuse, host_geometry_that_is_missing_of_a_wrong_kind_or_wrongly_desc
       {[](auto&, auto& d) { d.depth = {}; }, "the image of depth is missing"},
       {[](auto&, auto& d) { d.material = {}; }, "the image of material is missing"},
       {[](auto& s, auto& d) { d.normals = s.image(sampled); }, "the image of normals"},
-      {[](auto& s, auto& d) { d.base_color = s.image(color_target); }, "the image of base colour was not made with ImageUsage::sampled"},
+      {[](auto& s, auto& d) { d.base_color = s.image(color_target); },
+       "the image of base colour was not made with ImageUsage::sampled"},
       {[](auto&, auto& d) { d.near_m = 0.0f; }, "near_m must be above 0"},
       {[](auto&, auto& d) { d.far_m = 0.05f; }, "far_m must be 0 (infinitely far) or above near_m"},
       {[](auto&, auto& d) { d.roughness = HostChannel::none; }, "roughness needs a channel"},
@@ -247,8 +248,9 @@ TEST_F(ViewMisuse, scales_of_no_sense) {
   expect_assert(view, "view 3: LensPoint::focus_m");
 }
 
-TEST_F(ViewMisuse, a_view_larger_than_the_device_can_draw) {
-  EXPECT_THAT(stage_.error_of(CarelessHost::request(3, 1u << 20, 1u << 20)), HasSubstr("view 3"));
+TEST_F(ViewMisuse, a_view_that_is_too_large_is_an_error) {
+  EXPECT_THAT(stage_.error_of(CarelessHost::request(3, 64, 1u << 20)),
+              HasSubstr("view 3 is 64x1048576 pixels: a view has at most 16384 a side"));
   EXPECT_TRUE(stage_.render(CarelessHost::request()).ok());
 }
 
