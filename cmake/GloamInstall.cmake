@@ -50,7 +50,8 @@ install(FILES ${PROJECT_BINARY_DIR}/gloamConfig.cmake ${PROJECT_BINARY_DIR}/gloa
 # installed; engine/gpu/vulkan is not.
 set(gloam_include_dir include/gloam)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION ${gloam_include_dir} COMPONENT gloam
-  FILES_MATCHING PATTERN "*.h" PATTERN "engine/gpu/vulkan" EXCLUDE PATTERN "engine/render/attempt.h" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN "engine/gpu/vulkan" EXCLUDE PATTERN "engine/render/attempt.h" EXCLUDE
+  PATTERN "engine/jobs/conformance" EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|module_list)\\.h$")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
@@ -61,7 +62,7 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/shaders DESTINATION ${gloam_in
 install(FILES ${PROJECT_SOURCE_DIR}/shaders/lighting/arriving_light.glsl
   DESTINATION ${gloam_include_dir}/shaders/lighting COMPONENT gloam)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/shadows/filter DESTINATION ${gloam_include_dir}/shaders/shadows
-  COMPONENT gloam FILES_MATCHING PATTERN "*.glsl" PATTERN "probe*" EXCLUDE)
+  COMPONENT gloam FILES_MATCHING PATTERN "*.glsl" PATTERN "probe.*" EXCLUDE PATTERN "probe_standard.*" EXCLUDE)
 # Programs that use the package; tests/embedding builds and runs them as they are installed.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tests/embedding/host/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gloam/examples
   COMPONENT gloam)
