@@ -29,8 +29,8 @@ struct ExecutorCheck {
 /// nothing. A missing order shows under ThreadSanitizer. Whether wrong arguments are refused is not checked.
 ///
 /// If a check does not end, the result says so and no further check runs. A thread that uses the executor is then left
-/// behind: the process should end without destroying the executor. The memory of checks that found a fault is never
-/// freed, because jobs of a broken executor may still be running.
+/// behind: the process should end without destroying the executor. If there are faults, the memory of the checks is
+/// never freed, because jobs of a broken executor may still be running.
 [[nodiscard]] std::vector<std::string> executor_faults(JobExecutor& executor, const ExecutorCheck& check = {});
 
 }  // namespace gloam

@@ -58,10 +58,8 @@ void run_checks(JobExecutor& executor, std::uint32_t rounds, const std::shared_p
     if (outcome.threw) fault = std::string(rule.name) + ": threw " + outcome.text() + ", although no job failed";
     sound = sound && fault.empty();
     const std::lock_guard lock(progress->mutex);
-    if (!fault.empty()) {
-      progress->faults.push_back(std::move(fault));
-      progress->kept.push_back(std::shared_ptr<void>(std::move(subject)));
-    }
+    if (!fault.empty()) progress->faults.push_back(std::move(fault));
+    progress->kept.push_back(std::shared_ptr<void>(std::move(subject)));
     ++progress->checks;
     progress->changed.notify_all();
     if (progress->abandoned) return;
