@@ -135,7 +135,8 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
       "100,000 separate jobs on two workers. Every row carries a hash of its result, except rows that quote a figure\n"
       "from a paper. If a row fails, the rows before it are still written.");
   CLI::App* knobs = add(Command::knobs, "knobs", "List the knobs with their values, units and meanings");
-  knobs->add_flag("--json", options.json, "Print JSON");
+  CLI::Option* json = knobs->add_flag("--json", options.json, "Print JSON");
+  knobs->add_flag("--markdown", options.markdown, "Print the page docs/knobs.md: the defaults")->excludes(json);
   add(Command::scenes, "scenes", "List the built-in scenes and the effect each shows");
   return commands;
 }

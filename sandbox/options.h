@@ -55,6 +55,7 @@ struct Options {
   bool quiet = false;
 
   bool json = false;               ///< inspect, knobs
+  bool markdown = false;           ///< knobs
   std::uint32_t fit_proxies = 0;   ///< bake
   bool beside = false;             ///< bake: write the captures beside the scene file
   std::string knobs;               ///< cost: comma-separated

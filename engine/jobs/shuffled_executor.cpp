@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <atomic>
 #include <numeric>
 #include <utility>
 
@@ -11,19 +12,21 @@ namespace gloam {
 namespace {
 
 /// SplitMix64 (Steele, Lea, Flood 2014): the same sequence on every platform, unlike the distributions of <random>.
+/// Several threads may draw numbers at once.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
   /// In [0, bound); bound ≥ 1. The bias of the remainder does not matter for orders of jobs.
   [[nodiscard]] std::size_t below(std::size_t bound) {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
+    constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15ull;
+    std::uint64_t z = state_.fetch_add(kStep, std::memory_order_relaxed) + kStep;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
     return static_cast<std::size_t>((z ^ (z >> 31)) % bound);
   }
 
  private:
-  std::uint64_t state_;
+  std::atomic<std::uint64_t> state_;
 };
 
 class ShuffledExecutor final : public JobExecutor {

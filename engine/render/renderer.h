@@ -29,6 +29,8 @@ struct GeometryPicture;
 namespace gpu {
 class Device;
 }
+/// Greatest width and height of a view, in pixels.
+inline constexpr std::uint32_t kMostViewPixels = 16384;
 
 /// Handling of a demanded module whose pipelines are not compiled yet.
 enum class Readiness {
@@ -153,6 +155,7 @@ class Renderer {
   /// the GPU. On an error the frame is given up: the GPU executes nothing of it, its system commands are dropped, and
   /// the next call draws as if it had not been begun. Exceptions of systems, jobs and passes become errors that name
   /// the system or the pass, if they are derived from std::exception; others pass through after the frame was given up.
+  /// A view of more than kMostViewPixels a side is a usage error.
   [[nodiscard]] Status render(World& world, std::span<const ViewRequest> views);
   /// Waits until the GPU has finished everything submitted.
   [[nodiscard]] Status wait();

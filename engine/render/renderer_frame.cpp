@@ -74,6 +74,14 @@ void check_light_target(const gpu::Device& device, const ViewRequest& request, c
                view + ": the image \"" + desc.name + "\" of LightTarget was made without ImageUsage::color_target");
 }
 
+/// A size may come from a user, so a great one is no misuse.
+Status check_size(const ViewSettings& settings) {
+  if (settings.width <= kMostViewPixels && settings.height <= kMostViewPixels) return {};
+  return Error{ErrorKind::usage, "view " + std::to_string(settings.id.value) + " is " +
+                                     size_text(settings.width, settings.height) + " pixels: a view has at most " +
+                                     std::to_string(kMostViewPixels) + " a side"};
+}
+
 /// Asserts that the view can be drawn into its target.
 void check_target(const gpu::Device& device, const ViewRequest& request) {
   const ViewSettings& settings = request.settings;
@@ -263,6 +271,7 @@ Status Renderer::State::add_companions(World& world) {
     check_target(*options.device, own.request);
     follow_camera(world, own.request.settings);
     check_settings(own.request.settings);
+    GLOAM_TRY(check_size(own.request.settings));
     GLOAM_TRY(add_companions_of(world, own));
     frame_views.push_back(std::move(own));
   }

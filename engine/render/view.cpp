@@ -83,6 +83,8 @@ void check_settings(const ViewSettings& settings) {
                view + ": ViewSettings::aspect is not at least 0 and finite");
   GLOAM_ASSERT(!settings.mirror || std::abs(glm::length(settings.mirror->normal) - 1.0) < 1e-6,
                view + ": the normal of a mirror has unit length");
+  GLOAM_ASSERT(is_positive(settings.heat_range), view + ": ViewSettings::heat_range is not positive and finite");
+  GLOAM_ASSERT(!settings.lens || settings.lens->focus_m > 0.0, view + ": LensPoint::focus_m is not above 0");
 }
 
 std::string camera_fault(const World& world, Entity camera) {

@@ -13,7 +13,7 @@
 #include "engine/jobs/executor.h"
 #include "engine/schedule/access.h"
 
-/// Parameter types of systems, besides View<…>, JobExecutor& and (in Stage::view) ViewId.
+// Parameter types of systems, besides View<…>, JobExecutor& and (in Stage::view) ViewId.
 
 namespace gloam {
 

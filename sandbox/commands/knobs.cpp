@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "modules/module_list/module_list.h"
@@ -53,12 +54,54 @@ Json json_of(const KnobRegistry& registry) {
   return json;
 }
 
+/// Text for a cell of a table.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped;
+}
+std::string code(const std::string& text) { return text.empty() ? text : "`" + cell(text) + "`"; }
+
+/// The page docs/knobs.md. It shows defaults, not the current values.
+std::string markdown_of(const KnobRegistry& registry) {
+  std::string text =
+      "# Knobs\n\n"
+      "A knob trades accuracy for time, or chooses a method. The program sets knobs with `--set NAME=VALUE` and "
+      "`--config\n"
+      "FILE`, a host with `Renderer::knobs().set(…)` and, for one view, `ViewSettings::knobs`. *Exact* is the value "
+      "that\n"
+      "`gloam cost` compares the other values with. `gloam play` and `gloam render` set "
+      "`lighting.antialiasing=smaa`.\n\n"
+      "This page is the output of `gloam knobs --markdown`; the tests compare it.\n";
+  std::string module;
+  for (const Knob& knob : registry.knobs()) {
+    if (knob.module != module)
+      text += "\n## " + knob.module +
+              "\n\n| Knob | Values | Default | Exact | Meaning |\n| --- | --- | --- | --- | --- |\n";
+    module = knob.module;
+    std::string values;
+    if (knob.type == Knob::Type::choice)
+      for (const std::string& choice : knob.choices) values += (values.empty() ? "" : ", ") + code(choice);
+    else
+      values = value_text(knob, knob.min) + " … " + value_text(knob, knob.max);
+    if (!knob.unit.empty()) values += " " + cell(knob.unit);
+    text += "| " + code(knob.name) + " | " + values + " | " + code(value_text(knob, knob.default_number)) + " | " +
+            code(knob.exact) + " | " + cell(knob.meaning) + " |\n";
+  }
+  return text;
+}
+
+std::string output_of(const KnobRegistry& registry, const Options& options) {
+  if (options.markdown) return markdown_of(registry);
+  return options.json ? json_text(json_of(registry)) : text_of(registry);
+}
+
 }  // namespace
 
 Status run_knobs(const CommandContext& context) {
   KnobRegistry registry = all_knobs(make_all_modules());
   GLOAM_TRY(set_knobs(registry, context.options));
-  context.console.print(context.options.json ? json_text(json_of(registry)) : text_of(registry));
+  context.console.print(output_of(registry, context.options));
   return {};
 }
 

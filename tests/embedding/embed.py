@@ -21,9 +21,9 @@ def run(*command):
 
 
 def header_faults(include):
-    """Lists headers that include project headers which are not installed, or headers of private libraries."""
+    """Lists headers and shaders that include files of the project which are not installed, or headers of private libraries."""
     faults = []
-    headers = sorted(include.rglob("*.h"))
+    headers = sorted([*include.rglob("*.h"), *include.rglob("*.glsl")])
     for header in headers:
         text = header.read_text(encoding="utf-8")
         name = header.relative_to(include).as_posix()
@@ -61,11 +61,24 @@ def compiler_faults(compiler, include, work):
 
 
 def guide_faults(host):
-    """Checks that docs/adding-a-module.md quotes the class in veil_module.cpp verbatim."""
+    """Checks that the documents quote the examples verbatim: docs/adding-a-module.md the class and the shaders of the veil
+    module, README.md the smallest host."""
+    root = host.parents[2]
+    guide = (root / "docs/adding-a-module.md").read_text(encoding="utf-8")
     text = (host / "veil_module.cpp").read_text(encoding="utf-8")
-    shown = text[text.index("class VeilModule"):text.index("}  // namespace\n")].strip()
-    guide = (host.parents[2] / "docs/adding-a-module.md").read_text(encoding="utf-8")
-    return [] if shown in guide else ["docs/adding-a-module.md does not show veil_module.cpp as it is"]
+    shown = {"veil_module.cpp": text[text.index("class VeilModule"):text.index("}  // namespace\n")].strip()}
+    for shader in sorted((host / "shaders/veil").iterdir()):
+        shown[f"shaders/veil/{shader.name}"] = f"```glsl\n{without_licence(shader)}\n```\n"
+    faults = [f"docs/adding-a-module.md does not show {name} as it is" for name, part in shown.items() if part not in guide]
+    minimal = f"```cpp\n{without_licence(host / 'minimal.cpp')}\n```\n"
+    if minimal not in (root / "README.md").read_text(encoding="utf-8"):
+        faults.append("README.md does not show minimal.cpp as it is")
+    return faults
+
+
+def without_licence(path):
+    """The text of a source file without its first two lines."""
+    return path.read_text(encoding="utf-8").split("\n", 2)[2].strip()
 
 
 def main(compiler, cmake, source, build, *arguments):
@@ -75,6 +88,7 @@ def main(compiler, cmake, source, build, *arguments):
     work = Path(build) / "embedding"
     prefix = work / "prefix"
     include = prefix / "include" / "gloam"
+    examples = prefix / "share" / "gloam" / "examples"
     faults = []
     if compiler == "g++":
         shutil.rmtree(prefix, ignore_errors=True)
@@ -85,7 +99,7 @@ def main(compiler, cmake, source, build, *arguments):
         sys.exit("\n".join(faults))
     host = work / ("host" if compiler == "g++" else "host_clang")
     shutil.rmtree(host, ignore_errors=True)
-    run(cmake, "-S", source, "-B", host, f"-DCMAKE_PREFIX_PATH={prefix}", *arguments, f"-DCMAKE_CXX_COMPILER={compiler}")
+    run(cmake, "-S", examples, "-B", host, f"-DCMAKE_PREFIX_PATH={prefix}", *arguments, f"-DCMAKE_CXX_COMPILER={compiler}")
     run(cmake, "--build", host, "--parallel", "2")
     run(host / "host")
     run(host / "host_module")

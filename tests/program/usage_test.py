@@ -3,6 +3,7 @@
 """Tests exit codes and error lines of all commands that need no device."""
 import json
 import os
+import re
 import subprocess
 
 from program_case import NO_DEVICE, ProgramCase, main
@@ -86,6 +87,14 @@ class Usage(ProgramCase):
             self.assertTrue(knob["meaning"], knob["name"])
             self.assertTrue("values" in knob or "min" in knob, knob["name"])
         self.expect(2, "knobs", "--set", "no.such=1")
+
+    def test_the_page_of_knobs_shows_all_knobs_as_they_are(self):
+        page = (self.source / "docs/knobs.md").read_text(encoding="utf-8")
+        self.assertEqual(page, self.expect(0, "knobs", "--markdown", env=NO_VULKAN).stdout,
+                         "write docs/knobs.md with: gloam knobs --markdown >docs/knobs.md")
+        for knob in json.loads(self.expect(0, "knobs", "--json").stdout)["knobs"]:
+            self.assertRegex(page, r"\n\| `%s` \| .*%s" % (re.escape(knob["name"]), re.escape(knob["meaning"].replace("|", "\\|"))))
+        self.expect(2, "knobs", "--markdown", "--json", env=NO_VULKAN)
 
     def test_scenes_are_one_a_line(self):
         lines = self.expect(0, "scenes").stdout.splitlines()

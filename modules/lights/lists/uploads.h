@@ -16,15 +16,16 @@ namespace gloam {
 /// that it can be updated while passes are declared.
 struct TileMaskHash {
   struct Computed {
-    std::uint64_t lists = 0;  ///< TileLightMasks::lists and ::bound of the hashed masks
+    std::uint64_t lists = 0;  ///< of the hashed masks (TileLightMasks::lists, TileLightMasks::bound)
     TileBound bound = TileBound::rect;
     std::uint64_t hash = 0;
   };
   std::shared_ptr<Computed> computed = std::make_shared<Computed>();
 };
 
-/// Fills LightsOutputs::z_bins and ::mask_tiles with buffers of the view that keep their contents between frames. Pass
-/// light_uploads copies the arrays that differ from what the buffers hold; without such an array there is no pass.
+/// Fills LightsOutputs::z_bins and LightsOutputs::mask_tiles with buffers of the view that keep their contents between
+/// frames. Pass light_uploads copies the arrays that differ from what the buffers hold; without such an array there is
+/// no pass.
 void add_light_uploads(FrameBuilder& frame, const ZBins& bins, const TileLightMasks& masks, LightsOutputs& outputs);
 
 }  // namespace gloam

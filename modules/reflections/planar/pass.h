@@ -12,8 +12,8 @@ namespace gloam {
 /// Sets ReflectionFrame::planar, if a companion of the view has drawn the mirrored scene in this frame.
 void find_planar_mirror(FrameBuilder& frame, ReflectionFrame& reflections);
 
-/// With ReflectionFrame::planar: writes ReflectionFrame::color and ::surface from the companion's picture, in place of
-/// screen space and proxies.
+/// With ReflectionFrame::planar: writes ReflectionFrame::color and ReflectionFrame::surface from the companion's
+/// picture, in place of screen space and proxies.
 void add_planar_pass(FrameBuilder& frame, ReflectionFrame& reflections);
 
 }  // namespace gloam

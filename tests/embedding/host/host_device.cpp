@@ -14,6 +14,7 @@
 
 #include "engine/gpu/vulkan_device.h"
 #include "engine/gpu/vulkan_interop.h"
+#include "engine/jobs/executor_conformance.h"
 #include "engine/render/renderer.h"
 #include "little_world.h"
 #include "modules/module_list/module_list.h"
@@ -172,9 +173,16 @@ void check_refusal(host::VulkanHost& vulkan) {
   }
 }
 
+/// Checks that the host's pool keeps the rules of JobExecutor.
+void check_pool() {
+  host::ThreadExecutor executor(3);
+  for (const std::string& fault : gloam::executor_faults(executor)) fail("the host's pool: " + fault);
+}
+
 }  // namespace
 
 int main() {
+  check_pool();
   std::string why;
   const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open(why);
   if (vulkan == nullptr) {

@@ -3,7 +3,8 @@
 // A host that draws its own geometry: it traces rays to the boxes of the little world and writes depth, normals,
 // colours and material into its own images. gloam lights them, in the host's command buffer. The picture must be the
 // one that gloam draws of meshes of the same boxes. Shadows come from meshes that only cast, or from the host's own
-// draws. Exit code 77: there is no Vulkan device.
+// draws. A shader of the host lights the images too, by gloam's light lists and visibilities. Exit code 77: there is no
+// Vulkan device.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +25,7 @@
 #include "engine/render/renderer.h"
 #include "little_world.h"
 #include "modules/module_list/module_list.h"
+#include "own_shading.h"
 #include "thread_executor.h"
 #include "vulkan_host.h"
 
@@ -54,7 +57,7 @@ gloam::ViewSettings camera() {
   gloam::ViewSettings settings;
   settings.width = kWidth;
   settings.height = kHeight;
-  settings.world_from_camera[3] = gloam::dvec4(0.0, 1.3, 6.0, 1.0);
+  settings.world_from_camera[3] = gloam::dvec4(0.0, 2.2, 6.0, 1.0);
   return settings;
 }
 
@@ -183,16 +186,19 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Lights the host's images, in the host's command buffers.
-  Bytes light(Casters casters) {
+  /// Lights the host's images, in the host's command buffers. bands: as in make_own_shading; none: gloam's shader.
+  Bytes light(Casters casters, std::optional<std::uint32_t> bands = {}) {
     gloam::HostGeometryDesc desc = desc_;
     desc.draws_meshes = false;
     gloam::ViewRequest request = this->request();
     request.geometry = value_of(gloam::HostGeometry::create(device_, desc));
-    return draw({.meshes = casters == Casters::meshes, .shadows = true}, request, casters == Casters::own_draws, true);
+    gloam::ModuleList own;
+    if (casters == Casters::own_draws) own.push_back(host::make_box_casters());
+    if (bands) own.push_back(host::make_own_shading(*bands));
+    return draw({.meshes = casters == Casters::meshes, .shadows = true}, request, std::move(own), true);
   }
   /// gloam draws the boxes itself.
-  Bytes draw_meshes() { return draw({.meshes = true, .shadows = true}, request(), false, false); }
+  Bytes draw_meshes() { return draw({.meshes = true, .shadows = true}, request(), {}, false); }
 
  private:
   [[nodiscard]] gloam::ViewRequest request() const {
@@ -201,10 +207,10 @@ class Stage {
     request.target = {.image = picture_.handle, .after = gpu::Access::transfer_read};
     return request;
   }
-  Bytes draw(const host::LittleWorld& wanted, const gloam::ViewRequest& request, bool own_casters,
+  Bytes draw(const host::LittleWorld& wanted, const gloam::ViewRequest& request, gloam::ModuleList own,
              bool in_host_commands) {
     gloam::ModuleList modules = gloam::make_all_modules();
-    if (own_casters) modules.push_back(host::make_box_casters());
+    for (auto& module : own) modules.push_back(std::move(module));
     auto renderer = value_of(gloam::Renderer::create(
         {.device = &device_, .executor = &executor_, .log = &log_, .modules = std::move(modules)}));
     check(renderer->knobs().set("lighting.dither", "off"));
@@ -213,7 +219,7 @@ class Stage {
     host::build_little_world(world, wanted);
     auto& environment = world.resource<gloam::SceneEnvironment>();
     environment.has_exposure = true;
-    environment.exposure_ev100 = 7.0f;
+    environment.exposure_ev100 = 9.0f;
     for (int frame = 0; frame < 3; ++frame) {
       const VkCommandBuffer commands = in_host_commands ? vulkan_.begin_commands() : VK_NULL_HANDLE;
       if (in_host_commands) gpu::record_next_frame_into(device_, commands);
@@ -287,6 +293,12 @@ int main() {
           name, same.mean, 100.0 * same.share, other.mean);
       right = right && same.mean < 0.5 && same.share < 0.01 && other.mean > 1.0;
     }
+    const Bytes lit = stage.light(Casters::meshes);
+    const Difference smooth = difference(lit, stage.light(Casters::meshes, 0));
+    const Difference banded = difference(lit, stage.light(Casters::meshes, 1));
+    std::printf("the host's shader: %.3f of 255 from gloam's; with hard shadow edges %.3f, %.2f %% of pixels\n",
+                smooth.mean, banded.mean, 100.0 * banded.share);
+    right = right && smooth.mean < 0.01 && smooth.share == 0.0 && banded.share > 0.001 && banded.share < 0.1;
   }
   device.reset();
   const std::uint64_t messages = vulkan->close();

@@ -85,9 +85,10 @@ inline void build_little_world(gloam::World& world, const LittleWorld& wanted = 
                gloam::ShadowCaster{.enabled = wanted.shadows});
   gloam::Light sun;
   sun.kind = gloam::LightKind::directional;
-  sun.intensity = 400.0f;
-  // A directional light shines along the node's −Z; this rotation points it steeply down.
-  world.create(gloam::LocalTransform{.rotation = gloam::dquat(0.866, -0.5, 0.0, 0.0)}, gloam::WorldTransform{}, sun,
+  sun.intensity = 2000.0f;
+  // A directional light shines along the node's −Z; this rotation turns it to the left, then down.
+  const gloam::dquat turn = gloam::dquat(0.866, 0.0, 0.5, 0.0) * gloam::dquat(0.966, -0.259, 0.0, 0.0);
+  world.create(gloam::LocalTransform{.rotation = turn}, gloam::WorldTransform{}, sun,
                gloam::ShadowCaster{.enabled = wanted.shadows});
   auto& environment = world.resource<gloam::SceneEnvironment>();
   environment.sky_zenith = gloam::vec3(20.0f, 35.0f, 70.0f);

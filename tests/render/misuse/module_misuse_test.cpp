@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <functional>
 
+#include "engine/render/declare/compute_pass.h"
 #include "engine/render/frame_builder.h"
 #include "engine/scene/key_registry.h"
+#include "shaders/render/shaders.h"
 #include "tests/render/misuse/careless_host.h"
 
 namespace gloam {
@@ -104,6 +106,20 @@ TEST(ModuleMisuse, an_output_that_no_module_has_put) {
   CarelessHost stage(all_and("host", [](FrameBuilder& frame) { (void)frame.get<OutputOfNobody>(); }));
   EXPECT_ASSERT((void)stage.render(CarelessHost::request()), "module \"host\" needs the output");
   EXPECT_ASSERT((void)stage.render(CarelessHost::request()), "OutputOfNobody");
+}
+
+TEST(ModuleMisuse, a_pass_that_names_bindings_that_its_shader_lacks_or_leaves_some_unbound) {
+  const ComputeProgram scan = {shaders::render::scan_bins_comp};
+  const auto sentence_of = [&](const std::function<void(ComputePass&)>& body) {
+    CarelessHost stage(all_and("host", [&](FrameBuilder& frame) {
+      ComputePass pass(frame, "careless", scan);
+      body(pass);
+    }));
+    return test::assertion_of([&] { (void)stage.render(CarelessHost::request()); });
+  };
+  EXPECT_THAT(sentence_of([](ComputePass& pass) { pass.read("no_such_image", ImageRef()); }),
+              HasSubstr("the shader declares no binding of this name"));
+  EXPECT_THAT(sentence_of([](ComputePass& pass) { pass.dispatch(1); }), HasSubstr("careless"));
 }
 
 TEST(ModuleMisuse, a_pass_without_writes_is_logged_once) {

@@ -187,6 +187,75 @@ TEST_F(ViewMisuse, releasing_an_unknown_view_does_nothing) {
   EXPECT_THAT(stage_.lines, IsEmpty());
 }
 
+TEST_F(ViewMisuse, a_pixel_or_an_image_that_does_not_exist_is_an_error) {
+  ASSERT_TRUE(stage_.render(CarelessHost::request(1)).ok());
+  const auto message = [](const auto& result) { return result.ok() ? std::string() : result.error().message; };
+  EXPECT_THAT(message(stage_.renderer->pick(stage_.world, ViewId{1}, 64, 0)), HasSubstr("outside the picture"));
+  EXPECT_THAT(message(stage_.renderer->pick_position(stage_.world, ViewId{1}, 0, 40)),
+              HasSubstr("outside the picture"));
+  EXPECT_THAT(message(stage_.renderer->read_image(stage_.world, ViewId{1}, "depths")), HasSubstr("depths"));
+}
+
+/// Images of a host's geometry, 64x40 pixels.
+HostGeometryDesc geometry_of(CarelessHost& stage) {
+  HostGeometryDesc desc;
+  desc.depth = stage.image(sampled, gpu::Format::r32_float);
+  desc.normals = stage.image(sampled, gpu::Format::rgba16_float);
+  desc.base_color = stage.image(sampled);
+  desc.material = stage.image(sampled, gpu::Format::rgba8_unorm);
+  return desc;
+}
+
+TEST_F(ViewMisuse, host_geometry_that_is_missing_of_a_wrong_kind_or_wrongly_described_is_an_error) {
+  using Break = void (*)(CarelessHost&, HostGeometryDesc&);
+  const std::pair<Break, const char*> cases[] = {
+      {[](auto&, auto& d) { d.depth = {}; }, "the image of depth is missing"},
+      {[](auto&, auto& d) { d.material = {}; }, "the image of material is missing"},
+      {[](auto& s, auto& d) { d.normals = s.image(sampled); }, "the image of normals"},
+      {[](auto& s, auto& d) { d.base_color = s.image(color_target); },
+       "the image of base colour was not made with ImageUsage::sampled"},
+      {[](auto&, auto& d) { d.near_m = 0.0f; }, "near_m must be above 0"},
+      {[](auto&, auto& d) { d.far_m = 0.05f; }, "far_m must be 0 (infinitely far) or above near_m"},
+      {[](auto&, auto& d) { d.roughness = HostChannel::none; }, "roughness needs a channel"},
+  };
+  for (const auto& [broken, sentence] : cases) {
+    HostGeometryDesc desc = geometry_of(stage_);
+    broken(stage_, desc);
+    const auto geometry = HostGeometry::create(*stage_.device, desc);
+    ASSERT_FALSE(geometry.ok()) << sentence;
+    EXPECT_THAT(geometry.error().message, HasSubstr(sentence));
+  }
+}
+
+TEST_F(ViewMisuse, host_geometry_of_another_size_than_the_view_or_that_is_gone) {
+  const HostGeometryDesc desc = geometry_of(stage_);
+  ViewRequest view = CarelessHost::request(3, 65, 40);
+  view.geometry = HostGeometry::create(*stage_.device, desc).value();
+  expect_assert(view, "65x40");
+  view = CarelessHost::request(3);
+  view.geometry = HostGeometry::create(*stage_.device, desc).value();
+  stage_.device->destroy(desc.normals);
+  expect_assert(view, "image is not alive");
+}
+
+TEST_F(ViewMisuse, scales_of_no_sense) {
+  ViewRequest view = CarelessHost::request(3);
+  view.settings.heat_range = -1.0f;
+  expect_assert(view, "view 3: ViewSettings::heat_range");
+  view = CarelessHost::request(3);
+  view.settings.aspect = std::numeric_limits<float>::quiet_NaN();
+  expect_assert(view, "view 3: ViewSettings::aspect");
+  view = CarelessHost::request(3);
+  view.settings.lens = LensPoint{.focus_m = 0.0};
+  expect_assert(view, "view 3: LensPoint::focus_m");
+}
+
+TEST_F(ViewMisuse, a_view_that_is_too_large_is_an_error) {
+  EXPECT_THAT(stage_.error_of(CarelessHost::request(3, 64, 1u << 20)),
+              HasSubstr("view 3 is 64x1048576 pixels: a view has at most 16384 a side"));
+  EXPECT_TRUE(stage_.render(CarelessHost::request()).ok());
+}
+
 TEST_F(ViewMisuse, a_renderer_called_by_its_own_frame) {
   ViewRequest view = CarelessHost::request(1);
   view.target.overlay = [&](FrameGraph&, ImageRef&) { return stage_.render(CarelessHost::request(2)); };
