@@ -16,7 +16,7 @@ namespace gloam {
 namespace {
 
 constexpr float kMargin = 10.0f;
-constexpr float kWidth = 460.0f;
+constexpr float kWidth = 470.0f;
 constexpr float kLeastWidth = 300.0f;
 constexpr float kMostOfPicture = 0.62f;  // of the width, so that some of a small picture stays visible
 

@@ -44,9 +44,10 @@ class Play(WindowCase):
 
     def photograph(self, scene, scale):
         """The window at this scale, when its picture has settled."""
+        name = scene.removeprefix("builtin:")
         run = self.start(scene, "--size", "192x108", "--scale", str(scale), "--dt", "0", "--time", "0.5", "--validate",
-                         script="wait 3\nsay a\nuntil a.seen\nclose\n")
-        picture = run.photograph_at("a")
+                         script=f"wait 3\nsay {name}\nuntil {name}.seen\nclose\n")
+        picture = run.photograph_at(name)
         self.assertEqual(run.end(), "")
         return picture
 

@@ -246,7 +246,7 @@ TEST_F(MeasureCosts, accumulated_references_of_a_sequence_show_flicker) {
   const Ledger ledger = measure();
   // The light that codes of sRGB stand for; the reference does not change.
   const auto light = [](double brightness) {
-    const double share = std::lround(255.0 * brightness) / 255.0;
+    const double share = std::round(255.0 * brightness) / 255.0;
     return std::pow((share + 0.055) / 1.055, 2.4);
   };
   EXPECT_NEAR(ledger.rows[0].temporal->mean, light(0.75) - light(0.5), 1e-6);
