@@ -89,6 +89,15 @@ class FirstMinute(ProgramCase):
     def test_a_helmet(self):
         self.check(self.helmet())
 
+    def test_an_unlit_model_has_its_colours(self):
+        scene = self.helmet()
+        for material in scene["materials"]:
+            material |= {"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.1, 0.1, 1]}}
+        picture, _ = self.draw("unlit", scene | {"extensionsUsed": ["KHR_materials_unlit"]})
+        red, green, blue = picture.pixel(WIDTH // 2, HEIGHT // 3)
+        self.assertGreater(red, 180)
+        self.assertLess(max(green, blue), 0.75 * red)
+
     def test_a_box(self):
         self.check(self.copy(MODELS / "BoxTextured-glTF/BoxTextured.gltf"))
 
