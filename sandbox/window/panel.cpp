@@ -158,7 +158,7 @@ void Panel::show_times(const FrameTimes& times) {
   // Single long frames, such as the first one, would make the others invisible.
   constexpr double kMostMedians = 3.0;
   const double longest = *std::ranges::max_element(history);
-  const double top = std::min(1.2 * longest, kMostMedians * times.frame_ms());
+  const double top = std::min(1.8 * longest, kMostMedians * times.frame_ms());  // the text is above steady lines
   ImGui::SetNextItemWidth(-1.0f);
   char text[96];
   std::snprintf(text, sizeof(text), "%.1f frames/s, longest %.0f ms", 1e3 / std::max(times.frame_ms(), 1e-3), longest);
