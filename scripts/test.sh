@@ -38,6 +38,6 @@ run_tests release build release "$@"
 
 configure asan build-asan
 build build-asan gloam_sanitize_tests
-run_tests asan build-asan asan "$@"
+GLOAM_FUZZ_SECONDS=${GLOAM_FUZZ_SECONDS:-60} run_tests asan build-asan asan "$@"
 
 exec python3 -B scripts/test_report.py "${reports[@]}"

@@ -16,6 +16,7 @@ namespace gloam {
 namespace {
 
 constexpr double kFilled = 0.9;  // of the picture's width or height
+constexpr int kCenterings = 3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The pyramid of a camera with fixed axes that holds all points given to it. In double: float rounding far from the
@@ -48,13 +49,51 @@ class Pyramid {
     return right_ * across.x + up_ * across.y + back_ * height;
   }
   [[nodiscard]] double nearest_m(const dvec3& eye) const { return glm::dot(eye, back_) - nearest_; }
+  [[nodiscard]] const dvec3& right() const { return right_; }
   [[nodiscard]] const dvec3& up() const { return up_; }
+  [[nodiscard]] const dvec3& back() const { return back_; }
 
  private:
   dvec3 back_, right_, up_;
   glm::dvec2 tangents_;
   glm::dvec2 highest_ = glm::dvec2(-kInfinity), lowest_ = glm::dvec2(-kInfinity);
   double nearest_ = -kInfinity, farthest_ = kInfinity;
+};
+
+/// The outermost points of a picture, to the right, left, top and bottom.
+class Outline {
+ public:
+  Outline(const Pyramid& camera, const dvec3& eye) : camera_(camera), eye_(eye) {}
+
+  void add(const dvec3& point) {
+    const dvec3 from_eye = point - eye_;
+    const double depth = -glm::dot(from_eye, camera_.back());
+    const glm::dvec2 across(glm::dot(from_eye, camera_.right()), glm::dot(from_eye, camera_.up()));
+    if (!(depth > 0.0) || !std::isfinite(across.x + across.y)) return;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (across[axis] / depth > high_[axis].slope) high_[axis] = {across[axis] / depth, across[axis], depth};
+      if (-across[axis] / depth > low_[axis].slope) low_[axis] = {-across[axis] / depth, across[axis], depth};
+    }
+  }
+
+  /// The place beside the camera from which these points have the same distance from the picture's middle.
+  [[nodiscard]] dvec3 centered_eye() const {
+    const auto shift = [&](int axis) {
+      const Point &high = high_[axis], &low = low_[axis];
+      return (high.across * low.depth + low.across * high.depth) / (high.depth + low.depth);
+    };
+    return eye_ + camera_.right() * shift(0) + camera_.up() * shift(1);
+  }
+
+ private:
+  struct Point {
+    double slope = -kInfinity;
+    double across = 0.0;
+    double depth = 1.0;
+  };
+  const Pyramid& camera_;
+  dvec3 eye_;
+  Point high_[2], low_[2];
 };
 
 /// Joint matrices of an instance; none if it is not skinned or has not been posed.
@@ -108,11 +147,18 @@ ViewSettings framed_view(const World& world, std::uint32_t width, std::uint32_t 
   settings.height = height;
   const double tangent = std::tan(0.5 * static_cast<double>(settings.camera.fov_y));
   const double aspect = static_cast<double>(width) / static_cast<double>(height);
-  const dvec3 back = glm::normalize(dvec3(0.6, 0.45, 1.0));
+  const dvec3 back = glm::normalize(dvec3(0.6, 0.6, 1.0));
   Pyramid pyramid(back, kFilled * tangent * glm::dvec2(aspect, 1.0));
   each_drawn_point(world, [&](const dvec3& point) { pyramid.add(point); });
   if (pyramid.empty()) pyramid.add(dvec3(0.0)), pyramid.add(dvec3(1.0));
-  const dvec3 eye = pyramid.eye();
+  dvec3 eye = pyramid.eye();
+  // The axis that does not decide the distance has room on both sides. Moving the camera changes which points are
+  // outermost, so it moves a few times.
+  for (int i = 0; i < kCenterings; ++i) {
+    Outline outline(pyramid, eye);
+    each_drawn_point(world, [&](const dvec3& point) { outline.add(point); });
+    eye = outline.centered_eye();
+  }
   settings.camera.near_m = static_cast<float>(std::clamp(pyramid.nearest_m(eye) * 0.5, 1e-4, 0.1));
   settings.world_from_camera = glm::inverse(glm::lookAt(dvec3(0.0), -back, pyramid.up()));
   settings.world_from_camera[3] = dvec4(eye, 1.0);

@@ -98,6 +98,22 @@ std::vector<std::uint8_t> plain_png_data(std::span<const std::uint8_t> file) {
   return {};
 }
 
+/// Why stb_image must not walk over these chunks of a PNG; empty: it may. It writes the name of an unknown critical
+/// chunk into memory that threads share, whatever bytes the name has, and takes the end of the file for such a chunk.
+std::string_view png_chunk_fault(std::span<const std::uint8_t> file) {
+  constexpr std::size_t kFrame = 12;  // length, type, checksum
+  std::size_t at = 8;
+  while (at + 8 <= file.size()) {
+    const std::string_view type(reinterpret_cast<const char*>(file.data()) + at + 4, 4);
+    if (type == "IEND") return {};
+    const bool critical = (file[at + 4] & 0x20) == 0;
+    if (critical && type != "IHDR" && type != "PLTE" && type != "IDAT" && type != "CgBI")
+      return "it has an unknown critical chunk";
+    at += kFrame + big_endian_word(file, at);
+  }
+  return "it ends before its last chunk";
+}
+
 /// Inflates a zlib stream. False if it is damaged or does not give exactly bytes.size() bytes.
 bool inflate(std::span<const std::uint8_t> data, std::span<std::uint8_t> bytes) {
   const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> decompressor(
@@ -125,14 +141,15 @@ bool decode_plain_png(std::span<const std::uint8_t> file, Image& image) {
 Result<ImageSize> image_size(std::span<const std::uint8_t> file) {
   if (!is_png(file) && !is_jpeg(file)) return fault("is not a PNG or JPEG image");
   if (file.size() > INT_MAX) return fault("is an image file of more than 2 GiB");
+  // Before stb_image sees the file: it reads tables that come before the header.
+  const Result<std::uint32_t> scans = is_jpeg(file) ? count_jpeg_scans(file) : Result<std::uint32_t>(1u);
+  if (!scans) return scans.error();
   int width = 0;
   int height = 0;
   int channels = 0;
   if (stbi_info_from_memory(file.data(), static_cast<int>(file.size()), &width, &height, &channels) == 0 || width < 1 ||
       height < 1)
     return fault("is not an image that can be read (its header is damaged or over 16384 pixels a side)");
-  const Result<std::uint32_t> scans = is_jpeg(file) ? count_jpeg_scans(file) : Result<std::uint32_t>(1u);
-  if (!scans) return scans.error();
   const ImageSize size{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), *scans};
   if (size.width > kMaxImageSide || size.height > kMaxImageSide)
     return fault("is " + std::to_string(width) + "×" + std::to_string(height) + " pixels, more than 16384 a side");
@@ -153,6 +170,8 @@ Result<Image> decode_image(std::span<const std::uint8_t> file) {
   image.height = size->height;
   image.rgba.resize(std::size_t{image.width} * image.height * 4);
   if (is_png(file) && decode_plain_png(file, image)) return image;
+  if (const std::string_view damage = is_png(file) ? png_chunk_fault(file) : std::string_view(); !damage.empty())
+    return fault("is a damaged image (" + std::string(damage) + ")");
   int width = 0;
   int height = 0;
   int channels = 0;

@@ -49,11 +49,13 @@ struct LedgerRow {
 
   std::optional<CountedError> counted;  ///< only for a knob with a measure; the errors of its pictures are set, too
   std::string wrong;  ///< reason from the frame's counters why the value is wrong regardless of its error; empty: none
-  std::optional<ErrorPair> flip;      ///< 0…1
-  std::optional<double> rmse;         ///< linear light, cd/m², over all pixels and channels
-  std::optional<double> rmse_p99;     ///< 99th percentile of the pixels' RMSE
-  std::optional<double> psnr_db;      ///< infinity: identical pictures
-  std::optional<ErrorPair> temporal;  ///< linear light, cd/m²; only in runs over several frames
+  std::optional<ErrorPair> flip;   ///< 0…1
+  std::optional<double> rmse;      ///< linear light, cd/m², over all pixels and channels
+  std::optional<double> rmse_p99;  ///< 99th percentile of the pixels' RMSE
+  std::optional<double> psnr_db;   ///< infinity: identical pictures
+  /// Only in runs over several frames: linear light, cd/m², or displayed light, 0…1, if the reference is a picture
+  /// only.
+  std::optional<ErrorPair> temporal;
 
   TimeSummary ms;       ///< of a frame: its CPU time plus its GPU time
   double cpu_ms = 0.0;  ///< medians of CPU and GPU time

@@ -105,6 +105,7 @@ void apply_settings(const PlaySettings& settings, Options& options) {
 }  // namespace
 
 Status run_play(const CommandContext& context) {
+  PlayFigures figures(PlayFigures::Clock::now());
   Options options = context.options;
   GLOAM_TRY(check_scene_exists(options.scene));
   auto script = read_script(options.script);
@@ -116,10 +117,12 @@ Status run_play(const CommandContext& context) {
   const auto opened = Window::open("gloam: " + options.scene, options.width, options.height);
   if (!opened) return opened.error();
   Window& window = **opened;
-  Player::Lasting lasting = {.scale = options.scale,
+  Player::Lasting lasting = {.figures = std::move(figures),
+                             .scale = options.scale,
                              .panel = settings.panel || environment_text("GLOAM_PANEL") == "1",
                              .script = std::move(*script)};
   GLOAM_TRY(play_scenes({options, context.console, context.log}, window, lasting));
+  if (options.frames > 0 && !options.quiet) context.console.print(lasting.figures.text() + "\n");
   if (const auto [width, height] = window.desktop_size(); width > 0 && !window.is_full_screen()) {
     settings.width = width;
     settings.height = height;

@@ -10,13 +10,29 @@
 #include "sandbox/session/captures.h"
 #include "sandbox/session/frame_run.h"
 #include "sandbox/session/frame_tracing.h"
+#include "sandbox/session/heat_fit.h"
 #include "sandbox/session/list_room.h"
+#include "sandbox/session/program_knobs.h"
 #include "sandbox/session/run_output.h"
 #include "sandbox/session/scene_loading.h"
 #include "sandbox/session/session.h"
 
 namespace gloam {
 namespace {
+
+/// The view as the picture shows it.
+struct ShownView {
+  ViewSettings view;
+  std::optional<VisualizerInfo> traced;  ///< of a visualizer that needs traced data
+  bool fit = false;                      ///< the range of its colour scale is to be fitted to the first picture
+
+  /// The view of the frames before settle_view().
+  [[nodiscard]] ViewSettings drawn() const {
+    ViewSettings drawn = view;
+    if (traced) drawn.visualizer = "none";
+    return drawn;
+  }
+};
 
 /// Traces the data that the visualizer needs and draws the last frame again with it. last: replaced by that frame.
 Status show_traced_view(Session& session, const CommandContext& context, const VisualizerInfo& info,
@@ -37,28 +53,41 @@ Result<std::vector<FrameSample>> render_frames(Session& session, const Options& 
   return run.finish();
 }
 
-/// Draws the last frame again as often as the view needs to be right: until lists have room, and with traced data.
-Status settle_view(Session& session, const CommandContext& context, const ViewSettings& view,
-                   const std::optional<VisualizerInfo>& traced, FrameSample& last) {
+/// Draws the last frame again with the range of the colour scale that fits it.
+Status fit_view(Session& session, ShownView& shown, FrameSample& last) {
+  shown.fit = false;
+  const auto range = fitting_heat_range(session, shown.view);
+  if (!range) return range.error();
+  if (*range == shown.view.heat_range) return {};
+  shown.view.heat_range = *range;
+  auto sample = session.render_frame({.settings = shown.view, .target = {}});
+  if (!sample) return sample.error();
+  last = std::move(sample).value();
+  return {};
+}
+
+/// Draws the last frame again as often as the view needs to be right: until lists have room, with traced data, and with
+/// a fitting colour scale.
+Status settle_view(Session& session, const CommandContext& context, ShownView& shown, FrameSample& last) {
+  const ViewSettings& view = shown.view;
   if (shows_lists(*session.renderer, context.options.view))
     GLOAM_TRY(draw_until_lists_fit([&] { return session.render_frame({.settings = view, .target = {}}); }, last));
-  return traced ? show_traced_view(session, context, *traced, view, last) : Status();
+  if (shown.traced) GLOAM_TRY(show_traced_view(session, context, *shown.traced, view, last));
+  return shown.fit ? fit_view(session, shown, last) : Status();
 }
 
 /// Draws all frames, one after the other, and writes a picture of each.
-Result<std::vector<FrameSample>> render_sequence(Session& session, const CommandContext& context,
-                                                 const ViewSettings& view, const ViewSettings& drawn,
-                                                 const std::optional<VisualizerInfo>& traced,
+Result<std::vector<FrameSample>> render_sequence(Session& session, const CommandContext& context, ShownView& shown,
                                                  const NumberedPath& path) {
   const Options& options = context.options;
   std::vector<FrameSample> samples;
   for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
     session.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
-    auto sample = session.render_frame({.settings = drawn, .target = {}});
+    auto sample = session.render_frame({.settings = shown.drawn(), .target = {}});
     if (!sample) return sample.error();
     samples.push_back(std::move(sample).value());
-    GLOAM_TRY(settle_view(session, context, view, traced, samples.back()));
-    GLOAM_TRY(write_picture({.session = session, .view = view, .samples = samples}, path.of(frame)));
+    GLOAM_TRY(settle_view(session, context, shown, samples.back()));
+    GLOAM_TRY(write_picture({.session = session, .view = shown.view, .samples = samples}, path.of(frame)));
   }
   return samples;
 }
@@ -72,18 +101,17 @@ Status run_render(const CommandContext& context) {
   Session& session = *opened.value();
   warn_of_missing_effects(session, context.log);
   GLOAM_TRY(ensure_baked(session, options, context.log, &context.console));
-  const ViewSettings view = session.view_settings(options.width, options.height, options.view);
-  const auto traced = traced_view(*session.renderer, options.view);
-  ViewSettings drawn = view;
-  if (traced) drawn.visualizer = "none";
+  ShownView shown = {.view = session.view_settings(options.width, options.height, options.view),
+                     .traced = traced_view(*session.renderer, options.view)};
+  shown.fit = fits_heat_range(session.renderer->knobs()) && shows_heat(*session.renderer, options.view);
   const std::string path = options.out.empty() ? "out/" + scene_stem(options.scene) + ".png" : options.out;
   const auto numbered = numbered_path(path);
-  auto samples = numbered ? render_sequence(session, context, view, drawn, traced, *numbered)
-                          : render_frames(session, options, drawn);
+  auto samples =
+      numbered ? render_sequence(session, context, shown, *numbered) : render_frames(session, options, shown.drawn());
   if (!samples) return samples.error();
-  if (!numbered) GLOAM_TRY(settle_view(session, context, view, traced, samples->back()));
+  if (!numbered) GLOAM_TRY(settle_view(session, context, shown, samples->back()));
 
-  const DrawnRun run = {.session = session, .view = view, .samples = *samples};
+  const DrawnRun run = {.session = session, .view = shown.view, .samples = *samples};
   if (!numbered) GLOAM_TRY(write_picture(run, path));
   GLOAM_TRY(write_reports(run, options, context.console));
   GLOAM_TRY(session.check_validation());

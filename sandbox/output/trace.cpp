@@ -101,6 +101,7 @@ std::string chrome_trace(std::span<const FrameSample> samples) {
     for (const Zone& zone : sample.zones) threads.insert(zone.thread);
   }
   Json events = Json::array();
+  events.push_back({{"name", "process_name"}, {"ph", "M"}, {"pid", kProcess}, {"args", {{"name", "gloam"}}}});
   for (const std::uint32_t thread : threads) events.push_back(row_name_json(thread, "CPU " + std::to_string(thread)));
   events.push_back(row_name_json(kGpuRow, "GPU"));
   const std::int64_t offset_ns = gpu_offset_ns(samples);

@@ -3,11 +3,40 @@
 #include "sandbox/play/light_controls.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "engine/ecs/view.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// "light 2" comes before "light 10": digits are compared as numbers.
+bool in_natural_order(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty()) {
+    if (!is_digit(a.front()) || !is_digit(b.front())) {
+      if (a.front() != b.front()) return a.front() < b.front();
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+      continue;
+    }
+    const auto take_number = [](std::string_view& text) {
+      const auto end = std::ranges::find_if_not(text, is_digit) - text.begin();
+      std::string_view digits = text.substr(0, static_cast<std::size_t>(end));
+      text.remove_prefix(digits.size());
+      digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
+      return digits;
+    };
+    const std::string_view first = take_number(a), second = take_number(b);
+    if (first.size() != second.size()) return first.size() < second.size();
+    if (first != second) return first < second;
+  }
+  return a.size() < b.size();
+}
+
+}  // namespace
 
 LightControls::LightControls(World& world) : world_(world) {
   const auto& names = world.resource<SceneNames>();
@@ -17,7 +46,7 @@ LightControls::LightControls(World& world) : world_(world) {
                        .kind = light.kind,
                        .intensity = light.intensity});
   });
-  std::ranges::stable_sort(lights_, {}, &ControlledLight::name);
+  std::ranges::stable_sort(lights_, in_natural_order, &ControlledLight::name);
 }
 
 void LightControls::set_intensity(std::size_t light, float intensity) {

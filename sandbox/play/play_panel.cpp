@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/play/play_panel.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/scene/resources.h"
@@ -92,7 +93,10 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
                              .solo = light.solo});
   auto& environment = session_.world.resource<SceneEnvironment>();
   const auto* lens = std::as_const(session_.world).try_get<DepthOfField>(session_.camera);
+  const auto& cameras = session_.info.cameras;
+  const auto shown = view.follow_camera ? std::ranges::find(cameras, session_.camera) : cameras.end();
   return {.cameras = cameras_,
+          .camera = shown == cameras.end() ? 0 : static_cast<std::uint32_t>(shown - cameras.begin()) + 1,
           .show_camera = controls.show_camera,
           .time_s = controls.time_s,
           .paused = controls.paused,

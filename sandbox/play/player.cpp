@@ -10,6 +10,7 @@
 
 #include "sandbox/output/file_io.h"
 #include "sandbox/session/frame_tracing.h"
+#include "sandbox/session/heat_fit.h"
 #include "sandbox/session/program_knobs.h"
 #include "sandbox/session/run_output.h"
 #include "sandbox/session/scene_loading.h"
@@ -28,6 +29,7 @@ constexpr double kGpuBudgetMs = 20.0;
 constexpr double kSoftwarePixels = 115000.0;
 constexpr double kGpuPixels = 1e9;
 constexpr std::uint32_t kSmallestSide = 16;
+constexpr std::uint32_t kFramesBetweenFits = 30;  // a fit waits for a frame
 
 std::uint32_t scaled(std::uint32_t size, double scale) {
   const auto pixels = static_cast<std::uint32_t>(std::lround(size * scale));
@@ -67,12 +69,12 @@ Status Player::run() {
     GLOAM_TRY(obey(input));
     if (!next_scene_.empty()) break;
     drop_view_without_its_knob();
-    settings_.heat_range = heat_range(session_.renderer->knobs());
+    GLOAM_TRY(choose_heat_range());
     GLOAM_TRY(move_camera(input));
     const auto drawn = draw();
     if (!drawn) return drawn.error();
     shown_ = *drawn;
-    if (shown_) ++frames;
+    if (shown_) GLOAM_TRY(count_shown(frames++ == 0));
   }
   lasting_.scale = scale_.setting();
   lasting_.panel = panel_.shown();
@@ -178,6 +180,27 @@ void Player::drop_view_without_its_knob() {
   settings_.visualizer = "none";
 }
 
+/// With views.range=fit the scale follows the picture: at once after a change of the view, then now and then.
+Status Player::choose_heat_range() {
+  Renderer& renderer = *session_.renderer;
+  const std::string& shown = settings_.visualizer;
+  if (!fits_heat_range(renderer.knobs()) || !shows_heat(renderer, shown)) {
+    settings_.heat_range = heat_range(renderer.knobs());
+    fitted_view_.clear();
+    return {};
+  }
+  if (fitted_view_ != shown) {
+    fitted_view_ = shown;
+    frames_to_fit_ = 1;
+  } else if (shown_ && frames_to_fit_-- == 0) {
+    frames_to_fit_ = kFramesBetweenFits;
+    const auto range = fitting_heat_range(session_, settings_);
+    if (!range) return range.error();
+    settings_.heat_range = *range;
+  }
+  return {};
+}
+
 void Player::count_step() {
   const std::uint64_t now = session_.zones.now_ns();
   frame_s_ = static_cast<double>(now - last_ns_) * 1e-9;
@@ -273,6 +296,15 @@ Status Player::show_enlarged(FrameGraph& graph, ImageRef picture) {
   GLOAM_TRY(upscaler_.add_passes(graph, picture, window));
   const auto overlay = panel_.overlay();
   return overlay ? overlay(graph, window) : Status();
+}
+
+/// Runs of a number of frames are measured.
+Status Player::count_shown(bool first) {
+  if (options_.frames == 0) return {};
+  if (first) GLOAM_TRY(session_.renderer->wait());
+  lasting_.figures.add(PlayFigures::Clock::now(), scaled(settings_.width, drawn_scale_),
+                       scaled(settings_.height, drawn_scale_), drawn_scale_);
+  return {};
 }
 
 /// Waits for the frame only if its times are needed (--stats, --trace).

@@ -11,6 +11,7 @@
 #include "sandbox/options.h"
 #include "sandbox/output/frame_sample.h"
 #include "sandbox/play/orbit_controls.h"
+#include "sandbox/play/play_figures.h"
 #include "sandbox/play/play_panel.h"
 #include "sandbox/play/resolution_scale.h"
 #include "sandbox/play/shader_reload.h"
@@ -27,6 +28,7 @@ class Player {
  public:
   /// What lasts longer than a scene.
   struct Lasting {
+    PlayFigures figures;
     double scale = 0.0;  ///< ResolutionScale::setting
     bool panel = false;  ///< the panel is shown
     InputScript script;
@@ -54,6 +56,7 @@ class Player {
   [[nodiscard]] Status save_screenshot();
   void accept(const std::vector<std::string>& dropped);
   void drop_view_without_its_knob();
+  [[nodiscard]] Status choose_heat_range();
   void count_step();
   [[nodiscard]] Status move_camera(const WindowInput& input);
   void adapt_scale();
@@ -62,6 +65,7 @@ class Player {
   [[nodiscard]] Result<ViewRequest> request();
   [[nodiscard]] Status show_enlarged(FrameGraph& graph, ImageRef picture);
   [[nodiscard]] Status render(const ViewRequest& request);
+  [[nodiscard]] Status count_shown(bool first);
 
   const Options& options_;
   Session& session_;
@@ -85,7 +89,9 @@ class Player {
   bool paused_ = false;
   bool step_once_ = false;
   std::string next_scene_;
-  bool shown_ = false;  ///< the last turn showed a picture
+  bool shown_ = false;               ///< the last turn showed a picture
+  std::string fitted_view_;          ///< the visualizer that views.range=fit is at; empty: none
+  std::uint32_t frames_to_fit_ = 0;  ///< before its range is chosen
 };
 
 }  // namespace gloam

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/session/default_light.h"
 
+#include <cmath>
+
 #include "engine/ecs/view.h"
+#include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
@@ -10,6 +13,8 @@
 
 namespace gloam {
 namespace {
+
+constexpr float kExposureEv100 = 11.7f;
 
 bool is_black(const vec3& color) { return color.x <= 0.0f && color.y <= 0.0f && color.z <= 0.0f; }
 
@@ -37,7 +42,11 @@ bool add_default_light(World& world, SceneInfo& info) {
   environment.sky_zenith = vec3(330.0f, 480.0f, 820.0f);
   environment.sky_horizon = vec3(1050.0f, 980.0f, 980.0f);
   environment.sky_ground = vec3(240.0f, 215.0f, 195.0f);
-  if (!environment.has_exposure) environment.exposure_ev100 = 11.7f;
+  if (!environment.has_exposure) {
+    environment.exposure_ev100 = kExposureEv100;
+    const float white = 1.2f * std::exp2(kExposureEv100);  // cd/m² that the exposure maps to 1
+    for (Material& material : world.resource<SceneAssets>().materials) material.emissive *= white;
+  }
   environment.has_exposure = true;
   world.set_resource(DefaultLight{entity});
   return true;

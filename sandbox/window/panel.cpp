@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
 
 #include "engine/render/passes/visualizer_pass.h"
 #include "shaders/common/heat_shared.h"
@@ -17,7 +16,9 @@ namespace gloam {
 namespace {
 
 constexpr float kMargin = 10.0f;
-constexpr float kWidth = 460.0f;
+constexpr float kWidth = 470.0f;
+constexpr float kLeastWidth = 300.0f;
+constexpr float kMostOfPicture = 0.62f;  // of the width, so that some of a small picture stays visible
 
 void show_text(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
 
@@ -116,7 +117,9 @@ void show_modules(std::span<const ModuleState> modules) {
 void Panel::update(const PanelInput& input, const PanelFrame& frame, const PanelContent& content) {
   widgets_.clear();
   gui_.begin(input, frame);
-  const float width = std::min(kWidth * gui_.scale(), static_cast<float>(frame.width) - 2.0f * kMargin);
+  const auto across = static_cast<float>(frame.width);
+  const float wanted = std::max(std::min(kWidth * gui_.scale(), kMostOfPicture * across), kLeastWidth * gui_.scale());
+  const float width = std::min(wanted, across - 2.0f * kMargin);
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize(ImVec2(width, static_cast<float>(frame.height) - 2.0f * kMargin), ImGuiCond_FirstUseEver);
   if (ImGui::Begin("gloam")) {
@@ -155,12 +158,13 @@ void Panel::show_times(const FrameTimes& times) {
   // Single long frames, such as the first one, would make the others invisible.
   constexpr double kMostMedians = 3.0;
   const double longest = *std::ranges::max_element(history);
-  const double top = std::min(1.2 * longest, kMostMedians * times.frame_ms());
+  const double top = std::min(1.8 * longest, kMostMedians * times.frame_ms());  // the text is above steady lines
   ImGui::SetNextItemWidth(-1.0f);
-  ImGui::PlotLines("##history", value, const_cast<double*>(history.data()), static_cast<int>(history.size()), 0,
-                   nullptr, 0.0f, static_cast<float>(top), ImVec2(0.0f, 36.0f * gui_.scale()));
-  char text[64];
-  std::snprintf(text, sizeof(text), "times of the last frames; the longest: %.1f ms", longest);
+  char text[96];
+  std::snprintf(text, sizeof(text), "%.1f frames/s, longest %.0f ms", 1e3 / std::max(times.frame_ms(), 1e-3), longest);
+  ImGui::PlotLines("##history", value, const_cast<double*>(history.data()), static_cast<int>(history.size()), 0, text,
+                   0.0f, static_cast<float>(top), ImVec2(0.0f, 36.0f * gui_.scale()));
+  std::snprintf(text, sizeof(text), "times of the last %zu frames, from 0 to %.0f ms", history.size(), top);
   show_tooltip(text);
 }
 
@@ -262,22 +266,36 @@ void Panel::show_knobs(KnobRegistry& knobs) {
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##search", "search", &search_);
   remember_widget("search");
+  const std::vector<KnobGroup> groups = knob_groups(knobs, search_);
+  for (const KnobGroup& group : groups)
+    if (begin_knob_group(group)) show_knob_group(knobs, group);
+  if (groups.empty()) ImGui::TextDisabled("no knob has this in its name or meaning");
+}
+
+/// The line above a module's knobs. Returns whether they are shown: if the user has opened the group, or searches.
+bool Panel::begin_knob_group(const KnobGroup& group) {
+  if (!search_.empty()) {
+    ImGui::TextDisabled("%s", group.module.c_str());
+    return true;
+  }
+  std::string label = group.module + "  (" + std::to_string(group.knobs.size());
+  if (group.changed > 0) label += ", " + std::to_string(group.changed) + " changed";
+  label += ")###knobs " + group.module;
+  const bool open =
+      ImGui::TreeNodeEx(label.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+  remember_widget("knobs " + group.module);
+  return open;
+}
+
+/// All groups are one table to ImGui, so their columns have the same widths.
+void Panel::show_knob_group(KnobRegistry& knobs, const KnobGroup& group) {
   if (!ImGui::BeginTable("knobs", 3, ImGuiTableFlags_SizingFixedFit)) return;
   ImGui::TableSetupColumn("name");
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("reset");
-  std::string_view module;
-  for (const Knob& knob : knobs.knobs()) {
-    if (!matches(knob, search_)) continue;
-    if (knob.module != module) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", knob.module.c_str());
-      ImGui::TableNextRow();
-      module = knob.module;
-    }
-    ImGui::PushID(knob.name.c_str());
-    show_knob(knobs, knob);
+  for (const Knob* knob : group.knobs) {
+    ImGui::PushID(knob->name.c_str());
+    show_knob(knobs, *knob);
     ImGui::PopID();
   }
   ImGui::EndTable();

@@ -43,10 +43,10 @@ struct PanelContent {
 
 /// Rectangle of a widget in the last frame, in pixels from the picture's upper left corner.
 struct PanelWidget {
-  /// KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "view argument", "scale", "scale auto",
-  /// "scale NN %", "camera", "camera NAME", "pause", "exposure auto", "exposure",
-  /// "lens", "lens here", "lens focus", "lens f-number", "pixel", "lights", "LIGHT mute", "LIGHT solo",
-  /// "LIGHT intensity", "keep A", "show A", "keep B", "show B", "save config" or "copy command"
+  /// "knobs MODULE", KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "view argument", "scale",
+  /// "scale auto", "scale NN %", "camera", "camera NAME", "pause", "exposure auto", "exposure", "lens", "lens here",
+  /// "lens focus", "lens f-number", "pixel", "lights", "LIGHT mute", "LIGHT solo", "LIGHT intensity", "keep A", "show
+  /// A", "keep B", "show B", "save config" or "copy command"
   std::string name;
   float left = 0.0f;
   float top = 0.0f;
@@ -84,6 +84,8 @@ class Panel {
   void show_lights(const PanelScene& scene);
   void show_light(const PanelScene& scene, std::size_t index);
   void show_knobs(KnobRegistry& knobs);
+  [[nodiscard]] bool begin_knob_group(const KnobGroup& group);
+  void show_knob_group(KnobRegistry& knobs, const KnobGroup& group);
   void show_knob(KnobRegistry& knobs, const Knob& knob);
   void remember_widget(const std::string& name);
 

@@ -89,6 +89,18 @@ bool matches(const Knob& knob, std::string_view search) {
   return has(knob.name) || has(knob.meaning);
 }
 
+std::vector<KnobGroup> knob_groups(const KnobRegistry& registry, std::string_view search) {
+  std::vector<KnobGroup> groups;
+  for (const Knob& knob : registry.knobs()) {
+    if (!matches(knob, search)) continue;
+    auto group = std::ranges::find(groups, knob.module, &KnobGroup::module);
+    if (group == groups.end()) group = groups.insert(group, {.module = knob.module, .knobs = {}});
+    group->knobs.push_back(&knob);
+    if (!is_default(registry, knob)) ++group->changed;
+  }
+  return groups;
+}
+
 std::string config_text(const KnobRegistry& registry) {
   Json json = Json::object();
   for (const Knob& knob : registry.knobs()) {

@@ -39,6 +39,15 @@ void set_knob_value(KnobRegistry& registry, const Knob& knob, double value);
 void reset_knob(KnobRegistry& registry, const Knob& knob);
 [[nodiscard]] bool is_default(const KnobRegistry& registry, const Knob& knob);
 
+/// The knobs of a module that match a search.
+struct KnobGroup {
+  std::string module;
+  std::vector<const Knob*> knobs;  ///< not empty; valid as long as the registry
+  std::size_t changed = 0;         ///< of them, those that are not at their defaults
+};
+/// Modules in the order of their first knobs; all knobs of a module are in one group.
+[[nodiscard]] std::vector<KnobGroup> knob_groups(const KnobRegistry& registry, std::string_view search);
+
 /// Whether a knob's name or meaning contains the text, in letters of any case. An empty text is in all of them.
 [[nodiscard]] bool matches(const Knob& knob, std::string_view search);
 

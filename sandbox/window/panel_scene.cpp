@@ -11,13 +11,24 @@ namespace {
 
 void show_line(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
 
+std::string camera_label(const PanelScene& scene, std::size_t index) {
+  const std::string& name = scene.cameras[index];
+  return std::to_string(index + 1) + "  " + (name.empty() ? "(no name)" : name);
+}
+
 }  // namespace
 
 void Panel::show_settings(const PanelContent& content) {
-  const auto button = [this](const char* label, const char* name) {
+  bool first = true;
+  // Buttons that do not fit beside the last one begin a new line.
+  const auto button = [&](const char* label, const char* name) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float width = ImGui::CalcTextSize(label).x + 2.0f * style.FramePadding.x;
+    const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (!first && ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= end) ImGui::SameLine();
+    first = false;
     const bool pressed = ImGui::Button(label);
     remember_widget(name);
-    ImGui::SameLine();
     return pressed;
   };
   constexpr const char* kNames[KnobSlots::kSlots][2] = {{"keep A", "show A"}, {"keep B", "show B"}};
@@ -27,13 +38,9 @@ void Panel::show_settings(const PanelContent& content) {
     if (button(kNames[slot][1], kNames[slot][1])) slots_.show(content.knobs, slot);
     ImGui::EndDisabled();
   }
-  if (content.scene == nullptr) {
-    ImGui::NewLine();
-    return;
-  }
+  if (content.scene == nullptr) return;
   if (button("save --config", "save config")) content.scene->save_config();
   if (button("copy command", "copy command")) content.scene->copy_command();
-  ImGui::NewLine();
   if (!content.scene->said.empty()) ImGui::TextWrapped("%s", content.scene->said.c_str());
 }
 
@@ -42,8 +49,8 @@ void Panel::show_scene(const PanelScene& scene) {
   bool paused = scene.paused;
   if (ImGui::Checkbox("paused", &paused)) scene.pause(paused);
   remember_widget("pause");
-  ImGui::SameLine();
-  ImGui::Text("time %.2f s", scene.time_s);
+  ImGui::SameLine(0.0f, 2.0f * ImGui::GetFontSize());
+  ImGui::TextDisabled("time %.2f s", scene.time_s);
   bool automatic = scene.automatic_exposure;
   if (ImGui::Checkbox("automatic exposure", &automatic)) scene.set_exposure(automatic, scene.ev100);
   remember_widget("exposure auto");
@@ -55,12 +62,15 @@ void Panel::show_scene(const PanelScene& scene) {
   }
   if (!scene.cameras.empty()) {
     ImGui::SetNextItemWidth(-1.0f);
-    const bool open = ImGui::BeginCombo("##camera", "cameras");
+    const bool known = scene.camera > 0 && scene.camera <= scene.cameras.size();
+    const std::string shown = known ? "camera: " + camera_label(scene, scene.camera - 1) : "camera: free flight";
+    const bool open = ImGui::BeginCombo("##camera", shown.c_str());
     remember_widget("camera");
     if (open) {
       for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        const std::string label = std::to_string(i + 1) + "  " + scene.cameras[i];
-        if (ImGui::Selectable(label.c_str())) scene.show_camera(static_cast<std::uint32_t>(i + 1));
+        const bool current = i + 1 == scene.camera;
+        if (ImGui::Selectable(camera_label(scene, i).c_str(), current))
+          scene.show_camera(static_cast<std::uint32_t>(i + 1));
         remember_widget("camera " + scene.cameras[i]);
       }
       ImGui::EndCombo();
@@ -128,6 +138,7 @@ void Panel::show_lights(const PanelScene& scene) {
 void Panel::show_light(const PanelScene& scene, std::size_t index) {
   const PanelLight& light = scene.lights[index];
   ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
   show_line(light.name.empty() ? "(no name)" : light.name);
   ImGui::SameLine();
   ImGui::TextDisabled("%s", light.kind.c_str());

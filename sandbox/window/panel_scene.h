@@ -23,6 +23,7 @@ struct PanelLight {
 /// What the panel shows of the scene, and the functions that carry out the user's changes. All functions are set.
 struct PanelScene {
   std::span<const std::string> cameras;
+  std::uint32_t camera = 0;  ///< the number of the one that is shown, from 1 on; 0: none of them
   std::function<void(std::uint32_t number)> show_camera;  ///< from 1 on
 
   double time_s = 0.0;

@@ -26,11 +26,12 @@ int mask_count(uvec2 pixel) {
 void main() {
   uvec2 pixel = uvec2(gl_FragCoord.xy);
   if (kCount == 0u) {
-    show(with_grid(heat(float(mask_count(pixel)) / 31.0), pixel, GLOAM_LIGHT_TILE), 1.0);
+    int lights = mask_count(pixel);
+    show_number(with_grid(heat(float(lights) / 31.0), pixel, GLOAM_LIGHT_TILE), 1.0, float(lights));
     return;
   }
   uint counts = texelFetch(tile_lists, ivec2(pixel / GLOAM_SHADOW_TILE), 0).y;
   int approx = int(counts >> 16), accurate = int(counts & 0xFFFFu);
   int count = kCount == 1u ? approx : kCount == 2u ? accurate : approx - accurate;
-  show(with_grid(count < 0 ? kLoud : heat(float(count) / 31.0), pixel, GLOAM_SHADOW_TILE), 1.0);
+  show_number(with_grid(count < 0 ? kLoud : heat(float(count) / 31.0), pixel, GLOAM_SHADOW_TILE), 1.0, float(count));
 }

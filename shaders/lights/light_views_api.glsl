@@ -12,7 +12,8 @@ layout(constant_id = 0) const uint kEncodeSrgb =
     0u;  // 1: the picture's format does not encode sRGB, so the shader does
 
 layout(location = 0) out vec4 out_color;  // over the picture
-layout(location = 1) out vec4 out_named;  // the image named after the visualizer, for captures; sRGB-encoded
+layout(
+    location = 1) out vec4 out_named;  // the image named after the visualizer: numbers, or the colours encoded as sRGB
 
 const vec3 kLoud = vec3(1.0, 0.0, 0.25);  // marks errors
 const float kLoudOpacity = 0.95;
@@ -23,6 +24,12 @@ void show(vec3 color, float opacity) {
   vec3 encoded = linear_to_srgb(color);
   out_color = vec4(kEncodeSrgb != 0u ? encoded : color, opacity);
   out_named = vec4(encoded, opacity);
+}
+
+// Outputs a colour for a number, and the number.
+void show_number(vec3 color, float opacity, float number) {
+  show(color, opacity);
+  out_named = vec4(number, 0.0, 0.0, 1.0);
 }
 
 // Darkens the upper and left border of tiles of `side` pixels.

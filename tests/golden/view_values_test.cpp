@@ -119,6 +119,29 @@ TEST_F(ViewValues, the_visibility_of_a_light_is_a_share) {
   EXPECT_EQ(most, 1.0f);
 }
 
+TEST_F(ViewValues, counts_are_numbers) {
+  const LinearPicture lights = values("builtin:lanterns", "lights_accurate");
+  std::uint32_t most = 0;
+  for (std::uint32_t y = 4; y < kHeight; y += 8)
+    for (std::uint32_t x = 4; x < kWidth; x += 8) {
+      const std::string counted = picked(x, y, "accurate search: ");
+      if (counted.empty()) continue;
+      const auto number = static_cast<std::uint32_t>(std::stoul(counted));
+      EXPECT_EQ(at(lights, x, y).x, static_cast<float>(number)) << x << ", " << y;
+      most = std::max(most, number);
+    }
+  EXPECT_GT(most, 3u);
+  for (const char* view : {"tile_masks", "lights_final", "visibility_slots"}) {
+    const LinearPicture counts = values("builtin:lanterns", view);
+    float greatest = 0.0f;
+    for (std::size_t i = 0; i < counts.rgba.size(); i += 4) {
+      EXPECT_EQ(counts.rgba[i], std::round(counts.rgba[i])) << view;
+      greatest = std::max(greatest, counts.rgba[i]);
+    }
+    EXPECT_GT(greatest, 1.0f) << view;
+  }
+}
+
 TEST_F(ViewValues, the_lit_picture_is_light) {
   const LinearPicture light = values("builtin:plain", "none");
   float most = 0.0f;

@@ -1,17 +1,39 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 """Tests `render`: pictures, stats, traces, reproducibility, errors. Needs a Vulkan device."""
+import base64
 import json
 import os
 import re
+import struct
 
 from inspect_test import TRIANGLE
 from program_case import ProgramCase, main
+from window_case import read_png
 
 SMALL = ("--size", "160x90")
 NO_SHADOWS = ("--set", "shadows.mode=off")  # for tests in which shadows only take time
 LIGHT_VIEWS = ("tile_masks", "lights_approx", "lights_accurate", "lights_difference", "light_culling:light 0", "light_list:light 0")
 STATS = {"version", "scene", "device", "size", "frames", "frame_ms", "systems", "passes", "memory", "modules", "counters", "knobs"}
+
+
+def approaching_lamp():
+    """A triangle before the camera, and a lamp without a fixed exposure that is 8 m away, one second later 2 m."""
+    data = struct.pack("<9f", -2, -1, 0, 2, -1, 0, 0, 2, 0) + struct.pack("<3f", 0, 1, 9) + struct.pack("<9f", 0, 0, 8, 0, 0, 2, 0, 0, 2)
+    return {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}], "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 200}]}},
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 3]}, {"extensions": {"KHR_lights_punctual": {"light": 0}}}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "animations": [{"channels": [{"sampler": 0, "target": {"node": 2, "path": "translation"}}], "samplers": [{"input": 1, "output": 2}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-2, -1, 0], "max": [2, 2, 0]},
+                      {"bufferView": 1, "componentType": 5126, "count": 3, "type": "SCALAR", "min": [0], "max": [9]},
+                      {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12},
+                        {"buffer": 0, "byteOffset": 48, "byteLength": 36}],
+        "buffers": [{"byteLength": 84, "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+    }
 
 
 class Render(ProgramCase):
@@ -190,6 +212,24 @@ class Render(ProgramCase):
         pictures = [(self.folder / "out" / name).read_bytes() for name in names]
         self.assertTrue(pictures[2] == (self.folder / "last.png").read_bytes(), "the last frame of a run is the same")
         self.assertFalse(pictures[0] == pictures[2], "wind moves the grass")
+
+    def test_a_fitting_range_is_the_smallest_that_holds_the_numbers(self):
+        def drawn(value):
+            self.expect(0, "render", "builtin:shadows", *SMALL, "--view", "lights_accurate", "--set", f"views.range={value}", "--out", "v.png")
+            return self.bytes_of("v.png")
+
+        fitted = drawn("fit")  # two local lights; the scale ends at 31
+        self.assertTrue(fitted == drawn("1/8"))
+        self.assertFalse(fitted == drawn("1/16"))
+
+    def test_a_sequence_has_one_exposure(self):
+        (self.folder / "lamp.gltf").write_text(json.dumps(approaching_lamp()), encoding="utf-8")
+        run = ("render", "lamp.gltf", "--size", "64x36")
+        self.expect(0, *run, "--frames", "2", "--dt", "1", "--out", "frame_%02d.png")
+        self.expect(0, *run, "--time", "1", "--out", "alone.png")
+        first, second, alone = (read_png(self.folder / name).mean() for name in ("frame_00.png", "frame_01.png", "alone.png"))
+        self.assertGreater(second, 1.5 * first, "the lamp is nearer")
+        self.assertGreater(second, 1.2 * alone, "by itself the frame is exposed for its own light")
 
     def test_unknown_knobs_views_and_cameras_are_wrong_usage(self):
         (self.folder / "bad.json").write_text('{"no.such": 1}')

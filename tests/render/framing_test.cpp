@@ -23,19 +23,24 @@ class FramedView : public ::testing::Test {
   struct Extent {
     double across = 0.0;  ///< greatest |x| of the picture, 1 at its edge
     double up = 0.0;
-    double nearness = 0.0;  ///< greatest depth, 1 at the near plane
+    glm::dvec2 middle = glm::dvec2(0.0);  ///< of the outermost points
+    double nearness = 0.0;                ///< greatest depth, 1 at the near plane
     bool before_camera = true;
   };
   [[nodiscard]] Extent extent_of(const std::vector<dvec3>& points, std::uint32_t width, std::uint32_t height) const {
     const RenderView view = make_view(framed_view(world_, width, height), 0);
     Extent extent;
+    glm::dvec2 least(1e9), most(-1e9);
     for (const dvec3& point : points) {
       const dvec4 clip = dmat4(view.clip_from_relative) * dvec4(dvec3(view.relative(point)), 1.0);
       extent.before_camera = extent.before_camera && clip.w > 0.0;
       extent.across = std::max(extent.across, std::abs(clip.x / clip.w));
       extent.up = std::max(extent.up, std::abs(clip.y / clip.w));
       extent.nearness = std::max(extent.nearness, clip.z / clip.w);
+      least = glm::min(least, glm::dvec2(clip) / clip.w);
+      most = glm::max(most, glm::dvec2(clip) / clip.w);
     }
+    extent.middle = 0.5 * (least + most);
     return extent;
   }
   static void expect_fills(const Extent& extent, const std::string& name) {
@@ -44,6 +49,8 @@ class FramedView : public ::testing::Test {
     EXPECT_LE(extent.up, 0.91) << name;
     EXPECT_GT(std::max(extent.across, extent.up), 0.89) << name;
     EXPECT_LE(extent.nearness, 1.0) << name;
+    EXPECT_NEAR(extent.middle.x, 0.0, 0.02) << name;
+    EXPECT_NEAR(extent.middle.y, 0.0, 0.02) << name;
   }
   World world_;
   std::vector<Entity> drawn_;

@@ -115,6 +115,26 @@ TEST(ImageFile, a_jpeg_whose_huffman_table_has_too_many_codes_is_refused) {
   EXPECT_EQ(decode_image(jpeg).error().message, "is a damaged image (a Huffman table has more than 256 codes)");
 }
 
+TEST(ImageFile, a_png_with_an_unknown_critical_chunk_or_without_its_end_is_refused) {
+  const Bytes png = test::make_png(5, 3, kColor);
+  ASSERT_TRUE(decode_image(png).ok());
+  const Bytes marker = {'I', 'E', 'N', 'D'};
+  const auto end = std::search(png.begin(), png.end(), marker.begin(), marker.end()) - png.begin();
+  Bytes unknown = png;
+  unknown[static_cast<std::size_t>(end)] = '\n';
+  EXPECT_EQ(decode_image(unknown).error().message, "is a damaged image (it has an unknown critical chunk)");
+  const Bytes cut(png.begin(), png.begin() + end);
+  EXPECT_EQ(decode_image(cut).error().message, "is a damaged image (it ends before its last chunk)");
+}
+
+TEST(ImageFile, a_huffman_table_before_the_header_is_checked_first) {
+  Bytes jpeg = test::make_jpeg(16, 8, kColor);
+  Bytes table = {0xff, 0xc4, 0, 19, 0};
+  for (int i = 0; i < 16; ++i) table.push_back(i < 2 ? 200 : 0);
+  jpeg.insert(jpeg.begin() + 2, table.begin(), table.end());
+  EXPECT_EQ(image_size(jpeg).error().message, "is a damaged image (a Huffman table has more than 256 codes)");
+}
+
 TEST(ImageFile, a_jpeg_without_tables_is_refused_or_a_picture) {
   const Bytes whole = test::make_jpeg(16, 8, kColor);
   for (const std::uint8_t marker : {std::uint8_t{0xc4}, std::uint8_t{0xdb}}) {

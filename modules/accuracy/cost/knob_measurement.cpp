@@ -9,6 +9,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
+#include "engine/math/packing.h"
 #include "modules/accuracy/cost/knob_overrides.h"
 #include "modules/accuracy/cost/timing.h"
 
@@ -20,7 +21,7 @@ namespace {
 constexpr std::int32_t kSettlingFrames = 3;
 
 /// Version of metrics and protocol: rows stored under another version are measured again.
-constexpr int kMethod = 3;
+constexpr int kMethod = 4;
 
 std::string exact_text(double value) {
   char buffer[32];
@@ -39,6 +40,20 @@ std::string hash_of(const FramePictures& frame) {
 std::string joined_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
+}
+
+/// The light of pictures before they were encoded, 0…1.
+LinearPicture displayed_light(const Picture& picture) {
+  LinearPicture light{picture.width, picture.height, {}};
+  light.rgba.reserve(picture.rgba.size());
+  for (const std::uint8_t code : picture.rgba) light.rgba.push_back(srgb_to_linear(static_cast<float>(code) / 255.0f));
+  return light;
+}
+
+std::vector<LinearPicture> light_of(const std::vector<FramePictures>& frames, bool displayed) {
+  std::vector<LinearPicture> light;
+  for (const FramePictures& frame : frames) light.push_back(displayed ? displayed_light(frame.picture) : frame.linear);
+  return light;
 }
 
 }  // namespace
@@ -200,7 +215,34 @@ Status KnobMeasurement::judge_by_module(const std::string& value, const Drawn& d
   row.reference_noise = held.noise;
   const double error = row.flip ? row.flip->mean : *row.rmse;
   row.below_noise = held.noise > 0.0 && error < held.noise;
-  return {};
+  const bool moves = request_.sequence >= 2 && reference_->kind == "accumulated" && !reference_->follows_value;
+  return moves ? judge_motion(value, row) : Status();
+}
+
+Status KnobMeasurement::judge_motion(const std::string& value, LedgerRow& row) {
+  if (reference_sequence_.empty()) {
+    auto references = draw_motion(default_, true);
+    if (!references) return references.error();
+    reference_sequence_ = std::move(references).value();
+  }
+  const auto frames = draw_motion(value, false);
+  if (!frames) return frames.error();
+  const bool displayed = reference_sequence_.front().linear.width == 0;
+  return judge_sequence(light_of(reference_sequence_, displayed), light_of(*frames, displayed), row);
+}
+
+Result<std::vector<FramePictures>> KnobMeasurement::draw_motion(const std::string& value, bool references) {
+  GLOAM_TRY(set(value));
+  GLOAM_TRY(settle());
+  std::vector<FramePictures> frames;
+  for (std::uint32_t index = 0; index < request_.sequence; ++index) {
+    GLOAM_TRY(subject_.draw(static_cast<std::int32_t>(index)));
+    auto frame = subject_.read();
+    if (frame && references) frame = subject_.draw_reference(*reference_, *frame, request_.header.samples);
+    if (!frame) return frame.error();
+    frames.push_back(std::move(frame).value());
+  }
+  return frames;
 }
 
 Result<KnobMeasurement::Held> KnobMeasurement::module_reference(const std::string& value, const FramePictures& frame) {

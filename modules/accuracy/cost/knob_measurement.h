@@ -52,6 +52,10 @@ class KnobMeasurement {
   [[nodiscard]] Status judge_by_measure(const std::string& value, LedgerRow& row);
   [[nodiscard]] Status judge_by_exact(const Drawn& drawn, LedgerRow& row);
   [[nodiscard]] Status judge_by_module(const std::string& value, const Drawn& drawn, LedgerRow& row);
+  /// Sets row.temporal from a reference of each frame of a sequence.
+  [[nodiscard]] Status judge_motion(const std::string& value, LedgerRow& row);
+  /// The frames of a sequence with a value; with `references`, the module's reference of each.
+  [[nodiscard]] Result<std::vector<FramePictures>> draw_motion(const std::string& value, bool references);
   [[nodiscard]] Result<Held> module_reference(const std::string& value, const FramePictures& frame);
   [[nodiscard]] Result<JudgedReference> compute(const FramePictures& frame);
   [[nodiscard]] Status time(const std::string& value, LedgerRow& row);
@@ -68,6 +72,7 @@ class KnobMeasurement {
   ReferenceCache cache_;
   std::optional<Held> held_;  ///< the reference, if one serves all values
   std::vector<LinearPicture> exact_sequence_;
+  std::vector<FramePictures> reference_sequence_;  ///< empty until judge_motion() needs it
 };
 
 }  // namespace gloam

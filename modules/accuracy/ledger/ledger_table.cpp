@@ -10,12 +10,13 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kColumns = 12;
+constexpr std::size_t kColumns = 13;
 using Line = std::array<std::string, kColumns>;
-const Line kTitles = {"",     "knob", "value",   "counted", "FLIP mean",      "FLIP p99",
-                      "RMSE", "ms",   "p10-p90", "ratio",   "module CPU+GPU", "MiB"};
-constexpr std::size_t kCountedColumn = 3;  // shown only if a row has a counted error
-constexpr std::size_t kTextColumns = 3;    // left-aligned
+const Line kTitles = {"",         "knob", "value",   "counted", "FLIP mean",      "FLIP p99", "RMSE",
+                      "temporal", "ms",   "p10-p90", "ratio",   "module CPU+GPU", "MiB"};
+constexpr std::size_t kCountedColumn = 3;   // shown only if a row has a counted error
+constexpr std::size_t kTemporalColumn = 7;  // shown only if a row has a temporal error
+constexpr std::size_t kTextColumns = 3;     // left-aligned
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
@@ -41,6 +42,7 @@ Line line_of(const LedgerRow& row) {
           error_text(row, mean),
           error_text(row, p99),
           error_text(row, row.rmse),
+          row.temporal ? formatted("%.6f", row.temporal->mean) : "",
           formatted("%.3f", row.ms.median_ms),
           formatted("%.3f-%.3f", row.ms.p10_ms, row.ms.p90_ms),
           formatted("%.2f", row.ratio),
@@ -51,7 +53,7 @@ Line line_of(const LedgerRow& row) {
 std::string aligned(const Line& line, const std::array<std::size_t, kColumns>& widths) {
   std::string text;
   for (std::size_t i = 0; i < kColumns; ++i) {
-    if (i == kCountedColumn && widths[i] == 0) continue;
+    if (widths[i] == 0 && (i == kCountedColumn || i == kTemporalColumn)) continue;
     const std::string gap(widths[i] - line[i].size(), ' ');
     text += (i > 0 ? "  " : "") + (i < kTextColumns ? line[i] + gap : gap + line[i]);
   }
@@ -92,6 +94,8 @@ std::string ledger_table(const Ledger& ledger) {
   for (const LedgerRow& row : ledger.rows) lines.push_back(line_of(row));
   const bool counts = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.counted.has_value(); });
   if (!counts) lines.front()[kCountedColumn].clear();
+  const bool moves = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.temporal.has_value(); });
+  if (!moves) lines.front()[kTemporalColumn].clear();
   std::array<std::size_t, kColumns> widths{};
   for (const Line& line : lines) {
     for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], line[i].size());

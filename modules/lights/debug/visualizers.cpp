@@ -131,7 +131,8 @@ void LightViews::add_pass(FrameBuilder& frame) {
     pass.push(shows_one_light(named->view) ? 0.75f : 1.0f);  // opacity of black over the picture
   else if (light)
     pass.push(*light);
-  add_visualizer_targets(frame, pass, stem, gpu::Format::rgba8_unorm);
+  add_visualizer_targets(frame, pass, stem,
+                         shows_counts(named->view) ? gpu::Format::rgba16_float : gpu::Format::rgba8_unorm);
   pass.draw_triangle();
 }
 

@@ -24,7 +24,7 @@ void draw(FrameBuilder& frame, const std::string& name, gpu::ShaderCode fragment
   if (name != "light_list") program.constants.push_back({2, name == "visibility_slots" ? 1u : 0u});
   draw_shadow_picture(frame, {.pass = name + "_view",
                               .values = name,
-                              .format = gpu::Format::rgba8_unorm,
+                              .format = name == "light_list" ? gpu::Format::rgba8_unorm : gpu::Format::rgba16_float,
                               .program = std::move(program),
                               .push = push});
 }

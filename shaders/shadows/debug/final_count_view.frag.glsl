@@ -17,6 +17,7 @@ layout(push_constant, scalar) uniform Push { uint directional_count; };
 layout(set = 0, binding = 5) uniform usampler2D tile_lists;
 
 const float kMostSlots = 10.0;  // most slots that colours distinguish
+const float kNoList = -1.0;     // the number of a tile without a final list
 
 // Number of entries of a run with a visibility slot.
 uint slots_of(uint first, uint count) {
@@ -35,12 +36,12 @@ uint early_count(uvec2 pixel) {
 void show_slots(uvec2 pixel, FinalList list) {
   uint slots = slots_of(list.directional_first, list.directional_count) + slots_of(list.local_first, list.local_count);
   if (slots > 0u) {
-    show(with_grid(heat(float(slots) / kMostSlots), pixel, GLOAM_SHADOW_TILE), kDarkened);
+    show_number(with_grid(heat(float(slots) / kMostSlots), pixel, GLOAM_SHADOW_TILE), kDarkened, float(slots));
   } else if (early_count(pixel) == 0u) {
-    show(vec3(0.0), 1.0);
+    show_number(vec3(0.0), 1.0, 0.0);
   } else {
     bool lit = list.directional_count + list.local_count > 0u;
-    show(lit ? vec3(0.0) : with_grid(0.25 * kLeftOut, pixel, GLOAM_SHADOW_TILE), kDarkened);
+    show_number(lit ? vec3(0.0) : with_grid(0.25 * kLeftOut, pixel, GLOAM_SHADOW_TILE), kDarkened, 0.0);
   }
 }
 
@@ -48,10 +49,11 @@ void main() {
   uvec2 pixel = uvec2(gl_FragCoord.xy);
   FinalList list = final_list(pixel);
   if (!list.complete) {
-    show(with_grid(kFallbackColor, pixel, GLOAM_SHADOW_TILE), kSlots != 0u ? kLoudOpacity : 1.0);
+    show_number(with_grid(kFallbackColor, pixel, GLOAM_SHADOW_TILE), kSlots != 0u ? kLoudOpacity : 1.0, kNoList);
   } else if (kSlots != 0u) {
     show_slots(pixel, list);
   } else {
-    show(with_grid(heat(float(list.directional_count + list.local_count) / 31.0), pixel, GLOAM_SHADOW_TILE), 1.0);
+    float lights = float(list.directional_count + list.local_count);
+    show_number(with_grid(heat(lights / 31.0), pixel, GLOAM_SHADOW_TILE), 1.0, lights);
   }
 }

@@ -234,6 +234,26 @@ TEST_F(MeasureCosts, a_sequence_shows_flicker) {
   EXPECT_NEAR(*ledger.rows[0].rmse, 0.5, 1e-6) << "the picture is of the first moment";
 }
 
+TEST_F(MeasureCosts, accumulated_references_of_a_sequence_show_flicker) {
+  judge_by({.knob = "fake.samples", .kind = "accumulated", .name = "many frames", .samples = true});
+  subject_.reference = [](const FramePictures&, std::uint32_t) -> Result<FramePictures> {
+    FramePictures result = FakeSubject::pictures(0.25);
+    result.linear = {};
+    return result;
+  };
+  EXPECT_FALSE(measure().rows[0].temporal);
+  request_.sequence = 3;
+  const Ledger ledger = measure();
+  // The light that codes of sRGB stand for; the reference does not change.
+  const auto light = [](double brightness) {
+    const double share = std::round(255.0 * brightness) / 255.0;
+    return std::pow((share + 0.055) / 1.055, 2.4);
+  };
+  EXPECT_NEAR(ledger.rows[0].temporal->mean, light(0.75) - light(0.5), 1e-6);
+  EXPECT_NEAR(ledger.rows[2].temporal->mean, light(0.25 + 0.5 / 16.0) - light(0.25 + 0.25 / 16.0), 1e-6);
+  EXPECT_THAT(ledger_table(ledger), HasSubstr("temporal"));
+}
+
 TEST_F(MeasureCosts, a_modules_reference_serves_all_values_and_tells_its_noise) {
   judge_by({.knob = "fake.samples", .kind = "traced", .name = "sums", .samples = true});
   subject_.reference = [](const FramePictures& frame, std::uint32_t samples) -> Result<FramePictures> {

@@ -125,7 +125,7 @@ TEST(Trace, holds_zones_and_passes_in_microseconds) {
   EXPECT_NE(events["tone_map"]["tid"], events["transforms"]["tid"]);
 }
 
-TEST(Trace, names_its_rows) {
+TEST(Trace, names_its_process_and_rows) {
   FrameSample sample;
   sample.zones = {{.name = "a", .module = "engine", .begin_ns = 0, .end_ns = 1, .thread = 3}};
   const auto trace = nlohmann::json::parse(chrome_trace(std::vector{sample, sample}));
@@ -133,7 +133,7 @@ TEST(Trace, names_its_rows) {
   for (const auto& event : trace["traceEvents"]) {
     if (event["ph"] == "M") rows.push_back(event["args"]["name"]);
   }
-  EXPECT_EQ(rows, (std::vector<std::string>{"CPU 3", "GPU"}));
+  EXPECT_EQ(rows, (std::vector<std::string>{"gloam", "CPU 3", "GPU"}));
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "engine/ecs/view.h"
 #include "engine/scene/resources.h"
 #include "modules/module_list/module_list.h"
@@ -35,6 +38,16 @@ TEST_F(LightControlsTest, lists_lights_by_name) {
   ASSERT_EQ(controls.lights().size(), 3u);
   EXPECT_EQ(controls.lights()[0].name, "a");
   EXPECT_EQ(controls.lights()[2].name, "c");
+}
+
+TEST_F(LightControlsTest, lists_numbers_in_names_in_their_order) {
+  SceneBuilder builder(world_, info_);
+  for (const char* name : {"lamp 10", "lamp 2", "lamp 02 b", "lamp"})
+    builder.add_light(name, Light{}, {}, {0.0, -1.0, 0.0}, false);
+  std::vector<std::string> names;
+  const LightControls controls(world_);
+  for (const ControlledLight& light : controls.lights()) names.push_back(light.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "b", "c", "lamp", "lamp 2", "lamp 02 b", "lamp 10"}));
 }
 
 TEST_F(LightControlsTest, mute_turns_a_light_off_and_on_again) {

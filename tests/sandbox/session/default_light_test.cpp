@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/ecs/view.h"
+#include "engine/scene/assets.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
 #include "modules/module_list/module_list.h"
@@ -48,6 +51,27 @@ TEST_F(DefaultLightTest, keeps_the_exposure_of_the_scene) {
   environment.exposure_ev100 = 3.5f;
   EXPECT_TRUE(add_default_light(world_, info_));
   EXPECT_EQ(environment.exposure_ev100, 3.5f);
+}
+
+TEST_F(DefaultLightTest, makes_emission_as_bright_as_white) {
+  auto& materials = world_.resource<SceneAssets>().materials;
+  materials.push_back({.emissive = vec3(1.0f, 0.5f, 0.0f)});
+  draw_box();
+  ASSERT_TRUE(add_default_light(world_, info_));
+  // An exposure of EV100 maps 1.2 · 2^EV cd/m² to 1.
+  const float white = 1.2f * std::exp2(world_.resource<SceneEnvironment>().exposure_ev100);
+  EXPECT_NEAR(materials.back().emissive.x / white, 1.0f, 1e-4f);
+  EXPECT_NEAR(materials.back().emissive.y / white, 0.5f, 1e-4f);
+  EXPECT_EQ(materials.back().emissive.z, 0.0f);
+}
+
+TEST_F(DefaultLightTest, leaves_emission_to_the_exposure_of_the_scene) {
+  auto& materials = world_.resource<SceneAssets>().materials;
+  materials.push_back({.emissive = vec3(1.0f)});
+  draw_box();
+  world_.resource<SceneEnvironment>().has_exposure = true;
+  ASSERT_TRUE(add_default_light(world_, info_));
+  EXPECT_EQ(materials.back().emissive, vec3(1.0f));
 }
 
 TEST_F(DefaultLightTest, leaves_scenes_with_a_light_or_a_sky_and_empty_ones) {

@@ -80,6 +80,8 @@ class PanelTest : public ::testing::Test {
                                               {"light_list", "lamp", "LIGHT", "pixels of a list"},
                                               {"later", "lamp", "", "nothing", false}};
   std::string visualizer_ = "none";
+  void SetUp() override { click("knobs lamp"); }
+
   const PanelScene* scene_ = nullptr;
   Panel panel_;
   PanelInput last_;

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "engine/core/result.h"
+#include "engine/render/view.h"
+#include "sandbox/session/session.h"
+
+namespace gloam {
+
+/// The smallest of these factors on `most`, the end of a colour scale, that all but one in a thousand of the numbers
+/// fit in; the largest factor if none does. 1 if no number is above 0. factors: ascending, not empty.
+[[nodiscard]] float fitting_factor(std::span<const float> numbers, double most, std::span<const float> factors);
+
+/// Whether a visualizer, NAME or NAME:ARGUMENT, shows numbers by the colours of a scale.
+[[nodiscard]] bool shows_heat(const Renderer& renderer, std::string_view visualizer);
+
+/// The value of ViewSettings::heat_range that fits the numbers of the view's last frame, of the factors of views.range.
+/// It waits for the frame. view: its visualizer shows heat, and the frame was drawn with it.
+[[nodiscard]] Result<float> fitting_heat_range(Session& session, const ViewSettings& view);
+
+}  // namespace gloam
