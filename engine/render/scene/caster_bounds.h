@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/math/bounds.h"
-#include "engine/render/scene/gpu_scene.h"
+#include "engine/render/scene/gpu_primitive.h"
 #include "engine/scene/resources.h"
 
 /// World-space bounds of drawn primitives. In double: floats are too coarse far from the world's origin.
