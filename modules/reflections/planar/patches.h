@@ -8,6 +8,7 @@
 
 #include "engine/ecs/world.h"
 #include "engine/math/types.h"
+#include "engine/scene/assets.h"
 
 namespace gloam {
 
