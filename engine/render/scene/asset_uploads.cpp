@@ -100,9 +100,14 @@ void AssetUploads::record_barriers(gpu::CommandList& commands, std::span<const T
   std::vector<gpu::BufferBarrier> buffers;
   std::vector<gpu::ImageBarrier> images;
   std::vector<bool> seen(targets.size(), false);
+  gpu::ImageHandle last_image;
   for (const Copy& copy : copies_) {
     if (copy.image) {
-      if (before && copy.first) images.push_back({.image = copy.image, .after = gpu::Access::transfer_write});
+      const bool begins = copy.image != last_image;  // the copies of an image follow each other
+      last_image = copy.image;
+      const gpu::Access earlier = copy.first ? gpu::Access::none : gpu::Access::transfer_write;
+      if (before && begins)
+        images.push_back({.image = copy.image, .before = earlier, .after = gpu::Access::transfer_write});
       if (!before && copy.last)
         images.push_back(
             {.image = copy.image, .before = gpu::Access::transfer_write, .after = gpu::Access::fragment_read});

@@ -22,7 +22,8 @@ std::uint64_t longest_free(const std::vector<bool>& used) {
 }
 
 TEST(RangeAllocator, ranges_never_overlap_and_every_free_unit_can_be_found) {
-  std::mt19937 random(7);
+  std::mt19937 engine(7);
+  const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
   RangeAllocator allocator;
   std::vector<bool> used;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;
