@@ -30,6 +30,10 @@ class CountingCommands final : public gpu::CommandList {
                             std::uint32_t mip, std::uint32_t first_layer, std::uint32_t layer_count) override {
     next_.copy_buffer_to_image(source, source_offset, target, mip, first_layer, layer_count);
   }
+  void copy_rows_to_image(gpu::BufferHandle source, std::uint64_t source_offset, gpu::ImageHandle target,
+                          std::uint32_t mip, std::uint32_t first_row, std::uint32_t row_count) override {
+    next_.copy_rows_to_image(source, source_offset, target, mip, first_row, row_count);
+  }
   void copy_image_to_buffer(gpu::ImageHandle source, std::uint32_t mip, std::uint32_t layer, gpu::BufferHandle target,
                             std::uint64_t target_offset) override {
     next_.copy_image_to_buffer(source, mip, layer, target, target_offset);

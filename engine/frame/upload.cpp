@@ -100,11 +100,12 @@ Result<gpu::Binding::BufferRange> UploadRing::write(std::span<const std::byte> d
   return gpu::Binding::BufferRange{.buffer = slice->buffer, .offset = slice->offset, .size = data.size()};
 }
 
-void Uploader::buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after) {
+void Uploader::buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after,
+                      gpu::AccessMask also_after) {
   GLOAM_ASSERT(!bytes.empty() && bytes.size() <= device_.desc(target).size,
                "an upload fits its buffer '" + device_.desc(target).name + "' and has at least one byte");
   const std::uint64_t size = bytes.size();
-  jobs_.push_back({target, {}, copy_of(std::move(bytes)), size, after});
+  jobs_.push_back({target, {}, copy_of(std::move(bytes)), size, after, also_after});
 }
 
 void Uploader::image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after) {
@@ -197,7 +198,9 @@ void Uploader::record(gpu::CommandList& commands, std::span<const Job> jobs, gpu
     for (const Job& job : jobs) {
       const gpu::Access before = before_copies ? gpu::Access::none : gpu::Access::transfer_write;
       const gpu::Access after = before_copies ? gpu::Access::transfer_write : job.after;
-      if (job.buffer) buffers.push_back({.buffer = job.buffer, .before = before, .after = after});
+      const gpu::AccessMask also_after = before_copies ? 0 : job.also_after;
+      if (job.buffer)
+        buffers.push_back({.buffer = job.buffer, .before = before, .after = after, .also_after = also_after});
       if (job.image) images.push_back({.image = job.image, .before = before, .after = after});
     }
     commands.barrier(buffers, images);

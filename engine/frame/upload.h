@@ -67,8 +67,9 @@ class Uploader {
 
   explicit Uploader(gpu::Device& device) : device_(device) {}
   /// Requests an upload of `bytes` (1 to the size of the buffer) to the start of the buffer. `after`: the access that
-  /// the target is left ready for, here and below.
-  void buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after);
+  /// the target is left ready for, here and below; also_after: further ones.
+  void buffer(gpu::BufferHandle target, std::vector<std::byte> bytes, gpu::Access after,
+              gpu::AccessMask also_after = 0);
   /// texels: all mips of all layers, tightly packed, layer by layer and within a layer mip by mip.
   void image(gpu::ImageHandle target, std::vector<std::byte> texels, gpu::Access after);
   /// The same, but `fill` writes the texels to staging memory during flush.
@@ -88,6 +89,7 @@ class Uploader {
     Fill fill;
     std::uint64_t size = 0;
     gpu::Access after = gpu::Access::none;
+    gpu::AccessMask also_after = 0;
   };
   /// Jobs that one frame copies from one staging buffer.
   struct Batch {

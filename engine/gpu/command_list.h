@@ -32,6 +32,10 @@ class CommandList {
   /// A volume has one layer, with one slice after the other. source_offset: bytes.
   virtual void copy_buffer_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target,
                                     std::uint32_t mip, std::uint32_t first_layer, std::uint32_t layer_count) = 0;
+  /// Copies tightly packed texels to some rows of one mip of a 2D colour image with one layer. source_offset: bytes, a
+  /// multiple of 4 and of a texel's bytes.
+  virtual void copy_rows_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target,
+                                  std::uint32_t mip, std::uint32_t first_row, std::uint32_t row_count) = 0;
   /// Copies one mip of one layer to tightly packed texels. target_offset: bytes.
   virtual void copy_image_to_buffer(ImageHandle source, std::uint32_t mip, std::uint32_t layer, BufferHandle target,
                                     std::uint64_t target_offset) = 0;

@@ -51,7 +51,7 @@ Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> d
   const Deformed* deformed = shared_.find<Deformed>();
   commands.bind_indices(scene_.indices(), 0);
   const SurfaceVariant* bound_variant = nullptr;
-  std::uint32_t bound_material = kNone;
+  const GpuMaterial* bound_material = nullptr;
   for (const Draw& draw : draws) {
     if (bound_variant == nullptr || *bound_variant != draw.variant) {
       auto pipeline = surface_pipeline(services_.pipelines, pass, draw.variant);
@@ -59,11 +59,12 @@ Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> d
       commands.bind_pipeline(*pipeline);
       commands.bind(bindings);
       bound_variant = &draw.variant;
-      bound_material = kNone;
+      bound_material = nullptr;
     }
     const GpuPrimitive& primitive = *draw.primitive;
-    if (bound_material != primitive.material) commands.bind_set(1, scene_.materials()[primitive.material].set);
-    bound_material = primitive.material;
+    const GpuMaterial& material = scene_.material(primitive.material);
+    if (bound_material != &material) commands.bind_set(1, material.set);
+    bound_material = &material;
     const std::uint64_t first = primitive.first_vertex;
     if (draw.deform == kNone) {
       commands.bind_vertex_stream(0, scene_.positions(), first * sizeof(vec3));

@@ -68,7 +68,10 @@ FrameServices Renderer::State::services(const KnobRegistry& view_knobs) {
 
 GpuScene& Renderer::State::scene_of(const World& world) {
   std::unique_ptr<GpuScene>& scene = scenes[slot_of(world).value];
-  if (scene == nullptr) scene = std::make_unique<GpuScene>(*options.device, pipelines);
+  if (scene == nullptr)
+    scene = std::make_unique<GpuScene>(
+        *options.device, pipelines,
+        AssetUploadOptions{.background = options.readiness == Readiness::background, .budget = options.upload_budget});
   return *scene;
 }
 
@@ -238,6 +241,8 @@ Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::create(RendererOptions options) {
   GLOAM_ASSERT(options.device != nullptr, "RendererOptions::device is null: a renderer needs a device");
+  GLOAM_ASSERT(options.upload_budget > 0,
+               "RendererOptions::upload_budget is 0: changed assets would never be uploaded");
   GLOAM_ASSERT(options.executor != nullptr, "RendererOptions::executor is null: a renderer needs an executor");
   check_modules(options.modules);
   if (options.log == nullptr) options.log = &null_log();

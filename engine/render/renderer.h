@@ -45,6 +45,9 @@ struct RendererOptions {
   ZoneRecorder* zones = nullptr;  ///< may be null
   ModuleList modules;             ///< in the order of the module graph
   Readiness readiness = Readiness::wait;
+  /// With Readiness::background: most bytes of changed meshes and images that one frame uploads, ≥ 1 (SceneAssets).
+  /// With Readiness::wait a frame shows all changes that were made before it.
+  std::uint64_t upload_budget = std::uint64_t{8} << 20;
 };
 
 /// Destination of a view's linear light (cd/m² before exposure), for captures: one mip and layer of an image that
@@ -117,6 +120,8 @@ struct FrameReport {
   std::uint64_t plans_compiled = 0;  ///< FrameGraph::plans_compiled, since the renderer was made
   /// Pipelines being compiled in the background; until then, frames leave passes out or use slower ones.
   std::size_t pipelines_pending = 0;
+  /// Meshes and images of the world drawn last that are not shown as they are in SceneAssets yet.
+  std::size_t assets_pending = 0;
 };
 
 /// Draws worlds. Owns modules, knobs, the schedule and all GPU state. Use it from one thread at a time.

@@ -61,17 +61,23 @@ Status Renderer::State::check_visualizer_name(std::string_view name) const {
 }
 
 std::optional<Oversight> Renderer::State::find_absent_mesh(const World& world) {
-  const std::size_t meshes = world.resource<SceneAssets>().meshes.size();
+  const SceneAssets& assets = world.resource<SceneAssets>();
+  const std::size_t meshes = assets.meshes.size();
   CheckedInstances& checked = checked_instances[slot_of(world).value];
-  if (meshes < checked.meshes) checked.tick = 0;
+  if (meshes < checked.meshes || assets.revision() != checked.revision) checked.tick = 0;
   checked.meshes = meshes;
+  checked.revision = assets.revision();
   std::optional<Oversight> absent;
   const auto check = [&](std::span<const Entity> entities, std::span<const MeshInstance> instances) {
-    for (std::size_t i = 0; i < instances.size() && !absent; ++i)
-      if (instances[i].mesh >= meshes)
-        absent =
-            Oversight{entities[i], "has a MeshInstance of mesh " + std::to_string(instances[i].mesh) +
-                                       ", and SceneAssets has " + std::to_string(meshes) + " meshes: it is not drawn"};
+    for (std::size_t i = 0; i < instances.size() && !absent; ++i) {
+      const std::uint32_t mesh = instances[i].mesh;
+      const bool destroyed = mesh < meshes && assets.is_destroyed(AssetKind::mesh, mesh);
+      if (mesh < meshes && !destroyed) continue;
+      absent = Oversight{entities[i], "has a MeshInstance of mesh " + std::to_string(mesh) +
+                                          (destroyed ? ", which was destroyed: it is not drawn"
+                                                     : ", and SceneAssets has " + std::to_string(meshes) +
+                                                           " meshes: it is not drawn")};
+    }
   };
   checked.tick = world.view<const MeshInstance>().changed_since<const MeshInstance>(checked.tick, check);
   return absent;

@@ -323,6 +323,8 @@ Status Renderer::State::record_frame(World& world, gpu::CommandList& commands) {
   std::vector<const RenderView*> views;
   for (const FrameView& view : frame_views) views.push_back(view.view.get());
   GpuScene& scene = scene_of(world);
+  GLOAM_TRY(scene.stage(world.resource<SceneAssets>()));
+  scene.add_pass(graph);
   draws = build_frame_draws(world, views, scene, *options.executor, any_needs(&Module::needs_casters, world));
   for (std::size_t i = 0; i < frame_views.size(); ++i) {
     const auto& geometry = frame_views[i].request.geometry;
@@ -371,6 +373,8 @@ void Renderer::State::commit_frame(World& world, std::span<const ViewRequest> re
   history.commit(graph, !again);
   cuts.commit();
   motion.commit(world);
+  scene_of(world).commit_frame();
+  assets_pending = scene_of(world).pending();
   if (!again) ++world.resource<RenderSlot>().frames;
   for (const ViewRequest& request : requests) images.at(request.settings.id.value).drawn = true;
   last_requests.assign(requests.begin(), requests.end());
@@ -380,8 +384,9 @@ void Renderer::State::commit_frame(World& world, std::span<const ViewRequest> re
   release_idle_companions();
 }
 
-void Renderer::State::give_up_frame(std::uint64_t frame) {
+void Renderer::State::give_up_frame(const World& world, std::uint64_t frame) {
   graph.give_up_frame();
+  scene_of(world).give_up_frame();
   results.give_up_frame();
   for (std::size_t i = 0; i < options.modules.size(); ++i)
     if (runtimes[i].in_view) options.modules[i]->give_up_frame(frame);
@@ -415,7 +420,7 @@ Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> re
     drawn = record_frame(world, **commands);
   } catch (...) {
     static_cast<void>(device.abandon_frame());
-    give_up_frame(frame);
+    give_up_frame(world, frame);
     throw;
   }
   if (drawn.ok()) {
@@ -427,7 +432,7 @@ Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> re
   if (drawn.ok()) {
     commit_frame(world, requests);
   } else {
-    give_up_frame(frame);
+    give_up_frame(world, frame);
   }
   return drawn;
 }

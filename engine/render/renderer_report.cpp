@@ -69,6 +69,7 @@ FrameReport Renderer::report() {
   s.add_result_counters(report.counters);
   report.plans_compiled = s.graph.plans_compiled();
   report.pipelines_pending = s.pipelines.pending();
+  report.assets_pending = s.assets_pending;
   const std::vector<gpu::ModuleMemory> memory = s.options.device->memory();
   const auto state_of = [&](std::string_view name) {
     ModuleState state;

@@ -38,10 +38,11 @@ struct RenderSlot {
   std::shared_ptr<const WorldToken> token;
 };
 
-/// What was checked of a world's MeshInstances: changes up to a tick, against a number of meshes.
+/// What was checked of a world's MeshInstances: changes up to a tick, against a number and a state of meshes.
 struct CheckedInstances {
   Tick tick = 0;
   std::size_t meshes = 0;
+  std::uint64_t revision = 0;  ///< SceneAssets::revision()
 };
 
 /// Images a renderer keeps for one view between frames.
@@ -149,7 +150,7 @@ struct Renderer::State {
   /// Notes a submitted frame as drawn.
   void commit_frame(World& world, std::span<const ViewRequest> requests);
   /// Undoes what was noted for a frame that the GPU does not execute. `frame`: its Device::frame_number.
-  void give_up_frame(std::uint64_t frame);
+  void give_up_frame(const World& world, std::uint64_t frame);
   /// Runs the systems of the world, or of a view. An exception becomes an error that names the system.
   [[nodiscard]] Status run_systems(World& world, std::optional<ViewId> view);
   /// Everything between Device::begin_frame and submit_frame.
@@ -216,6 +217,7 @@ struct Renderer::State {
   CameraCuts cuts;
   FrameGraph graph;
   std::map<std::uint64_t, std::unique_ptr<GpuScene>> scenes;
+  std::size_t assets_pending = 0;  ///< of the world drawn last
   std::shared_ptr<const RendererToken> token = std::make_shared<const RendererToken>();
   std::uint64_t next_slot = 1;
   std::map<std::uint64_t, CheckedInstances> checked_instances;      ///< by RenderSlot

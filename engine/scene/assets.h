@@ -123,9 +123,18 @@ struct AnimationClip {
   std::vector<AnimationChannel> channels;
 };
 
-/// Data that the entities of a scene share. A resource of the world, filled by the importer or by code. Increment
-/// `version` when meshes, materials, images or textures change after the first frame; what was only added is drawn
-/// without that.
+enum class AssetKind : std::uint8_t { mesh, material, texture, image };
+
+/// Data that the entities of a scene share. A resource of the world, filled by the importer or by code.
+///
+/// After the first frame single assets are changed, added and destroyed with the functions below; the renderer uploads
+/// only those (RendererOptions::upload_budget). Assets that were appended to the lists without add() are found too.
+/// Increment `version` after any other change: everything is then uploaded again, and the frame waits for it. Skins and
+/// clips have no such functions.
+///
+/// Indices stay valid. A destroyed asset leaves an empty place, which add() uses again. What an asset refers to must be
+/// there when a frame is drawn: the renderer asserts that no primitive has a destroyed material, no material a
+/// destroyed texture and no texture a destroyed image.
 struct SceneAssets {
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
@@ -134,6 +143,44 @@ struct SceneAssets {
   std::vector<Skin> skins;
   std::vector<AnimationClip> clips;
   std::uint64_t version = 1;
+
+  /// Adds an asset and returns its index: that of a destroyed asset of its kind, or a new one.
+  std::uint32_t add(Mesh mesh);
+  std::uint32_t add(Material material);
+  std::uint32_t add(Texture texture);
+  std::uint32_t add(Image image);
+  /// Call it after the asset was written to. Asserts that it exists.
+  void mark_changed(AssetKind kind, std::uint32_t index);
+  /// Frees the asset's data and leaves a default one in its place. Asserts that it exists. Instances of a destroyed
+  /// mesh draw nothing.
+  void destroy(AssetKind kind, std::uint32_t index);
+
+  [[nodiscard]] std::size_t count(AssetKind kind) const;  ///< destroyed ones included
+  [[nodiscard]] bool is_destroyed(AssetKind kind, std::uint32_t index) const;
+  /// Grows with each call of the functions above; 0 before the first.
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }
+  /// revision() after the last call that concerned the asset; 0 if there was none.
+  [[nodiscard]] std::uint64_t revision(AssetKind kind, std::uint32_t index) const;
+  /// revision() after the asset was destroyed last, if another one has its place now or none; 0 if it never was.
+  [[nodiscard]] std::uint64_t destroyed_at(AssetKind kind, std::uint32_t index) const;
+
+ private:
+  /// What was called for the assets of one kind, by index; shorter than the list of assets where nothing was called.
+  struct Changes {
+    std::vector<std::uint64_t> revisions;
+    std::vector<std::uint64_t> destroyed_at;
+    std::vector<std::uint32_t> free;  ///< destroyed, the last one is used first
+  };
+  template <class T>
+  std::uint32_t add_to(std::vector<T>& list, AssetKind kind, T asset);
+  [[nodiscard]] Changes& of(AssetKind kind) { return changes_[static_cast<std::size_t>(kind)]; }
+  [[nodiscard]] const Changes& of(AssetKind kind) const { return changes_[static_cast<std::size_t>(kind)]; }
+  void check_exists(AssetKind kind, std::uint32_t index) const;
+
+  std::array<Changes, 4> changes_;
+  std::uint64_t revision_ = 0;
 };
+
+[[nodiscard]] const char* name_of(AssetKind kind);
 
 }  // namespace gloam

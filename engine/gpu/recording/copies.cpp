@@ -86,6 +86,30 @@ void CommandRecorder::copy_buffer_to_image(BufferHandle source, std::uint64_t so
   }
 }
 
+void CommandRecorder::copy_rows_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target,
+                                         std::uint32_t mip, std::uint32_t first_row, std::uint32_t row_count) {
+  note("copy_rows_to_image",
+       name(source) + "+" + std::to_string(source_offset) + " > " + name(target) + " mip " + std::to_string(mip) +
+           " rows " + std::to_string(first_row) + "+" + std::to_string(row_count),
+       Place::outside_rendering);
+  Image* image = image_for(target, ImageUsage::transfer_target, mip, 1, "copy_rows_to_image");
+  if (image == nullptr) return;
+  const std::uint32_t height = std::max(image->desc.height >> mip, 1u);
+  if (row_count == 0 || first_row >= height || row_count > height - first_row)
+    return fault("copy_rows_to_image", "the rows are not in " + name(target));
+  const std::uint64_t bytes = mip_bytes(image->desc, mip);
+  const std::uint64_t row = bytes / height;
+  Buffer* buffer =
+      buffer_for(source, BufferUsage::transfer_source, source_offset, row * row_count, "copy_rows_to_image");
+  if (buffer == nullptr) return;
+  tracker_.use(source, mask_of(Access::transfer_read), "copy_rows_to_image");
+  tracker_.use(target, {mip, 1, 0, 1}, mask_of(Access::transfer_write), "copy_rows_to_image");
+  auto& texels = image->texels[{mip, 0}];
+  texels.resize(bytes);
+  std::ranges::copy(bytes_of(*buffer).subspan(source_offset, row * row_count),
+                    texels.begin() + static_cast<std::ptrdiff_t>(row * first_row));
+}
+
 void CommandRecorder::copy_image_to_buffer(ImageHandle source, std::uint32_t mip, std::uint32_t layer,
                                            BufferHandle target, std::uint64_t target_offset) {
   note("copy_image_to_buffer",

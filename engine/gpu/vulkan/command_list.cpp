@@ -116,6 +116,22 @@ void VulkanCommandList::copy_buffer_to_image(BufferHandle source, std::uint64_t 
                                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
+void VulkanCommandList::copy_rows_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target,
+                                           std::uint32_t mip, std::uint32_t first_row, std::uint32_t row_count) {
+  bound_.check_outside("a copy");
+  const Image& image = images_.get(target);
+  check_transfer_layout(image, {mip, 1, 0, 1}, Access::transfer_write);
+  VkBufferImageCopy region = packed_region(image.desc, source_offset, mip, 0, 1);
+  const std::uint32_t height = region.imageExtent.height;
+  GLOAM_ASSERT(row_count > 0 && first_row < height && row_count <= height - first_row,
+               "a copy stays inside image \"" + image.desc.name + "\"");
+  check_range(source, source_offset, mip_bytes(image.desc, mip) / height * row_count);
+  region.imageOffset.y = static_cast<std::int32_t>(first_row);
+  region.imageExtent.height = row_count;
+  context_.vk.vkCmdCopyBufferToImage(commands_, buffers_.get(source).buffer, image.image,
+                                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
 void VulkanCommandList::copy_image_to_buffer(ImageHandle source, std::uint32_t mip, std::uint32_t layer,
                                              BufferHandle target, std::uint64_t target_offset) {
   bound_.check_outside("a copy");

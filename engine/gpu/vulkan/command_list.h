@@ -52,6 +52,8 @@ class VulkanCommandList final : public CommandList {
                    std::uint64_t size) override;
   void copy_buffer_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target, std::uint32_t mip,
                             std::uint32_t first_layer, std::uint32_t layer_count) override;
+  void copy_rows_to_image(BufferHandle source, std::uint64_t source_offset, ImageHandle target, std::uint32_t mip,
+                          std::uint32_t first_row, std::uint32_t row_count) override;
   void copy_image_to_buffer(ImageHandle source, std::uint32_t mip, std::uint32_t layer, BufferHandle target,
                             std::uint64_t target_offset) override;
   void fill_buffer(BufferHandle buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t word) override;

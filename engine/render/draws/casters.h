@@ -19,6 +19,8 @@ namespace gloam {
 struct Caster {
   Entity entity;
   const GpuPrimitive* primitive = nullptr;
+  std::uint64_t content = 0;           ///< GpuPrimitive::content
+  std::uint64_t cut_out_content = 0;   ///< GpuMaterial::content if the material cuts out; otherwise 0
   SurfaceVariant variant;              ///< the variant that draws it in a camera's view
   bool subsurface = false;             ///< of the material
   bool moving = false;                 ///< its vertices move every frame (skinned or morphed)

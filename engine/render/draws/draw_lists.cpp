@@ -104,15 +104,17 @@ class InstanceDrawer {
   }
 
   [[nodiscard]] bool casts(const Instance& instance, const GpuPrimitive& primitive) const {
-    return with_casters_ && instance.casts && scene_.materials()[primitive.material].alpha_mode != AlphaMode::blend;
+    return with_casters_ && instance.casts && scene_.material(primitive.material).alpha_mode != AlphaMode::blend;
   }
 
   void cast(Entity entity, const GpuPrimitive& primitive, const dmat4& world_from_mesh, bool flipped,
             const WorldBox& box, std::uint32_t deform, FrameDraws& lists) const {
-    const GpuMaterial& material = scene_.materials()[primitive.material];
+    const GpuMaterial& material = scene_.material(primitive.material);
     Caster caster;
     caster.entity = entity;
     caster.primitive = &primitive;
+    caster.content = primitive.content;
+    caster.cut_out_content = material.alpha_mode == AlphaMode::mask ? material.content : 0;
     caster.variant = surface_variant(material, primitive, flipped);
     caster.subsurface = material.subsurface;
     caster.moving = deform != kNone;
@@ -142,7 +144,7 @@ class InstanceDrawer {
   /// A draw in a view. flipped: the matrix mirrors, so front faces are clockwise. A mirrored view flips them again.
   [[nodiscard]] Draw start(const RenderView& view, Entity entity, const GpuPrimitive& primitive,
                            const shaders::DrawConstants& constants, bool flipped) const {
-    const GpuMaterial& material = scene_.materials()[primitive.material];
+    const GpuMaterial& material = scene_.material(primitive.material);
     Draw draw;
     draw.entity = entity;
     draw.primitive = &primitive;
@@ -154,7 +156,7 @@ class InstanceDrawer {
 
   void add(const RenderView& view, Draw draw, const Aabb& relative_bounds, ViewDraws& draws) const {
     draw.depth_m = nearest_depth(view, relative_bounds);
-    const bool blended = scene_.materials()[draw.primitive->material].alpha_mode == AlphaMode::blend;
+    const bool blended = scene_.material(draw.primitive->material).alpha_mode == AlphaMode::blend;
     (blended ? draws.blended : draws.solid).push_back(draw);
   }
 

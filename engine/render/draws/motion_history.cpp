@@ -24,6 +24,7 @@ DrawnInstances drawn_instances(const World& world) {
   DrawnInstances drawn;
   const JointMatrices& joints = world.resource<JointMatrices>();
   drawn.assets_version = world.resource<SceneAssets>().version;
+  drawn.assets_revision = world.resource<SceneAssets>().revision();
   drawn.joints = joints.matrices;
   drawn.weights = world.resource<MorphWeights>().values;
   world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
@@ -70,8 +71,9 @@ const DrawnInstance* DrawnInstances::find(const World& world, Entity entity) con
       std::ranges::lower_bound(items, entity.index, {}, [](const DrawnInstance& i) { return i.entity.index; });
   if (item == items.end() || item->entity != entity) return nullptr;
   const MeshInstance* now = world.try_get<MeshInstance>(entity);
+  const SceneAssets& assets = world.resource<SceneAssets>();
   const bool same = now != nullptr && now->mesh == item->mesh && now->skin == item->skin &&
-                    world.resource<SceneAssets>().version == assets_version;
+                    assets.version == assets_version && assets.revision(AssetKind::mesh, now->mesh) <= assets_revision;
   return same ? &*item : nullptr;
 }
 

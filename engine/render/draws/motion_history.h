@@ -30,10 +30,11 @@ struct DrawnInstance {
 
 /// The mesh instances of a world in one drawn frame, with the data that deforms them.
 struct DrawnInstances {
-  std::uint64_t assets_version = 0;  ///< SceneAssets::version
-  std::vector<DrawnInstance> items;  ///< ordered by entity.index
-  std::vector<mat4> joints;          ///< JointMatrices::matrices
-  std::vector<float> weights;        ///< MorphWeights::values
+  std::uint64_t assets_version = 0;   ///< SceneAssets::version
+  std::uint64_t assets_revision = 0;  ///< SceneAssets::revision()
+  std::vector<DrawnInstance> items;   ///< ordered by entity.index
+  std::vector<mat4> joints;           ///< JointMatrices::matrices
+  std::vector<float> weights;         ///< MorphWeights::values
 
   /// The instance of an entity. Null if the frame did not draw the entity, or with another mesh, skin or assets than
   /// the world has.

@@ -3,112 +3,148 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <string>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/frame/frame_graph.h"
 #include "engine/frame/upload.h"
 #include "engine/gpu/device.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/scene/asset_packer.h"
+#include "engine/render/scene/asset_uploads.h"
 #include "engine/render/scene/draw_pipelines.h"
-#include "engine/render/scene/mesh_packing.h"
+#include "engine/render/scene/gpu_materials.h"
+#include "engine/render/scene/gpu_primitive.h"
+#include "engine/render/scene/mesh_streams.h"
 #include "engine/scene/assets.h"
 
 namespace gloam {
 
-/// Ranges of a primitive in the scene's buffers, and the data with which the CPU culls and deforms it.
-struct GpuPrimitive {
-  std::uint32_t material = 0;  ///< index into GpuScene::materials()
-  std::uint32_t vertex_count = 0;
-  std::uint32_t first_vertex = 0;  ///< a multiple of 64, so that the byte offset of every stream is aligned for binding
-  std::uint32_t first_index = 0;
-  std::uint32_t index_count = 0;
-  std::uint32_t simplified_first_index = 0;
-  std::uint32_t simplified_index_count = 0;  ///< 0: the full indices cast its shadow (GpuScene::simplify_casters)
-  std::uint32_t first_influence = 0;         ///< a multiple of 64
-  std::uint32_t first_morph = 0;             ///< index of a float, a multiple of 64
-  std::uint32_t morph_targets = 0;
-  bool morph_has_normals = false;
-  bool skinned = false;
-  bool colored = false;        ///< has vertex colours
-  bool closed = false;         ///< is_closed_surface()
-  bool smooth_shaded = false;  ///< is_smooth_shaded(), in the rest pose
-  Aabb bounds;
-  std::vector<Cluster> clusters;
-  /// Joint index and rest bounds of the vertices that follow the joint. The union of the posed boxes bounds the posed
-  /// surface.
-  std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds;
-  std::vector<Aabb> morph_bounds;  ///< bounds of the offsets of each target
-};
-
-struct GpuMaterial {
-  gpu::ResourceSetHandle set;
-  std::uint32_t features = 0;  ///< GLOAM_SURFACE_…
-  AlphaMode alpha_mode = AlphaMode::opaque;
-  bool double_sided = false;
-  bool subsurface = false;
-  bool emissive = false;
-};
-
 /// Pipeline variant that draws a primitive with a material. `flipped`: its front faces are clockwise.
 [[nodiscard]] SurfaceVariant surface_variant(const GpuMaterial& material, const GpuPrimitive& primitive, bool flipped);
 
+/// How changes of single assets are uploaded.
+struct AssetUploadOptions {
+  /// false: a frame shows all changes before it. true: another thread packs changed meshes and images, frames upload at
+  /// most `budget` bytes of them, and until an asset is complete its earlier state is drawn, or nothing of a mesh and
+  /// white for an image.
+  bool background = false;
+  std::uint64_t budget = std::uint64_t{8} << 20;
+};
+
 /// Meshes, textures and materials of a world's SceneAssets on the GPU.
+///
+/// When SceneAssets::version has changed, sync() uploads everything and waits for it. Otherwise only the assets with a
+/// newer revision are packed and copied by the frame itself, in the pass that add_pass() declares.
 class GpuScene {
  public:
-  GpuScene(gpu::Device& device, Pipelines& pipelines) : device_(device), pipelines_(pipelines) {}
+  GpuScene(gpu::Device& device, Pipelines& pipelines, const AssetUploadOptions& options = {})
+      : device_(device), options_(options), streams_(device), materials_(device, pipelines), uploads_(device) {}
   ~GpuScene() { release(); }
   GpuScene(const GpuScene&) = delete;
   GpuScene& operator=(const GpuScene&) = delete;
 
-  /// Uploads everything if assets.version is not the version uploaded last, and then waits for the GPU.
+  /// Before Device::begin_frame: uploads everything, or finds what has changed. Asserts that what is uploaded can be
+  /// drawn (asset_fault).
   [[nodiscard]] Status sync(const SceneAssets& assets, JobExecutor& executor);
-
-  /// Gives opaque rigid primitives a second range of indices with fewer triangles (simplified_casters.h), once after
-  /// each upload; replaces the buffer indices(). `assets`: those of the last sync. Waits for the GPU. Must not be
-  /// called between begin_frame and submit_frame.
+  /// Gives opaque rigid primitives a second range of indices with fewer triangles (simplified_casters.h), each once.
+  /// `assets`: those of the last sync. Between sync() and stage().
   [[nodiscard]] Status simplify_casters(const SceneAssets& assets, JobExecutor& executor);
+  /// After Device::begin_frame and before draws are made: decides what this frame copies, and shows what is complete.
+  [[nodiscard]] Status stage(const SceneAssets& assets);
+  /// Declares the pass `upload_assets` with the copies that stage() has decided on; none if there are none.
+  void add_pass(FrameGraph& graph);
+  /// The GPU does not execute this frame. If it had copies, the next sync() uploads everything.
+  void give_up_frame();
+  void commit_frame() { copies_ = false; }
 
   [[nodiscard]] const std::vector<std::vector<GpuPrimitive>>& meshes() const { return meshes_; }
-  [[nodiscard]] const std::vector<GpuMaterial>& materials() const { return materials_; }
+  /// The material of a primitive; the default one for kNone.
+  [[nodiscard]] const GpuMaterial& material(std::uint32_t index) const { return materials_.get(index); }
   /// Whether any primitive is smooth-shaded.
-  [[nodiscard]] bool has_smooth_shading() const { return smooth_shading_; }
+  [[nodiscard]] bool has_smooth_shading() const { return smooth_primitives_ > 0; }
+  /// Meshes and images that are not shown as they are in SceneAssets yet.
+  [[nodiscard]] std::size_t pending() const;
 
-  [[nodiscard]] gpu::BufferHandle positions() const { return buffers_[0]; }
-  [[nodiscard]] gpu::BufferHandle frames() const { return buffers_[1]; }
-  [[nodiscard]] gpu::BufferHandle surfaces() const { return buffers_[2]; }
-  [[nodiscard]] gpu::BufferHandle indices() const { return buffers_[3]; }
-  [[nodiscard]] gpu::BufferHandle influences() const { return buffers_[4]; }
-  [[nodiscard]] gpu::BufferHandle morph_offsets() const { return buffers_[5]; }
+  [[nodiscard]] gpu::BufferHandle positions() const { return streams_.buffer(MeshStreams::positions); }
+  [[nodiscard]] gpu::BufferHandle frames() const { return streams_.buffer(MeshStreams::frames); }
+  [[nodiscard]] gpu::BufferHandle surfaces() const { return streams_.buffer(MeshStreams::surfaces); }
+  [[nodiscard]] gpu::BufferHandle indices() const { return streams_.buffer(MeshStreams::indices); }
+  [[nodiscard]] gpu::BufferHandle influences() const { return streams_.buffer(MeshStreams::influences); }
+  [[nodiscard]] gpu::BufferHandle morph_offsets() const { return streams_.buffer(MeshStreams::morph_offsets); }
 
  private:
-  struct Streams;
+  /// Of one mesh or image.
+  static constexpr std::uint64_t kNever = ~0ull;
+  struct Progress {
+    std::uint64_t requested = kNever;  ///< revision that is packed, copied or shown
+    std::uint64_t shown = kNever;
+    bool in_flight = false;
+  };
+  /// A mesh or an image whose copies are being staged.
+  struct Staged {
+    PackedAsset asset;  ///< without the data that was given to the uploads
+    gpu::ImageHandle image;
+  };
+  static constexpr std::uint64_t kNoAsset = 0;  ///< number of uploads of constants and simplified indices
+  /// Numbers of meshes, materials, textures and images that were seen.
+  using Sizes = std::array<std::size_t, 4>;
+  [[nodiscard]] static Sizes sizes_of(const SceneAssets& assets);
+
   void release();
+  [[nodiscard]] Status upload_everything(const SceneAssets& assets, JobExecutor& executor);
   [[nodiscard]] Status upload_meshes(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader);
-  [[nodiscard]] Status upload_textures(const SceneAssets& assets, Uploader& uploader);
-  [[nodiscard]] Status replace_indices(std::vector<std::byte> bytes, JobExecutor& executor);
-  /// Adds a white texture of one texel, for material slots without a texture.
-  [[nodiscard]] Status add_white_texel(Uploader& uploader);
-  [[nodiscard]] Status upload_materials(const std::vector<Material>& sources, Uploader& uploader);
-  [[nodiscard]] Status make_material_sets(const SceneAssets& assets, const std::vector<Material>& sources);
-  [[nodiscard]] Result<gpu::ResourceSetHandle> material_set(const SceneAssets& assets, const Material& material,
-                                                            std::uint32_t index, gpu::PipelineHandle like);
+  [[nodiscard]] Status upload_images(const SceneAssets& assets, Uploader& uploader);
+
+  /// A variant of a solid primitive, if there is one.
+  [[nodiscard]] SurfaceVariant drawn_variant() const;
+
+  void find_changes(const SceneAssets& assets);
+  void find_changed_meshes(const SceneAssets& assets);
+  void find_changed_images(const SceneAssets& assets);
+  void find_changed_materials(const SceneAssets& assets);
+  [[nodiscard]] bool is_new(const SceneAssets& assets, AssetKind kind, std::uint32_t index) const;
+  /// Has an asset packed; if that must wait, notes that the next sync() tries again.
+  void request(Progress& progress, PackRequest request, const SceneAssets& assets);
+  [[nodiscard]] Progress& progress_of(const PackedAsset& asset);
+  void show_mesh(std::uint32_t mesh, std::vector<PackedPrimitive>&& primitives);
+  void remove_mesh(std::uint32_t mesh);
+  [[nodiscard]] Status begin_upload(const SceneAssets& assets, PackedAsset&& asset);
+  void finish_upload(const SceneAssets& assets, Staged&& staged);
+  void end_progress(const PackedAsset& asset);
+  [[nodiscard]] Status stage_changes(const SceneAssets& assets);
+  void record(gpu::CommandList& commands);
+  /// Whether the asset was destroyed after the state that was packed.
+  [[nodiscard]] static bool is_gone(const SceneAssets& assets, const PackedAsset& asset);
 
   gpu::Device& device_;
-  Pipelines& pipelines_;
-  std::uint64_t version_ = 0;
-  /// Numbers of meshes, materials, textures and images. Assets that were added are uploaded without a new version.
-  using Sizes = std::array<std::size_t, 4>;
+  AssetUploadOptions options_;
+  MeshStreams streams_;
+  GpuMaterials materials_;
+  AssetUploads uploads_;
+  std::uint64_t version_ = 0;  ///< of SceneAssets; 0: nothing was uploaded
+  std::uint64_t revision_ = 0;
   Sizes sizes_{};
-  bool smooth_shading_ = false;
-  bool casters_simplified_ = false;  ///< simplify_casters has run for version_
   std::vector<std::vector<GpuPrimitive>> meshes_;
-  std::vector<GpuMaterial> materials_;
-  std::array<gpu::BufferHandle, 6> buffers_{};
-  gpu::BufferHandle material_constants_;
-  std::vector<gpu::ImageHandle> images_;
-  std::vector<gpu::ImageHandle> textures_;  ///< of images_, by texture index; the last one is a white texel
+  std::vector<Progress> mesh_progress_;
+  std::map<ImageKey, Progress> image_progress_;
+  std::vector<std::uint32_t> changed_materials_;
+  std::vector<PackRequest> requests_;  ///< of this frame, if they are not packed in the background
+  std::vector<PackedAsset> packed_;
+  std::map<std::uint64_t, Staged> staged_;
+  std::uint64_t staged_count_ = 0;
+  std::uint64_t contents_ = 0;  ///< GpuPrimitive::content so far
+  std::size_t smooth_primitives_ = 0;
+  std::size_t left_ = 0;              ///< changed assets that are not requested yet
+  bool simplify_ = false;             ///< simplify_casters was called
+  bool simplification_left_ = false;  ///< for primitives that it has not seen
+  bool waiting_ = false;              ///< the next sync() looks for changes again
+  bool copies_ = false;               ///< the current frame has copies
+  AssetPacker packer_;
 };
 
 }  // namespace gloam

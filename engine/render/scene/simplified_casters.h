@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/math/types.h"
+#include "engine/scene/assets.h"
 
 namespace gloam {
 
@@ -21,5 +22,8 @@ inline constexpr float kSimplifiedShare = 0.01f;
 /// deforming mesh may bend where it was flat.
 [[nodiscard]] std::vector<std::uint32_t> simplified_indices(std::span<const vec3> positions,
                                                             std::span<const std::uint32_t> indices);
+
+/// The same for a primitive whose vertices are renumbered as pack_primitive() does.
+[[nodiscard]] std::vector<std::uint32_t> simplified_in_fetch_order(const Primitive& source);
 
 }  // namespace gloam

@@ -41,12 +41,21 @@ const JointMatrices::Range* range_of(const JointMatrices& joints, Entity entity)
 }  // namespace
 
 void update_closeup_meshes(const SceneAssets& assets, JobExecutor& jobs, CloseupMeshes& meshes) {
-  if (meshes.version == assets.version && meshes.deformed.size() == assets.meshes.size()) return;
+  const std::size_t count = assets.meshes.size();
+  if (meshes.version == assets.version && meshes.revision == assets.revision() && meshes.deformed.size() == count)
+    return;
+  if (meshes.version != assets.version || meshes.deformed.size() > count) meshes.deformed.clear();
+  std::vector<std::uint32_t> changed;
+  for (std::uint32_t m = 0; m < count; ++m)
+    if (m >= meshes.deformed.size() || assets.revision(AssetKind::mesh, m) > meshes.revision) changed.push_back(m);
   meshes.version = assets.version;
-  meshes.deformed.assign(assets.meshes.size(), {});
-  jobs.parallel_for(assets.meshes.size(), 1, [&](JobRange range) {
-    for (std::size_t m = range.begin; m < range.end; ++m)
-      if (deforms(assets.meshes[m])) meshes.deformed[m] = bounds_of_primitives(assets.meshes[m]);
+  meshes.revision = assets.revision();
+  meshes.deformed.resize(count);
+  jobs.parallel_for(changed.size(), 1, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const Mesh& mesh = assets.meshes[changed[i]];
+      meshes.deformed[changed[i]] = deforms(mesh) ? bounds_of_primitives(mesh) : std::vector<GpuPrimitive>();
+    }
   });
 }
 

@@ -17,10 +17,11 @@ namespace gloam {
 /// morph targets are set.
 struct CloseupMeshes {
   std::uint64_t version = 0;                        ///< SceneAssets::version it was computed from; 0: none
+  std::uint64_t revision = 0;                       ///< SceneAssets::revision() it was computed from
   std::vector<std::vector<GpuPrimitive>> deformed;  ///< by mesh; empty for a rigid mesh
 };
 
-/// Recomputes `meshes` if it was computed from another version of `assets`.
+/// Recomputes what has changed in `assets` since `meshes` was computed.
 void update_closeup_meshes(const SceneAssets& assets, JobExecutor& jobs, CloseupMeshes& meshes);
 
 /// Inputs for the boxes of mesh instances in one frame.

@@ -102,13 +102,14 @@ std::vector<PlannedSurface> plan_surfaces(std::span<const GrassSource> sources, 
 void add_bits(Hasher& hasher, float value) { hasher.value(std::bit_cast<std::uint32_t>(value)); }
 
 std::uint64_t key_of(std::span<const GrassSource> sources, std::span<const std::uint32_t> meshes,
-                     std::uint64_t assets_version, const GrassGrowthSettings& settings) {
+                     const SceneAssets& assets, const GrassGrowthSettings& settings) {
   Hasher hasher;
-  hasher.value(assets_version).value(settings.slaves_per_master).value(settings.max_blades);
+  hasher.value(assets.version).value(settings.slaves_per_master).value(settings.max_blades);
   add_bits(hasher, settings.density_scale);
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const GrassSource& source = sources[i];
-    hasher.value(source.entity.index).value(source.entity.generation).value(meshes[i]).value(source.surface.seed);
+    hasher.value(source.entity.index).value(source.entity.generation).value(meshes[i]);
+    hasher.value(assets.revision(AssetKind::mesh, meshes[i])).value(source.surface.seed);
     hasher.text(source.types_file);
     for (const float value : {source.surface.density, source.surface.height_m.x, source.surface.height_m.y,
                               source.surface.width_m, source.surface.max_distance_m})
@@ -172,7 +173,7 @@ void grass_growth_system(View<const GrassSurface, const MeshInstance, const Worl
     sources.push_back(std::move(source));
     meshes.push_back(mesh);
   }
-  const std::uint64_t key = key_of(sources, meshes, assets->version, *settings);
+  const std::uint64_t key = key_of(sources, meshes, *assets, *settings);
   if (field->version != 0 && field->key == key) return;
   grow_grass(sources, *settings, jobs, *field);
   field->key = key;

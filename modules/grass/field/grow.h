@@ -67,7 +67,7 @@ struct GrassSource {
 void grow_grass(std::span<const GrassSource> sources, const GrassGrowthSettings& settings, JobExecutor& jobs,
                 GrassField& field);
 
-/// Regrows the field if a surface, its mesh or transform, SceneAssets::version or the settings changed. A changed file
+/// Regrows the field if a surface, its mesh or transform, SceneAssets::version or a setting changed. A changed file
 /// of types is read when the field is regrown for another reason.
 void grass_growth_system(View<const GrassSurface, const MeshInstance, const WorldTransform> surfaces,
                          Resource<const SceneAssets> assets, Resource<const SceneStrings> strings,

@@ -76,25 +76,45 @@ std::vector<MirrorPatch> patches_of(const SceneAssets& assets, std::uint32_t mes
   return joined(std::move(triangles));
 }
 
-std::vector<std::uint8_t> mirror_meshes(const SceneAssets& assets) {
-  std::vector<std::uint8_t> mirrors(assets.meshes.size(), 0);
-  for (std::size_t m = 0; m < mirrors.size(); ++m)
-    for (const Primitive& primitive : assets.meshes[m].primitives)
-      if (primitive.material < assets.materials.size() && mirror_weight(assets.materials[primitive.material]) > 0.0)
-        mirrors[m] = 1;
-  return mirrors;
+bool is_mirror(const SceneAssets& assets, std::uint32_t mesh) {
+  return std::ranges::any_of(assets.meshes[mesh].primitives, [&](const Primitive& primitive) {
+    return primitive.material < assets.materials.size() && mirror_weight(assets.materials[primitive.material]) > 0.0;
+  });
+}
+
+/// Whether the mesh or one of its materials changed after `revision`.
+bool has_changed(const SceneAssets& assets, std::uint32_t mesh, std::uint64_t revision) {
+  return assets.revision(AssetKind::mesh, mesh) > revision ||
+         std::ranges::any_of(assets.meshes[mesh].primitives, [&](const Primitive& primitive) {
+           return assets.revision(AssetKind::material, primitive.material) > revision;
+         });
 }
 
 }  // namespace
 
+bool MirrorPatches::update_meshes(const SceneAssets& assets) {
+  changed_.assign(assets.meshes.size(), 0);
+  if (version_ == assets.version && revision_ == assets.revision() && mirrors_.size() == assets.meshes.size())
+    return false;
+  const bool all = version_ != assets.version || mirrors_.size() > assets.meshes.size();
+  const std::size_t known = all ? 0 : mirrors_.size();
+  mirrors_.resize(assets.meshes.size());
+  bool any = all;
+  for (std::uint32_t m = 0; m < mirrors_.size(); ++m) {
+    changed_[m] = m >= known || has_changed(assets, m, revision_) ? 1 : 0;
+    if (changed_[m] == 0) continue;
+    const std::uint8_t before = m < known ? mirrors_[m] : 0;
+    mirrors_[m] = is_mirror(assets, m) ? 1 : 0;
+    any = any || before != 0 || mirrors_[m] != 0;
+  }
+  version_ = assets.version;
+  revision_ = assets.revision();
+  return any;
+}
+
 void MirrorPatches::update(const World& world) {
   const SceneAssets& assets = world.resource<SceneAssets>();
-  bool changed = version_ != assets.version || mirrors_.size() != assets.meshes.size();
-  if (changed) {
-    mirrors_ = mirror_meshes(assets);
-    instances_.clear();
-    version_ = assets.version;
-  }
+  bool changed = update_meshes(assets);
   std::size_t count = 0;
   world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
       [&](Entity entity, const MeshInstance& instance, const WorldTransform& transform, const MorphInstance* morph) {
@@ -102,7 +122,9 @@ void MirrorPatches::update(const World& world) {
         if (instance.skin != kNone || morph != nullptr) return;
         if (count == instances_.size()) instances_.emplace_back();
         Instance& known = instances_[count++];
-        if (known.entity == entity && known.mesh == instance.mesh && known.world_from_mesh == transform.matrix) return;
+        if (known.entity == entity && known.mesh == instance.mesh && known.world_from_mesh == transform.matrix &&
+            changed_[instance.mesh] == 0)
+          return;
         known = {entity, instance.mesh, transform.matrix, patches_of(assets, instance.mesh, transform.matrix)};
         ++searched_;
         changed = true;

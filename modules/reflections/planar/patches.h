@@ -8,6 +8,7 @@
 
 #include "engine/ecs/world.h"
 #include "engine/math/types.h"
+#include "engine/scene/assets.h"
 
 namespace gloam {
 
@@ -25,8 +26,8 @@ struct MirrorPatch {
 /// The patches of a world, a resource of it.
 class MirrorPatches {
  public:
-  /// Brings the patches up to date. Instances are looked at again when their transform, mesh or the version of
-  /// SceneAssets has changed; those that are skinned or morphed have no patches.
+  /// Brings the patches up to date. Instances are looked at again when their transform, their mesh, one of its
+  /// materials or the version of SceneAssets has changed; those that are skinned or morphed have no patches.
   void update(const World& world);
   [[nodiscard]] std::span<const MirrorPatch> all() const { return all_; }
   /// The number of instances that updates have looked at.
@@ -39,8 +40,13 @@ class MirrorPatches {
     dmat4 world_from_mesh = dmat4(1.0);
     std::vector<MirrorPatch> patches;
   };
+  /// Finds out which meshes have changed and which are mirrors. Returns whether patches may differ.
+  [[nodiscard]] bool update_meshes(const SceneAssets& assets);
+
   std::uint64_t version_ = 0;          ///< of SceneAssets; 0: none
+  std::uint64_t revision_ = 0;         ///< of SceneAssets
   std::vector<std::uint8_t> mirrors_;  ///< by mesh: 1 if it has a mirror-like material
+  std::vector<std::uint8_t> changed_;  ///< by mesh: 1 if its patches must be found again, in the last update
   std::vector<Instance> instances_;    ///< in the order of the last update
   std::vector<MirrorPatch> all_;
   std::uint64_t searched_ = 0;

@@ -19,11 +19,11 @@ void add(Hasher& hasher, std::span<const float> values) {
   for (const float value : values) hasher.value(std::bit_cast<std::uint32_t>(value));
 }
 
-/// Hash of the caster's position, pose, mesh and material. The content of meshes and materials has a version, which is
-/// part of the salt of face_contents().
+/// Hash of the caster's position, pose, mesh and material.
 std::uint64_t hash_of(const Caster& caster, std::uint64_t pose) {
   Hasher hasher;
   hasher.value(caster.primitive->first_index).value(caster.primitive->first_vertex).value(caster.primitive->material);
+  hasher.value(caster.content).value(caster.cut_out_content);
   hasher.value(caster.variant.features).value(pose);
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 3; ++row) hasher.value(std::bit_cast<std::uint64_t>(caster.world_from_mesh[column][row]));

@@ -47,7 +47,7 @@ bool fronts_suffice(const FaceVolume& volume, const Caster& caster) {
 void add_clusters(const FaceVolume& volume, const Caster& caster, bool simplified, std::vector<FaceDraw>& draws) {
   const GpuPrimitive& primitive = *caster.primitive;
   const bool fronts = fronts_suffice(volume, caster);
-  if (simplified && caster.deform == kNone && primitive.simplified_index_count > 0) {
+  if (simplified && caster.deform == kNone && primitive.simplified_index_count > 0 && !is_cut_out(caster)) {
     draws.push_back({&caster, primitive.simplified_first_index, primitive.simplified_index_count, fronts});
     return;
   }

@@ -51,7 +51,7 @@ class FaceRecorder {
       const bool cut_out = is_cut_out(caster);
       bind(cut_out ? map_.cut_out : draw.fronts_only ? map_.fronts : map_.whole);
       frame_.bind_caster_vertices(context_, caster, cut_out);
-      if (cut_out) commands_.bind_set(1, frame_.scene().materials()[caster.primitive->material].set);
+      if (cut_out) commands_.bind_set(1, frame_.scene().material(caster.primitive->material).set);
       commands_.push(shaders::CasterConstants{region.matrices[i], face.face.tan_half > 0.0f ? 0u : 1u});
       commands_.draw_indexed(draw.index_count, 1, draw.first_index, 0, 0);
     }

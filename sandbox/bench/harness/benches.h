@@ -14,6 +14,8 @@ void add_frame_benches(BenchRegistry& registry);
 void add_frame_wall_benches(BenchRegistry& registry);
 /// Captures of cubes in one frame against their views drawn one by one.
 void add_frame_capture_benches(BenchRegistry& registry);
+/// Frames in which one asset of a large scene changes.
+void add_asset_benches(BenchRegistry& registry);
 /// CPU time of the frame graph: declaring passes with a cached plan.
 void add_frame_declaration_benches(BenchRegistry& registry);
 /// Time of the light searches and of shading with their lists: against brute force, against the gather pass, by number

@@ -64,6 +64,7 @@ BenchRegistry make_bench_registry() {
   add_frame_benches(registry);
   add_frame_wall_benches(registry);
   add_frame_capture_benches(registry);
+  add_asset_benches(registry);
   add_light_cpu_benches(registry);
   add_light_gpu_benches(registry);
   add_light_false_positive_benches(registry);

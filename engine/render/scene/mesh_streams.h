@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/render/scene/asset_uploads.h"
+#include "engine/render/scene/packed_primitive.h"
+#include "engine/render/scene/range_allocator.h"
+
+namespace gloam {
+
+/// The buffers of all primitives of a scene, one a stream. Primitives have ranges in them.
+class MeshStreams {
+ public:
+  enum Stream : std::uint32_t { positions, frames, surfaces, indices, influences, morph_offsets };
+  static constexpr std::uint32_t kStreams = 6;
+  /// How draws and passes read the buffers.
+  static constexpr gpu::Access kAccess = gpu::Access::vertex_input;
+  static constexpr gpu::AccessMask kAlso =
+      gpu::mask_of(gpu::Access::compute_read) | gpu::mask_of(gpu::Access::vertex_read);
+
+  explicit MeshStreams(gpu::Device& device) : device_(device) {}
+  ~MeshStreams() { release(); }
+  MeshStreams(const MeshStreams&) = delete;
+  MeshStreams& operator=(const MeshStreams&) = delete;
+
+  /// Finds ranges for a primitive and writes them into packed.primitive. Rows grow by what is missing, or by half if
+  /// `spare` (for primitives that come one by one).
+  void place(PackedPrimitive& packed, bool spare);
+  /// The same for the simplified indices alone.
+  void place_simplified(GpuPrimitive& primitive, std::size_t count, bool spare);
+  /// Gives the ranges back. GPU frames may still read them: later copies wait for those.
+  void remove(const GpuPrimitive& primitive);
+  /// Makes the buffers as large as the ranges need; call it after place(). Larger buffers take the contents of those
+  /// that they replace over in record_growth().
+  [[nodiscard]] Status fit();
+  [[nodiscard]] bool has_growth() const;
+  void record_growth(gpu::CommandList& commands);
+  /// The bytes of a placed primitive in one of the streams.
+  [[nodiscard]] static std::vector<AssetUploads::BufferPart> parts(const PackedPrimitive& packed, std::uint32_t stream);
+  [[nodiscard]] static AssetUploads::BufferPart simplified_part(const GpuPrimitive& primitive,
+                                                                const std::vector<std::uint32_t>& simplified);
+  /// Bytes of the whole stream as placed.
+  [[nodiscard]] std::uint64_t bytes(Stream stream) const;
+  [[nodiscard]] gpu::BufferHandle buffer(Stream stream) const { return buffers_[stream]; }
+  void release();
+
+ private:
+  [[nodiscard]] RangeAllocator& ranges_of(Stream stream);
+  [[nodiscard]] std::uint32_t allocate(RangeAllocator& ranges, std::size_t count, bool spare);
+  static void free(RangeAllocator& ranges, std::uint32_t first, std::size_t count);
+
+  gpu::Device& device_;
+  std::array<gpu::BufferHandle, kStreams> buffers_{};
+  std::array<gpu::BufferHandle, kStreams> replaced_{};  ///< whose contents the new buffers do not have yet
+  RangeAllocator vertices_, index_ranges_, influence_ranges_, morph_ranges_;  ///< in units of kUnit elements
+};
+
+}  // namespace gloam

@@ -1,0 +1,402 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+//
+// What a scene copies to the GPU when single assets change. The bytes that end up in buffers and images are compared
+// with those of a scene that was uploaded as a whole.
+#include "engine/render/scene/gpu_scene.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/gpu/recording_device.h"
+#include "engine/scene/gltf_import.h"
+#include "tests/support/expect_assert.h"
+#include "tests/support/render_scene.h"
+
+namespace gloam {
+namespace {
+
+/// Bytes that were copied from staging memory to buffers whose name starts with `target`, in the last frame. Contents
+/// that a larger buffer takes over do not count.
+std::uint64_t copied_bytes(const gpu::RecordingDevice& device, const std::string& target) {
+  std::uint64_t bytes = 0;
+  for (const gpu::RecordedCommand& command : device.commands()) {
+    if (command.name != "copy_buffer" || command.text.find("'upload ring'") == std::string::npos) continue;
+    if (command.text.find("> '" + target) == std::string::npos) continue;
+    const std::size_t comma = command.text.rfind(", ");
+    std::uint64_t count = 0;
+    std::from_chars(command.text.data() + comma + 2, command.text.data() + command.text.size(), count);
+    bytes += count;
+  }
+  return bytes;
+}
+
+/// Bytes that were copied to mips of an image of 64x64 texels in the last frame.
+std::uint64_t copied_rows_bytes(const gpu::RecordingDevice& device) {
+  std::uint64_t bytes = 0;
+  for (const gpu::RecordedCommand& command : device.commands()) {
+    const std::size_t mip = command.text.find(" mip "), rows = command.text.rfind('+');
+    if (command.name != "copy_rows_to_image") continue;
+    bytes += std::stoull(command.text.substr(rows + 1)) * 4 * (64u >> std::stoul(command.text.substr(mip + 5)));
+  }
+  return bytes;
+}
+
+std::size_t count_of(const gpu::RecordingDevice& device, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::count(device.commands(), name, &gpu::RecordedCommand::name));
+}
+
+class SceneChanges : public ::testing::Test {
+ protected:
+  SceneChanges() {
+    prepare_scene_world(world_);
+    for (int i = 0; i < 3; ++i) {
+      textures_.push_back(
+          maker_.texture(8, 8, std::vector<std::uint8_t>(256, static_cast<std::uint8_t>(40 * i)), true));
+      Material material;
+      material.base_color_texture.texture = textures_.back();
+      materials_.push_back(maker_.material(material));
+      meshes_.push_back(maker_.mesh(test::round_ball(1.0f + static_cast<float>(i), 16, 8, materials_.back())));
+    }
+  }
+  void TearDown() override {
+    scene_.reset();
+    EXPECT_TRUE(device_->faults().empty()) << device_->faults().front();
+  }
+  SceneAssets& assets() { return maker_.assets(); }
+  void start(const AssetUploadOptions& options = {}) {
+    scene_ = std::make_unique<GpuScene>(*device_, pipelines_, options);
+    frame();
+  }
+  /// A frame that is given up if `submitted` is false.
+  void frame(bool submitted = true) {
+    const Status synced = scene_->sync(assets(), *executor_);
+    ASSERT_TRUE(synced.ok()) << synced.error().message;
+    device_->forget_commands();
+    auto commands = device_->begin_frame();
+    ASSERT_TRUE(commands.ok());
+    graph_.begin();
+    ASSERT_TRUE(scene_->stage(assets()).ok());
+    scene_->add_pass(graph_);
+    ASSERT_TRUE(graph_.compile().ok());
+    graph_.execute(**commands);
+    if (submitted) {
+      ASSERT_TRUE(device_->submit_frame().ok());
+      scene_->commit_frame();
+    } else {
+      ASSERT_TRUE(device_->abandon_frame().ok());
+      scene_->give_up_frame();
+    }
+  }
+  /// Frames until everything is shown.
+  void settle() {
+    for (int frames = 0; frames < 100000; ++frames) {
+      frame();
+      if (HasFatalFailure() || scene_->pending() == 0) return;
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+    FAIL() << "changes are left";
+  }
+  template <class T>
+  std::vector<T> read(gpu::BufferHandle buffer, std::uint64_t first, std::uint64_t count) {
+    const std::uint64_t size = count * sizeof(T);
+    const gpu::BufferHandle copy = device_
+                                       ->create_buffer({.name = "copy",
+                                                        .size = size,
+                                                        .usage = gpu::BufferUsage::transfer_target,
+                                                        .memory = gpu::MemoryKind::readback})
+                                       .value();
+    gpu::CommandList& commands = *device_->begin_frame().value();
+    using Streams = MeshStreams;
+    const gpu::BufferBarrier before{buffer, Streams::kAccess, gpu::Access::transfer_read, Streams::kAlso, 0};
+    const gpu::BufferBarrier after{buffer, gpu::Access::transfer_read, Streams::kAccess, 0, Streams::kAlso};
+    const gpu::BufferBarrier written{copy, gpu::Access::transfer_write, gpu::Access::host_read};
+    commands.barrier({&before, 1}, {});
+    commands.copy_buffer(buffer, first * sizeof(T), copy, 0, size);
+    commands.barrier({&after, 1}, {});
+    commands.barrier({&written, 1}, {});
+    EXPECT_TRUE(device_->submit_frame().ok());
+    std::vector<T> values(count);
+    std::memcpy(values.data(), device_->mapped(copy).data(), size);
+    device_->destroy(copy);
+    return values;
+  }
+  /// Expects the vertices, indices and materials of another scene that is uploaded anew.
+  void expect_as_new() {
+    GpuScene fresh(*device_, pipelines_);
+    ASSERT_TRUE(fresh.sync(assets(), *executor_).ok());
+    ASSERT_EQ(scene_->meshes().size(), fresh.meshes().size());
+    for (std::size_t m = 0; m < fresh.meshes().size(); ++m) {
+      ASSERT_EQ(scene_->meshes()[m].size(), fresh.meshes()[m].size()) << "mesh " << m;
+      for (std::size_t p = 0; p < fresh.meshes()[m].size(); ++p) {
+        const GpuPrimitive &a = scene_->meshes()[m][p], &b = fresh.meshes()[m][p];
+        EXPECT_EQ(a.material, b.material);
+        ASSERT_EQ(a.vertex_count, b.vertex_count);
+        ASSERT_EQ(a.index_count, b.index_count);
+        EXPECT_EQ(read<vec3>(scene_->positions(), a.first_vertex, a.vertex_count),
+                  read<vec3>(fresh.positions(), b.first_vertex, b.vertex_count))
+            << "mesh " << m;
+        EXPECT_EQ(read<std::uint32_t>(scene_->indices(), a.first_index, a.index_count),
+                  read<std::uint32_t>(fresh.indices(), b.first_index, b.index_count))
+            << "mesh " << m;
+      }
+    }
+    for (std::uint32_t m = 0; m < assets().materials.size(); ++m) {
+      EXPECT_EQ(scene_->material(m).features, fresh.material(m).features);
+      EXPECT_TRUE(scene_->material(m).set);
+    }
+    EXPECT_EQ(scene_->has_smooth_shading(), fresh.has_smooth_shading());
+  }
+
+  std::unique_ptr<gpu::RecordingDevice> device_ = gpu::make_recording_device();
+  std::unique_ptr<JobExecutor> executor_ = make_serial_executor();
+  Pipelines pipelines_{*device_};
+  FrameGraph graph_{*device_};
+  World world_;
+  test::SceneMaker maker_{world_};
+  std::vector<std::uint32_t> textures_, materials_, meshes_;
+  std::unique_ptr<GpuScene> scene_;
+};
+
+TEST_F(SceneChanges, a_changed_colour_copies_the_constants_of_one_material) {
+  start();
+  assets().materials[materials_[1]].base_color = vec4(0.25f);
+  assets().mark_changed(AssetKind::material, materials_[1]);
+  frame();
+  EXPECT_EQ(copied_bytes(*device_, ""), 256u);
+  EXPECT_EQ(copied_bytes(*device_, "scene.materials"), 256u);
+  frame();
+  EXPECT_EQ(copied_bytes(*device_, ""), 0u);
+  expect_as_new();
+}
+
+TEST_F(SceneChanges, a_changed_mesh_copies_its_streams_and_keeps_the_others) {
+  start();
+  const gpu::BufferHandle positions = scene_->positions();
+  const GpuPrimitive other = scene_->meshes()[meshes_[0]][0];
+  const std::uint64_t content = scene_->meshes()[meshes_[2]][0].content;
+  assets().meshes[meshes_[2]].primitives[0].positions[5] *= 1.5f;
+  assets().mark_changed(AssetKind::mesh, meshes_[2]);
+  frame();
+  const GpuPrimitive& changed = scene_->meshes()[meshes_[2]][0];
+  EXPECT_NE(changed.content, content) << "what is cached of it is made again";
+  EXPECT_EQ(copied_bytes(*device_, "scene.surfaces") / sizeof(PackedSurface), changed.vertex_count);
+  EXPECT_EQ(scene_->meshes()[meshes_[0]][0].content, other.content);
+  EXPECT_EQ(scene_->meshes()[meshes_[0]][0].first_vertex, other.first_vertex);
+  EXPECT_NE(scene_->positions(), positions) << "the first change needs more room than a full upload leaves";
+  expect_as_new();
+  const gpu::BufferHandle grown = scene_->positions();
+  for (int i = 0; i < 20; ++i) {
+    assets().meshes[meshes_[2]].primitives[0].positions[5].y += 0.1f;
+    assets().mark_changed(AssetKind::mesh, meshes_[2]);
+    frame();
+  }
+  EXPECT_EQ(scene_->positions(), grown) << "places are used again";
+  expect_as_new();
+}
+
+TEST_F(SceneChanges, added_and_destroyed_assets_leave_no_trace_in_the_others) {
+  start();
+  std::mt19937 engine(3);
+  const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
+  std::vector<std::uint32_t> living = meshes_;
+  for (int step = 0; step < 60; ++step) {
+    if (random() % 2 == 0 && living.size() > 1) {
+      std::swap(living[random() % living.size()], living.back());
+      assets().destroy(AssetKind::mesh, living.back());
+      living.pop_back();
+    } else {
+      Primitive ball = test::round_ball(0.5f, 4 + random() % 30, 3 + random() % 20, materials_[random() % 3]);
+      Mesh mesh;
+      mesh.bounds = ball.bounds;
+      mesh.primitives.push_back(std::move(ball));
+      living.push_back(assets().add(std::move(mesh)));
+    }
+    if (random() % 3 != 0) frame();
+    ASSERT_FALSE(HasFatalFailure());
+  }
+  frame();
+  expect_as_new();
+  for (const std::uint32_t mesh : living) assets().destroy(AssetKind::mesh, mesh);
+  frame();
+  EXPECT_FALSE(scene_->has_smooth_shading());
+  for (const auto& primitives : scene_->meshes()) EXPECT_TRUE(primitives.empty());
+}
+
+TEST_F(SceneChanges, a_changed_image_is_copied_once_for_each_use_and_other_materials_keep_their_sets) {
+  start();
+  const auto other = scene_->material(materials_[0]).set;
+  const auto own = scene_->material(materials_[1]).set;
+  Image& image = assets().images[assets().textures[textures_[1]].image];
+  image = {"larger", 16, 4, std::vector<std::uint8_t>(256, 9)};
+  assets().mark_changed(AssetKind::image, assets().textures[textures_[1]].image);
+  frame();
+  EXPECT_EQ(count_of(*device_, "copy_rows_to_image"), 5u) << "16x4 texels have five mips";
+  EXPECT_EQ(copied_bytes(*device_, ""), 0u);
+  EXPECT_EQ(scene_->material(materials_[0]).set, other);
+  EXPECT_NE(scene_->material(materials_[1]).set, own);
+  expect_as_new();
+}
+
+TEST_F(SceneChanges, a_changed_sampler_copies_nothing) {
+  start();
+  const auto own = scene_->material(materials_[1]).set;
+  assets().textures[textures_[1]].wrap_u = WrapMode::repeat;
+  assets().mark_changed(AssetKind::texture, textures_[1]);
+  frame();
+  EXPECT_NE(scene_->material(materials_[1]).set, own);
+  EXPECT_EQ(count_of(*device_, "copy_rows_to_image") + copied_bytes(*device_, ""), 0u);
+}
+
+TEST_F(SceneChanges, destroyed_images_give_their_memory_back) {
+  start();
+  const auto bytes = [&] {
+    std::uint64_t sum = 0;
+    for (const gpu::ModuleMemory& memory : device_->memory()) sum += memory.bytes;
+    return sum;
+  };
+  frame();
+  const std::uint64_t before = bytes();
+  const std::uint32_t image = assets().add(Image{"big", 256, 256, std::vector<std::uint8_t>(256 * 256 * 4)});
+  const std::uint32_t texture = assets().add(Texture{.name = "big", .image = image});
+  for (int i = 0; i < 4; ++i) frame();
+  EXPECT_GE(bytes(), before + 256 * 256 * 4);
+  assets().destroy(AssetKind::texture, texture);
+  assets().destroy(AssetKind::image, image);
+  for (int i = 0; i < 4; ++i) frame();
+  EXPECT_EQ(bytes(), before);
+}
+
+TEST_F(SceneChanges, assets_that_were_appended_are_found_and_a_shorter_list_is_uploaded_as_a_whole) {
+  start();
+  assets().materials.emplace_back();
+  Mesh mesh;
+  mesh.primitives.push_back(test::quad(1.0f, static_cast<std::uint32_t>(assets().materials.size() - 1)));
+  mesh.bounds = mesh.primitives[0].bounds;
+  assets().meshes.push_back(mesh);
+  frame();
+  EXPECT_LT(copied_bytes(*device_, "scene.frames"), 200u);
+  expect_as_new();
+  assets().meshes.pop_back();
+  frame();
+  EXPECT_EQ(scene_->meshes().size(), 3u);
+  expect_as_new();
+}
+
+TEST_F(SceneChanges, what_is_wrong_with_a_changed_asset_is_asserted) {
+  start();
+  assets().meshes[meshes_[0]].primitives[0].normals.clear();
+  assets().mark_changed(AssetKind::mesh, meshes_[0]);
+  EXPECT_ASSERT(static_cast<void>(scene_->sync(assets(), *executor_)), "primitive 0 of mesh 0 has no normals");
+}
+
+TEST_F(SceneChanges, a_destroyed_material_that_a_mesh_still_has_is_asserted) {
+  start();
+  assets().destroy(AssetKind::material, materials_[1]);
+  EXPECT_ASSERT(static_cast<void>(scene_->sync(assets(), *executor_)),
+                "primitive 0 of mesh 1 has the material 1, which was destroyed");
+}
+
+TEST_F(SceneChanges, copies_of_a_frame_that_was_given_up_are_made_again) {
+  start();
+  assets().meshes[meshes_[2]].primitives[0].positions[5] *= 1.5f;
+  assets().mark_changed(AssetKind::mesh, meshes_[2]);
+  assets().materials[materials_[1]].double_sided = true;
+  assets().mark_changed(AssetKind::material, materials_[1]);
+  frame(false);
+  frame();
+  expect_as_new();
+}
+
+TEST_F(SceneChanges, in_the_background_a_frame_copies_no_more_than_its_budget_and_shows_what_is_complete) {
+  constexpr std::uint64_t kBudget = 4096;
+  start({.background = true, .budget = kBudget});
+  const std::uint32_t before = scene_->meshes()[meshes_[0]][0].vertex_count;
+  Primitive ball = test::round_ball(2.0f, 64, 32, materials_[0]);
+  assets().meshes[meshes_[0]].primitives[0] = ball;
+  assets().mark_changed(AssetKind::mesh, meshes_[0]);
+  Image& image = assets().images[assets().textures[textures_[2]].image];
+  image = {"larger", 64, 64, std::vector<std::uint8_t>(64 * 64 * 4, 7)};
+  assets().mark_changed(AssetKind::image, assets().textures[textures_[2]].image);
+  int frames = 0, frames_with_the_old_mesh = 0;
+  std::uint64_t rows = 0;
+  do {
+    frame();
+    EXPECT_LE(copied_bytes(*device_, "") + copied_rows_bytes(*device_), kBudget);
+    rows += count_of(*device_, "copy_rows_to_image");
+    frames_with_the_old_mesh += scene_->meshes()[meshes_[0]][0].vertex_count == before ? 1 : 0;
+    ASSERT_LT(++frames, 100000);
+  } while (scene_->pending() > 0);
+  const std::uint64_t bytes = 64 * 33 * 20 + 64 * 64 * 4;
+  EXPECT_GE(static_cast<std::uint64_t>(frames), bytes / kBudget);
+  EXPECT_GT(frames_with_the_old_mesh, 10);
+  EXPECT_GE(rows, 4u) << "the largest mip takes four frames";
+  expect_as_new();
+}
+
+TEST_F(SceneChanges, in_the_background_the_last_of_many_changes_wins) {
+  start({.background = true, .budget = 2000});
+  std::mt19937 engine(11);
+  const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
+  for (int step = 0; step < 200; ++step) {
+    const std::uint32_t mesh = meshes_[random() % 3];
+    const bool exists = !assets().is_destroyed(AssetKind::mesh, mesh);
+    if (random() % 4 == 0 && exists) {
+      assets().destroy(AssetKind::mesh, mesh);
+    } else if (random() % 2 == 0) {
+      Primitive ball = test::round_ball(1.0f, 4 + random() % 20, 3 + random() % 9, materials_[random() % 3]);
+      Mesh changed;
+      changed.bounds = ball.bounds;
+      changed.primitives.push_back(std::move(ball));
+      if (exists) {
+        assets().meshes[mesh] = std::move(changed);
+        assets().mark_changed(AssetKind::mesh, mesh);
+      } else {
+        static_cast<void>(assets().add(std::move(changed)));
+      }
+    }
+    frame();
+    ASSERT_FALSE(HasFatalFailure());
+  }
+  settle();
+  expect_as_new();
+}
+
+TEST_F(SceneChanges, a_scene_that_ends_while_assets_are_packed_waits_for_nothing_and_leaks_nothing) {
+  start({.background = true, .budget = 64});
+  const std::uint64_t bytes = device_->memory().empty() ? 0 : 1;
+  for (const std::uint32_t mesh : meshes_) assets().mark_changed(AssetKind::mesh, mesh);
+  frame();
+  frame();
+  scene_.reset();
+  for (const gpu::ModuleMemory& memory : device_->memory())
+    if (memory.module == "engine") {
+      EXPECT_LE(memory.bytes, bytes << 20);
+    }
+}
+
+TEST_F(SceneChanges, a_material_that_becomes_cut_out_gives_its_casters_another_content) {
+  start();
+  const std::uint64_t before = scene_->material(materials_[0]).content;
+  assets().materials[materials_[0]].alpha_mode = AlphaMode::mask;
+  assets().mark_changed(AssetKind::material, materials_[0]);
+  frame();
+  EXPECT_NE(scene_->material(materials_[0]).content, before);
+  const std::uint64_t masked = scene_->material(materials_[0]).content;
+  assets().mark_changed(AssetKind::image, assets().textures[textures_[0]].image);
+  frame();
+  EXPECT_NE(scene_->material(materials_[0]).content, masked) << "its alpha may have changed with the image";
+}
+
+}  // namespace
+}  // namespace gloam
