@@ -52,7 +52,7 @@ ROOMS = {
                           ("components", "baked_light", "bake", "knobs", "frame")),
     "modules/depth_of_field": (("lens", "tiles", "blur", "compose", "reference", "debug"), ("components", "knobs", "frame")),
     "shaders/depth_of_field": (("tiles", "blur", "compose", "debug"), None),
-    "engine/render": (("knobs", "scene", "draws", "declare", "sort", "passes", "readback", "reference"),
+    "engine/render": (("knobs", "packing", "uploads", "scene", "draws", "declare", "sort", "passes", "readback", "reference"),
                       ("view", "view_constants", "outputs", "pipelines", "pipeline_list", "frame_builder", "host_geometry", "module", "renderer_state")),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections", "grass",
                        "particles", "dof"), ()),

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/gpu/spirv_reflection.h"
+#include "engine/render/packing/mesh_packing.h"
 #include "engine/render/scene/material_packing.h"
-#include "engine/render/scene/mesh_packing.h"
 #include "shaders/fog/fog_shared.h"
 #include "shaders/fog/shaders.h"
 #include "shaders/lighting/lighting_shared.h"

@@ -15,7 +15,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
 #include "engine/math/types.h"
-#include "engine/render/scene/caster_bounds.h"
+#include "engine/render/packing/caster_bounds.h"
 #include "shaders/render/caster_shared.h"
 
 namespace gloam {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "engine/ecs/view.h"
-#include "engine/render/scene/caster_bounds.h"
+#include "engine/render/packing/caster_bounds.h"
 #include "engine/scene/animated_nodes.h"
 #include "engine/scene/resources.h"
 

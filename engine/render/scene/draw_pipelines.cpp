@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/scene/draw_pipelines.h"
 
-#include "engine/render/scene/mesh_packing.h"
+#include "engine/render/packing/mesh_packing.h"
 #include "shaders/render/shaders.h"
 
 namespace gloam {

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/render/packing/mip_chain.h"
 #include "engine/render/pipelines.h"
 #include "engine/render/scene/material_packing.h"
-#include "engine/render/scene/mip_chain.h"
 
 namespace gloam {
 namespace {

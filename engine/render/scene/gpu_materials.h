@@ -10,8 +10,8 @@
 #include "engine/core/result.h"
 #include "engine/frame/upload.h"
 #include "engine/gpu/device.h"
-#include "engine/render/scene/asset_uploads.h"
 #include "engine/render/scene/draw_pipelines.h"
+#include "engine/render/uploads/asset_uploads.h"
 #include "engine/scene/assets.h"
 
 namespace gloam {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "engine/core/assert.h"
-#include "engine/render/scene/mip_chain.h"
-#include "engine/render/scene/simplified_casters.h"
+#include "engine/render/packing/mip_chain.h"
+#include "engine/render/packing/simplified_casters.h"
 #include "engine/scene/asset_check.h"
 #include "shaders/render/draw_shared.h"
 

@@ -14,12 +14,12 @@
 #include "engine/frame/upload.h"
 #include "engine/gpu/device.h"
 #include "engine/jobs/executor.h"
-#include "engine/render/scene/asset_packer.h"
-#include "engine/render/scene/asset_uploads.h"
+#include "engine/render/packing/gpu_primitive.h"
 #include "engine/render/scene/draw_pipelines.h"
 #include "engine/render/scene/gpu_materials.h"
-#include "engine/render/scene/gpu_primitive.h"
-#include "engine/render/scene/mesh_streams.h"
+#include "engine/render/uploads/asset_packer.h"
+#include "engine/render/uploads/asset_uploads.h"
+#include "engine/render/uploads/mesh_streams.h"
 #include "engine/scene/assets.h"
 
 namespace gloam {

@@ -8,7 +8,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
-#include "engine/render/scene/caster_bounds.h"
+#include "engine/render/packing/caster_bounds.h"
 #include "engine/scene/animated_nodes.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"

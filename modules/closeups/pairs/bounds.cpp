@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <span>
 
-#include "engine/render/scene/mesh_packing.h"
+#include "engine/render/packing/mesh_packing.h"
 
 namespace gloam {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/jobs/executor.h"
-#include "engine/render/scene/caster_bounds.h"
+#include "engine/render/packing/caster_bounds.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "engine/render/scene/caster_bounds.h"
+#include "engine/render/packing/caster_bounds.h"
 #include "modules/closeups/pairs/views.h"
 #include "modules/closeups/umbra/light.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/math/types.h"
-#include "engine/render/scene/caster_bounds.h"
+#include "engine/render/packing/caster_bounds.h"
 #include "modules/particles/components.h"
 #include "modules/particles/emitters/placed.h"
 

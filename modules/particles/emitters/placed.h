@@ -8,7 +8,7 @@
 #include "engine/ecs/entity.h"
 #include "engine/ecs/view.h"
 #include "engine/math/types.h"
-#include "engine/render/scene/caster_bounds.h"
+#include "engine/render/packing/caster_bounds.h"
 #include "engine/scene/components.h"
 #include "engine/schedule/parameters.h"
 #include "modules/particles/components.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/render/scene/mesh_packing.h"
+#include "engine/render/packing/mesh_packing.h"
 #include "shaders/shadows/shaders.h"
 
 namespace gloam {

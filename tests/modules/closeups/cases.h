@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "engine/render/scene/caster_bounds.h"
+#include "engine/render/packing/caster_bounds.h"
 #include "engine/render/view.h"
 #include "modules/closeups/umbra/light.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/render/frame_builder.h"
+#include "engine/render/packing/mesh_packing.h"
 #include "engine/render/readback/capture.h"
-#include "engine/render/scene/mesh_packing.h"
 #include "tests/render/draws/drawn_scene.h"
 
 // Casters outside the camera's view are deformed by the GPU, too.

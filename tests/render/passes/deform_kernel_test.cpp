@@ -8,7 +8,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <random>
 
-#include "engine/render/scene/mesh_packing.h"
+#include "engine/render/packing/mesh_packing.h"
 #include "shaders/render/deform_shared.h"
 #include "shaders/render/shaders.h"
 #include "tests/support/kernel.h"

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "engine/render/scene/smooth_shading.h"
+#include "engine/render/packing/smooth_shading.h"
 #include "tests/render/passes/smooth_surface_oracle.h"
 #include "tests/support/render_scene.h"
 

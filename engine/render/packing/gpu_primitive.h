@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/math/bounds.h"
-#include "engine/render/scene/mesh_packing.h"
+#include "engine/render/packing/mesh_packing.h"
 #include "engine/scene/assets.h"
 
 namespace gloam {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/smooth_shading.h"
+#include "engine/render/packing/smooth_shading.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/asset_packer.h"
+#include "engine/render/uploads/asset_packer.h"
 
 #include <exception>
 #include <utility>
 
-#include "engine/render/scene/mip_chain.h"
+#include "engine/render/packing/mip_chain.h"
 
 namespace gloam {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "engine/math/bounds.h"
 #include "engine/math/world_box.h"
-#include "engine/render/scene/gpu_primitive.h"
+#include "engine/render/packing/gpu_primitive.h"
 #include "engine/scene/resources.h"
 
 /// World-space bounds of drawn primitives.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/mesh_packing.h"
+#include "engine/render/packing/mesh_packing.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/render/scene/packed_primitive.h"
+#include "engine/render/packing/packed_primitive.h"
 #include "engine/scene/assets.h"
 
 namespace gloam {

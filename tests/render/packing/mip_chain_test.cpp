@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/mip_chain.h"
+#include "engine/render/packing/mip_chain.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/simplified_casters.h"
+#include "engine/render/packing/simplified_casters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/packed_primitive.h"
+#include "engine/render/packing/packed_primitive.h"
 
 #include <utility>
 
-#include "engine/render/scene/caster_bounds.h"
-#include "engine/render/scene/closed_surface.h"
-#include "engine/render/scene/simplified_casters.h"
-#include "engine/render/scene/smooth_shading.h"
+#include "engine/render/packing/caster_bounds.h"
+#include "engine/render/packing/closed_surface.h"
+#include "engine/render/packing/simplified_casters.h"
+#include "engine/render/packing/smooth_shading.h"
 
 namespace gloam {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/asset_uploads.h"
+#include "engine/render/uploads/asset_uploads.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/range_allocator.h"
+#include "engine/render/uploads/range_allocator.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/mesh_streams.h"
+#include "engine/render/uploads/mesh_streams.h"
 
 #include <algorithm>
 #include <string>

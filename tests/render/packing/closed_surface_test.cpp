@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/closed_surface.h"
+#include "engine/render/packing/closed_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/simplified_casters.h"
+#include "engine/render/packing/simplified_casters.h"
 
 #include <meshoptimizer.h>
 
 #include <algorithm>
 
-#include "engine/render/scene/mesh_packing.h"
+#include "engine/render/packing/mesh_packing.h"
 
 namespace gloam {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/scene/caster_bounds.h"
+#include "engine/render/packing/caster_bounds.h"
 
 #include <gtest/gtest.h>
 

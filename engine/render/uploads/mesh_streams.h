@@ -9,9 +9,9 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "engine/render/scene/asset_uploads.h"
-#include "engine/render/scene/packed_primitive.h"
-#include "engine/render/scene/range_allocator.h"
+#include "engine/render/packing/packed_primitive.h"
+#include "engine/render/uploads/asset_uploads.h"
+#include "engine/render/uploads/range_allocator.h"
 
 namespace gloam {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/render/scene/gpu_primitive.h"
-#include "engine/render/scene/mesh_packing.h"
+#include "engine/render/packing/gpu_primitive.h"
+#include "engine/render/packing/mesh_packing.h"
 #include "engine/scene/assets.h"
 
 namespace gloam {
