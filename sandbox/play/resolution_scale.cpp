@@ -10,8 +10,11 @@
 namespace gloam {
 namespace {
 
-constexpr double kDownAim = 0.9;          // of the budget, for a change to fewer pixels
-constexpr double kUpAim = 0.85;           // and to more
+constexpr double kDownAim = 0.9;  // of the budget, for a change to fewer pixels
+constexpr double kUpAim = 0.85;   // and to more
+// Of the budget: a step that was too slow is tried again if its frames should be this fast. Then something else was
+// slow, such as the first frames of a scene, which draw all shadow maps.
+constexpr double kSurelyFast = 0.7;
 constexpr double kFixedShareDown = 0.25;  // geometry, shadow maps and lists hardly depend on the number of pixels
 
 }  // namespace
@@ -53,21 +56,24 @@ bool ResolutionScale::add(double frame_ms) {
     return true;
   }
   if (times_.size() < kBeforeUp) return false;
-  std::size_t step = fitting_step(summarize(times_).median, kUpAim * budget_ms_, 0.0);
+  const double steady_ms = summarize(times_).median;
+  std::size_t step = fitting_step(steady_ms, kUpAim * budget_ms_, 0.0);
   for (std::size_t above = step_ + 1; above <= step; ++above)
-    if (blocked_until_[above] > frame_) step = above - 1;
+    if (blocked_until_[above] > frame_ && expected_ms(steady_ms, above, 0.0) > kSurelyFast * budget_ms_)
+      step = above - 1;
   if (step <= step_) return false;
   change_to(step);
   return true;
 }
 
+double ResolutionScale::expected_ms(double frame_ms, std::size_t step, double fixed_share) const {
+  const double ratio = kSteps[step] / kSteps[step_];
+  return frame_ms * (fixed_share + (1.0 - fixed_share) * ratio * ratio);
+}
+
 std::size_t ResolutionScale::fitting_step(double frame_ms, double budget_ms, double fixed_share) const {
   std::size_t step = kSteps.size() - 1;
-  const auto expected_ms = [&](std::size_t at) {
-    const double ratio = kSteps[at] / kSteps[step_];
-    return frame_ms * (fixed_share + (1.0 - fixed_share) * ratio * ratio);
-  };
-  while (step > 0 && expected_ms(step) > budget_ms) --step;
+  while (step > 0 && expected_ms(frame_ms, step, fixed_share) > budget_ms) --step;
   return step;
 }
 

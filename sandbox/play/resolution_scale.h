@@ -20,7 +20,7 @@ class ResolutionScale {
   /// Judged frames before a change to fewer or to more pixels.
   static constexpr std::size_t kBeforeDown = 3;
   static constexpr std::size_t kBeforeUp = 8;
-  /// Frames for which a step that was too slow is not tried again.
+  /// Frames for which a step that was too slow is not tried again, unless frames have become much faster.
   static constexpr std::uint64_t kBlockedFrames = 400;
 
   /// budget_ms: the time of a frame that automatic changes aim at, > 0. setting: as for set().
@@ -40,8 +40,9 @@ class ResolutionScale {
   bool add(double frame_ms);
 
  private:
-  /// The largest step whose time is expected within `budget_ms`; at least 0. Of a frame's time, `fixed_share` does not
-  /// depend on its pixels.
+  /// The time at a step, from that at the present one. Of a frame's time, `fixed_share` does not depend on its pixels.
+  [[nodiscard]] double expected_ms(double frame_ms, std::size_t step, double fixed_share) const;
+  /// The largest step whose time is expected within `budget_ms`; at least 0.
   [[nodiscard]] std::size_t fitting_step(double frame_ms, double budget_ms, double fixed_share) const;
   void change_to(std::size_t step);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/render/knobs/measure.h"
 #include "sandbox/bench/harness/camera_path.h"
 #include "sandbox/session/session.h"
 

@@ -79,6 +79,16 @@ TEST(ResolutionScaleTest, follows_a_scene_that_becomes_slower_and_faster) {
   EXPECT_EQ(scale.scale(), 1.0) << "a blocked step is tried again later";
 }
 
+TEST(ResolutionScaleTest, a_step_that_was_slow_only_at_first_is_tried_again_soon) {
+  ResolutionScale scale(kBudget, 0.0);
+  scale.start(1280, 720, 116000.0);
+  const double first = scale.scale();
+  for (int frame = 0; frame < 6; ++frame) scale.add(120.0);
+  ASSERT_LT(scale.scale(), first);
+  draw(scale, {10.0, 200.0}, 40);
+  EXPECT_GT(scale.scale(), first);
+}
+
 TEST(ResolutionScaleTest, a_scene_that_is_too_slow_at_every_scale_stays_at_the_smallest) {
   ResolutionScale scale(kBudget, 0.0);
   scale.start(1280, 720, 1e9);
