@@ -20,8 +20,8 @@ set(GLOAM_SPIRV_PASSES --preserve-bindings --preserve-spec-constants --inline-en
 # gloam_add_shaders(<folder> <file.comp.glsl>…)
 # Compiles shaders/<folder>/<file> to SPIR-V and embeds it in the library gloam_shaders_<folder>. The header
 # shaders/<folder>/shaders.h in the build tree declares each shader as gloam::shaders::<folder>::<symbol>: the file name
-# without .glsl and with _ for ., so blur.frag.glsl is blur_frag; every_shader lists them. The SPIR-V keeps names, because reflection finds
-# structures by name. Shaders include files by full path from the root of their project or of gloam.
+# without .glsl and with _ for ., so blur.frag.glsl is blur_frag; every_shader lists them. The SPIR-V keeps names of bindings, specialisation
+# constants and structures, by which reflection finds them; in Debug builds all names. Shaders include files by full path from the root of their project or of gloam.
 function(gloam_add_shaders folder)
   if(NOT GLSLANG_VALIDATOR)
     find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
@@ -51,8 +51,8 @@ function(gloam_add_shaders folder)
         --depfile ${output}.d -o ${output} ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
       COMMAND ${SPIRV_OPT} ${GLOAM_SPIRV_PASSES} ${output} -o ${output}.spv
       COMMAND ${CMAKE_COMMAND} -DINPUT=${output}.spv -DOUTPUT=${output} -DNAME=${symbol}_words
-        -P ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
-      DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
+        -DALL_NAMES=$<CONFIG:Debug> -P ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
+      DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source} ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
       DEPFILE ${output}.d
       COMMENT "Shader ${folder}/${source}" VERBATIM)
     list(APPEND outputs ${output})
