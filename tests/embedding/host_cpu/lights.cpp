@@ -58,10 +58,10 @@ void mask(ViewResource<const VisibleLights> visible, ViewResource<const ViewProj
 
 dmat4 random_node(std::mt19937& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const dvec3 z = glm::normalize(dvec3(unit(random), unit(random), unit(random)) + dvec3(0.0, 0.01, 0.0));
+  const dvec3 z = glm::normalize(dvec3{unit(random), unit(random), unit(random)} + dvec3(0.0, 0.01, 0.0));
   const dvec3 x = glm::normalize(glm::cross(dvec3(0.3, 0.9, 0.2), z));
   const double depth = 22.0 + 21.0 * unit(random);
-  const dvec3 at(1.6 * depth * unit(random), 0.9 * depth * unit(random), -depth);
+  const dvec3 at{1.6 * depth * unit(random), 0.9 * depth * unit(random), -depth};
   return dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), glm::dvec4(at, 1.0));
 }
 

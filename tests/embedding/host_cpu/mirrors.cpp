@@ -29,7 +29,7 @@ ProxySet random_proxies() {
     const double turn = 3.14 * unit(random);
     const dvec3 z(std::sin(turn), 0.0, std::cos(turn));
     const dvec3 x(z.z, 0.0, -z.x);
-    const dvec3 at(9.0 * unit(random), 2.0 + 1.5 * unit(random), -14.0 + 10.0 * unit(random));
+    const dvec3 at{9.0 * unit(random), 2.0 + 1.5 * unit(random), -14.0 + 10.0 * unit(random)};
     const dmat4 node(glm::dvec4(x, 0.0), glm::dvec4(0.0, 1.0, 0.0, 0.0), glm::dvec4(z, 0.0), glm::dvec4(at, 1.0));
     const IbrProxy proxy{.size_m = vec2(1.5f, 1.0f)};
     PlacedProxy placed;

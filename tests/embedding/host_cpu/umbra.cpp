@@ -23,7 +23,7 @@ using namespace gloam;
 dvec3 random_in_sphere(std::mt19937& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (;;) {
-    const dvec3 p(unit(random), unit(random), unit(random));
+    const dvec3 p{unit(random), unit(random), unit(random)};
     if (glm::dot(p, p) <= 1.0) return p;
   }
 }
@@ -64,7 +64,7 @@ void check_umbra() {
   int outside = 0;
   for (int i = 0; i < kPoints; ++i) {
     const dvec3 from = lamp + random_in_sphere(random) * (0.5 * static_cast<double>(light.width_m));
-    const dvec3 share(unit(random), unit(random), unit(random));
+    const dvec3 share{unit(random), unit(random), unit(random)};
     const dvec3 blocker = subject.min + (subject.max - subject.min) * share;
     const dvec3 receiver = blocker + (blocker - from) * (4.0 * unit(random));
     if (glm::length(receiver - lamp) > static_cast<double>(light.range_m)) continue;
