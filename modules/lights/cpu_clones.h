@@ -18,3 +18,10 @@
 #else
 #define GLOAM_CPU_INLINE inline
 #endif
+
+/// Before a loop whose arrays do not overlap: the compiler need not check that before it vectorizes. Clang checks.
+#if defined(__GNUC__) && !defined(__clang__)
+#define GLOAM_CPU_IVDEP _Pragma("GCC ivdep")
+#else
+#define GLOAM_CPU_IVDEP
+#endif

@@ -28,7 +28,6 @@ constexpr float kThickness_m = 0.35f;  // of things that screen space sees from 
 constexpr float kLobeWidth = 3.0f;     // radians: standard deviation of a lobe per square of the roughness
 constexpr float kLeastAcross = 0.1f;   // narrowest blur along rows, per pixel roughness
 constexpr float kAcross = 0.5f;        // the same with one roughness for all
-constexpr float kFogSky_m = 200.0f;    // path through the fog of rays that meet no surface
 
 /// Side of a texel of the reflection images at view depth 1 m (orthographic: everywhere), metres.
 float texel_size(const RenderView& view, std::uint32_t scale) {

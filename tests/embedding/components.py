@@ -57,11 +57,12 @@ def stripped_size(program):
 
 
 def main(compiler, cmake, prefix, work, *arguments):
-    if not shutil.which(compiler):
+    program = shutil.which(compiler) or shutil.which(f"{compiler}-14")  # Debian's package clang-14 installs clang++-14 only
+    if not program:
         print(f"{compiler} is absent")
         sys.exit(77)
     work = Path(work) / compiler.rstrip("+")
-    arguments = [*arguments, f"-DCMAKE_CXX_COMPILER={compiler}"]
+    arguments = [*arguments, f"-DCMAKE_CXX_COMPILER={program}"]
     faults = probe_faults(cmake, prefix, work, arguments) if compiler == "g++" else []
     if faults:
         sys.exit("\n".join(faults))

@@ -50,7 +50,7 @@ def compile_headers(compiler, include, file, *flags):
 def compiler_faults(compiler, include, work):
     """Headers compile, also without exceptions and type information, and refuse other layouts of GLM's types."""
     faults = []
-    source = work / f"headers_{compiler.rstrip('+')}.cpp"
+    source = work / f"headers_{Path(compiler).name}.cpp"
     for flags in ([], ["-fno-exceptions", "-fno-rtti"]):
         said = compile_headers(compiler, include, source, *flags)
         faults += [f"{compiler} {' '.join(flags)}: {said[:2000]}"] if said else []
@@ -82,7 +82,8 @@ def without_licence(path):
 
 
 def main(compiler, cmake, source, build, *arguments):
-    if not shutil.which(compiler):
+    program = shutil.which(compiler) or shutil.which(f"{compiler}-14")  # Debian's package clang-14 installs clang++-14 only
+    if not program:
         print(f"{compiler} is absent")
         sys.exit(77)
     work = Path(build) / "embedding"
@@ -94,12 +95,12 @@ def main(compiler, cmake, source, build, *arguments):
         shutil.rmtree(prefix, ignore_errors=True)
         run(cmake, "--install", build, "--prefix", prefix, "--component", "gloam")
         faults += header_faults(include) + guide_faults(Path(source))
-    faults += compiler_faults(compiler, include, work)
+    faults += compiler_faults(program, include, work)
     if faults:
         sys.exit("\n".join(faults))
     host = work / ("host" if compiler == "g++" else "host_clang")
     shutil.rmtree(host, ignore_errors=True)
-    run(cmake, "-S", examples, "-B", host, f"-DCMAKE_PREFIX_PATH={prefix}", *arguments, f"-DCMAKE_CXX_COMPILER={compiler}")
+    run(cmake, "-S", examples, "-B", host, f"-DCMAKE_PREFIX_PATH={prefix}", *arguments, f"-DCMAKE_CXX_COMPILER={program}")
     run(cmake, "--build", host, "--parallel", "2")
     run(host / "host")
     run(host / "host_module")

@@ -60,20 +60,21 @@ std::string runs_each_job_once(Subject& s) {
 std::string covers_each_index_once(Subject& s) {
   constexpr std::pair<std::size_t, std::size_t> kLoops[] = {{1, 1},    {63, 64}, {64, 64}, {65, 64},
                                                             {1000, 7}, {500, 1}, {10, 11}, {10, SIZE_MAX}};
-  for (const auto& [count, grain] : kLoops) {
+  for (const auto& loop : kLoops) {
+    const std::size_t count = loop.first;  // clang 14 captures no structured bindings
+    const std::size_t grain = loop.second;
     const std::size_t expected = count / grain + (count % grain != 0 ? 1 : 0);
     auto& ranges = s.keep<Ranges>(expected);
-    auto& body =
-        s.keep<std::function<void(JobRange)>>([&ranges, expected, count = count, grain = grain](JobRange range) {
-          const std::size_t begin = range.ordinal * grain;
-          if (range.ordinal < expected && range.begin == begin && range.end - begin == std::min(grain, count - begin)) {
-            ranges.tally.run(range.ordinal);
-            return;
-          }
-          const std::lock_guard lock(ranges.mutex);
-          ranges.wrong = "range " + std::to_string(range.ordinal) + " is [" + std::to_string(range.begin) + ", " +
-                         std::to_string(range.end) + ")";
-        });
+    auto& body = s.keep<std::function<void(JobRange)>>([&ranges, expected, count, grain](JobRange range) {
+      const std::size_t begin = range.ordinal * grain;
+      if (range.ordinal < expected && range.begin == begin && range.end - begin == std::min(grain, count - begin)) {
+        ranges.tally.run(range.ordinal);
+        return;
+      }
+      const std::lock_guard lock(ranges.mutex);
+      ranges.wrong = "range " + std::to_string(range.ordinal) + " is [" + std::to_string(range.begin) + ", " +
+                     std::to_string(range.end) + ")";
+    });
     const Outcome outcome = outcome_of([&] { s.executor.parallel_for(count, grain, body); });
     const std::lock_guard lock(ranges.mutex);
     const std::string counts = ranges.wrong.empty() ? ranges.tally.fault() : ranges.wrong;

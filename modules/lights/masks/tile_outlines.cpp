@@ -131,12 +131,12 @@ GLOAM_CPU_INLINE void find_rectangle(const Columns& o, const TileProjection& p, 
 }
 
 GLOAM_CPU_CLONES void find_perspective_rectangles(Columns o, TileProjection p, std::size_t begin, std::size_t end) {
-#pragma GCC ivdep
+  GLOAM_CPU_IVDEP
   for (std::size_t i = begin; i < end; ++i) find_rectangle<true>(o, p, i);
 }
 
 GLOAM_CPU_CLONES void find_parallel_rectangles(Columns o, TileProjection p, std::size_t begin, std::size_t end) {
-#pragma GCC ivdep
+  GLOAM_CPU_IVDEP
   for (std::size_t i = begin; i < end; ++i) find_rectangle<false>(o, p, i);
 }
 
@@ -150,7 +150,7 @@ GLOAM_CPU_INLINE std::int32_t row_number(double row, const TileProjection& p) {
 }
 
 GLOAM_CPU_CLONES void find_perspective_ellipses(Columns o, TileProjection p, std::size_t begin, std::size_t end) {
-#pragma GCC ivdep
+  GLOAM_CPU_IVDEP
   for (std::size_t i = begin; i < end; ++i) {
     const double x = o.x[i], y = o.y[i], d = o.depth[i], r = o.radius[i];
     const double dd = (d - r) * (d + r);
@@ -179,7 +179,7 @@ GLOAM_CPU_CLONES void find_perspective_ellipses(Columns o, TileProjection p, std
 }
 
 GLOAM_CPU_CLONES void find_parallel_ellipses(Columns o, TileProjection p, std::size_t begin, std::size_t end) {
-#pragma GCC ivdep
+  GLOAM_CPU_IVDEP
   for (std::size_t i = begin; i < end; ++i) {
     const double r = o.radius[i];
     const bool sound = (o.depth[i] >= p.near_m) & (r < kEverywhere);
@@ -265,12 +265,12 @@ GLOAM_CPU_INLINE void find_lines_of(const LineColumns& o, const TileProjection& 
 }
 
 GLOAM_CPU_CLONES void find_perspective_lines(LineColumns o, TileProjection p, std::size_t begin, std::size_t end) {
-#pragma GCC ivdep
+  GLOAM_CPU_IVDEP
   for (std::size_t i = begin; i < end; ++i) find_lines_of<true>(o, p, i);
 }
 
 GLOAM_CPU_CLONES void find_parallel_lines(LineColumns o, TileProjection p, std::size_t begin, std::size_t end) {
-#pragma GCC ivdep
+  GLOAM_CPU_IVDEP
   for (std::size_t i = begin; i < end; ++i) find_lines_of<false>(o, p, i);
 }
 
@@ -316,7 +316,7 @@ GLOAM_CPU_CLONES void turn_bounds(const MaskLight* lights, BoundColumns o, Rotat
       from[6][i] = light.apex.z;
       from[7][i] = light.cos_outer > -1.0f ? light.range_m : 1e30f;
     }
-#pragma GCC ivdep
+    GLOAM_CPU_IVDEP
     for (std::size_t i = 0; i < count; ++i) {
       const double a = from[0][i], b = from[1][i], c = from[2][i], given = from[3][i];
       const double x = rotation.right[0] * a + rotation.right[1] * b + rotation.right[2] * c;

@@ -25,7 +25,6 @@ constexpr std::size_t kEdges = kMostBandRows + 2 * kLanes;
 constexpr std::uint32_t kEndShift = 11;
 constexpr std::uint32_t kLightShift = 22;
 constexpr std::uint32_t kColumnMask = (1u << kEndShift) - 1;
-constexpr float kEverywhere = 1e9f;          // columns
 constexpr float kMargin = 1.0f / (32 * 16);  // columns: a sixteenth of a pixel, more than the rounding error of floats
 
 GLOAM_CPU_INLINE float smaller(float a, float b) { return a < b ? a : b; }

@@ -61,7 +61,7 @@ struct CullColumns {
 /// Sets `kind` and the view depths of lights [begin, end). A plain loop over columns, so that the compiler vectorizes
 /// it.
 GLOAM_CPU_CLONES void cull_lights(CullColumns o, CullView v, std::size_t begin, std::size_t end) {
-#pragma GCC ivdep
+  GLOAM_CPU_IVDEP
   for (std::size_t i = begin; i < end; ++i) {
     const auto cx = static_cast<float>(o.x[i] - v.eye[0]);
     const auto cy = static_cast<float>(o.y[i] - v.eye[1]);
