@@ -3,7 +3,6 @@
 #include "engine/render/scene/gpu_scene.h"
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 #include <utility>
 
@@ -96,7 +95,7 @@ Status GpuScene::upload_meshes(const SceneAssets& assets, JobExecutor& executor,
     if (bytes.empty()) continue;
     for (const PackedPrimitive& primitive : packed)
       for (const AssetUploads::BufferPart& part : streams_.parts(primitive, stream))
-        std::memcpy(bytes.data() + part.offset, part.bytes.data(), part.bytes.size());
+        std::ranges::copy(part.bytes, bytes.begin() + static_cast<std::ptrdiff_t>(part.offset));
     uploader.buffer(streams_.buffer(static_cast<MeshStreams::Stream>(stream)), std::move(bytes), MeshStreams::kAccess,
                     MeshStreams::kAlso);
   }
