@@ -41,7 +41,6 @@ class GpuMaterials {
   [[nodiscard]] const GpuMaterial& get(std::uint32_t index) const {
     return index < materials_.size() ? materials_[index] : default_;
   }
-  [[nodiscard]] std::size_t size() const { return materials_.size(); }
 
   /// Makes the white image, and the constants of all materials, for a full upload.
   [[nodiscard]] Status upload(const SceneAssets& assets, Uploader& uploader);

@@ -71,7 +71,7 @@ void AssetPacker::request(PackRequest request, const SceneAssets& assets) {
   bytes_ += bytes_of(copied);
   requests_.push_back(std::move(copied));
   if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
-  wake_.notify_all();
+  wake_.notify_one();
 }
 
 std::vector<PackedAsset> AssetPacker::take() {
@@ -93,23 +93,12 @@ std::uint64_t AssetPacker::bytes() const {
   return bytes_;
 }
 
-std::size_t AssetPacker::pending() const {
-  const std::lock_guard lock(mutex_);
-  return requests_.size() + results_.size() + (packing_ ? 1 : 0);
-}
-
-void AssetPacker::wait() {
-  std::unique_lock lock(mutex_);
-  wake_.wait(lock, [&] { return requests_.empty() && !packing_; });
-}
-
 void AssetPacker::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [&] { return !requests_.empty(); }) && !stop.stop_requested()) {
     const Copied copied = std::move(requests_.front());
     const PackRequest& request = copied.request;
     requests_.pop_front();
-    packing_ = true;
     const std::uint64_t generation = generation_;
     lock.unlock();
     PackedAsset packed;
@@ -120,13 +109,11 @@ void AssetPacker::run(const std::stop_token& stop) {
       packed.fault = failure.what();
     }
     lock.lock();
-    packing_ = false;
     if (generation == generation_) {
       bytes_ += bytes_in(packed);
       bytes_ -= bytes_of(copied);
       results_.push_back(std::move(packed));
     }
-    wake_.notify_all();
   }
 }
 

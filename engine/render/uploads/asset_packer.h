@@ -57,9 +57,6 @@ class AssetPacker {
   void clear();
   /// Bytes of the copies and results that it holds.
   [[nodiscard]] std::uint64_t bytes() const;
-  [[nodiscard]] std::size_t pending() const;  ///< requests that take() has not returned yet
-  /// Blocks until everything that was requested can be taken.
-  void wait();
 
  private:
   struct Copied {
@@ -76,8 +73,7 @@ class AssetPacker {
   std::vector<PackedAsset> results_;
   std::uint64_t bytes_ = 0;
   std::uint64_t generation_ = 0;  ///< counts calls of clear(); the result of an older one is dropped
-  bool packing_ = false;
-  std::jthread thread_;  ///< started by the first request; destroyed before the members above
+  std::jthread thread_;           ///< started by the first request; destroyed before the members above
 };
 
 }  // namespace gloam

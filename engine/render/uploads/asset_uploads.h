@@ -49,15 +49,9 @@ class AssetUploads {
     gpu::AccessMask also = 0;
   };
   void record(gpu::CommandList& commands, std::span<const Target> targets);
-  /// Drops the jobs for which gone(number) is true.
-  template <class Gone>
-  void drop(const Gone& gone) {
-    std::erase_if(jobs_, [&](const Pending& pending) { return gone(pending.job.number); });
-  }
   /// Drops everything, and frees staging memory.
   void clear();
 
-  [[nodiscard]] std::size_t jobs() const { return jobs_.size(); }
   [[nodiscard]] std::uint64_t bytes() const;  ///< that are not staged yet
 
  private:
