@@ -64,8 +64,9 @@ TEST(executor_faults, name_the_rule_that_is_broken) {
       {Flaw::throws_a_failure_again, "after a failed run: threw"},
       {Flaw::refuses_nested_calls, "parallel_for, nested three deep: threw another exception (the pool is busy)"},
       {Flaw::loses_exceptions_of_nested_calls, "the outer call gave no exception"},
-      {Flaw::drops_jobs_of_other_threads, "run, several threads call at once: job"},
-      {Flaw::mixes_failures_of_threads, "several threads call at once: threw the exception of job"},  // of any call
+      // Which call and which job depends on when the threads meet.
+      {Flaw::drops_jobs_of_other_threads, ", several threads call at once: job"},
+      {Flaw::mixes_failures_of_threads, ", several threads call at once: threw the exception of job"},
   };
   for (const auto& [flaw, sentence] : cases) {
     BrokenExecutor executor(flaw);
