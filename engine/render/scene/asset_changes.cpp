@@ -69,6 +69,11 @@ void GpuScene::find_changed_meshes(const SceneAssets& assets) {
       progress.requested = progress.shown = revision;
       continue;
     }
+    // The place of a destroyed mesh was taken by another one: nothing is drawn until that one is complete.
+    if (progress.shown != kNever && assets.destroyed_at(AssetKind::mesh, m) > progress.shown) {
+      remove_mesh(m);
+      progress.shown = kNever;
+    }
     PackRequest wanted{.index = m, .revision = revision};
     for (const Primitive& primitive : assets.meshes[m].primitives) {
       const bool opaque =
@@ -89,6 +94,10 @@ void GpuScene::find_changed_images(const SceneAssets& assets) {
     if (key.first == kNone) continue;
     Progress& progress = image_progress_[key];
     const std::uint64_t revision = assets.revision(AssetKind::image, key.first);
+    if (progress.shown != kNever && assets.destroyed_at(AssetKind::image, key.first) > progress.shown) {
+      materials_.show_image(assets, key, {});  // white until the image in the place of the destroyed one is complete
+      progress.shown = kNever;
+    }
     if (progress.requested != revision)
       request(progress, {.index = key.first, .revision = revision, .is_image = true, .srgb = key.second}, assets);
   }

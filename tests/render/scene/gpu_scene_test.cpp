@@ -344,6 +344,26 @@ TEST_F(SceneChanges, in_the_background_a_frame_copies_no_more_than_its_budget_an
   expect_as_new();
 }
 
+TEST_F(SceneChanges, in_the_background_nothing_destroyed_is_shown_in_the_place_of_what_follows_it) {
+  start({.background = true, .budget = 64});
+  const std::uint32_t image = assets().textures[textures_[1]].image;
+  const auto set = scene_->material(materials_[1]).set;
+  assets().destroy(AssetKind::mesh, meshes_[1]);
+  Mesh box;
+  box.primitives.push_back(test::box(vec3(1.0f), materials_[1]));
+  box.bounds = box.primitives[0].bounds;
+  ASSERT_EQ(assets().add(std::move(box)), meshes_[1]);
+  assets().destroy(AssetKind::image, image);
+  ASSERT_EQ(assets().add(Image{"other", 32, 32, std::vector<std::uint8_t>(4096, 80)}), image);
+  frame();
+  EXPECT_TRUE(scene_->meshes()[meshes_[1]].empty()) << "the ball is gone, the box is not complete";
+  EXPECT_NE(scene_->material(materials_[1]).set, set) << "white takes the place of the image";
+  EXPECT_GT(scene_->pending(), 0u);
+  settle();
+  ASSERT_EQ(scene_->meshes()[meshes_[1]].size(), 1u);
+  expect_as_new();
+}
+
 TEST_F(SceneChanges, in_the_background_the_last_of_many_changes_wins) {
   start({.background = true, .budget = 2000});
   std::mt19937 engine(11);
