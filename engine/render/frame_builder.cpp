@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/frame_builder.h"
 
-#include "engine/render/renderer_state.h"
 #include "engine/render/view_constants.h"
+#include "engine/render/worlds/world_id.h"
 
 namespace gloam {
 
@@ -137,12 +137,12 @@ void FrameBuilder::expose(ImageRef image, std::string_view name) {
 }
 
 void FrameBuilder::keep_result(std::string module, std::string name, BufferRef buffer, std::any note) {
-  ResultKey key{std::move(module), std::move(name), world_.resource<RenderSlot>().value, view_.id.value};
+  ResultKey key{std::move(module), std::move(name), world_id(world_), view_.id.value};
   services_.results.keep(std::move(key), buffer, 0, graph_.desc(buffer).size, std::move(note));
 }
 
 HistoryView FrameBuilder::history_view() const {
-  return {world_.resource<RenderSlot>().value, view_.id.value, view_.frame, view_.cut_frame};
+  return {world_id(world_), view_.id.value, view_.frame, view_.cut_frame};
 }
 
 Result<HistoryImage> FrameBuilder::history_image(const gpu::ImageDesc& desc, const HistoryUse& use) {

@@ -12,117 +12,18 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/log.h"
 #include "engine/core/result.h"
-#include "engine/frame/frame_graph.h"
 #include "engine/gpu/types.h"
-#include "engine/jobs/executor.h"
-#include "engine/render/host_geometry.h"
-#include "engine/render/module.h"
+#include "engine/render/frame_report.h"
 #include "engine/render/readback/picture.h"
+#include "engine/render/renderer_options.h"
+#include "engine/render/view_request.h"
 
 namespace gloam {
 
 class World;
-class ZoneRecorder;
 struct GeometryPicture;
-namespace gpu {
-class Device;
-}
-/// Greatest width and height of a view, in pixels.
-inline constexpr std::uint32_t kMostViewPixels = 16384;
-
-/// Handling of a demanded module whose pipelines are not compiled yet.
-enum class Readiness {
-  wait,        ///< the frame waits for them: every demanded effect is in the first frame
-  background,  ///< the module is left out until another thread has compiled them
-};
-
-struct RendererOptions {
-  gpu::Device* device = nullptr;
-  JobExecutor* executor = nullptr;
-  LogSink* log = nullptr;
-  ZoneRecorder* zones = nullptr;  ///< may be null
-  ModuleList modules;             ///< in the order of the module graph
-  Readiness readiness = Readiness::wait;
-  /// With Readiness::background: most bytes of changed meshes and images that one frame uploads, ≥ 1 (SceneAssets).
-  /// With Readiness::wait a frame shows all changes that were made before it.
-  std::uint64_t upload_budget = std::uint64_t{8} << 20;
-};
-
-/// Destination of a view's linear light (cd/m² before exposure), for captures: one mip and layer of an image that
-/// belongs to the caller, of the view's size and with ImageUsage::color_target; six views make a cube. Several views of
-/// a frame may draw into one image; they state the same accesses. `before`: the access that the image was left ready
-/// for (none: the frame may discard all of its content). `after`: the access that it is left ready for.
-struct LightTarget {
-  gpu::ImageHandle image;
-  std::uint32_t mip = 0;
-  std::uint32_t layer = 0;
-  gpu::Access before = gpu::Access::none;
-  gpu::Access after = gpu::Access::fragment_read;
-};
-
-/// Destination of a view's picture. `image`, if set, belongs to the caller (swapchain, host): rgba8 or bgra8, UNORM
-/// (the shader encodes sRGB) or sRGB (the hardware does), of the view's size, created as a color_target. Its content is
-/// discarded; after the frame it is ready for `after`, an access that its usage must allow. Without an image, the
-/// renderer draws into its own picture, see read_picture.
-struct ViewTarget {
-  gpu::ImageHandle image;
-  gpu::Access after = gpu::Access::color_target;
-  /// Alternative to `image`, for images that exist only while a frame is recorded (gpu::Swapchain::acquire): called
-  /// after the frame has begun. The view takes the size of the returned image. If it returns none, the renderer draws
-  /// into its own picture.
-  std::function<Result<gpu::ImageHandle>()> acquire;
-  /// Draws over the finished picture. Called while the frame is declared, after all modules have added their passes.
-  /// Adds passes that write `picture`, and leaves `picture` at its newest version. Resources of the passes must live
-  /// until the frame is submitted.
-  std::function<Status(FrameGraph& graph, ImageRef& picture)> overlay;
-  /// In place of a picture: the phases `output` and `visualize` are left out. The other members must not be set.
-  std::optional<LightTarget> light;
-};
-
-struct ViewRequest {
-  ViewSettings settings;
-  ViewTarget target;
-  /// Geometry that the host has drawn, at the view's size. None: gloam draws all geometry.
-  std::optional<HostGeometry> geometry = {};
-  /// Whether Renderer::read_linear may be called for this frame. It costs a copy of the view's light in frames in which
-  /// a pass has moved LitOutput to another image, and nothing in other frames.
-  bool keep_linear = true;
-};
-
-struct ModuleState {
-  std::string name;
-  bool built = true;
-  bool demanded = false;
-  std::string reason;
-  std::uint32_t pipelines = 0;
-  std::uint64_t gpu_bytes = 0;
-};
-
-/// Counters of one view of the last frame, by name.
-struct ViewCounters {
-  ViewId view{0};
-  std::map<std::string, double> counters;
-};
-
-/// Cost of the last call of `render`. GPU figures are of the newest completed frame (after `wait`: of the last frame).
-struct FrameReport {
-  double cpu_ms = 0.0;  ///< systems, declaration and recording
-  double gpu_ms = 0.0;
-  std::vector<PassTime> passes;
-  /// When the last frame was given to the GPU: ZoneRecorder::now_ns just before; 0 without a recorder.
-  std::uint64_t submitted_ns = 0;
-  std::vector<ModuleState> modules;  ///< "engine" first, then in list order
-  /// Counters of the last view; counters from the GPU are of the newest completed frame.
-  std::map<std::string, double> counters;
-  std::vector<ViewCounters> views;   ///< counters of each view, in order; those that are known on the CPU
-  std::uint64_t plans_compiled = 0;  ///< FrameGraph::plans_compiled, since the renderer was made
-  /// Pipelines being compiled in the background; until then, frames leave passes out or use slower ones.
-  std::size_t pipelines_pending = 0;
-  /// Meshes and images of the world drawn last that are not shown as they are in SceneAssets yet.
-  std::size_t assets_pending = 0;
-};
+struct RendererParts;
 
 /// Draws worlds. Owns modules, knobs, the schedule and all GPU state. Use it from one thread at a time.
 class Renderer {
@@ -202,12 +103,8 @@ class Renderer {
   [[nodiscard]] std::string describe() const;
 
  private:
-  struct State;
-  explicit Renderer(std::unique_ptr<State> state);
-  /// Draws a view of the last frame again, into the renderer's own picture. `add_copies` declares copies into
-  /// State::copies. The copies are finished when this returns without error.
-  [[nodiscard]] Status draw_again(World& world, ViewId view, std::function<Status(FrameBuilder&)> add_copies);
-  std::unique_ptr<State> state_;
+  explicit Renderer(std::unique_ptr<RendererParts> parts);
+  std::unique_ptr<RendererParts> parts_;
 };
 
 }  // namespace gloam

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "modules/closeups/module.h"
 
-#include <atomic>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "engine/render/frame_builder.h"
+#include "engine/render/worlds/world_id.h"
 #include "engine/scene/components.h"
 #include "engine/scene/key_table.h"
 #include "modules/closeups/components.h"
@@ -56,11 +56,6 @@ Status check_subjects(World& world) {
   return status;
 }
 
-/// The module's number for this world, part of the key of its per-view state; a resource of the world.
-struct CloseupWorld {
-  std::uint64_t number = 0;
-};
-
 bool has_subjects(const World& world) {
   bool found = false;
   world.view<const CloseupSubject>().each([&](const CloseupSubject& subject) { found = found || subject.enabled; });
@@ -75,7 +70,6 @@ class CloseupsModule final : public Module {
     world.register_component<CloseupSubject>("closeup_subject");
     world.register_component<CloseupPair>("closeup_pair");
     register_closeup_resources(world);
-    world.set_resource(CloseupWorld{++worlds_});
   }
   void knobs(KnobRegistry& registry) const override { add_closeup_knobs(registry); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
@@ -166,10 +160,8 @@ class CloseupsModule final : public Module {
     std::uint64_t tiles = 0;
     std::uint64_t number = 0;  ///< Device::frame_number
   };
-  using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< world and view
-  static Key key_of(const World& world, const RenderView& view) {
-    return {world.resource<CloseupWorld>().number, view.id.value};
-  }
+  using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< world_id and view
+  static Key key_of(const World& world, const RenderView& view) { return {world_id(world), view.id.value}; }
 
   void announce(FrameBuilder& frame) {
     constexpr std::uint64_t kFramesKept = 120;
@@ -187,7 +179,6 @@ class CloseupsModule final : public Module {
 
   std::map<Key, LastFrame> last_;
   CloseupViewPasses views_;
-  mutable std::atomic<std::uint64_t> worlds_ = 0;
   bool ready_ = false;  ///< the last request found all pipelines ready
 };
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/grass/module.h"
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "engine/render/frame_builder.h"
+#include "engine/render/worlds/world_id.h"
 #include "modules/grass/components.h"
 #include "modules/grass/debug/lod_view.h"
 #include "modules/grass/debug/pick.h"
@@ -50,7 +50,7 @@ class GrassModule final : public Module {
     world.set_resource(GrassGrowthSettings{});
     world.set_resource(GrassField{});
     world.set_resource(GrassEntities{});
-    world.set_resource(GrassWorld{.number = ++world_count_});
+    world.set_resource(GrassWorld{});
   }
   void knobs(KnobRegistry& registry) const override { add_grass_knobs(registry); }
   void scene_keys(KeyRegistry& registry) const override { add_grass_keys(registry); }
@@ -112,7 +112,7 @@ class GrassModule final : public Module {
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
     sink.count("grass.blades", world.resource<GrassField>().statistics.blades);
     sink.count("grass.patches", static_cast<double>(world.view_resource<VisiblePatches>(view.id).patches.size()));
-    sink.count("grass.patches_left_out", worlds_.stores.left_out(world.resource<GrassWorld>().number));
+    sink.count("grass.patches_left_out", worlds_.stores.left_out(world_id(world)));
   }
   [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {
     const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();
@@ -130,7 +130,6 @@ class GrassModule final : public Module {
 
  private:
   GrassWorlds worlds_;
-  mutable std::atomic<std::uint64_t> world_count_ = 0;
 };
 
 }  // namespace

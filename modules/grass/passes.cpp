@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/render/sort/radix_sort.h"
+#include "engine/render/worlds/world_id.h"
 #include "modules/grass/drawing/passes.h"
 #include "modules/grass/lod/detail.h"
 #include "modules/grass/lod/passes.h"
@@ -118,7 +119,7 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   const World& world = frame.world();
   const GrassField& field = world.resource<GrassField>();
   const VisiblePatches& visible = world.view_resource<VisiblePatches>(frame.view().id);
-  const std::uint64_t number = world.resource<GrassWorld>().number;
+  const std::uint64_t number = world_id(world);
   GrassBladeRows& rows = *world.resource<GrassWorld>().rows;
   if (pack_changed_rows(world, field, frame.services().executor, rows))
     for (const std::string& note : field.notes)

@@ -19,9 +19,8 @@ struct GrassWorlds {
   std::set<std::string> told;  ///< GrassField::notes that were logged
 };
 
-/// The module's number for a world, and the rows of its blades; a resource of the world.
+/// The rows of a world's blades; a resource of the world.
 struct GrassWorld {
-  std::uint64_t number = 0;
   std::shared_ptr<GrassBladeRows> rows = std::make_shared<GrassBladeRows>();
 };
 

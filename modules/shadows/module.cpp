@@ -3,13 +3,13 @@
 #include "modules/shadows/module.h"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "engine/render/frame_builder.h"
+#include "engine/render/worlds/world_id.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/components.h"
 #include "modules/shadows/debug/enclosed_lights.h"
@@ -42,7 +42,6 @@ class ShadowsModule final : public Module {
   void register_components(World& world) const override {
     world.register_component<ShadowCaster>("shadow_caster");
     world.register_component<CasterVolume>("caster_volume");
-    world.set_resource(ShadowWorld{++worlds_});
     world.set_resource(CapturePlaces{});
     world.set_resource(Cookies{});
   }
@@ -139,7 +138,7 @@ class ShadowsModule final : public Module {
 
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
     const ShadowViews& views = world.view_resource<ShadowViews>(view.id);
-    const ViewShadows* kept = states_.find(world.resource<ShadowWorld>(), views.owner);
+    const ViewShadows* kept = states_.find(world_id(world), views.owner);
     const ShadowCounts counts = kept == nullptr ? ShadowCounts{} : kept->counts;
     const auto texels = static_cast<double>(views.atlas.size()) * views.atlas.size();
     sink.count("shadows.casting_lights", views.casting_lights);
@@ -191,7 +190,6 @@ class ShadowsModule final : public Module {
   ShadowStates states_;
   std::optional<LastInputs> last_;
   std::set<std::string> told_;
-  mutable std::atomic<std::uint64_t> worlds_ = 0;
 };
 
 }  // namespace

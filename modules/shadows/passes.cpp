@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/render/worlds/world_id.h"
 #include "modules/shadows/filter/cookies.h"
 #include "modules/shadows/filter/uploads.h"
 #include "modules/shadows/final_lists/buffers.h"
@@ -42,7 +43,7 @@ void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutput
 /// frame makes final lists (for_lists): otherwise no module would draw them.
 ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-  ViewShadows& kept = states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id);
+  ViewShadows& kept = states.view(world_id(frame.world()), views.owner, frame.view().id);
   // A companion draws the maps as its main view had them last, which in most frames are those of this frame, too.
   const WithheldCasters* withheld = for_lists ? frame.find<WithheldCasters>() : nullptr;
   if (!frame.view().is_companion()) kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
@@ -56,7 +57,7 @@ ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs
 void add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
                      ShadowsOutputs& outputs) {
   const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-  ViewShadows& kept = states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id);
+  ViewShadows& kept = states.view(world_id(frame.world()), views.owner, frame.view().id);
   ImageRef planes;
   if (knobs.classify) planes = add_shadow_planes_pass(frame, kept, maps, views, knobs);
   add_generate_passes(frame, knobs, planes, outputs);
@@ -102,7 +103,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   if (has_maps)
     maps = add_maps(frame, states, knobs, has_lists);
   else
-    states.rest(frame.world().resource<ShadowWorld>(), views.owner);
+    states.rest(world_id(frame.world()), views.owner);
   if (!frame.status().ok()) return;
   outputs.atlas = maps.atlas;
   outputs.pyramid = maps.pyramid;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/render/passes/visualizer_pass.h"
+#include "engine/render/worlds/world_id.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/debug/shown_light.h"
@@ -116,8 +117,8 @@ void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states) {
   const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
   if (shadows == nullptr) return;
   if (stem == "shadow_atlas") {
-    const ViewShadows* kept = states.find(frame.world().resource<ShadowWorld>(),
-                                          frame.world().view_resource<ShadowViews>(frame.view().id).owner);
+    const ViewShadows* kept =
+        states.find(world_id(frame.world()), frame.world().view_resource<ShadowViews>(frame.view().id).owner);
     const bool has_maps = shadows->atlas && shadows->atlas.resource != shadows->rows.resource;
     if (kept != nullptr && has_maps) add_atlas_view(frame, *shadows, *kept);
   } else if (const auto light = shown_light_or_warn(frame)) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/render/declare/compute_pass.h"
+#include "engine/render/worlds/world_id.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/filter/uploads.h"
 #include "modules/shadows/maps/mips.h"
@@ -127,9 +128,8 @@ bool OverlayMaps::d16() const { return tools_->knobs.d16; }
 
 OverlayCopies OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFace> faces) const {
   const ShadowKnobs& knobs = tools_->knobs;
-  ViewShadows& kept =
-      tools_->states.view(frame.world().resource<ShadowWorld>(),
-                          frame.world().view_resource<ShadowViews>(frame.view().id).owner, frame.view().id);
+  ViewShadows& kept = tools_->states.view(
+      world_id(frame.world()), frame.world().view_resource<ShadowViews>(frame.view().id).owner, frame.view().id);
   OverlayCopies copies{{faces.begin(), faces.end()}, knobs.d16};
   if (knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) copies.depth_bits = ~GLOAM_SHADOW_FREE_BITS;
   const std::vector<shaders::ShadowCopyGroup> groups = copy_groups(faces);

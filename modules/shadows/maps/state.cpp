@@ -27,20 +27,20 @@ void ShadowStates::begin(gpu::Device& device) {
   std::erase_if(views_, [&](const auto& entry) { return entry.second.last_frame + kFramesKept < frame; });
 }
 
-ViewShadows& ShadowStates::view(ShadowWorld world, ViewId owner, ViewId user) {
-  ViewShadows& found = views_[{world.number, owner.value}];
+ViewShadows& ShadowStates::view(std::uint64_t world, ViewId owner, ViewId user) {
+  ViewShadows& found = views_[{world, owner.value}];
   found.users.insert(user.value);
   found.last_frame = device_->frame_number();
   return found;
 }
 
-const ViewShadows* ShadowStates::find(ShadowWorld world, ViewId view) const {
-  const auto found = views_.find({world.number, view.value});
+const ViewShadows* ShadowStates::find(std::uint64_t world, ViewId view) const {
+  const auto found = views_.find({world, view.value});
   return found == views_.end() ? nullptr : &found->second;
 }
 
-void ShadowStates::rest(ShadowWorld world, ViewId owner) {
-  const auto found = views_.find({world.number, owner.value});
+void ShadowStates::rest(std::uint64_t world, ViewId owner) {
+  const auto found = views_.find({world, owner.value});
   if (found == views_.end()) return;
   found->second.counts = {};
   if (found->second.users.size() <= 1) found->second.frame.drawn.clear();

@@ -15,11 +15,6 @@
 
 namespace gloam {
 
-/// Identifies a world among those that this shadows module has prepared; a resource of the world.
-struct ShadowWorld {
-  std::uint64_t number = 0;
-};
-
 /// What the module knows about the maps of each view, and its GPU memory that no frame hands on to the next one:
 /// staging memory and scratch images.
 class ShadowStates {
@@ -32,13 +27,13 @@ class ShadowStates {
   /// Call once per view and frame, before the other functions. Forgets views, and destroys scratch images, that no
   /// frame has used for 120 frames.
   void begin(gpu::Device& device);
-  /// The view's state, empty at the first call. owner: ShadowViews::owner, under which several views share one state.
-  /// user: the view.
-  [[nodiscard]] ViewShadows& view(ShadowWorld world, ViewId owner, ViewId user);
+  /// The view's state, empty at the first call. world: its world_id. owner: ShadowViews::owner, under which several
+  /// views share one state. user: the view.
+  [[nodiscard]] ViewShadows& view(std::uint64_t world, ViewId owner, ViewId user);
   /// The view's state; null if view() was never called for it, or if it has been forgotten since.
-  [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId owner) const;
+  [[nodiscard]] const ViewShadows* find(std::uint64_t world, ViewId owner) const;
   /// Resets the view's counters and its list of drawn faces. For frames of the view that draw no maps.
-  void rest(ShadowWorld world, ViewId owner);
+  void rest(std::uint64_t world, ViewId owner);
   /// Forgets what only this view uses.
   void release_view(ViewId view);
   /// Staging memory of this frame for copies into images.

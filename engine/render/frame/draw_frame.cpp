@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/frame/draw_frame.h"
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "engine/core/zones.h"
+#include "engine/render/attempt.h"
+#include "engine/render/frame/stages.h"
+#include "engine/render/report/oversights.h"
+#include "engine/scene/resources.h"
+
+namespace gloam {
+namespace {
+
+/// Marks that a frame is being drawn.
+class Drawing {
+ public:
+  explicit Drawing(bool& flag) : flag_(flag) { flag_ = true; }
+  ~Drawing() { flag_ = false; }
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
+
+ private:
+  bool& flag_;
+};
+
+/// Before the device's frame: brings the world's assets to the GPU, or finds what has changed.
+Status sync_assets(const Frame& frame, RendererParts& parts) {
+  const SceneAssets& assets = frame.world.resource<SceneAssets>();
+  GpuScene& scene = parts.worlds.scene_of(frame.world);
+  GLOAM_TRY(scene.sync(assets, *parts.options.executor));
+  if (frame.any_needs(parts.modules, &Module::needs_simplified_casters))
+    GLOAM_TRY(scene.simplify_casters(assets, *parts.options.executor));
+  return {};
+}
+
+/// Makes the draw lists of all views.
+Status build_draws(Frame& frame, RendererParts& parts) {
+  GpuScene& scene = parts.worlds.scene_of(frame.world);
+  GLOAM_TRY(scene.stage(frame.world.resource<SceneAssets>()));
+  scene.add_pass(parts.resources.graph);
+  std::vector<const RenderView*> views;
+  for (const FrameView& own : frame.views) views.push_back(own.view.get());
+  frame.draws = build_frame_draws(frame.world, views, scene, *parts.options.executor,
+                                  frame.any_needs(parts.modules, &Module::needs_casters));
+  for (std::size_t i = 0; i < frame.views.size(); ++i) {
+    const auto& geometry = frame.views[i].request.geometry;
+    if (geometry && !geometry->desc().draws_meshes) frame.draws.views[i] = {};
+  }
+  return {};
+}
+
+/// Everything between Device::begin_frame and submit_frame.
+Status record_frame(Frame& frame, RendererParts& parts, gpu::CommandList& commands) {
+  FrameResources& resources = parts.resources;
+  resources.begin_frame();
+  resources.motion.begin_frame(frame.world, world_id(frame.world),
+                               frame.any_needs(parts.modules, &Module::needs_motion), frame.redraw != nullptr);
+  GLOAM_TRY(add_companions(frame, parts.modules, *parts.options.device));
+  GLOAM_TRY(prepare_views(frame, parts));
+  GLOAM_TRY(build_draws(frame, parts));
+  for (std::size_t i = 0; i < frame.views.size(); ++i) GLOAM_TRY(declare_view(frame, i, parts));
+  resources.graph.set_view(0);
+  GLOAM_TRY(resources.results.add_pass(resources.graph));
+  return record_graph(commands, parts);
+}
+
+/// Notes a submitted frame as drawn, and ages what it has not used.
+void commit_frame(Frame& frame, std::span<const ViewRequest> requests, RendererParts& parts) {
+  const bool redraw = frame.redraw != nullptr;
+  GpuScene& scene = parts.worlds.scene_of(frame.world);
+  parts.resources.commit(frame.world, redraw);
+  scene.commit_frame();
+  parts.last_frame.assets_pending = scene.pending();
+  if (!redraw) ++frame.world.resource<WorldSlot>().frames;
+  parts.views.commit(requests);
+  parts.last_frame.commit(std::move(frame.counters), parts.resources.results);
+  parts.modules.end_frame(parts.resources);
+  if (redraw) return;  // drawing one view of the last frame again does not age the others
+  parts.views.free_idle_images();
+  std::vector<ViewId> companions;
+  for (const FrameView& own : frame.views)
+    if (own.main) companions.push_back(own.request.settings.id);
+  for (const ViewId idle : parts.views.take_idle_companions(companions)) release_view(parts, idle);
+}
+
+/// Undoes what was noted for a frame that the GPU does not execute. number: its Device::frame_number.
+void give_up_frame(const Frame& frame, std::uint64_t number, RendererParts& parts) {
+  parts.resources.give_up_frame();
+  parts.worlds.scene_of(frame.world).give_up_frame();
+  parts.modules.give_up_frame(number);
+}
+
+/// Records the frame and submits it, or gives it up.
+Status submit(Frame& frame, std::span<const ViewRequest> requests, RendererParts& parts) {
+  gpu::Device& device = *parts.options.device;
+  auto commands = device.begin_frame();
+  if (!commands.ok()) return commands.error();
+  const std::uint64_t number = device.frame_number();
+  Status drawn;
+  try {
+    drawn = record_frame(frame, parts, **commands);
+  } catch (...) {
+    static_cast<void>(device.abandon_frame());
+    give_up_frame(frame, number, parts);
+    throw;
+  }
+  if (drawn.ok()) {
+    parts.last_frame.submitted_ns = parts.options.zones == nullptr ? 0 : parts.options.zones->now_ns();
+    drawn = device.submit_frame();
+  } else {
+    static_cast<void>(device.abandon_frame());  // if the device is lost, the next begin_frame says so
+  }
+  if (drawn.ok()) {
+    commit_frame(frame, requests, parts);
+  } else {
+    give_up_frame(frame, number, parts);
+  }
+  return drawn;
+}
+
+/// The frame without its time and without the exceptions that become errors.
+Status draw(RendererParts& parts, World& world, std::span<const ViewRequest> requests, const Redraw* redraw,
+            std::unique_ptr<Frame>& frame) {
+  parts.worlds.take_over(world);
+  static_cast<void>(parts.worlds.slot_of(world));  // asserts that the world was prepared
+  release_lost_worlds(parts);
+  const Drawing mark(parts.drawing);
+  parts.modules.begin_frame(world, parts.schedule);
+  frame = std::make_unique<Frame>(world, parts.knobs.settle(parts.modules, parts.pipeline_wait()), redraw);
+  for (const Module* module : parts.modules.demanded()) module->prepare_world(world, frame->knobs);
+  GLOAM_TRY(run_systems(*frame, std::nullopt, parts));
+  GLOAM_TRY(begin_views(*frame, requests, parts.modules.list()));
+  warn_of_oversights(world, requests, parts.modules.list(), parts.worlds, parts.once, *parts.options.log);
+  GLOAM_TRY(sync_assets(*frame, parts));
+  return submit(*frame, requests, parts);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Frame>> draw_frame(RendererParts& parts, World& world, std::span<const ViewRequest> requests,
+                                          const Redraw* redraw) {
+  parts.check_idle("render");
+  const auto start = std::chrono::steady_clock::now();
+  std::unique_ptr<Frame> frame;
+  const Status drawn =
+      attempt([] { return std::string("the frame"); }, [&] { return draw(parts, world, requests, redraw, frame); });
+  parts.last_frame.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  if (!drawn.ok()) return drawn.error();
+  return frame;
+}
+
+}  // namespace gloam

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <string>
+
+#include "engine/render/attempt.h"
+#include "engine/render/frame/stages.h"
+
+namespace gloam {
+namespace {
+
+/// Passes a view's settled results to the modules that the world demands.
+void hand_out_results(World& world, ViewId view, const ModuleSet& modules, const FrameResults& results) {
+  const std::vector<Module*> demanded = modules.demanded();
+  results.for_each_settled(world_id(world), view.value, [&](const ResultKey& key, const FrameResult& result) {
+    for (const Module* module : demanded)
+      if (module->name() == key.module) module->take_result(world, view, key.name, result);
+  });
+}
+
+}  // namespace
+
+Status run_systems(Frame& frame, std::optional<ViewId> view, RendererParts& parts) {
+  const auto place = [&] { return "system '" + std::string(parts.schedule.failed_system()) + "'"; };
+  return attempt(place, [&]() -> Status {
+    if (view) {
+      parts.schedule.run_view(*view, frame.world, *parts.options.executor, parts.options.zones);
+    } else {
+      parts.schedule.run(Stage::world, frame.world, *parts.options.executor, parts.options.zones);
+    }
+    return {};
+  });
+}
+
+Status prepare_views(Frame& frame, RendererParts& parts) {
+  const WorldSlot& slot = parts.worlds.slot_of(frame.world);
+  const std::uint64_t id = slot.id;
+  const std::uint64_t number = frame.redraw != nullptr && slot.frames > 0 ? slot.frames - 1 : slot.frames;
+  for (FrameView& own : frame.views) {
+    const ViewSettings& settings = own.request.settings;
+    if (!own.main) GLOAM_TRY(parts.views.prepare(id, own.request));
+    own.view =
+        std::make_unique<RenderView>(make_view(settings, number, parts.resources.cuts.declare(id, settings, number)));
+    own.view->main_view = own.main.value_or(settings.id);
+    own.view->has_companions = own.has_companions;
+    parts.resources.motion.begin_view(*own.view);
+    frame.world.set_view_resource(settings.id, *own.view);
+    for (const Module* module : parts.modules.demanded())
+      module->prepare_view(frame.world, settings.id, frame.knobs_of(own));
+  }
+  // Systems of companions come last: what they share with their main view, such as places in a shadow atlas, goes by
+  // the needs of the main view.
+  for (const bool companions : {false, true})
+    for (const FrameView& own : frame.views) {
+      if (own.main.has_value() != companions) continue;
+      hand_out_results(frame.world, own.view->id, parts.modules, parts.resources.results);
+      GLOAM_TRY(run_systems(frame, own.view->id, parts));
+    }
+  return {};
+}
+
+}  // namespace gloam

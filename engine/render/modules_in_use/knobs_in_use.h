@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "engine/render/knobs/knobs.h"
+#include "engine/render/modules_in_use/module_set.h"
+
+namespace gloam {
+
+/// The knobs of a renderer: the values that were set, and those that frames are drawn with.
+struct KnobsInUse {
+  KnobRegistry set;
+  /// The last values whose pipelines were ready; only with Readiness::background.
+  std::optional<KnobRegistry> settled;
+
+  /// The knobs of the next frame. With Readiness::background, changed values wait until the pipelines of all modules
+  /// that the last frame showed are ready: until then the old ones stay.
+  [[nodiscard]] const KnobRegistry& settle(const ModuleSet& modules, const PipelineWait& wait);
+};
+
+}  // namespace gloam

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/modules_in_use/module_set.h"
+
+#include <algorithm>
+
+#include "engine/render/worlds/world_id.h"
+
+namespace gloam {
+
+void ModuleSet::add_to(KnobRegistry& knobs, Schedule& schedule) {
+  for (const auto& module : modules_) {
+    module->knobs(knobs);
+    module->add_systems(schedule);
+  }
+}
+
+void ModuleSet::begin_frame(const World& world, Schedule& schedule) {
+  for (std::size_t i = 0; i < modules_.size(); ++i) {
+    uses_[i].demand = modules_[i]->demand(world, nullptr);
+    uses_[i].in_frame = false;
+    uses_[i].in_view = false;
+    schedule.set_enabled(modules_[i]->name(), uses_[i].demand.needed);
+  }
+}
+
+std::vector<Module*> ModuleSet::demanded() const {
+  std::vector<Module*> found;
+  for (std::size_t i = 0; i < modules_.size(); ++i)
+    if (uses_[i].demand.needed) found.push_back(modules_[i].get());
+  return found;
+}
+
+bool ModuleSet::any_needs(Question question, const World& world, const KnobRegistry& knobs) const {
+  for (std::size_t i = 0; i < modules_.size(); ++i)
+    if (uses_[i].demand.needed && ((*modules_[i]).*question)(world, knobs)) return true;
+  return false;
+}
+
+bool ModuleSet::may_draw(std::size_t index, const ViewQuery& query) const {
+  const Module& module = *modules_[index];
+  return std::ranges::find(query.without, module.name()) == query.without.end() && uses_[index].demand.needed &&
+         module.demand(query.world, &query.view).needed;
+}
+
+bool ModuleSet::view_needs(Question question, const ViewQuery& query) const {
+  for (std::size_t i = 0; i < modules_.size(); ++i)
+    if (may_draw(i, query) && ((*modules_[i]).*question)(query.world, query.knobs)) return true;
+  return false;
+}
+
+bool ModuleSet::take_part(std::size_t index, const ViewQuery& query, const PipelineWait& wait) {
+  if (!may_draw(index, query)) return false;
+  const Module& module = *modules_[index];
+  uses_[index].in_frame = true;
+  uses_[index].views.emplace(world_id(query.world), query.view.id.value);
+  if (wait.readiness == Readiness::wait || module.essential()) return true;
+  PipelineList needed;
+  module.pipelines(query.knobs, wait.device, needed);
+  return wait.pipelines.request(needed, wait.log);
+}
+
+std::vector<Module*> ModuleSet::begin_view(const ViewQuery& query, const PipelineWait& wait) {
+  for (std::size_t i = 0; i < modules_.size(); ++i) uses_[i].in_view = take_part(i, query, wait);
+  return taking_part();
+}
+
+std::vector<Module*> ModuleSet::taking_part() const {
+  std::vector<Module*> found;
+  for (std::size_t i = 0; i < modules_.size(); ++i)
+    if (uses_[i].in_view) found.push_back(modules_[i].get());
+  return found;
+}
+
+std::string ModuleSet::reason_of_idle_visualizer(std::string_view name, const ViewQuery& query) const {
+  const std::string_view stem = name.substr(0, name.find(':'));
+  for (std::size_t i = 0; i < modules_.size(); ++i) {
+    const Demand demand = uses_[i].demand.needed ? modules_[i]->demand(query.world, &query.view) : uses_[i].demand;
+    if (uses_[i].in_view || demand.needed) continue;
+    for (const VisualizerInfo& info : modules_[i]->visualizers())
+      if (info.name == stem) return demand.reason;
+  }
+  return {};
+}
+
+bool ModuleSet::shown_pipelines_ready(const KnobRegistry& knobs, const PipelineWait& wait) const {
+  PipelineList needed;
+  for (std::size_t i = 0; i < modules_.size(); ++i)
+    if (uses_[i].demand.needed && uses_[i].idle_frames == 0) modules_[i]->pipelines(knobs, wait.device, needed);
+  return wait.pipelines.request(needed, wait.log);
+}
+
+void ModuleSet::end_frame(FrameResources& resources) {
+  for (std::size_t i = 0; i < modules_.size(); ++i) {
+    Use& use = uses_[i];
+    use.idle_frames = use.in_frame ? 0 : use.idle_frames + 1;
+    use.absent_frames = use.demand.needed ? 0 : use.absent_frames + 1;
+    if (use.idle_frames == kFramesUntilRelease) release(i, resources);
+    // Repeated, because a pipeline that was being compiled may have been added since.
+    if (use.absent_frames != 0 && use.absent_frames % kFramesUntilRelease == 0)
+      resources.pipelines.release(modules_[i]->name());
+  }
+}
+
+void ModuleSet::give_up_frame(std::uint64_t frame) {
+  for (std::size_t i = 0; i < modules_.size(); ++i)
+    if (uses_[i].in_frame) modules_[i]->give_up_frame(frame);
+}
+
+void ModuleSet::release_view(ViewId view) {
+  for (const auto& module : modules_) module->release_view(view);
+}
+
+void ModuleSet::release(std::size_t index, FrameResources& resources) {
+  modules_[index]->release();
+  resources.forget_module(modules_[index]->name());
+  uses_[index].views.clear();
+}
+
+void ModuleSet::release_modules_of(const std::function<bool(std::uint64_t world, std::uint32_t view)>& gone,
+                                   FrameResources& resources) {
+  for (std::size_t i = 0; i < uses_.size(); ++i) {
+    const std::size_t erased =
+        std::erase_if(uses_[i].views, [&](const auto& view) { return gone(view.first, view.second); });
+    if (erased > 0 && uses_[i].views.empty()) release(i, resources);
+  }
+}
+
+void ModuleSet::release_all() {
+  for (const auto& module : modules_) module->release();
+}
+
+}  // namespace gloam

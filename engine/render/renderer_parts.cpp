@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/renderer_parts.h"
+
+#include <string>
+#include <utility>
+
+#include "engine/scene/systems.h"
+
+namespace gloam {
+
+RendererParts::RendererParts(RendererOptions given)
+    : options(std::move(given)),
+      device_user(*options.device),
+      resources(*options.device),
+      modules(std::move(options.modules)),
+      worlds(*options.device, resources.pipelines,
+             {.background = options.readiness == Readiness::background, .budget = options.upload_budget}),
+      views(*options.device) {
+  add_scene_systems(schedule);
+  modules.add_to(knobs.set, schedule);
+}
+
+RendererParts::~RendererParts() {
+  static_cast<void>(options.device->wait_idle());
+  modules.release_all();
+}
+
+FrameServices RendererParts::services(const KnobRegistry& view_knobs) {
+  return {.device = *options.device,
+          .executor = *options.executor,
+          .log = *options.log,
+          .knobs = view_knobs,
+          .pipelines = resources.pipelines,
+          .uniforms = *resources.uniforms,
+          .storage = *resources.storage,
+          .results = resources.results,
+          .declared = resources.declared,
+          .history = resources.history,
+          .wait_for_pipelines = options.readiness == Readiness::wait};
+}
+
+PipelineWait RendererParts::pipeline_wait() {
+  return {options.readiness, resources.pipelines, options.device->info(), *options.log};
+}
+
+void RendererParts::check_idle(std::string_view call) const {
+  GLOAM_ASSERT(!drawing, "Renderer::" + std::string(call) + " is called while a frame is being drawn");
+}
+
+void release_world(RendererParts& parts, std::uint64_t world) {
+  parts.worlds.release(world);
+  parts.resources.forget_world(world);
+  parts.views.release_world(world);
+  parts.modules.release_modules_of([&](std::uint64_t of, std::uint32_t) { return of == world; }, parts.resources);
+}
+
+void release_lost_worlds(RendererParts& parts) {
+  for (const std::uint64_t world : parts.worlds.lost()) {
+    if (parts.worlds.has_scene(world))
+      parts.options.log->warning(
+          "a world was destroyed without Renderer::release_world: its GPU memory was kept until now");
+    release_world(parts, world);
+    parts.worlds.remove(world);
+  }
+}
+
+void release_view(RendererParts& parts, ViewId view) {
+  parts.resources.forget_view(view);
+  parts.views.release_view(view);
+  parts.modules.release_view(view);
+  parts.modules.release_modules_of([&](std::uint64_t, std::uint32_t id) { return id == view.value; }, parts.resources);
+}
+
+}  // namespace gloam

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "engine/core/result.h"
+#include "engine/frame/frame_graph.h"
+#include "engine/gpu/types.h"
+#include "engine/render/host_geometry.h"
+#include "engine/render/view.h"
+
+namespace gloam {
+
+/// Greatest width and height of a view, in pixels.
+inline constexpr std::uint32_t kMostViewPixels = 16384;
+
+/// Destination of a view's linear light (cd/m² before exposure), for captures: one mip and layer of an image that
+/// belongs to the caller, of the view's size and with ImageUsage::color_target; six views make a cube. Several views of
+/// a frame may draw into one image; they state the same accesses. `before`: the access that the image was left ready
+/// for (none: the frame may discard all of its content). `after`: the access that it is left ready for.
+struct LightTarget {
+  gpu::ImageHandle image;
+  std::uint32_t mip = 0;
+  std::uint32_t layer = 0;
+  gpu::Access before = gpu::Access::none;
+  gpu::Access after = gpu::Access::fragment_read;
+};
+
+/// Destination of a view's picture. `image`, if set, belongs to the caller (swapchain, host): rgba8 or bgra8, UNORM
+/// (the shader encodes sRGB) or sRGB (the hardware does), of the view's size, created as a color_target. Its content is
+/// discarded; after the frame it is ready for `after`, an access that its usage must allow. Without an image, the
+/// renderer draws into its own picture, see read_picture.
+struct ViewTarget {
+  gpu::ImageHandle image;
+  gpu::Access after = gpu::Access::color_target;
+  /// Alternative to `image`, for images that exist only while a frame is recorded (gpu::Swapchain::acquire): called
+  /// after the frame has begun. The view takes the size of the returned image. If it returns none, the renderer draws
+  /// into its own picture.
+  std::function<Result<gpu::ImageHandle>()> acquire;
+  /// Draws over the finished picture. Called while the frame is declared, after all modules have added their passes.
+  /// Adds passes that write `picture`, and leaves `picture` at its newest version. Resources of the passes must live
+  /// until the frame is submitted.
+  std::function<Status(FrameGraph& graph, ImageRef& picture)> overlay;
+  /// In place of a picture: the phases `output` and `visualize` are left out. The other members must not be set.
+  std::optional<LightTarget> light;
+};
+
+struct ViewRequest {
+  ViewSettings settings;
+  ViewTarget target;
+  /// Geometry that the host has drawn, at the view's size. None: gloam draws all geometry.
+  std::optional<HostGeometry> geometry = {};
+  /// Whether Renderer::read_linear may be called for this frame. It costs a copy of the view's light in frames in which
+  /// a pass has moved LitOutput to another image, and nothing in other frames.
+  bool keep_linear = true;
+};
+
+}  // namespace gloam
