@@ -100,10 +100,9 @@ std::optional<std::uint32_t> LightViews::shown_light(const FrameBuilder& frame, 
   if (at != lights.end()) return static_cast<std::uint32_t>(at - lights.begin());
   const Light* light = world.try_get<Light>(*entity);
   const bool directional = light != nullptr && light->kind == LightKind::directional;
-  const auto [sentence, fresh] =
-      told_.insert("view " + std::string(frame.visualizer()) + " shows no tile: the light " +
-                   (directional ? "is directional and in no tile's list" : "reaches nothing in view"));
-  if (fresh) frame.services().log.warning(*sentence);
+  once_log_.warning(frame.services().log,
+                    "view " + std::string(frame.visualizer()) + " shows no tile: the light " +
+                        (directional ? "is directional and in no tile's list" : "reaches nothing in view"));
   return std::nullopt;
 }
 

@@ -352,6 +352,8 @@ TEST_F(ShadowFrames, a_view_of_a_light_that_is_not_in_view_shows_the_picture_as_
   settings.visualizer = "shadow:far";
   draw();
   const Picture p = picture();
+  draw();
+  EXPECT_EQ(warnings.size(), 1u) << "one warning, not one a frame";
   settings.visualizer = "none";
   draw();
   EXPECT_EQ(picture().rgba, p.rgba);
