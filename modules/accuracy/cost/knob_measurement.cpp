@@ -9,7 +9,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
-#include "engine/math/packing.h"
+#include "engine/math/srgb.h"
 #include "modules/accuracy/cost/knob_overrides.h"
 #include "modules/accuracy/cost/timing.h"
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "engine/math/srgb.h"
 #include "engine/render/host_geometry.h"
 
 #include <gmock/gmock.h>
@@ -220,8 +221,7 @@ TEST_F(HostGeometryTest, reads_every_kind_of_normal) {
 TEST_F(HostGeometryTest, reads_srgb_colours_and_other_channels) {
   const auto encoded = [](const HostTexel& t) {
     vec3 c = t.surface.base_color;
-    for (int i = 0; i < 3; ++i)
-      c[i] = c[i] <= 0.0031308f ? 12.92f * c[i] : 1.055f * std::pow(c[i], 1.0f / 2.4f) - 0.055f;
+    for (int i = 0; i < 3; ++i) c[i] = static_cast<float>(linear_to_srgb(static_cast<double>(c[i])));
     return rgba8(vec4(c, 1.0f));
   };
   HostGeometryDesc desc = plain();

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "engine/math/srgb.h"
 #include "modules/lights/debug/visualizers.h"
 
 #include <gmock/gmock.h>
@@ -27,10 +28,7 @@ struct Rgb {
   int r = 0, g = 0, b = 0;
 };
 
-int encoded(double linear) {
-  const double c = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-  return static_cast<int>(std::lround(255.0 * c));
-}
+int encoded(double linear) { return static_cast<int>(std::lround(255.0 * linear_to_srgb(linear))); }
 Rgb encoded(const dvec3& linear) { return {encoded(linear.x), encoded(linear.y), encoded(linear.z)}; }
 bool is_near(const Rgb& a, const Rgb& b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) <= 2;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "engine/math/srgb.h"
 #include "modules/shadows/debug/final_list_views.h"
 
 #include <gmock/gmock.h>
@@ -18,10 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 
-int encoded(double linear) {
-  const double c = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-  return static_cast<int>(std::lround(255.0 * c));
-}
+int encoded(double linear) { return static_cast<int>(std::lround(255.0 * linear_to_srgb(linear))); }
 
 /// As shaders/common/heat.glsl.
 dvec3 heat(double share) {
