@@ -52,7 +52,7 @@ std::uint32_t MeshStreams::allocate(RangeAllocator& ranges, std::size_t count, b
 }
 
 void MeshStreams::free(RangeAllocator& ranges, std::uint32_t first, std::size_t count) {
-  if (count > 0) ranges.free(first / kUnit, units(count));
+  if (count > 0) ranges.free(first / kUnit);
 }
 
 void MeshStreams::place(PackedPrimitive& packed, bool spare) {

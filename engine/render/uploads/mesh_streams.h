@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/range_allocator.h"
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/render/packing/packed_primitive.h"
 #include "engine/render/uploads/asset_uploads.h"
-#include "engine/render/uploads/range_allocator.h"
 
 namespace gloam {
 
