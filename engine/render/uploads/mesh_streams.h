@@ -52,7 +52,7 @@ class MeshStreams {
   void release();
 
  private:
-  [[nodiscard]] RangeAllocator& ranges_of(Stream stream);
+  [[nodiscard]] const RangeAllocator& ranges_of(Stream stream) const;
   [[nodiscard]] std::uint32_t allocate(RangeAllocator& ranges, std::size_t count, bool spare);
   static void free(RangeAllocator& ranges, std::uint32_t first, std::size_t count);
 
