@@ -61,7 +61,6 @@ struct VisualizerInfo {
   std::string module;
   std::string argument;    ///< "LIGHT"
   std::string legend;      ///< meaning of the colours, one line
-  bool built = true;       ///< false: known, not built yet
   std::string knob = {};   ///< knob that must be at `value` for the visualizer to work; empty: none
   std::string value = {};  ///< one choice, or several: "monolithic|deferred"
   /// Set if the visualizer shows traced data. Computes the data from a frame drawn without the visualizer and puts it
@@ -105,8 +104,6 @@ class Module {
   virtual ~Module() = default;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// False if only its components and keys exist: its demand is reported, but nothing is drawn.
-  [[nodiscard]] virtual bool built() const { return true; }
 
   /// Names of the modules that must be in the list, and of all that must come earlier if they are in it. The renderer
   /// asserts both.

@@ -145,7 +145,7 @@ void Renderer::State::update_demand(const World& world) {
     runtimes[i].demand = module.demand(world, nullptr);
     runtimes[i].in_view = false;
     runtimes[i].in_last_view = false;
-    schedule.set_enabled(module.name(), module.built() && runtimes[i].demand.needed);
+    schedule.set_enabled(module.name(), runtimes[i].demand.needed);
   }
 }
 
@@ -153,7 +153,7 @@ bool Renderer::State::any_needs(bool (Module::*question)(const World&, const Kno
                                 const World& world) const {
   for (std::size_t i = 0; i < options.modules.size(); ++i) {
     const Module& module = *options.modules[i];
-    if (!module.built() || !runtimes[i].demand.needed) continue;
+    if (!runtimes[i].demand.needed) continue;
     for (const FrameView& view : frame_views)
       if ((module.*question)(world, knobs_of(view))) return true;
   }
@@ -163,8 +163,8 @@ bool Renderer::State::any_needs(bool (Module::*question)(const World&, const Kno
 bool Renderer::State::may_draw(std::size_t index, const World& world, const FrameView& view) const {
   const Module& module = *options.modules[index];
   const std::vector<std::string>& without = view.request.settings.without;
-  return std::ranges::find(without, module.name()) == without.end() && module.built() &&
-         runtimes[index].demand.needed && module.demand(world, view.view.get()).needed;
+  return std::ranges::find(without, module.name()) == without.end() && runtimes[index].demand.needed &&
+         module.demand(world, view.view.get()).needed;
 }
 
 bool Renderer::State::view_needs(bool (Module::*question)(const World&, const KnobRegistry&) const, const World& world,
@@ -259,7 +259,6 @@ Status Renderer::check_visualizer(const World& world, std::string_view name) con
   const std::string_view stem = name.substr(0, name.find(':'));
   for (const VisualizerInfo& info : visualizers()) {
     if (info.name != stem) continue;
-    if (!info.built) return Error{ErrorKind::usage, "view " + info.name + " is not built yet"};
     if (!info.knob.empty() && !is_one_of(state_->knobs, info.knob, info.value))
       return Error{ErrorKind::usage, "view " + info.name + " needs " + info.knob + "=" + info.value};
     if (info.argument.empty() != (stem.size() == name.size()))

@@ -93,7 +93,6 @@ struct ViewRequest {
 
 struct ModuleState {
   std::string name;
-  bool built = true;
   bool demanded = false;
   std::string reason;
   std::uint32_t pipelines = 0;

@@ -215,7 +215,7 @@ const KnobRegistry& Renderer::State::settled_knobs() {
   if (settled && settled->version() == knobs.version()) return *settled;
   PipelineList needed;
   for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (options.modules[i]->built() && runtimes[i].demand.needed && runtimes[i].idle_frames == 0)
+    if (runtimes[i].demand.needed && runtimes[i].idle_frames == 0)
       options.modules[i]->pipelines(knobs, options.device->info(), needed);
   if (!settled || pipelines.request(needed, *options.log)) settled = knobs;
   return *settled;
@@ -250,8 +250,7 @@ Status Renderer::State::add_companions_of(World& world, FrameView& main) {
   for (std::size_t i = 0; i < options.modules.size(); ++i) {
     const Module& module = *options.modules[i];
     const bool left_out = std::ranges::find(settings.without, module.name()) != settings.without.end();
-    if (!left_out && module.built() && runtimes[i].demand.needed)
-      module.companion_views(world, settings, knobs_of(main), companions);
+    if (!left_out && runtimes[i].demand.needed) module.companion_views(world, settings, knobs_of(main), companions);
   }
   for (const ViewSettings& companion : companions.all()) {
     Result<FrameView> own = begin_view({.settings = companion, .target = {}});
@@ -401,8 +400,7 @@ Status Renderer::State::draw_frame(World& world, std::span<const ViewRequest> re
   update_demand(world);
   frame_knobs = &settled_knobs();
   for (std::size_t i = 0; i < options.modules.size(); ++i)
-    if (options.modules[i]->built() && runtimes[i].demand.needed)
-      options.modules[i]->prepare_world(world, *frame_knobs);
+    if (runtimes[i].demand.needed) options.modules[i]->prepare_world(world, *frame_knobs);
   GLOAM_TRY(run_systems(world, std::nullopt));
   GLOAM_TRY(begin_views(requests));
   warn_of_oversights(world, requests);

@@ -85,9 +85,8 @@ FrameReport Renderer::report() {
   report.modules.push_back(engine);
   for (std::size_t i = 0; i < s.options.modules.size(); ++i) {
     ModuleState state = state_of(s.options.modules[i]->name());
-    state.built = s.options.modules[i]->built();
     state.demanded = s.runtimes[i].demand.needed;
-    state.reason = s.runtimes[i].demand.reason + (state.demanded && !state.built ? "; not built yet" : "");
+    state.reason = s.runtimes[i].demand.reason;
     report.modules.push_back(state);
   }
   return report;
