@@ -24,15 +24,14 @@ enum class HistoryReset {
   none,
   created,      ///< no frame has written the resource since it was created
   description,  ///< size, format or another part of the description changed
-  requested,    ///< History::reset
   key,          ///< HistoryRule::key changed
   camera_cut,   ///< the view's camera was cut since the last write
   gap,          ///< too many frames since the last write
 };
 [[nodiscard]] std::string_view name_of(HistoryReset reset);
 
-/// Events that invalidate contents, as the owner chooses. Creation, a changed description and History::reset always do.
-/// The contents stay invalid, for this reason, until a committed frame writes them.
+/// Events that invalidate contents, as the owner chooses. Creation and a changed description always do. The contents
+/// stay invalid, for this reason, until a committed frame writes them.
 struct HistoryRule {
   static constexpr std::uint64_t kAnyNumber = std::numeric_limits<std::uint64_t>::max();
 
@@ -81,10 +80,6 @@ struct HistoryImagePair : HistoryState {
   ImageRef previous;
   ImageRef current;
 };
-struct HistoryBufferPair : HistoryState {
-  BufferRef previous;
-  BufferRef current;
-};
 
 /// The view of a world for which passes are declared. `frame`: number among the world's frames; a higher one than that
 /// of the last committed frame of this world, or the same if that frame is drawn again. `cut_frame`: the newest frame
@@ -124,8 +119,6 @@ class History {
                                              const HistoryUse& use);
   [[nodiscard]] Result<HistoryImagePair> image_pair(FrameGraph& graph, const HistoryView& view,
                                                     const gpu::ImageDesc& desc, const HistoryUse& use);
-  [[nodiscard]] Result<HistoryBufferPair> buffer_pair(FrameGraph& graph, const HistoryView& view,
-                                                      const gpu::BufferDesc& desc, const HistoryUse& use);
   /// Calls the function in this frame's commit, and never if the frame is given up: for state of the CPU that describes
   /// contents on the GPU.
   void on_commit(std::function<void()> function);
@@ -136,8 +129,6 @@ class History {
   /// Ends the frame without effects.
   void give_up();
 
-  /// Invalidates all resources of this name in a world, from the next use on that has not been made yet.
-  void reset(std::uint64_t world, std::string_view module, std::string_view name);
   /// Destroy the resources of a world, of a view (in all worlds; shared ones if no other view uses them), or of a
   /// module.
   void release_world(std::uint64_t world);
