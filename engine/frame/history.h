@@ -45,7 +45,7 @@ struct HistoryRule {
 struct HistoryUse {
   HistoryScope scope = HistoryScope::view;
   /// The access that the resource is left ready for at the end of the frame: the one that the next frame begins with.
-  gpu::Access rest = gpu::Access::compute_read;
+  gpu::Access final_access = gpu::Access::compute_read;
   HistoryRule reset;
   std::uint64_t instance = 0;  ///< distinguishes resources of one name, for example by camera
 };
@@ -112,7 +112,8 @@ class History {
   void begin_frame();
   /// Imports the resource into the frame's graph; further uses in the same frame return its newest versions and must
   /// have the same parameters, except that `reset` of the first use counts. desc.module, desc.name: owner and name.
-  /// desc.usage: all usage flags that the passes and `rest` need. Fails if the device cannot create the resource.
+  /// desc.usage: all usage flags that the passes and `final_access` need. Fails if the device cannot create the
+  /// resource.
   [[nodiscard]] Result<HistoryImage> image(FrameGraph& graph, const HistoryView& view, const gpu::ImageDesc& desc,
                                            const HistoryUse& use);
   [[nodiscard]] Result<HistoryBuffer> buffer(FrameGraph& graph, const HistoryView& view, const gpu::BufferDesc& desc,

@@ -211,7 +211,7 @@ Result<typename HistoryPool<Kind>::Used> HistoryPool<Kind>::use(FrameGraph& grap
   const bool of_view = use.scope == HistoryScope::view;
   GLOAM_ASSERT(of_view || !use.reset.camera_cut,
                "history '" + desc.name + "': only a view has a camera that could be cut");
-  GLOAM_ASSERT(use.rest != gpu::Access::none && !gpu::is_write(use.rest),
+  GLOAM_ASSERT(use.final_access != gpu::Access::none && !gpu::is_write(use.final_access),
                "history '" + desc.name + "' rests in an access that reads");
   const HistoryKey key{view.world, of_view ? std::optional(view.view) : std::nullopt, desc.module, desc.name,
                        use.instance};
@@ -221,7 +221,7 @@ Result<typename HistoryPool<Kind>::Used> HistoryPool<Kind>::use(FrameGraph& grap
   if (item.pending) {
     const Pending& pending = *item.pending;
     GLOAM_ASSERT(pending.contents.sides == sides && Kind::same(pending.contents.desc, desc) &&
-                     pending.use.rest == use.rest && pending.frame == view.frame,
+                     pending.use.final_access == use.final_access && pending.frame == view.frame,
                  "history '" + desc.name + "' has one description in all uses of a frame");
     return used(graph, pending);
   }
@@ -234,8 +234,8 @@ Result<typename HistoryPool<Kind>::Used> HistoryPool<Kind>::use(FrameGraph& grap
   Pending& pending = *item.pending;
   for (std::uint32_t side = 0; side < sides; ++side) {
     const std::string suffix = sides == 1 ? "" : side == pending.current ? " (current)" : " (previous)";
-    pending.refs[side] =
-        Kind::import(graph, desc.name + suffix, pending.contents.handles[side], pending.contents.left[side], use.rest);
+    pending.refs[side] = Kind::import(graph, desc.name + suffix, pending.contents.handles[side],
+                                      pending.contents.left[side], use.final_access);
   }
   return used(graph, pending);
 }
@@ -248,7 +248,7 @@ void HistoryPool<Kind>::commit(const FrameGraph& graph, std::uint64_t now) {
     if (pending.fresh) destroy(item.contents);
     Contents& contents = item.contents;
     contents = std::move(pending.contents);
-    for (std::uint32_t side = 0; side < contents.sides; ++side) contents.left[side] = pending.use.rest;
+    for (std::uint32_t side = 0; side < contents.sides; ++side) contents.left[side] = pending.use.final_access;
     if (graph.writes(pending.refs[pending.current])) {
       contents.newest = pending.current;
       contents.reset = HistoryReset::none;

@@ -102,7 +102,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   if (has_maps)
     maps = add_maps(frame, states, knobs, has_lists);
   else
-    states.rest(frame.world().resource<ShadowWorld>(), views.owner);
+    states.skip_frame(frame.world().resource<ShadowWorld>(), views.owner);
   if (!frame.status().ok()) return;
   outputs.atlas = maps.atlas;
   outputs.pyramid = maps.pyramid;

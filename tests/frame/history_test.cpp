@@ -111,7 +111,7 @@ class HistoryTest : public GraphFixture {
 
   History history{*device};
   HistoryView view{.world = 1, .view = 0, .frame = 0, .cut_frame = 0};
-  HistoryUse use{.rest = Access::transfer_read};
+  HistoryUse use{.final_access = Access::transfer_read};
   Seen blended;  ///< by the newest frame
 };
 
@@ -465,7 +465,7 @@ TEST_F(HistoryTest, misuse_asserts) {
   use.scope = HistoryScope::world;
   use.reset.camera_cut = true;
   EXPECT_ASSERT((void)history.buffer(graph, view, knots_desc(), use), "only a view");
-  use = {.rest = Access::transfer_write};
+  use = {.final_access = Access::transfer_write};
   EXPECT_ASSERT((void)history.buffer(graph, view, knots_desc(), use), "access that reads");
 }
 

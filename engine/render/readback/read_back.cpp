@@ -38,15 +38,15 @@ Status Renderer::draw_again(World& world, ViewId view, std::function<Status(Fram
                "view " + std::to_string(view.value) + ": what is read back must be of a view of the last frame");
   GLOAM_ASSERT(s.images.at(view.value).world == s.slot_of(world).value,
                "view " + std::to_string(view.value) + " was drawn of another world");
-  ViewRequest again = *last;
-  again.target = {};  // the image of a window may be gone
-  again.settings.width = s.images.at(view.value).width;
-  again.settings.height = s.images.at(view.value).height;
+  ViewRequest redraw = *last;
+  redraw.target = {};  // the image of a window may be gone
+  redraw.settings.width = s.images.at(view.value).width;
+  redraw.settings.height = s.images.at(view.value).height;
   s.copies = std::make_unique<Captures>(*s.options.device);
   s.copy_request = CopyRequest{view, std::move(add_copies)};
   Status drawn;
   try {
-    drawn = render(world, std::span(&again, 1));
+    drawn = render(world, std::span(&redraw, 1));
   } catch (...) {
     s.copy_request.reset();
     s.copies.reset();

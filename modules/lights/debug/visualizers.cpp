@@ -83,10 +83,10 @@ bool is_taken(const FrameBuilder& frame, LightView view, std::string_view light)
   if (view != LightView::list || frame.find<LightListViewTaken>() == nullptr) return false;
   const auto entity = frame.world().resource<SceneNames>().find("light", light);
   const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
-  const auto holds = [&](const std::vector<Entity>& lights) {
+  const auto is_listed = [&](const std::vector<Entity>& lights) {
     return std::find(lights.begin(), lights.end(), *entity) != lights.end();
   };
-  return entity.ok() && (holds(visible.local_entities) || holds(visible.directional_entities));
+  return entity.ok() && (is_listed(visible.local_entities) || is_listed(visible.directional_entities));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct ViewShadows {
   /// The newest frame that planned maps. It may be given up.
   struct Frame {
     CasterHistory history;
-    bool anew = false;  ///< the atlas has no contents: what `cache` holds does not count
+    bool atlas_is_empty = false;  ///< the atlas has no contents: what `cache` holds does not count
     bool committed = true;
     std::uint32_t number = 0;     ///< FrameGraph::frame
     std::vector<FaceKey> drawn;   ///< faces drawn by all views that share the images

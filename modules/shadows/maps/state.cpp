@@ -39,7 +39,7 @@ const ViewShadows* ShadowStates::find(ShadowWorld world, ViewId view) const {
   return found == views_.end() ? nullptr : &found->second;
 }
 
-void ShadowStates::rest(ShadowWorld world, ViewId owner) {
+void ShadowStates::skip_frame(ShadowWorld world, ViewId owner) {
   const auto found = views_.find({world.number, owner.value});
   if (found == views_.end()) return;
   found->second.counts = {};

@@ -38,7 +38,7 @@ class ShadowStates {
   /// The view's state; null if view() was never called for it, or if it has been forgotten since.
   [[nodiscard]] const ViewShadows* find(ShadowWorld world, ViewId owner) const;
   /// Resets the view's counters and its list of drawn faces. For frames of the view that draw no maps.
-  void rest(ShadowWorld world, ViewId owner);
+  void skip_frame(ShadowWorld world, ViewId owner);
   /// Forgets what only this view uses.
   void release_view(ViewId view);
   /// Staging memory of this frame for copies into images.

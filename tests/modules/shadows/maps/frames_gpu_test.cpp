@@ -88,9 +88,9 @@ TEST_F(ShadowFrames, kept_maps_equal_maps_drawn_anew) {
   EXPECT_EQ(drawn_faces(), 1.0);
   // Changing the atlas' format and back discards all maps.
   static_cast<void>(drawn("shadows.depth", "d16"));
-  const LinearPicture anew = drawn("shadows.depth", "d32");
+  const LinearPicture redrawn = drawn("shadows.depth", "d32");
   EXPECT_EQ(drawn_faces(), 6.0);
-  EXPECT_EQ(kept.rgba, anew.rgba);
+  EXPECT_EQ(kept.rgba, redrawn.rgba);
 }
 
 TEST_F(ShadowFrames, frames_that_are_given_up_leave_the_maps_as_they_were) {
