@@ -50,7 +50,7 @@ struct HistoryUse {
   std::uint64_t instance = 0;  ///< distinguishes resources of one name, for example by camera
 };
 
-/// What a frame can rely on.
+/// The state of a history resource at its use in a frame.
 struct HistoryState {
   HistoryReset reset = HistoryReset::none;
   /// Frames of the world since the contents were written; ≥ 1 if valid, otherwise 0.

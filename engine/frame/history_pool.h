@@ -107,7 +107,7 @@ class HistoryPool {
     HistoryReset reset = HistoryReset::created;  ///< none if written; otherwise created or description
     std::uint64_t frame = 0;                     ///< the world's frame that wrote last
     std::uint64_t key = 0;                       ///< HistoryRule::key of that frame
-    HistoryState told;                           ///< what the frame was told
+    HistoryState told;                           ///< the state that the frame got
   };
   /// The use of a resource in the frame that is being declared.
   struct Pending {

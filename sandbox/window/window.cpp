@@ -49,7 +49,7 @@ struct Strikes {
   std::vector<std::string> dropped;
 };
 
-/// What an input script holds down.
+/// Keys and buttons that an input script holds down.
 struct Scripted {
   std::bitset<GLFW_KEY_LAST + 1> keys;
   bool left = false;

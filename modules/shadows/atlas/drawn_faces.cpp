@@ -26,7 +26,7 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
       .digest();
 }
 
-/// What must be drawn of one face's map.
+/// The parts of one face's map that must be drawn.
 struct Stale {
   std::vector<TexelRect> regions;  ///< none when the map is up to date
   bool has_last_map = false;       ///< the atlas holds the map of the frame before

@@ -20,8 +20,8 @@ struct ShadowWorld {
   std::uint64_t number = 0;
 };
 
-/// What the module knows about the maps of each view, and its GPU memory that no frame hands on to the next one:
-/// staging memory and scratch images.
+/// The state of each view's maps, and the module's GPU memory without contents that outlive a frame: staging memory and
+/// scratch images.
 class ShadowStates {
  public:
   ShadowStates() = default;

@@ -110,7 +110,7 @@ bool is_dark(TileBounds t, vec3 light_position) {
   return height - t.offsets.x + t.shading_spread * farthest < -1e-5 * (abs(height) + farthest);
 }
 
-// What classification needs of a local light.
+// A local light's data for classification.
 struct LocalFaces {
   uint light;
   vec3 position;

@@ -152,7 +152,7 @@ Shared share(host::VulkanHost& vulkan, gpu::Device& device, VkFormat vulkan_form
   return shared;
 }
 
-/// What casts the boxes' shadows.
+/// The casters of the boxes' shadows.
 enum class Casters { meshes, own_draws, none };
 
 class Stage {

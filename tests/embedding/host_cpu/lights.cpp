@@ -93,7 +93,7 @@ struct Reach {
   }
 };
 
-/// What rays through pixels find: which lights a tile meets, and at which depths a light was met.
+/// Results of rays through pixels: the lights that a tile meets, and the depths at which a light was met.
 struct Found {
   std::vector<std::uint8_t> in_tile;  ///< tile · lights + light
   std::uint32_t lost_in_masks = 0;    ///< points inside a light whose tile lacks the light

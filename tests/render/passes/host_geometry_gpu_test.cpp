@@ -28,7 +28,7 @@ using ::testing::HasSubstr;
 constexpr std::uint32_t kWidth = 64;
 constexpr std::uint32_t kHeight = 36;
 
-/// What a host knows about a pixel.
+/// A host's data of a pixel.
 struct HostTexel {
   bool sky = true;
   double view_depth_m = 0.0;
@@ -140,7 +140,8 @@ class HostGeometryTest : public test::DrawingTest {
                        [&](const HostTexel& t) { return t.sky ? sky : static_cast<float>(stored(t.view_depth_m)); });
   }
 
-  /// What gloam makes of the images. Tolerances: of depth, relative; of normals, length of the difference.
+  /// Compares gloam's geometry buffer with the images. Tolerances: of depth, relative; of normals, length of the
+  /// difference.
   void expect_same(const HostGeometryDesc& desc, double depth_error = 1e-6, double normal_error = 2e-3) {
     const auto geometry = HostGeometry::create(*test::drawing_device(), desc);
     ASSERT_TRUE(geometry.ok()) << geometry.error().message;
