@@ -68,7 +68,7 @@ Words random_values(std::uint32_t count) {
   return values;
 }
 
-/// With the kernels for threads in turn (true) and for threads together (false), whatever the device is.
+/// With the kernels for threads in turn (true) and for threads together (false), on every device.
 class RadixSort : public ::testing::TestWithParam<bool> {
  protected:
   void SetUp() override {
