@@ -24,8 +24,8 @@ namespace gloam {
   if (!text) return std::nullopt;
   double number = 0.0;
   const char* end = text->data() + text->size();
-  const auto [rest, fault] = std::from_chars(text->data(), end, number);
-  if (fault != std::errc() || rest != end) return std::nullopt;
+  const auto [number_end, fault] = std::from_chars(text->data(), end, number);
+  if (fault != std::errc() || number_end != end) return std::nullopt;
   return number;
 }
 

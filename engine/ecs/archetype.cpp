@@ -107,16 +107,16 @@ void Archetype::grow(std::uint32_t more_rows) {
   GLOAM_ASSERT(more_rows <= max_rows_ - rows_, "an archetype is full: raise WorldLimits::max_rows_per_archetype");
   const std::uint32_t needed = rows_ + more_rows;
   if (rows_ <= front_rows_) front_rows_ = needed <= front_room_ ? front_room_ : rows_;
-  if (needed > std::max(front_rows_, rest_capacity_)) extend_rest(needed);
-  capacity_ = std::max(front_rows_, rest_capacity_);
+  if (needed > std::max(front_rows_, reserved_capacity_)) extend_columns(needed);
+  capacity_ = std::max(front_rows_, reserved_capacity_);
   const std::size_t blocks = (std::size_t{capacity_} + kTickBlockRows - 1) / kTickBlockRows;
   if (blocks <= row_ticks_.size()) return;
   for (Column& column : columns_) column.ticks.resize(blocks);
   row_ticks_.resize(blocks);
 }
 
-void Archetype::reserve_rest() {
-  // The rest also has address space for the rows of the front, so that both ranges are indexed by the same row numbers.
+void Archetype::reserve_columns() {
+  // It also has address space for the rows of the front, so that both ranges are indexed by the same row numbers.
   std::size_t end = 0;
   for (Column& column : columns_) {
     const std::size_t bytes =
@@ -125,23 +125,23 @@ void Archetype::reserve_rest() {
     column.stretch = {.begin = end, .limit = end + bytes, .committed = end};
     end += bytes;
   }
-  rest_ = ReservedMemory(end);
+  reserved_ = ReservedMemory(end);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     Column& column = columns_[i];
-    column.bases[1] = rest_.data() + column.stretch.begin + colour_offset(index_, i);
+    column.bases[1] = reserved_.data() + column.stretch.begin + colour_offset(index_, i);
   }
   set_bases();
 }
 
-void Archetype::extend_rest(std::uint32_t rows) {
-  if (rest_.data() == nullptr) reserve_rest();
-  const std::uint64_t doubled = std::max<std::uint64_t>(2 * kFrontRows, std::uint64_t{rest_capacity_} * 2);
+void Archetype::extend_columns(std::uint32_t rows) {
+  if (reserved_.data() == nullptr) reserve_columns();
+  const std::uint64_t doubled = std::max<std::uint64_t>(2 * kFrontRows, std::uint64_t{reserved_capacity_} * 2);
   const auto capacity = std::max(rows, static_cast<std::uint32_t>(std::min<std::uint64_t>(doubled, max_rows_)));
   for (Column& column : columns_) {
-    const auto begin = static_cast<std::size_t>(column.bases[1] - rest_.data());
-    rest_.extend(column.stretch, begin + std::size_t{column.size} * capacity);
+    const auto begin = static_cast<std::size_t>(column.bases[1] - reserved_.data());
+    reserved_.extend(column.stretch, begin + std::size_t{column.size} * capacity);
   }
-  rest_capacity_ = capacity;
+  reserved_capacity_ = capacity;
 }
 
 Entity Archetype::remove_row(std::uint32_t row, Tick now) {

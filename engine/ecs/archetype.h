@@ -145,8 +145,8 @@ class Archetype {
     for (std::uint32_t block = first / kTickBlockRows; block <= last; ++block) ticks[block] = now;
   }
   void grow(std::uint32_t more_rows);
-  void reserve_rest();
-  void extend_rest(std::uint32_t rows);
+  void reserve_columns();
+  void extend_columns(std::uint32_t rows);
   void set_bases();
 
   std::uint32_t rows_ = 0;
@@ -154,7 +154,7 @@ class Archetype {
   std::uint32_t front_rows_ = 0;  ///< ≤ front_room_
   std::uint32_t index_ = 0;
   Bases entity_bases_{};
-  std::array<Range, 2> ranges_;           ///< front and rest
+  std::array<Range, 2> ranges_;           ///< front and reserved part
   std::unique_ptr<std::byte*[]> tables_;  ///< tables of both ranges, one after the other
   std::vector<Column> columns_;           ///< the entities, then components with bytes by ascending id; never resized
   std::vector<Tick> row_ticks_;           ///< per block: last tick at which rows were added or moved
@@ -162,9 +162,9 @@ class Archetype {
   std::vector<ComponentId> components_;
   std::size_t id_end_ = 0;  ///< the tables cover ids below this
   std::uint32_t front_room_ = 0;
-  std::uint32_t rest_capacity_ = 0;  ///< rows that fit into the committed part of the rest
+  std::uint32_t reserved_capacity_ = 0;  ///< rows that fit into the committed part of `reserved_`
   std::uint32_t max_rows_ = 0;
-  ReservedMemory rest_;
+  ReservedMemory reserved_;
 };
 
 }  // namespace gloam

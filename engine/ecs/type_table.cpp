@@ -34,14 +34,14 @@ void TypeTable::insert(const void* key, std::uint32_t value) {
 }
 
 void TypeCache::insert(const void* key, std::uint32_t name_hash, std::uint32_t value) {
-  Slot& slot = held_[name_hash % kPlaces];
+  Slot& slot = entries_[name_hash % kPlaces];
   if (slot.key == nullptr) slot = {key, value};
   set_on(on_);
 }
 
 void TypeCache::set_on(bool on) {
   on_ = on;
-  slots_ = on ? held_ : std::array<Slot, kPlaces>{};
+  slots_ = on ? entries_ : std::array<Slot, kPlaces>{};
 }
 
 }  // namespace gloam

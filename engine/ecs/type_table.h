@@ -68,7 +68,7 @@ class TypeCache {
     std::uint32_t value = TypeTable::kAbsent;
   };
   std::array<Slot, kPlaces> slots_;  ///< all empty while the cache is off
-  std::array<Slot, kPlaces> held_;
+  std::array<Slot, kPlaces> entries_;
   bool on_ = true;
 };
 

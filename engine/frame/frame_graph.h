@@ -28,7 +28,7 @@ using BufferRef = FrameRef<struct FrameBufferTag>;
 
 class FrameGraph;
 
-/// What a pass can use while it records: the command list, and the objects of the resources that it has declared.
+/// Given to a pass while it records: the command list, and the objects of the resources that it has declared.
 class PassContext {
  public:
   PassContext(FrameGraph& graph, gpu::CommandList& commands) : graph_(graph), commands_(commands) {}

@@ -17,8 +17,6 @@ std::string_view name_of(HistoryReset reset) {
       return "created";
     case HistoryReset::description:
       return "description";
-    case HistoryReset::requested:
-      return "requested";
     case HistoryReset::key:
       return "key";
     case HistoryReset::camera_cut:
@@ -70,13 +68,6 @@ Result<HistoryImagePair> History::image_pair(FrameGraph& graph, const HistoryVie
   return HistoryImagePair{used->state, used->refs[0], used->refs[1]};
 }
 
-Result<HistoryBufferPair> History::buffer_pair(FrameGraph& graph, const HistoryView& view, const gpu::BufferDesc& desc,
-                                               const HistoryUse& use) {
-  auto used = state_->buffers.use(graph, view, desc, use, 2);
-  if (!used.ok()) return used.error();
-  return HistoryBufferPair{used->state, used->refs[0], used->refs[1]};
-}
-
 void History::on_commit(std::function<void()> function) { state_->on_commit.push_back(std::move(function)); }
 
 void History::commit(const FrameGraph& graph, bool aging) {
@@ -93,11 +84,6 @@ void History::give_up() {
   state_->images.give_up();
   state_->buffers.give_up();
   state_->on_commit.clear();
-}
-
-void History::reset(std::uint64_t world, std::string_view module, std::string_view name) {
-  state_->images.reset(world, module, name);
-  state_->buffers.reset(world, module, name);
 }
 
 void History::release_world(std::uint64_t world) {

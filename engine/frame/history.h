@@ -24,15 +24,14 @@ enum class HistoryReset {
   none,
   created,      ///< no frame has written the resource since it was created
   description,  ///< size, format or another part of the description changed
-  requested,    ///< History::reset
   key,          ///< HistoryRule::key changed
   camera_cut,   ///< the view's camera was cut since the last write
   gap,          ///< too many frames since the last write
 };
 [[nodiscard]] std::string_view name_of(HistoryReset reset);
 
-/// Events that invalidate contents, as the owner chooses. Creation, a changed description and History::reset always do.
-/// The contents stay invalid, for this reason, until a committed frame writes them.
+/// Events that invalidate contents, as the owner chooses. Creation and a changed description always do. The contents
+/// stay invalid, for this reason, until a committed frame writes them.
 struct HistoryRule {
   static constexpr std::uint64_t kAnyNumber = std::numeric_limits<std::uint64_t>::max();
 
@@ -46,12 +45,12 @@ struct HistoryRule {
 struct HistoryUse {
   HistoryScope scope = HistoryScope::view;
   /// The access that the resource is left ready for at the end of the frame: the one that the next frame begins with.
-  gpu::Access rest = gpu::Access::compute_read;
+  gpu::Access final_access = gpu::Access::compute_read;
   HistoryRule reset;
   std::uint64_t instance = 0;  ///< distinguishes resources of one name, for example by camera
 };
 
-/// What a frame can rely on.
+/// The state of a history resource at its use in a frame.
 struct HistoryState {
   HistoryReset reset = HistoryReset::none;
   /// Frames of the world since the contents were written; ≥ 1 if valid, otherwise 0.
@@ -80,10 +79,6 @@ struct HistoryBuffer : HistoryState {
 struct HistoryImagePair : HistoryState {
   ImageRef previous;
   ImageRef current;
-};
-struct HistoryBufferPair : HistoryState {
-  BufferRef previous;
-  BufferRef current;
 };
 
 /// The view of a world for which passes are declared. `frame`: number among the world's frames; a higher one than that
@@ -117,15 +112,14 @@ class History {
   void begin_frame();
   /// Imports the resource into the frame's graph; further uses in the same frame return its newest versions and must
   /// have the same parameters, except that `reset` of the first use counts. desc.module, desc.name: owner and name.
-  /// desc.usage: all usage flags that the passes and `rest` need. Fails if the device cannot create the resource.
+  /// desc.usage: all usage flags that the passes and `final_access` need. Fails if the device cannot create the
+  /// resource.
   [[nodiscard]] Result<HistoryImage> image(FrameGraph& graph, const HistoryView& view, const gpu::ImageDesc& desc,
                                            const HistoryUse& use);
   [[nodiscard]] Result<HistoryBuffer> buffer(FrameGraph& graph, const HistoryView& view, const gpu::BufferDesc& desc,
                                              const HistoryUse& use);
   [[nodiscard]] Result<HistoryImagePair> image_pair(FrameGraph& graph, const HistoryView& view,
                                                     const gpu::ImageDesc& desc, const HistoryUse& use);
-  [[nodiscard]] Result<HistoryBufferPair> buffer_pair(FrameGraph& graph, const HistoryView& view,
-                                                      const gpu::BufferDesc& desc, const HistoryUse& use);
   /// Calls the function in this frame's commit, and never if the frame is given up: for state of the CPU that describes
   /// contents on the GPU.
   void on_commit(std::function<void()> function);
@@ -136,8 +130,6 @@ class History {
   /// Ends the frame without effects.
   void give_up();
 
-  /// Invalidates all resources of this name in a world, from the next use on that has not been made yet.
-  void reset(std::uint64_t world, std::string_view module, std::string_view name);
   /// Destroy the resources of a world, of a view (in all worlds; shared ones if no other view uses them), or of a
   /// module.
   void release_world(std::uint64_t world);

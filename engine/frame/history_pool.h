@@ -95,7 +95,6 @@ class HistoryPool {
   void release_unused(std::uint64_t now);
   void release_if(const std::function<bool(const HistoryKey&)>& unwanted);
   void release_view(std::uint32_t view);
-  void reset(std::uint64_t world, std::string_view module, std::string_view name);
   [[nodiscard]] std::size_t size() const { return items_.size(); }
 
  private:
@@ -108,8 +107,7 @@ class HistoryPool {
     HistoryReset reset = HistoryReset::created;  ///< none if written; otherwise created or description
     std::uint64_t frame = 0;                     ///< the world's frame that wrote last
     std::uint64_t key = 0;                       ///< HistoryRule::key of that frame
-    std::uint64_t resets = 0;                    ///< Item::resets that the frame has seen
-    HistoryState told;                           ///< what the frame was told
+    HistoryState told;                           ///< the state that the frame got
   };
   /// The use of a resource in the frame that is being declared.
   struct Pending {
@@ -117,7 +115,6 @@ class HistoryPool {
     bool fresh = false;  ///< the frame created the handles
     HistoryUse use;
     std::uint64_t frame = 0;
-    std::uint64_t resets = 0;
     std::uint32_t current = 0;
     HistoryState state;
     std::array<Ref, 2> refs;  ///< by side
@@ -125,7 +122,6 @@ class HistoryPool {
   struct Item {
     Contents contents;
     std::optional<Pending> pending;
-    std::uint64_t resets = 0;  ///< calls of reset
     std::uint64_t last_used = 0;
     std::set<std::uint32_t> sharers;  ///< views that use it with HistoryScope::shared
   };
@@ -134,7 +130,7 @@ class HistoryPool {
   void destroy(Contents& contents);
   [[nodiscard]] Result<Pending> prepare(Item& item, const HistoryView& view, const Desc& desc, const HistoryUse& use,
                                         std::uint32_t sides);
-  [[nodiscard]] static HistoryReset reset_of(const Contents& contents, std::uint64_t resets, const HistoryView& view,
+  [[nodiscard]] static HistoryReset reset_of(const Contents& contents, const HistoryView& view,
                                              const HistoryRule& rule);
   [[nodiscard]] static Used used(const FrameGraph& graph, const Pending& pending);
 
@@ -163,10 +159,8 @@ void HistoryPool<Kind>::destroy(Contents& contents) {
 }
 
 template <class Kind>
-HistoryReset HistoryPool<Kind>::reset_of(const Contents& contents, std::uint64_t resets, const HistoryView& view,
-                                         const HistoryRule& rule) {
+HistoryReset HistoryPool<Kind>::reset_of(const Contents& contents, const HistoryView& view, const HistoryRule& rule) {
   if (contents.reset != HistoryReset::none) return contents.reset;
-  if (contents.resets != resets) return HistoryReset::requested;
   if (contents.key != rule.key) return HistoryReset::key;
   if (rule.camera_cut && contents.frame < view.cut_frame) return HistoryReset::camera_cut;
   if (view.frame - contents.frame - 1 > rule.most_missed) return HistoryReset::gap;
@@ -178,7 +172,7 @@ Result<typename HistoryPool<Kind>::Pending> HistoryPool<Kind>::prepare(Item& ite
                                                                        const Desc& desc, const HistoryUse& use,
                                                                        std::uint32_t sides) {
   const Contents& kept = item.contents;
-  Pending pending{.contents = kept, .use = use, .frame = view.frame, .resets = item.resets};
+  Pending pending{.contents = kept, .use = use, .frame = view.frame};
   if (kept.sides != sides || !Kind::same(kept.desc, desc)) {
     pending.fresh = true;
     pending.contents = {.desc = desc, .sides = sides};
@@ -193,11 +187,10 @@ Result<typename HistoryPool<Kind>::Pending> HistoryPool<Kind>::prepare(Item& ite
     pending.state = contents.told;
     pending.state.written = true;
     pending.current = contents.newest;
-    pending.resets = contents.resets;
     if (contents.key != use.reset.key) pending.state = {.reset = HistoryReset::key};
     return pending;
   }
-  pending.state.reset = reset_of(contents, item.resets, view, use.reset);
+  pending.state.reset = reset_of(contents, view, use.reset);
   if (pending.state.valid()) pending.state.age = view.frame - contents.frame;
   pending.current = sides == 2 ? contents.newest ^ 1 : 0;
   return pending;
@@ -218,7 +211,7 @@ Result<typename HistoryPool<Kind>::Used> HistoryPool<Kind>::use(FrameGraph& grap
   const bool of_view = use.scope == HistoryScope::view;
   GLOAM_ASSERT(of_view || !use.reset.camera_cut,
                "history '" + desc.name + "': only a view has a camera that could be cut");
-  GLOAM_ASSERT(use.rest != gpu::Access::none && !gpu::is_write(use.rest),
+  GLOAM_ASSERT(use.final_access != gpu::Access::none && !gpu::is_write(use.final_access),
                "history '" + desc.name + "' rests in an access that reads");
   const HistoryKey key{view.world, of_view ? std::optional(view.view) : std::nullopt, desc.module, desc.name,
                        use.instance};
@@ -228,7 +221,7 @@ Result<typename HistoryPool<Kind>::Used> HistoryPool<Kind>::use(FrameGraph& grap
   if (item.pending) {
     const Pending& pending = *item.pending;
     GLOAM_ASSERT(pending.contents.sides == sides && Kind::same(pending.contents.desc, desc) &&
-                     pending.use.rest == use.rest && pending.frame == view.frame,
+                     pending.use.final_access == use.final_access && pending.frame == view.frame,
                  "history '" + desc.name + "' has one description in all uses of a frame");
     return used(graph, pending);
   }
@@ -241,8 +234,8 @@ Result<typename HistoryPool<Kind>::Used> HistoryPool<Kind>::use(FrameGraph& grap
   Pending& pending = *item.pending;
   for (std::uint32_t side = 0; side < sides; ++side) {
     const std::string suffix = sides == 1 ? "" : side == pending.current ? " (current)" : " (previous)";
-    pending.refs[side] =
-        Kind::import(graph, desc.name + suffix, pending.contents.handles[side], pending.contents.left[side], use.rest);
+    pending.refs[side] = Kind::import(graph, desc.name + suffix, pending.contents.handles[side],
+                                      pending.contents.left[side], use.final_access);
   }
   return used(graph, pending);
 }
@@ -255,13 +248,12 @@ void HistoryPool<Kind>::commit(const FrameGraph& graph, std::uint64_t now) {
     if (pending.fresh) destroy(item.contents);
     Contents& contents = item.contents;
     contents = std::move(pending.contents);
-    for (std::uint32_t side = 0; side < contents.sides; ++side) contents.left[side] = pending.use.rest;
+    for (std::uint32_t side = 0; side < contents.sides; ++side) contents.left[side] = pending.use.final_access;
     if (graph.writes(pending.refs[pending.current])) {
       contents.newest = pending.current;
       contents.reset = HistoryReset::none;
       contents.frame = pending.frame;
       contents.key = pending.use.reset.key;
-      contents.resets = pending.resets;
       contents.told = pending.state;
     }
     item.last_used = now;
@@ -309,12 +301,6 @@ void HistoryPool<Kind>::release_view(std::uint32_t view) {
     std::set<std::uint32_t>& sharers = items_.at(key).sharers;
     return sharers.erase(view) > 0 && sharers.empty();
   });
-}
-
-template <class Kind>
-void HistoryPool<Kind>::reset(std::uint64_t world, std::string_view module, std::string_view name) {
-  for (auto& [key, item] : items_)
-    if (key.world == world && key.module == module && key.name == name) ++item.resets;
 }
 
 }  // namespace gloam::frame

@@ -61,7 +61,8 @@ class Device {
   /// description, in order. The bytes are counted once, for the module of the first image.
   [[nodiscard]] virtual Result<std::vector<ImageHandle>> create_aliased_images(std::span<const ImageDesc> descs) = 0;
 
-  /// What an image or a buffer needs of a memory block. Fails as create_image and create_buffer do for the description.
+  /// Requirements of an image or a buffer on a memory block. Fails as create_image and create_buffer do for the
+  /// description.
   [[nodiscard]] virtual Result<MemoryNeeds> memory_needs(const ImageDesc& desc) const = 0;
   [[nodiscard]] virtual Result<MemoryNeeds> memory_needs(const BufferDesc& desc) const = 0;
   [[nodiscard]] virtual Result<MemoryHandle> create_memory(const MemoryDesc& desc) = 0;

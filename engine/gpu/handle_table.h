@@ -51,24 +51,24 @@ class HandleTable {
 
   [[nodiscard]] bool alive(H handle) const {
     const std::lock_guard lock(mutex_);
-    return holds(handle);
+    return is_alive(handle);
   }
 
   [[nodiscard]] T& get(H handle) {
     const std::lock_guard lock(mutex_);
-    GLOAM_ASSERT(holds(handle), dead_sentence());
+    GLOAM_ASSERT(is_alive(handle), dead_sentence());
     return *slots_[handle.index].object;
   }
   [[nodiscard]] const T& get(H handle) const {
     const std::lock_guard lock(mutex_);
-    GLOAM_ASSERT(holds(handle), dead_sentence());
+    GLOAM_ASSERT(is_alive(handle), dead_sentence());
     return *slots_[handle.index].object;
   }
 
   /// Removes and returns the object; its handle becomes stale.
   [[nodiscard]] T remove(H handle) {
     const std::lock_guard lock(mutex_);
-    GLOAM_ASSERT(holds(handle), dead_sentence() + "; an object is destroyed once");
+    GLOAM_ASSERT(is_alive(handle), dead_sentence() + "; an object is destroyed once");
     return take(handle.index);
   }
 
@@ -100,7 +100,7 @@ class HandleTable {
   [[nodiscard]] static std::string dead_sentence() {
     return std::string("this ") + kind_of_handle<H>() + " is not alive: it was destroyed, or is of another device";
   }
-  [[nodiscard]] bool holds(H handle) const {
+  [[nodiscard]] bool is_alive(H handle) const {
     return handle.index < slots_.size() && slots_[handle.index].object.has_value() &&
            slots_[handle.index].generation == handle.generation;
   }

@@ -233,12 +233,12 @@ class Recorder final : public RecordingDevice {
     objects_.buffers.for_each_alive(count_memory);
     objects_.images.for_each_alive(count_memory);
     objects_.blocks.for_each_alive([&](const Block& block) {
-      std::uint64_t rest = block.desc.size;
+      std::uint64_t unaccounted = block.desc.size;
       for (const ModuleMemory& share : block.shares) {
         bytes[share.module] += share.bytes;
-        rest -= share.bytes;
+        unaccounted -= share.bytes;
       }
-      bytes[block.desc.module] += rest;
+      bytes[block.desc.module] += unaccounted;
     });
     std::vector<ModuleMemory> result;
     for (const auto& [module, count] : bytes) {

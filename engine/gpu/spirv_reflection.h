@@ -19,7 +19,7 @@ namespace gloam::gpu {
 enum class ShaderStage : std::uint8_t { vertex, fragment, compute };
 enum class ResourceKind : std::uint8_t { uniform_buffer, storage_buffer, sampled_image, storage_image, other };
 enum class ImageDimension : std::uint8_t { none, plane, cube, volume, other };
-/// What a shader gets from a texel of an image.
+/// The type of the components that a shader reads from a texel of an image.
 enum class TexelKind : std::uint8_t { floats, unsigned_integers, signed_integers };
 [[nodiscard]] std::string_view name_of(ResourceKind kind);
 

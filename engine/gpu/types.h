@@ -331,7 +331,7 @@ struct DeviceInfo {
   std::uint64_t max_storage_range = 0;  ///< largest size of one storage buffer binding, in bytes
 };
 
-/// What an image or a buffer needs of the memory block that it is placed in.
+/// Requirements of an image or a buffer on the memory block that it is placed in.
 struct MemoryNeeds {
   std::uint64_t size = 0;       ///< bytes, > 0
   std::uint64_t alignment = 1;  ///< of the offset; a power of two

@@ -58,15 +58,16 @@ void RangeRegion::help() {
   }
 }
 
-void RangeRegion::offer_rest(std::size_t claimed_end, float range_ns) {
-  const std::size_t rest = ranges_ - std::min(claimed_end, ranges_);
-  if (rest == 0) return;
-  const float rest_ns = range_ns * static_cast<float>(rest);
-  const float saved_ns = rest == 1 ? rest_ns : rest_ns * 0.5f;  // lower bound: this thread runs part of the rest too
+void RangeRegion::offer_unclaimed(std::size_t claimed_end, float range_ns) {
+  const std::size_t unclaimed = ranges_ - std::min(claimed_end, ranges_);
+  if (unclaimed == 0) return;
+  const float unclaimed_ns = range_ns * static_cast<float>(unclaimed);
+  const float saved_ns =
+      unclaimed == 1 ? unclaimed_ns : unclaimed_ns * 0.5f;  // lower bound: this thread runs part of the rest too
   const float worthwhile_ns = crew_.worthwhile_ns();
   if (saved_ns < worthwhile_ns) return;
-  const float limit = static_cast<float>(std::min<std::size_t>(rest, crew_.threads() - 1));
-  const auto wanted = static_cast<std::uint32_t>(std::min(limit, rest_ns / worthwhile_ns));
+  const float limit = static_cast<float>(std::min<std::size_t>(unclaimed, crew_.threads() - 1));
+  const auto wanted = static_cast<std::uint32_t>(std::min(limit, unclaimed_ns / worthwhile_ns));
   if (helpers() < wanted) crew_.offer(*this, wanted - helpers());
 }
 
@@ -77,7 +78,7 @@ float RangeRegion::lead(float range_ns) {
   const auto start = Clock::now();
   auto before = start;
   for (Claim c = claim(wanted); c.begin != c.end; c = claim(wanted)) {
-    offer_rest(c.end, range_ns);
+    offer_unclaimed(c.end, range_ns);
     run(c);
     const auto after = Clock::now();
     const float claim_ns = nanoseconds_between(before, after);

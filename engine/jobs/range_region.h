@@ -44,7 +44,7 @@ class RangeRegion final : public Region {
   /// Claims up to `wanted` ≥ 1 ranges, fewer near the end, so that threads finish together. Empty if no range is left.
   [[nodiscard]] Claim claim(std::size_t wanted);
   void run(Claim claim);
-  void offer_rest(std::size_t claimed_end, float range_ns);
+  void offer_unclaimed(std::size_t claimed_end, float range_ns);
 
   const std::size_t ranges_;
   const RangeWork& work_;

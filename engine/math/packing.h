@@ -19,8 +19,4 @@ namespace gloam {
 [[nodiscard]] std::uint16_t float_to_half(float value);
 [[nodiscard]] float half_to_float(std::uint16_t half);
 
-/// sRGB transfer function, exact piecewise form, for one channel in [0, 1].
-[[nodiscard]] float srgb_to_linear(float srgb);
-[[nodiscard]] float linear_to_srgb(float linear);
-
 }  // namespace gloam

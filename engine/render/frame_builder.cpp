@@ -154,13 +154,6 @@ Result<HistoryBuffer> FrameBuilder::history_buffer(const gpu::BufferDesc& desc, 
 Result<HistoryImagePair> FrameBuilder::history_image_pair(const gpu::ImageDesc& desc, const HistoryUse& use) {
   return services_.history.image_pair(graph_, history_view(), desc, use);
 }
-Result<HistoryBufferPair> FrameBuilder::history_buffer_pair(const gpu::BufferDesc& desc, const HistoryUse& use) {
-  return services_.history.buffer_pair(graph_, history_view(), desc, use);
-}
-
-void FrameBuilder::reset_history(std::string_view module, std::string_view name) {
-  services_.history.reset(history_view().world, module, name);
-}
 
 void FrameBuilder::on_commit(std::function<void()> function) { services_.history.on_commit(std::move(function)); }
 

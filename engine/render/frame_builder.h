@@ -181,9 +181,6 @@ class FrameBuilder {
   [[nodiscard]] Result<HistoryImage> history_image(const gpu::ImageDesc& desc, const HistoryUse& use);
   [[nodiscard]] Result<HistoryBuffer> history_buffer(const gpu::BufferDesc& desc, const HistoryUse& use);
   [[nodiscard]] Result<HistoryImagePair> history_image_pair(const gpu::ImageDesc& desc, const HistoryUse& use);
-  [[nodiscard]] Result<HistoryBufferPair> history_buffer_pair(const gpu::BufferDesc& desc, const HistoryUse& use);
-  /// Invalidates all history resources of this name in the world, from the next use on that has not been made yet.
-  void reset_history(std::string_view module, std::string_view name);
   /// Calls the function after the frame was submitted, and never if the frame is given up: for state of the CPU that
   /// describes contents on the GPU.
   void on_commit(std::function<void()> function);

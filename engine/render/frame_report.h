@@ -15,7 +15,6 @@ namespace gloam {
 
 struct ModuleState {
   std::string name;
-  bool built = true;
   bool demanded = false;
   std::string reason;
   std::uint32_t pipelines = 0;

@@ -61,7 +61,6 @@ struct VisualizerInfo {
   std::string module;
   std::string argument;    ///< "LIGHT"
   std::string legend;      ///< meaning of the colours, one line
-  bool built = true;       ///< false: known, not built yet
   std::string knob = {};   ///< knob that must be at `value` for the visualizer to work; empty: none
   std::string value = {};  ///< one choice, or several: "monolithic|deferred"
   /// Set if the visualizer shows traced data. Computes the data from a frame drawn without the visualizer and puts it
@@ -105,8 +104,6 @@ class Module {
   virtual ~Module() = default;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// False if only its components and keys exist: its demand is reported, but nothing is drawn.
-  [[nodiscard]] virtual bool built() const { return true; }
 
   /// Names of the modules that must be in the list, and of all that must come earlier if they are in it. The renderer
   /// asserts both.
@@ -115,13 +112,13 @@ class Module {
 
   virtual void register_components(World& world) const = 0;
   virtual void scene_keys(KeyRegistry& registry) const = 0;
-  virtual void knobs(KnobRegistry& registry) const { static_cast<void>(registry); }
+  virtual void knobs(KnobRegistry&) const {}
   /// References for knobs that are not judged by the frame at their exact value; at most one per knob.
   [[nodiscard]] virtual std::vector<ReferenceInfo> references() const;
   /// Measures for knobs whose values all draw the same picture; at most one per knob. A knob with a measure needs no
   /// reference.
   [[nodiscard]] virtual std::vector<MeasureInfo> measures() const;
-  virtual void add_systems(Schedule& schedule) { static_cast<void>(schedule); }
+  virtual void add_systems(Schedule&) {}
   [[nodiscard]] virtual std::vector<VisualizerInfo> visualizers() const { return {}; }
 
   /// view null: whether the world needs the module. Called before a frame's systems run, and by `inspect`. If not
@@ -132,130 +129,65 @@ class Module {
 
   /// Called before the systems of the world run, if the world demands the module. Stores the knob values that they need
   /// in resources of the world.
-  virtual void prepare_world(World& world, const KnobRegistry& knobs) const {
-    static_cast<void>(world);
-    static_cast<void>(knobs);
-  }
+  virtual void prepare_world(World&, const KnobRegistry&) const {}
   /// Called for each view before the systems of any view run, if the world demands the module. Adds missing view
   /// resources, and stores in them the knob values that systems need.
-  virtual void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const {
-    static_cast<void>(world);
-    static_cast<void>(view);
-    static_cast<void>(knobs);
-  }
+  virtual void prepare_view(World&, ViewId, const KnobRegistry&) const {}
   /// Adds views that must be drawn before the view `main` in the same frame, for example mirrored ones. Called in every
   /// frame for each view that is no capture, after the systems of the world, if the world demands the module and the
   /// view does not leave it out. main: with pose and size of this frame. Start from a copy of it. Companions draw no
   /// pictures: they end before PassPhase::output, and their light and depth are in CompanionLight of
   /// FrameBuilder::shared() when the passes of `main` are declared. Modules may share with a companion what they keep
   /// for its main view (RenderView::main_view). Companions have no companions.
-  virtual void companion_views(World& world, const ViewSettings& main, const KnobRegistry& knobs,
-                               CompanionViews& companions) const {
-    static_cast<void>(world);
-    static_cast<void>(main);
-    static_cast<void>(knobs);
-    static_cast<void>(companions);
-  }
+  virtual void companion_views(World&, const ViewSettings& /*main*/, const KnobRegistry&, CompanionViews&) const {}
   /// Sentences about things in a loaded scene that are likely mistakes, without a full stop. For `inspect`.
-  [[nodiscard]] virtual std::vector<std::string> warnings(const World& world) const {
-    static_cast<void>(world);
-    return {};
-  }
+  [[nodiscard]] virtual std::vector<std::string> warnings(const World&) const { return {}; }
   /// Entities that have components of the module without any effect. Called in every frame, so it must be cheap. The
   /// renderer logs each fault once per world.
-  [[nodiscard]] virtual std::vector<Oversight> oversights(const World& world) const {
-    static_cast<void>(world);
-    return {};
-  }
+  [[nodiscard]] virtual std::vector<Oversight> oversights(const World&) const { return {}; }
   /// Whether the module's passes read FrameBuilder::casters(). Called in every frame, if the world demands the module.
-  [[nodiscard]] virtual bool needs_casters(const World& world, const KnobRegistry& knobs) const {
-    static_cast<void>(world);
-    static_cast<void>(knobs);
-    return false;
-  }
+  [[nodiscard]] virtual bool needs_casters(const World&, const KnobRegistry&) const { return false; }
   /// Whether these casters need simplified indices (GpuPrimitive::simplified_index_count), which are made when first
   /// needed. Called like needs_casters.
-  [[nodiscard]] virtual bool needs_simplified_casters(const World& world, const KnobRegistry& knobs) const {
-    static_cast<void>(world);
-    static_cast<void>(knobs);
-    return false;
-  }
+  [[nodiscard]] virtual bool needs_simplified_casters(const World&, const KnobRegistry&) const { return false; }
   /// Whether the module's passes read GeometryOutputs::motion. Called like needs_casters; views that do not demand the
   /// module get no motion for it.
-  [[nodiscard]] virtual bool needs_motion(const World& world, const KnobRegistry& knobs) const {
-    static_cast<void>(world);
-    static_cast<void>(knobs);
-    return false;
-  }
+  [[nodiscard]] virtual bool needs_motion(const World&, const KnobRegistry&) const { return false; }
   /// Whether the module's passes read GeometryOutputs::smooth_surfaces. Called like needs_motion.
-  [[nodiscard]] virtual bool needs_smooth_surfaces(const World& world, const KnobRegistry& knobs) const {
-    static_cast<void>(world);
-    static_cast<void>(knobs);
-    return false;
-  }
+  [[nodiscard]] virtual bool needs_smooth_surfaces(const World&, const KnobRegistry&) const { return false; }
   /// Whether a frame without the module makes no sense. Then frames wait for its pipelines even with
   /// Readiness::background.
   [[nodiscard]] virtual bool essential() const { return false; }
   /// Appends the pipelines that add_passes will need with the current knobs. Called only with Readiness::background.
-  virtual void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const {
-    static_cast<void>(device);
-    static_cast<void>(knobs);
-    static_cast<void>(list);
-  }
+  virtual void pipelines(const KnobRegistry&, const gpu::DeviceInfo&, PipelineList&) const {}
   /// Adds the passes of one phase. Called once per phase for each view, if world and view demand the module. Pipelines
   /// are compiled on first use. Errors go to FrameBuilder::fail, which gives the frame up.
-  virtual void add_passes(FrameBuilder& frame, PassPhase phase) {
-    static_cast<void>(frame);
-    static_cast<void>(phase);
-  }
+  virtual void add_passes(FrameBuilder&, PassPhase) {}
   /// Reports counters that are known on the CPU. Called once per frame for each view, if the module took part in that
   /// view (demanded by world and view, pipelines ready), after its passes were declared and before the frame is
   /// recorded.
-  virtual void counters(const World& world, const RenderView& view, CounterSink& sink) const {
-    static_cast<void>(world);
-    static_cast<void>(view);
-    static_cast<void>(sink);
-  }
+  virtual void counters(const World&, const RenderView&, CounterSink&) const {}
   /// Declares readback copies of the data that `pick` reads. Called after all phases of a frame that is drawn for
   /// Renderer::pick. Names of copies begin with the module's name.
-  [[nodiscard]] virtual Status add_pick_copies(FrameBuilder& frame, Captures& copies) {
-    static_cast<void>(frame);
-    static_cast<void>(copies);
-    return {};
-  }
+  [[nodiscard]] virtual Status add_pick_copies(FrameBuilder&, Captures&) { return {}; }
   /// Facts about the pixel, as lines of text. Called after that frame has ended on the GPU; `copies` holds its data.
-  [[nodiscard]] virtual std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
-                                                      const Captures& copies) const {
-    static_cast<void>(frame);
-    static_cast<void>(pixel);
-    static_cast<void>(copies);
+  [[nodiscard]] virtual std::vector<std::string> pick(FrameBuilder&, const PickedPixel&,
+                                                      const Captures& /*copies*/) const {
     return {};
   }
   /// Called before the systems of a view run, if the world demands the module, for each of its results of that view
   /// (FrameBuilder::keep_result). `result` is the newest one that is at least Device::kFramesInFlight frames old. The
   /// same result may be passed several times.
-  virtual void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const {
-    static_cast<void>(world);
-    static_cast<void>(view);
-    static_cast<void>(name);
-    static_cast<void>(result);
-  }
+  virtual void take_result(World&, ViewId, std::string_view /*name*/, const FrameResult& /*result*/) const {}
   /// Reports counters that the GPU counted, from a result of the newest completed frame.
-  virtual void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const {
-    static_cast<void>(name);
-    static_cast<void>(result);
-    static_cast<void>(sink);
-  }
+  virtual void result_counters(std::string_view /*name*/, const FrameResult&, CounterSink&) const {}
   /// Frees what the module keeps for this view in any world. Called by Renderer::release_view.
-  virtual void release_view(ViewId view) { static_cast<void>(view); }
+  virtual void release_view(ViewId) {}
   /// Called when a frame is given up (an error, an exception) that declared passes of the module: the GPU executes
   /// nothing of this frame. The module forgets what it noted as done while these passes were declared or recorded, so
   /// that the next frame does it. `frame`: the frame's Device::frame_number. The default frees all of the module's
   /// memory; modules that keep data which cannot be made again override it.
-  virtual void give_up_frame(std::uint64_t frame) {
-    static_cast<void>(frame);
-    release();
-  }
+  virtual void give_up_frame(std::uint64_t /*frame*/) { release(); }
   /// Frees the module's GPU memory. Called after 120 frames without demand and when the renderer is destroyed; the
   /// module allocates the memory again when it is next needed. The renderer owns the pipelines.
   virtual void release() {}

@@ -16,8 +16,8 @@ namespace gloam {
 
 class World;
 
-/// What a view is drawn for. Modules decide by it whether they take part (Module::demand): a capture, for example, has
-/// no fog.
+/// The purpose of a view. Modules decide by it whether they take part (Module::demand): a capture, for example, has no
+/// fog.
 enum class ViewPurpose : std::uint8_t {
   main,       ///< a picture for users
   capture,    ///< light that other views use, for example a reflection probe
@@ -28,7 +28,7 @@ enum class ViewPurpose : std::uint8_t {
 struct MirrorPlane {
   dvec3 normal = dvec3(0.0, 1.0, 0.0);  ///< unit length
   double offset = 0.0;                  ///< metres
-  /// What is less than this above the plane is not drawn, metres, ≥ 0. Keeps the mirroring surface itself out of the
+  /// Geometry less than this above the plane is not drawn, metres, ≥ 0. Keeps the mirroring surface itself out of the
   /// picture if it is double-sided or not quite flat.
   double margin_m = 0.0;
 };

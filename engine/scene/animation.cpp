@@ -60,10 +60,10 @@ void sample_cubic(const AnimationChannel& channel, std::size_t key, double u, do
 
 double looped_time(double time_s, double duration_s) {
   if (!(duration_s > 0.0)) return 0.0;
-  const double rest = std::fmod(time_s, duration_s);
-  if (rest >= 0.0) return rest;
-  const double from_end = rest + duration_s;
-  return from_end < duration_s ? from_end : 0.0;  // a tiny negative rest rounds up to the duration itself
+  const double remainder = std::fmod(time_s, duration_s);
+  if (remainder >= 0.0) return remainder;
+  const double from_end = remainder + duration_s;
+  return from_end < duration_s ? from_end : 0.0;  // a tiny negative remainder rounds up to the duration itself
 }
 
 dquat slerp_shortest(const dquat& a, const dquat& b, double u) {
@@ -95,8 +95,8 @@ void sample_channel(const AnimationChannel& channel, double time_s, std::span<do
   const auto next =
       std::upper_bound(times.begin(), times.end(), time_s, [](double t, float key) { return t < double{key}; });
   const std::size_t key = next == times.begin() ? 0 : static_cast<std::size_t>(next - times.begin()) - 1;
-  const bool holds = next == times.begin() || next == times.end() || channel.interpolation == Interpolation::step;
-  if (holds) {
+  const bool is_constant = next == times.begin() || next == times.end() || channel.interpolation == Interpolation::step;
+  if (is_constant) {
     std::ranges::copy(key_value(channel, key), out.begin());
   } else {
     const double begin = double{times[key]};

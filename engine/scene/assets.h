@@ -165,7 +165,8 @@ struct SceneAssets {
   [[nodiscard]] std::uint64_t destroyed_at(AssetKind kind, std::uint32_t index) const;
 
  private:
-  /// What was called for the assets of one kind, by index; shorter than the list of assets where nothing was called.
+  /// The calls of changed() and destroy() for the assets of one kind, by index. May be shorter than the list of assets:
+  /// the remaining ones have no calls.
   struct Changes {
     std::vector<std::uint64_t> revisions;
     std::vector<std::uint64_t> destroyed_at;

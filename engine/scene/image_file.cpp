@@ -99,7 +99,7 @@ std::vector<std::uint8_t> plain_png_data(std::span<const std::uint8_t> file) {
 }
 
 /// Why stb_image must not walk over these chunks of a PNG; empty: it may. It writes the name of an unknown critical
-/// chunk into memory that threads share, whatever bytes the name has, and takes the end of the file for such a chunk.
+/// chunk into memory that threads share, also unprintable bytes, and takes the end of the file for such a chunk.
 std::string_view png_chunk_fault(std::span<const std::uint8_t> file) {
   constexpr std::size_t kFrame = 12;  // length, type, checksum
   std::size_t at = 8;

@@ -125,7 +125,7 @@ class GrassModule final : public Module {
     if (grass == nullptr || (*grass)->patches.empty()) return {};
     return grass_pick_lines(frame, **grass, pixel, copies);
   }
-  void release() override { worlds_ = {}; }
+  void release() override { worlds_.stores.clear(); }
   void give_up_frame(std::uint64_t) override {}  // all state takes effect when a frame is submitted
 
  private:

@@ -122,8 +122,7 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   const std::uint64_t number = world_id(world);
   GrassBladeRows& rows = *world.resource<GrassWorld>().rows;
   if (pack_changed_rows(world, field, frame.services().executor, rows))
-    for (const std::string& note : field.notes)
-      if (worlds.told.insert(note).second) frame.services().log.warning(note);
+    for (const std::string& note : field.notes) worlds.notes_log.warning(frame.services().log, note);
 
   grass.steps = steps_of(world, grass.knobs.iterations);
   const GrassStoreInput input{.patches = field.patches,

@@ -4,9 +4,8 @@
 
 #include <cstdint>
 #include <memory>
-#include <set>
-#include <string>
 
+#include "engine/core/once_log.h"
 #include "modules/grass/field/entities.h"
 #include "modules/grass/frame.h"
 #include "modules/grass/lod/store.h"
@@ -16,7 +15,7 @@ namespace gloam {
 /// State of the module that lives over frames and is no history resource.
 struct GrassWorlds {
   GrassStoreStates stores;
-  std::set<std::string> told;  ///< GrassField::notes that were logged
+  OnceLog notes_log;  ///< for GrassField::notes
 };
 
 /// The rows of a world's blades; a resource of the world.

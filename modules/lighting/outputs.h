@@ -46,7 +46,8 @@ struct HomogeneousFog {
   float sky_distance_m = 0.0f;  ///< path length through the fog of light from beyond all surfaces
 };
 
-/// What a shader that includes shaders/lighting/forward_lights_api.glsl needs to show the shadows of a frame.
+/// The kind of shadows in a frame. It selects the variant of a shader that includes
+/// shaders/lighting/forward_lights_api.glsl.
 enum class ForwardShadows : std::uint8_t {
   none,
   cookies,   ///< GLOAM_FORWARD_COOKIES: no light of the view has a shadow
@@ -54,8 +55,8 @@ enum class ForwardShadows : std::uint8_t {
   all,       ///< GLOAM_FORWARD_SHADOWS
 };
 
-/// The version of such a shader that a frame calls for. Versions without GLOAM_FORWARD_TILED draw the same picture, and
-/// versions with less shadows work, too: both may be used while a pipeline is being compiled.
+/// The variant of that shader that a frame calls for. Variants without GLOAM_FORWARD_TILED draw the same picture, and
+/// variants with fewer shadows work as well: both may be used while a pipeline is being compiled.
 struct ForwardLighting {
   bool tiled = false;  ///< GLOAM_FORWARD_TILED may be used
   ForwardShadows shadows = ForwardShadows::none;

@@ -22,7 +22,7 @@ Result<HistoryBuffer> exposure_of(FrameBuilder& frame) {
   desc.usage = gpu::BufferUsage::storage;
   const Entity camera = frame.view().camera_entity;
   return frame.history_buffer(desc, {.scope = HistoryScope::view,
-                                     .rest = gpu::Access::fragment_read,
+                                     .final_access = gpu::Access::fragment_read,
                                      .instance = std::uint64_t{camera.generation} << 32 | camera.index});
 }
 

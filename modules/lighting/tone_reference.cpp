@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/srgb.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {
 namespace {
-
-double encode_srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 constexpr std::uint32_t kAgx = 3;
 
@@ -108,7 +105,7 @@ Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
       const dvec3 exposed = glm::clamp(dvec3(light[0], light[1], light[2]) * exposure, 0.0, 1e6);
       const dvec3 shown = tone_mapped(curve, exposed);
       for (std::uint32_t c = 0; c < 3; ++c) {
-        const double encoded = encode_srgb(shown[static_cast<int>(c)]);
+        const double encoded = linear_to_srgb(shown[static_cast<int>(c)]);
         right.picture.rgba[4 * i + c] =
             dithers ? dithered_step(encoded, pixel, c) : static_cast<std::uint8_t>(std::lround(encoded * 255.0));
       }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lights/module.h"
 
-#include <atomic>
-
+#include "engine/core/once_log.h"
 #include "engine/ecs/view.h"
 #include "engine/render/frame_builder.h"
 #include "modules/lights/debug/measures.h"
@@ -109,11 +108,11 @@ class LightsModule final : public Module {
     if (phase == PassPhase::visualize) views_.add_pass(frame);
     if (phase != PassPhase::lists) return;
     const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
-    if (visible.dropped > 0 && !warned_.exchange(true)) {
-      frame.services().log.warning("more lights are visible than fit (" + std::to_string(GLOAM_MAX_LOCAL_LIGHTS) +
-                                   " local, " + std::to_string(GLOAM_MAX_DIRECTIONAL_LIGHTS) + " directional): the " +
-                                   std::to_string(visible.dropped) +
-                                   " least important are left out (counter lights.dropped)");
+    if (visible.dropped > 0) {
+      once_log_.warning(frame.services().log, "lights.dropped",
+                        "more lights are visible than fit (" + std::to_string(GLOAM_MAX_LOCAL_LIGHTS) + " local, " +
+                            std::to_string(GLOAM_MAX_DIRECTIONAL_LIGHTS) + " directional): the " +
+                            std::to_string(visible.dropped) + " least important are left out (counter lights.dropped)");
     }
     const auto& bins = frame.world().view_resource<ZBins>(frame.view().id);
     const auto& masks = frame.world().view_resource<TileLightMasks>(frame.view().id);
@@ -152,7 +151,7 @@ class LightsModule final : public Module {
   }
 
  private:
-  std::atomic<bool> warned_ = false;
+  OnceLog once_log_;
   LightViews views_;
 };
 

@@ -19,7 +19,7 @@ namespace gloam {
 
 struct TileLightMasks;
 
-/// What the lights module provides for a view; later modules read it from the board.
+/// Outputs of the lights module for a view; later modules read them from the board.
 struct LightsOutputs {
   gpu::Binding::BufferRange lights;  ///< a LightBlock (shaders/lights/lights_shared.h), uniform
   std::uint32_t local_count = 0;

@@ -19,12 +19,12 @@ namespace gloam {
 
 /// The emitters and lights that bake_particle_light() bakes.
 enum class BakedMoment : std::uint8_t {
-  at_rest,  ///< those that do not move; lights with a cookie stay dynamic
+  at_rest,  ///< emitters and lights that do not move; lights with a cookie stay dynamic
   now,  ///< all of them as they are now; the strongest kBakedLights of an emitter stay dynamic, lights with a cookie
         ///< first, so that each lit point has their exact light
 };
 
-/// What bake_particle_light() bakes, and how finely.
+/// Options of bake_particle_light(): the moment, the emitters, and the numbers of texels and rays.
 struct ParticleBakeOptions {
   BakedMoment moment = BakedMoment::at_rest;
   /// The emitters that get a map, ascending by Entity::index; empty: all of the moment.
@@ -40,7 +40,7 @@ struct ParticleBakeOptions {
 };
 
 /// Input of bake_particle_light(). `world`: as the world stage's systems left it, or just loaded. tracer: the triangles
-/// that block light; for BakedMoment::at_rest those that do not move.
+/// that block light; for BakedMoment::at_rest only triangles that do not move.
 struct ParticleBakeInput {
   const World& world;
   const SceneTracer& tracer;

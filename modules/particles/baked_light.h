@@ -62,7 +62,7 @@ struct ParticleLightMap {
 struct ParticleLightMaps {
   std::vector<ParticleLightMap> maps;  ///< ascending by Entity::index of the emitters, at most one of each
   std::uint64_t version = 0;           ///< raise it with each change; the maps are uploaded again
-  bool per_pixel = false;              ///< light is summed at each pixel, whatever the knobs say; for references
+  bool per_pixel = false;              ///< light is summed at each pixel; overrides the knobs. For references
 };
 
 }  // namespace gloam

@@ -48,7 +48,7 @@ Status add_and_count_proxies(World& world) {
                                      std::to_string(kMostFileProxies) + " are read"};
 }
 
-/// What reflected rays see beside the surfaces of the scene.
+/// Fog and fire for reflected rays.
 ReflectionExtras traced_extras(const World& world) {
   ReflectionExtras extras;
   if (const auto* fog = world.try_resource<HomogeneousFog>())

@@ -66,7 +66,7 @@ ImageRef captured_image(FrameBuilder& frame, Staging& staging, const char* name,
   desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
   desc.shape = gpu::ImageShape::array;
   const auto kept = frame.history_image(
-      desc, {.scope = HistoryScope::world, .rest = gpu::Access::fragment_read, .reset = {.key = version}});
+      desc, {.scope = HistoryScope::world, .final_access = gpu::Access::fragment_read, .reset = {.key = version}});
   if (!frame.check(kept)) return {};
   if (kept->filled()) return kept->image;
   const auto slice = staging.ring(frame.services().device).allocate(layers.texels.size() * sizeof(std::uint16_t));

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
+#include "engine/core/once_log.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/worlds/world_id.h"
 #include "modules/shadows/atlas/view_faces.h"
@@ -94,9 +94,9 @@ class ShadowsModule final : public Module {
 
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::visualize) {
-      add_shadow_reference_view_pass(frame);
-      add_final_list_view_pass(frame, [&](const std::string& sentence) { warn_once(frame, sentence); });
-      add_shadow_view_pass(frame, states_);
+      add_shadow_reference_view_pass(frame, once_log_);
+      add_final_list_view_pass(frame, once_log_);
+      add_shadow_view_pass(frame, states_, once_log_);
     }
     if (phase == PassPhase::shading) keep_list_counters(frame);
     if (phase != PassPhase::lists) return;
@@ -166,19 +166,18 @@ class ShadowsModule final : public Module {
     if (note != nullptr)
       frame.keep_result("shadows", kShadowListResult, frame.get<ShadowsOutputs>().final_lists->counters, *note);
   }
-  void warn_once(FrameBuilder& frame, const std::string& sentence) {
-    if (told_.insert(sentence).second) frame.services().log.warning(sentence);
-  }
   void warn(FrameBuilder& frame) {
     if (frame.view().is_companion()) return;  // nobody asked for its picture
     const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+    LogSink& log = frame.services().log;
     if (views.faces_shrunk > 0)
-      warn_once(frame,
-                "shadow maps are smaller than they should be: the atlas is full (shadows.atlas, counter "
-                "shadows.faces_shrunk)");
+      once_log_.warning(log,
+                        "shadow maps are smaller than they should be: the atlas is full (shadows.atlas, counter "
+                        "shadows.faces_shrunk)");
     if (views.faces_left_out > 0)
-      warn_once(frame, "some lights cast no shadow: the atlas is full (shadows.atlas, counter shadows.faces_left_out)");
-    for (const std::string& fault : frame.world().resource<Cookies>().faults) warn_once(frame, fault);
+      once_log_.warning(
+          log, "some lights cast no shadow: the atlas is full (shadows.atlas, counter shadows.faces_left_out)");
+    for (const std::string& fault : frame.world().resource<Cookies>().faults) once_log_.warning(log, fault);
   }
 
   /// Of the last declared view. They select the pipelines that other knobs would need.
@@ -189,7 +188,7 @@ class ShadowsModule final : public Module {
 
   ShadowStates states_;
   std::optional<LastInputs> last_;
-  std::set<std::string> told_;
+  OnceLog once_log_;
 };
 
 }  // namespace

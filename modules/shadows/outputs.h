@@ -191,7 +191,7 @@ struct FinalEntry {
 [[nodiscard]] float decode_visibility(FinalEntry entry, std::uint32_t pixel, std::span<const std::uint32_t> words,
                                       std::uint32_t visibility_bits);
 
-/// Reserved tiles: shadow tiles whose final lists are complete, whatever the other tiles need. A later module that adds
+/// Reserved tiles: shadow tiles whose final lists are complete, even if others need too much. A later module that adds
 /// to final lists puts this on the board in PassPhase::announce; it can then rely on lists in these tiles.
 struct ReservedTiles {
   std::vector<std::uint32_t> tiles;  ///< bit i % 32 of word i / 32 for the tile of index i = row · columns + column

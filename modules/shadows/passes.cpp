@@ -103,7 +103,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   if (has_maps)
     maps = add_maps(frame, states, knobs, has_lists);
   else
-    states.rest(world_id(frame.world()), views.owner);
+    states.skip_frame(world_id(frame.world()), views.owner);
   if (!frame.status().ok()) return;
   outputs.atlas = maps.atlas;
   outputs.pyramid = maps.pyramid;

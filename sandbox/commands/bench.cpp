@@ -39,7 +39,7 @@ Status run_bench(const CommandContext& context) {
   std::string missed;
   const RowsRun run = run_rows(*chosen, bench, [&](const MeasuredRow& measured) {
     if (!measured.value.skipped && has_bar(*measured.row, measured.value) &&
-        !holds(*measured.row, measured.value.value))
+        !keeps_bar(*measured.row, measured.value.value))
       missed += (missed.empty() ? "" : ", ") + measured.row->id;
     if (!options.quiet) context.console.print(bench_line(measured));
   });

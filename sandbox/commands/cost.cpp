@@ -94,10 +94,7 @@ CostRequest make_request(Session& session, const Options& options, const std::ve
     for (const auto& module : session.renderer->modules()) {
       if (module->name() != owner || !options.knobs.empty()) continue;
       const Demand demand = module->demand(session.world, nullptr);
-      if (!module->built())
-        reason = owner + " is not built yet";
-      else if (!demand.needed)
-        reason = "the scene does not call for " + owner + ": " + demand.reason;
+      if (!demand.needed) reason = "the scene does not call for " + owner + ": " + demand.reason;
     }
     if (reason.empty())
       request.knobs.push_back(name);

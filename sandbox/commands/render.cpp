@@ -99,7 +99,6 @@ Status run_render(const CommandContext& context) {
   auto opened = open_session(options, context.log);
   if (!opened) return opened.error();
   Session& session = *opened.value();
-  warn_of_missing_effects(session, context.log);
   GLOAM_TRY(ensure_baked(session, options, context.log, &context.console));
   ShownView shown = {.view = session.view_settings(options.width, options.height, options.view),
                      .traced = traced_view(*session.renderer, options.view)};

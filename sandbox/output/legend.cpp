@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/math/srgb.h"
 #include "engine/render/passes/visualizer_pass.h"
 #include "shaders/common/heat_shared.h"
 
@@ -65,7 +66,9 @@ class Canvas {
   void draw_bar(int left, int top, int width, int height) {
     for (int x = 0; x < width; ++x) {
       const vec3 color = heat_color((x + 0.5) / width);
-      const auto channel = [&](float value) { return static_cast<std::uint8_t>(std::lround(255.0f * encoded(value))); };
+      const auto channel = [&](float value) {
+        return static_cast<std::uint8_t>(std::lround(255.0f * linear_to_srgb(value)));
+      };
       fill(left + x, top, left + x + 1, top + height, {channel(color.r), channel(color.g), channel(color.b), 255});
     }
   }
@@ -83,10 +86,6 @@ class Canvas {
 
  private:
   [[nodiscard]] int scaled(float at) const { return static_cast<int>(std::lround(at)) * scale_; }
-
-  static float encoded(float linear) {
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-  }
 
   void fill(int left, int top, int right, int bottom, std::array<std::uint8_t, 4> color = {255, 255, 255, 255}) {
     const int width = static_cast<int>(picture_.width), height = static_cast<int>(picture_.height);

@@ -14,14 +14,14 @@ std::string NumberedPath::of(std::uint32_t number) const {
 
 std::optional<NumberedPath> numbered_path(std::string_view path) {
   for (std::size_t at = path.find('%'); at != std::string_view::npos; at = path.find('%', at + 1)) {
-    const std::string_view rest = path.substr(at + 1);
+    const std::string_view after_percent = path.substr(at + 1);
     std::size_t digits = 0, length = 1;
-    if (rest.size() >= 3 && rest[0] == '0' && rest[1] >= '1' && rest[1] <= '9') {
-      digits = static_cast<std::size_t>(rest[1] - '0');
+    if (after_percent.size() >= 3 && after_percent[0] == '0' && after_percent[1] >= '1' && after_percent[1] <= '9') {
+      digits = static_cast<std::size_t>(after_percent[1] - '0');
       length = 3;
     }
-    if (rest.size() >= length && rest[length - 1] == 'd')
-      return NumberedPath{std::string(path.substr(0, at)), digits, std::string(rest.substr(length))};
+    if (after_percent.size() >= length && after_percent[length - 1] == 'd')
+      return NumberedPath{std::string(path.substr(0, at)), digits, std::string(after_percent.substr(length))};
   }
   return std::nullopt;
 }

@@ -22,8 +22,8 @@
 
 namespace gloam {
 
-/// What the panel shows and changes of the run that it belongs to. Functions that are not set are not offered: then the
-/// panel has no section for the scene.
+/// Facts about the run that the panel shows, and functions that change it. Functions that are not set are not offered:
+/// then the panel has no section for the scene.
 struct PlayControls {
   std::string scene;    ///< path or "builtin:NAME"
   double time_s = 0.0;  ///< of the next frame

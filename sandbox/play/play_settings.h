@@ -11,7 +11,7 @@
 
 namespace gloam {
 
-/// What `play` remembers from its last run.
+/// Settings that `play` keeps from run to run.
 struct PlaySettings {
   std::uint32_t width = 1280;  ///< of the window, in desktop units
   std::uint32_t height = 720;

@@ -26,7 +26,7 @@ namespace gloam {
 /// Shows a scene in a window, frame by frame.
 class Player {
  public:
-  /// What lasts longer than a scene.
+  /// State that outlives a scene.
   struct Lasting {
     PlayFigures figures;
     double scale = 0.0;  ///< ResolutionScale::setting

@@ -11,7 +11,6 @@
 
 #include "sandbox/session/captures.h"
 #include "sandbox/session/particle_light.h"
-#include "sandbox/session/run_output.h"
 #include "sandbox/session/scene_loading.h"
 
 namespace gloam {
@@ -89,7 +88,6 @@ Result<bool> open_scene(Session& session, const Options& options, LogSink& log, 
   Opening opening(window, screen);
   auto go_on = opening.run_beside("loading the scene", [&] { return fill_session(session, options, log); });
   if (!go_on.ok() || !*go_on) return go_on;
-  warn_of_missing_effects(session, log);
   go_on = opening.run_here("capturing reflections", [&](const BakeProgress& progress) {
     return ensure_captures(session, options, log, progress);
   });

@@ -27,7 +27,7 @@ class ShaderReload {
     const gpu::ShaderCode* shader = nullptr;  ///< the embedded one
     std::vector<std::uint32_t> words;
   };
-  /// What became of one change of files.
+  /// The result of one change of files.
   struct Change {
     std::vector<Compiled> compiled;
     std::string fault;  ///< the compiler's message about the first shader that failed; empty: none

@@ -21,7 +21,7 @@ namespace {
 
 bool wants_captures(const Session& session) {
   return std::ranges::any_of(session.renderer->modules(), [&](const auto& module) {
-    return module->name() == "reflections" && module->built() && module->demand(session.world, nullptr).needed;
+    return module->name() == "reflections" && module->demand(session.world, nullptr).needed;
   });
 }
 

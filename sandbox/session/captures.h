@@ -20,8 +20,8 @@ namespace gloam {
 /// The file of these captures in --cache-dir, for this device. Empty if there is no such folder.
 [[nodiscard]] std::string cached_captures(const Session& session, const Options& options, std::uint64_t content);
 
-/// Captures the session's proxies and probes at simulated time 0 and with the default knobs, whatever the session's
-/// are. Uses a renderer and a world of its own on the session's device, so the session's next frame is as without it.
+/// Captures the session's proxies and probes at simulated time 0 and with the default knobs, not with the session's.
+/// Uses a separate renderer and world on the session's device, so the session's next frame is as without it.
 /// The result's entities are of the session's world.
 [[nodiscard]] Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, LogSink& log,
                                                     const BakeProgress& progress = {});

@@ -7,7 +7,7 @@
 
 namespace gloam {
 
-/// What add_default_light has added; a resource of worlds that have it.
+/// The light that add_default_light has added; a resource of worlds that have one.
 struct DefaultLight {
   Entity sun = kNoEntity;  ///< a directional light that casts shadows
 };

@@ -9,7 +9,6 @@
 #include "sandbox/output/legend.h"
 #include "sandbox/output/trace.h"
 #include "sandbox/session/scene_loading.h"
-#include "sandbox/session/scene_summary.h"
 #include "sandbox/session/stats.h"
 #include "sandbox/session/view_values.h"
 
@@ -30,11 +29,6 @@ Status write_stats(const DrawnRun& run, const Options& options) {
 }
 
 }  // namespace
-
-void warn_of_missing_effects(const Session& session, LogSink& log) {
-  const std::string missing = missing_effects(session.world, session.renderer->modules());
-  if (!missing.empty()) log.warning(missing);
-}
 
 Status write_picture(const DrawnRun& run, const std::string& path) {
   GLOAM_TRY(make_folder_of(path));

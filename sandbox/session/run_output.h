@@ -22,9 +22,6 @@ struct DrawnRun {
   std::span<const FrameSample> samples;
 };
 
-/// Logs one warning that names the effects that the scene demands but this version does not draw, if there are any.
-void warn_of_missing_effects(const Session& session, LogSink& log);
-
 /// Writes the picture to `path` (.exr: read_view_values(); otherwise a PNG as shown, with the visualizer's legend) and
 /// creates its folder.
 [[nodiscard]] Status write_picture(const DrawnRun& run, const std::string& path);

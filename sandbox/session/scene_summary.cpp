@@ -53,8 +53,7 @@ std::string padded(std::string text, std::size_t width) {
 }
 
 std::string verdict(const SceneSummary::ModuleDemand& module) {
-  if (!module.needed) return "not called for";
-  return module.built ? "called for" : "called for, not built yet";
+  return module.needed ? "called for" : "not called for";
 }
 
 }  // namespace
@@ -90,24 +89,11 @@ SceneSummary summarize_scene(const std::string& scene, const World& world, const
   for (const AnimationClip& clip : assets.clips) out.animations.push_back(clip.name);
   for (const auto& module : modules) {
     Demand demand = module->demand(world, nullptr);
-    out.modules.push_back({.name = std::string(module->name()),
-                           .built = module->built(),
-                           .needed = demand.needed,
-                           .reason = std::move(demand.reason)});
+    out.modules.push_back(
+        {.name = std::string(module->name()), .needed = demand.needed, .reason = std::move(demand.reason)});
     for (std::string& warning : module->warnings(world)) out.warnings.push_back(std::move(warning));
   }
   return out;
-}
-
-std::string missing_effects(const World& world, const ModuleList& modules) {
-  std::string missing;
-  for (const auto& module : modules) {
-    if (module->built()) continue;
-    const Demand demand = module->demand(world, nullptr);
-    if (!demand.needed) continue;
-    missing += (missing.empty() ? "" : ", ") + std::string(module->name()) + " (" + demand.reason + ")";
-  }
-  return missing.empty() ? missing : "the scene calls for effects that are not built yet: " + missing;
 }
 
 std::string summary_text(const SceneSummary& summary) {
@@ -137,7 +123,7 @@ std::string summary_json(const SceneSummary& summary) {
   json["modules"] = Json::array();
   for (const SceneSummary::ModuleDemand& module : summary.modules) {
     json["modules"].push_back(
-        {{"name", module.name}, {"built", module.built}, {"demanded", module.needed}, {"reason", module.reason}});
+        {{"name", module.name}, {"built", true}, {"demanded", module.needed}, {"reason", module.reason}});
   }
   json["warnings"] = summary.warnings;
   return json_text(json);

@@ -34,7 +34,6 @@ struct SceneSummary {
 
   struct ModuleDemand {
     std::string name;
-    bool built = true;
     bool needed = false;
     std::string reason;
   };
@@ -45,15 +44,11 @@ struct SceneSummary {
 [[nodiscard]] SceneSummary summarize_scene(const std::string& scene, const World& world, const SceneInfo& info,
                                            const KeyRegistry& registry, const ModuleList& modules);
 
-/// One sentence that names the effects that the world demands but this version does not draw, each with its reason.
-/// Empty if there are none.
-[[nodiscard]] std::string missing_effects(const World& world, const ModuleList& modules);
-
 /// The summary as readable text.
 [[nodiscard]] std::string summary_text(const SceneSummary& summary);
 /// The summary as JSON: {"version": 1, "scene", counts…, "light_names": […],
 /// "default_light", "cameras": […], "animations": […], "modules": [{"name",
-/// "built", "demanded", "reason"}], "warnings": […]}
+/// "built", "demanded", "reason"}], "warnings": […]}. "built" is always true: it is kept for readers of version 1.
 [[nodiscard]] std::string summary_json(const SceneSummary& summary);
 
 }  // namespace gloam

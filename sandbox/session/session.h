@@ -46,7 +46,7 @@ struct Session {
   [[nodiscard]] Status check_validation() const;
 };
 
-/// What a window needs of the device; members as in gpu::VulkanOptions. Empty: no window.
+/// A window's requirements on the device; members as in gpu::VulkanOptions. Empty: no window.
 struct WindowNeeds {
   std::vector<std::string> extensions;
   std::function<std::uint64_t(void* instance)> create_surface;

@@ -60,22 +60,22 @@ std::optional<double> take_number(std::string_view& text) {
 }
 
 /// Sets the event's members from the text after its name. Returns whether they fit.
-bool read_arguments(std::string_view rest, Arguments arguments, ScriptEvent& event) {
+bool read_arguments(std::string_view text, Arguments arguments, ScriptEvent& event) {
   if (arguments == Arguments::text) {
-    event.text = trimmed(rest);
+    event.text = trimmed(text);
     return !event.text.empty();
   }
   if (arguments == Arguments::number || arguments == Arguments::point) {
-    const auto x = take_number(rest);
+    const auto x = take_number(text);
     if (!x) return false;
     event.x = *x;
   }
   if (arguments == Arguments::steps || arguments == Arguments::point) {
-    const auto y = take_number(rest);
+    const auto y = take_number(text);
     if (!y) return false;
     event.y = *y;
   }
-  return trimmed(rest).empty();
+  return trimmed(text).empty();
 }
 
 }  // namespace

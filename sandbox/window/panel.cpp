@@ -96,7 +96,7 @@ void show_modules(std::span<const ModuleState> modules) {
   ImGui::TableSetupColumn("because", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   for (const ModuleState& module : modules) {
-    const bool runs = module.demanded && module.built;
+    const bool runs = module.demanded;
     if (!runs) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::TableNextColumn();
     show_text(module.name);
@@ -199,9 +199,7 @@ void Panel::show_views(const PanelContent& content) {
   remember_widget("view");
   if (open) {
     for (const VisualizerInfo& info : content.visualizers) {
-      const std::string label = info.name + (info.built ? "" : " (not built yet)");
-      const bool chosen =
-          ImGui::Selectable(label.c_str(), info.name == current, info.built ? 0 : ImGuiSelectableFlags_Disabled);
+      const bool chosen = ImGui::Selectable(info.name.c_str(), info.name == current);
       remember_widget("view " + info.name);
       show_tooltip(info.legend);
       if (!chosen) continue;

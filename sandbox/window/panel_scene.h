@@ -20,7 +20,7 @@ struct PanelLight {
   bool solo = false;
 };
 
-/// What the panel shows of the scene, and the functions that carry out the user's changes. All functions are set.
+/// Facts about the scene that the panel shows, and functions that carry out the user's changes. All functions are set.
 struct PanelScene {
   std::span<const std::string> cameras;
   std::uint32_t camera = 0;  ///< the number of the one that is shown, from 1 on; 0: none of them

@@ -49,7 +49,7 @@ struct Strikes {
   std::vector<std::string> dropped;
 };
 
-/// What an input script holds down.
+/// Keys and buttons that an input script holds down.
 struct Scripted {
   std::bitset<GLFW_KEY_LAST + 1> keys;
   bool left = false;
@@ -131,7 +131,7 @@ struct Window::State {
     if (window != nullptr) glfwDestroyWindow(window);
     glfwTerminate();
   }
-  [[nodiscard]] bool held(int key) const {
+  [[nodiscard]] bool is_down(int key) const {
     return glfwGetKey(window, key) == GLFW_PRESS || scripted.keys[static_cast<std::size_t>(key)];
   }
   [[nodiscard]] bool struck(int key) const { return strikes.keys[static_cast<std::size_t>(key)]; }
@@ -140,7 +140,7 @@ struct Window::State {
            (button == GLFW_MOUSE_BUTTON_RIGHT && scripted.right);
   }
   [[nodiscard]] double axis(int positive, int negative) const {
-    return (held(positive) ? 1.0 : 0.0) - (held(negative) ? 1.0 : 0.0);
+    return (is_down(positive) ? 1.0 : 0.0) - (is_down(negative) ? 1.0 : 0.0);
   }
   void take_events();
   void move_pointer(WindowInput& input);
@@ -167,12 +167,12 @@ PanelInput Window::State::panel_input() const {
   for (std::size_t i = 0; i < std::size(kButtons); ++i)
     input.buttons[i] = strikes.buttons[static_cast<std::size_t>(kButtons[i])] || pressed(kButtons[i]);
   for (std::size_t i = 0; i < kEditKeyCount; ++i)
-    input.keys[i] = strikes.keys[static_cast<std::size_t>(kEditKeys[i])] || held(kEditKeys[i]);
+    input.keys[i] = strikes.keys[static_cast<std::size_t>(kEditKeys[i])] || is_down(kEditKeys[i]);
   input.wheel = strikes.wheel;
   input.text = strikes.text;
-  input.control = held(GLFW_KEY_LEFT_CONTROL) || held(GLFW_KEY_RIGHT_CONTROL);
-  input.shift = held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT);
-  input.alt = held(GLFW_KEY_LEFT_ALT) || held(GLFW_KEY_RIGHT_ALT);
+  input.control = is_down(GLFW_KEY_LEFT_CONTROL) || is_down(GLFW_KEY_RIGHT_CONTROL);
+  input.shift = is_down(GLFW_KEY_LEFT_SHIFT) || is_down(GLFW_KEY_RIGHT_SHIFT);
+  input.alt = is_down(GLFW_KEY_LEFT_ALT) || is_down(GLFW_KEY_RIGHT_ALT);
   return input;
 }
 
@@ -252,7 +252,7 @@ WindowInput Window::poll() {
   WindowInput input = {.forward = s.axis(GLFW_KEY_W, GLFW_KEY_S),
                        .right = s.axis(GLFW_KEY_D, GLFW_KEY_A),
                        .up = s.axis(GLFW_KEY_E, GLFW_KEY_Q),
-                       .fast = s.held(GLFW_KEY_LEFT_SHIFT),
+                       .fast = s.is_down(GLFW_KEY_LEFT_SHIFT),
                        .leave = s.struck(GLFW_KEY_ESCAPE),
                        .toggle_panel = s.struck(GLFW_KEY_TAB) || s.struck(GLFW_KEY_F1),
                        .pause = s.struck(GLFW_KEY_SPACE) || s.struck(GLFW_KEY_P),

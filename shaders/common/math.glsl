@@ -22,9 +22,20 @@ vec3 octahedral_decode(vec2 code) {
 uint pack_normal(vec3 n) { return packSnorm2x16(octahedral_encode(n)); }
 vec3 unpack_normal(uint packed) { return octahedral_decode(unpackSnorm2x16(packed)); }
 
+// sRGB transfer function of three channels (IEC 61966-2-1); the same as in engine/math/srgb.h. linear_to_srgb clamps
+// its argument to [0, 1], srgb_to_linear does not.
 vec3 linear_to_srgb(vec3 c) {
   c = clamp(c, vec3(0.0), vec3(1.0));
   return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));
+}
+
+vec3 srgb_to_linear(vec3 c) {
+  return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045)));
+}
+
+// The derivative of srgb_to_linear at srgb. linear: srgb_to_linear(srgb), in [0, 1].
+vec3 srgb_to_linear_slope(vec3 srgb, vec3 linear) {
+  return mix(2.4 * linear / (srgb + 0.055), vec3(1.0 / 12.92), lessThanEqual(linear, vec3(0.0031308)));
 }
 
 #endif

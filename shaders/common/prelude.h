@@ -7,7 +7,7 @@
 // plain floats, vectors and column-major matrices.
 
 #ifdef __cplusplus
-#include "engine/math/types.h"
+#include "shaders/common/vectors.h"
 #define GLOAM_SHARED_BEGIN namespace gloam::shaders {
 #define GLOAM_SHARED_END }
 namespace gloam::shaders {

@@ -16,10 +16,10 @@ vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < kDirectionalLights; ++i) {
     uint entry = final_entries[min(at, max(end, 1u) - 1u)];
-    bool held = at < end && entry_light(entry) == i;
-    at += uint(held);
+    bool has_entry = at < end && entry_light(entry) == i;
+    at += uint(has_entry);
     DirectionalLight d = lights.directional[i];
-    float share = held ? entry_visibility(entry, slot_pixel(pixel)) : 0.0;
+    float share = has_entry ? entry_visibility(entry, slot_pixel(pixel)) : 0.0;
     sum += add_reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal) * share);
   }
   return sum;

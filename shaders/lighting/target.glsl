@@ -15,8 +15,7 @@ vec3 value_for_target(vec3 shown, uvec2 pixel, bool encode_srgb, bool dither) {
   if (encode_srgb) return rounded;
   // The target encodes once more. The tangent of the decoding curve is exact to 0.07 steps, so the target rounds to the
   // same step.
-  vec3 slope = mix(2.4 * shown / (encoded + 0.055), vec3(1.0 / 12.92), lessThanEqual(shown, vec3(0.0031308)));
-  return shown + (rounded - encoded) * slope;
+  return shown + (rounded - encoded) * srgb_to_linear_slope(encoded, shown);
 }
 
 #endif

@@ -37,8 +37,8 @@ bool lights_tile(uvec2 pixel) {
 
 void main() {
   uvec2 pixel = uvec2(gl_FragCoord.xy);
-  bool held = list_holds(pixel);
-  if (!held && lights_tile(pixel)) {
+  bool in_list = list_holds(pixel);
+  if (!in_list && lights_tile(pixel)) {
     show(kLoud, kLoudOpacity);
     return;
   }
@@ -47,7 +47,7 @@ void main() {
     color = vec3(0.12);
     if (z_bins_hold(pixel)) {
       color = vec3(0.02, 0.08, 0.6);
-      if (group_mask_holds(pixel)) color = held ? vec3(0.05, 0.6, 0.05) : vec3(0.7, 0.35, 0.0);
+      if (group_mask_holds(pixel)) color = in_list ? vec3(0.05, 0.6, 0.05) : vec3(0.7, 0.35, 0.0);
     }
   }
   show(with_grid(color, pixel, GLOAM_SHADOW_TILE), kDarkened);

@@ -9,9 +9,9 @@
 
 void main() {
   uvec2 pixel = uvec2(gl_FragCoord.xy);
-  bool held = list_holds(pixel);
+  bool in_list = list_holds(pixel);
   bool lit = lights_pixel(fetch_light(light_texels, shown_light), pixel);
-  if (held) {
+  if (in_list) {
     show(with_grid(lit ? vec3(0.75, 0.9, 0.2) : vec3(0.02, 0.1, 0.6), pixel, GLOAM_SHADOW_TILE), kDarkened);
   } else {
     show(lit ? kLoud : vec3(0.0), lit ? kLoudOpacity : kDarkened);

@@ -37,9 +37,9 @@ bool group_mask_holds(uvec2 pixel) {
 bool list_holds(uvec2 pixel) {
   uvec2 tile_list = texelFetch(tile_lists, ivec2(pixel / GLOAM_SHADOW_TILE), 0).xy;
   if (!has_list(tile_list)) return group_mask_holds(pixel);
-  bool held = false;
-  for (uint i = 0u; i < list_count(tile_list) && !held; ++i) held = list_light(tile_list.x, i) == shown_light;
-  return held;
+  bool found = false;
+  for (uint i = 0u; i < list_count(tile_list) && !found; ++i) found = list_light(tile_list.x, i) == shown_light;
+  return found;
 }
 
 // Whether the light reaches the surface at a pixel. Independent of the lists.

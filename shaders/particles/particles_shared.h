@@ -73,7 +73,7 @@ struct ParticleEmitterRow {
   uint light_count;
 };
 
-/// What the particles of one view share.
+/// Constants that the particles of one view share.
 struct ParticleFrame {
   vec4 planes[4];  // camera-relative, of the sides of the view: a point p is inside if dot(xyz, p) + w >= 0
   vec3 right;      // unit axes of the picture

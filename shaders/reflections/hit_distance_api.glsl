@@ -11,7 +11,7 @@ const float kMostHitCentimetres = 65535.0;
 // The nearest centimetre; 0 for NaN and negative distances, 655.35 m for greater ones.
 vec2 pack_hit_distance(float metres) {
   float scaled = metres * 100.0;
-  // A comparison with NaN is false, whatever the device's min() and max() make of it.
+  // A comparison with NaN is false on every device; min() and max() of NaN differ between devices.
   float centimetres = scaled > 0.0 ? floor((scaled < kMostHitCentimetres ? scaled : kMostHitCentimetres) + 0.5) : 0.0;
   float high = floor(centimetres / 256.0);
   return vec2(centimetres - 256.0 * high, high) / 255.0;

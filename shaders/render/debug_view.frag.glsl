@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/common/math.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
 
@@ -15,10 +16,6 @@ layout(set = 0, binding = 3) uniform sampler2D depth_image;
 layout(constant_id = 0) const uint kEncode = 0u;  // 1: the target does not encode sRGB by itself
 
 layout(location = 0) out vec4 out_color;
-
-vec3 srgb_to_linear(vec3 c) {
-  return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045)));
-}
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);

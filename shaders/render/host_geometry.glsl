@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "shaders/common/math.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/host_geometry_shared.h"
 #include "shaders/render/view_api.glsl"
@@ -102,10 +103,6 @@ vec3 face_normal_at(ivec2 pixel, float depth, vec3 position, vec3 normal) {
 float channel_of(vec4 material, uint shift, float otherwise) {
   uint channel = (host.channels >> shift) & 15u;
   return channel == kNoChannel ? otherwise : clamp(material[channel], 0.0, 1.0);
-}
-
-vec3 srgb_to_linear(vec3 c) {
-  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
 void main() {

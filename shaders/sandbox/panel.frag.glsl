@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/common/math.glsl"
 
 // Draws Dear ImGui's triangles. Its colours are sRGB-encoded: they are decoded first for a target that encodes sRGB
 // (kDecode = 1), and written unchanged to other targets.
@@ -12,10 +14,6 @@ layout(constant_id = 0) const uint kDecode = 0u;  // 1: the target encodes sRGB
 layout(location = 0) in vec2 uv;
 layout(location = 1) in vec4 color;
 layout(location = 0) out vec4 out_color;
-
-vec3 srgb_to_linear(vec3 c) {
-  return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045)));
-}
 
 void main() {
   vec3 shown = kDecode != 0u ? srgb_to_linear(color.rgb) : color.rgb;

@@ -46,7 +46,7 @@ T made(int value) {
   return out;
 }
 template <class T>
-bool holds(const T& cell, int value) {
+bool has_value(const T& cell, int value) {
   if constexpr (std::is_empty_v<T>) {
     return true;
   } else {
@@ -101,7 +101,7 @@ class Pair {
           const auto expected = row.find(kind);
           ASSERT_EQ(world_.has<T>(e), expected != row.end());
           if (expected == row.end()) return;
-          ASSERT_TRUE(holds<T>(std::as_const(world_).get<T>(e), expected->second));
+          ASSERT_TRUE(has_value<T>(std::as_const(world_).get<T>(e), expected->second));
         });
       }
     }
@@ -197,10 +197,10 @@ class Pair {
         [&](Entity e, const Health& health, const Position* position) {
           ASSERT_TRUE(seen.insert(key(e)).second);
           const Row& row = model_.at(key(e));
-          ASSERT_TRUE(holds(health, row.at(0)));
+          ASSERT_TRUE(has_value(health, row.at(0)));
           ASSERT_EQ(position != nullptr, row.contains(1));
           if (position != nullptr) {
-            ASSERT_TRUE(holds(*position, row.at(1)));
+            ASSERT_TRUE(has_value(*position, row.at(1)));
           }
         });
     std::size_t expected = 0;

@@ -193,8 +193,8 @@ TEST_F(FrameGraphGpuTest, histories_and_uploads_hold_their_contents) {
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     run_frame(graph, [&] {
       history.begin_frame();
-      const auto pair =
-          value_of(history.image_pair(graph, {.world = 1, .frame = frame}, desc, {.rest = Access::transfer_read}));
+      const auto pair = value_of(
+          history.image_pair(graph, {.world = 1, .frame = frame}, desc, {.final_access = Access::transfer_read}));
       PassBuilder pass = graph.add_pass("write", "test");
       const ImageRef current = pass.write(pair.current, Access::transfer_write);
       pass.execute([=](PassContext& context) {

@@ -111,7 +111,7 @@ class HistoryTest : public GraphFixture {
 
   History history{*device};
   HistoryView view{.world = 1, .view = 0, .frame = 0, .cut_frame = 0};
-  HistoryUse use{.rest = Access::transfer_read};
+  HistoryUse use{.final_access = Access::transfer_read};
   Seen blended;  ///< by the newest frame
 };
 
@@ -210,31 +210,11 @@ TEST_F(HistoryTest, another_key_of_the_owner_resets) {
   EXPECT_TRUE(pair_frame().state.valid());
 }
 
-TEST_F(HistoryTest, a_requested_reset_is_of_one_world_and_one_name) {
-  (void)pair_frame();
-  history.reset(2, "test", "temporal");
-  history.reset(1, "test", "other");
-  history.reset(1, "other", "temporal");
-  EXPECT_TRUE(pair_frame().state.valid());
-  history.reset(1, "test", "temporal");
-  EXPECT_EQ(pair_frame().state.reset, HistoryReset::requested);
-  EXPECT_TRUE(pair_frame().state.valid());
-}
-
-TEST_F(HistoryTest, a_reset_after_the_use_counts_for_the_next_frame) {
-  (void)pair_frame();
-  frame([&] {
-    EXPECT_TRUE(use_pair().state.valid());
-    history.reset(1, "test", "temporal");
-  });
-  EXPECT_EQ(pair_frame().state.reset, HistoryReset::requested);
-}
-
 TEST_F(HistoryTest, a_reset_lasts_until_a_frame_writes) {
   (void)pair_frame();
-  history.reset(1, "test", "temporal");
-  for (int i = 0; i < 3; ++i) frame([&] { EXPECT_EQ(use_pair(8, false).state.reset, HistoryReset::requested); });
-  EXPECT_EQ(pair_frame().state.reset, HistoryReset::requested);
+  use.reset.key = 1;
+  for (int i = 0; i < 3; ++i) frame([&] { EXPECT_EQ(use_pair(8, false).state.reset, HistoryReset::key); });
+  EXPECT_EQ(pair_frame().state.reset, HistoryReset::key);
   EXPECT_TRUE(pair_frame().state.valid());
 }
 
@@ -281,8 +261,6 @@ TEST_P(GivenUp, a_reset_is_told_again) {
     EXPECT_EQ(pair_frame().state.reset, expected);
     EXPECT_TRUE(pair_frame().state.valid());
   };
-  history.reset(1, "test", "temporal");
-  lost_and_again(HistoryReset::requested);
   use.reset.key = 2;
   lost_and_again(HistoryReset::key);
   view.cut_frame = view.frame;
@@ -376,7 +354,6 @@ TEST_F(HistoryTest, a_frame_that_is_drawn_again_gets_what_it_got_the_first_time)
   view.cut_frame = view.frame;
   use.reset.camera_cut = true;
   const Seen once = pair_frame();
-  history.reset(1, "test", "temporal");
   for (int i = 0; i < 2; ++i) {
     --view.frame;
     const Seen again = pair_frame();
@@ -388,7 +365,7 @@ TEST_F(HistoryTest, a_frame_that_is_drawn_again_gets_what_it_got_the_first_time)
   const Seen next = pair_frame();
   EXPECT_EQ(next.previous, once.current);
   EXPECT_FALSE(next.state.written);
-  EXPECT_EQ(next.state.reset, HistoryReset::requested) << "the reset is of the next frame";
+  EXPECT_TRUE(next.state.valid()) << "the frame after the cut";
 }
 
 TEST_F(HistoryTest, a_frame_that_is_drawn_again_with_another_key_writes_again) {
@@ -488,7 +465,7 @@ TEST_F(HistoryTest, misuse_asserts) {
   use.scope = HistoryScope::world;
   use.reset.camera_cut = true;
   EXPECT_ASSERT((void)history.buffer(graph, view, knots_desc(), use), "only a view");
-  use = {.rest = Access::transfer_write};
+  use = {.final_access = Access::transfer_write};
   EXPECT_ASSERT((void)history.buffer(graph, view, knots_desc(), use), "access that reads");
 }
 

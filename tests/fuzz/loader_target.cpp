@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kFileName = "scene.gltf";
 
-/// What all inputs share.
+/// Objects that all inputs share.
 struct Loader {
   ModuleList modules = make_all_modules();
   KeyRegistry registry = make_key_registry(modules);

@@ -166,8 +166,6 @@ def cpp_arrow(parts, target):
 
 def shader_arrow(parts, target):
     """The reason why a file below shaders/ may not include a project path, or None."""
-    if parts[1] == "common" and parts[-1].endswith(".h") and target == ["engine", "math", "types.h"]:
-        return None  # the prelude includes the vector types of C++
     if target[0] != "shaders" or len(target) < 3:
         return "shaders include shaders only"
     own, to_own, leaf = parts[1], target[1], target[-1]

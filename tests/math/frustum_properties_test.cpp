@@ -79,9 +79,9 @@ TEST(FrustumProperties, a_box_that_holds_a_visible_point_is_never_rejected) {
       const auto size = static_cast<float>(test::draw_length(-6.0, 6.0));
       (test::draw_index(2) == 0 ? box.min[axis] -= size : box.max[axis] += size);
     }
-    const bool held =
+    const bool in_box =
         glm::all(glm::lessThanEqual(dvec3(box.min), point)) && glm::all(glm::lessThanEqual(point, dvec3(box.max)));
-    const dvec3 inside = held ? point : dvec3(vec3(point));
+    const dvec3 inside = in_box ? point : dvec3(vec3(point));
     if (!is_visible(view.clip_from_world, inside)) return;
     ++tried;
     RC_ASSERT(may_intersect(frustum_from_clip(view.clip_from_world), box));

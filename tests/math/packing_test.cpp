@@ -140,33 +140,5 @@ TEST(Half, a_nan_stays_one_with_its_sign_and_upper_payload) {
   EXPECT_EQ(float_to_half(std::bit_cast<float>(0x7f800001u)), 0x7e00);
 }
 
-TEST(Srgb, known_values) {
-  EXPECT_EQ(srgb_to_linear(0.0f), 0.0f);
-  EXPECT_EQ(linear_to_srgb(0.0f), 0.0f);
-  EXPECT_NEAR(srgb_to_linear(1.0f), 1.0f, 1e-6f);
-  EXPECT_NEAR(linear_to_srgb(1.0f), 1.0f, 1e-6f);
-  EXPECT_NEAR(srgb_to_linear(0.5f), 0.21404114f, 1e-6f);
-  EXPECT_NEAR(linear_to_srgb(0.18f), 0.46135613f, 1e-6f);
-  EXPECT_FLOAT_EQ(srgb_to_linear(0.04f), 0.04f / 12.92f);
-}
-
-TEST(Srgb, the_two_directions_undo_each_other) {
-  for (int i = 0; i <= 4095; ++i) {
-    const float value = static_cast<float>(i) / 4095.0f;
-    ASSERT_NEAR(linear_to_srgb(srgb_to_linear(value)), value, 2e-6f);
-    ASSERT_NEAR(srgb_to_linear(linear_to_srgb(value)), value, 2e-6f);
-  }
-}
-
-TEST(Srgb, all_bytes_survive_and_rise) {
-  float last = -1.0f;
-  for (int i = 0; i <= 255; ++i) {
-    const float linear = srgb_to_linear(static_cast<float>(i) / 255.0f);
-    ASSERT_GT(linear, last);
-    ASSERT_EQ(std::lround(linear_to_srgb(linear) * 255.0f), i);
-    last = linear;
-  }
-}
-
 }  // namespace
 }  // namespace gloam

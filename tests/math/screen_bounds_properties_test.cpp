@@ -41,9 +41,9 @@ void check_contains_samples(const NdcRect& rect, const test::SupportPoint& suppo
     const double x = p.x / -p.z * projection.scale.x;
     const double y = p.y / -p.z * projection.scale.y;
     if (std::abs(x) > 1.0 - noise || std::abs(y) > 1.0 - noise) return;
-    const bool held = !rect.empty && x >= rect.min.x - noise && x <= rect.max.x + noise && y >= rect.min.y - noise &&
-                      y <= rect.max.y + noise;
-    outside += held ? 0 : 1;
+    const bool in_rect = !rect.empty && x >= rect.min.x - noise && x <= rect.max.x + noise && y >= rect.min.y - noise &&
+                         y <= rect.max.y + noise;
+    outside += in_rect ? 0 : 1;
   };
   test::sample_surface(support, projection.near_m, 400, visit);
   if (-inside.z >= projection.near_m) visit(inside);

@@ -20,7 +20,8 @@ namespace {
 
 dmat4 moved_to(double x, double y, double z) { return glm::translate(dmat4(1.0), dvec3(x, y, z)); }
 
-/// What the tests change: a floor that shines, a textured cube, a leaf that cuts out, and lamps with shadows.
+/// The assets that the tests change: a floor that shines, a textured cube, a leaf that cuts out, and lamps with
+/// shadows.
 struct ChangedScene {
   std::uint32_t floor_material = 0, cube_material = 0, leaf_material = 0;
   std::uint32_t floor = 0, cube = 0, leaf = 0;

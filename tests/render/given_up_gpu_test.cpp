@@ -28,7 +28,7 @@ using ::testing::HasSubstr;
 
 constexpr std::uint32_t kFramesCompared = 4;
 
-/// What two views show: pictures, linear light, and how much of their shadow maps was drawn.
+/// Results of two views: pictures, linear light, and the number of drawn shadow-map texels.
 struct ShownViews {
   std::vector<std::vector<std::uint8_t>> pictures;
   std::vector<std::vector<float>> light;
@@ -136,7 +136,7 @@ class GivenUp : public ::testing::TestWithParam<FailPlace> {
     }
   }
 
-  /// What frames 0 to `frame` leave when none is given up.
+  /// The results after frames 0 to `frame` if none is given up.
   static const ShownViews& undisturbed(std::uint32_t frame) {
     if (undisturbed_.empty()) {
       const auto executor = make_serial_executor();

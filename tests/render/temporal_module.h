@@ -54,7 +54,8 @@ class TemporalModule final : public Module {
     desc.module = kName;
     desc.size = sizeof(std::uint32_t);
     desc.usage = gpu::BufferUsage::storage;
-    const auto steps = frame.history_buffer(desc, {.scope = HistoryScope::world, .rest = gpu::Access::compute_read});
+    const auto steps =
+        frame.history_buffer(desc, {.scope = HistoryScope::world, .final_access = gpu::Access::compute_read});
     if (!frame.check(steps)) return;
     control_.steps = *steps;
     if (steps->written) return;
@@ -73,7 +74,8 @@ class TemporalModule final : public Module {
     desc.width = view.width;
     desc.height = view.height;
     desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::storage | gpu::ImageUsage::transfer_source;
-    const auto mean = frame.history_image_pair(desc, {.rest = gpu::Access::compute_read, .reset = control_.rule});
+    const auto mean =
+        frame.history_image_pair(desc, {.final_access = gpu::Access::compute_read, .reset = control_.rule});
     if (!frame.check(mean)) return;
     control_.mean = *mean;
     ComputePass pass(frame, "temporal_mean", shaders::gpu_test::temporal_comp);

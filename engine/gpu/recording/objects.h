@@ -31,7 +31,7 @@ struct Placement {
   std::uint64_t offset = 0;
   std::uint64_t bytes = 0;
   Subresources<SyncState> sync;
-  bool holds = false;                 ///< its contents are in the memory
+  bool has_contents = false;          ///< its contents are in the memory
   bool lost = false;                  ///< another resource has taken the memory over since
   AccessMask inherited = 0;           ///< accesses to resources from which it took the memory over
   std::uint64_t inherited_frame = 0;  ///< frame of the newest of them

@@ -107,7 +107,7 @@ void Tracker::pass_barrier(SyncState& sync, AccessMask before, AccessMask after,
 }
 
 void Tracker::take_over(Memory& memory, Placement& place, AccessMask before, const std::string& object) {
-  if (!place.holds) {
+  if (!place.has_contents) {
     place.inherited = 0;
     place.inherited_frame = 0;
     for (const auto& other : memory.placements) {
@@ -115,7 +115,7 @@ void Tracker::take_over(Memory& memory, Placement& place, AccessMask before, con
       // Later users of memory that `place` covers wait for `place`, which has waited for this resource.
       remember(other);
       const bool covered = place.offset <= other->offset && other->end() <= place.end();
-      other->holds = false;
+      other->has_contents = false;
       other->lost = true;
       other->sync.update(other->sync.all(), [&](SyncState& sync) {
         if (sync.pending != 0 && sync.pending_frame + Device::kFramesInFlight > frame_) {
@@ -127,7 +127,7 @@ void Tracker::take_over(Memory& memory, Placement& place, AccessMask before, con
         if (covered) sync.pending = 0;
       });
     }
-    place.holds = true;
+    place.has_contents = true;
     place.lost = false;
   }
   check_waits(before, place.inherited, place.inherited_frame, object);

@@ -12,8 +12,9 @@
 
 namespace gloam::gpu::vulkan {
 
-/// What the commands of a frame have bound so far. Asserts that draws and dispatches come where they may, with all that
-/// their pipeline uses: a driver would read through null pointers.
+/// The pipeline, descriptors and buffers that the commands of a frame have bound so far. Asserts that draws and
+/// dispatches are recorded where Vulkan allows them, with everything bound that their pipeline uses: otherwise a driver
+/// would read through null pointers.
 class BoundState {
  public:
   /// Call it when a frame begins.

@@ -100,9 +100,9 @@ Status DescriptorWriter::add(const ReflectedBinding& slot, const Binding& bindin
 void DescriptorWriter::add_buffer(const ReflectedBinding& slot, const Binding::BufferRange& range) {
   const Buffer& buffer = buffers_.get(range.buffer);
   GLOAM_ASSERT(range.offset < buffer.desc.size, "a bound range of \"" + buffer.desc.name + "\" begins inside it");
-  const std::uint64_t rest = buffer.desc.size - range.offset;
-  GLOAM_ASSERT(range.size <= rest, "a bound range of \"" + buffer.desc.name + "\" ends inside it");
-  const std::uint64_t size = range.size == 0 ? rest : range.size;
+  const std::uint64_t remaining = buffer.desc.size - range.offset;
+  GLOAM_ASSERT(range.size <= remaining, "a bound range of \"" + buffer.desc.name + "\" ends inside it");
+  const std::uint64_t size = range.size == 0 ? remaining : range.size;
   const VkPhysicalDeviceLimits& limits = context_.physical.limits;
   const std::uint64_t most =
       slot.kind == ResourceKind::uniform_buffer ? limits.maxUniformBufferRange : limits.maxStorageBufferRange;

@@ -13,7 +13,7 @@ constexpr std::uint32_t kDescriptorsPerKind = 1024;
 
 }  // namespace
 
-bool FrameSets::Pool::holds(const DescriptorCounts& more) const {
+bool FrameSets::Pool::has_room_for(const DescriptorCounts& more) const {
   if (sets == most_sets) return false;
   for (std::size_t i = 0; i < more.size(); ++i) {
     if (more[i] > most[i] - used[i]) return false;
@@ -57,7 +57,7 @@ Result<VkDescriptorSet> FrameSets::allocate(VkDescriptorSetLayout layout, std::s
   Slot& slot = slots_[frame_slot_];
   // The pool is counted here, because a driver need not refuse more than the pool was made for. A driver may refuse
   // less, because its pool is fragmented: then a new pool is tried once.
-  while (slot.current < slot.pools.size() && !slot.pools[slot.current].holds(counts)) ++slot.current;
+  while (slot.current < slot.pools.size() && !slot.pools[slot.current].has_room_for(counts)) ++slot.current;
   VkResult result = VK_ERROR_OUT_OF_POOL_MEMORY;
   VkDescriptorSet set = VK_NULL_HANDLE;
   for (int attempt = 0; attempt < 2 && result != VK_SUCCESS; ++attempt) {

@@ -42,7 +42,7 @@ class FrameSets {
     DescriptorCounts most = {};
     std::uint32_t sets = 0;  ///< allocated since the last reset
     DescriptorCounts used = {};
-    [[nodiscard]] bool holds(const DescriptorCounts& more) const;
+    [[nodiscard]] bool has_room_for(const DescriptorCounts& more) const;
   };
   struct Slot {
     std::vector<Pool> pools;

@@ -147,13 +147,13 @@ void MemoryAllocator::account(const AllocationOwner& allocation, std::span<const
   const std::lock_guard lock(mutex_);
   remove_shares(*allocation);
   allocation->shares.clear();
-  std::uint64_t rest = allocation->size;
+  std::uint64_t unaccounted = allocation->size;
   for (const ModuleMemory& share : shares) {
-    GLOAM_ASSERT(share.bytes <= rest, "no more bytes are accounted than a memory block has");
-    rest -= share.bytes;
+    GLOAM_ASSERT(share.bytes <= unaccounted, "no more bytes are accounted than a memory block has");
+    unaccounted -= share.bytes;
     if (share.bytes > 0) allocation->shares.push_back(share);
   }
-  if (rest > 0) allocation->shares.push_back({std::string(module), rest});
+  if (unaccounted > 0) allocation->shares.push_back({std::string(module), unaccounted});
   add_shares(*allocation);
 }
 

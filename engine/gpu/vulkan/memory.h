@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/range_allocator.h"
 #include "engine/core/result.h"
-#include "engine/gpu/range_allocator.h"
 #include "engine/gpu/types.h"
 #include "engine/gpu/vulkan/context.h"
 

@@ -40,7 +40,7 @@ struct PhysicalDevice {
   std::uint32_t max_selections = ~0u;
 };
 
-/// What a device must present to.
+/// The surface that a device must be able to present to.
 struct WindowNeeds {
   bool present = false;                   ///< false: there is no window
   VkSurfaceKHR surface = VK_NULL_HANDLE;  ///< VK_NULL_HANDLE: any surface

@@ -38,7 +38,7 @@ struct Subject {
   }
 };
 
-/// What the failing jobs of the checks throw. Not a std::exception, because any type must come through.
+/// Thrown by the failing jobs of the checks. Not a std::exception, because an executor must pass on any type.
 struct JobFailed {
   std::size_t index = 0;
 };
@@ -149,7 +149,7 @@ struct TrialGraph {
   std::atomic<int> early = -1;  ///< a node that started before a predecessor had ended
 };
 
-/// What run_one_of runs.
+/// Names of the calls that run_one_of makes, by kind.
 inline constexpr const char* kCallKinds[] = {"run", "parallel_for", "run_graph"};
 /// Runs a batch, a loop or a graph of 30 jobs (kind: index of kCallKinds), of which job 7 fails if `fails`.
 Outcome run_one_of(Subject& s, int kind, Tally& tally, bool fails);

@@ -12,7 +12,8 @@ BufferRef kept_indices(FrameBuilder& frame, const char* name, std::span<const st
   desc.module = std::string(frame.module());
   desc.size = indices.size_bytes();
   desc.usage = gpu::BufferUsage::index | gpu::BufferUsage::transfer_target;
-  const auto kept = frame.history_buffer(desc, {.scope = HistoryScope::world, .rest = gpu::Access::vertex_input});
+  const auto kept =
+      frame.history_buffer(desc, {.scope = HistoryScope::world, .final_access = gpu::Access::vertex_input});
   if (!frame.check(kept)) return {};
   if (kept->filled()) return kept->buffer;
   const auto source = frame.upload_items(indices);

@@ -106,7 +106,7 @@ class Recordings {
   std::size_t used_ = 0;
 };
 
-/// What passes declared by name need beyond one frame. Belongs to a renderer.
+/// Objects of passes declared by name that live longer than a frame. Belongs to a renderer.
 struct State {
   explicit State(gpu::Device& device) : placeholders(device) {}
   ShaderInterfaces interfaces;

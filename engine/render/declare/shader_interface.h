@@ -39,7 +39,8 @@ struct InterfaceBinding {
   bool in_last = false;    ///< the fragment or compute shader declares it
 };
 
-/// What a program (a compute shader, or a vertex and a fragment shader) needs from its pass.
+/// The bindings, constants and targets that a program (a compute shader, or a vertex and a fragment shader) needs from
+/// its pass.
 struct ShaderInterface {
   std::string name;  ///< of the compute or fragment shader; of the vertex shader if there is no fragment shader
   bool compute = false;

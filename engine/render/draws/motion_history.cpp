@@ -77,13 +77,13 @@ const DrawnInstance* DrawnInstances::find(const World& world, Entity entity) con
   return same ? &*item : nullptr;
 }
 
-void MotionHistory::begin_frame(const World& world, std::uint64_t slot, bool with_instances, bool again) {
+void MotionHistory::begin_frame(const World& world, std::uint64_t slot, bool with_instances, bool is_redraw) {
   slot_ = slot;
   with_instances_ = with_instances;
-  again_ = again;
+  is_redraw_ = is_redraw;
   views_.clear();
   const Teleports* teleports = world.try_resource<Teleports>();
-  if (again || teleports == nullptr || teleports->entities.empty()) return;
+  if (is_redraw || teleports == nullptr || teleports->entities.empty()) return;
   std::erase_if(worlds_[slot].last.items,
                 [&](const DrawnInstance& item) { return is_listed(world, item.entity, teleports->entities); });
 }
@@ -92,7 +92,7 @@ void MotionHistory::begin_view(RenderView& view) {
   WorldState& state = worlds_[slot_];
   const auto last = state.views.find(view.id.value);
   const bool known = last != state.views.end();
-  if (again_) {
+  if (is_redraw_) {
     if (known) view.previous = last->second.previous;
     view.has_previous = known && last->second.has_previous;
     return;
@@ -105,11 +105,11 @@ void MotionHistory::begin_view(RenderView& view) {
 const DrawnInstances& MotionHistory::instances() const {
   GLOAM_ASSERT(with_instances_, "previous instances are kept only in frames that need motion");
   const WorldState& state = worlds_.at(slot_);
-  return again_ ? state.before_last : state.last;
+  return is_redraw_ ? state.before_last : state.last;
 }
 
 void MotionHistory::commit(World& world) {
-  if (again_) return;
+  if (is_redraw_) return;
   WorldState& state = worlds_[slot_];
   state.views = std::move(views_);
   state.before_last = with_instances_ ? std::move(state.last) : DrawnInstances{};

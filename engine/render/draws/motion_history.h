@@ -48,9 +48,9 @@ struct DrawnInstances {
 /// the previous joints and weights. So they exist for vertices that the previous frame did not draw, too.
 class MotionHistory {
  public:
-  /// Begins a frame. with_instances: some view needs motion. again: draws the world's last frame again, which then has
-  /// the same previous frame; its commit does nothing.
-  void begin_frame(const World& world, std::uint64_t slot, bool with_instances, bool again);
+  /// Begins a frame. with_instances: some view needs motion. is_redraw: draws the world's last frame again, which then
+  /// has the same previous frame; its commit does nothing.
+  void begin_frame(const World& world, std::uint64_t slot, bool with_instances, bool is_redraw);
   /// Sets the previous camera of a view of the frame.
   void begin_view(RenderView& view);
   /// The previous frame's instances; empty if it had none. Only between begin_frame(with_instances) and commit.
@@ -76,7 +76,7 @@ class MotionHistory {
   // Of the frame that was begun:
   std::uint64_t slot_ = 0;
   bool with_instances_ = false;
-  bool again_ = false;
+  bool is_redraw_ = false;
   std::map<std::uint32_t, DrawnView> views_;
 };
 

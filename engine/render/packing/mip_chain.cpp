@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "engine/core/assert.h"
-#include "engine/math/packing.h"
+#include "engine/math/srgb.h"
 
 namespace gloam {
 namespace {

@@ -43,7 +43,7 @@ ComputeProgram scatter_program(bool threads_in_turn, bool implied_values) {
           {{0, implied_values ? 1u : 0u}}};
 }
 
-/// What the passes of one sort share.
+/// Inputs, buffers and sizes that the passes of one sort share.
 struct Sort {
   FrameBuilder& frame;
   std::string name;

@@ -17,7 +17,7 @@
 
 namespace gloam {
 
-/// What is to be packed: a mesh, or an image.
+/// A mesh or an image that is to be packed.
 struct PackRequest {
   std::uint32_t index = 0;     ///< in SceneAssets
   std::uint64_t revision = 0;  ///< SceneAssets::revision of its state

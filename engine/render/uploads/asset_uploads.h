@@ -24,13 +24,13 @@ class AssetUploads {
     std::uint64_t offset = 0;  ///< in bytes
     std::vector<std::byte> bytes;
   };
-  /// What becomes visible together.
+  /// Copies whose results become visible together.
   struct Job {
     std::uint64_t number = 0;  ///< the caller's
     std::vector<BufferPart> parts;
     gpu::ImageHandle image;         ///< RGBA8 with all its mips; null: none
     std::vector<std::byte> texels;  ///< of all mips, tightly packed
-    bool urgent = false;            ///< staged in the next frame, whatever the budget is
+    bool urgent = false;            ///< staged in the next frame, also beyond the budget
   };
 
   explicit AssetUploads(gpu::Device& device) : device_(device) {}

@@ -29,14 +29,14 @@ AssetUploads::BufferPart part_of(MeshStreams::Stream stream, std::uint32_t first
 
 }  // namespace
 
-RangeAllocator& MeshStreams::ranges_of(Stream stream) {
-  RangeAllocator* const ranges[] = {&vertices_,     &vertices_,         &vertices_,
-                                    &index_ranges_, &influence_ranges_, &morph_ranges_};
+const RangeAllocator& MeshStreams::ranges_of(Stream stream) const {
+  const RangeAllocator* const ranges[] = {&vertices_,     &vertices_,         &vertices_,
+                                          &index_ranges_, &influence_ranges_, &morph_ranges_};
   return *ranges[stream];
 }
 
 std::uint64_t MeshStreams::bytes(Stream stream) const {
-  return const_cast<MeshStreams*>(this)->ranges_of(stream).capacity() * kUnit * kElementBytes[stream];
+  return ranges_of(stream).capacity() * kUnit * kElementBytes[stream];
 }
 
 std::uint32_t MeshStreams::allocate(RangeAllocator& ranges, std::size_t count, bool spare) {
@@ -52,7 +52,7 @@ std::uint32_t MeshStreams::allocate(RangeAllocator& ranges, std::size_t count, b
 }
 
 void MeshStreams::free(RangeAllocator& ranges, std::uint32_t first, std::size_t count) {
-  if (count > 0) ranges.free(first / kUnit, units(count));
+  if (count > 0) ranges.free(first / kUnit);
 }
 
 void MeshStreams::place(PackedPrimitive& packed, bool spare) {

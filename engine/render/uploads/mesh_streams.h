@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/range_allocator.h"
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/render/packing/packed_primitive.h"
 #include "engine/render/uploads/asset_uploads.h"
-#include "engine/render/uploads/range_allocator.h"
 
 namespace gloam {
 
@@ -52,7 +52,7 @@ class MeshStreams {
   void release();
 
  private:
-  [[nodiscard]] RangeAllocator& ranges_of(Stream stream);
+  [[nodiscard]] const RangeAllocator& ranges_of(Stream stream) const;
   [[nodiscard]] std::uint32_t allocate(RangeAllocator& ranges, std::size_t count, bool spare);
   static void free(RangeAllocator& ranges, std::uint32_t first, std::size_t count);
 

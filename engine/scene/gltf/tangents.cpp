@@ -24,8 +24,8 @@ dvec3 across(const dvec3& v, const dvec3& normal) {
   const double length = glm::length(v);
   if (!(length > 0.0) || !std::isfinite(length)) return dvec3(0.0);
   const dvec3 projected = v / length - normal * glm::dot(normal, v / length);
-  const double rest = glm::length(projected);
-  return rest > 1e-6 ? projected / rest : dvec3(0.0);
+  const double across_length = glm::length(projected);
+  return across_length > 1e-6 ? projected / across_length : dvec3(0.0);
 }
 
 /// Angle between two edges at a corner, radians.

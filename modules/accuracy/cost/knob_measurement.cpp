@@ -9,7 +9,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
-#include "engine/math/packing.h"
+#include "engine/math/srgb.h"
 #include "modules/accuracy/cost/knob_overrides.h"
 #include "modules/accuracy/cost/timing.h"
 
@@ -141,27 +141,27 @@ Status KnobMeasurement::judge(const std::string& value, LedgerRow& row) {
   if (measure_) return judge_by_measure(value, row);
   if (!reference_ && knob_.exact.empty()) return {};
   const bool serves_all = !reference_ || !reference_->follows_value;
-  if (serves_all && !held_) GLOAM_TRY(hold_reference());
+  if (serves_all && !common_reference_) GLOAM_TRY(draw_common_reference());
   const auto drawn = draw(value);
   if (!drawn) return drawn.error();
   return reference_ ? judge_by_module(value, *drawn, row) : judge_by_exact(*drawn, row);
 }
 
-Status KnobMeasurement::hold_reference() {
+Status KnobMeasurement::draw_common_reference() {
   auto drawn = draw(reference_ ? default_ : knob_.exact);
   if (!drawn) return drawn.error();
   if (!reference_) {
     exact_sequence_ = std::move(drawn->sequence);
-    held_.emplace(Held{PictureJudge(std::move(drawn->frame))});
+    common_reference_.emplace(NoisyReference{PictureJudge(std::move(drawn->frame))});
     return {};
   }
-  auto held = module_reference(default_, drawn->frame);
-  if (!held) return held.error();
-  held_.emplace(std::move(held).value());
+  auto reference = module_reference(default_, drawn->frame);
+  if (!reference) return reference.error();
+  common_reference_.emplace(std::move(reference).value());
   return {};
 }
 
-Status KnobMeasurement::hold_standard() {
+Status KnobMeasurement::draw_standard() {
   GLOAM_TRY(set(default_));
   {
     KnobOverrides overrides(subject_.knobs());
@@ -169,7 +169,7 @@ Status KnobMeasurement::hold_standard() {
     auto right = draw();
     if (!right) return right.error();
     exact_sequence_ = std::move(right->sequence);
-    held_.emplace(Held{PictureJudge(std::move(right->frame))});
+    common_reference_.emplace(NoisyReference{PictureJudge(std::move(right->frame))});
   }
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(measure_->judged_with));
@@ -181,7 +181,7 @@ Status KnobMeasurement::hold_standard() {
 Status KnobMeasurement::judge_by_measure(const std::string& value, LedgerRow& row) {
   row.reference_kind = measure_->kind;
   row.reference_name = measure_->name;
-  if (!held_) GLOAM_TRY(hold_standard());
+  if (!common_reference_) GLOAM_TRY(draw_standard());
   GLOAM_TRY(set(value));
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(measure_->judged_with));
@@ -190,31 +190,31 @@ Status KnobMeasurement::judge_by_measure(const std::string& value, LedgerRow& ro
   const FrameCounters counters = subject_.counters();
   if (const auto error = measure_->error(counters, standard_)) row.counted = CountedError{*error, measure_->unit};
   row.wrong = measure_->fault(counters);
-  GLOAM_TRY(held_->judge.judge(drawn->frame, row));
+  GLOAM_TRY(common_reference_->judge.judge(drawn->frame, row));
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn->sequence, row);
 }
 
 Status KnobMeasurement::judge_by_exact(const Drawn& drawn, LedgerRow& row) {
   row.reference_kind = "brute force";
   row.reference_name = knob_.name + "=" + knob_.exact;
-  GLOAM_TRY(held_->judge.judge(drawn.frame, row));
+  GLOAM_TRY(common_reference_->judge.judge(drawn.frame, row));
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn.sequence, row);
 }
 
 Status KnobMeasurement::judge_by_module(const std::string& value, const Drawn& drawn, LedgerRow& row) {
   row.reference_kind = reference_->kind;
   row.reference_name = reference_->name;
-  std::optional<Held> own;
+  std::optional<NoisyReference> own;
   if (reference_->follows_value) {
-    auto held = module_reference(value, drawn.frame);
-    if (!held) return held.error();
-    own.emplace(std::move(held).value());
+    auto reference = module_reference(value, drawn.frame);
+    if (!reference) return reference.error();
+    own.emplace(std::move(reference).value());
   }
-  const Held& held = own ? *own : *held_;
-  GLOAM_TRY(held.judge.judge(drawn.frame, row));
-  row.reference_noise = held.noise;
+  const NoisyReference& reference = own ? *own : *common_reference_;
+  GLOAM_TRY(reference.judge.judge(drawn.frame, row));
+  row.reference_noise = reference.noise;
   const double error = row.flip ? row.flip->mean : *row.rmse;
-  row.below_noise = held.noise > 0.0 && error < held.noise;
+  row.below_noise = reference.noise > 0.0 && error < reference.noise;
   const bool moves = request_.sequence >= 2 && reference_->kind == "accumulated" && !reference_->follows_value;
   return moves ? judge_motion(value, row) : Status();
 }
@@ -245,7 +245,8 @@ Result<std::vector<FramePictures>> KnobMeasurement::draw_motion(const std::strin
   return frames;
 }
 
-Result<KnobMeasurement::Held> KnobMeasurement::module_reference(const std::string& value, const FramePictures& frame) {
+Result<KnobMeasurement::NoisyReference> KnobMeasurement::module_reference(const std::string& value,
+                                                                          const FramePictures& frame) {
   const std::string identity =
       joined_line(reference_->kind + " " + reference_->name + " of " + hash_of(frame) + " " + frame_identity(value));
   std::optional<JudgedReference> reference = cache_.load(identity);
@@ -256,7 +257,7 @@ Result<KnobMeasurement::Held> KnobMeasurement::module_reference(const std::strin
     GLOAM_TRY(cache_.save(identity, *reference));
   }
   const double noise = reference->noise;
-  return Held{PictureJudge(std::move(reference->pictures)), noise};
+  return NoisyReference{PictureJudge(std::move(reference->pictures)), noise};
 }
 
 Result<JudgedReference> KnobMeasurement::compute(const FramePictures& frame) {

@@ -32,7 +32,7 @@ class KnobMeasurement {
     std::vector<LinearPicture> sequence;  ///< empty unless the request asks for one
   };
   /// A reference and its noise (LedgerRow::reference_noise).
-  struct Held {
+  struct NoisyReference {
     PictureJudge judge;
     double noise = 0.0;
   };
@@ -46,9 +46,9 @@ class KnobMeasurement {
   [[nodiscard]] Result<Drawn> draw(const std::string& value);
   [[nodiscard]] Status judge(const std::string& value, LedgerRow& row);
   /// Draws the reference that all values are compared with.
-  [[nodiscard]] Status hold_reference();
+  [[nodiscard]] Status draw_common_reference();
   /// For a measure: draws the right picture, and reads the counters of the default value.
-  [[nodiscard]] Status hold_standard();
+  [[nodiscard]] Status draw_standard();
   [[nodiscard]] Status judge_by_measure(const std::string& value, LedgerRow& row);
   [[nodiscard]] Status judge_by_exact(const Drawn& drawn, LedgerRow& row);
   [[nodiscard]] Status judge_by_module(const std::string& value, const Drawn& drawn, LedgerRow& row);
@@ -56,7 +56,7 @@ class KnobMeasurement {
   [[nodiscard]] Status judge_motion(const std::string& value, LedgerRow& row);
   /// The frames of a sequence with a value; with `references`, the module's reference of each.
   [[nodiscard]] Result<std::vector<FramePictures>> draw_motion(const std::string& value, bool references);
-  [[nodiscard]] Result<Held> module_reference(const std::string& value, const FramePictures& frame);
+  [[nodiscard]] Result<NoisyReference> module_reference(const std::string& value, const FramePictures& frame);
   [[nodiscard]] Result<JudgedReference> compute(const FramePictures& frame);
   [[nodiscard]] Status time(const std::string& value, LedgerRow& row);
 
@@ -70,7 +70,7 @@ class KnobMeasurement {
   std::optional<ReferenceInfo>
       reference_;  ///< the module's reference; none: a frame with the knob's exact value, if it has one
   ReferenceCache cache_;
-  std::optional<Held> held_;  ///< the reference, if one serves all values
+  std::optional<NoisyReference> common_reference_;  ///< the reference, if one serves all values
   std::vector<LinearPicture> exact_sequence_;
   std::vector<FramePictures> reference_sequence_;  ///< empty until judge_motion() needs it
 };

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/core/assert.h"
+#include "engine/math/srgb.h"
 #include "modules/accuracy/metrics/flip_color.h"
 #include "modules/accuracy/metrics/flip_filters.h"
 
@@ -27,7 +28,7 @@ struct Opponents {
 
 Opponents opponents_of(const EncodedPixels& picture) {
   std::array<double, 256> linear;
-  for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = linear_from_encoded(static_cast<std::uint8_t>(i));
+  for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = srgb_to_linear(static_cast<double>(i) / 255.0);
   Opponents result;
   for (Plane& plane : result.planes) plane = {picture.width, picture.height, std::vector<double>(picture.count())};
   for (std::size_t i = 0; i < picture.count(); ++i) {

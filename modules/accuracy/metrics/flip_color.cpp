@@ -49,11 +49,6 @@ double lab_curve(double t) {
 
 }  // namespace
 
-double linear_from_encoded(std::uint8_t encoded) {
-  const double value = encoded / 255.0;
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
 Color ycxcz_from_linear(const Color& rgb) {
   const Color xyz = product(kXyzFromLinear, rgb);
   const double x = xyz[0] / kWhite[0];

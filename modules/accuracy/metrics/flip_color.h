@@ -3,14 +3,10 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 
 namespace gloam::flip {
 
 using Color = std::array<double, 3>;
-
-/// Linear value of an sRGB-encoded channel.
-[[nodiscard]] double linear_from_encoded(std::uint8_t encoded);
 
 /// Linear RGB in 0…1 to luminance and two opponent axes (paper, §4.1), and back.
 [[nodiscard]] Color ycxcz_from_linear(const Color& rgb);

@@ -38,7 +38,7 @@ struct AttachedMesh {
   }
 };
 
-/// What the filters know about a call. Embree passes the pointer to `embree` on.
+/// Data of a call for the filter functions. Embree passes the pointer to `embree` on to them.
 struct TraceContext {
   TraceContext() { rtcInitIntersectContext(&embree); }
 

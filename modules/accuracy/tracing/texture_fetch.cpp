@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/accuracy/tracing/texture_fetch.h"
 
-#include "engine/math/packing.h"
+#include "engine/math/srgb.h"
 
 namespace gloam {
 

@@ -16,8 +16,8 @@ namespace gloam {
 [[nodiscard]] inline std::size_t wrapped_texel(std::int64_t at, std::int64_t size, WrapMode mode) {
   if (mode == WrapMode::clamp_to_edge) return static_cast<std::size_t>(std::clamp<std::int64_t>(at, 0, size - 1));
   const std::int64_t period = mode == WrapMode::mirrored_repeat ? 2 * size : size;
-  const std::int64_t rest = ((at % period) + period) % period;
-  return static_cast<std::size_t>(rest < size ? rest : period - 1 - rest);
+  const std::int64_t phase = ((at % period) + period) % period;
+  return static_cast<std::size_t>(phase < size ? phase : period - 1 - phase);
 }
 
 /// Coordinate in texels; 0 if it is NaN or its magnitude is 1e15 or more.

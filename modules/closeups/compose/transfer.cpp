@@ -13,11 +13,11 @@ namespace {
 
 bool is_perspective(const ShadowFace& face) { return face.tan_half > 0.0f; }
 
-/// A vector that depends linearly on a point of a face: x · point.x + y · point.y + rest.
+/// A vector that depends linearly on a point of a face: x · point.x + y · point.y + constant.
 struct PointVectors {
   dvec3 x;
   dvec3 y;
-  dvec3 rest;
+  dvec3 constant;
 };
 
 /// Perspective: the ray from the face's origin through the point, with a length of one metre along the axis.
@@ -32,7 +32,7 @@ PointVectors rays_of(const ShadowFace& face) {
 
 /// Row r with dot(r, (point, 1)) = dot(axis, vector of the point).
 dvec3 row(const dvec3& axis, const PointVectors& vectors) {
-  return {glm::dot(axis, vectors.x), glm::dot(axis, vectors.y), glm::dot(axis, vectors.rest)};
+  return {glm::dot(axis, vectors.x), glm::dot(axis, vectors.y), glm::dot(axis, vectors.constant)};
 }
 
 /// Rows that map a point of one face to a homogeneous point of another.
@@ -48,7 +48,7 @@ PlaceRows place_rows(const ShadowFace& of, const ShadowFace& in) {
   if (!perspective) {
     // The offset along the light has no effect; removing it keeps the numbers small.
     const dvec3 apart = of.origin - in.origin, forward(of.forward);
-    rays.rest += apart - forward * glm::dot(forward, apart);
+    rays.constant += apart - forward * glm::dot(forward, apart);
   }
   const double side = in.square.size, half = perspective ? in.tan_half : in.half_extent_m;
   const dvec3 w = perspective ? row(dvec3(in.forward), rays) : dvec3(0.0, 0.0, 1.0);

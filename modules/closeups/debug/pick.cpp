@@ -19,7 +19,7 @@ std::string name_of(const SceneNames& names, Entity entity, const char* kind) {
   return name.empty() ? std::string(kind) + " " + std::to_string(entity.index) : std::string(name);
 }
 
-bool holds(const TileRange& tiles, const PickedPixel& pixel) {
+bool contains(const TileRange& tiles, const PickedPixel& pixel) {
   const uvec2 tile(pixel.x / kShadowTile, pixel.y / kShadowTile);
   return glm::all(glm::greaterThanEqual(tile, tiles.begin)) && glm::all(glm::lessThan(tile, tiles.end));
 }
@@ -46,7 +46,7 @@ std::vector<std::string> closeup_pick_lines(const FrameBuilder& frame, const Pic
   const auto& names = frame.world().resource<SceneNames>();
   std::vector<std::string> lines = {""};
   for (const CloseupView& pair : pairs) {
-    if (!holds(pair.tiles, pixel)) continue;
+    if (!contains(pair.tiles, pixel)) continue;
     std::string line = "  " + name_of(names, pair.subject, "subject") + " and " + name_of(names, pair.light, "light");
     const std::string size = std::to_string(pair.face.square.size);
     line += ": map " + size + "x" + size;
@@ -54,8 +54,8 @@ std::vector<std::string> closeup_pick_lines(const FrameBuilder& frame, const Pic
       line += ", " + density_text(texels_per_pixel(pair.face, frame.view(), footprint_of(frame.view(), pixel, copies)));
     lines.push_back(std::move(line));
   }
-  const std::size_t held = lines.size() - 1;
-  lines[0] = "close-up pairs of the tile: " + std::to_string(held) + " of " + std::to_string(pairs.size());
+  const std::size_t listed = lines.size() - 1;
+  lines[0] = "close-up pairs of the tile: " + std::to_string(listed) + " of " + std::to_string(pairs.size());
   return lines;
 }
 

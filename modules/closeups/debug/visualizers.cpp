@@ -127,9 +127,8 @@ void CloseupViewPasses::add_pass(FrameBuilder& frame) {
   const std::span<const CloseupView> pairs = drawn_closeups(frame);
   if (!pairs.empty()) return add_view(frame, pairs, shown == kTexels);
   if (find_final_lists(frame) != nullptr) return;
-  const auto [sentence, fresh] =
-      told_.insert("view " + shown + " shows the picture as it is: the frame has no final lists");
-  if (fresh) frame.services().log.warning(*sentence);
+  once_log_.warning(frame.services().log,
+                    "view " + shown + " shows the picture as it is: the frame has no final lists");
 }
 
 }  // namespace gloam

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <set>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "engine/core/once_log.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
 #include "modules/closeups/pairs/views.h"
@@ -34,7 +33,7 @@ class CloseupViewPasses {
   void add_pass(FrameBuilder& frame);
 
  private:
-  std::set<std::string> told_;  ///< warnings already logged
+  OnceLog once_log_;
 };
 
 }  // namespace gloam

@@ -19,7 +19,7 @@
 
 namespace gloam {
 
-/// Most blades of a field, whatever the settings say.
+/// Most blades of a field, for all settings.
 inline constexpr std::uint32_t kMostGrassBlades = 1u << 24;
 
 /// Settings of the growth; a world resource.

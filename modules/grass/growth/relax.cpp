@@ -135,13 +135,13 @@ class SurfaceWalk {
 
   /// Turns the rest of the way into the plane of the triangle that was entered across `edge`. False if it does not lead
   /// inward.
-  bool unfold(dvec3& way, double rest, std::size_t edge) const {
+  bool unfold(dvec3& way, double remaining_share, std::size_t edge) const {
     const GrowthTriangle& triangle = surface_.triangles[triangle_];
     const dvec3 normal(triangle.normal);
     const dvec3 flat = way - normal * glm::dot(way, normal);
     const double length = glm::length(flat);
     if (!(length > 0.0)) return false;
-    way = flat * (rest * glm::length(way) / length);
+    way = flat * (remaining_share * glm::length(way) / length);
     return weight_changes(triangle, way)[(edge + 2) % 3] > 0.0;
   }
 

@@ -26,7 +26,7 @@ HistoryBuffer kept_buffer(FrameBuilder& frame, const char* name, std::uint64_t b
   desc.size = bytes;
   desc.usage = storage | transfer_target | transfer_source;
   const auto kept = frame.history_buffer(
-      desc, {.scope = HistoryScope::world, .rest = gpu::Access::compute_read, .instance = generation});
+      desc, {.scope = HistoryScope::world, .final_access = gpu::Access::compute_read, .instance = generation});
   return frame.check(kept) ? *kept : HistoryBuffer{};
 }
 

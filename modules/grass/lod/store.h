@@ -10,7 +10,7 @@
 
 namespace gloam {
 
-/// What the buffers of one world hold after the last frame that was submitted.
+/// Contents of the buffers of one world after the last frame that was submitted.
 struct GrassStoreState {
   GrassResidency residency;
   std::uint64_t field = 0;         ///< version of the field

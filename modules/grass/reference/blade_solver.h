@@ -33,7 +33,7 @@ struct BladeState {
   std::array<dvec3, kGrassKnots> before{};  ///< a step earlier
 };
 
-/// What all blades of a patch have in common in a frame.
+/// Parameters of a frame that all blades of a patch share.
 struct BladeSteps {
   WindField wind;              ///< at the begin of the frame
   dvec3 wind_at = dvec3(0.0);  ///< position of the patch's origin in the wind's field

@@ -19,8 +19,8 @@ double finite_or_zero(double x) { return std::isnan(x) ? 0.0 : std::clamp(x, -1e
 
 double in_period(double x) {
   if (!std::isfinite(x)) return 0.0;
-  const double rest = x - kPeriod * std::floor(x / kPeriod);
-  return rest >= 0.0 && rest < kPeriod ? rest : 0.0;
+  const double phase = x - kPeriod * std::floor(x / kPeriod);
+  return phase >= 0.0 && phase < kPeriod ? phase : 0.0;
 }
 
 std::uint32_t hash(std::uint32_t x, std::uint32_t z, std::uint32_t octave) {

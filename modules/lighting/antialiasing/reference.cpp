@@ -8,16 +8,12 @@
 #include <vector>
 
 #include "engine/math/low_discrepancy.h"
+#include "engine/math/srgb.h"
 
 namespace gloam {
 namespace {
 
 constexpr std::uint32_t kMostSamples = 64;
-
-double decoded(double value) { return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4); }
-double encoded(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 /// The point of a pixel that the sample shows, from the pixel's centre; pixels.
 glm::dvec2 sample_point(std::uint32_t index) {
@@ -44,7 +40,7 @@ Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
   mean.picture = input.frame.picture;
   std::vector<double> linear(256);
   for (std::size_t value = 0; value < linear.size(); ++value)
-    linear[value] = decoded(static_cast<double>(value) / 255.0);
+    linear[value] = srgb_to_linear(static_cast<double>(value) / 255.0);
   std::vector<double> sums(mean.picture.rgba.size(), 0.0);
   for (std::uint32_t i = 0; i < samples; ++i) {
     const auto frame = input.redraw([&](World& world) { world.set_resource(shifted(input.view, sample_point(i))); },
@@ -56,7 +52,7 @@ Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
   }
   for (std::size_t at = 0; at < sums.size(); ++at)
     mean.picture.rgba[at] =
-        at % 4 == 3 ? 255 : static_cast<std::uint8_t>(std::lround(255.0 * encoded(sums[at] / samples)));
+        at % 4 == 3 ? 255 : static_cast<std::uint8_t>(std::lround(255.0 * linear_to_srgb(sums[at] / samples)));
   return mean;
 }
 

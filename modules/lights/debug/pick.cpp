@@ -43,7 +43,7 @@ bool reaches(const shaders::LocalLight& light, const dvec3& point) {
 
 constexpr std::size_t kMostContributions = 16;
 
-/// What a light adds to a surface.
+/// The illuminance that a light adds at a surface.
 struct Contribution {
   std::string light;
   double lux = 0.0;

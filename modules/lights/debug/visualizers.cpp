@@ -83,10 +83,10 @@ bool is_taken(const FrameBuilder& frame, LightView view, std::string_view light)
   if (view != LightView::list || frame.find<LightListViewTaken>() == nullptr) return false;
   const auto entity = frame.world().resource<SceneNames>().find("light", light);
   const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
-  const auto holds = [&](const std::vector<Entity>& lights) {
+  const auto is_listed = [&](const std::vector<Entity>& lights) {
     return std::find(lights.begin(), lights.end(), *entity) != lights.end();
   };
-  return entity.ok() && (holds(visible.local_entities) || holds(visible.directional_entities));
+  return entity.ok() && (is_listed(visible.local_entities) || is_listed(visible.directional_entities));
 }
 
 }  // namespace
@@ -100,10 +100,9 @@ std::optional<std::uint32_t> LightViews::shown_light(const FrameBuilder& frame, 
   if (at != lights.end()) return static_cast<std::uint32_t>(at - lights.begin());
   const Light* light = world.try_get<Light>(*entity);
   const bool directional = light != nullptr && light->kind == LightKind::directional;
-  const auto [sentence, fresh] =
-      told_.insert("view " + std::string(frame.visualizer()) + " shows no tile: the light " +
-                   (directional ? "is directional and in no tile's list" : "reaches nothing in view"));
-  if (fresh) frame.services().log.warning(*sentence);
+  once_log_.warning(frame.services().log,
+                    "view " + std::string(frame.visualizer()) + " shows no tile: the light " +
+                        (directional ? "is directional and in no tile's list" : "reaches nothing in view"));
   return std::nullopt;
 }
 

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <set>
-#include <string>
+#include <string_view>
 #include <vector>
 
+#include "engine/core/once_log.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
 
@@ -30,7 +30,7 @@ class LightViews {
   /// them (logs one warning).
   [[nodiscard]] std::optional<std::uint32_t> shown_light(const FrameBuilder& frame, std::string_view name);
 
-  std::set<std::string> told_;  ///< warnings already logged
+  OnceLog once_log_;
 };
 
 }  // namespace gloam

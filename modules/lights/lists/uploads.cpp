@@ -32,7 +32,7 @@ BufferRef kept_items(FrameBuilder& frame, const char* name, std::span<const T> i
   desc.size = items.size_bytes();
   desc.usage = gpu::BufferUsage::storage | gpu::BufferUsage::transfer_target;
   const auto kept = frame.history_buffer(
-      desc, {.scope = HistoryScope::view, .rest = gpu::Access::compute_read, .reset = {.key = hash}});
+      desc, {.scope = HistoryScope::view, .final_access = gpu::Access::compute_read, .reset = {.key = hash}});
   if (!frame.check(kept)) return {};
   if (!kept->filled()) copies.push_back({kept->buffer, frame.upload_items(items)});
   return kept->buffer;

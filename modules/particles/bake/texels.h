@@ -22,7 +22,7 @@ struct Flux {
 /// (fluence + 2 n · along) / 4 from it.
 [[nodiscard]] Flux ambient_flux(const SceneEnvironment& sky);
 
-/// What bake_texels() fills a map with. The rays of `options`.
+/// Inputs of bake_texels(). Numbers of rays: those of `options`.
 struct TexelInput {
   const SceneTracer& tracer;
   const TwinLights& lights;

@@ -37,7 +37,7 @@ ImageRef add_volume(FrameBuilder& frame, const char* name, gpu::Format format, u
   desc.shape = gpu::ImageShape::volume;
   desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
   const auto kept = frame.history_image(
-      desc, {.scope = HistoryScope::world, .rest = gpu::Access::compute_read, .reset = {.key = version}});
+      desc, {.scope = HistoryScope::world, .final_access = gpu::Access::compute_read, .reset = {.key = version}});
   if (!frame.check(kept)) return {};
   if (kept->filled()) return kept->image;
   const std::vector<Texel> content = texels();

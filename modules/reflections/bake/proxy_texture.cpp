@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/math/packing.h"
+#include "engine/math/srgb.h"
 #include "engine/scene/image_file.h"
 
 namespace gloam {

@@ -27,7 +27,7 @@ struct ProxyTileSettings {
   friend bool operator==(const ProxyTileSettings&, const ProxyTileSettings&) = default;
 };
 
-/// What became of a proxy in a view. Proxies with an earlier outcome are not tested for the later ones.
+/// The result of culling a proxy in a view. Proxies with an earlier outcome are not tested for the later ones.
 enum class ProxyOutcome : std::uint8_t { kept, other_room, faces_away, out_of_view };
 
 /// The proxies that each vertical tile of the screen may reflect; a view resource written by system proxy_tiles.

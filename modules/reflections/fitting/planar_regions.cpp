@@ -105,7 +105,7 @@ class GrowingPlane {
   [[nodiscard]] const dvec3& normal() const { return normal_; }
   [[nodiscard]] double offset() const { return offset_; }
   [[nodiscard]] double area_m2() const { return area_m2_; }
-  [[nodiscard]] bool holds(const WeldedFaces& faces, std::uint32_t face, const RegionTolerance& tolerance) const {
+  [[nodiscard]] bool contains(const WeldedFaces& faces, std::uint32_t face, const RegionTolerance& tolerance) const {
     if (glm::dot(faces.normals[face], normal_) < tolerance.cos_angle) return false;
     return is_near(faces, face, tolerance.distance_m);
   }
@@ -244,7 +244,7 @@ std::vector<PlanarRegion> grow_planar_regions(const WeldedFaces& faces, const Re
     take(seed);
     for (std::size_t at = 0; at < members.size(); ++at)
       for (const std::uint32_t next : faces.neighbors[members[at]])
-        if (next != kNoFace && taken[next] == 0 && plane.holds(faces, next, tolerance)) take(next);
+        if (next != kNoFace && taken[next] == 0 && plane.contains(faces, next, tolerance)) take(next);
     regions.push_back(region_of(plane, std::move(members)));
   }
   return regions;

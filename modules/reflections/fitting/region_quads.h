@@ -34,7 +34,7 @@ struct FittedQuad {
 
 /// Fits rectangles to each region: in its plane, with a horizontal side where the plane is steep, at the mean distance
 /// of its foremost surface. Quads of double-sided regions come twice, facing both ways. In the order of the regions,
-/// whatever the executor.
+/// with every executor.
 [[nodiscard]] std::vector<FittedQuad> fit_quads(const WeldedFaces& faces, std::span<const PlanarRegion> regions,
                                                 const QuadSettings& settings, JobExecutor& jobs);
 

@@ -35,7 +35,7 @@ namespace gloam {
 [[nodiscard]] Result<FramePictures> draw_traced_reflections(const ReferenceInput& input,
                                                             const ReflectionTracing& settings = {});
 
-/// What reflected rays meet besides surfaces and sky.
+/// Fog and fire, which reflected rays meet besides surfaces and sky.
 struct ReflectionExtras {
   ReflectedFog fog;
   FireQuads fires;

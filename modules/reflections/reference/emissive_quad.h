@@ -23,7 +23,7 @@ struct EmissiveQuad {
   float opacity = 1.0f;        ///< factor of alpha
 };
 
-/// What a ray sees of a quad.
+/// The part of a quad that a ray meets.
 struct QuadLayer {
   double distance_m = std::numeric_limits<double>::infinity();
   dvec3 radiance = dvec3(0.0);  ///< premultiplied by alpha

@@ -23,7 +23,7 @@ void add_temporal_pass(FrameBuilder& frame, ReflectionFrame& reflections) {
   desc.height = reflections.constants.size.y;
   desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::storage;
   const auto kept = frame.history_image_pair(
-      desc, {.rest = gpu::Access::compute_read, .reset = {.camera_cut = true, .most_missed = 0}});
+      desc, {.final_access = gpu::Access::compute_read, .reset = {.camera_cut = true, .most_missed = 0}});
   if (!frame.check(kept)) return;
   const bool known = kept->valid() && frame.view().has_previous;
   ComputePass pass(frame, "reflection_temporal", temporal_program());

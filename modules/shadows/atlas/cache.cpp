@@ -112,13 +112,13 @@ std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces, std::s
   return contents;
 }
 
-bool ShadowCache::holds(const ShadowFace& face, const FaceContent& content) const {
+bool ShadowCache::has_map(const ShadowFace& face, const FaceContent& content) const {
   if (content.moving) return false;
   const auto found = maps_.find(key_of(face));
   return found != maps_.end() && found->second.square == face.square && found->second.content == content;
 }
 
-bool ShadowCache::held(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) const {
+bool ShadowCache::has_map_of_frame(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) const {
   const auto found = maps_.find(key_of(face));
   return found != maps_.end() && found->second.square == face.square && found->second.content.pose == content.pose &&
          found->second.frame == frame && frame > 0;

@@ -43,11 +43,11 @@ struct FaceBackground {
 class ShadowCache {
  public:
   /// Whether the atlas holds this face's map at face.square, drawn from this content. False when content.moving.
-  [[nodiscard]] bool holds(const ShadowFace& face, const FaceContent& content) const;
+  [[nodiscard]] bool has_map(const ShadowFace& face, const FaceContent& content) const;
   /// Whether the atlas holds this face's map at face.square with the casters of frame `frame` (numbered by
   /// CasterHistory) and with the same pose and salt. In frame + 1 this map is then outdated only inside the boxes of
   /// CasterHistory::changed(light). False for frame 0.
-  [[nodiscard]] bool held(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) const;
+  [[nodiscard]] bool has_map_of_frame(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) const;
   /// Records that the face's map was drawn at face.square with the casters of that frame. Maps that overlap the square
   /// are forgotten.
   void set_drawn(const ShadowFace& face, const FaceContent& content, std::uint64_t frame = 0);

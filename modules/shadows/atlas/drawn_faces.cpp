@@ -26,17 +26,17 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
       .digest();
 }
 
-/// What must be drawn of one face's map.
+/// The parts of one face's map that must be drawn.
 struct Stale {
   std::vector<TexelRect> regions;  ///< none when the map is up to date
-  bool held = false;               ///< the atlas holds the map of the frame before
+  bool has_last_map = false;       ///< the atlas holds the map of the frame before
 };
 
 Stale find_stale(const ViewShadows& kept, const ShadowFace& face, const FaceContent& content) {
   const CasterHistory& history = kept.frame.history;
-  if (kept.frame.anew) return {{whole_face(face)}, false};
-  if (kept.cache.holds(face, content)) return {};
-  if (!kept.cache.held(face, content, kept.history.frame())) return {{whole_face(face)}, false};
+  if (kept.frame.atlas_is_empty) return {{whole_face(face)}, false};
+  if (kept.cache.has_map(face, content)) return {};
+  if (!kept.cache.has_map_of_frame(face, content, kept.history.frame())) return {{whole_face(face)}, false};
   const std::span<const CasterBox> changed = history.changed(face.light);
   if (changed.size() > kMostChanges) return {{whole_face(face)}, true};
   return {covered_regions(face, changed), true};
@@ -71,8 +71,8 @@ void find_backgrounds(const ViewShadows& kept, DrawnFace& face, DrawnFace& made)
       there.push_back(background);
   for (DrawnRegion& region : face.regions) {
     region.on_background = true;
-    const auto holds = [&](const FaceBackground& background) { return background.texels.contains(region.texels); };
-    const auto found = std::find_if(there.begin(), there.end(), holds);
+    const auto contains = [&](const FaceBackground& background) { return background.texels.contains(region.texels); };
+    const auto found = std::find_if(there.begin(), there.end(), contains);
     if (found != there.end()) {
       std::rotate(found, found + 1, there.end());  // moves to the end: recently used
       continue;
@@ -121,7 +121,7 @@ PlacedFaces place_faces(const MapInputs& inputs, ViewShadows& kept, JobExecutor&
   PlacedFaces placed;
   for (const ShadowFace& face : inputs.faces)
     if (face.square.size > 0) placed.faces.push_back(face);
-  if (!inputs.again) {
+  if (!inputs.continues_frame) {
     std::vector<CasterState> states = caster_states(inputs.casters, inputs.poses, executor);
     const std::vector<CasterState> sources = source_states(inputs.sources);
     states.insert(states.end(), sources.begin(), sources.end());
@@ -138,7 +138,7 @@ PlacedFaces place_faces(const MapInputs& inputs, ViewShadows& kept, JobExecutor&
 }
 
 void begin_frame(const MapInputs& inputs, ViewShadows& kept) {
-  kept.frame.anew = inputs.anew;
+  kept.frame.atlas_is_empty = inputs.atlas_is_empty;
   kept.frame.committed = false;
   kept.frame.drawn.clear();
   kept.frame.planes.clear();
@@ -146,14 +146,14 @@ void begin_frame(const MapInputs& inputs, ViewShadows& kept) {
 
 /// Whether the regions of a face are drawn over backgrounds. A whole face would have to be drawn twice, which pays only
 /// if it is drawn again in the next frame, over the same background.
-bool wants_backgrounds(const DrawnFace& face, bool held) {
-  return held && (face.content.moving || face.regions.front().texels != whole_face(face.face));
+bool wants_backgrounds(const DrawnFace& face, bool has_last_map) {
+  return has_last_map && (face.content.moving || face.regions.front().texels != whole_face(face.face));
 }
 
 }  // namespace
 
 DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& executor) {
-  if (!inputs.again) begin_frame(inputs, kept);
+  if (!inputs.continues_frame) begin_frame(inputs, kept);
   const PlacedFaces placed = place_faces(inputs, kept, executor);
   DrawnMaps maps;
   std::vector<DrawnFace>& drawn = maps.faces;
@@ -179,7 +179,7 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& exe
       added.regions.push_back({texels, {}, {}});
       kept.counts.texels += texels.texels();
     }
-    on_backgrounds.push_back(wants_backgrounds(added, placed.stale[i].held) ? 1 : 0);
+    on_backgrounds.push_back(wants_backgrounds(added, placed.stale[i].has_last_map) ? 1 : 0);
     kept.frame.drawn.push_back(key);
     if (content.casters == 0) ++kept.counts.skipped;
   }
@@ -203,7 +203,7 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& exe
 
 void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> held, ViewShadows& kept) {
   if (!kept.frame.committed) {
-    if (kept.frame.anew) {
+    if (kept.frame.atlas_is_empty) {
       kept.cache.clear();
       kept.has_backgrounds = false;
     }
@@ -218,19 +218,19 @@ void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> hel
 }
 
 DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views, const ShadowKnobs& knobs,
-                        bool anew) {
+                        bool atlas_is_empty) {
   const std::vector<std::uint64_t> poses = caster_poses(frame.world(), frame.frame_draws());
   // If casters of the main view are withheld that were not when its companions drew, their maps are drawn again.
   const bool same_frame = kept.frame.number == frame.graph().frame();
-  const bool again = same_frame && kept.frame.history.withheld() == kept.history.next_withheld();
+  const bool continues_frame = same_frame && kept.frame.history.withheld() == kept.history.next_withheld();
   const MapInputs inputs{.faces = views.faces,
                          .casters = frame.casters().casters,
                          .poses = poses,
                          .sources = frame.caster_sources(),
                          .salt = salt_of(frame, knobs),
                          .simplified = knobs.simplified,
-                         .again = again,
-                         .anew = anew};
+                         .continues_frame = continues_frame,
+                         .atlas_is_empty = atlas_is_empty};
   kept.frame.number = frame.graph().frame();
   return plan_maps(inputs, kept, frame.services().executor);
 }

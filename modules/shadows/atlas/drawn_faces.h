@@ -60,8 +60,8 @@ struct MapInputs {
   std::uint64_t salt = 0;                        ///< as in face_contents()
   bool simplified = false;                       ///< as in face_draws()
   /// Another view of the frame that shares the atlas has planned its maps already: what it draws is up to date.
-  bool again = false;
-  bool anew = false;  ///< the atlas has no contents. Without effect if `again`
+  bool continues_frame = false;
+  bool atlas_is_empty = false;  ///< the atlas has no contents. Without effect if `continues_frame`
 };
 
 /// Decides which of the faces are drawn in this frame: all faces whose map the atlas does not hold. If only casters
@@ -75,8 +75,8 @@ struct MapInputs {
 /// drawn: DrawnMaps::faces. held: DrawnMaps::held.
 void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> held, ViewShadows& kept);
 
-/// plan_maps() for the view that the frame draws. anew: as in MapInputs.
+/// plan_maps() for the view that the frame draws. atlas_is_empty: as in MapInputs.
 [[nodiscard]] DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
-                                      const ShadowKnobs& knobs, bool anew);
+                                      const ShadowKnobs& knobs, bool atlas_is_empty);
 
 }  // namespace gloam

@@ -188,7 +188,7 @@ void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, c
       LocalPlan& plan = plans.local[i];
       const std::size_t count = plan.placed ? plan.shadow.face_count() : 0;
       const std::span<const AtlasSquare> squares = std::span(places.squares).subspan(plan.first_request, count);
-      // Kernels that leave a cube's face continue in others, whatever its rim.
+      // Kernels that leave a cube's face continue in other faces, so only spots have a rim.
       if (count > 0 && plan.shadow.kind == GLOAM_SHADOW_SPOT)
         plan.shadow.tan_half = plan.shadow.tan_inner * (1.0f + rim_share(squares[0].size, settings.kernel_rim));
       shadows.rows[i] = shadow_row(plan.shadow, squares);

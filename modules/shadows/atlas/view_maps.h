@@ -20,8 +20,8 @@ struct ShadowCounts {
   std::uint64_t texels = 0;   ///< texels drawn in all faces and backgrounds
 };
 
-/// What one view of one world, or its captures together, know about the history images of their maps
-/// (modules/shadows/maps/images.h).
+/// State of the history images of maps (modules/shadows/maps/images.h) of one view of one world, or of all its captures
+/// together.
 struct ViewShadows {
   // After the last committed frame; changed only when a frame is committed:
   ShadowCache cache;
@@ -31,7 +31,7 @@ struct ViewShadows {
   /// The newest frame that planned maps. It may be given up.
   struct Frame {
     CasterHistory history;
-    bool anew = false;  ///< the atlas has no contents: what `cache` holds does not count
+    bool atlas_is_empty = false;  ///< the atlas has no contents: `cache` is out of date
     bool committed = true;
     std::uint32_t number = 0;     ///< FrameGraph::frame
     std::vector<FaceKey> drawn;   ///< faces drawn by all views that share the images

@@ -38,9 +38,9 @@ std::vector<Lamp> casting_lamps(const World& world) {
 /// Signed solid angle of a triangle seen from the origin, in steradians.
 double solid_angle(const dvec3& a, const dvec3& b, const dvec3& c) {
   const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-  const double volume = glm::dot(a, glm::cross(b, c));
-  const double rest = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-  return 2.0 * std::atan2(volume, rest);
+  const double numerator = glm::dot(a, glm::cross(b, c));
+  const double denominator = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+  return 2.0 * std::atan2(numerator, denominator);
 }
 
 /// Share of all directions around `from` that the triangles fill: 1 inside a closed surface, 0 outside of it.

@@ -63,7 +63,7 @@ void take_light_list_view(FrameBuilder& frame) {
   if (find_final_lists(frame) != nullptr) frame.put(LightListViewTaken{});
 }
 
-void add_final_list_view_pass(FrameBuilder& frame, const std::function<void(const std::string& sentence)>& warn) {
+void add_final_list_view_pass(FrameBuilder& frame, OnceLog& once_log) {
   const std::string_view shown = frame.visualizer();
   const std::string stem(shown.substr(0, shown.find(':')));
   if (stem == "light_list") {
@@ -75,7 +75,8 @@ void add_final_list_view_pass(FrameBuilder& frame, const std::function<void(cons
     if (find_final_lists(frame) != nullptr)
       draw(frame, stem, shaders::shadows::final_count_view_frag, std::as_bytes(std::span(&directional_count, 1)));
     else
-      warn("view " + stem + " shows the picture as it is: " + reason_without_lists(frame));
+      once_log.warning(frame.services().log,
+                       "view " + stem + " shows the picture as it is: " + reason_without_lists(frame));
   }
 }
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "engine/core/once_log.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
 
@@ -20,8 +20,8 @@ void take_light_list_view(FrameBuilder& frame);
 
 /// Adds the visualizer's pass if FrameBuilder::visualizer() is "visibility_slots", "lights_final" or, after
 /// take_light_list_view() has taken it over, "light_list:LIGHT" for a light in view. It draws over the picture and into
-/// an image of the visualizer's name, for captures. Without final lists the picture stays as it is, and warn() gets the
-/// reason.
-void add_final_list_view_pass(FrameBuilder& frame, const std::function<void(const std::string& sentence)>& warn);
+/// an image of the visualizer's name, for captures. Without final lists the picture stays as it is, and one warning
+/// gives the reason.
+void add_final_list_view_pass(FrameBuilder& frame, OnceLog& once_log);
 
 }  // namespace gloam

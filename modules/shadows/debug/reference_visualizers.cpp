@@ -33,7 +33,7 @@ std::vector<VisualizerInfo> shadow_reference_visualizers() {
   return views;
 }
 
-void add_shadow_reference_view_pass(FrameBuilder& frame) {
+void add_shadow_reference_view_pass(FrameBuilder& frame, OnceLog& once_log) {
   const std::string_view shown = frame.visualizer();
   const std::string_view stem = shown.substr(0, shown.find(':'));
   if (stem != "shadow_reference" && stem != "error") return;
@@ -47,7 +47,7 @@ void add_shadow_reference_view_pass(FrameBuilder& frame) {
                                 .values = "shadow_error",
                                 .program = drawn_visibility_program(*shadows, shaders::shadows::error_view_frag,
                                                                     shaders::shadows::final_error_view_frag)});
-  } else if (const auto light = shown_light_or_warn(frame)) {
+  } else if (const auto light = shown_light_or_warn(frame, once_log)) {
     // The shader of visualizer "shadow", with the constants for traced visibility.
     const auto constants = shadow_constants(shadow_knobs(frame.knobs()), kTracedShadows);
     draw_shadow_picture(frame, {.pass = "shadow_reference_view",

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "engine/core/once_log.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
 
@@ -17,6 +18,6 @@ namespace gloam {
 /// "error" draws how far drawn visibilities differ from traced ones, also into the image "shadow_error" (r32f: mean
 /// over the traced lights that reach the pixel; −1 where there is none). Usage error when nothing was traced for the
 /// view.
-void add_shadow_reference_view_pass(FrameBuilder& frame);
+void add_shadow_reference_view_pass(FrameBuilder& frame, OnceLog& once_log);
 
 }  // namespace gloam

@@ -25,12 +25,12 @@ std::optional<shaders::ShownLightConstants> shown_light(const FrameBuilder& fram
   return std::nullopt;
 }
 
-std::optional<shaders::ShownLightConstants> shown_light_or_warn(const FrameBuilder& frame) {
+std::optional<shaders::ShownLightConstants> shown_light_or_warn(const FrameBuilder& frame, OnceLog& once_log) {
   const std::string_view shown = frame.visualizer();
   const auto light = shown_light(frame, shown.substr(shown.find(':') + 1));
   if (!light)
-    frame.services().log.warning("view " + std::string(shown) +
-                                 " shows the picture as it is: the light reaches nothing in view");
+    once_log.warning(frame.services().log,
+                     "view " + std::string(shown) + " shows the picture as it is: the light reaches nothing in view");
   return light;
 }
 

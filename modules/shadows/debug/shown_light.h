@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/core/once_log.h"
 #include "engine/render/frame_builder.h"
 #include "shaders/shadows/maps/map_shared.h"
 
@@ -14,7 +15,8 @@ namespace gloam {
 /// nothing in view.
 [[nodiscard]] std::optional<shaders::ShownLightConstants> shown_light(const FrameBuilder& frame, std::string_view name);
 
-/// The same for the light that FrameBuilder::visualizer() names after ':'. Logs a warning when there is none.
-[[nodiscard]] std::optional<shaders::ShownLightConstants> shown_light_or_warn(const FrameBuilder& frame);
+/// The same for the light that FrameBuilder::visualizer() names after ':'. Logs one warning when there is none.
+[[nodiscard]] std::optional<shaders::ShownLightConstants> shown_light_or_warn(const FrameBuilder& frame,
+                                                                              OnceLog& once_log);
 
 }  // namespace gloam

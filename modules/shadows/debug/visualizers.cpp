@@ -110,7 +110,7 @@ std::vector<VisualizerInfo> shadow_visualizers() {
   return views;
 }
 
-void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states) {
+void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states, OnceLog& once_log) {
   const std::string_view shown = frame.visualizer();
   const std::string_view stem = shown.substr(0, shown.find(':'));
   if (stem != "shadow" && stem != "shadow_atlas") return;
@@ -121,7 +121,7 @@ void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states) {
         states.find(world_id(frame.world()), frame.world().view_resource<ShadowViews>(frame.view().id).owner);
     const bool has_maps = shadows->atlas && shadows->atlas.resource != shadows->rows.resource;
     if (kept != nullptr && has_maps) add_atlas_view(frame, *shadows, *kept);
-  } else if (const auto light = shown_light_or_warn(frame)) {
+  } else if (const auto light = shown_light_or_warn(frame, once_log)) {
     DrawProgram program = drawn_visibility_program(*shadows, shaders::shadows::visibility_view_frag,
                                                    shaders::shadows::final_visibility_view_frag);
     program.constants.push_back({GLOAM_SHADOWS_KINDS_ID, kind_of(frame, *light)});

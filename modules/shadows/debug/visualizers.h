@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/once_log.h"
 #include "engine/render/declare/draw_pass.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
@@ -41,6 +42,6 @@ void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture);
 /// visibility over the picture and into the exposed image "shadow_visibility" (r32f; −1 where the light does not
 /// reach); "shadow_atlas" draws the frame's maps. With final lists, "shadow" shows the visibilities that they hold;
 /// fallback tiles are evaluated as in shadows.mode=monolithic.
-void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states);
+void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states, OnceLog& once_log);
 
 }  // namespace gloam

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/ecs/view.h"
+#include "engine/math/srgb.h"
 #include "engine/scene/image_file.h"
 #include "engine/scene/resources.h"
 
@@ -17,19 +18,15 @@ namespace {
 const std::array<float, 256>& linear_of_srgb() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double c = static_cast<double>(i) / 255.0;
-      values[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-    }
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255.0));
     return values;
   }();
   return table;
 }
 
 std::uint8_t srgb_of(float linear) {
-  const float c = std::clamp(linear, 0.0f, 1.0f);
-  const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(encoded * 255.0f + 0.5f);
+  return static_cast<std::uint8_t>(linear_to_srgb(std::clamp(linear, 0.0f, 1.0f)) * 255.0f + 0.5f);
 }
 
 /// A pixel of a line and its weight in one pixel of the resampled line. The weights of a resampled pixel sum to 1.

@@ -112,7 +112,8 @@ ImageRef add_cookies(FrameBuilder& frame, ShadowStates& states, std::vector<Copy
   desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
   desc.shape = gpu::ImageShape::array;
   const auto kept = frame.history_image(
-      desc, {.scope = HistoryScope::world, .rest = gpu::Access::fragment_read, .reset = {.key = cookies.version}});
+      desc,
+      {.scope = HistoryScope::world, .final_access = gpu::Access::fragment_read, .reset = {.key = cookies.version}});
   if (!frame.check(kept)) return {};
   if (kept->filled()) return kept->image;
   std::vector<std::uint8_t> texels;

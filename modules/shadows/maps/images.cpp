@@ -47,7 +47,7 @@ gpu::ImageDesc desc_of(MapImage image, const ShadowKnobs& knobs) {
 
 HistoryImage use_map_image(FrameBuilder& frame, const ShadowViews& views, const ShadowKnobs& knobs, MapImage image) {
   HistoryUse use;
-  use.rest = image == MapImage::backgrounds ? gpu::Access::compute_read : gpu::Access::fragment_read;
+  use.final_access = image == MapImage::backgrounds ? gpu::Access::compute_read : gpu::Access::fragment_read;
   if (views.shared != nullptr) {
     use.scope = HistoryScope::shared;
     use.instance = views.owner.value;

@@ -32,7 +32,7 @@ std::vector<FacePart> parts_of(const ShadowMaps& maps, const ShadowViews& views,
       if (part.square == face.square) parts.push_back(part);
     const bool own = parts.size() > before;
     const bool by_another = !own && std::ranges::find(frame.drawn, key) != frame.drawn.end();
-    if (kept_planes && !frame.anew && !by_another && kept.cache.has_planes(face)) continue;
+    if (kept_planes && !frame.atlas_is_empty && !by_another && kept.cache.has_planes(face)) continue;
     parts.resize(before);
     parts.push_back({face.square, whole_face(face)});
   }

@@ -21,7 +21,7 @@ enum class MapDraw : std::uint8_t {
 /// The pipeline that draws casters into the scratch image.
 [[nodiscard]] gpu::GraphicsPipelineDesc map_pipeline(MapDraw draw);
 
-/// What the maps of a frame need in recording. Outlives the declaration, because pass functions run later.
+/// Data for recording the maps of a frame. Outlives the declaration, because pass functions run later.
 struct MapWork {
   FacePlan backgrounds;
   FacePlan faces;

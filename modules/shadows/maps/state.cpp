@@ -39,7 +39,7 @@ const ViewShadows* ShadowStates::find(std::uint64_t world, ViewId view) const {
   return found == views_.end() ? nullptr : &found->second;
 }
 
-void ShadowStates::rest(std::uint64_t world, ViewId owner) {
+void ShadowStates::skip_frame(std::uint64_t world, ViewId owner) {
   const auto found = views_.find({world, owner.value});
   if (found == views_.end()) return;
   found->second.counts = {};

@@ -15,8 +15,8 @@
 
 namespace gloam {
 
-/// What the module knows about the maps of each view, and its GPU memory that no frame hands on to the next one:
-/// staging memory and scratch images.
+/// The state of each view's maps, and the module's GPU memory without contents that outlive a frame: staging memory and
+/// scratch images.
 class ShadowStates {
  public:
   ShadowStates() = default;
@@ -33,7 +33,7 @@ class ShadowStates {
   /// The view's state; null if view() was never called for it, or if it has been forgotten since.
   [[nodiscard]] const ViewShadows* find(std::uint64_t world, ViewId owner) const;
   /// Resets the view's counters and its list of drawn faces. For frames of the view that draw no maps.
-  void rest(std::uint64_t world, ViewId owner);
+  void skip_frame(std::uint64_t world, ViewId owner);
   /// Forgets what only this view uses.
   void release_view(ViewId view);
   /// Staging memory of this frame for copies into images.

@@ -27,7 +27,7 @@ namespace gloam {
 ///   takes the place of the face normal. Subsurface materials are left out, as by the filters.
 /// - Bulbs (modules/shadows/views/bulbs.h) do not block the light that they belong to.
 /// - A ray that leaves below the receiver's surface, by more than kBehindSine, is blocked, unless the material is
-///   subsurface: the surface is opaque, whatever the mesh behind it is like.
+///   subsurface: the surface is opaque, even if the mesh behind it is open.
 inline constexpr double kEmitterClearance_m = 0.05;
 /// Offset of ray starts in metres, and per metre of distance from the camera: several times the rounding error of depth
 /// buffer and transforms.

@@ -59,7 +59,7 @@ void add_reflection_cost_benches(BenchRegistry& registry);
 void add_reflection_error_benches(BenchRegistry& registry);
 /// Changes of reflections from frame to frame, with and without reprojection.
 void add_reflection_temporal_benches(BenchRegistry& registry);
-/// What is made from a scene on the CPU: fitted proxies, captures, proxy tiles.
+/// Data for reflections that the CPU makes from a scene: fitted proxies, captures, proxy tiles.
 void add_reflection_scene_benches(BenchRegistry& registry);
 /// The radix sort of 1 M keys against std::sort, and its share of the memory bandwidth.
 void add_grass_sort_benches(BenchRegistry& registry);

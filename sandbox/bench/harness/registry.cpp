@@ -51,7 +51,7 @@ Result<std::vector<const BenchRow*>> BenchRegistry::choose(std::span<const std::
 
 bool has_bar(const BenchRow& row, const BenchValue& value) { return row.bar.has_value() && !value.informs; }
 
-bool holds(const BenchRow& row, double value) {
+bool keeps_bar(const BenchRow& row, double value) {
   if (!row.bar) return true;
   return row.better == Better::lower ? value <= *row.bar : value >= *row.bar;
 }

@@ -65,7 +65,7 @@ class BenchRegistry {
 [[nodiscard]] bool has_bar(const BenchRow& row, const BenchValue& value);
 
 /// Whether a value keeps its row's bar; true without one.
-[[nodiscard]] bool holds(const BenchRow& row, double value);
+[[nodiscard]] bool keeps_bar(const BenchRow& row, double value);
 
 /// Every bench of the program.
 [[nodiscard]] BenchRegistry make_bench_registry();

@@ -27,7 +27,7 @@ Json row_json(const MeasuredRow& measured, const std::string& scene) {
   const bool barred = has_bar(row, value);
   if (barred) json["bar"] = *row.bar;
   json["better"] = row.better == Better::lower ? "lower" : "higher";
-  json["holds"] = !barred || holds(row, value.value);
+  json["holds"] = !barred || keeps_bar(row, value.value);
   json["hash"] = value.hash ? Json(*value.hash) : Json(nullptr);
   if (value.scene && *value.scene != scene) json["scene"] = *value.scene;
   return json;
@@ -44,7 +44,7 @@ std::string bench_line(const MeasuredRow& measured) {
   if (measured.value.p10 && measured.value.p90)
     line += " (" + short_number(*measured.value.p10) + "…" + short_number(*measured.value.p90) + ")";
   if (has_bar(row, measured.value)) {
-    const bool kept = holds(row, measured.value.value);
+    const bool kept = keeps_bar(row, measured.value.value);
     line += std::string(row.better == Better::lower ? ", at most " : ", at least ") + short_number(*row.bar);
     line += kept ? ": holds" : ": MISSED";
   }

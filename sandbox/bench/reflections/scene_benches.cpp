@@ -31,8 +31,8 @@
 #include "sandbox/session/scene_loading.h"
 #include "sandbox/session/surface_distances.h"
 
-// What is made from a scene for its reflections: fitted proxies against those of the scene's author, captures, and the
-// proxy tiles of a view.
+// Data for reflections that the CPU makes from a scene: fitted proxies, compared with those of the scene's author;
+// captures; the proxy tiles of a view.
 
 namespace gloam {
 namespace {

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/depth_of_field/depth_of_field_shared.h"
 
-// What reaches each tile: the greatest kernel before the focus of all tiles that it may spread from, and how near a
-// tile with circles behind the focus is.
+// Writes the blur that can reach each tile: the greatest kernel before the focus of all tiles that it may spread from,
+// and the distance to the nearest tile with circles behind the focus.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -83,8 +83,8 @@ void main() {
   uint place = (patch_row.first_place + index) * kKnots + k;
   precise vec3 at = knots[place].xyz - stem.root;
   precise vec3 before = previous_knots[place].xyz - stem.root;
-  bool held = dot(at, at) < 1e12 && dot(before, before) < 1e12;  // false for NaN
-  if (master.steps == GLOAM_GRASS_NO_STEP || !held) at = before = grass_rest(stem, stems[2]);
+  bool is_finite = dot(at, at) < 1e12 && dot(before, before) < 1e12;  // false for NaN
+  if (master.steps == GLOAM_GRASS_NO_STEP || !is_finite) at = before = grass_rest(stem, stems[2]);
   if (k == 0u) {
     at = before = vec3(0.0);
     blade_normal[lane / kKnots] = stem.normal;

@@ -51,10 +51,10 @@ void load_knots(GrassPatchRow patch_row, GrassStem stem, uint type, uint place, 
     rest[k] = knot_rest(stem, stems, types[type].stiffness, uint(k), steps.step_s, steps.iterations);
     precise vec3 knot = knots[place + uint(k)].xyz - stem.root;
     precise vec3 previous = previous_knots[place + uint(k)].xyz - stem.root;
-    bool held = !fresh && dot(knot, knot) < 1e12 && dot(previous, previous) < 1e12;  // false for NaN
+    bool is_valid = !fresh && dot(knot, knot) < 1e12 && dot(previous, previous) < 1e12;  // false for NaN
     vec3 still = grass_rest(stem, stems[2]);
-    at[k] = held ? knot : still;
-    before[k] = held ? previous : still;
+    at[k] = is_valid ? knot : still;
+    before[k] = is_valid ? previous : still;
   }
   at[0] = before[0] = vec3(0.0);
 }

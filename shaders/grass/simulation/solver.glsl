@@ -19,7 +19,7 @@ const float kLengthsPerSecond = 30.0;  // bound of a knot's velocity, and of a c
 const float kLowerPart = 0.25;         // of a correction of length; a lower knot counts as three times as heavy
 const float kShort = 1e-7;             // metres; a shorter segment has no direction
 
-// What stays the same for a knot during a dispatch.
+// Constants of a knot during a dispatch.
 struct KnotRest {
   vec3 below;      // unit: direction at rest of the segment below the segment below the knot
   vec3 mirrored;   // direction at rest of the segment below the knot, mirrored at the plane perpendicular to `below`

@@ -60,7 +60,8 @@ float area(uint k, uint length) {
   return reach >= 1.0 ? (reach - 0.5) / float(length) : 0.5 * reach * reach / float(length);
 }
 
-// What the contour cuts off the pixel before an edge (x) and the pixel after it (y). rows: the edge lies between rows.
+// The areas that the contour cuts off the pixel before an edge (x) and the pixel after it (y). rows: the edge lies
+// between rows.
 vec2 cut_areas(bool rows, uint line, uint position, bool before_is_brighter) {
   uint at = first_word(rows, c.size, line) + position / 32u + 1u, bit = position % 32u;
   uint own = plane(edge_words[at], before_is_brighter);

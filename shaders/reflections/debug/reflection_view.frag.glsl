@@ -78,12 +78,12 @@ void main() {
   vec2 shares = reflects && (tiers & 4u) != 0u ? probe_shares(position) : vec2(0.0);
   out_named = vec4(0.0);
   if (kShown == 0u) {
-    float mirrored = min(color.a, 1.0), rest = 1.0 - mirrored;
+    float mirrored = min(color.a, 1.0), unmirrored = 1.0 - mirrored;
     // Screen space green, proxies orange, probes with a box blue; the rest, global probe and sky, violet.
-    vec3 tiers_of = vec3(min(screen, mirrored), max(mirrored - screen, 0.0), rest * shares.x);
+    vec3 tiers_of = vec3(min(screen, mirrored), max(mirrored - screen, 0.0), unmirrored * shares.x);
     if (reflects) out_named = vec4(tiers_of, 1.0);
     show(tiers_of.x * vec3(0.05, 0.7, 0.1) + tiers_of.y * vec3(0.9, 0.35, 0.02) + tiers_of.z * vec3(0.02, 0.15, 0.8) +
-             rest * (1.0 - shares.x) * vec3(0.25, 0.05, 0.35),
+             unmirrored * (1.0 - shares.x) * vec3(0.25, 0.05, 0.35),
          reflects ? 0.85 : kDarkened);
     if (!reflects) show(vec3(0.0), kDarkened);
   } else if (kShown == 1u) {

@@ -40,7 +40,7 @@ vec3 parallax_direction(ProbeRow probe, vec3 at, vec3 position, vec3 direction) 
   return position + direction * max(distance_m, 0.0) - probe.center;
 }
 
-// What one probe adds to a reflected ray.
+// The lookup of a reflected ray in one probe.
 struct ProbeLookup {
   vec3 toward;  // direction in the probe's map
   float layer;

@@ -110,7 +110,7 @@ void main() {
       color += part * layers[i].light;
       distance_m += part * layers[i].light.a * layers[i].distance_m;
     }
-    // What remains is seen in a probe, far away.
+    // The remaining share is seen in a probe, far away.
     distance_m = color.a > 1e-3 ? distance_m / color.a : kMostHitCentimetres * 0.01;
     float spread = kPixelRoughness != 0u ? mirrored_share(s, distance_m) : screen_distance(s, distance_m);
     surface = vec4(spread, max(s.roughness, 1.0 / 255.0), pack_hit_distance(distance_m));

@@ -77,15 +77,16 @@ float texels_to_face(int own, int face, vec2 at, float size, float to_tangent) {
   return toward.z == 0.0 ? 1.0 / to_tangent - along : 1e9;
 }
 
-// Takes one whole cube face into account. held: its nearest depth. ahead: 1 for the receiver's own face, 0 for a
-// neighbour, −1 for the opposite face. along: offset of the receiver from the middle of its own face toward this one,
+// Takes one whole cube face into account. face_nearest: its nearest depth. ahead: 1 for the receiver's own face, 0 for
+// a neighbour, −1 for the opposite face. along: offset of the receiver from the middle of its own face toward this one,
 // texels.
-void look_at_face(ShadowPoint p, float held, float ahead, float along, float to_tangent, inout float nearest,
+void look_at_face(ShadowPoint p, float face_nearest, float ahead, float along, float to_tangent, inout float nearest,
                   inout bool others) {
-  bool other = ahead <= 0.0 && may_block_from_other_face(held, p.depth, ahead == 0.0 ? 1.0 / to_tangent - along : 1e9,
-                                                         p.scale, to_tangent);
+  bool other =
+      ahead <= 0.0 && may_block_from_other_face(face_nearest, p.depth, ahead == 0.0 ? 1.0 / to_tangent - along : 1e9,
+                                                p.scale, to_tangent);
   others = others || other;
-  nearest = max(nearest, ahead > 0.0 ? held : other ? 2.0 * held : 0.0);
+  nearest = max(nearest, ahead > 0.0 ? face_nearest : other ? 2.0 * face_nearest : 0.0);
 }
 
 // Bound on the nearest depth of all faces that may hold blockers. Depths of other faces count twice, which covers

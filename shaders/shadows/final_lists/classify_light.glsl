@@ -110,7 +110,7 @@ bool is_dark(TileBounds t, vec3 light_position) {
   return height - t.offsets.x + t.shading_spread * farthest < -1e-5 * (abs(height) + farthest);
 }
 
-// What classification needs of a local light.
+// A local light's data for classification.
 struct LocalFaces {
   uint light;
   vec3 position;
@@ -209,10 +209,10 @@ float nearest_of_front_half(LocalFaces l, int own, int face) {
   float size = l.first.w;
   MipSquare square = mip_square(cube_face_origin(l.light, face) * 0.25, size * 0.25,
                                 floor_log2(size) - GLOAM_SHADOW_PYRAMID_MIP - 1, shadow_block.atlas_size * 0.25);
-  vec4 held = textureGather(shadow_pyramid, (square.corner + 1.0) * shadow_texel_size() * vec2(4.0, 2.0));
+  vec4 depths = textureGather(shadow_pyramid, (square.corner + 1.0) * shadow_texel_size() * vec2(4.0, 2.0));
   vec3 ahead = cube_face_axes(own)[2] * cube_face_axes(face);  // right, up
   vec4 right = vec4(-1.0, 1.0, 1.0, -1.0), up = vec4(-1.0, -1.0, 1.0, 1.0);
-  return nearest_of(mix(vec4(0.0), held, greaterThan(right * ahead.x + up * ahead.y, vec4(0.0))));
+  return nearest_of(mix(vec4(0.0), depths, greaterThan(right * ahead.x + up * ahead.y, vec4(0.0))));
 }
 
 // Faces of a cube, as bits, that decide about the tile: they hold pixels, or blockers for pixels. f: the tile in face
@@ -228,10 +228,10 @@ uint deciding_faces(TileInFace f, LocalFaces l, int own, float width) {
   for (int i = 0; i < 6; ++i) {
     if (i >> 1 == own >> 1) continue;
     float off = texels_to_face(f, own, i, to_tangent);
-    float held = nearest_of_front_half(l, own, i) * 1.00001;
+    float face_nearest = nearest_of_front_half(l, own, i) * 1.00001;
     float at_border = f.farthest + a_texel * max(off - slack, 0.0);
-    bool blocks = (held > at_border || 2.0 * held > at_border + a_texel / to_tangent) &&
-                  leaves_face(f, 0.5 * widest(f, 2.0 * held) + 1.0);
+    bool blocks = (face_nearest > at_border || 2.0 * face_nearest > at_border + a_texel / to_tangent) &&
+                  leaves_face(f, 0.5 * widest(f, 2.0 * face_nearest) + 1.0);
     faces |= off < 0.1 || blocks ? 1u << i : 0u;
   }
   return faces;

@@ -22,6 +22,7 @@
 #include "box_casters.h"
 #include "engine/gpu/vulkan_device.h"
 #include "engine/gpu/vulkan_interop.h"
+#include "engine/math/srgb.h"
 #include "engine/render/renderer.h"
 #include "little_world.h"
 #include "modules/module_list/module_list.h"
@@ -104,10 +105,6 @@ std::uint32_t unorm(double value, int bits) {
   return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * ((1 << bits) - 1)));
 }
 
-double srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
 Drawn draw_boxes() {
   const gloam::ViewSettings view = camera();
   const double half_height = std::tan(0.5 * static_cast<double>(view.camera.fov_y));
@@ -126,7 +123,7 @@ Drawn draw_boxes() {
       std::uint32_t normal = 0, color = 0;
       for (int i = 0; i < 3; ++i) {
         normal |= unorm(0.5 + 0.5 * hit.normal[i], 10) << (10 * i);
-        color |= sky ? 0u : unorm(srgb(static_cast<double>(hit.box->color[i])), 8) << (8 * i);
+        color |= sky ? 0u : unorm(gloam::linear_to_srgb(static_cast<double>(hit.box->color[i])), 8) << (8 * i);
       }
       append(drawn.normals, normal);
       append(drawn.colors, color);
@@ -155,7 +152,7 @@ Shared share(host::VulkanHost& vulkan, gpu::Device& device, VkFormat vulkan_form
   return shared;
 }
 
-/// What casts the boxes' shadows.
+/// The casters of the boxes' shadows.
 enum class Casters { meshes, own_draws, none };
 
 class Stage {

@@ -35,7 +35,7 @@ class VeilModule final : public Module {
     return {true, "the scene has a veil"};
   }
 
-  // What add_passes will ask for: made in the background under Readiness::background.
+  // Lists the pipelines of add_passes, so that they are made in the background under Readiness::background.
   void pipelines(const KnobRegistry&, const gpu::DeviceInfo&, PipelineList& list) const override {
     const gpu::Format light[] = {gpu::Format::rgba16_float};
     list.push_back(pipeline_desc(ComputeProgram{shaders::veil::average_comp}, name()));

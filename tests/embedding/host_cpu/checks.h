@@ -12,8 +12,8 @@ namespace host {
 /// Checks that failed so far.
 inline int failures = 0;
 
-inline void expect(bool holds, const char* sentence) {
-  if (holds) return;
+inline void expect(bool is_true, const char* sentence) {
+  if (is_true) return;
   ++failures;
   std::fprintf(stderr, "host_cpu: it does not hold that %s\n", sentence);
 }

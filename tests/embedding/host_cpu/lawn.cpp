@@ -69,13 +69,13 @@ void check_lawn(JobExecutor& executor) {
   std::vector<GrassBlade> blades;
   append_patches(surface, roots, {.entity = Entity{1, 1}, .values = {}, .types = types}, executor, patches, blades);
   std::vector<dvec3> grown;
-  bool held = true;
+  bool all_small = true;
   for (const GrassPatch& patch : patches) {
-    held = held && patch.blades <= 256;
+    all_small = all_small && patch.blades <= 256;
     for (std::uint32_t i = 0; i < patch.blades; ++i)
       grown.push_back(patch.origin + dvec3(blades[256u * patch.index + i].root_m) - surface.origin);
   }
-  expect(held && patches.size() >= kBlades / 256, "a patch has at most 256 blades");
+  expect(all_small && patches.size() >= kBlades / 256, "a patch has at most 256 blades");
   expect(blades.size() == 256 * patches.size(), "a patch has 256 slots");
   const auto before = [](const dvec3& a, const dvec3& b) { return a.x < b.x; };
   std::ranges::sort(grown, before);

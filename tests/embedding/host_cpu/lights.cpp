@@ -86,14 +86,14 @@ struct Reach {
   double range = 0.0;
   double cosine = -1.0;
 
-  [[nodiscard]] bool holds(const dvec3& point) const {
+  [[nodiscard]] bool contains(const dvec3& point) const {
     const dvec3 to = point - apex;
     const double distance = glm::length(to);
     return distance <= range && glm::dot(to, axis) >= cosine * distance;
   }
 };
 
-/// What rays through pixels find: which lights a tile meets, and at which depths a light was met.
+/// Results of rays through pixels: the lights that a tile meets, and the depths at which a light was met.
 struct Found {
   std::vector<std::uint8_t> in_tile;  ///< tile · lights + light
   std::uint32_t lost_in_masks = 0;    ///< points inside a light whose tile lacks the light
@@ -120,7 +120,7 @@ Found follow_rays(const HostCamera& camera, std::span<const Reach> lights, const
         const bool masked = (words[0] >> (i / 32) & 1u) != 0 && (words[1 + i / 32] >> (i % 32) & 1u) != 0;
         for (int step = 0; step <= kSteps; ++step) {
           const double depth = middle + half * (2.0 * step / kSteps - 1.0);
-          if (depth < camera.near_m || !lights[i].holds(camera.position() + ray * depth)) continue;
+          if (depth < camera.near_m || !lights[i].contains(camera.position() + ray * depth)) continue;
           found.in_tile[tile * lights.size() + i] = 1;
           found.lost_in_masks += masked ? 0 : 1;
           const ZBin range = z_bin_range(bins, static_cast<float>(depth), static_cast<float>(depth));

@@ -74,8 +74,8 @@ void check_umbra() {
     const uvec2 tile = uvec2(*pixel) / kShadowTile;
     met.begin = glm::min(met.begin, tile);
     met.end = glm::max(met.end, tile + 1u);
-    const bool held = glm::all(glm::greaterThanEqual(tile, range.begin)) && glm::all(glm::lessThan(tile, range.end));
-    outside += held ? 0 : 1;
+    const bool inside = glm::all(glm::greaterThanEqual(tile, range.begin)) && glm::all(glm::lessThan(tile, range.end));
+    outside += inside ? 0 : 1;
   }
   expect(shadowed > kPoints / 20, "the camera sees shadowed points");
   expect(outside == 0, "every shadowed point is in the umbra range");

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include "modules/accuracy/metrics/flip.h"
+#include "engine/math/srgb.h"
 
 #include <gtest/gtest.h>
 
@@ -127,7 +128,7 @@ Seen brute_features(const EncodedPicture& picture, double ppd) {
   for (std::size_t i = 0; i < picture.pixels().count(); ++i) {
     Color rgb;
     for (std::size_t channel = 0; channel < 3; ++channel)
-      rgb[channel] = flip::linear_from_encoded(picture.rgba[i * 4 + channel]);
+      rgb[channel] = srgb_to_linear(picture.rgba[i * 4 + channel] / 255.0);
     image.push_back(flip::ycxcz_from_linear(rgb));
   }
   const Weights filters[] = {sensitivity(1.0, 0.0047, 0.0, 1e-5, ppd), sensitivity(1.0, 0.0053, 0.0, 1e-5, ppd),

@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "engine/math/srgb.h"
 #include "modules/accuracy/module.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/temporary_folder.h"
@@ -245,10 +246,7 @@ TEST_F(MeasureCosts, accumulated_references_of_a_sequence_show_flicker) {
   request_.sequence = 3;
   const Ledger ledger = measure();
   // The light that codes of sRGB stand for; the reference does not change.
-  const auto light = [](double brightness) {
-    const double share = std::round(255.0 * brightness) / 255.0;
-    return std::pow((share + 0.055) / 1.055, 2.4);
-  };
+  const auto light = [](double brightness) { return srgb_to_linear(std::round(255.0 * brightness) / 255.0); };
   EXPECT_NEAR(ledger.rows[0].temporal->mean, light(0.75) - light(0.5), 1e-6);
   EXPECT_NEAR(ledger.rows[2].temporal->mean, light(0.25 + 0.5 / 16.0) - light(0.25 + 0.25 / 16.0), 1e-6);
   EXPECT_THAT(ledger_table(ledger), HasSubstr("temporal"));

@@ -9,6 +9,7 @@
 #include <random>
 #include <utility>
 
+#include "engine/math/srgb.h"
 #include "engine/scene/gltf_import.h"
 #include "modules/accuracy/module.h"
 #include "tests/support/render_scene.h"
@@ -151,7 +152,7 @@ TEST_F(NearestSurfaces, normals_are_interpolated_and_follow_scale_and_mirror) {
 }
 
 TEST_F(NearestSurfaces, materials_are_evaluated_with_their_textures) {
-  const auto linear = [](float srgb) { return std::pow((srgb / 255.0f + 0.055f) / 1.055f, 2.4f); };
+  const auto linear = [](double srgb) { return static_cast<float>(srgb_to_linear(srgb / 255.0)); };
   Material material;
   material.base_color = {0.5f, 1.0f, 1.0f, 1.0f};
   material.emissive = {0.0f, 4.0f, 8.0f};

@@ -97,7 +97,7 @@ bool made_an_overlay(const FrameReport& report) {
   });
 }
 
-// The tiles of the umbra ranges have their slots whatever other tiles need. Slots are limited so that lists of other
+// The tiles of the umbra ranges always have their slots. Slots are limited so that lists of other
 // tiles do not fit: these fall back, and nobody needs the subject in standard maps.
 TEST_F(CloseupLimits, slots_of_umbra_tiles_are_reserved) {
   settings.width = 320, settings.height = 200;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/math/srgb.h"
 #include "modules/lighting/exposure.h"
 #include "modules/lighting/tone_reference.h"
 #include "tests/modules/lighting/lit_scene.h"
@@ -30,7 +31,7 @@ struct DitheredPicture : test::LitSceneTest {
   /// The light of a channel in steps of 8 bits, not rounded.
   [[nodiscard]] static double steps(float light) {
     const double x = std::clamp(static_cast<double>(light) * static_cast<double>(exposure_from_ev100(0.0f)), 0.0, 1.0);
-    return 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
+    return 255.0 * linear_to_srgb(x);
   }
   /// Means of the green channel over each row.
   [[nodiscard]] static std::vector<double> row_means(const Picture& p) {

@@ -9,8 +9,8 @@
 namespace gloam {
 namespace {
 
-/// Panes of glass among many lights: they are lit by the lights of their tile mask at their own depth, whatever is
-/// behind them.
+/// Panes of glass among many lights: they are lit by the lights of their tile mask at their own depth, not at that
+/// of the surface behind them.
 struct Glass : test::LitSceneTest {
   void SetUp() override {
     LitSceneTest::SetUp();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/jobs/executor.h"
+#include "engine/math/srgb.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/resources.h"
 #include "modules/module_list/module_list.h"
@@ -82,10 +83,7 @@ class LitSceneTest : public ::testing::Test {
   /// A material whose values an 8-bit geometry buffer stores exactly.
   [[nodiscard]] static Material exact_material(std::uint8_t r, std::uint8_t g, std::uint8_t b, std::uint8_t roughness,
                                                std::uint8_t metallic) {
-    const auto channel = [](std::uint8_t c) {
-      const double s = c / 255.0;
-      return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-    };
+    const auto channel = [](std::uint8_t c) { return static_cast<float>(srgb_to_linear(c / 255.0)); };
     Material material;
     material.base_color = vec4(channel(r), channel(g), channel(b), 1.0f);
     material.roughness = static_cast<float>(roughness) / 255.0f;

@@ -12,7 +12,7 @@
 #include "shaders/lighting_test/shaders.h"
 #include "tests/modules/lighting/guest_module.h"
 
-// What other modules can take from lighting: the forward light loop, the specular ambient term, diffuse light.
+// The interface of lighting for other modules: the forward light loop, the specular ambient term, diffuse light.
 
 namespace gloam {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/math/srgb.h"
 #include "engine/render/readback/capture.h"
 #include "modules/lighting/exposure.h"
 #include "modules/lighting/tone_reference.h"
@@ -21,10 +22,6 @@ double curve(const std::string& name, double x) {
   if (name == "filmic") shown = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
   if (name == "reinhard") shown = x / (1.0 + x);
   return std::clamp(shown, 0.0, 1.0);
-}
-
-double encoded(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
 /// The mean of log2 luminance over the lit pixels of a grid of 32×32, of 256×256 if there are less than 32, and the key
@@ -67,7 +64,8 @@ struct PictureOfLight : test::LitSceneTest {
                            double exposure) {
     ASSERT_EQ(bytes.size(), light.rgba.size());
     for (std::size_t i = 0; i < bytes.size(); ++i) {
-      const double expected = i % 4 == 3 ? 1.0 : encoded(curve(name, static_cast<double>(light.rgba[i]) * exposure));
+      const double expected =
+          i % 4 == 3 ? 1.0 : linear_to_srgb(curve(name, static_cast<double>(light.rgba[i]) * exposure));
       ASSERT_NEAR(bytes[i], 255.0 * expected, 1.0) << name << " at byte " << i << ", light " << light.rgba[i];
     }
   }
@@ -99,7 +97,7 @@ TEST_F(PictureOfLight, follows_the_curve_that_mixes_channels) {
         const float* at = &light.rgba[i];
         const dvec3 right = tone_mapped(3, dvec3(at[0], at[1], at[2]) * static_cast<double>(exposure_from_ev100(ev)));
         for (int c = 0; c < 3; ++c)
-          ASSERT_NEAR(shown.rgba[i + static_cast<std::size_t>(c)], 255.0 * encoded(right[c]), 1.0)
+          ASSERT_NEAR(shown.rgba[i + static_cast<std::size_t>(c)], 255.0 * linear_to_srgb(right[c]), 1.0)
               << table << " " << ev;
       }
     }
@@ -219,7 +217,7 @@ TEST_F(PictureOfLight, is_exposed_for_what_is_lit_before_black) {
     expect_shown(linear(), picture().rgba, "linear", expected_exposure(linear()));
     const double key = 1.03 - 2.0 / (2.0 + std::log10(5.0 + 1.0));
     const std::size_t middle = (std::size_t{settings.height} / 2 * settings.width + settings.width / 2) * 4;
-    EXPECT_NEAR(picture().rgba[middle], 255.0 * encoded(key), 1.0) << "a lamp of " << half << " m";
+    EXPECT_NEAR(picture().rgba[middle], 255.0 * linear_to_srgb(key), 1.0) << "a lamp of " << half << " m";
     renderer->release_world(dark);
   }
 }

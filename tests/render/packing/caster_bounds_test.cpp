@@ -47,7 +47,7 @@ class CasterBounds : public ::testing::Test {
   std::mt19937 random_{21};
 };
 
-bool holds(const WorldBox& box, const dvec3& p, double slack) {
+bool contains(const WorldBox& box, const dvec3& p, double slack) {
   return glm::all(glm::greaterThanEqual(p, box.min - slack)) && glm::all(glm::lessThanEqual(p, box.max + slack));
 }
 
@@ -66,7 +66,7 @@ TEST_F(CasterBounds, a_moved_box_holds_its_points_and_touches_its_corners_far_aw
       corners.max = glm::max(corners.max, at);
     }
     ASSERT_LT(glm::length(moved.min - corners.min) + glm::length(moved.max - corners.max), 1e-9);
-    ASSERT_TRUE(holds(moved, dvec3(m * dvec4(inside(rest), 1.0)), 1e-9));
+    ASSERT_TRUE(contains(moved, dvec3(m * dvec4(inside(rest), 1.0)), 1e-9));
   }
 }
 
@@ -100,7 +100,7 @@ TEST_F(CasterBounds, morphing_stays_in_reach_whatever_the_weights) {
       dvec3 offset(0.0);
       for (std::size_t t = 0; t < 3; ++t)
         offset += static_cast<double>(weights[t]) * dvec3(p.morph_targets[t].positions[v]);
-      ASSERT_TRUE(holds(WorldBox{dvec3(reach.min), dvec3(reach.max)}, offset, 1e-5));
+      ASSERT_TRUE(contains(WorldBox{dvec3(reach.min), dvec3(reach.max)}, offset, 1e-5));
     }
   }
 }
@@ -128,7 +128,7 @@ TEST_F(CasterBounds, a_posed_box_holds_every_mix_of_its_joints) {
     const double share = in(0.0, 1.0);
     const dvec4 mixed =
         share * (dmat4(joints.matrices[2 + a]) * at) + (1.0 - share) * (dmat4(joints.matrices[2 + b]) * at);
-    ASSERT_TRUE(holds(posed, dvec3(mixed) + range.origin, 1e-5));
+    ASSERT_TRUE(contains(posed, dvec3(mixed) + range.origin, 1e-5));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include "engine/render/packing/mip_chain.h"
+#include "engine/math/srgb.h"
 
 #include <gtest/gtest.h>
 
@@ -19,11 +20,6 @@ struct Size {
 };
 constexpr Size kSizes[] = {{1, 1}, {2, 2}, {4, 4},  {16, 16}, {1, 7}, {9, 1},
                            {3, 3}, {5, 8}, {17, 6}, {31, 33}, {64, 1}};
-
-double to_linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
-double to_srgb(double linear) {
-  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 std::vector<std::uint8_t> random_texels(Size size, std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -68,10 +64,10 @@ double halved(const Level& source, std::uint32_t x, std::uint32_t y, std::size_t
   for (std::uint32_t dy = 0; dy < 2; ++dy) {
     for (std::uint32_t dx = 0; dx < 2; ++dx) {
       const double value = source.at(2 * x + dx, 2 * y + dy, channel);
-      sum += linear_light ? to_linear(value) : value;
+      sum += linear_light ? srgb_to_linear(value) : value;
     }
   }
-  return linear_light ? to_srgb(sum / 4.0) : sum / 4.0;
+  return linear_light ? linear_to_srgb(sum / 4.0) : sum / 4.0;
 }
 
 TEST(MipCount, reaches_one_texel) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "engine/math/srgb.h"
 #include "engine/render/host_geometry.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +28,7 @@ using ::testing::HasSubstr;
 constexpr std::uint32_t kWidth = 64;
 constexpr std::uint32_t kHeight = 36;
 
-/// What a host knows about a pixel.
+/// A host's data of a pixel.
 struct HostTexel {
   bool sky = true;
   double view_depth_m = 0.0;
@@ -139,7 +140,8 @@ class HostGeometryTest : public test::DrawingTest {
                        [&](const HostTexel& t) { return t.sky ? sky : static_cast<float>(stored(t.view_depth_m)); });
   }
 
-  /// What gloam makes of the images. Tolerances: of depth, relative; of normals, length of the difference.
+  /// Compares gloam's geometry buffer with the images. Tolerances: of depth, relative; of normals, length of the
+  /// difference.
   void expect_same(const HostGeometryDesc& desc, double depth_error = 1e-6, double normal_error = 2e-3) {
     const auto geometry = HostGeometry::create(*test::drawing_device(), desc);
     ASSERT_TRUE(geometry.ok()) << geometry.error().message;
@@ -220,8 +222,7 @@ TEST_F(HostGeometryTest, reads_every_kind_of_normal) {
 TEST_F(HostGeometryTest, reads_srgb_colours_and_other_channels) {
   const auto encoded = [](const HostTexel& t) {
     vec3 c = t.surface.base_color;
-    for (int i = 0; i < 3; ++i)
-      c[i] = c[i] <= 0.0031308f ? 12.92f * c[i] : 1.055f * std::pow(c[i], 1.0f / 2.4f) - 0.055f;
+    for (int i = 0; i < 3; ++i) c[i] = static_cast<float>(linear_to_srgb(static_cast<double>(c[i])));
     return rgba8(vec4(c, 1.0f));
   };
   HostGeometryDesc desc = plain();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/ecs/view.h"
-#include "engine/math/packing.h"
+#include "engine/math/srgb.h"
 #include "engine/render/readback/capture.h"
 #include "tests/render/draws/drawn_scene.h"
 
@@ -157,10 +157,9 @@ TEST_F(Pictures, views_of_albedo_normal_and_depth_show_their_channel) {
     EXPECT_NEAR(shown.g, 255.0 * encoded.y, bound);
     EXPECT_NEAR(shown.b, 255.0 * encoded.z, bound);
   };
-  const auto srgb = [](double linear) { return static_cast<double>(linear_to_srgb(static_cast<float>(linear))); };
-  expect_within(middle("albedo"), {srgb(0.5), srgb(0.25), srgb(0.75)}, 1.01);
+  expect_within(middle("albedo"), {linear_to_srgb(0.5), linear_to_srgb(0.25), linear_to_srgb(0.75)}, 1.01);
   expect_within(middle("normal"), dvec3(0.5, 0.5, 1.0), 1.01);
-  expect_within(middle("depth"), dvec3(srgb(1.0 / 1.5)), 1.01);
+  expect_within(middle("depth"), dvec3(linear_to_srgb(1.0 / 1.5)), 1.01);
 }
 
 TEST_F(Pictures, a_picture_that_does_not_encode_gets_encoded_colours) {

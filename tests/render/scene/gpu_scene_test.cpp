@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// What a scene copies to the GPU when single assets change. The bytes that end up in buffers and images are compared
-// with those of a scene that was uploaded as a whole.
+// Copies to the GPU when single assets change. The bytes that end up in buffers and images are compared with those of a
+// scene that was uploaded as a whole.
 #include "engine/render/scene/gpu_scene.h"
 
 #include <gmock/gmock.h>

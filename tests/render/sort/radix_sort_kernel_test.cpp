@@ -25,7 +25,7 @@ constexpr std::uint32_t kSizes[] = {0,   1,   3,    4,    5,    15,   16,    17,
 using Keys = std::vector<std::uint8_t>;
 using Words = std::vector<std::uint32_t>;
 
-/// What the sort must give, from std::stable_sort.
+/// The expected result of the sort, from std::stable_sort.
 struct Expected {
   Words values;
   Keys keys;
@@ -68,7 +68,7 @@ Words random_values(std::uint32_t count) {
   return values;
 }
 
-/// With the kernels for threads in turn (true) and for threads together (false), whatever the device is.
+/// With the kernels for threads in turn (true) and for threads together (false), on every device.
 class RadixSort : public ::testing::TestWithParam<bool> {
  protected:
   void SetUp() override {

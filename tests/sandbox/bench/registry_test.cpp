@@ -65,13 +65,13 @@ TEST(BenchRegistry, ids_are_unique) {
 
 TEST(BenchRegistry, a_bar_holds_on_its_better_side) {
   BenchRow lower = row("a");
-  EXPECT_TRUE(holds(lower, 1e9));
+  EXPECT_TRUE(keeps_bar(lower, 1e9));
   lower.bar = 0.5;
-  EXPECT_TRUE(holds(lower, 0.5));
-  EXPECT_FALSE(holds(lower, 0.6));
+  EXPECT_TRUE(keeps_bar(lower, 0.5));
+  EXPECT_FALSE(keeps_bar(lower, 0.6));
   lower.better = Better::higher;
-  EXPECT_TRUE(holds(lower, 0.6));
-  EXPECT_FALSE(holds(lower, 0.4));
+  EXPECT_TRUE(keeps_bar(lower, 0.6));
+  EXPECT_FALSE(keeps_bar(lower, 0.4));
 }
 
 TEST(BenchRegistry, a_value_that_only_informs_has_no_bar) {

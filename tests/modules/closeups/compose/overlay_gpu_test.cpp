@@ -116,7 +116,9 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
   struct Around {
     float low = 2.0f;
     float high = 0.0f;
-    [[nodiscard]] bool holds(float depth, float slack) const { return depth >= low - slack && depth <= high + slack; }
+    [[nodiscard]] bool contains(float depth, float slack) const {
+      return depth >= low - slack && depth <= high + slack;
+    }
   };
   [[nodiscard]] static bool shows(const FaceDepths& face, const FaceDepths& without, std::uint32_t x, std::uint32_t y) {
     return face.at(x, y) > without.at(x, y) * 1.0001f + 1e-6f;
@@ -143,7 +145,7 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
         ++shown;
         const Around own = around(a, without, x, y), other = around(b, without, x, y);
         const float depth = a.at(x, y), slack = slack_of(face, depth);
-        off += other.holds(depth, slack) ? 0 : 1;
+        off += other.contains(depth, slack) ? 0 : 1;
         apart += other.low <= own.high + slack && own.low <= other.high + slack ? 0 : 1;
       }
     EXPECT_EQ(apart, 0u) << what << ", of " << shown;

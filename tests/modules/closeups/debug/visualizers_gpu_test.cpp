@@ -326,9 +326,9 @@ TEST_F(CloseupViewsTest, picking_tells_the_pairs_of_the_tile_with_map_size_and_t
   std::optional<uvec2> in, beside, away;
   for_pixels([&](std::uint32_t x, std::uint32_t y, std::size_t i) {
     const uvec2 tile(x / kShadowTile, y / kShadowTile);
-    const bool held = tile.x >= pair.tiles.begin.x && tile.y >= pair.tiles.begin.y && tile.x < pair.tiles.end.x &&
-                      tile.y < pair.tiles.end.y;
-    (texels[i] >= 0.0f ? in : held ? beside : away) = uvec2(x, y);
+    const bool inside = tile.x >= pair.tiles.begin.x && tile.y >= pair.tiles.begin.y && tile.x < pair.tiles.end.x &&
+                        tile.y < pair.tiles.end.y;
+    (texels[i] >= 0.0f ? in : inside ? beside : away) = uvec2(x, y);
   });
   ASSERT_TRUE(in && beside && away);
   settings.visualizer = "none";

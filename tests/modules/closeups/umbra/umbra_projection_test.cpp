@@ -113,7 +113,7 @@ class UmbraProjection : public ::testing::Test {
   test::CloseupCases cases_{11};
 };
 
-bool holds(const TileRange& range, const glm::dvec2& pixel) {
+bool contains(const TileRange& range, const glm::dvec2& pixel) {
   const uvec2 tile = uvec2(pixel) / kShadowTile;
   return !range.empty() && tile.x >= range.begin.x && tile.y >= range.begin.y && tile.x < range.end.x &&
          tile.y < range.end.y;
@@ -137,9 +137,9 @@ TEST_F(UmbraProjection, holds_every_pixel_that_can_lose_light) {
       const auto pixel = made.eye.pixel(hidden->receiver);
       if (!pixel) continue;
       ++shown;
-      ASSERT_TRUE(holds(range, *pixel)) << "case " << round << ", kind " << static_cast<int>(made.light.kind)
-                                        << ", pixel " << pixel->x << ", " << pixel->y << ", tiles " << range.begin.x
-                                        << ", " << range.begin.y << " to " << range.end.x << ", " << range.end.y;
+      ASSERT_TRUE(contains(range, *pixel)) << "case " << round << ", kind " << static_cast<int>(made.light.kind)
+                                           << ", pixel " << pixel->x << ", " << pixel->y << ", tiles " << range.begin.x
+                                           << ", " << range.begin.y << " to " << range.end.x << ", " << range.end.y;
     }
   }
   EXPECT_GT(shown, static_cast<std::size_t>(count) * 4);

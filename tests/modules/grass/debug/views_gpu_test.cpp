@@ -14,7 +14,7 @@
 namespace gloam::test {
 namespace {
 
-/// What the module shows of itself.
+/// The module's visualizers, picks and counters.
 class GrassViews : public GrassTest {
  protected:
   /// A view along a strip of grass, with all draw classes.

@@ -20,7 +20,7 @@
 namespace gloam::test {
 namespace {
 
-/// What decides about the pipelines that draw the blades of a view.
+/// Properties of a view that select the pipelines for its blades.
 struct ViewKind {
   const char* name;
   bool motion, mirrored;

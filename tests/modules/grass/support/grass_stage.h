@@ -139,7 +139,7 @@ class GrassStage {
   void draw(const ViewSettings& view, int frames) {
     for (int i = 0; i < frames; ++i) draw(view);
   }
-  /// Draws a frame of the view at this time, whatever the time of the last one.
+  /// Draws a frame of the view at this time, which may be before that of the last frame.
   void draw_at(double time_s, const ViewSettings& view) {
     world.resource<SceneClock>().time_s = time_s;
     const Status drawn = render(std::span(&view, 1));

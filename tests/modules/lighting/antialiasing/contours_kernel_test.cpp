@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "engine/math/srgb.h"
 #include "modules/accuracy/metrics/flip.h"
 #include "tests/modules/lighting/antialiasing/smoothed_picture.h"
 
@@ -45,8 +46,8 @@ class SmoothedContours : public AntialiasingTest {
   [[nodiscard]] static std::vector<std::uint8_t> encoded(const std::vector<double>& grey) {
     std::vector<std::uint8_t> bytes;
     for (const double x : grey) {
-      const double value = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-      for (int c = 0; c < 4; ++c) bytes.push_back(c == 3 ? 255 : static_cast<std::uint8_t>(std::lround(255.0 * value)));
+      const auto value = static_cast<std::uint8_t>(std::lround(255.0 * linear_to_srgb(x)));
+      bytes.insert(bytes.end(), {value, value, value, 255});
     }
     return bytes;
   }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/math/srgb.h"
 #include "modules/lighting/antialiasing/reference.h"
 #include "tests/modules/lighting/lit_scene.h"
 
@@ -120,7 +121,7 @@ TEST_F(AntialiasedFrame, reference_shows_what_share_of_a_pixel_is_covered) {
   const auto share = [&](std::uint32_t x, std::uint32_t y) {
     const double value = right.rgba[(y * right.width + x) * 4] / 255.0;
     const double inside = right.rgba[(32 * right.width + 48) * 4] / 255.0;
-    return std::pow((value + 0.055) / 1.055, 2.4) / std::pow((inside + 0.055) / 1.055, 2.4);
+    return srgb_to_linear(value) / srgb_to_linear(inside);
   };
   EXPECT_NEAR(share(67, 32), 1.0, 0.01);
   EXPECT_NEAR(share(68, 32), 0.3, 0.04);

@@ -38,7 +38,7 @@ struct ShownPicture {
   [[nodiscard]] static float rounded(double value) { return half_to_float(float_to_half(static_cast<float>(value))); }
 };
 
-/// What the upper, lower, left and right neighbours cover of a pixel.
+/// Shares of a pixel that its upper, lower, left and right neighbours cover.
 using Shares = std::array<double, 4>;
 
 /// The shares that shaders/lighting/antialiasing finds, in double precision and pixel by pixel.

@@ -31,7 +31,9 @@ inline void sort_lights(std::vector<LightDepth>& lights) {
   return bins;
 }
 
-[[nodiscard]] inline bool holds(const ZBin& bin, std::uint32_t light) { return bin.begin <= light && light < bin.end; }
+[[nodiscard]] inline bool contains(const ZBin& bin, std::uint32_t light) {
+  return bin.begin <= light && light < bin.end;
+}
 
 /// The bin of a depth without any rounding.
 [[nodiscard]] inline std::uint32_t exact_bin(double depth, const ZBinParams& params) {
@@ -47,7 +49,7 @@ inline void sort_lights(std::vector<LightDepth>& lights) {
   for (const double off : {0.0, 4.0, -4.0}) {
     const double seen = std::max(depth * (1.0 + off * 5.96e-8), static_cast<double>(bins.params.near_m));
     for (const std::uint32_t k : {z_bin_of(static_cast<float>(seen), bins.params), exact_bin(seen, bins.params)}) {
-      if (k < bins.params.count && holds(bins.bins[k], light)) continue;
+      if (k < bins.params.count && contains(bins.bins[k], light)) continue;
       return "light " + std::to_string(light) + " is not in bin " + std::to_string(k) + " of depth " +
              std::to_string(seen);
     }
@@ -130,7 +132,7 @@ inline void expect_found(const ZBins& bins, std::uint32_t light, float depth) {
     if (a > b) std::swap(a, b);
     const ZBin found = z_bin_range(bins, a, b);
     for (std::uint32_t light = 0; light < lights.size(); ++light)
-      if (lights[light].nearest <= b && lights[light].farthest >= a && !holds(found, light))
+      if (lights[light].nearest <= b && lights[light].farthest >= a && !contains(found, light))
         return "light " + std::to_string(light) + " is not found between " + std::to_string(a) + " and " +
                std::to_string(b);
     const std::uint32_t first = z_bin_of(a, params);

@@ -72,9 +72,9 @@ TEST(ZBins, hold_lights_that_are_no_numbers_everywhere_and_all_others) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<LightDepth> lights = {{2.5f, 3.5f}, {nan, nan}, {10.5f, nan}, {40.5f, 41.5f}};
   const ZBins bins = test::built(lights, {1.0f, 65.0f, 64});
-  for (std::uint32_t k = 0; k < 64; ++k) EXPECT_TRUE(test::holds(bins.bins[k], 1)) << k;
-  for (std::uint32_t k = 10; k < 64; ++k) EXPECT_TRUE(test::holds(bins.bins[k], 2)) << k;
-  EXPECT_TRUE(test::holds(bins.bins[40], 3));
+  for (std::uint32_t k = 0; k < 64; ++k) EXPECT_TRUE(test::contains(bins.bins[k], 1)) << k;
+  for (std::uint32_t k = 10; k < 64; ++k) EXPECT_TRUE(test::contains(bins.bins[k], 2)) << k;
+  EXPECT_TRUE(test::contains(bins.bins[40], 3));
 }
 
 }  // namespace

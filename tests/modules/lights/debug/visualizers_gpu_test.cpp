@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "engine/math/srgb.h"
 #include "modules/lights/debug/visualizers.h"
 
 #include <gmock/gmock.h>
@@ -27,10 +28,7 @@ struct Rgb {
   int r = 0, g = 0, b = 0;
 };
 
-int encoded(double linear) {
-  const double c = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-  return static_cast<int>(std::lround(255.0 * c));
-}
+int encoded(double linear) { return static_cast<int>(std::lround(255.0 * linear_to_srgb(linear))); }
 Rgb encoded(const dvec3& linear) { return {encoded(linear.x), encoded(linear.y), encoded(linear.z)}; }
 bool is_near(const Rgb& a, const Rgb& b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) <= 2;
@@ -318,7 +316,6 @@ TEST_F(LightViewsTest, a_light_in_no_list_gives_a_dark_picture_and_one_sentence)
 
 TEST_F(LightViewsTest, every_view_writes_an_image_of_its_name) {
   for (const VisualizerInfo& view : light_visualizers()) {
-    if (!view.built) continue;
     static_cast<void>(drawn(view.name + (view.argument.empty() ? "" : ":lamp")));
     EXPECT_THAT(renderer->describe(), HasSubstr(view.name + "_view")) << view.name;
     EXPECT_TRUE(renderer->check_visualizer(world, settings.visualizer).ok());

@@ -69,10 +69,10 @@ TEST(Flames, hold_their_sprites_and_have_their_light) {
       const double light = static_cast<double>(kind.emission.x) * (1.0 + cool * (0.55 - 1.0)) * p.opacity *
                            mean_shape(static_cast<double>(kind.erosion)) * 3.14159265 * p.radius_m * p.radius_m;
       all += light / kSteps;
-      const bool holds =
+      const bool contains =
           std::abs(p.position.x) < 0.5 * static_cast<double>(flame->size_m.x) &&
           std::abs(p.position.y - static_cast<double>(flame->middle_m)) < 0.5 * static_cast<double>(flame->size_m.y);
-      inside += holds ? light / kSteps : 0.0;
+      inside += contains ? light / kSteps : 0.0;
     }
   }
   EXPECT_GT(inside, 0.97 * all);

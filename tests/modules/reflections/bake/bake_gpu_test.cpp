@@ -88,7 +88,7 @@ struct Bakes : testing::Test {
 
 constexpr vec3 kRed(8.0f, 0.0f, 0.0f), kGreen(0.0f, 4.0f, 0.0f), kBlue(0.0f, 0.0f, 2.0f), kWhite(1.0f);
 
-/// What the four quarters of a proxy of 4 x 4 m show: red, blue; green, nothing.
+/// Expects the colours of the four quarters of a proxy of 4 x 4 m: red, blue; green, nothing.
 void expect_quarters(const CapturedLayers& layers, std::uint32_t layer) {
   const std::uint32_t low = layers.side / 4, high = 3 * layers.side / 4;
   const auto near = [](const vec4& a, const vec4& b) { return glm::length(a - b) < 5e-3f; };

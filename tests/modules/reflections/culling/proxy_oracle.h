@@ -58,7 +58,7 @@ struct SceneRoom {
   IbrRoom room;
   dmat4 world_from_node = dmat4(1.0);
   std::optional<ReflectingHeights> heights;
-  [[nodiscard]] bool holds(const dvec3& p) const {
+  [[nodiscard]] bool contains(const dvec3& p) const {
     const dvec3 local = dvec3(glm::inverse(world_from_node) * dvec4(p, 1.0));
     return std::abs(local.x) * 2.0 <= static_cast<double>(room.size_m.x) &&
            std::abs(local.y) * 2.0 <= static_cast<double>(room.size_m.y) &&
@@ -117,8 +117,8 @@ struct ProxyScene {
     bool proxy_in_room = false;
     bool allowed = false;
     for (const SceneRoom& room : rooms) {
-      const bool camera_inside = room.holds(camera);
-      const bool proxy_inside = room.holds(center);
+      const bool camera_inside = room.contains(camera);
+      const bool proxy_inside = room.contains(center);
       camera_in_room |= camera_inside;
       proxy_in_room |= proxy_inside;
       if (!camera_inside || !proxy_inside) continue;

@@ -173,7 +173,7 @@ class ProxyBlend : public KernelTest {
     bool in_room = false, shared = false, others = false;
     std::vector<double> heights;
     for (const SceneRoom& room : scene.rooms) {
-      const bool camera_inside = room.holds(camera), proxy_inside = room.holds(center);
+      const bool camera_inside = room.contains(camera), proxy_inside = room.contains(center);
       in_room |= camera_inside;
       others |= proxy_inside;
       if (!camera_inside || !proxy_inside) continue;

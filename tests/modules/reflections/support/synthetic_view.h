@@ -89,7 +89,7 @@ struct SyntheticView {
   return seen;
 }
 
-/// What a ray meets first from outside; the distance is infinite if it meets nothing.
+/// The first point of a box that a ray meets from outside; the distance is infinite if there is none.
 struct BoxMeeting {
   double along = std::numeric_limits<double>::infinity();
   dvec3 normal = dvec3(0.0);

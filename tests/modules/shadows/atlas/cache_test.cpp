@@ -53,7 +53,7 @@ class ShadowCacheTest : public ::testing::Test {
     const auto now = contents();
     std::vector<std::uint32_t> found;
     for (std::uint32_t i = 0; i < faces.size(); ++i)
-      if (!cache.holds(faces[i], now[i])) found.push_back(i);
+      if (!cache.has_map(faces[i], now[i])) found.push_back(i);
     return found;
   }
   void draw_all() {
@@ -148,7 +148,7 @@ TEST_F(ShadowCacheTest, squares_that_only_touch_do_not_disturb_each_other) {
     faces.push_back(face);
     cache.set_drawn(face, {});
     ASSERT_EQ(cache.size(), alive.size());
-    for (const std::uint32_t other : alive) ASSERT_TRUE(cache.holds(faces[other], {}));
+    for (const std::uint32_t other : alive) ASSERT_TRUE(cache.has_map(faces[other], {}));
   }
 }
 

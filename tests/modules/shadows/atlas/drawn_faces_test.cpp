@@ -54,7 +54,8 @@ class DrawnFaces : public ::testing::Test {
   DrawnMaps frame(bool given_up = false) {
     std::vector<const CasterSource*> list;
     for (const auto& made : sources) list.push_back(made.get());
-    const MapInputs inputs{.faces = faces, .casters = casters, .poses = {}, .sources = list, .salt = 1, .anew = anew};
+    const MapInputs inputs{
+        .faces = faces, .casters = casters, .poses = {}, .sources = list, .salt = 1, .atlas_is_empty = atlas_is_empty};
     DrawnMaps maps = plan_maps(inputs, kept, *executor);
     if (!given_up) commit_maps(maps.faces, maps.held, kept);
     return maps;
@@ -87,7 +88,7 @@ class DrawnFaces : public ::testing::Test {
   std::vector<Caster> casters;
   std::vector<std::unique_ptr<CasterSource>> sources;
   ViewShadows kept;
-  bool anew = false;  ///< of the next frame
+  bool atlas_is_empty = false;  ///< of the next frame
   std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
 };
 
@@ -154,13 +155,13 @@ TEST_F(DrawnFaces, a_frame_that_is_given_up_costs_nothing_in_the_next) {
 
 TEST_F(DrawnFaces, maps_that_are_made_anew_in_a_frame_given_up_are_still_held) {
   frames(2);
-  anew = true;
+  atlas_is_empty = true;
   EXPECT_EQ(frame(true).faces.size(), 2u);
-  anew = false;
+  atlas_is_empty = false;
   EXPECT_TRUE(frame().faces.empty());
-  anew = true;
+  atlas_is_empty = true;
   EXPECT_EQ(frame().faces.size(), 2u);
-  anew = false;
+  atlas_is_empty = false;
   EXPECT_TRUE(frame().faces.empty());
 }
 

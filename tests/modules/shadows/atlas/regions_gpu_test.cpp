@@ -92,7 +92,7 @@ class ShadowRegions : public test::ShadowedScene {
   }
 
   /// The contents of the view's faces.
-  [[nodiscard]] WalkedFrame held() {
+  [[nodiscard]] WalkedFrame walked_frame() {
     WalkedFrame frame;
     frame.texels = counter("shadows.texels_drawn");  // first, because reading images draws frames
     frame.faces = test::held_faces(*renderer, world);
@@ -125,7 +125,7 @@ class ShadowRegions : public test::ShadowedScene {
         set("shadows.casters", "full");
       }
       draw();
-      walked.push_back(held());
+      walked.push_back(walked_frame());
     }
     return walked;
   }

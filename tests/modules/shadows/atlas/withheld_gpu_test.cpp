@@ -132,10 +132,10 @@ class ShadowWithheld : public test::HardShadows {
     set("shadows.casters", "full");
     draw();
   }
-  [[nodiscard]] Faces held() { return test::held_faces(*renderer, world); }
+  [[nodiscard]] Faces faces_now() { return test::held_faces(*renderer, world); }
   [[nodiscard]] Faces held_anew() {
     draw_anew();
-    return held();
+    return faces_now();
   }
   [[nodiscard]] double drawn_faces() const { return counter("shadows.faces_drawn") + counter("shadows.faces_skipped"); }
 
@@ -182,7 +182,7 @@ class ShadowWithheld : public test::HardShadows {
       else
         draw();
       texels += counter("shadows.texels_drawn");
-      walked.push_back(held());
+      walked.push_back(faces_now());
     }
     return walked;
   }
@@ -204,12 +204,12 @@ class ShadowWithheld : public test::HardShadows {
 TEST_F(ShadowWithheld, maps_are_as_if_withheld_casters_were_not_there) {
   spot_light(), point_light(), sun_light();
   draw();
-  const Faces with = held();
+  const Faces with = faces_now();
   const std::vector<Entity> casters = {movers[0], movers[3], bar};
   withhold(lights(), casters);
   draw();
   EXPECT_TRUE(withholder_->has_lists);
-  const Faces withheld = held();
+  const Faces withheld = faces_now();
   expect_equal(withheld, held_anew(), "drawn anew");
   withholder_->withheld = {};
   for (const Entity caster : casters) world.destroy(caster);
@@ -224,7 +224,7 @@ TEST_F(ShadowWithheld, withheld_casters_that_move_draw_no_face) {
   withhold(lights(), {movers[0], movers[3], bar});
   draw();
   draw();
-  const Faces before = held();
+  const Faces before = faces_now();
   for (int i = 1; i < 4; ++i) {
     nudge(movers[0], dvec3(0.03, -0.02, 0.02));
     nudge(movers[3], dvec3(-0.02, 0.03, 0.0));
@@ -234,25 +234,25 @@ TEST_F(ShadowWithheld, withheld_casters_that_move_draw_no_face) {
     EXPECT_EQ(counter("shadows.texels_drawn"), 0.0) << i;
     EXPECT_EQ(counter("shadows.faces_cached"), static_cast<double>(before.size())) << i;
   }
-  expect_equal(before, held(), "nothing is drawn");
+  expect_equal(before, faces_now(), "nothing is drawn");
 }
 
 TEST_F(ShadowWithheld, other_lights_maps_hold_what_is_withheld_from_one) {
   spot_light(), point_light();
   draw();
-  const Faces with = held();
+  const Faces with = faces_now();
   ASSERT_EQ(with.size(), 7u);
   const std::size_t spot_face = world.view_resource<ShadowViews>(ViewId{0}).faces[0].light == spot_ ? 0 : 6;
   withhold({lamp_}, {movers[0]});
   draw();
-  const Faces withheld = held();
+  const Faces withheld = faces_now();
   EXPECT_TRUE(withheld[spot_face] == with[spot_face]);
   EXPECT_FALSE(withheld == with) << "the lamp sees it";
   nudge(movers[0], dvec3(0.02, 0.01, 0.0));
   draw();
   EXPECT_EQ(drawn_faces(), 1.0);
   EXPECT_EQ(counter("shadows.faces_cached"), 6.0);
-  const Faces moved = held();
+  const Faces moved = faces_now();
   for (std::size_t f = 0; f < moved.size(); ++f) EXPECT_EQ(moved[f] == withheld[f], f != spot_face) << f;
   expect_equal(moved, held_anew(), "drawn anew");
 }
@@ -281,7 +281,7 @@ TEST_F(ShadowWithheld, a_caster_that_rests_on_a_background_leaves_it_and_comes_b
     nudge(movers[0], dvec3(0.001, 0.0, 0.0));
     draw();
     EXPECT_LT(counter("shadows.texels_drawn"), 512.0 * 512.0) << what;
-    const Faces kept = held();
+    const Faces kept = faces_now();
     const WorldTransform rested = world.get<WorldTransform>(movers[0]);
     expect_equal(kept, held_anew(), what);
     world.get<WorldTransform>(movers[0]) = rested;
@@ -301,18 +301,18 @@ TEST_F(ShadowWithheld, a_caster_that_rests_on_a_background_leaves_it_and_comes_b
 TEST_F(ShadowWithheld, maps_hold_everything_in_frames_without_final_lists) {
   spot_light(), point_light();
   draw();
-  const Faces with = held();
+  const Faces with = faces_now();
   withhold(lights(), {movers[0], bar});
   for (const auto& [knob, value, lists] :
        {std::tuple{"shadows.mode", "monolithic", "deferred"}, std::tuple{"shadows.visibility_bits", "exact", "8"}}) {
     draw();
     EXPECT_TRUE(withholder_->has_lists) << knob;
-    const Faces withheld = held();
+    const Faces withheld = faces_now();
     EXPECT_FALSE(withheld == with) << knob;
     set(knob, value);
     draw();
     EXPECT_FALSE(withholder_->has_lists) << knob;
-    expect_equal(held(), with, knob);
+    expect_equal(faces_now(), with, knob);
     nudge(movers[0], dvec3(0.02, 0.0, 0.0));
     draw();
     EXPECT_GT(drawn_faces(), 0.0) << knob;
@@ -320,7 +320,7 @@ TEST_F(ShadowWithheld, maps_hold_everything_in_frames_without_final_lists) {
     set(knob, lists);
     draw();
     EXPECT_TRUE(withholder_->has_lists) << knob;
-    expect_equal(held(), withheld, knob);
+    expect_equal(faces_now(), withheld, knob);
   }
 }
 

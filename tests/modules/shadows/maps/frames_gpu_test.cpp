@@ -88,9 +88,9 @@ TEST_F(ShadowFrames, kept_maps_equal_maps_drawn_anew) {
   EXPECT_EQ(drawn_faces(), 1.0);
   // Changing the atlas' format and back discards all maps.
   static_cast<void>(drawn("shadows.depth", "d16"));
-  const LinearPicture anew = drawn("shadows.depth", "d32");
+  const LinearPicture redrawn = drawn("shadows.depth", "d32");
   EXPECT_EQ(drawn_faces(), 6.0);
-  EXPECT_EQ(kept.rgba, anew.rgba);
+  EXPECT_EQ(kept.rgba, redrawn.rgba);
 }
 
 TEST_F(ShadowFrames, frames_that_are_given_up_leave_the_maps_as_they_were) {
@@ -352,6 +352,8 @@ TEST_F(ShadowFrames, a_view_of_a_light_that_is_not_in_view_shows_the_picture_as_
   settings.visualizer = "shadow:far";
   draw();
   const Picture p = picture();
+  draw();
+  EXPECT_EQ(warnings.size(), 1u) << "one warning, not one a frame";
   settings.visualizer = "none";
   draw();
   EXPECT_EQ(picture().rgba, p.rgba);

@@ -126,13 +126,13 @@ class CasterSources : public test::ShadowedScene {
         std::ranges::count_if(report.passes, [&](const PassTime& pass) { return pass.name == name; }));
   }
 
-  [[nodiscard]] Faces held() { return test::held_faces(*renderer, world); }
+  [[nodiscard]] Faces faces_now() { return test::held_faces(*renderer, world); }
   /// The maps in the next frame, all drawn whole and without anything kept.
-  [[nodiscard]] Faces held_from_scratch() {
+  [[nodiscard]] Faces faces_from_scratch() {
     set("shadows.casters", "simplified");  // no mesh here has simplified triangles, but maps count as different
     draw();
     set("shadows.casters", "full");
-    return held();
+    return faces_now();
   }
   /// Number of texels in which two maps differ.
   [[nodiscard]] static std::size_t differing(const Faces& a, const Faces& b) {
@@ -155,7 +155,7 @@ class CasterSources : public test::ShadowedScene {
     const Entity mover = scene.draw(scene.mesh(test::box(vec3(0.1f), stone)));
     double texels[2] = {0.0, 0.0};
     std::vector<Faces> walks[2];
-    for (const std::size_t anew : {0u, 1u}) {
+    for (const std::size_t from_scratch : {0u, 1u}) {
       std::mt19937 random(5);
       std::uniform_real_distribution<double> near(-0.4, 0.4);
       world.get<WorldTransform>(mover).matrix = glm::translate(dmat4(1.0), dvec3(0.0, 0.0, 0.7));
@@ -167,8 +167,8 @@ class CasterSources : public test::ShadowedScene {
           world.get<WorldTransform>(mover).matrix[3] = dvec4(near(random), near(random), 0.7 + near(random), 1.0);
         if (i % 7 == 6) blades_->fields[2].phase += 0.5f;
         draw();
-        texels[anew] += counter("shadows.texels_drawn");
-        walks[anew].push_back(anew == 1 ? held_from_scratch() : held());
+        texels[from_scratch] += counter("shadows.texels_drawn");
+        walks[from_scratch].push_back(from_scratch == 1 ? faces_from_scratch() : faces_now());
       }
     }
     for (int i = 0; i < frames && !HasFatalFailure(); ++i) {
@@ -214,16 +214,16 @@ TEST_F(CasterSources, blades_far_from_the_worlds_origin_cast_the_same_maps) {
   swaying(dvec3(0.1, -0.2, 0.9)).phase = 0.7f;
   lamp_of("spot", LightKind::spot, dvec3(0.25, 0.125, 2.5), 512);
   draw();
-  const Faces here = held();
+  const Faces here = faces_now();
   const dvec3 away(1048576.0, -524288.0, 2097152.0);
   world.view<WorldTransform>().each([&](WorldTransform& transform) { transform.matrix[3] += dvec4(away, 0.0); });
   settings.world_from_camera[3] += dvec4(away, 0.0);
   blades_->fields[0].origin += away;
   draw();
-  const Faces there = held();
+  const Faces there = faces_now();
   blades_->fields.clear();
   draw();
-  const Faces bare = held();
+  const Faces bare = faces_now();
   const std::size_t by_blades = differing(there, bare);
   EXPECT_GT(by_blades, 500u);
   EXPECT_LT(differing(here, there), by_blades / 20) << "only the rounding of world positions differs";
@@ -259,8 +259,8 @@ TEST_F(CasterSources, casters_that_rest_are_not_drawn_again_while_blades_sway_al
     sway(), draw();
     EXPECT_EQ(map_draws(), 1u) << "only the blades";
     EXPECT_EQ(counter("shadows.texels_drawn"), 512.0 * 512.0);
-    const Faces kept = held();
-    EXPECT_TRUE(kept == held_from_scratch());
+    const Faces kept = faces_now();
+    EXPECT_TRUE(kept == faces_from_scratch());
     draw(), draw();
   }
 }
@@ -270,7 +270,7 @@ TEST_F(CasterSources, blades_that_rest_are_cached_and_drawn_again_when_their_has
   test::BladeField& row = field(dvec3(0.1, -0.2, 0.9), 6, 0.12f, 0.03f, 0.3f);
   lamp_of("spot", LightKind::spot, dvec3(0.2, 0.1, 2.5), 512);
   draw();
-  const Faces before = held();
+  const Faces before = faces_now();
   draw();
   EXPECT_EQ(counter("shadows.texels_drawn"), 0.0);
   EXPECT_EQ(counter("shadows.faces_cached"), 1.0);
@@ -278,9 +278,9 @@ TEST_F(CasterSources, blades_that_rest_are_cached_and_drawn_again_when_their_has
   draw();
   EXPECT_EQ(counter("shadows.faces_drawn"), 1.0);
   EXPECT_LT(counter("shadows.texels_drawn"), 0.3 * 512.0 * 512.0);
-  const Faces after = held();
+  const Faces after = faces_now();
   EXPECT_FALSE(after == before);
-  EXPECT_TRUE(after == held_from_scratch());
+  EXPECT_TRUE(after == faces_from_scratch());
 }
 
 TEST_F(CasterSources, swaying_blades_leave_a_spots_map_as_drawn_from_scratch) {
@@ -306,13 +306,13 @@ TEST_F(CasterSources, withheld_blades_are_as_if_they_were_not_there) {
   swaying(dvec3(0.1, -0.2, 0.9)).entity = world.create(WorldTransform{});
   const Entity spot = lamp_of("spot", LightKind::spot, dvec3(0.2, 0.1, 2.5), 512);
   draw();
-  const Faces with = held();
+  const Faces with = faces_now();
   const Entity entity = blades_->fields[0].entity;
   blades_->also = [spot, entity](FrameBuilder& frame, PassPhase phase) {
     if (phase == PassPhase::announce) frame.put(WithheldCasters{{{spot, {entity}}}});
   };
   draw();
-  const Faces without = held();
+  const Faces without = faces_now();
   EXPECT_FALSE(without == with);
   for (int i = 0; i < 3; ++i) {
     sway(), draw();
@@ -321,10 +321,10 @@ TEST_F(CasterSources, withheld_blades_are_as_if_they_were_not_there) {
   blades_->also = nullptr;
   sway(), draw();
   EXPECT_GT(counter("shadows.texels_drawn"), 0.0);
-  EXPECT_TRUE(held() == held_from_scratch());
+  EXPECT_TRUE(faces_now() == faces_from_scratch());
   blades_->fields.clear();
   draw();
-  EXPECT_TRUE(held() == without);
+  EXPECT_TRUE(faces_now() == without);
 }
 
 TEST_F(CasterSources, an_extra_map_holds_the_blades_of_its_entities) {
@@ -354,7 +354,7 @@ TEST_F(CasterSources, an_extra_map_holds_the_blades_of_its_entities) {
     return texels;
   };
   draw();
-  test::FaceTexels standard = held().at(0);
+  test::FaceTexels standard = faces_now().at(0);
   test::FaceTexels first = extra();
   standard.resize(first.size());  // mip 0
   EXPECT_TRUE(first == standard);
@@ -362,7 +362,7 @@ TEST_F(CasterSources, an_extra_map_holds_the_blades_of_its_entities) {
   EXPECT_FALSE(extra() == first) << "without the second field";
   blades_->fields.pop_back();
   EXPECT_TRUE(extra() == [&] {
-    test::FaceTexels texels = held().at(0);
+    test::FaceTexels texels = faces_now().at(0);
     texels.resize(first.size());
     return texels;
   }());

@@ -10,9 +10,10 @@
 
 namespace gloam::test {
 
-/// What is certain about the shadow of a light on a pixel: brute force over all texels of the light's faces, in double.
-/// A texel blocks if its surface is above the pixel's plane by more than the bias, is nearer to the light than the
-/// pixel, and is in the cone between the pixel and the emitter. What rounding could change is not certain.
+/// Decides with certainty whether a light's shadow falls on a pixel: brute force over all texels of the light's faces,
+/// in double. A texel blocks if its surface is above the pixel's plane by more than the bias, is nearer to the light
+/// than the pixel, and is in the cone between the pixel and the emitter. A result that rounding could change is
+/// uncertain.
 class ClassifyOracle {
  public:
   ClassifyOracle(const ClassifyLight& light, std::uint32_t face_size, double bias_m);

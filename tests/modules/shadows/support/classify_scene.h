@@ -49,7 +49,7 @@ struct ClassifyTile {
   [[nodiscard]] bool has_two() const { return !groups[1].empty(); }
 };
 
-/// What the shaders of classification read of the maps.
+/// Images of the maps that the shaders of classification read.
 struct ClassifyImages {
   std::vector<float> atlas;
   std::vector<float> pyramid;
