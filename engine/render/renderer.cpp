@@ -9,7 +9,7 @@
 
 #include "engine/ecs/view.h"
 #include "engine/render/attempt.h"
-#include "engine/render/passes/passes.h"
+#include "engine/render/passes/renderer_passes.h"
 #include "engine/render/renderer_state.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/resources.h"

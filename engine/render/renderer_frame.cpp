@@ -9,7 +9,7 @@
 
 #include "engine/core/zones.h"
 #include "engine/render/attempt.h"
-#include "engine/render/passes/passes.h"
+#include "engine/render/passes/renderer_passes.h"
 #include "engine/render/renderer_state.h"
 #include "engine/scene/resources.h"
 #include "engine/schedule/schedule.h"

@@ -10,9 +10,9 @@
 #include "engine/scene/key_table.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/depth_of_field/debug/coc_view.h"
+#include "modules/depth_of_field/dof_passes.h"
 #include "modules/depth_of_field/knobs.h"
 #include "modules/depth_of_field/lens/lens.h"
-#include "modules/depth_of_field/passes.h"
 #include "modules/depth_of_field/reference/lens_picture.h"
 #include "modules/depth_of_field/reference/lens_reference.h"
 

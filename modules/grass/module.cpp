@@ -13,10 +13,10 @@
 #include "modules/grass/components.h"
 #include "modules/grass/debug/lod_view.h"
 #include "modules/grass/debug/pick.h"
+#include "modules/grass/grass_passes.h"
 #include "modules/grass/keys.h"
-#include "modules/grass/passes.h"
 #include "modules/grass/simulation/colliders.h"
-#include "modules/grass/simulation/pass.h"
+#include "modules/grass/simulation/simulate_blades_pass.h"
 
 namespace gloam {
 namespace {

@@ -19,7 +19,7 @@
 #include "modules/particles/emitters/visible.h"
 #include "modules/particles/keys.h"
 #include "modules/particles/knobs.h"
-#include "modules/particles/passes.h"
+#include "modules/particles/particle_passes.h"
 #include "modules/particles/reference/adapter.h"
 
 namespace gloam {

@@ -16,12 +16,12 @@
 #include "modules/reflections/frame.h"
 #include "modules/reflections/knobs.h"
 #include "modules/reflections/materials.h"
-#include "modules/reflections/passes.h"
 #include "modules/reflections/planar/mirror.h"
 #include "modules/reflections/planar/patches.h"
 #include "modules/reflections/proxies/rows.h"
 #include "modules/reflections/proxies/systems.h"
 #include "modules/reflections/reference/adapter.h"
+#include "modules/reflections/reflection_passes.h"
 
 namespace gloam {
 namespace {

@@ -27,8 +27,8 @@
 #include "modules/shadows/maps/state.h"
 #include "modules/shadows/maps/tools.h"
 #include "modules/shadows/outputs.h"
-#include "modules/shadows/passes.h"
 #include "modules/shadows/reference/adapter.h"
+#include "modules/shadows/shadow_passes.h"
 #include "modules/shadows/systems.h"
 
 namespace gloam {

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "engine/render/passes/visualizer_pass.h"
-#include "modules/grass/drawing/passes.h"
+#include "modules/grass/drawing/draw_blades_passes.h"
 #include "shaders/grass/shaders.h"
 
 namespace gloam {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/math/packing.h"
-#include "modules/depth_of_field/passes.h"
+#include "modules/depth_of_field/dof_passes.h"
 #include "tests/support/gpu_device.h"
 #include "tests/support/pass_frame.h"
 

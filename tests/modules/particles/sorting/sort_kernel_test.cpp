@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/particles/sorting/pass.h"
+#include "modules/particles/sorting/sort_particles_passes.h"
 #include "tests/support/pass_frame.h"
 
 namespace gloam::test {

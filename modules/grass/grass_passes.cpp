@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/grass/grass_passes.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/render/sort/radix_sort.h"
+#include "modules/grass/drawing/draw_blades_passes.h"
+#include "modules/grass/lod/detail.h"
+#include "modules/grass/lod/sort_blades_passes.h"
+#include "modules/grass/simulation/colliders.h"
+#include "modules/grass/simulation/simulate_blades_pass.h"
+#include "modules/grass/simulation/steps.h"
+#include "modules/grass/simulation/wind.h"
+
+namespace gloam {
+namespace {
+
+using GrassOnBoard = std::shared_ptr<GrassFrame>;
+
+shaders::GrassSteps steps_of(const World& world, std::uint32_t iterations) {
+  const StepClock& clock = world.resource<StepClock>();
+  const Wind* wind = nullptr;
+  world.view<const Wind>().each([&](const Wind& one) { wind = &one; });
+  shaders::GrassSteps steps{};
+  steps.wind = to_shader(wind_at_step(wind, clock.first_step(), kGrassStep));
+  steps.step_s = static_cast<float>(kGrassStep);
+  steps.now = clock.now();
+  steps.frame_steps = clock.frame_steps();
+  steps.iterations = iterations;
+  steps.moves = clock.moves() ? 1 : 0;
+  return steps;
+}
+
+/// Uploads the rows of the view's patches and of the colliders near them.
+void upload_patches(FrameBuilder& frame, const GrassField& field, GrassFrame& grass) {
+  std::vector<shaders::GrassPatchRow> rows;
+  std::vector<shaders::GrassCollider> colliders;
+  const std::span<const PlacedCollider> placed = frame.world().resource<GrassColliders>().colliders;
+  for (const ResidentPatch& resident : grass.patches) {
+    const GrassPatch& patch = field.patches[resident.patch];
+    shaders::GrassPatchRow row{};
+    row.origin = frame.view().relative(patch.origin);
+    row.box_from = patch.roots.min;
+    row.box_size = patch.roots.max - patch.roots.min;
+    row.wind_at = vec3(wind_position(patch.origin));
+    row.first_blade = resident.slot * GLOAM_GRASS_PATCH_BLADES;
+    row.blades = patch.blades;
+    row.first_place = resident.slot * grass.slot_masters;
+    row.first_collider = static_cast<std::uint32_t>(colliders.size());
+    row.colliders = colliders_near(patch, placed, colliders);
+    row.max_distance_m = patch.max_distance_m;
+    rows.push_back(row);
+  }
+  grass.has_colliders = !colliders.empty();
+  if (colliders.empty()) colliders.emplace_back();  // a buffer cannot be empty
+  grass.patch_rows = frame.upload_items(std::span<const shaders::GrassPatchRow>(rows));
+  grass.colliders = frame.upload_items(std::span<const shaders::GrassCollider>(colliders));
+  grass.types = frame.upload_items(std::span<const shaders::GrassTypeRow>(field.types));
+}
+
+float longest_blade(const GrassField& field, std::span<const ResidentPatch> patches) {
+  float longest_m = 0.0f;
+  for (const ResidentPatch& patch : patches) longest_m = std::max(longest_m, field.patches[patch.patch].reach_m);
+  return longest_m;
+}
+
+std::uint32_t most_masters(const GrassField& field) {
+  std::uint32_t most = 1;
+  for (const GrassPatch& patch : field.patches) most = std::max(most, patch.masters);
+  return most;
+}
+
+/// Workgroups of the simulation by the count of an earlier frame; none: the GPU decides, as in the first frame.
+std::optional<std::uint32_t> groups_of(const World& world, ViewId view, const GrassFrame& grass) {
+  const GrassFeedback* feedback = world.try_view_resource<GrassFeedback>(view);
+  const bool first = world.resource<StepClock>().first_step() == 0;
+  if (!grass.knobs.readback || feedback == nullptr || first) return std::nullopt;
+  return (feedback->masters + grass.group_masters - 1) / grass.group_masters;
+}
+
+/// Box of the blades that may cast shadows.
+WorldBox casting_box(const GrassField& field, std::span<const VisiblePatch> visible, float cast_distance_m) {
+  WorldBox box;
+  for (const VisiblePatch& one : visible) {
+    if (one.nearest_m > cast_distance_m) break;  // nearest first
+    const GrassPatch& patch = field.patches[one.patch];
+    const Aabb reach = reach_box(patch);
+    box.min = glm::min(box.min, patch.origin + dvec3(reach.min));
+    box.max = glm::max(box.max, patch.origin + dvec3(reach.max));
+  }
+  return box;
+}
+
+}  // namespace
+
+void announce_grass(FrameBuilder& frame) {
+  const auto& visible = frame.world().view_resource<VisiblePatches>(frame.view().id);
+  if (visible.patches.empty() || !blade_pipelines_ready(frame)) return;
+  auto grass = std::make_shared<GrassFrame>();
+  grass->knobs = grass_knobs(frame.knobs());
+  grass->knobs.threads = simulation_threads(grass->knobs.threads, frame.services().device.info().threads_in_turn);
+  grass->group_masters = simulation_group_masters(grass->knobs.threads);
+  frame.put(GrassOnBoard(grass));
+  const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, grass->knobs.cast_distance_m);
+  if (grass->knobs.cast_distance_m > 0.0f && box.known()) add_blade_casters(frame, grass, box);
+}
+
+void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
+  const GrassOnBoard* board = frame.find<GrassOnBoard>();
+  if (board == nullptr) return;
+  GrassFrame& grass = **board;
+  const World& world = frame.world();
+  const GrassField& field = world.resource<GrassField>();
+  const VisiblePatches& visible = world.view_resource<VisiblePatches>(frame.view().id);
+  const std::uint64_t number = world.resource<GrassWorld>().number;
+  GrassBladeRows& rows = *world.resource<GrassWorld>().rows;
+  if (pack_changed_rows(world, field, frame.services().executor, rows))
+    for (const std::string& note : field.notes)
+      if (worlds.told.insert(note).second) frame.services().log.warning(note);
+
+  grass.steps = steps_of(world, grass.knobs.iterations);
+  const GrassStoreInput input{.patches = field.patches,
+                              .rows = rows.rows,
+                              .field = field.version,
+                              .row_version = rows.version,
+                              .slot_masters = most_masters(field),
+                              .restarts = world.resource<StepClock>().restarts()};
+  add_store_passes(frame, input, visible.patches, worlds.stores.of_frame(frame, number), grass);
+  if (!frame.status().ok() || grass.patches.empty()) return;
+  upload_patches(frame, field, grass);
+  grass.lod = grass_lod(frame.view(), grass.knobs, visible.range_m, longest_blade(field, grass.patches));
+  const std::optional<std::uint32_t> groups = groups_of(world, frame.view().id, grass);
+  grass.lod.most_masters = groups ? *groups * grass.group_masters : ~0u;
+  grass.lod.steps_per_s = static_cast<float>(1.0 / kGrassStep);
+  grass.lod_range = frame.upload_uniform(grass.lod);
+  add_grass_lod_passes(frame, grass);
+  add_simulation_pass(frame, grass, groups);
+  add_pose_pass(frame, grass);
+  add_blade_pass(frame, grass);
+}
+
+void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, PipelineList& list) {
+  const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "grass")); };
+  add(grass_keys_program());
+  add(grass_live_program());
+  const SimulationThreads threads = simulation_threads(knobs.threads, threads_in_turn);
+  add(grass_masters_program(simulation_group_masters(threads)));
+  for (const bool colliders : {false, true}) add(grass_simulation_program(threads, colliders));
+  add(grass_pose_program());
+  for (const ComputeProgram& program : radix_sort_programs(threads_in_turn, true)) add(program);
+  list_blade_pipelines(false, false, list);
+  if (knobs.cast_distance_m > 0.0f) list.push_back(caster_pipeline_desc(blade_caster_program(), "grass"));
+}
+
+}  // namespace gloam
