@@ -31,7 +31,7 @@ ComputeProgram compose_program(const ShadowsOutputs& shadows, bool directional, 
 shaders::CloseupConstants constants_of(const CloseupView& pair, const RenderView& view, const DirectionalLook& sun) {
   shaders::CloseupConstants c{};
   c.near_m = pair.face.near_m;
-  c.width_m = pair.width_m;
+  c.emitter_diameter_m = pair.emitter_diameter_m;
   c.tan_half = pair.face.tan_half;
   c.tan_inner = pair.tan_inner;
   c.right = pair.face.right;

@@ -138,19 +138,19 @@ class ShadowsModule final : public Module {
   }
 
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
-    const ShadowViews& views = world.view_resource<ShadowViews>(view.id);
-    const ViewShadows* kept = states_.find(world.resource<ShadowWorld>(), views.owner);
+    const ViewFaces& view_faces = world.view_resource<ViewFaces>(view.id);
+    const ViewMapState* kept = states_.find(world.resource<ShadowWorld>(), view_faces.owner);
     const ShadowCounts counts = kept == nullptr ? ShadowCounts{} : kept->counts;
-    const auto texels = static_cast<double>(views.atlas.size()) * views.atlas.size();
-    sink.count("shadows.casting_lights", views.casting_lights);
+    const auto texels = static_cast<double>(view_faces.atlas.size()) * view_faces.atlas.size();
+    sink.count("shadows.casting_lights", view_faces.casting_lights);
     sink.count("shadows.faces_drawn", counts.drawn);
     sink.count("shadows.faces_cached", counts.cached);
     sink.count("shadows.faces_skipped", counts.skipped);
     sink.count("shadows.texels_drawn", static_cast<double>(counts.texels));
-    sink.count("shadows.faces_shrunk", views.faces_shrunk);
-    sink.count("shadows.faces_at_limit", views.faces_at_limit);
-    sink.count("shadows.faces_left_out", views.faces_left_out);
-    sink.count("shadows.atlas_used", static_cast<double>(views.atlas.used_texels()) / std::max(texels, 1.0));
+    sink.count("shadows.faces_shrunk", view_faces.faces_shrunk);
+    sink.count("shadows.faces_at_limit", view_faces.faces_at_limit);
+    sink.count("shadows.faces_left_out", view_faces.faces_left_out);
+    sink.count("shadows.atlas_used", static_cast<double>(view_faces.atlas.used_texels()) / std::max(texels, 1.0));
   }
 
   void release_view(ViewId view) override { states_.release_view(view); }
@@ -172,12 +172,12 @@ class ShadowsModule final : public Module {
   }
   void warn(FrameBuilder& frame) {
     if (frame.view().is_companion()) return;  // nobody asked for its picture
-    const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-    if (views.faces_shrunk > 0)
+    const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
+    if (view_faces.faces_shrunk > 0)
       warn_once(frame,
                 "shadow maps are smaller than they should be: the atlas is full (shadows.atlas, counter "
                 "shadows.faces_shrunk)");
-    if (views.faces_left_out > 0)
+    if (view_faces.faces_left_out > 0)
       warn_once(frame, "some lights cast no shadow: the atlas is full (shadows.atlas, counter shadows.faces_left_out)");
     for (const std::string& fault : frame.world().resource<Cookies>().faults) warn_once(frame, fault);
   }

@@ -24,8 +24,8 @@ std::uint32_t looked_up_cookies(std::size_t lights) {
 
 constexpr std::uint32_t kStandardKernel = 8;  // kernel of GLOAM_SHADOWS_STANDARD
 
-bool has_placed_face(const ShadowViews& views) {
-  return std::any_of(views.faces.begin(), views.faces.end(),
+bool has_placed_face(const ViewFaces& view_faces) {
+  return std::any_of(view_faces.faces.begin(), view_faces.faces.end(),
                      [](const ShadowFace& face) { return face.square.size > 0; });
 }
 
@@ -41,12 +41,12 @@ void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutput
 /// Updates the maps of the view's faces, of which at least one has a place. Withheld casters are left out only when the
 /// frame makes final lists (for_lists): otherwise no module would draw them.
 ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
-  const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-  ViewShadows& kept = states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id);
+  const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
+  ViewMapState& kept = states.view(frame.world().resource<ShadowWorld>(), view_faces.owner, frame.view().id);
   // A companion draws the maps as its main view had them last, which in most frames are those of this frame, too.
   const WithheldCasters* withheld = for_lists ? frame.find<WithheldCasters>() : nullptr;
   if (!frame.view().is_companion()) kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
-  ShadowMaps maps = add_shadow_map_passes(frame, states, kept, views, knobs);
+  ShadowMaps maps = add_shadow_map_passes(frame, states, kept, view_faces, knobs);
   if (!frame.status().ok()) return {};
   frame.expose(maps.atlas, "shadow_atlas");
   return maps;
@@ -55,10 +55,10 @@ ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs
 /// Adds the passes of final lists; with classification, the planes before them.
 void add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
                      ShadowsOutputs& outputs) {
-  const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-  ViewShadows& kept = states.view(frame.world().resource<ShadowWorld>(), views.owner, frame.view().id);
+  const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
+  ViewMapState& kept = states.view(frame.world().resource<ShadowWorld>(), view_faces.owner, frame.view().id);
   ImageRef planes;
-  if (knobs.classify) planes = add_shadow_planes_pass(frame, kept, maps, views, knobs);
+  if (knobs.classify) planes = add_shadow_planes_pass(frame, kept, maps, view_faces, knobs);
   add_generate_passes(frame, knobs, planes, outputs);
 }
 
@@ -68,7 +68,7 @@ ShadowKnobs knobs_of(const FrameBuilder& frame) {
   ShadowKnobs knobs = shadow_knobs(frame.knobs());
   const GeometryOutputs* geometry = frame.find<GeometryOutputs>();
   knobs.terminator = knobs.terminator && geometry != nullptr && geometry->smooth_surfaces;
-  knobs.atlas_size = frame.world().view_resource<ShadowViews>(frame.view().id).atlas.size();
+  knobs.atlas_size = frame.world().view_resource<ViewFaces>(frame.view().id).atlas.size();
   return knobs;
 }
 
@@ -85,16 +85,16 @@ ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& registr
 }
 
 void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
-  const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+  const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
   const ShadowKnobs knobs = knobs_of(frame);
   states.begin(frame.services().device);
   ShadowsOutputs outputs;
-  add_shadow_uploads(frame, states, views, knobs, outputs);
+  add_shadow_uploads(frame, states, view_faces, knobs, outputs);
   if (!frame.status().ok()) return;
 
   const TracedVisibility* found = traced_visibility_of(frame.world(), frame.view());
   const bool traced = knobs.enabled && found != nullptr && found->shades;
-  const bool has_maps = knobs.enabled && !traced && has_placed_face(views);
+  const bool has_maps = knobs.enabled && !traced && has_placed_face(view_faces);
   outputs.cookie_lights = static_cast<std::uint32_t>(count_cookie_lights(frame.world()));
   set_constants(knobs, traced ? kTracedShadows : has_maps ? knobs.filter : kNoShadows, outputs);
   const bool has_lists = has_maps && can_generate(frame, knobs) && generate_pipelines_ready(frame, knobs, outputs);
@@ -102,7 +102,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   if (has_maps)
     maps = add_maps(frame, states, knobs, has_lists);
   else
-    states.rest(frame.world().resource<ShadowWorld>(), views.owner);
+    states.rest(frame.world().resource<ShadowWorld>(), view_faces.owner);
   if (!frame.status().ok()) return;
   outputs.atlas = maps.atlas;
   outputs.pyramid = maps.pyramid;

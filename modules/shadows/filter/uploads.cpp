@@ -50,11 +50,11 @@ float traced_layer(const TracedVisibility* traced, Entity light) {
   return layer ? static_cast<float>(*layer) : -1.0f;
 }
 
-std::vector<shaders::ShadowRow> rows_of(const FrameBuilder& frame, const ShadowViews& views,
+std::vector<shaders::ShadowRow> rows_of(const FrameBuilder& frame, const ViewFaces& view_faces,
                                         const TracedVisibility* traced) {
   const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
   const Cookies& cookies = frame.world().resource<Cookies>();
-  std::vector<shaders::ShadowRow> rows = views.rows;
+  std::vector<shaders::ShadowRow> rows = view_faces.rows;
   const std::span<const Entity> lights = local_lights(visible);
   rows.resize(lights.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -73,9 +73,9 @@ void name_cookies(std::span<const shaders::ShadowRow> rows, shaders::ShadowBlock
     if (rows[i].cookie_layer >= 0.0f) block.cookie_lights[named++] = static_cast<std::uint32_t>(i);
 }
 
-shaders::ShadowBlock block_of(const FrameBuilder& frame, const ShadowViews& views, const ShadowKnobs& knobs,
+shaders::ShadowBlock block_of(const FrameBuilder& frame, const ViewFaces& view_faces, const ShadowKnobs& knobs,
                               const TracedVisibility* traced, std::span<const shaders::ShadowRow> rows) {
-  shaders::ShadowBlock block = views.block;
+  shaders::ShadowBlock block = view_faces.block;
   name_cookies(rows, block);
   block.atlas_size = static_cast<float>(knobs.atlas_size);
   block.bias_m = knobs.bias_m;
@@ -151,11 +151,11 @@ ImageRef upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::stri
   return copy.target;
 }
 
-void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
-                        ShadowsOutputs& outputs) {
+void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ViewFaces& view_faces,
+                        const ShadowKnobs& knobs, ShadowsOutputs& outputs) {
   const TracedVisibility* traced = traced_visibility_of(frame.world(), frame.view());
-  std::vector<shaders::ShadowRow> rows_now = rows_of(frame, views, traced);
-  shaders::ShadowBlock block_now = block_of(frame, views, knobs, traced, rows_now);
+  std::vector<shaders::ShadowRow> rows_now = rows_of(frame, view_faces, traced);
+  shaders::ShadowBlock block_now = block_of(frame, view_faces, knobs, traced, rows_now);
   // Rounded up, so that few different heights occur and cached frame-graph plans can be reused when the number of
   // lights changes.
   rows_now.resize(std::bit_ceil(std::max<std::size_t>(rows_now.size(), kFewestRows)));

@@ -19,8 +19,8 @@ namespace gloam {
 
 /// Uploads the view's light rows, ShadowBlock, cookies and traced visibility: pass shadow_rows. Sets block,
 /// block_values, rows, row_values, cookies and traced of the outputs. On an error the frame is given up.
-void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
-                        ShadowsOutputs& outputs);
+void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ViewFaces& view_faces,
+                        const ShadowKnobs& knobs, ShadowsOutputs& outputs);
 
 /// Uploads `rows` into another image, which may replace ShadowsOutputs::rows: pass `pass_name`. Returns that image. On
 /// an error the frame is given up.

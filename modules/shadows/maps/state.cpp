@@ -27,14 +27,14 @@ void ShadowStates::begin(gpu::Device& device) {
   std::erase_if(views_, [&](const auto& entry) { return entry.second.last_frame + kFramesKept < frame; });
 }
 
-ViewShadows& ShadowStates::view(ShadowWorld world, ViewId owner, ViewId user) {
-  ViewShadows& found = views_[{world.number, owner.value}];
+ViewMapState& ShadowStates::view(ShadowWorld world, ViewId owner, ViewId user) {
+  ViewMapState& found = views_[{world.number, owner.value}];
   found.users.insert(user.value);
   found.last_frame = device_->frame_number();
   return found;
 }
 
-const ViewShadows* ShadowStates::find(ShadowWorld world, ViewId view) const {
+const ViewMapState* ShadowStates::find(ShadowWorld world, ViewId view) const {
   const auto found = views_.find({world.number, view.value});
   return found == views_.end() ? nullptr : &found->second;
 }

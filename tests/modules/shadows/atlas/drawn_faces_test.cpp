@@ -86,7 +86,7 @@ class DrawnFaces : public ::testing::Test {
   std::vector<ShadowFace> faces;
   std::vector<Caster> casters;
   std::vector<std::unique_ptr<CasterSource>> sources;
-  ViewShadows kept;
+  ViewMapState kept;
   bool anew = false;  ///< of the next frame
   std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
 };

@@ -22,7 +22,7 @@ struct ShadowCounts {
 
 /// What one view of one world, or its captures together, know about the history images of their maps
 /// (modules/shadows/maps/images.h).
-struct ViewShadows {
+struct ViewMapState {
   // After the last committed frame; changed only when a frame is committed:
   ShadowCache cache;
   CasterHistory history;         ///< its frames are the frames of this view
