@@ -47,15 +47,16 @@ shaders::DofConstants constants_of(const RenderView& view, const DofKnobs& knobs
 }  // namespace
 
 void add_dof_passes(FrameBuilder& frame, const DepthOfField& values, const Lens& lens) {
-  DofFrame dof;
-  dof.knobs = dof_knobs(frame.knobs());
-  dof.bokeh = values.bokeh;
-  dof.constants = constants_of(frame.view(), dof.knobs, lens, dof.bokeh);
-  dof.block = frame.upload_uniform(dof.constants);
-  dof.depth = frame.get<GeometryOutputs>().depth;
-  add_dof_tile_passes(frame, dof);
+  DofInputs inputs;
+  inputs.knobs = dof_knobs(frame.knobs());
+  inputs.bokeh = values.bokeh;
+  inputs.constants = constants_of(frame.view(), inputs.knobs, lens, inputs.bokeh);
+  inputs.block = frame.upload_uniform(inputs.constants);
+  inputs.depth = frame.get<GeometryOutputs>().depth;
+  const DofFrame dof{inputs, add_dof_tile_passes(frame, inputs)};
   const DofLayers layers = add_dof_prefilter_pass(frame, dof);
-  add_dof_compose_pass(frame, dof, add_dof_blur_passes(frame, dof, layers));
+  const DofLayers blurred = add_dof_blur_passes(frame, dof, layers);
+  add_dof_compose_pass(frame, dof, blurred);
   frame.put(dof);
 }
 

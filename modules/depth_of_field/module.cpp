@@ -75,7 +75,7 @@ class DepthOfFieldModule final : public Module {
     if (phase == PassPhase::post) add_post_passes(frame);
     const DofFrame* dof = frame.find<DofFrame>();
     if (dof == nullptr || !frame.status().ok()) return;
-    if (phase == PassPhase::post) frame.keep_result("depth_of_field", kListsResult, dof->lists);
+    if (phase == PassPhase::post) frame.keep_result("depth_of_field", kListsResult, dof->tiles.lists);
     if (phase == PassPhase::visualize) add_dof_view_pass(frame, *dof);
   }
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {

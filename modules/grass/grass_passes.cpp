@@ -38,11 +38,11 @@ shaders::GrassSteps steps_of(const World& world, std::uint32_t iterations) {
 }
 
 /// Uploads the rows of the view's patches and of the colliders near them.
-void upload_patches(FrameBuilder& frame, const GrassField& field, GrassFrame& grass) {
+GrassInputs upload_patches(FrameBuilder& frame, const GrassField& field, const StoredPatches& stored) {
   std::vector<shaders::GrassPatchRow> rows;
   std::vector<shaders::GrassCollider> colliders;
   const std::span<const PlacedCollider> placed = frame.world().resource<GrassColliders>().colliders;
-  for (const ResidentPatch& resident : grass.patches) {
+  for (const ResidentPatch& resident : stored.patches) {
     const GrassPatch& patch = field.patches[resident.patch];
     shaders::GrassPatchRow row{};
     row.origin = frame.view().relative(patch.origin);
@@ -51,17 +51,21 @@ void upload_patches(FrameBuilder& frame, const GrassField& field, GrassFrame& gr
     row.wind_at = vec3(wind_position(patch.origin));
     row.first_blade = resident.slot * GLOAM_GRASS_PATCH_BLADES;
     row.blades = patch.blades;
-    row.first_place = resident.slot * grass.slot_masters;
+    row.first_place = resident.slot * stored.slot_masters;
     row.first_collider = static_cast<std::uint32_t>(colliders.size());
     row.colliders = colliders_near(patch, placed, colliders);
     row.max_distance_m = patch.max_distance_m;
     rows.push_back(row);
   }
-  grass.has_colliders = !colliders.empty();
+  GrassInputs inputs;
+  inputs.patches = static_cast<std::uint32_t>(rows.size());
+  inputs.slot_masters = stored.slot_masters;
+  inputs.has_colliders = !colliders.empty();
   if (colliders.empty()) colliders.emplace_back();  // a buffer cannot be empty
-  grass.patch_rows = frame.upload_items(std::span<const shaders::GrassPatchRow>(rows));
-  grass.colliders = frame.upload_items(std::span<const shaders::GrassCollider>(colliders));
-  grass.types = frame.upload_items(std::span<const shaders::GrassTypeRow>(field.types));
+  inputs.patch_rows = frame.upload_items(std::span<const shaders::GrassPatchRow>(rows));
+  inputs.colliders = frame.upload_items(std::span<const shaders::GrassCollider>(colliders));
+  inputs.types = frame.upload_items(std::span<const shaders::GrassTypeRow>(field.types));
+  return inputs;
 }
 
 float longest_blade(const GrassField& field, std::span<const ResidentPatch> patches) {
@@ -77,11 +81,13 @@ std::uint32_t most_masters(const GrassField& field) {
 }
 
 /// Workgroups of the simulation by the count of an earlier frame; none: the GPU decides, as in the first frame.
-std::optional<std::uint32_t> groups_of(const World& world, ViewId view, const GrassFrame& grass) {
-  const GrassFeedback* feedback = world.try_view_resource<GrassFeedback>(view);
+std::optional<std::uint32_t> groups_of(const FrameBuilder& frame, const GrassKnobs& knobs,
+                                       std::uint32_t group_masters) {
+  const World& world = frame.world();
+  const GrassFeedback* feedback = world.try_view_resource<GrassFeedback>(frame.view().id);
   const bool first = world.resource<StepClock>().first_step() == 0;
-  if (!grass.knobs.readback || feedback == nullptr || first) return std::nullopt;
-  return (feedback->masters + grass.group_masters - 1) / grass.group_masters;
+  if (!knobs.readback || feedback == nullptr || first) return std::nullopt;
+  return (feedback->masters + group_masters - 1) / group_masters;
 }
 
 /// Box of the blades that may cast shadows.
@@ -102,20 +108,18 @@ WorldBox casting_box(const GrassField& field, std::span<const VisiblePatch> visi
 void announce_grass(FrameBuilder& frame) {
   const auto& visible = frame.world().view_resource<VisiblePatches>(frame.view().id);
   if (visible.patches.empty() || !blade_pipelines_ready(frame)) return;
-  auto grass = std::make_shared<GrassFrame>();
-  grass->knobs = grass_knobs(frame.knobs());
-  grass->knobs.threads = simulation_threads(grass->knobs.threads, frame.services().device.info().threads_in_turn);
-  grass->group_masters = simulation_group_masters(grass->knobs.threads);
+  const auto grass = std::make_shared<GrassFrame>();
   frame.put(GrassOnBoard(grass));
-  const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, grass->knobs.cast_distance_m);
-  if (grass->knobs.cast_distance_m > 0.0f && box.known()) add_blade_casters(frame, grass, box);
+  const float cast_distance_m = grass_knobs(frame.knobs()).cast_distance_m;
+  const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, cast_distance_m);
+  if (cast_distance_m > 0.0f && box.known()) add_blade_casters(frame, grass, box);
 }
 
 void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   const GrassOnBoard* board = frame.find<GrassOnBoard>();
   if (board == nullptr) return;
-  GrassFrame& grass = **board;
   const World& world = frame.world();
+  const GrassKnobs knobs = grass_knobs(frame.knobs());
   const GrassField& field = world.resource<GrassField>();
   const VisiblePatches& visible = world.view_resource<VisiblePatches>(frame.view().id);
   const std::uint64_t number = world.resource<GrassWorld>().number;
@@ -124,25 +128,30 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
     for (const std::string& note : field.notes)
       if (worlds.told.insert(note).second) frame.services().log.warning(note);
 
-  grass.steps = steps_of(world, grass.knobs.iterations);
   const GrassStoreInput input{.patches = field.patches,
                               .rows = rows.rows,
                               .field = field.version,
                               .row_version = rows.version,
                               .slot_masters = most_masters(field),
                               .restarts = world.resource<StepClock>().restarts()};
-  add_store_passes(frame, input, visible.patches, worlds.stores.of_frame(frame, number), grass);
-  if (!frame.status().ok() || grass.patches.empty()) return;
-  upload_patches(frame, field, grass);
-  grass.lod = grass_lod(frame.view(), grass.knobs, visible.range_m, longest_blade(field, grass.patches));
-  const std::optional<std::uint32_t> groups = groups_of(world, frame.view().id, grass);
-  grass.lod.most_masters = groups ? *groups * grass.group_masters : ~0u;
-  grass.lod.steps_per_s = static_cast<float>(1.0 / kGrassStep);
-  grass.lod_range = frame.upload_uniform(grass.lod);
-  add_grass_lod_passes(frame, grass);
-  add_simulation_pass(frame, grass, groups);
-  add_pose_pass(frame, grass);
-  add_blade_pass(frame, grass);
+  StoredPatches stored = add_store_passes(frame, input, visible.patches, worlds.stores.of_frame(frame, number));
+  if (!frame.status().ok() || stored.patches.empty()) return;
+  GrassInputs inputs = upload_patches(frame, field, stored);
+  inputs.threads = simulation_threads(knobs.threads, frame.services().device.info().threads_in_turn);
+  inputs.group_masters = simulation_group_masters(inputs.threads);
+  inputs.steps = steps_of(world, knobs.iterations);
+  const std::optional<std::uint32_t> groups = groups_of(frame, knobs, inputs.group_masters);
+  inputs.lod = grass_lod(frame.view(), knobs, visible.range_m, longest_blade(field, stored.patches));
+  inputs.lod.most_masters = groups ? *groups * inputs.group_masters : ~0u;
+  inputs.lod.steps_per_s = static_cast<float>(1.0 / kGrassStep);
+  inputs.lod_range = frame.upload_uniform(inputs.lod);
+
+  const SortedBlades sorted = add_blade_sort_passes(frame, inputs, stored.store);
+  const MasterList masters = add_master_pass(frame, inputs, stored.store, sorted);
+  stored.store = add_simulation_pass(frame, inputs, stored.store, masters, groups);
+  const BufferRef poses = add_pose_pass(frame, inputs, stored.store, sorted);
+  const DrawnBlades drawn = add_blade_pass(frame, inputs, stored.store, sorted, poses);
+  **board = GrassFrame{std::move(stored), inputs.lod, inputs.steps, sorted, masters.dispatch, drawn};
 }
 
 void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, PipelineList& list) {

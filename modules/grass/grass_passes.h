@@ -25,9 +25,9 @@ struct GrassWorld {
   std::shared_ptr<GrassBladeRows> rows = std::make_shared<GrassBladeRows>();
 };
 
-/// PassPhase::announce: puts the view's GrassFrame on the board (as std::shared_ptr) and announces casters.
+/// PassPhase::announce: puts an empty GrassFrame on the board (as std::shared_ptr) and announces casters.
 void announce_grass(FrameBuilder& frame);
-/// PassPhase::geometry: level of detail, simulation and drawing.
+/// PassPhase::geometry: level of detail, simulation and drawing. Sets the GrassFrame.
 void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds);
 /// Pipelines of all passes with these knobs.
 void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, PipelineList& list);

@@ -81,25 +81,26 @@ Rows make_rows(const FrameBuilder& frame, const VisibleEmitters& visible, bool t
   return rows;
 }
 
-/// Uploads what all passes read.
-void upload_rows(FrameBuilder& frame, const VisibleEmitters& visible, ParticlesFrame& particles) {
+ParticleInputs upload_inputs(FrameBuilder& frame, const VisibleEmitters& visible) {
   const ParticleLightMaps& maps = frame.world().resource<ParticleLightMaps>();
-  particles.lighting = maps.per_pixel ? ParticleLighting::pixel : particle_lighting(frame.knobs());
-  particles.particles = static_cast<std::uint32_t>(visible.particles);
-  particles.two_digits = particles.particles > kMostOneDigitParticles || visible.emitters.size() > kOneDigitKeys;
-  const bool lit = particles.lighting != ParticleLighting::off;
+  ParticleInputs inputs;
+  inputs.lighting = maps.per_pixel ? ParticleLighting::pixel : particle_lighting(frame.knobs());
+  inputs.particles = static_cast<std::uint32_t>(visible.particles);
+  inputs.two_digits = inputs.particles > kMostOneDigitParticles || visible.emitters.size() > kOneDigitKeys;
+  const bool lit = inputs.lighting != ParticleLighting::off;
   const AtlasPlan plan = plan_atlas(maps.maps);
-  if (lit) particles.atlas = add_atlas(frame, maps, plan);
-  const Rows rows = make_rows(frame, visible, particles.two_digits, plan);
-  particles.constants = view_part(frame.view());
-  particles.constants.places = static_cast<std::uint32_t>(rows.groups.size() * GLOAM_PARTICLE_GROUP);
-  particles.constants.culled_key = particles.two_digits ? 0xFFFFu : 0xFFu;
-  particles.constants.unlit = mean_light(frame.world());
-  particles.constants.atlas_scale = 1.0f / glm::max(vec3(plan.size), vec3(1.0f));
-  particles.constants_range = frame.upload_uniform(particles.constants);
-  particles.emitters = frame.upload_items(std::span<const shaders::ParticleEmitterRow>(rows.emitters));
-  particles.dispatches = simulation_dispatches(rows.groups);
-  particles.groups = frame.upload_items(std::span<const std::uint32_t>(rows.groups));
+  if (lit) inputs.atlas = add_atlas(frame, maps, plan);
+  const Rows rows = make_rows(frame, visible, inputs.two_digits, plan);
+  inputs.constants = view_part(frame.view());
+  inputs.constants.places = static_cast<std::uint32_t>(rows.groups.size() * GLOAM_PARTICLE_GROUP);
+  inputs.constants.culled_key = inputs.two_digits ? 0xFFFFu : 0xFFu;
+  inputs.constants.unlit = mean_light(frame.world());
+  inputs.constants.atlas_scale = 1.0f / glm::max(vec3(plan.size), vec3(1.0f));
+  inputs.constants_range = frame.upload_uniform(inputs.constants);
+  inputs.emitters = frame.upload_items(std::span<const shaders::ParticleEmitterRow>(rows.emitters));
+  inputs.dispatches = simulation_dispatches(rows.groups);
+  inputs.groups = frame.upload_items(std::span<const std::uint32_t>(rows.groups));
+  return inputs;
 }
 
 }  // namespace
@@ -107,13 +108,14 @@ void upload_rows(FrameBuilder& frame, const VisibleEmitters& visible, ParticlesF
 void add_particle_passes(FrameBuilder& frame) {
   const VisibleEmitters& visible = frame.world().view_resource<VisibleEmitters>(frame.view().id);
   if (visible.emitters.empty()) return;
-  ParticlesFrame& particles = frame.put(ParticlesFrame{});
-  upload_rows(frame, visible, particles);
+  const ParticleInputs inputs = upload_inputs(frame, visible);
   if (!frame.status().ok()) return;
-  add_particle_simulation_pass(frame, particles);
-  add_particle_sort_passes(frame, particles);
-  if (particles.lit_points() > 0) add_particle_light_pass(frame, particles);
-  add_sprite_pass(frame, particles);
+  const SimulatedParticles simulated = add_particle_simulation_pass(frame, inputs);
+  const SortedParticles sorted =
+      add_particle_sort_passes(frame, simulated.keys, inputs.constants.places, inputs.two_digits);
+  BufferRef light;
+  if (lit_points(inputs.lighting) > 0) light = add_particle_light_pass(frame, inputs, simulated, sorted);
+  add_sprite_pass(frame, frame.put(ParticlesFrame{inputs, simulated, sorted, light}));
 }
 
 void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersion& version, bool threads_in_turn,
@@ -121,13 +123,12 @@ void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersi
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "particles")); };
   for (const bool one_emitter : {true, false}) add(particle_simulation_program(one_emitter));
   for (const ComputeProgram& program : particle_sort_programs(threads_in_turn)) add(program);
-  ParticlesFrame particles;
-  particles.lighting = lighting;
-  if (particles.lit_points() > 0) add(particle_light_program(version, particles.lit_points()));
+  const std::uint32_t points = lit_points(lighting);
+  if (points > 0) add(particle_light_program(version, points));
   const gpu::Format formats[] = {gpu::Format::rgba16_float};
   const bool per_pixel = lighting == ParticleLighting::pixel;
-  list.push_back(pipeline_desc(sprite_program(particles.lit_points(), false, per_pixel ? &version : nullptr),
-                               "particles", formats, kGeometryDepthFormat));
+  list.push_back(pipeline_desc(sprite_program(points, false, per_pixel ? &version : nullptr), "particles", formats,
+                               kGeometryDepthFormat));
 }
 
 }  // namespace gloam

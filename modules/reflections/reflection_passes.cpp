@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <span>
+#include <utility>
 
 #include "engine/scene/assets.h"
 #include "modules/lighting/outputs.h"
 #include "modules/reflections/captures.h"
+#include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/materials.h"
 #include "modules/reflections/passes/composite.h"
 #include "modules/reflections/passes/glossy_blur.h"
@@ -18,6 +18,7 @@
 #include "modules/reflections/passes/proxy_blending.h"
 #include "modules/reflections/passes/screen_space_rays.h"
 #include "modules/reflections/passes/temporal_accumulation.h"
+#include "modules/reflections/passes/uploads.h"
 #include "modules/reflections/probes/rows.h"
 #include "modules/reflections/proxies/rows.h"
 
@@ -52,39 +53,6 @@ shaders::ReflectionConstants constants_of(const RenderView& view, const Reflecti
   return c;
 }
 
-/// An image array of the world with these layers. Copied to the GPU when the captures have changed.
-ImageRef captured_image(FrameBuilder& frame, Staging& staging, const char* name, const CapturedLayers& layers,
-                        std::uint64_t version) {
-  if (layers.count == 0) return {};
-  gpu::ImageDesc desc;
-  desc.name = name;
-  desc.module = "reflections";
-  desc.format = gpu::Format::rgba16_float;
-  desc.width = desc.height = layers.side;
-  desc.layers = layers.count;
-  desc.mips = layers.mips;
-  desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::transfer_target;
-  desc.shape = gpu::ImageShape::array;
-  const auto kept = frame.history_image(
-      desc, {.scope = HistoryScope::world, .rest = gpu::Access::fragment_read, .reset = {.key = version}});
-  if (!frame.check(kept)) return {};
-  if (kept->filled()) return kept->image;
-  const auto slice = staging.ring(frame.services().device).allocate(layers.texels.size() * sizeof(std::uint16_t));
-  if (!frame.check(slice)) return {};
-  std::memcpy(slice->bytes.data(), layers.texels.data(), slice->bytes.size());
-  PassBuilder pass = frame.graph().add_pass(std::string(name) + "_upload", frame.module());
-  const ImageRef written = pass.write(kept->image, gpu::Access::transfer_write);
-  pass.execute([written, source = *slice, &layers](PassContext& context) {
-    for (std::uint32_t layer = 0; layer < layers.count; ++layer)
-      for (std::uint32_t mip = 0; mip < layers.mips; ++mip) {
-        const std::size_t halves = layer * layers.layer_halves() + layers.mip_offset(mip);
-        context.commands().copy_buffer_to_image(source.buffer, source.offset + halves * sizeof(std::uint16_t),
-                                                context.image(written), mip, layer, 1);
-      }
-  });
-  return written;
-}
-
 /// The traced radiance of this view, if the world has it.
 const TracedReflections* traced_of(const World& world, const RenderView& view) {
   const auto* traced = world.try_resource<TracedReflections>();
@@ -92,25 +60,47 @@ const TracedReflections* traced_of(const World& world, const RenderView& view) {
   return fits ? traced : nullptr;
 }
 
-ImageRef upload_traced(FrameBuilder& frame, Staging& staging, const TracedReflections& traced) {
-  const auto slice = staging.ring(frame.services().device).allocate(traced.radiance.size() * sizeof(float));
-  if (!frame.check(slice)) return {};
-  std::memcpy(slice->bytes.data(), traced.radiance.data(), slice->bytes.size());
-  PassBuilder pass = frame.graph().add_pass("reflection_traced_upload", frame.module());
-  const ImageRef written =
-      pass.write(create_view_image(frame, "reflection_traced", gpu::Format::rgba32_float), gpu::Access::transfer_write);
-  pass.execute([written, source = *slice](PassContext& context) {
-    context.commands().copy_buffer_to_image(source.buffer, source.offset, context.image(written), 0, 0, 1);
-  });
-  return written;
+ReflectionUniforms upload_uniforms(FrameBuilder& frame, const ReflectionPlan& plan) {
+  shaders::ReflectionConstants constants = plan.constants;
+  if (const HomogeneousFog* fog = frame.find<HomogeneousFog>()) {
+    constants.fog_density = fog->density;
+    constants.fog_radiance = vec4(fog->radiance, 0.0f);
+    constants.fog_sky_m = fog->sky_distance_m;
+  }
+  const auto& tiles = frame.world().view_resource<ProxyTiles>(frame.view().id);
+  return {.constants = constants,
+          .block = frame.upload_uniform(constants),
+          .tiles = frame.upload_uniform(shaders::ProxyTileConstants{tiles.tiles, tiles.words_per_tile,
+                                                                    static_cast<std::uint32_t>(plan.proxies.size()),
+                                                                    static_cast<std::uint32_t>(plan.probes.size())})};
 }
 
-void add_fog(const FrameBuilder& frame, shaders::ReflectionConstants& constants) {
-  const HomogeneousFog* fog = frame.find<HomogeneousFog>();
-  if (fog == nullptr) return;
-  constants.fog_density = fog->density;
-  constants.fog_radiance = vec4(fog->radiance, 0.0f);
-  constants.fog_sky_m = fog->sky_distance_m;
+/// Tiers 1 and 2, or the mirrored picture in their place.
+struct MirrorReflections {
+  MirrorTiles tiles;
+  ScreenSpaceHits hits;
+  MirroredLight light;
+  ImageRef upscaled;  ///< add_sharpen_pass()
+};
+
+MirrorReflections add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPlan& plan,
+                                    const ReflectionUniforms& uniforms) {
+  const ReflectionKnobs& knobs = plan.knobs;
+  const auto& captures = frame.world().resource<ReflectionCaptures>();
+  ProxyInputs proxies{.rows = plan.proxies,
+                      .masks = frame.world().view_resource<ProxyTiles>(frame.view().id).masks,
+                      .changed = plan.changed};
+  if (knobs.proxies)
+    proxies.images = upload_captures(frame, staging, "reflection_proxies", captures.proxies, captures.version);
+  const MirrorSurfaces surfaces = add_mirror_surface_pass(frame, uniforms);
+  ScreenSpaceHits hits;
+  if (knobs.screen_space) hits = add_screen_space_pass(frame, knobs, uniforms, surfaces.tiles);
+  MirroredLight light = plan.planar ? add_planar_pass(frame, knobs, uniforms, surfaces, *plan.planar)
+                                    : add_proxy_pass(frame, knobs, uniforms, surfaces, hits, proxies);
+  if (knobs.temporal) light = add_temporal_pass(frame, uniforms, surfaces.tiles, light);
+  if (knobs.blur) light = add_glossy_passes(frame, uniforms, surfaces.tiles, light);
+  const ImageRef upscaled = add_sharpen_pass(frame, uniforms, surfaces.tiles, hits, light);
+  return {surfaces.tiles, hits, light, upscaled};
 }
 
 }  // namespace
@@ -124,58 +114,39 @@ void announce_reflections(FrameBuilder& frame) {
   const Reflective seen = strongest_reflection(world.resource<SceneAssets>(), frame.draws().solid);
   if (seen == Reflective::no) return;
   const auto& captures = world.resource<ReflectionCaptures>();
-  ReflectionFrame reflections;
-  reflections.knobs = knobs;
-  find_planar_mirror(frame, reflections);
-  reflections.mirror = seen == Reflective::mirror && (knobs.mirror() || reflections.planar);
-  reflections.probes = probe_rows(world, view, captures);
-  reflections.no_specular = change != nullptr && *change == ReflectionOverride::no_specular;
-  reflections.traced = traced_of(world, view);
-  if (!reflections.mirror && reflections.probes.empty() && !reflections.no_specular && reflections.traced == nullptr)
-    return;
-  reflections.constants = constants_of(view, knobs);
+  ReflectionPlan plan;
+  plan.knobs = knobs;
+  plan.planar = drawn_planar_mirror(frame);
+  plan.traced = traced_of(world, view);
+  plan.mirror = plan.traced == nullptr && seen == Reflective::mirror && (knobs.mirror() || plan.planar);
+  plan.probes = probe_rows(world, view, captures);
+  plan.no_specular = change != nullptr && *change == ReflectionOverride::no_specular;
+  if (!plan.mirror && plan.probes.empty() && !plan.no_specular && plan.traced == nullptr) return;
+  plan.constants = constants_of(view, knobs);
   if (knobs.proxies)
-    reflections.proxies = proxy_rows(world, view, world.resource<ProxySet>(), world.view_resource<ProxyTiles>(view.id),
-                                     captures, knobs.naive);
-  if (knobs.light_scale) reflections.changed = changed_lights(world, view, captures);
-  reflections.constants.changed_lights = static_cast<std::uint32_t>(reflections.changed.size());
-  if (!reflections.changed.empty()) frame.put(DiffuseLightWanted{});
+    plan.proxies = proxy_rows(world, view, world.resource<ProxySet>(), world.view_resource<ProxyTiles>(view.id),
+                              captures, knobs.naive);
+  if (knobs.light_scale) plan.changed = changed_lights(world, view, captures);
+  plan.constants.changed_lights = static_cast<std::uint32_t>(plan.changed.size());
+  if (!plan.changed.empty()) frame.put(DiffuseLightWanted{});
   frame.put(SpecularAmbientTaken{});
-  frame.put(std::move(reflections));
+  frame.put(std::move(plan));
 }
 
 void add_reflection_passes(FrameBuilder& frame, Staging& staging) {
-  ReflectionFrame* found = frame.find<ReflectionFrame>();
-  if (found == nullptr || found->no_specular) return;
-  ReflectionFrame& reflections = *found;
+  const ReflectionPlan* plan = frame.find<ReflectionPlan>();
+  if (plan == nullptr || plan->no_specular) return;
   const auto& captures = frame.world().resource<ReflectionCaptures>();
-  add_fog(frame, reflections.constants);
-  reflections.block = frame.upload_uniform(reflections.constants);
-  const auto& tiles = frame.world().view_resource<ProxyTiles>(frame.view().id);
-  reflections.tiles = frame.upload_uniform(shaders::ProxyTileConstants{
-      tiles.tiles, tiles.words_per_tile, static_cast<std::uint32_t>(reflections.proxies.size()),
-      static_cast<std::uint32_t>(reflections.probes.size())});
-  if (reflections.traced != nullptr) {
-    reflections.mirror = false;
-    reflections.traced_image = upload_traced(frame, staging, *reflections.traced);
-  }
-  if (reflections.mirror) {
-    if (reflections.knobs.proxies)
-      reflections.proxy_images =
-          captured_image(frame, staging, "reflection_proxies", captures.proxies, captures.version);
-    add_mirror_surface_pass(frame, reflections);
-    if (reflections.knobs.screen_space) add_screen_space_pass(frame, reflections);
-    if (reflections.planar)
-      add_planar_pass(frame, reflections);
-    else
-      add_proxy_pass(frame, reflections);
-    if (reflections.knobs.temporal) add_temporal_pass(frame, reflections);
-    if (reflections.knobs.blur) add_glossy_passes(frame, reflections);
-    add_sharpen_pass(frame, reflections);
-  }
-  if (!reflections.probes.empty())
-    reflections.probe_images = captured_image(frame, staging, "reflection_probes", captures.probes, captures.version);
-  add_composite_pass(frame, reflections);
+  const ReflectionUniforms uniforms = upload_uniforms(frame, *plan);
+  ImageRef traced;
+  if (plan->traced != nullptr) traced = upload_traced(frame, staging, *plan->traced);
+  MirrorReflections mirrors;
+  if (plan->mirror) mirrors = add_mirror_passes(frame, staging, *plan, uniforms);
+  ProbeInputs probes{.rows = plan->probes, .changed = plan->changed};
+  if (!plan->probes.empty())
+    probes.images = upload_captures(frame, staging, "reflection_probes", captures.probes, captures.version);
+  add_composite_pass(frame, uniforms, {mirrors.tiles, mirrors.upscaled, probes, traced});
+  frame.put(ReflectionHandles{uniforms, mirrors.hits, mirrors.light, probes.images});
 }
 
 void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, std::size_t probes, PipelineList& list) {

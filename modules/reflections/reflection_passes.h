@@ -10,11 +10,11 @@
 
 namespace gloam {
 
-/// PassPhase::announce: puts ReflectionFrame on the board and takes over the specular ambient term, if a visible
+/// PassPhase::announce: puts ReflectionPlan on the board and takes over the specular ambient term, if a visible
 /// material reflects.
 void announce_reflections(FrameBuilder& frame);
 
-/// PassPhase::shading, after lighting: adds the reflections to LitOutput.
+/// PassPhase::shading, after lighting: adds the reflections to LitOutput and puts ReflectionHandles on the board.
 void add_reflection_passes(FrameBuilder& frame, Staging& staging);
 
 /// Pipelines that add_reflection_passes() uses with these knobs in a world with proxies. direct: on a device that runs

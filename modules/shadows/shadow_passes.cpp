@@ -3,6 +3,7 @@
 #include "modules/shadows/shadow_passes.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "modules/shadows/filter/cookies.h"
 #include "modules/shadows/filter/uploads.h"
@@ -53,13 +54,13 @@ ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs
 }
 
 /// Adds the passes of final lists; with classification, the planes before them.
-void add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps, const ShadowKnobs& knobs,
-                     ShadowsOutputs& outputs) {
+std::optional<FinalLists> add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps,
+                                          const ShadowKnobs& knobs, const ShadowsOutputs& outputs) {
   const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
   ViewMapState& kept = states.view(frame.world().resource<ShadowWorld>(), view_faces.owner, frame.view().id);
   ImageRef planes;
   if (knobs.classify) planes = add_shadow_planes_pass(frame, kept, maps, view_faces, knobs);
-  add_generate_passes(frame, knobs, planes, outputs);
+  return add_generate_passes(frame, knobs, planes, outputs);
 }
 
 }  // namespace
@@ -88,13 +89,18 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
   const ShadowKnobs knobs = knobs_of(frame);
   states.begin(frame.services().device);
-  ShadowsOutputs outputs;
-  add_shadow_uploads(frame, states, view_faces, knobs, outputs);
+  const ShadowUploads uploads = add_shadow_uploads(frame, states, view_faces, knobs);
   if (!frame.status().ok()) return;
 
   const TracedVisibility* found = traced_visibility_of(frame.world(), frame.view());
   const bool traced = knobs.enabled && found != nullptr && found->shades;
   const bool has_maps = knobs.enabled && !traced && has_placed_face(view_faces);
+  ShadowsOutputs outputs{.block = uploads.block,
+                         .block_values = uploads.block_values,
+                         .rows = uploads.rows,
+                         .row_values = uploads.row_values,
+                         .cookies = uploads.cookies,
+                         .traced = uploads.traced};
   outputs.cookie_lights = static_cast<std::uint32_t>(count_cookie_lights(frame.world()));
   set_constants(knobs, traced ? kTracedShadows : has_maps ? knobs.filter : kNoShadows, outputs);
   const bool has_lists = has_maps && can_generate(frame, knobs) && generate_pipelines_ready(frame, knobs, outputs);
@@ -106,7 +112,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   if (!frame.status().ok()) return;
   outputs.atlas = maps.atlas;
   outputs.pyramid = maps.pyramid;
-  if (has_lists) add_final_lists(frame, states, maps, knobs, outputs);
+  if (has_lists) outputs.final_lists = add_final_lists(frame, states, maps, knobs, outputs);
   frame.put(std::move(outputs));
 }
 

@@ -18,51 +18,51 @@ ImageRef& layer(DofLayers& layers, bool near) { return near ? layers.near : laye
 const ImageRef& layer(const DofLayers& layers, bool near) { return near ? layers.near : layers.far; }
 
 ImageRef layer_image(FrameBuilder& frame, const DofFrame& dof, const std::string& name, bool near) {
-  return create_view_image(frame, name + (near ? "_near" : "_far"), gpu::Format::rgba16_float, dof.scale());
+  return create_view_image(frame, name + (near ? "_near" : "_far"), gpu::Format::rgba16_float, dof.inputs.scale());
 }
 
 void read_common(ComputePass& pass, const DofFrame& dof) {
-  pass.read("dof", dof.block);
-  pass.read("reach_image", dof.reach, Sampling::linear);
+  pass.read("dof", dof.inputs.block);
+  pass.read("reach_image", dof.tiles.reach, Sampling::linear);
   if (pass.declares("tile_flags"))
-    pass.read("tile_flags", dof.flags);
+    pass.read("tile_flags", dof.tiles.flags);
   else
-    read_dof_lists(pass, dof);
+    read_dof_lists(pass, dof.tiles);
 }
 
 DofLayers add_round_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& from, bool columns) {
   const char* name = columns ? "dof_blur_y" : "dof_blur_x";
   DofLayers blurred;
-  ComputePass pass(frame, name, dof_round_program(dof.scale(), false, columns));
+  ComputePass pass(frame, name, dof_round_program(dof.inputs.scale(), false, columns));
   for (const bool near : {false, true}) {
-    pass.use(dof_round_program(dof.scale(), near, columns));
+    pass.use(dof_round_program(dof.inputs.scale(), near, columns));
     read_common(pass, dof);
     pass.read("layer_image", layer(from, near));
     layer(blurred, near) = pass.write("blurred_image", layer_image(frame, dof, name, near));
-    dispatch_dof_list(pass, dof, (columns ? GLOAM_DOF_FAR_LAST : GLOAM_DOF_FAR_FIRST) + (near ? 1 : 0));
+    dispatch_dof_list(pass, dof.tiles, (columns ? GLOAM_DOF_FAR_LAST : GLOAM_DOF_FAR_FIRST) + (near ? 1 : 0));
   }
   return blurred;
 }
 
 DofLayers add_hexagon_passes(FrameBuilder& frame, const DofFrame& dof, const DofLayers& from) {
   DofLayers upright, both, blurred;
-  ComputePass lines(frame, "dof_hexagon_lines", dof_hexagon_lines_program(dof.scale(), false));
+  ComputePass lines(frame, "dof_hexagon_lines", dof_hexagon_lines_program(dof.inputs.scale(), false));
   for (const bool near : {false, true}) {
-    lines.use(dof_hexagon_lines_program(dof.scale(), near));
+    lines.use(dof_hexagon_lines_program(dof.inputs.scale(), near));
     read_common(lines, dof);
     lines.read("layer_image", layer(from, near));
     layer(upright, near) = lines.write("upright_image", layer_image(frame, dof, "dof_upright", near));
     layer(both, near) = lines.write("both_image", layer_image(frame, dof, "dof_both", near));
-    dispatch_dof_list(lines, dof, GLOAM_DOF_FAR_FIRST + (near ? 1 : 0));
+    dispatch_dof_list(lines, dof.tiles, GLOAM_DOF_FAR_FIRST + (near ? 1 : 0));
   }
-  ComputePass rhombi(frame, "dof_hexagon_rhombi", dof_hexagon_rhombi_program(dof.scale(), false));
+  ComputePass rhombi(frame, "dof_hexagon_rhombi", dof_hexagon_rhombi_program(dof.inputs.scale(), false));
   for (const bool near : {false, true}) {
-    rhombi.use(dof_hexagon_rhombi_program(dof.scale(), near));
+    rhombi.use(dof_hexagon_rhombi_program(dof.inputs.scale(), near));
     read_common(rhombi, dof);
     rhombi.read("upright_image", layer(upright, near));
     rhombi.read("both_image", layer(both, near));
     layer(blurred, near) = rhombi.write("blurred_image", layer_image(frame, dof, "dof_hexagon", near));
-    dispatch_dof_list(rhombi, dof, GLOAM_DOF_FAR_LAST + (near ? 1 : 0));
+    dispatch_dof_list(rhombi, dof.tiles, GLOAM_DOF_FAR_LAST + (near ? 1 : 0));
   }
   return blurred;
 }
@@ -79,10 +79,10 @@ uvec2 line_groups(const uvec2& size, std::uint32_t direction) {
 DofLayers add_line_pass(FrameBuilder& frame, const DofFrame& dof, const char* name, const DofLine& line,
                         const DofLayers& from, const DofLayers& other = {}) {
   DofLayers blurred;
-  ComputePass pass(frame, name, dof_line_program(dof.knobs.cache, dof.scale(), false, line));
-  const uvec2 groups = line_groups(dof.constants.layer_size, line.direction);
+  ComputePass pass(frame, name, dof_line_program(dof.inputs.knobs.cache, dof.inputs.scale(), false, line));
+  const uvec2 groups = line_groups(dof.inputs.constants.layer_size, line.direction);
   for (const bool near : {false, true}) {
-    pass.use(dof_line_program(dof.knobs.cache, dof.scale(), near, line));
+    pass.use(dof_line_program(dof.inputs.knobs.cache, dof.inputs.scale(), near, line));
     read_common(pass, dof);
     pass.read("layer_image", layer(from, near));
     pass.read("other_image", layer(other, near));
@@ -93,7 +93,7 @@ DofLayers add_line_pass(FrameBuilder& frame, const DofFrame& dof, const char* na
 }
 
 DofLayers add_line_passes(FrameBuilder& frame, const DofFrame& dof, const DofLayers& from) {
-  if (dof.bokeh == Bokeh::round)
+  if (dof.inputs.bokeh == Bokeh::round)
     return add_line_pass(frame, dof, "dof_blur_y", kColumns, add_line_pass(frame, dof, "dof_blur_x", kRows, from));
   const DofLayers upright = add_line_pass(frame, dof, "dof_upright", kUpwards, from);
   const DofLayers both = add_line_pass(frame, dof, "dof_both", kRightwardsAndUp, from, upright);
@@ -143,22 +143,22 @@ std::vector<ComputeProgram> dof_blur_programs(const DofKnobs& knobs, Bokeh bokeh
 
 DofLayers add_dof_prefilter_pass(FrameBuilder& frame, const DofFrame& dof) {
   DofLayers layers;
-  ComputePass pass(frame, "dof_prefilter", dof_prefilter_program(dof.scale(), false));
-  pass.read("dof", dof.block);
-  pass.read("depth_image", dof.depth);
+  ComputePass pass(frame, "dof_prefilter", dof_prefilter_program(dof.inputs.scale(), false));
+  pass.read("dof", dof.inputs.block);
+  pass.read("depth_image", dof.inputs.depth);
   pass.read("lit_image", frame.get<LitOutput>().color);
   layers.far = pass.write("far_image", layer_image(frame, dof, "dof_layer", false));
   layers.near = pass.write("near_image", layer_image(frame, dof, "dof_layer", true));
-  read_dof_lists(pass, dof);
-  dispatch_dof_list(pass, dof, GLOAM_DOF_PREFILTER_FAR);
-  pass.use(dof_prefilter_program(dof.scale(), true));
-  dispatch_dof_list(pass, dof, GLOAM_DOF_PREFILTER_BOTH);
+  read_dof_lists(pass, dof.tiles);
+  dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_PREFILTER_FAR);
+  pass.use(dof_prefilter_program(dof.inputs.scale(), true));
+  dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_PREFILTER_BOTH);
   return layers;
 }
 
 DofLayers add_dof_blur_passes(FrameBuilder& frame, const DofFrame& dof, const DofLayers& layers) {
-  if (dof.knobs.cache != DofKnobs::Cache::none) return add_line_passes(frame, dof, layers);
-  if (dof.bokeh == Bokeh::hexagonal) return add_hexagon_passes(frame, dof, layers);
+  if (dof.inputs.knobs.cache != DofKnobs::Cache::none) return add_line_passes(frame, dof, layers);
+  if (dof.inputs.bokeh == Bokeh::hexagonal) return add_hexagon_passes(frame, dof, layers);
   return add_round_pass(frame, dof, add_round_pass(frame, dof, layers, false), true);
 }
 

@@ -15,17 +15,17 @@ ComputeProgram dof_compose_program(std::uint32_t scale, bool near, bool in_turn)
 
 void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& blurred) {
   const bool in_turn = frame.services().device.info().threads_in_turn;
-  ComputePass pass(frame, "dof_compose", dof_compose_program(dof.scale(), false, in_turn));
+  ComputePass pass(frame, "dof_compose", dof_compose_program(dof.inputs.scale(), false, in_turn));
   LitOutput& lit = frame.get<LitOutput>();
-  pass.read("dof", dof.block);
-  pass.read("depth_image", dof.depth);
+  pass.read("dof", dof.inputs.block);
+  pass.read("depth_image", dof.inputs.depth);
   pass.read("far_image", blurred.far);
   pass.read("near_image", blurred.near);
   lit.color = pass.write("lit_image", lit.color);
-  read_dof_lists(pass, dof);
-  dispatch_dof_list(pass, dof, GLOAM_DOF_COMPOSE_FAR);
-  pass.use(dof_compose_program(dof.scale(), true, in_turn));
-  dispatch_dof_list(pass, dof, GLOAM_DOF_COMPOSE_BOTH);
+  read_dof_lists(pass, dof.tiles);
+  dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_COMPOSE_FAR);
+  pass.use(dof_compose_program(dof.inputs.scale(), true, in_turn));
+  dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_COMPOSE_BOTH);
 }
 
 }  // namespace gloam

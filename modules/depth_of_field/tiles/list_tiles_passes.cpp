@@ -21,41 +21,43 @@ ComputeProgram dof_bounds_program() { return {shaders::depth_of_field::bounds_co
 ComputeProgram dof_reach_program() { return {shaders::depth_of_field::reach_comp}; }
 ComputeProgram dof_list_program(std::uint32_t scale) { return {shaders::depth_of_field::list_comp, {{0, scale}}}; }
 
-void add_dof_tile_passes(FrameBuilder& frame, DofFrame& dof) {
-  const uvec2 tiles = dof.constants.tiles;
+DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs) {
+  const uvec2 size = inputs.constants.tiles;
+  DofTiles tiles;
   ComputePass bounds(frame, "dof_tile_bounds", dof_bounds_program());
-  bounds.read("dof", dof.block);
-  bounds.read("depth_image", dof.depth);
+  bounds.read("dof", inputs.block);
+  bounds.read("depth_image", inputs.depth);
   const ImageRef tile =
       bounds.write("tile_image", create_view_image(frame, "dof_tile_bounds", gpu::Format::rg32_float, GLOAM_DOF_TILE));
-  dof.lists = bounds.write(
+  const BufferRef empty_lists = bounds.write(
       "lists", words(frame, "dof_lists", GLOAM_DOF_LISTS * sizeof(shaders::DofList) / sizeof(std::uint32_t)));
-  bounds.dispatch_over(glm::max(tiles, uvec2(GLOAM_DOF_LISTS, 1)));
+  bounds.dispatch_over(glm::max(size, uvec2(GLOAM_DOF_LISTS, 1)));
 
   ComputePass reach(frame, "dof_tile_reach", dof_reach_program());
-  reach.read("dof", dof.block);
+  reach.read("dof", inputs.block);
   reach.read("tile_image", tile);
-  dof.reach =
+  tiles.reach =
       reach.write("reach_image", create_view_image(frame, "dof_tile_reach", gpu::Format::rgba16_float, GLOAM_DOF_TILE));
-  reach.dispatch_over(tiles);
+  reach.dispatch_over(size);
 
-  const std::uint64_t count = std::uint64_t{tiles.x} * tiles.y;
-  ComputePass list(frame, "dof_tile_lists", dof_list_program(dof.scale()));
-  list.read("dof", dof.block);
-  list.read("reach_image", dof.reach);
-  dof.lists = list.write("lists", dof.lists);
-  dof.entries = list.write("entries", words(frame, "dof_list_entries", GLOAM_DOF_LISTS * count));
-  dof.flags = list.write("tile_flags", words(frame, "dof_tile_flags", count));
-  list.dispatch_over(tiles);
+  const std::uint64_t count = std::uint64_t{size.x} * size.y;
+  ComputePass list(frame, "dof_tile_lists", dof_list_program(inputs.scale()));
+  list.read("dof", inputs.block);
+  list.read("reach_image", tiles.reach);
+  tiles.lists = list.write("lists", empty_lists);
+  tiles.entries = list.write("entries", words(frame, "dof_list_entries", GLOAM_DOF_LISTS * count));
+  tiles.flags = list.write("tile_flags", words(frame, "dof_tile_flags", count));
+  list.dispatch_over(size);
+  return tiles;
 }
 
-void read_dof_lists(ComputePass& pass, const DofFrame& dof) {
-  pass.read("lists", dof.lists);
-  pass.read("entries", dof.entries);
+void read_dof_lists(ComputePass& pass, const DofTiles& tiles) {
+  pass.read("lists", tiles.lists);
+  pass.read("entries", tiles.entries);
 }
 
-void dispatch_dof_list(ComputePass& pass, const DofFrame& dof, std::uint32_t list) {
-  pass.dispatch_indirect(dof.lists, list * sizeof(shaders::DofList));
+void dispatch_dof_list(ComputePass& pass, const DofTiles& tiles, std::uint32_t list) {
+  pass.dispatch_indirect(tiles.lists, list * sizeof(shaders::DofList));
 }
 
 }  // namespace gloam

@@ -45,34 +45,38 @@ bool blade_pipelines_ready(const FrameBuilder& frame) {
   return services.pipelines.request(list, services.log);
 }
 
-void bind_blades(ShaderPass& pass, const GrassFrame& grass) {
-  pass.read("poses", grass.poses);
-  pass.read("draws", grass.draws);
-  pass.read("knots", grass.store.knots);
+void bind_blades(ShaderPass& pass, const DrawnBlades& blades) {
+  pass.read("poses", blades.poses);
+  pass.read("draws", blades.draws);
+  pass.read("knots", blades.knots);
 }
 
-void add_pose_pass(FrameBuilder& frame, GrassFrame& grass) {
+BufferRef add_pose_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                        const SortedBlades& sorted) {
   ComputePass pass(frame, "grass_poses", grass_pose_program());
-  pass.read("lod", grass.lod_range);
-  pass.read("patches", grass.patch_rows);
-  pass.read("blade_rows", grass.store.rows);
-  pass.read("types", grass.types);
-  pass.read("blades", grass.blades);
-  pass.read("draws", grass.draws);
-  pass.read("knots", grass.store.knots);
-  pass.read("previous_knots", grass.store.previous_knots);
-  pass.read("stamps", grass.store.stamps);
+  pass.read("lod", inputs.lod_range);
+  pass.read("patches", inputs.patch_rows);
+  pass.read("blade_rows", store.rows);
+  pass.read("types", inputs.types);
+  pass.read("blades", sorted.blades);
+  pass.read("draws", sorted.draws);
+  pass.read("knots", store.knots);
+  pass.read("previous_knots", store.previous_knots);
+  pass.read("stamps", store.stamps);
   gpu::BufferDesc desc;
   desc.name = "grass_poses";
   desc.module = "grass";
-  desc.size = grass.patches.size() * GLOAM_GRASS_PATCH_BLADES * sizeof(shaders::GrassPose);
-  grass.poses = pass.write("poses", frame.graph().create_buffer(desc));
-  pass.dispatch_indirect(grass.draws, offsetof(shaders::GrassDraws, blade_groups));
+  desc.size = std::uint64_t{inputs.patches} * GLOAM_GRASS_PATCH_BLADES * sizeof(shaders::GrassPose);
+  const BufferRef poses = pass.write("poses", frame.graph().create_buffer(desc));
+  pass.dispatch_indirect(sorted.draws, offsetof(shaders::GrassDraws, blade_groups));
+  return poses;
 }
 
-void add_blade_pass(FrameBuilder& frame, GrassFrame& grass) {
-  grass.indices = kept_indices(frame, "grass_indices", blade_indices());
-  if (!frame.status().ok()) return;
+DrawnBlades add_blade_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                           const SortedBlades& sorted, BufferRef poses) {
+  const BufferRef indices = kept_indices(frame, "grass_indices", blade_indices());
+  const DrawnBlades blades{poses, sorted.draws, store.knots, indices};
+  if (!frame.status().ok()) return blades;
   GeometryOutputs& geometry = frame.get<GeometryOutputs>();
   const bool motion = static_cast<bool>(geometry.motion);
   const bool clipped = frame.view().clipped;
@@ -80,16 +84,17 @@ void add_blade_pass(FrameBuilder& frame, GrassFrame& grass) {
   geometry_targets(pass, geometry);
   for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
     if (i > 0) pass.use(blade_program(i, motion, clipped));
-    bind_blades(pass, grass);
+    bind_blades(pass, blades);
     bind_motion(pass, frame.view());
     if (motion) {
-      pass.uniform("steps", grass.steps);
-      pass.read("previous_knots", grass.store.previous_knots);
-      pass.read("stamps", grass.store.stamps);
+      pass.uniform("steps", inputs.steps);
+      pass.read("previous_knots", store.previous_knots);
+      pass.read("stamps", store.stamps);
     }
-    pass.draw_indexed_indirect(grass.indices, grass.draws,
+    pass.draw_indexed_indirect(blades.indices, blades.draws,
                                offsetof(shaders::GrassDraws, draws) + i * sizeof(shaders::GrassDraw), 1);
   }
+  return blades;
 }
 
 void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const WorldBox& bounds) {
@@ -99,25 +104,27 @@ void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> gr
   source.bounds = bounds;
   source.moving = true;
   source.declare_reads = [grass](PassBuilder& pass) {
-    for (const BufferRef buffer : {grass->poses, grass->draws, grass->store.knots})
+    const DrawnBlades& blades = grass->drawn;
+    for (const BufferRef buffer : {blades.poses, blades.draws, blades.knots})
       pass.read(buffer, gpu::Access::vertex_read);
-    pass.read(grass->draws, gpu::Access::indirect_read);
-    pass.read(grass->indices, gpu::Access::vertex_input);
+    pass.read(blades.draws, gpu::Access::indirect_read);
+    pass.read(blades.indices, gpu::Access::vertex_input);
   };
   source.record = [grass, pipeline = *pipeline,
                    world_from_relative =
                        glm::translate(dmat4(1.0), frame.view().position)](const CasterSourceDraw& draw) {
     PassContext& context = draw.context();
+    const DrawnBlades& blades = grass->drawn;
     const auto bound = [&](std::uint32_t binding, BufferRef buffer) {
       return gpu::Binding{binding, gpu::Binding::BufferRange{context.buffer(buffer)}};
     };
-    const gpu::Binding bindings[] = {bound(1, grass->poses), bound(2, grass->draws), bound(3, grass->store.knots)};
+    const gpu::Binding bindings[] = {bound(1, blades.poses), bound(2, blades.draws), bound(3, blades.knots)};
     gpu::CommandList& commands = context.commands();
     draw.bind_pipeline(pipeline);
     commands.bind(bindings);
     commands.push(draw.projection().constants(world_from_relative));
-    commands.bind_indices(context.buffer(grass->indices), 0);
-    commands.draw_indexed_indirect(context.buffer(grass->draws), offsetof(shaders::GrassDraws, cast_draw), 1);
+    commands.bind_indices(context.buffer(blades.indices), 0);
+    commands.draw_indexed_indirect(context.buffer(blades.draws), offsetof(shaders::GrassDraws, cast_draw), 1);
   };
   frame.add_caster_source(std::move(source));
 }

@@ -22,15 +22,17 @@ void list_blade_pipelines(bool motion, bool clipped, PipelineList& list);
 /// Whether the pipelines of the view's kind exist, or the frame waits for them. Otherwise they are requested.
 [[nodiscard]] bool blade_pipelines_ready(const FrameBuilder& frame);
 
-/// Computes the poses of the live blades. Sets GrassFrame::poses.
-void add_pose_pass(FrameBuilder& frame, GrassFrame& grass);
-/// Draws the live blades into the geometry buffer.
-void add_blade_pass(FrameBuilder& frame, GrassFrame& grass);
+/// Computes the poses of the live blades: shaders::GrassPose, in sorted order.
+[[nodiscard]] BufferRef add_pose_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                                      const SortedBlades& sorted);
+/// Draws the live blades into the geometry buffer. store: after the simulation.
+[[nodiscard]] DrawnBlades add_blade_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                                         const SortedBlades& sorted, BufferRef poses);
 /// Binds all that blade_shape.glsl reads.
-void bind_blades(ShaderPass& pass, const GrassFrame& grass);
+void bind_blades(ShaderPass& pass, const DrawnBlades& blades);
 
-/// Adds the blades near the camera as a caster of shadows, in PassPhase::announce. `grass` is filled later in the
-/// frame, before shadow maps are drawn. bounds: of those blades.
+/// Adds the blades near the camera as a caster of shadows, in PassPhase::announce. `grass` is set later in the frame,
+/// before shadow maps are drawn. bounds: of those blades.
 void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const WorldBox& bounds);
 
 }  // namespace gloam

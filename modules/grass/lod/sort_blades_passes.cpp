@@ -26,40 +26,44 @@ ComputeProgram grass_masters_program(std::uint32_t group_masters) {
   return {shaders::grass::masters_comp, {{0, group_masters}}};
 }
 
-void add_grass_lod_passes(FrameBuilder& frame, GrassFrame& grass) {
-  const auto patches = static_cast<std::uint32_t>(grass.patches.size());
-  const std::uint32_t blades = patches * GLOAM_GRASS_PATCH_BLADES;
+SortedBlades add_blade_sort_passes(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store) {
+  const std::uint32_t blades = inputs.patches * GLOAM_GRASS_PATCH_BLADES;
   ComputePass keys(frame, "grass_keys", grass_keys_program());
-  keys.read("lod", grass.lod_range);
-  keys.read("patches", grass.patch_rows);
-  keys.read("blade_rows", grass.store.rows);
+  keys.read("lod", inputs.lod_range);
+  keys.read("patches", inputs.patch_rows);
+  keys.read("blade_rows", store.rows);
   const BufferRef key_words = keys.write("keys", frame_buffer(frame, "grass_keys", blades));
-  keys.dispatch(patches);
+  keys.dispatch(inputs.patches);
 
   const SortedKeys sorted = add_radix_sort_passes(frame, "grass_sort", key_words, {}, blades);
-  grass.blades = sorted.values;
-  grass.bins = sorted.bins;
 
   ComputePass live(frame, "grass_live", grass_live_program());
-  live.read("lod", grass.lod_range);
-  live.read("bins", grass.bins);
-  grass.draws = live.write("draws", frame_buffer(frame, "grass_draws", sizeof(shaders::GrassDraws)));
-  grass.dispatch = live.write("dispatch", frame_buffer(frame, "grass_dispatch", sizeof(shaders::GrassDispatch)));
+  live.read("lod", inputs.lod_range);
+  live.read("bins", sorted.bins);
+  const BufferRef draws = live.write("draws", frame_buffer(frame, "grass_draws", sizeof(shaders::GrassDraws)));
+  const BufferRef dispatch =
+      live.write("dispatch", frame_buffer(frame, "grass_dispatch", sizeof(shaders::GrassDispatch)));
   live.dispatch(1);
+  return {sorted.values, sorted.bins, draws, dispatch};
+}
 
-  ComputePass masters(frame, "grass_masters", grass_masters_program(grass.group_masters));
-  masters.uniform("steps", grass.steps);
-  masters.read("lod", grass.lod_range);
-  masters.read("patches", grass.patch_rows);
-  masters.read("blade_rows", grass.store.rows);
-  masters.read("blades", grass.blades);
-  masters.read("draws", grass.draws);
-  grass.store.stamps = masters.write("stamps", grass.store.stamps);
-  grass.dispatch = masters.write("dispatch", grass.dispatch);
-  grass.masters = masters.write(
+MasterList add_master_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                           const SortedBlades& sorted) {
+  ComputePass pass(frame, "grass_masters", grass_masters_program(inputs.group_masters));
+  pass.uniform("steps", inputs.steps);
+  pass.read("lod", inputs.lod_range);
+  pass.read("patches", inputs.patch_rows);
+  pass.read("blade_rows", store.rows);
+  pass.read("blades", sorted.blades);
+  pass.read("draws", sorted.draws);
+  MasterList list;
+  list.stamps = pass.write("stamps", store.stamps);
+  list.dispatch = pass.write("dispatch", sorted.dispatch);
+  list.masters = pass.write(
       "master_list", frame_buffer(frame, "grass_master_list",
-                                  std::uint64_t{patches} * grass.slot_masters * sizeof(shaders::GrassMaster)));
-  masters.dispatch_indirect(grass.draws, offsetof(shaders::GrassDraws, blade_groups));
+                                  std::uint64_t{inputs.patches} * inputs.slot_masters * sizeof(shaders::GrassMaster)));
+  pass.dispatch_indirect(sorted.draws, offsetof(shaders::GrassDraws, blade_groups));
+  return list;
 }
 
 }  // namespace gloam

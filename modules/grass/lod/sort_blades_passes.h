@@ -12,8 +12,12 @@ namespace gloam {
 /// group_masters: masters of one workgroup of the simulation.
 [[nodiscard]] ComputeProgram grass_masters_program(std::uint32_t group_masters);
 
-/// Sorts the blades of the view's patches by distance, counts those that are drawn, and lists the masters that the
-/// frame must simulate. Sets GrassFrame::blades, bins, draws, dispatch, masters and store.stamps.
-void add_grass_lod_passes(FrameBuilder& frame, GrassFrame& grass);
+/// Sorts the blades of the view's patches by distance, and counts those that are drawn.
+[[nodiscard]] SortedBlades add_blade_sort_passes(FrameBuilder& frame, const GrassInputs& inputs,
+                                                 const GrassStore& store);
+
+/// Lists the masters that the frame must simulate.
+[[nodiscard]] MasterList add_master_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                                         const SortedBlades& sorted);
 
 }  // namespace gloam

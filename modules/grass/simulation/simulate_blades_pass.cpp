@@ -33,22 +33,25 @@ ComputeProgram grass_simulation_program(SimulationThreads threads, bool collider
   return {shaders::grass::simulate_comp, {{0, knot_threads(threads)}, with_colliders}};
 }
 
-void add_simulation_pass(FrameBuilder& frame, GrassFrame& grass, std::optional<std::uint32_t> groups) {
-  ComputePass pass(frame, "grass_simulation", grass_simulation_program(grass.knobs.threads, grass.has_colliders));
-  pass.uniform("steps", grass.steps);
-  pass.read("patches", grass.patch_rows);
-  pass.read("blade_rows", grass.store.rows);
-  pass.read("types", grass.types);
-  pass.read("master_list", grass.masters);
-  pass.read("master_count", grass.dispatch);
-  pass.read("colliders", grass.colliders);
-  grass.store.knots = pass.write("knots", grass.store.knots);
-  grass.store.previous_knots = pass.write("previous_knots", grass.store.previous_knots);
+GrassStore add_simulation_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                               const MasterList& list, std::optional<std::uint32_t> groups) {
+  ComputePass pass(frame, "grass_simulation", grass_simulation_program(inputs.threads, inputs.has_colliders));
+  pass.uniform("steps", inputs.steps);
+  pass.read("patches", inputs.patch_rows);
+  pass.read("blade_rows", store.rows);
+  pass.read("types", inputs.types);
+  pass.read("master_list", list.masters);
+  pass.read("master_count", list.dispatch);
+  pass.read("colliders", inputs.colliders);
+  GrassStore after{.rows = store.rows, .stamps = list.stamps};
+  after.knots = pass.write("knots", store.knots);
+  after.previous_knots = pass.write("previous_knots", store.previous_knots);
   if (groups) {
     if (*groups > 0) pass.dispatch(*groups);
   } else {
-    pass.dispatch_indirect(grass.dispatch, offsetof(shaders::GrassDispatch, groups));
+    pass.dispatch_indirect(list.dispatch, offsetof(shaders::GrassDispatch, groups));
   }
+  return after;
 }
 
 }  // namespace gloam

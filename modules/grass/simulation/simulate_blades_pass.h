@@ -22,7 +22,9 @@ struct GrassFeedback {
   std::uint32_t masters = 0;
 };
 
-/// Runs the steps of the listed masters. groups: size of the dispatch; none: the GPU's own (GrassFrame::dispatch).
-void add_simulation_pass(FrameBuilder& frame, GrassFrame& grass, std::optional<std::uint32_t> groups);
+/// Runs the steps of the listed masters. Returns the store after the frame. groups: size of the dispatch; none: the
+/// GPU's own (MasterList::dispatch).
+[[nodiscard]] GrassStore add_simulation_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                                             const MasterList& list, std::optional<std::uint32_t> groups);
 
 }  // namespace gloam

@@ -31,27 +31,28 @@ DrawProgram sprite_program(std::uint32_t lit_points, bool clipped, const Particl
 BufferRef sprite_index_buffer(FrameBuilder& frame) { return kept_indices(frame, "particle_indices", sprite_indices()); }
 
 void draw_sprites(DrawPass& pass, FrameBuilder& frame, const ParticlesFrame& particles, BufferRef indices) {
-  pass.read("frame", particles.constants_range);
-  pass.read("emitters", particles.emitters);
-  pass.read("particles", particles.state);
-  pass.read("order", particles.order);
-  pass.read("draws", particles.draws);
+  pass.read("frame", particles.inputs.constants_range);
+  pass.read("emitters", particles.inputs.emitters);
+  pass.read("particles", particles.simulated.state);
+  pass.read("order", particles.sorted.order);
+  pass.read("draws", particles.sorted.draws);
   pass.read("light", particles.light);
   pass.read("depth_image", frame.get<GeometryOutputs>().depth);
-  pass.draw_indexed_indirect(indices, particles.draws, 0, 1);
+  pass.draw_indexed_indirect(indices, particles.sorted.draws, 0, 1);
 }
 
 void add_sprite_pass(FrameBuilder& frame, const ParticlesFrame& particles) {
   const BufferRef indices = sprite_index_buffer(frame);
   if (!frame.status().ok()) return;
-  const bool per_pixel = particles.lighting == ParticleLighting::pixel;
-  const ParticleLightVersion version = particle_light_version(frame, particles);
+  const ParticleLighting lighting = particles.inputs.lighting;
+  const bool per_pixel = lighting == ParticleLighting::pixel;
+  const ParticleLightVersion version = particle_light_version(frame, particles.inputs.atlas);
   LitOutput& lit = frame.get<LitOutput>();
   DrawPass pass(frame, "particle_sprites",
-                sprite_program(particles.lit_points(), frame.view().clipped, per_pixel ? &version : nullptr));
+                sprite_program(lit_points(lighting), frame.view().clipped, per_pixel ? &version : nullptr));
   lit.color = pass.target(lit.color, gpu::LoadOp::load);
   pass.test_depth(frame.get<GeometryOutputs>().depth);
-  if (per_pixel) read_particle_light(pass, frame, particles);
+  if (per_pixel) read_particle_light(pass, frame, particles.inputs.atlas);
   draw_sprites(pass, frame, particles, indices);
 }
 

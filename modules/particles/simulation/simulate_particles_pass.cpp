@@ -28,8 +28,8 @@ std::vector<SimulationDispatch> simulation_dispatches(std::span<const std::uint3
   return dispatches;
 }
 
-void add_particle_simulation_pass(FrameBuilder& frame, ParticlesFrame& particles) {
-  const std::uint64_t places = particles.constants.places;
+SimulatedParticles add_particle_simulation_pass(FrameBuilder& frame, const ParticleInputs& inputs) {
+  const std::uint64_t places = inputs.constants.places;
   const auto buffer = [&](const char* name, std::uint64_t bytes) {
     gpu::BufferDesc desc;
     desc.name = name;
@@ -38,21 +38,23 @@ void add_particle_simulation_pass(FrameBuilder& frame, ParticlesFrame& particles
     return frame.graph().create_buffer(desc);
   };
   ComputePass pass(frame, "particle_simulation", particle_simulation_program(true));
-  particles.state = buffer("particles", places * sizeof(shaders::Particle));
-  particles.keys = buffer("particle_keys", places * sizeof(std::uint32_t));
+  SimulatedParticles simulated;
+  simulated.state = buffer("particles", places * sizeof(shaders::Particle));
+  simulated.keys = buffer("particle_keys", places * sizeof(std::uint32_t));
   for (const bool one_emitter : {true, false}) {
     pass.use(particle_simulation_program(one_emitter));
-    pass.read("frame", particles.constants_range);
-    pass.read("emitters", particles.emitters);
-    pass.read_if_declared("emitter_of_group", particles.groups);
-    particles.state = pass.write("particles", particles.state);
-    particles.keys = pass.write("keys", particles.keys);
-    for (const SimulationDispatch& dispatch : particles.dispatches) {
+    pass.read("frame", inputs.constants_range);
+    pass.read("emitters", inputs.emitters);
+    pass.read_if_declared("emitter_of_group", inputs.groups);
+    simulated.state = pass.write("particles", simulated.state);
+    simulated.keys = pass.write("keys", simulated.keys);
+    for (const SimulationDispatch& dispatch : inputs.dispatches) {
       if (dispatch.one_emitter != one_emitter) continue;
       pass.push(dispatch.constants);
       pass.dispatch(dispatch.groups);
     }
   }
+  return simulated;
 }
 
 }  // namespace gloam

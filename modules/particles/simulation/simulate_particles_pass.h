@@ -20,6 +20,6 @@ inline constexpr std::uint32_t kLeastOwnGroups = 8, kMostOwnDispatches = 64;
 [[nodiscard]] std::vector<SimulationDispatch> simulation_dispatches(std::span<const std::uint32_t> emitter_of_group);
 
 /// Computes the state and the sort key of each particle of the view's emitters.
-void add_particle_simulation_pass(FrameBuilder& frame, ParticlesFrame& particles);
+[[nodiscard]] SimulatedParticles add_particle_simulation_pass(FrameBuilder& frame, const ParticleInputs& inputs);
 
 }  // namespace gloam

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/render/declare/compute_pass.h"
@@ -12,7 +13,9 @@ namespace gloam {
 /// The programs of the passes.
 [[nodiscard]] std::vector<ComputeProgram> particle_sort_programs(bool threads_in_turn);
 
-/// Sorts the particles by their keys, and counts those that are drawn.
-void add_particle_sort_passes(FrameBuilder& frame, ParticlesFrame& particles);
+/// Sorts particles by their keys, one for each of `places`, and counts those that are drawn. two_digits: keys have 16
+/// bits and not 8.
+[[nodiscard]] SortedParticles add_particle_sort_passes(FrameBuilder& frame, BufferRef keys, std::uint32_t places,
+                                                       bool two_digits);
 
 }  // namespace gloam

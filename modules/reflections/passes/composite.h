@@ -16,10 +16,20 @@ namespace gloam {
 
 [[nodiscard]] ComputeProgram sharpen_program(bool screen_space);
 
-/// Writes ReflectionFrame::upscaled in the listed tiles.
-void add_sharpen_pass(FrameBuilder& frame, ReflectionFrame& reflections);
+/// Returns an rgba16f image of the view's size: in the listed tiles the light with bent lookup, sharp hits and fog.
+[[nodiscard]] ImageRef add_sharpen_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms,
+                                        const MirrorTiles& tiles, const ScreenSpaceHits& hits,
+                                        const MirroredLight& light);
+
+/// Reflections of a view for the composite.
+struct CompositeInputs {
+  MirrorTiles tiles;  ///< if `upscaled` is not null
+  ImageRef upscaled;  ///< add_sharpen_pass(); null: no surface shows tiers 1 and 2
+  ProbeInputs probes;
+  ImageRef traced;  ///< rgba32f, of the view's size: takes the place of all tiers; null: none
+};
 
 /// Adds the specular reflection of the surroundings to LitOutput.
-void add_composite_pass(FrameBuilder& frame, const ReflectionFrame& reflections);
+void add_composite_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms, const CompositeInputs& inputs);
 
 }  // namespace gloam

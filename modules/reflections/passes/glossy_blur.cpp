@@ -11,38 +11,40 @@ namespace {
 bool is_direct(const FrameBuilder& frame) { return frame.services().device.info().threads_in_turn; }
 
 /// The listed tiles, or one workgroup per GLOAM_BLUR_GROUP texels of each row or column.
-void dispatch(ComputePass& pass, const FrameBuilder& frame, const ReflectionFrame& reflections, bool columns) {
-  if (is_direct(frame)) return dispatch_mirror_tiles(pass, reflections);
-  const uvec2 size = reflections.constants.size;
+void dispatch(ComputePass& pass, const FrameBuilder& frame, const uvec2& size, const MirrorTiles& tiles, bool columns) {
+  if (is_direct(frame)) return dispatch_mirror_tiles(pass, tiles);
   const uvec2 lines = columns ? uvec2(size.y, size.x) : size;
   pass.dispatch((lines.x + GLOAM_BLUR_GROUP - 1) / GLOAM_BLUR_GROUP, lines.y);
 }
 
-ImageRef add_dilation(FrameBuilder& frame, const ReflectionFrame& r, ImageRef spread, bool columns) {
+/// spread: an image that has the spread of each texel in its first channel.
+ImageRef add_dilation(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,
+                      ImageRef surface, ImageRef spread, bool columns) {
   const char* name = columns ? "reflection_dilate_y" : "reflection_dilate_x";
   ComputePass pass(frame, name, dilate_program(columns, is_direct(frame)));
-  pass.read("reflection", r.block);
+  pass.read("reflection", uniforms.block);
   pass.read("spread_image", spread);
-  pass.read("surface_image", r.surface);
+  pass.read("surface_image", surface);
   const ImageRef dilated =
-      pass.write("dilated_image", create_view_image(frame, name, gpu::Format::r8_unorm, r.constants.scale));
-  if (is_direct(frame)) pass.read("tile_roughness", r.tile_roughness);
-  dispatch(pass, frame, r, columns);
+      pass.write("dilated_image", create_view_image(frame, name, gpu::Format::r8_unorm, uniforms.constants.scale));
+  if (is_direct(frame)) pass.read("tile_roughness", tiles.roughness);
+  dispatch(pass, frame, uniforms.constants.size, tiles, columns);
   return dilated;
 }
 
-ImageRef add_blur(FrameBuilder& frame, const ReflectionFrame& r, ImageRef dilated, bool columns) {
+MirroredLight add_blur(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,
+                       const MirroredLight& light, ImageRef dilated, bool columns) {
   const char* name = columns ? "reflection_blur_y" : "reflection_blur_x";
   ComputePass pass(frame, name, blur_program(columns, is_direct(frame)));
-  pass.read("reflection", r.block);
+  pass.read("reflection", uniforms.block);
   pass.read("dilated_image", dilated);
-  pass.read("surface_image", r.surface);
-  pass.read("color_image", r.color);
-  if (is_direct(frame)) pass.read("tile_roughness", r.tile_roughness);
+  pass.read("surface_image", light.surface);
+  pass.read("color_image", light.color);
+  if (is_direct(frame)) pass.read("tile_roughness", tiles.roughness);
   const ImageRef blurred =
-      pass.write("blurred_image", create_view_image(frame, name, gpu::Format::rgba16_float, r.constants.scale));
-  dispatch(pass, frame, r, columns);
-  return blurred;
+      pass.write("blurred_image", create_view_image(frame, name, gpu::Format::rgba16_float, uniforms.constants.scale));
+  dispatch(pass, frame, uniforms.constants.size, tiles, columns);
+  return {blurred, light.surface};
 }
 
 }  // namespace
@@ -56,10 +58,12 @@ ComputeProgram blur_program(bool columns, bool direct) {
   return {direct ? shaders::reflections::blur_tiles_comp : shaders::reflections::blur_comp, {{0, columns ? 1u : 0u}}};
 }
 
-void add_glossy_passes(FrameBuilder& frame, ReflectionFrame& reflections) {
-  const ImageRef dilated =
-      add_dilation(frame, reflections, add_dilation(frame, reflections, reflections.surface, false), true);
-  for (const bool columns : {true, false}) reflections.color = add_blur(frame, reflections, dilated, columns);
+MirroredLight add_glossy_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,
+                                const MirroredLight& light) {
+  const ImageRef in_rows = add_dilation(frame, uniforms, tiles, light.surface, light.surface, false);
+  const ImageRef dilated = add_dilation(frame, uniforms, tiles, light.surface, in_rows, true);
+  const MirroredLight in_columns = add_blur(frame, uniforms, tiles, light, dilated, true);
+  return add_blur(frame, uniforms, tiles, in_columns, dilated, false);
 }
 
 }  // namespace gloam

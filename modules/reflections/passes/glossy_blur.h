@@ -11,7 +11,8 @@ namespace gloam {
 [[nodiscard]] ComputeProgram dilate_program(bool columns, bool direct);
 [[nodiscard]] ComputeProgram blur_program(bool columns, bool direct);
 
-/// Blurs ReflectionFrame::color by the dilated spread of ReflectionFrame::surface.
-void add_glossy_passes(FrameBuilder& frame, ReflectionFrame& reflections);
+/// The light, blurred by the dilated spread of its surface.
+[[nodiscard]] MirroredLight add_glossy_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms,
+                                              const MirrorTiles& tiles, const MirroredLight& light);
 
 }  // namespace gloam

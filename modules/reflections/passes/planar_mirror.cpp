@@ -22,25 +22,28 @@ ComputeProgram planar_program(const ReflectionKnobs& knobs) {
   return {shaders::reflections::planar_mirror_comp, {{0, knobs.pixel_roughness ? 1u : 0u}}};
 }
 
-void find_planar_mirror(FrameBuilder& frame, ReflectionFrame& reflections) {
+std::optional<PlanarMirror> drawn_planar_mirror(const FrameBuilder& frame) {
   const auto* mirror = frame.world().try_view_resource<std::optional<PlanarMirror>>(frame.view().id);
-  if (mirror != nullptr && *mirror && images_of(frame, (*mirror)->view) != nullptr) reflections.planar = *mirror;
+  const bool drawn = mirror != nullptr && *mirror && images_of(frame, (*mirror)->view) != nullptr;
+  return drawn ? *mirror : std::nullopt;
 }
 
-void add_planar_pass(FrameBuilder& frame, ReflectionFrame& reflections) {
-  const PlanarMirror& mirror = *reflections.planar;
+MirroredLight add_planar_pass(FrameBuilder& frame, const ReflectionKnobs& knobs, const ReflectionUniforms& uniforms,
+                              const MirrorSurfaces& surfaces, const PlanarMirror& mirror) {
   const CompanionLight::Images& mirrored = *images_of(frame, mirror.view);
-  ComputePass pass(frame, "reflection_planar", planar_program(reflections.knobs));
-  pass.read("reflection", reflections.block);
+  ComputePass pass(frame, "reflection_planar", planar_program(knobs));
+  pass.read("reflection", uniforms.block);
   pass.read("mirrored_light", mirrored.light);
   pass.read("mirrored_depth", mirrored.depth);
   pass.push(shaders::PlanarConstants{static_cast<float>(mirror.height_m - frame.view().position.y),
                                      static_cast<float>(mirror.slack_m)});
-  const std::uint32_t scale = reflections.constants.scale;
-  reflections.color =
+  const std::uint32_t scale = uniforms.constants.scale;
+  MirroredLight light;
+  light.color =
       pass.write("color_image", create_view_image(frame, "reflection_color", gpu::Format::rgba16_float, scale));
-  reflections.surface = pass.write("surface_image", reflections.surface);
-  dispatch_mirror_tiles(pass, reflections);
+  light.surface = pass.write("surface_image", surfaces.surface);
+  dispatch_mirror_tiles(pass, surfaces.tiles);
+  return light;
 }
 
 }  // namespace gloam

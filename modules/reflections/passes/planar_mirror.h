@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "engine/render/declare/compute_pass.h"
 #include "modules/reflections/frame.h"
 
@@ -9,11 +11,13 @@ namespace gloam {
 
 [[nodiscard]] ComputeProgram planar_program(const ReflectionKnobs& knobs);
 
-/// Sets ReflectionFrame::planar, if a companion of the view has drawn the mirrored scene in this frame.
-void find_planar_mirror(FrameBuilder& frame, ReflectionFrame& reflections);
+/// The view's mirror, if a companion of the view has drawn the mirrored scene in this frame.
+[[nodiscard]] std::optional<PlanarMirror> drawn_planar_mirror(const FrameBuilder& frame);
 
-/// With ReflectionFrame::planar: writes ReflectionFrame::color and ReflectionFrame::surface from the companion's
-/// picture, in place of screen space and proxies.
-void add_planar_pass(FrameBuilder& frame, ReflectionFrame& reflections);
+/// Takes the light from the companion's picture, in place of screen space and proxies. mirror: drawn_planar_mirror().
+/// Writes on `surfaces.surface`.
+[[nodiscard]] MirroredLight add_planar_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,
+                                            const ReflectionUniforms& uniforms, const MirrorSurfaces& surfaces,
+                                            const PlanarMirror& mirror);
 
 }  // namespace gloam

@@ -3,7 +3,6 @@
 #include "modules/reflections/passes/proxy_blending.h"
 
 #include "modules/reflections/bindings.h"
-#include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/passes/mirror_surfaces.h"
 #include "shaders/reflections/shaders.h"
 
@@ -19,21 +18,24 @@ ComputeProgram proxy_program(const ReflectionKnobs& knobs) {
            {5, knobs.pixel_roughness ? 1u : 0u}}};
 }
 
-void add_proxy_pass(FrameBuilder& frame, ReflectionFrame& reflections) {
-  ComputePass pass(frame, "reflection_proxies", proxy_program(reflections.knobs));
-  pass.read("reflection", reflections.block);
-  pass.read("tiles", reflections.tiles);
-  pass.read("ssr_color", reflections.ssr_color);
-  pass.read("ssr_distance", reflections.ssr_distance);
-  bind_rows(pass, "proxy_rows", reflections.proxies);
-  bind_rows(pass, "proxy_masks", frame.world().view_resource<ProxyTiles>(frame.view().id).masks);
-  pass.read("proxy_images", reflections.proxy_images, Sampling::linear);
-  read_changed_lights(pass, frame, reflections);
-  const std::uint32_t scale = reflections.constants.scale;
-  reflections.color =
+MirroredLight add_proxy_pass(FrameBuilder& frame, const ReflectionKnobs& knobs, const ReflectionUniforms& uniforms,
+                             const MirrorSurfaces& surfaces, const ScreenSpaceHits& hits, const ProxyInputs& proxies) {
+  ComputePass pass(frame, "reflection_proxies", proxy_program(knobs));
+  pass.read("reflection", uniforms.block);
+  pass.read("tiles", uniforms.tiles);
+  pass.read("ssr_color", hits.color);
+  pass.read("ssr_distance", hits.distance);
+  bind_rows(pass, "proxy_rows", proxies.rows);
+  bind_rows(pass, "proxy_masks", proxies.masks);
+  pass.read("proxy_images", proxies.images, Sampling::linear);
+  read_changed_lights(pass, frame, proxies.changed);
+  const std::uint32_t scale = uniforms.constants.scale;
+  MirroredLight light;
+  light.color =
       pass.write("color_image", create_view_image(frame, "reflection_color", gpu::Format::rgba16_float, scale));
-  reflections.surface = pass.write("surface_image", reflections.surface);
-  dispatch_mirror_tiles(pass, reflections);
+  light.surface = pass.write("surface_image", surfaces.surface);
+  dispatch_mirror_tiles(pass, surfaces.tiles);
+  return light;
 }
 
 }  // namespace gloam

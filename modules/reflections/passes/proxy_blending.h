@@ -9,7 +9,9 @@ namespace gloam {
 
 [[nodiscard]] ComputeProgram proxy_program(const ReflectionKnobs& knobs);
 
-/// Tier 2, merged with tier 1: writes ReflectionFrame::color and surface.
-void add_proxy_pass(FrameBuilder& frame, ReflectionFrame& reflections);
+/// Tier 2, merged with the hits of tier 1. Writes on `surfaces.surface`.
+[[nodiscard]] MirroredLight add_proxy_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,
+                                           const ReflectionUniforms& uniforms, const MirrorSurfaces& surfaces,
+                                           const ScreenSpaceHits& hits, const ProxyInputs& proxies);
 
 }  // namespace gloam

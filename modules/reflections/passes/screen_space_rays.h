@@ -9,7 +9,8 @@ namespace gloam {
 
 [[nodiscard]] ComputeProgram screen_space_program(const ReflectionKnobs& knobs);
 
-/// Tier 1: writes ReflectionFrame::ssr_color and ssr_distance.
-void add_screen_space_pass(FrameBuilder& frame, ReflectionFrame& reflections);
+/// Tier 1: follows a mirrored ray from each mirror surface through the depth image.
+[[nodiscard]] ScreenSpaceHits add_screen_space_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,
+                                                    const ReflectionUniforms& uniforms, const MirrorTiles& tiles);
 
 }  // namespace gloam

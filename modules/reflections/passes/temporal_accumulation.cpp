@@ -14,28 +14,30 @@ constexpr float kNewShare = 0.15f;  // of a frame in the accumulated reflection
 
 ComputeProgram temporal_program() { return {shaders::reflections::temporal_accumulation_comp}; }
 
-void add_temporal_pass(FrameBuilder& frame, ReflectionFrame& reflections) {
+MirroredLight add_temporal_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,
+                                const MirroredLight& light) {
   gpu::ImageDesc desc;
   desc.name = "reflection_history";
   desc.module = "reflections";
   desc.format = gpu::Format::rgba16_float;
-  desc.width = reflections.constants.size.x;
-  desc.height = reflections.constants.size.y;
+  desc.width = uniforms.constants.size.x;
+  desc.height = uniforms.constants.size.y;
   desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::storage;
   const auto kept = frame.history_image_pair(
       desc, {.rest = gpu::Access::compute_read, .reset = {.camera_cut = true, .most_missed = 0}});
-  if (!frame.check(kept)) return;
+  if (!frame.check(kept)) return light;
   const bool known = kept->valid() && frame.view().has_previous;
   ComputePass pass(frame, "reflection_temporal", temporal_program());
-  pass.read("reflection", reflections.block);
+  pass.read("reflection", uniforms.block);
   pass.uniform("motion", motion_constants(frame.view()));
-  pass.read("mirror_image", reflections.mirror_image);
-  pass.read("surface_image", reflections.surface);
-  pass.read("color_image", reflections.color);
+  pass.read("mirror_image", tiles.image);
+  pass.read("surface_image", light.surface);
+  pass.read("color_image", light.color);
   pass.read("previous_image", known ? kept->previous : ImageRef{}, Sampling::linear);
   pass.push(known ? kNewShare : 1.0f);
-  reflections.color = pass.write("accumulated_image", kept->current);
-  pass.dispatch_over(reflections.constants.size);
+  const ImageRef accumulated = pass.write("accumulated_image", kept->current);
+  pass.dispatch_over(uniforms.constants.size);
+  return {accumulated, light.surface};
 }
 
 }  // namespace gloam

@@ -9,7 +9,8 @@ namespace gloam {
 
 [[nodiscard]] ComputeProgram temporal_program();
 
-/// Replaces ReflectionFrame::color by its accumulation over frames, which the view keeps.
-void add_temporal_pass(FrameBuilder& frame, ReflectionFrame& reflections);
+/// The light, accumulated over frames in an image that the view keeps.
+[[nodiscard]] MirroredLight add_temporal_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms,
+                                              const MirrorTiles& tiles, const MirroredLight& light);
 
 }  // namespace gloam

@@ -151,8 +151,8 @@ ImageRef upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::stri
   return copy.target;
 }
 
-void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ViewFaces& view_faces,
-                        const ShadowKnobs& knobs, ShadowsOutputs& outputs) {
+ShadowUploads add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ViewFaces& view_faces,
+                                 const ShadowKnobs& knobs) {
   const TracedVisibility* traced = traced_visibility_of(frame.world(), frame.view());
   std::vector<shaders::ShadowRow> rows_now = rows_of(frame, view_faces, traced);
   shaders::ShadowBlock block_now = block_of(frame, view_faces, knobs, traced, rows_now);
@@ -161,25 +161,27 @@ void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ViewFac
   rows_now.resize(std::bit_ceil(std::max<std::size_t>(rows_now.size(), kFewestRows)));
   append_cascade_rows(directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id)), block_now,
                       rows_now);
+  ShadowUploads uploads;
   auto block = frame.services().uniforms.write_value(block_now);
-  if (frame.check(block)) outputs.block = *block;
-  outputs.block_values = block_now;
+  if (frame.check(block)) uploads.block = *block;
+  uploads.block_values = block_now;
 
-  outputs.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(rows_now));
-  std::vector<Copy> copies = {add_rows(frame, states, *outputs.row_values)};
-  outputs.cookies = add_cookies(frame, states, copies);
-  if (!outputs.cookies) return;
+  uploads.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(rows_now));
+  std::vector<Copy> copies = {add_rows(frame, states, *uploads.row_values)};
+  uploads.cookies = add_cookies(frame, states, copies);
+  if (!uploads.cookies) return uploads;
   const bool has_traced = traced != nullptr && !traced->lights.empty();
   if (has_traced) copies.push_back(add_traced(frame, states, *traced));
 
   PassBuilder pass = frame.graph().add_pass("shadow_rows", frame.module());
   for (Copy& copy : copies) copy.target = pass.write(copy.target, gpu::Access::transfer_write);
-  outputs.rows = copies.front().target;
-  outputs.cookies = frame.graph().newest(outputs.cookies);
-  if (has_traced) outputs.traced = copies.back().target;
+  uploads.rows = copies.front().target;
+  uploads.cookies = frame.graph().newest(uploads.cookies);
+  if (has_traced) uploads.traced = copies.back().target;
   pass.execute([copies](PassContext& context) {
     for (const Copy& copy : copies) record_copy(context, copy);
   });
+  return uploads;
 }
 
 }  // namespace gloam
