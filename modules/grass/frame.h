@@ -30,10 +30,10 @@ struct StoredPatches {
 
 /// Rows and constants that the passes of a view read.
 struct GrassInputs {
-  std::uint32_t patches = 0;                              ///< number of patch rows
-  std::uint32_t slot_masters = 0;                         ///< StoredPatches::slot_masters
-  std::uint32_t group_masters = 0;                        ///< masters of one workgroup of the simulation
-  SimulationThreads threads = SimulationThreads::device;  ///< as resolved for the device: never `device`
+  std::uint32_t patches = 0;                             ///< number of patch rows
+  std::uint32_t slot_masters = 0;                        ///< StoredPatches::slot_masters
+  std::uint32_t group_masters = 0;                       ///< masters of one workgroup of the simulation
+  SimulationThreads threads = SimulationThreads::blade;  ///< not `device`
   shaders::GrassLod lod;
   shaders::GrassSteps steps;
   gpu::Binding::BufferRange lod_range;   ///< `lod`
