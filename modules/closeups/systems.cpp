@@ -76,7 +76,7 @@ bool give_map(const CloseupSettings& settings, const CloseupSubjects::Subject& s
   view.face = frustum->face;
   view.face.light = view.light;
   view.tan_inner = frustum->tan_inner;
-  view.width_m = static_cast<float>(2.0 * light->radius_m);
+  view.emitter_diameter_m = static_cast<float>(2.0 * light->emitter_radius_m);
   view.penumbra_m_per_m = static_cast<float>(2.0 * light->spread);
   view.light_position = view.directional ? dvec3(0.0) : light->position;
   return true;

@@ -20,19 +20,29 @@ struct DofLayers {
   ImageRef near;  ///< rgba16f: light multiplied by its share in alpha
 };
 
-/// A view's depth of field while its passes are declared.
-struct DofFrame {
+/// Constants and images that the passes of a view read.
+struct DofInputs {
   DofKnobs knobs;
   Bokeh bokeh = Bokeh::round;
   shaders::DofConstants constants{};
   gpu::Binding::BufferRange block;  ///< the constants
   ImageRef depth;
+
+  [[nodiscard]] std::uint32_t scale() const { return knobs.scale(); }
+};
+
+/// Tiles in which something is blurred.
+struct DofTiles {
   ImageRef reach;     ///< reach.comp
   BufferRef lists;    ///< DofList, GLOAM_DOF_LISTS of them
   BufferRef entries;  ///< list.comp
   BufferRef flags;    ///< list.comp
+};
 
-  [[nodiscard]] std::uint32_t scale() const { return knobs.scale(); }
+/// A view's depth of field, for counters and visualizers. On the board after PassPhase::post.
+struct DofFrame {
+  DofInputs inputs;
+  DofTiles tiles;
 };
 
 }  // namespace gloam

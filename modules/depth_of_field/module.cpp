@@ -10,9 +10,9 @@
 #include "engine/scene/key_table.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/depth_of_field/debug/coc_view.h"
+#include "modules/depth_of_field/dof_passes.h"
 #include "modules/depth_of_field/knobs.h"
 #include "modules/depth_of_field/lens/lens.h"
-#include "modules/depth_of_field/passes.h"
 #include "modules/depth_of_field/reference/lens_picture.h"
 #include "modules/depth_of_field/reference/lens_reference.h"
 
@@ -75,7 +75,7 @@ class DepthOfFieldModule final : public Module {
     if (phase == PassPhase::post) add_post_passes(frame);
     const DofFrame* dof = frame.find<DofFrame>();
     if (dof == nullptr || !frame.status().ok()) return;
-    if (phase == PassPhase::post) frame.keep_result("depth_of_field", kListsResult, dof->lists);
+    if (phase == PassPhase::post) frame.keep_result("depth_of_field", kListsResult, dof->tiles.lists);
     if (phase == PassPhase::visualize) add_dof_view_pass(frame, *dof);
   }
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {

@@ -16,32 +16,65 @@ namespace gloam {
 /// Buffers of one world that live over frames; a slot has room for one patch.
 struct GrassStore {
   BufferRef rows;    ///< GrassBladeRow, 256 per slot
-  BufferRef stamps;  ///< uint: step that a master has reached, GrassFrame::slot_masters per slot
+  BufferRef stamps;  ///< uint: step that a master has reached, StoredPatches::slot_masters per slot
   BufferRef knots;   ///< vec4, 16 per master
   BufferRef previous_knots;
 };
 
-/// The grass of one view of one frame, as its passes hand it on.
-struct GrassFrame {
-  GrassKnobs knobs;
-  std::vector<ResidentPatch> patches;  ///< of the patch rows, nearest first
-  std::uint32_t group_masters = 0;     ///< masters of one workgroup of the simulation
+/// Patches of a view that have a slot, and the buffers of their world.
+struct StoredPatches {
+  std::vector<ResidentPatch> patches;  ///< nearest first
   std::uint32_t slot_masters = 0;      ///< masters for which a slot has room
+  GrassStore store;
+};
+
+/// Rows and constants that the passes of a view read.
+struct GrassInputs {
+  std::uint32_t patches = 0;                             ///< number of patch rows
+  std::uint32_t slot_masters = 0;                        ///< StoredPatches::slot_masters
+  std::uint32_t group_masters = 0;                       ///< masters of one workgroup of the simulation
+  SimulationThreads threads = SimulationThreads::blade;  ///< not `device`
   shaders::GrassLod lod;
   shaders::GrassSteps steps;
-  gpu::Binding::BufferRange lod_range;
-  gpu::Binding::BufferRange patch_rows;
+  gpu::Binding::BufferRange lod_range;   ///< `lod`
+  gpu::Binding::BufferRange patch_rows;  ///< of StoredPatches::patches
   gpu::Binding::BufferRange types;
   gpu::Binding::BufferRange colliders;
   bool has_colliders = false;  ///< near any of the patches
-  GrassStore store;
+};
+
+/// Blades of a view's patches, the drawn ones counted.
+struct SortedBlades {
   BufferRef blades;    ///< patch row · 256 + index in the patch, sorted by key
   BufferRef bins;      ///< 257 words: exclusive prefix sum over the keys
   BufferRef draws;     ///< shaders::GrassDraws
-  BufferRef dispatch;  ///< shaders::GrassDispatch
+  BufferRef dispatch;  ///< shaders::GrassDispatch, without masters
+};
+
+/// Masters that a frame simulates.
+struct MasterList {
   BufferRef masters;   ///< shaders::GrassMaster
-  BufferRef poses;     ///< shaders::GrassPose, of the live blades in sorted order
-  BufferRef indices;   ///< of all draw classes
+  BufferRef dispatch;  ///< shaders::GrassDispatch
+  BufferRef stamps;    ///< GrassStore::stamps after the frame
+};
+
+/// Everything that the draws of blades read.
+struct DrawnBlades {
+  BufferRef poses;    ///< shaders::GrassPose, of the live blades in sorted order
+  BufferRef draws;    ///< shaders::GrassDraws
+  BufferRef knots;    ///< GrassStore::knots
+  BufferRef indices;  ///< of all draw classes
+};
+
+/// The grass of one view of one frame, for casters, visualizers and picking. On the board as std::shared_ptr from
+/// PassPhase::announce on; empty until add_grass_passes() sets it as a whole.
+struct GrassFrame {
+  StoredPatches stored;
+  shaders::GrassLod lod;
+  shaders::GrassSteps steps;
+  SortedBlades sorted;
+  BufferRef dispatch;  ///< MasterList::dispatch
+  DrawnBlades drawn;
 };
 
 }  // namespace gloam

@@ -13,10 +13,10 @@
 #include "modules/grass/components.h"
 #include "modules/grass/debug/lod_view.h"
 #include "modules/grass/debug/pick.h"
+#include "modules/grass/grass_passes.h"
 #include "modules/grass/keys.h"
-#include "modules/grass/passes.h"
 #include "modules/grass/simulation/colliders.h"
-#include "modules/grass/simulation/pass.h"
+#include "modules/grass/simulation/simulate_blades_pass.h"
 
 namespace gloam {
 namespace {
@@ -95,10 +95,10 @@ class GrassModule final : public Module {
     if (phase == PassPhase::announce) announce_grass(frame);
     if (phase == PassPhase::geometry) add_grass_passes(frame, worlds_);
     const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();
-    if (grass == nullptr || (*grass)->patches.empty()) return;
+    if (grass == nullptr || (*grass)->stored.patches.empty()) return;
     if (phase == PassPhase::visualize) add_grass_view_pass(frame, **grass);
     if (phase != PassPhase::geometry || !frame.status().ok()) return;
-    frame.keep_result("grass", kDrawsResult, (*grass)->draws);
+    frame.keep_result("grass", kDrawsResult, (*grass)->sorted.draws);
     frame.keep_result("grass", kDispatchResult, (*grass)->dispatch);
   }
   void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {
@@ -116,13 +116,13 @@ class GrassModule final : public Module {
   }
   [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {
     const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();
-    if (grass == nullptr || (*grass)->patches.empty()) return {};
+    if (grass == nullptr || (*grass)->stored.patches.empty()) return {};
     return add_grass_pick_copies(frame, **grass, copies);
   }
   [[nodiscard]] std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
                                               const Captures& copies) const override {
     const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();
-    if (grass == nullptr || (*grass)->patches.empty()) return {};
+    if (grass == nullptr || (*grass)->stored.patches.empty()) return {};
     return grass_pick_lines(frame, **grass, pixel, copies);
   }
   void release() override { worlds_.stores.clear(); }

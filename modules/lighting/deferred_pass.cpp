@@ -5,8 +5,8 @@
 
 #include "engine/render/declare/draw_pass.h"
 #include "modules/lighting/environment.h"
+#include "modules/lighting/lighting_passes.h"
 #include "modules/lighting/outputs.h"
-#include "modules/lighting/passes.h"
 #include "modules/shadows/outputs.h"
 #include "shaders/lighting/shaders.h"
 

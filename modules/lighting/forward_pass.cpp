@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include "engine/render/declare/draw_pass.h"
+#include "modules/lighting/lighting_passes.h"
 #include "modules/lighting/outputs.h"
-#include "modules/lighting/passes.h"
 #include "shaders/lighting/shaders.h"
 
 namespace gloam {

@@ -7,7 +7,7 @@
 
 #include "modules/lighting/antialiasing/reference.h"
 #include "modules/lighting/components.h"
-#include "modules/lighting/passes.h"
+#include "modules/lighting/lighting_passes.h"
 #include "modules/lighting/tone_reference.h"
 
 namespace gloam {

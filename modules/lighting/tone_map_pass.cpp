@@ -3,9 +3,9 @@
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
 #include "engine/scene/resources.h"
-#include "modules/lighting/antialiasing/passes.h"
+#include "modules/lighting/antialiasing/smooth_edges_passes.h"
 #include "modules/lighting/exposure.h"
-#include "modules/lighting/passes.h"
+#include "modules/lighting/lighting_passes.h"
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/shaders.h"
 

@@ -19,7 +19,7 @@
 #include "modules/particles/emitters/visible.h"
 #include "modules/particles/keys.h"
 #include "modules/particles/knobs.h"
-#include "modules/particles/passes.h"
+#include "modules/particles/particle_passes.h"
 #include "modules/particles/reference/adapter.h"
 
 namespace gloam {
@@ -71,8 +71,8 @@ class ParticlesModule final : public Module {
     const ParticlesFrame* particles = frame.find<ParticlesFrame>();
     if (phase == PassPhase::visualize) add_overdraw_passes(frame, particles);
     if (phase != PassPhase::translucent || particles == nullptr || !frame.status().ok()) return;
-    last_version_ = particle_light_version(frame, *particles);
-    frame.keep_result("particles", kDrawsResult, particles->draws, particles->lighting);
+    last_version_ = particle_light_version(frame, particles->inputs.atlas);
+    frame.keep_result("particles", kDrawsResult, particles->sorted.draws, particles->inputs.lighting);
   }
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
     if (name != kDrawsResult) return;

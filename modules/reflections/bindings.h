@@ -4,7 +4,6 @@
 
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "engine/render/declare/shader_pass.h"
 #include "modules/lighting/outputs.h"
@@ -14,14 +13,14 @@ namespace gloam {
 
 /// Uploads rows as storage; one default row if there are none, because a binding is never empty.
 template <class T>
-void bind_rows(ShaderPass& pass, std::string_view binding, const std::vector<T>& rows) {
+void bind_rows(ShaderPass& pass, std::string_view binding, std::span<const T> rows) {
   const T none[1] = {};
-  pass.items(binding, rows.empty() ? std::span<const T>(none) : std::span<const T>(rows));
+  pass.items(binding, rows.empty() ? std::span<const T>(none) : rows);
 }
 
 /// Binds what shaders/reflections/proxies/changed_light_api.glsl reads.
-inline void read_changed_lights(ShaderPass& pass, FrameBuilder& frame, const ReflectionFrame& reflections) {
-  bind_rows(pass, "changed_lights", reflections.changed);
+inline void read_changed_lights(ShaderPass& pass, FrameBuilder& frame, std::span<const shaders::ChangedLight> changed) {
+  bind_rows(pass, "changed_lights", changed);
   const DiffuseLightOutput* diffuse = frame.find<DiffuseLightOutput>();
   pass.read("diffuse_light", diffuse != nullptr ? diffuse->light : ImageRef{});
 }

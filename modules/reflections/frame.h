@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+//
+// Data of one view's reflections, in the order in which a frame makes them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/frame/frame_graph.h"
@@ -21,33 +25,75 @@ struct PlanarMirror {
   ViewId view{0};         ///< the companion that draws the mirrored scene
 };
 
-/// A view's reflections, on the board from PassPhase::announce on; images from PassPhase::shading on. Images of the
-/// first two tiers are null when no visible material is smooth enough for them.
-struct ReflectionFrame {
+/// Which reflections a frame draws, and from which rows. On the board from PassPhase::announce on.
+struct ReflectionPlan {
   ReflectionKnobs knobs;
-  bool mirror = false;  ///< screen space or proxies are drawn
-  shaders::ReflectionConstants constants{};
-  gpu::Binding::BufferRange block;  ///< ReflectionConstants
-  gpu::Binding::BufferRange tiles;  ///< ProxyTileConstants
+  bool mirror = false;                       ///< mirror surfaces get a reflection: tiers 1 and 2, or `planar`
+  shaders::ReflectionConstants constants{};  ///< without fog
   std::vector<shaders::ProxyRow> proxies;
   std::vector<shaders::ProbeRow> probes;
   std::vector<shaders::ChangedLight> changed;
   bool no_specular = false;                   ///< for references: nothing is added (ReflectionOverride)
   const TracedReflections* traced = nullptr;  ///< for references: takes the place of all tiers
-  ImageRef traced_image;                      ///< rgba32f, of the view's size
-  std::optional<PlanarMirror> planar;         ///< takes the place of the first two tiers
-  ImageRef proxy_images;
+  std::optional<PlanarMirror> planar;         ///< takes the place of tiers 1 and 2
+};
+
+/// Constants that all passes of a view read.
+struct ReflectionUniforms {
+  shaders::ReflectionConstants constants{};
+  gpu::Binding::BufferRange block;  ///< `constants`
+  gpu::Binding::BufferRange tiles;  ///< ProxyTileConstants
+};
+
+/// Proxies that rays of the view may meet.
+struct ProxyInputs {
+  std::span<const shaders::ProxyRow> rows;
+  std::span<const std::uint32_t> masks;            ///< ProxyTiles::masks
+  std::span<const shaders::ChangedLight> changed;  ///< lights that have changed since the capture
+  ImageRef images;                                 ///< captures, one layer each; null: none
+};
+
+/// Probes that the composite samples.
+struct ProbeInputs {
+  std::span<const shaders::ProbeRow> rows;
+  std::span<const shaders::ChangedLight> changed;  ///< lights that have changed since the capture
+  ImageRef images;                                 ///< captures, one layer each; null: none
+};
+
+/// Tiles of GLOAM_REFLECTION_GROUP texels' side, and those among them that hold a mirror surface.
+struct MirrorTiles {
+  ImageRef image;           ///< rg32ui, of all texels: mirror_surface_api.glsl
+  BufferRef commands;       ///< MirrorCommands
+  BufferRef places;         ///< the listed tiles, x | y << 16
+  BufferRef roughness;      ///< of every tile: 1…255; 0: without a mirror surface
+  std::uint32_t count = 0;  ///< of all tiles
+};
+
+/// Surfaces that tiers 1 and 2 serve.
+struct MirrorSurfaces {
+  MirrorTiles tiles;
+  ImageRef surface;  ///< rgba8, cleared in all texels: MirroredLight::surface is written on it
+};
+
+/// Tier 1; null images without it.
+struct ScreenSpaceHits {
+  ImageRef color;     ///< rgba16f: radiance and confidence
+  ImageRef distance;  ///< rgba8: packed distance in xy
+};
+
+/// Light that mirror surfaces reflect.
+struct MirroredLight {
+  ImageRef color;    ///< rgba16f: premultiplied radiance and confidence of tiers 1 and 2
+  ImageRef surface;  ///< rgba8: spread, roughness (0: no reflection), packed distance in zw
+};
+
+/// Handles that visualizers and picking read. On the board after PassPhase::shading. The images of `hits` and `light`
+/// are null when no visible material is smooth enough for them.
+struct ReflectionHandles {
+  ReflectionUniforms uniforms;
+  ScreenSpaceHits hits;
+  MirroredLight light;
   ImageRef probe_images;
-  std::uint32_t tile_count = 0;  ///< of GLOAM_REFLECTION_GROUP texels' side
-  BufferRef commands;            ///< MirrorCommands
-  BufferRef places;              ///< the listed tiles, x | y << 16
-  BufferRef tile_roughness;      ///< of every tile: 1…255; 0: without a mirror surface
-  ImageRef mirror_image;         ///< rg32ui: mirror_surface_api.glsl
-  ImageRef upscaled;             ///< rgba16f of the view's size: `color` with bent lookup, sharp hits and fog
-  ImageRef ssr_color;            ///< rgba16f: radiance and confidence of tier 1
-  ImageRef ssr_distance;         ///< rgba8: packed distance in xy
-  ImageRef color;                ///< rgba16f: premultiplied radiance and confidence of tiers 1 and 2
-  ImageRef surface;              ///< rgba8: spread, roughness (0: no reflection), packed distance in zw
 };
 
 }  // namespace gloam

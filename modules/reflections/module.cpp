@@ -16,12 +16,12 @@
 #include "modules/reflections/frame.h"
 #include "modules/reflections/knobs.h"
 #include "modules/reflections/materials.h"
-#include "modules/reflections/passes.h"
 #include "modules/reflections/planar/mirror.h"
 #include "modules/reflections/planar/patches.h"
 #include "modules/reflections/proxies/rows.h"
 #include "modules/reflections/proxies/systems.h"
 #include "modules/reflections/reference/adapter.h"
+#include "modules/reflections/reflection_passes.h"
 
 namespace gloam {
 namespace {
@@ -143,7 +143,7 @@ class ReflectionsModule final : public Module {
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::announce) announce_reflections(frame);
     if (phase == PassPhase::shading) add_reflection_passes(frame, staging_);
-    if (const auto* reflections = frame.find<ReflectionFrame>()) last_probes_ = reflections->probes.size();
+    if (const auto* plan = frame.find<ReflectionPlan>()) last_probes_ = plan->probes.size();
     if (phase == PassPhase::visualize) add_reflection_view_pass(frame);
   }
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {

@@ -25,8 +25,8 @@ struct CasterVolume {
 /// Whether an emissive mesh is part of a lamp: the glass or the flame that shines, not something in its way. A bulb
 /// does not cast into the maps of its light. It touches the emitter's ball, or almost, and is not much larger. min,
 /// max: bounds of the mesh, in the space of `light`. half_diagonal_m: half the diagonal of the mesh's own box; 0 for a
-/// mesh that is not emissive. emitter_m: radius of the emitter; below 0: the light is no lamp.
-[[nodiscard]] bool is_bulb(const dvec3& light, double emitter_m, const dvec3& min, const dvec3& max,
+/// mesh that is not emissive. emitter_radius_m: below 0: the light is no lamp.
+[[nodiscard]] bool is_bulb(const dvec3& light, double emitter_radius_m, const dvec3& min, const dvec3& max,
                            double half_diagonal_m);
 
 }  // namespace gloam

@@ -74,8 +74,8 @@ Demand shadow_demand(const World& world, const RenderView* view) {
   if (view == nullptr || (counts.cookies > 0 && shows_cookie(world, view->id))) return {true, words};
   const ShadowSettings* settings = world.try_view_resource<ShadowSettings>(view->id);
   if (settings != nullptr && !settings->enabled) return {false, words + ", but shadows.mode=off"};
-  const ShadowViews* views = world.try_view_resource<ShadowViews>(view->id);
-  if (views != nullptr && views->casting_lights == 0) return {false, words + ", none in view"};
+  const ViewFaces* view_faces = world.try_view_resource<ViewFaces>(view->id);
+  if (view_faces != nullptr && view_faces->casting_lights == 0) return {false, words + ", none in view"};
   return {true, words};
 }
 

@@ -27,8 +27,8 @@
 #include "modules/shadows/maps/state.h"
 #include "modules/shadows/maps/tools.h"
 #include "modules/shadows/outputs.h"
-#include "modules/shadows/passes.h"
 #include "modules/shadows/reference/adapter.h"
+#include "modules/shadows/shadow_passes.h"
 #include "modules/shadows/systems.h"
 
 namespace gloam {
@@ -137,19 +137,19 @@ class ShadowsModule final : public Module {
   }
 
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
-    const ShadowViews& views = world.view_resource<ShadowViews>(view.id);
-    const ViewShadows* kept = states_.find(world_id(world), views.owner);
+    const ViewFaces& view_faces = world.view_resource<ViewFaces>(view.id);
+    const ViewMapState* kept = states_.find(world_id(world), view_faces.owner);
     const ShadowCounts counts = kept == nullptr ? ShadowCounts{} : kept->counts;
-    const auto texels = static_cast<double>(views.atlas.size()) * views.atlas.size();
-    sink.count("shadows.casting_lights", views.casting_lights);
+    const auto texels = static_cast<double>(view_faces.atlas.size()) * view_faces.atlas.size();
+    sink.count("shadows.casting_lights", view_faces.casting_lights);
     sink.count("shadows.faces_drawn", counts.drawn);
     sink.count("shadows.faces_cached", counts.cached);
     sink.count("shadows.faces_skipped", counts.skipped);
     sink.count("shadows.texels_drawn", static_cast<double>(counts.texels));
-    sink.count("shadows.faces_shrunk", views.faces_shrunk);
-    sink.count("shadows.faces_at_limit", views.faces_at_limit);
-    sink.count("shadows.faces_left_out", views.faces_left_out);
-    sink.count("shadows.atlas_used", static_cast<double>(views.atlas.used_texels()) / std::max(texels, 1.0));
+    sink.count("shadows.faces_shrunk", view_faces.faces_shrunk);
+    sink.count("shadows.faces_at_limit", view_faces.faces_at_limit);
+    sink.count("shadows.faces_left_out", view_faces.faces_left_out);
+    sink.count("shadows.atlas_used", static_cast<double>(view_faces.atlas.used_texels()) / std::max(texels, 1.0));
   }
 
   void release_view(ViewId view) override { states_.release_view(view); }
@@ -168,13 +168,13 @@ class ShadowsModule final : public Module {
   }
   void warn(FrameBuilder& frame) {
     if (frame.view().is_companion()) return;  // nobody asked for its picture
-    const ShadowViews& views = frame.world().view_resource<ShadowViews>(frame.view().id);
+    const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
     LogSink& log = frame.services().log;
-    if (views.faces_shrunk > 0)
+    if (view_faces.faces_shrunk > 0)
       once_log_.warning(log,
                         "shadow maps are smaller than they should be: the atlas is full (shadows.atlas, counter "
                         "shadows.faces_shrunk)");
-    if (views.faces_left_out > 0)
+    if (view_faces.faces_left_out > 0)
       once_log_.warning(
           log, "some lights cast no shadow: the atlas is full (shadows.atlas, counter shadows.faces_left_out)");
     for (const std::string& fault : frame.world().resource<Cookies>().faults) once_log_.warning(log, fault);

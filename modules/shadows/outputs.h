@@ -51,10 +51,10 @@ struct ShadowFace {
   float half_extent_m = 0.0f;  ///< orthographic: half the width of the box, rim included
   float near_m = 0.05f;        ///< perspective: depth of the near plane; orthographic: 0
   float far_m = 0.0f;  ///< perspective: range of the light, a distance from `origin`; orthographic: depth of the box
-  float emitter_m = -1.0f;  ///< radius of a local light's emitter; directional: −1
-  AtlasSquare square;       ///< place in the atlas
-  float importance = 0.0f;  ///< ≥ 0; when the atlas is full, the least important faces halve first
-  std::uint32_t view = 0;   ///< as FaceKey::view
+  float emitter_radius_m = -1.0f;  ///< local light: ≥ 0; directional: −1
+  AtlasSquare square;              ///< place in the atlas
+  float importance = 0.0f;         ///< ≥ 0; when the atlas is full, the least important faces halve first
+  std::uint32_t view = 0;          ///< as FaceKey::view
 };
 
 /// A rectangle of a face's texels: x from the left edge, y from the upper edge. `end` is one past the last texel.
@@ -281,11 +281,11 @@ struct OverlayRoom {
   bool wanted = false;
 };
 
-struct ShadowViews;
+struct ViewFaces;
 class FreeSquares;
 
 /// Chooses the faces that are copied in a frame and finds squares for the copies. The world must outlive the plan, and
-/// the view's ShadowViews must not change while the plan is in use. On a default-constructed plan, add() always returns
+/// the view's ViewFaces must not change while the plan is in use. On a default-constructed plan, add() always returns
 /// false.
 class OverlayPlan {
  public:
@@ -297,7 +297,7 @@ class OverlayPlan {
   [[nodiscard]] std::span<const OverlayFace> faces() const { return faces_; }
 
  private:
-  const ShadowViews* views_ = nullptr;
+  const ViewFaces* view_faces_ = nullptr;
   std::shared_ptr<const FreeSquares> free_;
   std::vector<OverlayFace> faces_;
 };

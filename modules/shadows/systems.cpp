@@ -101,8 +101,8 @@ void shadow_bounds_system(ViewResource<const VisibleLights> visible,
 
 void shadow_views_system(ViewResource<const VisibleLights> visible, ViewResource<const RenderView> view,
                          ViewResource<const ShadowSettings> settings, ViewResource<const OverlayRoom> overlays,
-                         ViewResource<const CasterBounds> casters, ShadowLights lights,
-                         ViewResource<ShadowViews> shadows, JobExecutor& jobs) {
+                         ViewResource<const CasterBounds> casters, ShadowLights lights, ViewResource<ViewFaces> shadows,
+                         JobExecutor& jobs) {
   shadows->spare_for_overlays = overlays->wanted;
   const std::vector<ShadowLight> local = gather(local_lights(*visible), lights, jobs);
   const std::vector<ShadowLight> directional = gather(directional_lights(*visible), lights, jobs);
@@ -134,22 +134,22 @@ void prepare_shadow_view(World& world, ViewId view, const ShadowKnobs& knobs) {
   if (world.try_view_resource<CasterBounds>(view) == nullptr) world.set_view_resource(view, CasterBounds{});
   if (world.try_view_resource<ShadowSettings>(view) == nullptr) world.set_view_resource(view, ShadowSettings{});
   world.set_view_resource(view, OverlayRoom{});
-  if (world.try_view_resource<ShadowViews>(view) == nullptr) world.set_view_resource(view, ShadowViews{});
-  auto& views = world.view_resource<ShadowViews>(view);
+  if (world.try_view_resource<ViewFaces>(view) == nullptr) world.set_view_resource(view, ViewFaces{});
+  auto& view_faces = world.view_resource<ViewFaces>(view);
   const auto* render_view = world.try_view_resource<RenderView>(view);
   // A view and its companions share the atlas of the view, captures share another one.
   const bool together = render_view != nullptr && (render_view->is_companion() || render_view->has_companions);
   const bool captures = !together && render_view != nullptr && render_view->purpose == ViewPurpose::capture;
-  views.leads = together && !render_view->is_companion();
-  views.owner = captures ? owner_of_captures(knobs) : together ? render_view->main_view : view;
+  view_faces.leads = together && !render_view->is_companion();
+  view_faces.owner = captures ? owner_of_captures(knobs) : together ? render_view->main_view : view;
   if (!captures && !together) {
-    views.shared = nullptr;
+    view_faces.shared = nullptr;
     return;
   }
-  std::weak_ptr<SharedPlaces>& known = world.resource<CapturePlaces>().by_owner[views.owner.value];
-  views.shared = known.lock();
-  if (views.shared == nullptr) known = views.shared = std::make_shared<SharedPlaces>();
-  if (captures) views.shared->join(render_view->frame, view.value);
+  std::weak_ptr<SharedPlaces>& known = world.resource<CapturePlaces>().by_owner[view_faces.owner.value];
+  view_faces.shared = known.lock();
+  if (view_faces.shared == nullptr) known = view_faces.shared = std::make_shared<SharedPlaces>();
+  if (captures) view_faces.shared->join(render_view->frame, view.value);
 }
 
 }  // namespace gloam

@@ -29,14 +29,14 @@ void shadow_bounds_system(ViewResource<const VisibleLights> visible,
 /// Finds the faces of the view's lights and their places in the atlas.
 void shadow_views_system(ViewResource<const VisibleLights> visible, ViewResource<const RenderView> view,
                          ViewResource<const ShadowSettings> settings, ViewResource<const OverlayRoom> overlays,
-                         ViewResource<const CasterBounds> casters, ShadowLights lights,
-                         ViewResource<ShadowViews> shadows, JobExecutor& jobs);
+                         ViewResource<const CasterBounds> casters, ShadowLights lights, ViewResource<ViewFaces> shadows,
+                         JobExecutor& jobs);
 
 /// Adds the systems shadow_bounds and shadow_views. They run after light_sort, so the lights module's systems must be
 /// added first.
 void add_shadow_systems(Schedule& schedule);
 
-/// Creates the view resources that the systems need (CasterBounds, OverlayRoom, ShadowSettings, ShadowViews), unless
+/// Creates the view resources that the systems need (CasterBounds, OverlayRoom, ShadowSettings, ViewFaces), unless
 /// they exist.
 void prepare_shadow_view(World& world, ViewId view, const ShadowKnobs& knobs);
 

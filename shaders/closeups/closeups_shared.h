@@ -11,7 +11,7 @@ GLOAM_SHARED_BEGIN
 struct CloseupConstants {
   // Perspective: as in the ShadowRow of a spot light.
   float near_m;
-  float width_m;  // diameter of the emitter
+  float emitter_diameter_m;
   float tan_half;
   float tan_inner;
   vec3 right;  // axis of the face, world

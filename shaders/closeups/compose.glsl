@@ -84,14 +84,16 @@ vec4 place_in_face(LightOfPair l, vec3 position) {
 }
 
 // Width of a penumbra in texels, per unit of depth between blocker and receiver.
-float penumbra_texels() { return closeup.width_m * closeup.size / (closeup.near_m * 2.0 * closeup.tan_half); }
+float penumbra_texels() {
+  return closeup.emitter_diameter_m * closeup.size / (closeup.near_m * 2.0 * closeup.tan_half);
+}
 
 ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
   LightFaces face;
   face.along_x = closeup.origin.xxx;
   face.along_y = closeup.origin.yyy;
   LocalShadow shadow =
-      LocalShadow(l.light.position, vec4(GLOAM_SHADOW_SPOT, closeup.near_m, closeup.width_m, closeup.size),
+      LocalShadow(l.light.position, vec4(GLOAM_SHADOW_SPOT, closeup.near_m, closeup.emitter_diameter_m, closeup.size),
                   vec4(closeup.right, closeup.tan_half), vec4(closeup.up, closeup.tan_inner),
                   cross(closeup.up, closeup.right), face);
   return local_shadow_point(shadow, r);

@@ -6,8 +6,8 @@
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_api.glsl"
 
-// The surface that a texel of the reflection images stands for, as surfaces/find.comp.glsl stores it. Include this
-// after the uniforms `view` and `reflection`.
+// The surface that a texel of the reflection images stands for, as passes/mirror_surfaces.comp.glsl stores it. Include
+// this after the uniforms `view` and `reflection`.
 
 struct MirrorSurface {
   ivec2 pixel;     // of the view

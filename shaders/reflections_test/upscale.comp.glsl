@@ -18,7 +18,7 @@ layout(set = 0, binding = 4) uniform sampler2D color_image;
 layout(set = 0, binding = 5) uniform sampler2D surface_image;
 layout(set = 0, binding = 6, scalar) writeonly buffer Lights { vec4 lights[]; };
 
-#include "shaders/reflections/composite/upscale.glsl"
+#include "shaders/reflections/passes/upscale.glsl"
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

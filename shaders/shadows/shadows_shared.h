@@ -47,12 +47,12 @@ GLOAM_SHARED_BEGIN
 /// Light row of a local light: GLOAM_SHADOW_ROW_TEXELS texels of an rgba32f image. Row number: index of the light in
 /// the view.
 struct ShadowRow {
-  float kind;      // GLOAM_SHADOW_NONE, _SPOT or _CUBE
-  float near_m;    // depth of the near plane; nearer surfaces neither block nor are in shadow
-  float width_m;   // diameter of the emitter; 0: hard shadows
-  float size;      // texels of a face's side; all faces of the light have the same
-  vec3 right;      // axes of the light's node in the world; for a spot those of its face
-  float tan_half;  // tangent of half a face's field of view, with the rim
+  float kind;                // GLOAM_SHADOW_NONE, _SPOT or _CUBE
+  float near_m;              // depth of the near plane; nearer surfaces neither block nor are in shadow
+  float emitter_diameter_m;  // 0: hard shadows
+  float size;                // texels of a face's side; all faces of the light have the same
+  vec3 right;                // axes of the light's node in the world; for a spot those of its face
+  float tan_half;            // tangent of half a face's field of view, with the rim
   vec3 up;
   float tan_inner;  // tangent of half the field of view without the rim; points beyond it belong to another face or to
                     // none

@@ -43,9 +43,8 @@ ROOMS = {
     "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
                         ("components", "outputs", "knobs", "reference")),
     "modules/closeups": (("umbra", "pairs", "compose", "debug"), ("components", "knobs")),
-    "modules/lighting": (("antialiasing",), ("components", "outputs", "environment", "exposure", "passes")),
-    "modules/reflections": (("culling", "surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
-                             "fitting", "bake", "reference", "debug"),
+    "modules/lighting": (("antialiasing",), ("components", "outputs", "environment", "exposure", "lighting_passes")),
+    "modules/reflections": (("culling", "proxies", "planar", "probes", "passes", "fitting", "bake", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials")),
     "modules/grass": (("growth", "field", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
     "modules/particles": (("emitters", "bake", "simulation", "sorting", "lighting", "drawing", "reference", "debug"),
@@ -62,8 +61,7 @@ ROOMS = {
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
     "shaders/particles": (("simulation", "sorting", "lighting", "drawing", "debug"), None),
-    "shaders/reflections": (("culling", "surfaces", "proxies", "screen_space", "planar", "probes", "temporal", "glossy", "composite",
-                             "debug"), None),
+    "shaders/reflections": (("culling", "proxies", "probes", "passes", "debug"), None),
 }
 
 # Third-party headers: the folders that may include them, and those that a public header may not include.

@@ -6,7 +6,7 @@
 #include "engine/render/attempt.h"
 #include "engine/render/frame/stages.h"
 #include "engine/render/modules_in_use/visualizers.h"
-#include "engine/render/passes/passes.h"
+#include "engine/render/passes/renderer_passes.h"
 
 namespace gloam {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include "engine/render/declare/draw_pass.h"
-#include "engine/render/passes/passes.h"
+#include "engine/render/passes/renderer_passes.h"
 #include "shaders/render/shaders.h"
 
 namespace gloam {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/render/declare/compute_pass.h"
-#include "engine/render/passes/passes.h"
+#include "engine/render/passes/renderer_passes.h"
 #include "engine/scene/resources.h"
 #include "shaders/render/shaders.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
-#include "engine/render/passes/passes.h"
+#include "engine/render/passes/renderer_passes.h"
 #include "engine/render/scene/material_packing.h"
 #include "shaders/render/shaders.h"
 

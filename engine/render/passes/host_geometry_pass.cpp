@@ -3,7 +3,7 @@
 #include <map>
 
 #include "engine/render/declare/draw_pass.h"
-#include "engine/render/passes/passes.h"
+#include "engine/render/passes/renderer_passes.h"
 #include "shaders/render/host_geometry_shared.h"
 #include "shaders/render/shaders.h"
 

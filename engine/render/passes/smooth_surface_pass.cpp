@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/render/declare/draw_pass.h"
-#include "engine/render/passes/passes.h"
+#include "engine/render/passes/renderer_passes.h"
 #include "shaders/render/shaders.h"
 #include "shaders/render/smooth_surface_shared.h"
 

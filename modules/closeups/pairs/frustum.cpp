@@ -57,8 +57,9 @@ double subject_tangent(const CloseupAxes& axes, const WorldBox& box, const Close
   double widest = 0.0;
   for (int c = 0; c < 8; ++c) {
     const dvec3 at = along(axes, corner_of(box, c) - light.position);
-    if (!(at.z > light.radius_m * (1.0 + kRounded) + 1e-9)) return std::numeric_limits<double>::infinity();
-    widest = std::max({widest, widest_tangent(at.x, at.z, light.radius_m), widest_tangent(at.y, at.z, light.radius_m)});
+    if (!(at.z > light.emitter_radius_m * (1.0 + kRounded) + 1e-9)) return std::numeric_limits<double>::infinity();
+    widest = std::max({widest, widest_tangent(at.x, at.z, light.emitter_radius_m),
+                       widest_tangent(at.y, at.z, light.emitter_radius_m)});
   }
   return widest;
 }
@@ -77,7 +78,7 @@ ShadowFace looking_along(const CloseupAxes& axes, std::uint32_t size) {
 
 std::optional<CloseupFrustum> local_frustum(const CloseupLight& light, const WorldBox& subject, std::uint32_t size) {
   const dvec3 away = light.position - glm::clamp(light.position, subject.min, subject.max);
-  if (!(glm::dot(away, away) > light.radius_m * light.radius_m)) return std::nullopt;
+  if (!(glm::dot(away, away) > light.emitter_radius_m * light.emitter_radius_m)) return std::nullopt;
   const dvec3 middle = (subject.min + subject.max) * 0.5 - light.position;
   if (!(glm::dot(middle, middle) > 0.0)) return std::nullopt;
   CloseupAxes axes = closeup_axes(glm::normalize(middle));
@@ -98,7 +99,7 @@ std::optional<CloseupFrustum> local_frustum(const CloseupLight& light, const Wor
   frustum.face.tan_half = static_cast<float>(outer);
   frustum.face.near_m = static_cast<float>(std::max(kNearestMeter, extent.low.z * (1.0 - kRounded)));
   frustum.face.far_m = static_cast<float>(light.range_m);
-  frustum.face.emitter_m = static_cast<float>(light.radius_m);
+  frustum.face.emitter_radius_m = static_cast<float>(light.emitter_radius_m);
   frustum.tan_inner = static_cast<float>(inner);
   if (!(extent.high.z > frustum.face.near_m) || !(frustum.face.near_m < frustum.face.far_m)) return std::nullopt;
   return frustum;

@@ -32,9 +32,9 @@ struct CloseupView {
   /// Kind spot or directional; index 0. square.size is a power of two; square.origin is not set yet. The border texels
   /// are empty, unless the face follows a spot's cone and the subject extends beyond it.
   ShadowFace face;
-  float tan_inner = 0.0f;         ///< perspective: greatest tangent inside the rim
-  float width_m = 0.0f;           ///< local light: diameter of its emitter
-  float penumbra_m_per_m = 0.0f;  ///< directional light: width of the penumbra per metre between blocker and receiver
+  float tan_inner = 0.0f;           ///< perspective: greatest tangent inside the rim
+  float emitter_diameter_m = 0.0f;  ///< local light: ≥ 0
+  float penumbra_m_per_m = 0.0f;    ///< directional light: width of the penumbra per metre between blocker and receiver
   dvec3 light_position = dvec3(0.0);  ///< local light: world position
   TileRange tiles;  ///< umbra range: holds every pixel for which the subject may hide part of the light
   float priority = 1.0f;

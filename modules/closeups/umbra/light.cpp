@@ -49,7 +49,7 @@ std::optional<CloseupLight> closeup_light(const Light& light, const dmat4& world
     if (!std::isfinite(light.outer_angle)) return std::nullopt;
     placed.half_angle = static_cast<double>(std::clamp(light.outer_angle, kNarrowestCone, kPi * 0.5f));
   }
-  placed.radius_m =
+  placed.emitter_radius_m =
       light.width_m > 0.0f && std::isfinite(light.width_m) ? 0.5 * static_cast<double>(light.width_m) : 0.0;
   placed.range_m = static_cast<double>(effective_range(light));
   if (!std::isfinite(placed.range_m)) return std::nullopt;

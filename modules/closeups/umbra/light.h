@@ -16,10 +16,10 @@ struct CloseupLight {
   dvec3 right = dvec3(1.0, 0.0, 0.0);  ///< orthonormal axes; the light shines along `forward`
   dvec3 up = dvec3(0.0, 1.0, 0.0);
   dvec3 forward = dvec3(0.0, 0.0, -1.0);
-  double half_angle = 0.0;  ///< spot: half angle of its cone, radians, at most π/2
-  double radius_m = 0.0;    ///< local light: radius of its emitter
-  double spread = 0.0;      ///< directional: tangent of half its apparent diameter
-  double range_m = 0.0;     ///< local light: effective_range
+  double half_angle = 0.0;        ///< spot: half angle of its cone, radians, at most π/2
+  double emitter_radius_m = 0.0;  ///< local light: ≥ 0
+  double spread = 0.0;            ///< directional: tangent of half its apparent diameter
+  double range_m = 0.0;           ///< local light: effective_range
 };
 
 /// None for a light whose angles, or position if local, are not finite.

@@ -192,7 +192,7 @@ TileRange local_tiles(const CloseupLight& light, const WorldBox& subject, const 
   const WorldBox box{glm::max(subject.min - light.position, dvec3(-range)),
                      glm::min(subject.max - light.position, dvec3(range))};
   if (!box.known()) return {};
-  WorldBox grown{box.min - light.radius_m, box.max + light.radius_m};
+  WorldBox grown{box.min - light.emitter_radius_m, box.max + light.emitter_radius_m};
   const dvec3 ahead = glm::max(grown.min, -grown.max);
   // The light is inside the grown box: the shadow may fall in any direction.
   const bool around = !(std::max({ahead.x, ahead.y, ahead.z}) > 1e-9 * range);
@@ -270,7 +270,8 @@ TileRange directional_tiles(const CloseupLight& light, const WorldBox& subject, 
 
 bool finite_light(const CloseupLight& light) {
   const dvec3 sum = light.position + light.forward + light.right + light.up;
-  return std::isfinite(sum.x + sum.y + sum.z + light.radius_m + light.range_m + light.spread + light.half_angle);
+  return std::isfinite(sum.x + sum.y + sum.z + light.emitter_radius_m + light.range_m + light.spread +
+                       light.half_angle);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ std::vector<VisualizerInfo> dof_visualizers() {
 void add_dof_view_pass(FrameBuilder& frame, const DofFrame& dof) {
   if (frame.visualizer() != "dof_coc") return;
   DrawPass pass(frame, "dof_coc_view", {shaders::depth_of_field::coc_view_frag, visualizer_constants(frame)});
-  pass.read("dof", dof.block);
-  pass.read("depth_image", dof.depth);
+  pass.read("dof", dof.inputs.block);
+  pass.read("depth_image", dof.inputs.depth);
   add_visualizer_targets(frame, pass, "dof_coc", gpu::Format::rgba16_float);
   pass.draw_triangle();
 }

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "engine/render/passes/visualizer_pass.h"
-#include "modules/grass/drawing/passes.h"
+#include "modules/grass/drawing/draw_blades_passes.h"
 #include "shaders/grass/shaders.h"
 
 namespace gloam {
@@ -27,15 +27,15 @@ std::vector<VisualizerInfo> grass_visualizers() {
 }
 
 void add_grass_view_pass(FrameBuilder& frame, const GrassFrame& grass) {
-  if (frame.visualizer() != "grass_lod" || grass.patches.empty()) return;
+  if (frame.visualizer() != "grass_lod" || grass.stored.patches.empty()) return;
   const bool encode = visualizer_constants(frame).front().value != 0;
   DrawPass pass(frame, "grass_lod_view", view_program(0, encode));
   add_visualizer_targets(frame, pass, "grass_lod", gpu::Format::rgba16_float);
   pass.test_depth(frame.get<GeometryOutputs>().depth);
   for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
     if (i > 0) pass.use(view_program(i, encode));
-    bind_blades(pass, grass);
-    pass.draw_indexed_indirect(grass.indices, grass.draws,
+    bind_blades(pass, grass.drawn);
+    pass.draw_indexed_indirect(grass.drawn.indices, grass.drawn.draws,
                                offsetof(shaders::GrassDraws, draws) + i * sizeof(shaders::GrassDraw), 1);
   }
 }

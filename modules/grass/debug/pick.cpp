@@ -40,7 +40,7 @@ class BladeSearch {
     const auto live = copies_.item<shaders::GrassDraws>(kDraws, 0).live;
     for (std::uint32_t i = 0; i < live; ++i) {
       const auto sorted = copies_.item<std::uint32_t>(kBlades, i);
-      const ResidentPatch& resident = grass_.patches[sorted / GLOAM_GRASS_PATCH_BLADES];
+      const ResidentPatch& resident = grass_.stored.patches[sorted / GLOAM_GRASS_PATCH_BLADES];
       const std::uint32_t index = sorted % GLOAM_GRASS_PATCH_BLADES;
       const GrassPatch& patch = field_.patches[resident.patch];
       const GrassBlade& blade = field_.blades[resident.patch * GLOAM_GRASS_PATCH_BLADES + index];
@@ -60,7 +60,7 @@ class BladeSearch {
   [[nodiscard]] double distance_to_stem(const dvec3& at, const ResidentPatch& resident, const GrassBlade& blade,
                                         std::uint32_t index) const {
     const GrassBlade& master = field_.blades[blade.master];
-    const std::uint32_t place = resident.slot * grass_.slot_masters + blade.master % GLOAM_GRASS_PATCH_BLADES;
+    const std::uint32_t place = resident.slot * grass_.stored.slot_masters + blade.master % GLOAM_GRASS_PATCH_BLADES;
     const dvec3 master_root(master.root_m);
     constexpr std::uint32_t kTip = GLOAM_GRASS_KNOTS - 1;
     const dvec3 tip = knot(kKnotCopy, place, kTip);
@@ -92,10 +92,10 @@ class BladeSearch {
 }  // namespace
 
 Status add_grass_pick_copies(FrameBuilder& frame, const GrassFrame& grass, Captures& copies) {
-  GLOAM_TRY(copies.add(frame.graph(), kBlades, grass.blades));
-  GLOAM_TRY(copies.add(frame.graph(), kDraws, grass.draws));
-  GLOAM_TRY(copies.add(frame.graph(), kKnotCopy, grass.store.knots));
-  return copies.add(frame.graph(), kPreviousCopy, grass.store.previous_knots);
+  GLOAM_TRY(copies.add(frame.graph(), kBlades, grass.sorted.blades));
+  GLOAM_TRY(copies.add(frame.graph(), kDraws, grass.sorted.draws));
+  GLOAM_TRY(copies.add(frame.graph(), kKnotCopy, grass.stored.store.knots));
+  return copies.add(frame.graph(), kPreviousCopy, grass.stored.store.previous_knots);
 }
 
 std::vector<std::string> grass_pick_lines(const FrameBuilder& frame, const GrassFrame& grass, const PickedPixel& pixel,

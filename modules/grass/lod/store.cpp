@@ -46,8 +46,8 @@ std::array<BufferRef*, 4> buffers_of(GrassStore& store) {
   return {&store.rows, &store.stamps, &store.knots, &store.previous_knots};
 }
 
-/// Copies all of a smaller store to the begin of the other.
-void add_growth_pass(FrameBuilder& frame, GrassStore from, GrassStore& to) {
+/// Copies all of a smaller store to the begin of the other, which it returns.
+GrassStore add_growth_pass(FrameBuilder& frame, GrassStore from, GrassStore to) {
   PassBuilder pass = frame.graph().add_pass("grass_growth", frame.module());
   struct Copy {
     BufferRef from, to;
@@ -65,25 +65,27 @@ void add_growth_pass(FrameBuilder& frame, GrassStore from, GrassStore& to) {
     for (const Copy& copy : copies)
       context.commands().copy_buffer(context.buffer(copy.from), 0, context.buffer(copy.to), 0, copy.bytes);
   });
+  return to;
 }
 
 /// Uploads stale rows, and clears the stamps of fresh slots.
-void add_upload_pass(FrameBuilder& frame, const GrassStoreInput& input, GrassFrame& grass) {
+GrassStore add_upload_pass(FrameBuilder& frame, const GrassStoreInput& input, const StoredPatches& stored) {
   std::vector<shaders::GrassBladeRow> rows;
   std::vector<ResidentPatch> uploaded;
-  for (const ResidentPatch& patch : grass.patches) {
+  for (const ResidentPatch& patch : stored.patches) {
     if (!patch.stale_rows) continue;
     const auto first = input.rows.begin() + std::ptrdiff_t{patch.patch} * GLOAM_GRASS_PATCH_BLADES;
     rows.insert(rows.end(), first, first + GLOAM_GRASS_PATCH_BLADES);
     uploaded.push_back(patch);
   }
-  if (uploaded.empty()) return;
+  if (uploaded.empty()) return stored.store;
   const auto source = frame.upload_items(std::span<const shaders::GrassBladeRow>(rows));
   PassBuilder pass = frame.graph().add_pass("grass_upload", frame.module());
-  grass.store.rows = pass.write(grass.store.rows, gpu::Access::transfer_write);
-  grass.store.stamps = pass.write(grass.store.stamps, gpu::Access::transfer_write);
-  pass.execute([store = grass.store, uploaded = std::move(uploaded), source,
-                stamp_bytes = grass.slot_masters * sizeof(std::uint32_t)](PassContext& context) {
+  GrassStore store = stored.store;
+  store.rows = pass.write(store.rows, gpu::Access::transfer_write);
+  store.stamps = pass.write(store.stamps, gpu::Access::transfer_write);
+  pass.execute([store, uploaded = std::move(uploaded), source,
+                stamp_bytes = stored.slot_masters * sizeof(std::uint32_t)](PassContext& context) {
     for (std::size_t i = 0; i < uploaded.size(); ++i) {
       const ResidentPatch& patch = uploaded[i];
       context.commands().copy_buffer(source.buffer, source.offset + i * kRowBytes, context.buffer(store.rows),
@@ -93,6 +95,7 @@ void add_upload_pass(FrameBuilder& frame, const GrassStoreInput& input, GrassFra
                                        GLOAM_GRASS_NO_STEP);
     }
   });
+  return store;
 }
 
 }  // namespace
@@ -113,27 +116,31 @@ std::uint32_t GrassStoreStates::left_out(std::uint64_t world) const {
   return found == worlds_.end() ? 0 : found->second.pending.residency.left_out();
 }
 
-void add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::span<const VisiblePatch> visible,
-                      GrassStoreState& state, GrassFrame& grass) {
+StoredPatches add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::span<const VisiblePatch> visible,
+                               GrassStoreState& state) {
   const bool same_field = state.field == input.field && state.slot_masters == input.slot_masters;
   if (!same_field) state.residency.clear();
   if (state.restarts != input.restarts) state.residency.clear_patches();
   const std::uint32_t old_capacity = state.residency.capacity();
   // The buffers of a world that was released, or not drawn for a while, are new and hold nothing.
   if (old_capacity > 0 && !kept_rows(frame, old_capacity, state.generation).filled()) state.residency.clear_patches();
-  grass.patches = state.residency.place(visible, frame.view().frame, input.row_version, most_slots(input.slot_masters));
-  grass.slot_masters = input.slot_masters;
+  StoredPatches stored;
+  stored.patches =
+      state.residency.place(visible, frame.view().frame, input.row_version, most_slots(input.slot_masters));
+  stored.slot_masters = input.slot_masters;
   const std::uint32_t capacity = state.residency.capacity();
   const bool grows = capacity != old_capacity;
   if (grows) ++state.generation;
-  grass.store = store_of(frame, capacity, input.slot_masters, state.generation);
-  if (!frame.status().ok()) return;
+  stored.store = store_of(frame, capacity, input.slot_masters, state.generation);
+  if (!frame.status().ok()) return stored;
   if (grows && old_capacity > 0)
-    add_growth_pass(frame, store_of(frame, old_capacity, input.slot_masters, state.generation - 1), grass.store);
-  add_upload_pass(frame, input, grass);
+    stored.store =
+        add_growth_pass(frame, store_of(frame, old_capacity, input.slot_masters, state.generation - 1), stored.store);
+  stored.store = add_upload_pass(frame, input, stored);
   state.restarts = input.restarts;
   state.field = input.field;
   state.slot_masters = input.slot_masters;
+  return stored;
 }
 
 }  // namespace gloam

@@ -49,8 +49,8 @@ struct GrassStoreInput {
 };
 
 /// Gives the view's patches slots, grows the buffers, and adds the passes that upload the rows of new patches and clear
-/// their stamps. Sets GrassFrame::patches, slot_masters and store.
-void add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::span<const VisiblePatch> visible,
-                      GrassStoreState& state, GrassFrame& grass);
+/// their stamps.
+[[nodiscard]] StoredPatches add_store_passes(FrameBuilder& frame, const GrassStoreInput& input,
+                                             std::span<const VisiblePatch> visible, GrassStoreState& state);
 
 }  // namespace gloam

@@ -3,7 +3,7 @@
 #include "modules/particles/debug/overdraw.h"
 
 #include "engine/render/passes/visualizer_pass.h"
-#include "modules/particles/drawing/pass.h"
+#include "modules/particles/drawing/draw_sprites_pass.h"
 #include "shaders/particles/shaders.h"
 
 namespace gloam {

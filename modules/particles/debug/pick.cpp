@@ -54,9 +54,9 @@ std::string line_of(const World& world, const VisibleEmitter& seen, std::size_t 
 }  // namespace
 
 Status add_particle_pick_copies(FrameBuilder& frame, const ParticlesFrame& particles, Captures& copies) {
-  GLOAM_TRY(copies.add(frame.graph(), kParticles, particles.state));
-  GLOAM_TRY(copies.add(frame.graph(), kOrder, particles.order));
-  return copies.add(frame.graph(), kDraws, particles.draws);
+  GLOAM_TRY(copies.add(frame.graph(), kParticles, particles.simulated.state));
+  GLOAM_TRY(copies.add(frame.graph(), kOrder, particles.sorted.order));
+  return copies.add(frame.graph(), kDraws, particles.sorted.draws);
 }
 
 std::vector<std::string> particle_pick_lines(const FrameBuilder& frame, const PickedPixel& pixel,

@@ -69,32 +69,33 @@ std::string proxy_line(const FrameBuilder& frame, const PickedPixel& pixel) {
 }  // namespace
 
 Status add_reflection_pick_copies(FrameBuilder& frame, Captures& copies) {
-  const ReflectionFrame* reflections = frame.find<ReflectionFrame>();
-  if (reflections == nullptr || !reflections->mirror) return {};
-  if (reflections->ssr_color) GLOAM_TRY(copies.add(frame.graph(), kScreenCopy, reflections->ssr_color));
-  GLOAM_TRY(copies.add(frame.graph(), kColorCopy, reflections->color));
-  return copies.add(frame.graph(), kSurfaceCopy, reflections->surface);
+  const ReflectionHandles* drawn = frame.find<ReflectionHandles>();
+  if (drawn == nullptr || !drawn->light.color) return {};
+  if (drawn->hits.color) GLOAM_TRY(copies.add(frame.graph(), kScreenCopy, drawn->hits.color));
+  GLOAM_TRY(copies.add(frame.graph(), kColorCopy, drawn->light.color));
+  return copies.add(frame.graph(), kSurfaceCopy, drawn->light.surface);
 }
 
 std::vector<std::string> reflection_pick_lines(const FrameBuilder& frame, const PickedPixel& pixel,
                                                const Captures& copies) {
-  const ReflectionFrame* reflections = frame.find<ReflectionFrame>();
-  if (reflections == nullptr || !(pixel.depth > 0.0f)) return {};
-  const char* beyond = reflections->probes.empty() ? "the sky" : "probes";
-  if (!reflections->mirror) return {std::string("reflection: ") + beyond};
-  const shaders::ReflectionConstants& c = reflections->constants;
+  const ReflectionPlan* plan = frame.find<ReflectionPlan>();
+  const ReflectionHandles* drawn = frame.find<ReflectionHandles>();
+  if (plan == nullptr || drawn == nullptr || !(pixel.depth > 0.0f)) return {};
+  const char* beyond = plan->probes.empty() ? "the sky" : "probes";
+  if (!plan->mirror) return {std::string("reflection: ") + beyond};
+  const shaders::ReflectionConstants& c = plan->constants;
   const uvec2 texel = glm::min(uvec2(pixel.x, pixel.y) / c.scale, c.size - 1u);
   const std::size_t at = std::size_t{texel.y} * c.size.x + texel.x;
   const auto surface = copies.item<std::uint32_t>(kSurfaceCopy, at);
   if ((surface >> 8 & 0xFFu) == 0) return {std::string("reflection: ") + beyond + " (rough, tilted or not reflective)"};
   const double distance_m = static_cast<double>((surface >> 16 & 0xFFu) + 256 * (surface >> 24)) / 100.0;
   char text[160];
-  if (reflections->planar) {
+  if (plan->planar) {
     std::snprintf(text, sizeof(text), "reflection: mirrored at the height %.3f m, hit after %.2f m",
-                  reflections->planar->height_m, distance_m);
+                  plan->planar->height_m, distance_m);
     return {text};
   }
-  const float screen = reflections->ssr_color ? alpha_of(copies, kScreenCopy, at) : 0.0f;
+  const float screen = drawn->hits.color ? alpha_of(copies, kScreenCopy, at) : 0.0f;
   const float covered = alpha_of(copies, kColorCopy, at);
   const float proxies = std::max(covered - screen, 0.0f);
   const char* tier = screen >= proxies && screen >= 1.0f - covered ? "screen space"

@@ -45,8 +45,9 @@ std::vector<VisualizerInfo> reflection_visualizers(const ExtrasOf& extras) {
 
 void add_reflection_view_pass(FrameBuilder& frame) {
   const auto* shown = std::ranges::find(kReflectionViews, frame.visualizer());
-  const ReflectionFrame* reflections = frame.find<ReflectionFrame>();
-  if (shown == std::end(kReflectionViews) || reflections == nullptr) return;
+  const ReflectionPlan* plan = frame.find<ReflectionPlan>();
+  const ReflectionHandles* drawn = frame.find<ReflectionHandles>();
+  if (shown == std::end(kReflectionViews) || plan == nullptr || drawn == nullptr) return;
   const auto code = static_cast<std::uint32_t>(shown - std::begin(kReflectionViews));
   DrawProgram program{.fragment = shaders::reflections::reflection_view_frag,
                       .constants = visualizer_constants(frame),
@@ -54,18 +55,17 @@ void add_reflection_view_pass(FrameBuilder& frame) {
   program.constants.push_back({1, code});
   DrawPass pass(frame, std::string(*shown) + "_view", program);
   read_geometry(pass, frame.get<GeometryOutputs>());
-  pass.read("reflection", reflections->block);
-  pass.read("tiles", reflections->tiles);
-  pass.read("ssr_color", reflections->ssr_color);
-  pass.read("color_image", reflections->color);
-  pass.read_if_declared("surface_image", reflections->surface);
-  pass.read("probe_images", reflections->probe_images, Sampling::linear);
-  bind_rows(pass, "proxy_rows", reflections->proxies);
-  bind_rows(pass, "proxy_masks", frame.world().view_resource<ProxyTiles>(frame.view().id).masks);
-  bind_rows(pass, "probe_rows", reflections->probes);
-  const std::uint32_t tiers = (reflections->ssr_color ? 1u : 0u) |
-                              (reflections->mirror && reflections->knobs.proxies ? 2u : 0u) |
-                              (reflections->probes.empty() ? 0u : 4u);
+  pass.read("reflection", drawn->uniforms.block);
+  pass.read("tiles", drawn->uniforms.tiles);
+  pass.read("ssr_color", drawn->hits.color);
+  pass.read("color_image", drawn->light.color);
+  pass.read_if_declared("surface_image", drawn->light.surface);
+  pass.read("probe_images", drawn->probe_images, Sampling::linear);
+  bind_rows<shaders::ProxyRow>(pass, "proxy_rows", plan->proxies);
+  bind_rows<std::uint32_t>(pass, "proxy_masks", frame.world().view_resource<ProxyTiles>(frame.view().id).masks);
+  bind_rows<shaders::ProbeRow>(pass, "probe_rows", plan->probes);
+  const std::uint32_t tiers = (drawn->hits.color ? 1u : 0u) | (plan->mirror && plan->knobs.proxies ? 2u : 0u) |
+                              (plan->probes.empty() ? 0u : 4u);
   pass.push(tiers);
   add_visualizer_targets(frame, pass, *shown, gpu::Format::rgba16_float);
   pass.draw_triangle();

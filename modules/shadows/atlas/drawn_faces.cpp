@@ -32,7 +32,7 @@ struct Stale {
   bool has_last_map = false;       ///< the atlas holds the map of the frame before
 };
 
-Stale find_stale(const ViewShadows& kept, const ShadowFace& face, const FaceContent& content) {
+Stale find_stale(const ViewMapState& kept, const ShadowFace& face, const FaceContent& content) {
   const CasterHistory& history = kept.frame.history;
   if (kept.frame.atlas_is_empty) return {{whole_face(face)}, false};
   if (kept.cache.has_map(face, content)) return {};
@@ -63,7 +63,7 @@ TexelRect widened(const ShadowFace& face, const TexelRect& texels) {
 
 /// Gives each of the face's regions a background that contains it. Backgrounds that do not exist yet become regions of
 /// `made`.
-void find_backgrounds(const ViewShadows& kept, DrawnFace& face, DrawnFace& made) {
+void find_backgrounds(const ViewMapState& kept, DrawnFace& face, DrawnFace& made) {
   constexpr std::size_t kMost = 2 * kMostRegions;
   std::vector<FaceBackground>& there = face.backgrounds;
   for (const FaceBackground& background : kept.cache.backgrounds(face.face))
@@ -117,7 +117,7 @@ struct PlacedFaces {
   std::vector<Stale> stale;
 };
 
-PlacedFaces place_faces(const MapInputs& inputs, ViewShadows& kept, JobExecutor& executor) {
+PlacedFaces place_faces(const MapInputs& inputs, ViewMapState& kept, JobExecutor& executor) {
   PlacedFaces placed;
   for (const ShadowFace& face : inputs.faces)
     if (face.square.size > 0) placed.faces.push_back(face);
@@ -137,7 +137,7 @@ PlacedFaces place_faces(const MapInputs& inputs, ViewShadows& kept, JobExecutor&
   return placed;
 }
 
-void begin_frame(const MapInputs& inputs, ViewShadows& kept) {
+void begin_frame(const MapInputs& inputs, ViewMapState& kept) {
   kept.frame.atlas_is_empty = inputs.atlas_is_empty;
   kept.frame.committed = false;
   kept.frame.drawn.clear();
@@ -152,7 +152,7 @@ bool wants_backgrounds(const DrawnFace& face, bool has_last_map) {
 
 }  // namespace
 
-DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& executor) {
+DrawnMaps plan_maps(const MapInputs& inputs, ViewMapState& kept, JobExecutor& executor) {
   if (!inputs.continues_frame) begin_frame(inputs, kept);
   const PlacedFaces placed = place_faces(inputs, kept, executor);
   DrawnMaps maps;
@@ -201,7 +201,7 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& exe
   return maps;
 }
 
-void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> held, ViewShadows& kept) {
+void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> held, ViewMapState& kept) {
   if (!kept.frame.committed) {
     if (kept.frame.atlas_is_empty) {
       kept.cache.clear();
@@ -217,13 +217,13 @@ void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> hel
   }
 }
 
-DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views, const ShadowKnobs& knobs,
+DrawnMaps faces_to_draw(FrameBuilder& frame, ViewMapState& kept, const ViewFaces& view_faces, const ShadowKnobs& knobs,
                         bool atlas_is_empty) {
   const std::vector<std::uint64_t> poses = caster_poses(frame.world(), frame.frame_draws());
   // If casters of the main view are withheld that were not when its companions drew, their maps are drawn again.
   const bool same_frame = kept.frame.number == frame.graph().frame();
   const bool continues_frame = same_frame && kept.frame.history.withheld() == kept.history.next_withheld();
-  const MapInputs inputs{.faces = views.faces,
+  const MapInputs inputs{.faces = view_faces.faces,
                          .casters = frame.casters().casters,
                          .poses = poses,
                          .sources = frame.caster_sources(),

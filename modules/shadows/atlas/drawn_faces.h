@@ -13,7 +13,7 @@
 #include "modules/shadows/atlas/face_casters.h"
 #include "modules/shadows/atlas/face_regions.h"
 #include "modules/shadows/atlas/view_faces.h"
-#include "modules/shadows/atlas/view_maps.h"
+#include "modules/shadows/atlas/view_map_state.h"
 #include "modules/shadows/knobs.h"
 
 namespace gloam {
@@ -69,14 +69,14 @@ struct MapInputs {
 /// Resting casters of a region come from the image of backgrounds, except in whole faces that see no unsteady caster.
 /// Casters withheld from a light are left out of its faces. Sets kept.frame and kept.counts, and leaves what describes
 /// the last committed frame as it is.
-[[nodiscard]] DrawnMaps plan_maps(const MapInputs& inputs, ViewShadows& kept, JobExecutor& executor);
+[[nodiscard]] DrawnMaps plan_maps(const MapInputs& inputs, ViewMapState& kept, JobExecutor& executor);
 
 /// Records that the frame with these maps was committed: once for each plan_maps() of the frame, in the same order.
 /// drawn: DrawnMaps::faces. held: DrawnMaps::held.
-void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> held, ViewShadows& kept);
+void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> held, ViewMapState& kept);
 
 /// plan_maps() for the view that the frame draws. atlas_is_empty: as in MapInputs.
-[[nodiscard]] DrawnMaps faces_to_draw(FrameBuilder& frame, ViewShadows& kept, const ShadowViews& views,
+[[nodiscard]] DrawnMaps faces_to_draw(FrameBuilder& frame, ViewMapState& kept, const ViewFaces& view_faces,
                                       const ShadowKnobs& knobs, bool atlas_is_empty);
 
 }  // namespace gloam

@@ -78,7 +78,7 @@ void add_clusters(const FaceVolume& volume, const Caster& caster, bool simplifie
 FaceVolume face_volume(const ShadowFace& face) {
   FaceVolume volume;
   volume.origin = face.origin;
-  volume.emitter_m = face.emitter_m;
+  volume.emitter_radius_m = face.emitter_radius_m;
   volume.frustum.planes[5] = {vec3(0.0f), 1.0f};
   const bool perspective = face.tan_half > 0.0f;
   const vec3 sides[] = {face.right, -face.right, face.up, -face.up};
@@ -119,7 +119,7 @@ CasterBox relative_box(const dvec3& origin, const CasterBox& box) {
 
 bool may_see(const FaceVolume& volume, const CasterBox& box) {
   if (!box.known()) return true;  // unknown: it may be anywhere
-  if (is_bulb(volume.origin, static_cast<double>(volume.emitter_m), box.low, box.high, box.emissive_reach_m))
+  if (is_bulb(volume.origin, static_cast<double>(volume.emitter_radius_m), box.low, box.high, box.emissive_reach_m))
     return false;
   return may_see(volume, Aabb{vec3(box.low - volume.origin), vec3(box.high - volume.origin)});
 }

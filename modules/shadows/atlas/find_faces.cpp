@@ -126,11 +126,11 @@ float local_density(const ShadowSettings& settings, const Plans& plans, std::uin
 }
 
 /// FaceKey::view of cascades.
-std::uint32_t view_of_cascades(const RenderView& view, const ShadowViews& shadows) {
+std::uint32_t view_of_cascades(const RenderView& view, const ViewFaces& shadows) {
   return shadows.shared == nullptr ? 0 : view.id.value + 1;
 }
 
-void request_directional(std::span<const ShadowLight> lights, const RenderView& view, ShadowViews& shadows,
+void request_directional(std::span<const ShadowLight> lights, const RenderView& view, ViewFaces& shadows,
                          Plans& plans) {
   for (std::size_t i = 0; i < plans.directional.size(); ++i) {
     DirectionalPlan& plan = plans.directional[i];
@@ -147,7 +147,7 @@ void request_directional(std::span<const ShadowLight> lights, const RenderView& 
 }
 
 /// Adds the requests of local lights, and stores their wanted sizes for the next frame.
-void request_local(std::span<const ShadowLight> lights, ShadowViews& shadows, Plans& plans) {
+void request_local(std::span<const ShadowLight> lights, ViewFaces& shadows, Plans& plans) {
   shadows.wanted.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     LocalPlan& plan = plans.local[i];
@@ -174,7 +174,7 @@ std::uint32_t count_at_limit(const Plans& plans, const ShadowSettings& settings,
 
 /// Fills the faces and rows of local lights, in parallel over lights.
 void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, const ShadowSettings& settings,
-                JobExecutor& jobs, Plans& plans, ShadowViews& shadows) {
+                JobExecutor& jobs, Plans& plans, ViewFaces& shadows) {
   std::size_t faces = 0;
   for (LocalPlan& plan : plans.local) {
     plan.first_face = faces;
@@ -204,7 +204,7 @@ void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, c
 
 void fill_directional(std::span<const ShadowLight> lights, const FacePlaces& places, const RenderView& view,
                       const ShadowSettings& settings, const CasterBounds& casters, const Plans& plans,
-                      ShadowViews& shadows) {
+                      ViewFaces& shadows) {
   for (std::size_t i = 0; i < kMostDirectional; ++i) {
     shaders::DirectionalShadow& directional = shadows.block.directional[i];
     directional = {};
@@ -230,8 +230,7 @@ void fill_directional(std::span<const ShadowLight> lights, const FacePlaces& pla
 }  // namespace
 
 void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLight> directional, const RenderView& view,
-                  const ShadowSettings& settings, const CasterBounds& casters, JobExecutor& jobs,
-                  ShadowViews& shadows) {
+                  const ShadowSettings& settings, const CasterBounds& casters, JobExecutor& jobs, ViewFaces& shadows) {
   Plans plans;
   plans.local.resize(local.size());
   shadows.casting_lights = 0;

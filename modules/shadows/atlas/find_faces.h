@@ -25,6 +25,6 @@ struct ShadowLight {
 /// Finds the faces of a view's lights and places them in the atlas. local, directional: the lights in the view's order.
 /// shadows: holds the places and sizes of the last frame, which are reused, and receives the result.
 void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLight> directional, const RenderView& view,
-                  const ShadowSettings& settings, const CasterBounds& casters, JobExecutor& jobs, ShadowViews& shadows);
+                  const ShadowSettings& settings, const CasterBounds& casters, JobExecutor& jobs, ViewFaces& shadows);
 
 }  // namespace gloam

@@ -49,7 +49,7 @@ class SharedPlaces {
   std::vector<FaceRequest> last_;  ///< of the frame before
 };
 
-/// The places that views of a world share, by ShadowViews::owner; a resource of the world. The views own them.
+/// The places that views of a world share, by ViewFaces::owner; a resource of the world. The views own them.
 struct CapturePlaces {
   std::map<std::uint32_t, std::weak_ptr<SharedPlaces>> by_owner;
 };

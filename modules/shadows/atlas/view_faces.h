@@ -26,7 +26,7 @@ struct WantedSize {
 
 /// All shadow views of a view: the faces of its lights; a view resource, written by system shadow_views. A face keeps
 /// its square while its size stays the same.
-struct ShadowViews {
+struct ViewFaces {
   /// Placed faces, grouped by light, in the order of the view's local lights, then of its directional lights.
   std::vector<ShadowFace> faces;
   std::vector<shaders::ShadowRow> rows;  ///< by index of the view's local lights

@@ -20,7 +20,7 @@ namespace {
 struct Lamp {
   Entity entity;
   dvec3 position = dvec3(0.0);
-  double emitter_m = 0.0;
+  double emitter_radius_m = 0.0;
 };
 
 std::vector<Lamp> casting_lamps(const World& world) {
@@ -67,7 +67,7 @@ bool encloses(const Primitive& primitive, const Material* material, const dmat4&
   if (!box.known() || glm::clamp(lamp.position, box.min, box.max) != lamp.position) return false;
   const bool emissive = material != nullptr && is_emissive(*material);
   const double reach = emissive ? half_diagonal(primitive.bounds, world_from_mesh) : 0.0;
-  if (is_bulb(lamp.position, lamp.emitter_m, box.min, box.max, reach)) return false;
+  if (is_bulb(lamp.position, lamp.emitter_radius_m, box.min, box.max, reach)) return false;
   return filled_share(primitive, world_from_mesh, lamp.position) > kAlmostAll;
 }
 

@@ -23,18 +23,18 @@ namespace {
 /// The light's kind (GLOAM_SHADOWS_SPOTS, …), so that the shader can be compiled for it alone.
 std::uint32_t kind_of(const FrameBuilder& frame, const shaders::ShownLightConstants& light) {
   if (light.directional != 0) return GLOAM_SHADOWS_SUNS;
-  const auto& rows = frame.world().view_resource<ShadowViews>(frame.view().id).rows;
+  const auto& rows = frame.world().view_resource<ViewFaces>(frame.view().id).rows;
   const float kind = light.light < rows.size() ? rows[light.light].kind : static_cast<float>(GLOAM_SHADOW_NONE);
   return kind == static_cast<float>(GLOAM_SHADOW_CUBE) ? GLOAM_SHADOWS_CUBES : GLOAM_SHADOWS_SPOTS;
 }
 
 /// The square of each placed face in the picture; the atlas fills the picture's shorter side.
-std::vector<shaders::AtlasFaceConstants> atlas_squares(const ShadowViews& views, const RenderView& view,
-                                                       const ViewShadows& kept) {
+std::vector<shaders::AtlasFaceConstants> atlas_squares(const ViewFaces& view_faces, const RenderView& view,
+                                                       const ViewMapState& kept) {
   std::vector<shaders::AtlasFaceConstants> squares;
   const auto side = static_cast<float>(std::min(view.width, view.height));
-  const float scale = side / static_cast<float>(std::max(views.atlas.size(), 1u));
-  for (const ShadowFace& face : views.faces) {
+  const float scale = side / static_cast<float>(std::max(view_faces.atlas.size(), 1u));
+  for (const ShadowFace& face : view_faces.faces) {
     if (face.square.size == 0) continue;
     shaders::AtlasFaceConstants square{};
     square.origin = vec2(face.square.origin);
@@ -50,14 +50,14 @@ std::vector<shaders::AtlasFaceConstants> atlas_squares(const ShadowViews& views,
   return squares;
 }
 
-void add_atlas_view(FrameBuilder& frame, const ShadowsOutputs& shadows, const ViewShadows& kept) {
+void add_atlas_view(FrameBuilder& frame, const ShadowsOutputs& shadows, const ViewMapState& kept) {
   TargetOutput& target = frame.get<TargetOutput>();
   DrawPass pass(frame, "shadow_atlas_view",
                 {.fragment = shaders::shadows::atlas_view_frag, .constants = visualizer_constants(frame)});
   target.color = pass.target(target.color, gpu::LoadOp::clear);
   pass.read("atlas", shadows.atlas);
-  const auto& views = frame.world().view_resource<ShadowViews>(frame.view().id);
-  for (const shaders::AtlasFaceConstants& square : atlas_squares(views, frame.view(), kept)) {
+  const auto& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
+  for (const shaders::AtlasFaceConstants& square : atlas_squares(view_faces, frame.view(), kept)) {
     pass.record([corner = ivec2(square.corner), side = static_cast<std::uint32_t>(square.pixels)](
                     PassContext& context) { context.commands().set_scissor(corner.x, corner.y, side, side); });
     pass.push(square);
@@ -117,8 +117,8 @@ void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states, OnceL
   const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
   if (shadows == nullptr) return;
   if (stem == "shadow_atlas") {
-    const ViewShadows* kept =
-        states.find(world_id(frame.world()), frame.world().view_resource<ShadowViews>(frame.view().id).owner);
+    const ViewMapState* kept = states.find(world_id(frame.world()),
+                                           frame.world().view_resource<ViewFaces>(frame.view().id).owner);
     const bool has_maps = shadows->atlas && shadows->atlas.resource != shadows->rows.resource;
     if (kept != nullptr && has_maps) add_atlas_view(frame, *shadows, *kept);
   } else if (const auto light = shown_light_or_warn(frame, once_log)) {

@@ -105,14 +105,14 @@ std::vector<shaders::ShadowRow> redirected_rows(const FrameBuilder& frame, const
 }  // namespace
 
 OverlayPlan::OverlayPlan(const World& world, ViewId view)
-    : views_(&world.view_resource<ShadowViews>(view)),
-      free_(std::make_shared<const FreeSquares>(views_->atlas.free_squares())) {}
+    : view_faces_(&world.view_resource<ViewFaces>(view)),
+      free_(std::make_shared<const FreeSquares>(view_faces_->atlas.free_squares())) {}
 
 bool OverlayPlan::add(Entity light, const dvec3& low, const dvec3& high) {
-  if (views_ == nullptr) return false;
+  if (view_faces_ == nullptr) return false;
   FreeSquares free = *free_;
   std::vector<OverlayFace> added;
-  for (const ShadowFace& face : views_->faces) {
+  for (const ShadowFace& face : view_faces_->faces) {
     if (face.light != light || face.square.size == 0 || !face_may_see(face, low, high)) continue;
     if (std::ranges::any_of(faces_, [&](const OverlayFace& there) { return is_same(there.face, face); })) continue;
     const AtlasSquare copy = free.take(face.square.size);
@@ -128,8 +128,9 @@ bool OverlayMaps::d16() const { return tools_->knobs.d16; }
 
 OverlayCopies OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFace> faces) const {
   const ShadowKnobs& knobs = tools_->knobs;
-  ViewShadows& kept = tools_->states.view(
-      world_id(frame.world()), frame.world().view_resource<ShadowViews>(frame.view().id).owner, frame.view().id);
+  ViewMapState& kept =
+      tools_->states.view(world_id(frame.world()),
+                          frame.world().view_resource<ViewFaces>(frame.view().id).owner, frame.view().id);
   OverlayCopies copies{{faces.begin(), faces.end()}, knobs.d16};
   if (knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) copies.depth_bits = ~GLOAM_SHADOW_FREE_BITS;
   const std::vector<shaders::ShadowCopyGroup> groups = copy_groups(faces);

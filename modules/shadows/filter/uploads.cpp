@@ -50,11 +50,11 @@ float traced_layer(const TracedVisibility* traced, Entity light) {
   return layer ? static_cast<float>(*layer) : -1.0f;
 }
 
-std::vector<shaders::ShadowRow> rows_of(const FrameBuilder& frame, const ShadowViews& views,
+std::vector<shaders::ShadowRow> rows_of(const FrameBuilder& frame, const ViewFaces& view_faces,
                                         const TracedVisibility* traced) {
   const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
   const Cookies& cookies = frame.world().resource<Cookies>();
-  std::vector<shaders::ShadowRow> rows = views.rows;
+  std::vector<shaders::ShadowRow> rows = view_faces.rows;
   const std::span<const Entity> lights = local_lights(visible);
   rows.resize(lights.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -73,9 +73,9 @@ void name_cookies(std::span<const shaders::ShadowRow> rows, shaders::ShadowBlock
     if (rows[i].cookie_layer >= 0.0f) block.cookie_lights[named++] = static_cast<std::uint32_t>(i);
 }
 
-shaders::ShadowBlock block_of(const FrameBuilder& frame, const ShadowViews& views, const ShadowKnobs& knobs,
+shaders::ShadowBlock block_of(const FrameBuilder& frame, const ViewFaces& view_faces, const ShadowKnobs& knobs,
                               const TracedVisibility* traced, std::span<const shaders::ShadowRow> rows) {
-  shaders::ShadowBlock block = views.block;
+  shaders::ShadowBlock block = view_faces.block;
   name_cookies(rows, block);
   block.atlas_size = static_cast<float>(knobs.atlas_size);
   block.bias_m = knobs.bias_m;
@@ -152,35 +152,37 @@ ImageRef upload_shadow_rows(FrameBuilder& frame, ShadowStates& states, std::stri
   return copy.target;
 }
 
-void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
-                        ShadowsOutputs& outputs) {
+ShadowUploads add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ViewFaces& view_faces,
+                                 const ShadowKnobs& knobs) {
   const TracedVisibility* traced = traced_visibility_of(frame.world(), frame.view());
-  std::vector<shaders::ShadowRow> rows_now = rows_of(frame, views, traced);
-  shaders::ShadowBlock block_now = block_of(frame, views, knobs, traced, rows_now);
+  std::vector<shaders::ShadowRow> rows_now = rows_of(frame, view_faces, traced);
+  shaders::ShadowBlock block_now = block_of(frame, view_faces, knobs, traced, rows_now);
   // Rounded up, so that few different heights occur and cached frame-graph plans can be reused when the number of
   // lights changes.
   rows_now.resize(std::bit_ceil(std::max<std::size_t>(rows_now.size(), kFewestRows)));
   append_cascade_rows(directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id)), block_now,
                       rows_now);
+  ShadowUploads uploads;
   auto block = frame.services().uniforms.write_value(block_now);
-  if (frame.check(block)) outputs.block = *block;
-  outputs.block_values = block_now;
+  if (frame.check(block)) uploads.block = *block;
+  uploads.block_values = block_now;
 
-  outputs.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(rows_now));
-  std::vector<Copy> copies = {add_rows(frame, states, *outputs.row_values)};
-  outputs.cookies = add_cookies(frame, states, copies);
-  if (!outputs.cookies) return;
+  uploads.row_values = std::make_shared<const std::vector<shaders::ShadowRow>>(std::move(rows_now));
+  std::vector<Copy> copies = {add_rows(frame, states, *uploads.row_values)};
+  uploads.cookies = add_cookies(frame, states, copies);
+  if (!uploads.cookies) return uploads;
   const bool has_traced = traced != nullptr && !traced->lights.empty();
   if (has_traced) copies.push_back(add_traced(frame, states, *traced));
 
   PassBuilder pass = frame.graph().add_pass("shadow_rows", frame.module());
   for (Copy& copy : copies) copy.target = pass.write(copy.target, gpu::Access::transfer_write);
-  outputs.rows = copies.front().target;
-  outputs.cookies = frame.graph().newest(outputs.cookies);
-  if (has_traced) outputs.traced = copies.back().target;
+  uploads.rows = copies.front().target;
+  uploads.cookies = frame.graph().newest(uploads.cookies);
+  if (has_traced) uploads.traced = copies.back().target;
   pass.execute([copies](PassContext& context) {
     for (const Copy& copy : copies) record_copy(context, copy);
   });
+  return uploads;
 }
 
 }  // namespace gloam

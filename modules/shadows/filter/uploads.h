@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/atlas/view_faces.h"
@@ -17,10 +19,20 @@ namespace gloam {
 /// The world's traced visibility if it has this view's size, else null.
 [[nodiscard]] const TracedVisibility* traced_visibility_of(const World& world, const RenderView& view);
 
-/// Uploads the view's light rows, ShadowBlock, cookies and traced visibility: pass shadow_rows. Sets block,
-/// block_values, rows, row_values, cookies and traced of the outputs. On an error the frame is given up.
-void add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ShadowViews& views, const ShadowKnobs& knobs,
-                        ShadowsOutputs& outputs);
+/// Members of ShadowsOutputs with the same names.
+struct ShadowUploads {
+  gpu::Binding::BufferRange block;
+  shaders::ShadowBlock block_values{};
+  ImageRef rows;
+  std::shared_ptr<const std::vector<shaders::ShadowRow>> row_values;
+  ImageRef cookies;
+  ImageRef traced;
+};
+
+/// Uploads the view's light rows, ShadowBlock, cookies and traced visibility: pass shadow_rows. On an error the frame
+/// is given up.
+[[nodiscard]] ShadowUploads add_shadow_uploads(FrameBuilder& frame, ShadowStates& states, const ViewFaces& view_faces,
+                                               const ShadowKnobs& knobs);
 
 /// Uploads `rows` into another image, which may replace ShadowsOutputs::rows: pass `pass_name`. Returns that image. On
 /// an error the frame is given up.

@@ -163,7 +163,7 @@ std::optional<ReservedTiles> reserve_tiles(const FrameBuilder& frame, std::vecto
   if (!light_lists_will_fit(frame)) return std::nullopt;
   const ShadowKnobs knobs = shadow_knobs(frame.knobs());
   const VisibleLights& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
-  const std::vector<shaders::ShadowRow>& rows = frame.world().view_resource<ShadowViews>(frame.view().id).rows;
+  const std::vector<shaders::ShadowRow>& rows = frame.world().view_resource<ViewFaces>(frame.view().id).rows;
   const std::span<const Entity> local = local_lights(visible);
   std::vector<std::uint32_t> casting((local.size() + 31) / 32, 0);
   for (std::size_t i = 0; i < local.size(); ++i) {

@@ -190,16 +190,17 @@ bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knob
   return services.pipelines.request(list, services.log);
 }
 
-void add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes, ShadowsOutputs& shadows) {
+std::optional<FinalLists> add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes,
+                                              const ShadowsOutputs& shadows) {
   FinalListBuffers buffers = make_final_list_buffers(frame, knobs, *shadows.row_values);
   add_start_pass(frame, buffers);
   add_list_pass(frame, shadows, buffers);
   add_classify_pass(frame, shadows, planes, buffers);
-  if (!frame.status().ok()) return;  // nothing has written the pairs that the next pass reads
+  if (!frame.status().ok()) return std::nullopt;  // nothing has written the pairs that the next pass reads
   add_pairs_pass(frame, shadows, buffers);
   add_finish_pass(frame, buffers.lists);
   frame.put(buffers.note);
-  shadows.final_lists = std::move(buffers.lists);
+  return std::move(buffers.lists);
 }
 
 }  // namespace gloam

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "engine/render/frame_builder.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/knobs.h"
@@ -22,8 +24,9 @@ void list_generate_pipelines(const ShadowKnobs& knobs, const ShadowsOutputs& sha
                                             const ShadowsOutputs& shadows);
 
 /// Makes final lists from early lists: passes shadow_list_start, list_tile_lights, classify_shadows, generate_shadows,
-/// finish_lists. Sets shadows.final_lists, and puts a FinalListNote on the board. planes: from
-/// add_shadow_planes_pass(), or null when tiles are not classified.
-void add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes, ShadowsOutputs& shadows);
+/// finish_lists. Puts a FinalListNote on the board. planes: from add_shadow_planes_pass(), or null when tiles are not
+/// classified. shadows: without final_lists. None if the frame was given up.
+[[nodiscard]] std::optional<FinalLists> add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs,
+                                                            ImageRef planes, const ShadowsOutputs& shadows);
 
 }  // namespace gloam

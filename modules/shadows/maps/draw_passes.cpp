@@ -92,13 +92,13 @@ struct UsedImages {
   bool filled = false;  ///< the cache describes their contents
 };
 
-UsedImages use_images(FrameBuilder& frame, const ViewShadows& kept, const ShadowViews& views,
+UsedImages use_images(FrameBuilder& frame, const ViewMapState& kept, const ViewFaces& view_faces,
                       const ShadowKnobs& knobs) {
-  const HistoryImage atlas = use_map_image(frame, views, knobs, MapImage::atlas);
-  const HistoryImage pyramid = use_map_image(frame, views, knobs, MapImage::pyramid);
+  const HistoryImage atlas = use_map_image(frame, view_faces, knobs, MapImage::atlas);
+  const HistoryImage pyramid = use_map_image(frame, view_faces, knobs, MapImage::pyramid);
   UsedImages used{{atlas.image, pyramid.image, {}}, {}, atlas.filled() && pyramid.filled()};
   if (!used.filled || !kept.has_backgrounds) return used;
-  const HistoryImage backgrounds = use_map_image(frame, views, knobs, MapImage::backgrounds);
+  const HistoryImage backgrounds = use_map_image(frame, view_faces, knobs, MapImage::backgrounds);
   used.backgrounds = backgrounds.image;
   used.filled = backgrounds.filled();
   return used;
@@ -112,18 +112,18 @@ void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list) {
   list.push_back(pipeline_desc(shadow_backgrounds_program(), "shadows"));
 }
 
-ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept, const ShadowViews& views,
-                                 const ShadowKnobs& knobs) {
-  UsedImages used = use_images(frame, kept, views, knobs);
+ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewMapState& kept,
+                                 const ViewFaces& view_faces, const ShadowKnobs& knobs) {
+  UsedImages used = use_images(frame, kept, view_faces, knobs);
   if (!frame.status().ok()) return {};
-  DrawnMaps drawn = faces_to_draw(frame, kept, views, knobs, !used.filled);
+  DrawnMaps drawn = faces_to_draw(frame, kept, view_faces, knobs, !used.filled);
   auto work = std::make_shared<ViewMapWork>();
   work->backgrounds = plan_faces(std::move(drawn.backgrounds));
   work->faces = plan_faces(std::move(drawn.faces));
   work->held = std::move(drawn.held);
   work->background_image = used.backgrounds;
   if (!work->backgrounds.faces.empty() && !used.backgrounds)
-    work->background_image = use_map_image(frame, views, knobs, MapImage::backgrounds).image;
+    work->background_image = use_map_image(frame, view_faces, knobs, MapImage::backgrounds).image;
   frame.on_commit([work, &kept] {
     commit_maps(work->faces.faces, work->held, kept);
     if (work->background_image) kept.has_backgrounds = true;

@@ -31,7 +31,7 @@ struct ShadowMaps {
 /// Draws the faces whose maps the atlas does not hold, batch by batch through ShadowScratch. Each batch has a pass
 /// shadow_map_draw and a pass shadow_map_mips; the number of batches is rounded up to a power of two with empty passes.
 /// A last pass shadow_map_mips makes the coarser mips of all faces. On an error the frame is given up.
-[[nodiscard]] ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewShadows& kept,
-                                               const ShadowViews& views, const ShadowKnobs& knobs);
+[[nodiscard]] ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewMapState& kept,
+                                               const ViewFaces& view_faces, const ShadowKnobs& knobs);
 
 }  // namespace gloam

@@ -45,12 +45,12 @@ gpu::ImageDesc desc_of(MapImage image, const ShadowKnobs& knobs) {
 
 }  // namespace
 
-HistoryImage use_map_image(FrameBuilder& frame, const ShadowViews& views, const ShadowKnobs& knobs, MapImage image) {
+HistoryImage use_map_image(FrameBuilder& frame, const ViewFaces& view_faces, const ShadowKnobs& knobs, MapImage image) {
   HistoryUse use;
   use.final_access = image == MapImage::backgrounds ? gpu::Access::compute_read : gpu::Access::fragment_read;
-  if (views.shared != nullptr) {
+  if (view_faces.shared != nullptr) {
     use.scope = HistoryScope::shared;
-    use.instance = views.owner.value;
+    use.instance = view_faces.owner.value;
   }
   const auto used = frame.history_image(desc_of(image, knobs), use);
   return frame.check(used) ? *used : HistoryImage{};

@@ -23,7 +23,7 @@ enum class MapImage : std::uint8_t {
 
 /// The image in this frame; created on first use, anew if its size or format has changed. Null, and the frame is given
 /// up, if it cannot be created.
-[[nodiscard]] HistoryImage use_map_image(FrameBuilder& frame, const ShadowViews& views, const ShadowKnobs& knobs,
+[[nodiscard]] HistoryImage use_map_image(FrameBuilder& frame, const ViewFaces& view_faces, const ShadowKnobs& knobs,
                                          MapImage image);
 
 }  // namespace gloam

@@ -19,11 +19,11 @@ constexpr std::uint32_t kCoarsest = GLOAM_SHADOW_PLANE_BLOCK
                                     << (GLOAM_SHADOW_PLANE_LEVELS - 1);  // texels of a block's side, last level
 
 /// The parts of the view's faces whose planes must be made. kept_planes: the image holds the planes of earlier frames.
-std::vector<FacePart> parts_of(const ShadowMaps& maps, const ShadowViews& views, const ViewShadows& kept,
+std::vector<FacePart> parts_of(const ShadowMaps& maps, const ViewFaces& view_faces, const ViewMapState& kept,
                                bool kept_planes) {
-  const ViewShadows::Frame& frame = kept.frame;
+  const ViewMapState::Frame& frame = kept.frame;
   std::vector<FacePart> parts;
-  for (const ShadowFace& face : views.faces) {
+  for (const ShadowFace& face : view_faces.faces) {
     if (face.square.size == 0) continue;
     const FaceKey key{face.light, face.index, face.view};
     if (std::ranges::find(frame.planes, key) != frame.planes.end()) continue;
@@ -84,14 +84,14 @@ void list_shadow_plane_pipelines(PipelineList& list) {
   list.push_back(pipeline_desc({shaders::shadows::planes_comp}, "shadows"));
 }
 
-ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewShadows& kept, const ShadowMaps& maps,
-                                const ShadowViews& views, const ShadowKnobs& knobs) {
-  const HistoryImage used = use_map_image(frame, views, knobs, MapImage::planes);
+ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewMapState& kept, const ShadowMaps& maps,
+                                const ViewFaces& view_faces, const ShadowKnobs& knobs) {
+  const HistoryImage used = use_map_image(frame, view_faces, knobs, MapImage::planes);
   if (!used.image) return {};
   ImageRef planes = used.image;
-  const std::vector<FacePart> parts = parts_of(maps, views, kept, used.valid());
+  const std::vector<FacePart> parts = parts_of(maps, view_faces, kept, used.valid());
   std::vector<FaceKey> made;
-  for (const ShadowFace& face : views.faces)
+  for (const ShadowFace& face : view_faces.faces)
     if (face.square.size > 0) made.push_back({face.light, face.index, face.view});
   kept.frame.planes.insert(kept.frame.planes.end(), made.begin(), made.end());
   frame.on_commit([&kept, made = std::move(made), all_new = !used.filled()] {

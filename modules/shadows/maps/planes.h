@@ -14,7 +14,7 @@ void list_shadow_plane_pipelines(PipelineList& list);
 /// Updates the view's planes (shaders/shadows/maps/planes_shared.h) for the parts of faces that this frame draws: pass
 /// shadow_planes. Faces whose planes were not made after their map was drawn are updated as a whole.
 /// Returns the image of planes; a null ref if it cannot be created, and the frame is given up.
-[[nodiscard]] ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewShadows& kept, const ShadowMaps& maps,
-                                              const ShadowViews& views, const ShadowKnobs& knobs);
+[[nodiscard]] ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewMapState& kept, const ShadowMaps& maps,
+                                              const ViewFaces& view_faces, const ShadowKnobs& knobs);
 
 }  // namespace gloam

@@ -27,14 +27,14 @@ void ShadowStates::begin(gpu::Device& device) {
   std::erase_if(views_, [&](const auto& entry) { return entry.second.last_frame + kFramesKept < frame; });
 }
 
-ViewShadows& ShadowStates::view(std::uint64_t world, ViewId owner, ViewId user) {
-  ViewShadows& found = views_[{world, owner.value}];
+ViewMapState& ShadowStates::view(std::uint64_t world, ViewId owner, ViewId user) {
+  ViewMapState& found = views_[{world, owner.value}];
   found.users.insert(user.value);
   found.last_frame = device_->frame_number();
   return found;
 }
 
-const ViewShadows* ShadowStates::find(std::uint64_t world, ViewId view) const {
+const ViewMapState* ShadowStates::find(std::uint64_t world, ViewId view) const {
   const auto found = views_.find({world, view.value});
   return found == views_.end() ? nullptr : &found->second;
 }

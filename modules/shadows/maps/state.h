@@ -10,7 +10,7 @@
 #include "engine/core/result.h"
 #include "engine/frame/upload.h"
 #include "engine/gpu/device.h"
-#include "modules/shadows/atlas/view_maps.h"
+#include "modules/shadows/atlas/view_map_state.h"
 #include "modules/shadows/maps/scratch.h"
 
 namespace gloam {
@@ -27,11 +27,11 @@ class ShadowStates {
   /// Call once per view and frame, before the other functions. Forgets views, and destroys scratch images, that no
   /// frame has used for 120 frames.
   void begin(gpu::Device& device);
-  /// The view's state, empty at the first call. world: its world_id. owner: ShadowViews::owner, under which several
-  /// views share one state. user: the view.
-  [[nodiscard]] ViewShadows& view(std::uint64_t world, ViewId owner, ViewId user);
+  /// The view's state, empty at the first call. world: its world_id. owner: ViewFaces::owner, under which several views share one state.
+  /// user: the view.
+  [[nodiscard]] ViewMapState& view(std::uint64_t world, ViewId owner, ViewId user);
   /// The view's state; null if view() was never called for it, or if it has been forgotten since.
-  [[nodiscard]] const ViewShadows* find(std::uint64_t world, ViewId owner) const;
+  [[nodiscard]] const ViewMapState* find(std::uint64_t world, ViewId owner) const;
   /// Resets the view's counters and its list of drawn faces. For frames of the view that draw no maps.
   void skip_frame(std::uint64_t world, ViewId owner);
   /// Forgets what only this view uses.
@@ -51,7 +51,7 @@ class ShadowStates {
   using Key = std::pair<std::uint64_t, std::uint32_t>;
 
   gpu::Device* device_ = nullptr;
-  std::map<Key, ViewShadows> views_;
+  std::map<Key, ViewMapState> views_;
   std::unique_ptr<UploadRing> staging_;
   std::unique_ptr<UploadRing> traced_staging_;
   bool has_traced_ = false;  ///< the newest frame used traced_staging()

@@ -77,7 +77,7 @@ LocalShadow local_shadow(const Light& light, const dmat4& world_from_node, float
   shadow.position = dvec3(world_from_node[3]);
   shadow.axes = node_axes(world_from_node);
   shadow.range_m = effective_range(light);
-  shadow.width_m = light.width_m > 0.0f && std::isfinite(light.width_m) ? light.width_m : 0.0f;
+  shadow.emitter_diameter_m = light.width_m > 0.0f && std::isfinite(light.width_m) ? light.width_m : 0.0f;
   const bool spot = light.kind == LightKind::spot;
   const bool sound = is_finite(shadow.position) && (!spot || std::isfinite(light.outer_angle));
   const float half = spot && sound ? std::clamp(light.outer_angle, 0.0f, kPi * 0.5f) : kPi * 0.5f;
@@ -106,14 +106,14 @@ ShadowFace local_face(Entity light, const LocalShadow& shadow, std::uint32_t ind
   face.tan_half = shadow.tan_half;
   face.near_m = shadow.near_m;
   face.far_m = shadow.range_m;
-  face.emitter_m = 0.5f * shadow.width_m;
+  face.emitter_radius_m = 0.5f * shadow.emitter_diameter_m;
   return face;
 }
 
 shaders::ShadowRow shadow_row(const LocalShadow& shadow, std::span<const AtlasSquare> squares) {
   shaders::ShadowRow row{};
   row.near_m = shadow.near_m;
-  row.width_m = shadow.width_m;
+  row.emitter_diameter_m = shadow.emitter_diameter_m;
   row.right = shadow.axes.right;
   row.up = shadow.axes.up;
   row.tan_half = shadow.tan_half;

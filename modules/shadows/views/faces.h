@@ -35,11 +35,11 @@ struct LocalShadow {
   dvec3 position = dvec3(0.0);             ///< world
   FaceAxes axes;                           ///< the node's axes; a cube's faces use cube_axes()
   float range_m = 0.0f;
-  float near_m = 0.0f;      ///< depth of the faces' near planes
-  float width_m = 0.0f;     ///< diameter of the emitter, ≥ 0
-  float tan_inner = 1.0f;   ///< tangent of half a face's field of view, without the rim
-  float tan_half = 1.0f;    ///< the same with the rim
-  float cookie_tan = 1.0f;  ///< tangent of the half angle that a cookie fills
+  float near_m = 0.0f;              ///< depth of the faces' near planes
+  float emitter_diameter_m = 0.0f;  ///< ≥ 0
+  float tan_inner = 1.0f;           ///< tangent of half a face's field of view, without the rim
+  float tan_half = 1.0f;            ///< the same with the rim
+  float cookie_tan = 1.0f;          ///< tangent of the half angle that a cookie fills
 
   [[nodiscard]] std::uint32_t face_count() const {
     return kind == GLOAM_SHADOW_CUBE ? 6 : kind == GLOAM_SHADOW_SPOT ? 1 : 0;

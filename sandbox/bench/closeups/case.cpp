@@ -162,7 +162,7 @@ std::vector<std::uint8_t> pixels_that_face(const World& world, const GeometryPic
 MapTexels map_texels(const Session& session) {
   const ViewId view = view_of(session);
   MapTexels texels;
-  texels.standard = session.world.view_resource<ShadowViews>(view).atlas.used_texels();
+  texels.standard = session.world.view_resource<ViewFaces>(view).atlas.used_texels();
   for (const CloseupView& pair : session.world.view_resource<CloseupViews>(view).pairs)
     texels.closeups += std::uint64_t{pair.face.square.size} * pair.face.square.size;
   return texels;
@@ -175,7 +175,7 @@ Result<EqualTexels> find_equal_texels(ShadowCase& shadows, const char* most_pair
   GLOAM_TRY(shadows.set("closeups.max_pairs", most_pairs));
   if (auto frame = shadows.draw(); !frame) return frame.error();
   const Session& session = shadows.session();
-  const float kept = session.world.view_resource<ShadowViews>(view_of(session)).texels_per_pixel;
+  const float kept = session.world.view_resource<ViewFaces>(view_of(session)).texels_per_pixel;
   const double users = session.renderer->knobs().number("shadows.texels_per_pixel");
   const double density = kept > 0.0f ? std::min(static_cast<double>(kept), users) : users;
 

@@ -26,19 +26,19 @@ void GrassProbe::add_passes(FrameBuilder& frame, PassPhase phase) {
   if (phase != PassPhase::visualize) return;
   steps_ = {};
   const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();
-  if (grass == nullptr || (*grass)->patches.empty()) return;
+  if (grass == nullptr || (*grass)->stored.patches.empty()) return;
   steps_ = (*grass)->steps;
   if (!std::exchange(wanted_, false)) return;
-  reading_ = {.patches = (*grass)->patches, .range_m = (*grass)->lod.range_m};
+  reading_ = {.patches = (*grass)->stored.patches, .range_m = (*grass)->lod.range_m};
   copies_ = std::make_unique<Captures>(frame.services().device);
   const auto copy = [&](std::string_view name, BufferRef buffer) {
     static_cast<void>(frame.check(copies_->add(frame.graph(), name, buffer)));
   };
-  copy("draws", (*grass)->draws);
-  copy("blades", (*grass)->blades);
-  copy("bins", (*grass)->bins);
-  copy("knots", (*grass)->store.knots);
-  copy("poses", (*grass)->poses);
+  copy("draws", (*grass)->sorted.draws);
+  copy("blades", (*grass)->sorted.blades);
+  copy("bins", (*grass)->sorted.bins);
+  copy("knots", (*grass)->stored.store.knots);
+  copy("poses", (*grass)->drawn.poses);
 }
 
 GrassReading GrassProbe::take() {

@@ -145,7 +145,7 @@ vec2 cube_face_origin(uint light, int face) {
 // The values that all receivers of a local light share.
 struct LocalShadow {
   vec3 position;  // camera-relative
-  vec4 first;     // kind, near, width, size
+  vec4 first;     // kind, near_m, emitter_diameter_m, size
   vec4 right;     // right, tan_half
   vec4 up;        // up, tan_inner
   vec3 forward;

@@ -114,7 +114,7 @@ bool is_dark(TileBounds t, vec3 light_position) {
 struct LocalFaces {
   uint light;
   vec3 position;
-  vec4 first;  // kind, near, width, size
+  vec4 first;  // kind, near_m, emitter_diameter_m, size
   vec4 right;  // right, tan_half
   vec4 up;     // up, tan_inner
   bool cube;
@@ -136,7 +136,7 @@ bool tile_in_local_face(TileBounds t, LocalFaces l, int face, bool margins, out 
   f.near_width = kFilter == 3u && kNear != 0u ? kNearTangent * first.w / right.w : 1e30;
   mat3 axes = mat3(right.xyz, up.xyz, spot_forward(l.light, right.xyz, up.xyz));
   if (f.cube) axes = kCube * cube_face_axes(face);
-  float near = first.y, texel = 2.0 * right.w / first.w, width = max(first.z, 0.0);
+  float near = first.y, texel = 2.0 * right.w / first.w, diameter = max(first.z, 0.0);
   vec2 texels[8];
   float least_z = 1e30, most_z = 0.0, most_stretch = 1.0, outermost = -1e30, least_r = 1e30, most_r = 0.0;
   for (int i = 0; i < 8; ++i) {
@@ -158,7 +158,7 @@ bool tile_in_local_face(TileBounds t, LocalFaces l, int face, bool margins, out 
   const float slack = 4e-6;
   f.nearest = near / max(least_z, 1e-9) * (1.0 + slack);
   f.farthest = near / max(most_z, 1e-9) * (1.0 - slack);
-  f.scale = width / (near * texel) * (f.cube ? sqrt(most_stretch) : 1.0) * (1.0 + slack);
+  f.scale = diameter / (near * texel) * (f.cube ? sqrt(most_stretch) : 1.0) * (1.0 + slack);
   f.surrounded = outermost < 0.0;
   f.clear = least_r > 1.74 * near;  // 1.74 > √3: the corners of a cube's near planes are farthest away
   // Planes: n · v = h for points v of the tile relative to the light. The plane that is farthest from the light is
@@ -170,7 +170,7 @@ bool tile_in_local_face(TileBounds t, LocalFaces l, int face, bool margins, out 
   float closest = min(abs(heights.x), abs(heights.y));
   bool one_side = heights.x * heights.y > 0.0 && closest > 2.0 * tilted;
   set_facing(f, vec2(sines.x / (sines.x > 0.0 ? most_r : least_r), sines.y / (sines.y > 0.0 ? least_r : most_r)),
-             0.5 * width / vec2(least_r, most_r), t.subsurface);
+             0.5 * diameter / vec2(least_r, most_r), t.subsurface);
   set_biases(f, vec2(f.farthest / most_z, f.nearest / max(least_z, 1e-9)), t.subsurface);
   float lowest = abs(heights.x) > abs(heights.y) ? heights.x : heights.y;
   vec3 normal = t.normal * axes;

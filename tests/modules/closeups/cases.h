@@ -70,7 +70,7 @@ class CloseupCases {
       if (length < 0.0) return std::nullopt;
       return Hidden{blocker + ray * (share * length), blocker};
     }
-    const dvec3 from = light.position + direction() * light.radius_m * (chance(0.5) ? 1.0 : in(0.0, 1.0));
+    const dvec3 from = light.position + direction() * light.emitter_radius_m * (chance(0.5) ? 1.0 : in(0.0, 1.0));
     const dvec3 ray = blocker - from;
     const dvec3 start = blocker - light.position;
     // Solves |start + u · ray| = range.
@@ -95,7 +95,7 @@ class CloseupCases {
     const dvec3 side = light.right * std::cos(turn) + light.up * std::sin(turn);
     const dvec3 to = light.forward * std::cos(angle) + side * std::sin(angle);
     const dvec3 receiver = light.position + to * light.range_m * (chance(0.3) ? 1.0 : in(0.0, 1.0));
-    const dvec3 from = light.position + direction() * light.radius_m * (chance(0.3) ? 0.0 : 1.0);
+    const dvec3 from = light.position + direction() * light.emitter_radius_m * (chance(0.3) ? 0.0 : 1.0);
     double enters = 0.0;
     double leaves = 1.0;
     for (int c = 0; c < 3; ++c) {

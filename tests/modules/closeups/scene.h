@@ -265,7 +265,7 @@ class CloseupScene : public DeferredShadowsTest {
     std::memcpy(texels.data(), image->bytes.data(), texels.size() * sizeof(float));
     const std::size_t row = static_cast<std::size_t>(std::sqrt(1.5 * static_cast<double>(texels.size())) + 0.5);
     std::size_t bad = 0;
-    for (const ShadowFace& face : world.view_resource<ShadowViews>(settings.id).faces)
+    for (const ShadowFace& face : world.view_resource<ViewFaces>(settings.id).faces)
       for (std::uint32_t y = 0; y < face.square.size; ++y)
         for (std::uint32_t x = 0; x < face.square.size; ++x) {
           const float depth = texels[(face.square.origin.y + y) * row + face.square.origin.x + x];

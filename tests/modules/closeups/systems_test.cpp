@@ -369,7 +369,7 @@ TEST(CloseupSystems, a_pair_says_which_light_of_the_view_it_is_and_what_its_map_
     } else {
       EXPECT_EQ(pair.light, lamp);
       EXPECT_EQ(pair.light_position, dvec3(0, 3, 0));
-      EXPECT_FLOAT_EQ(pair.width_m, 0.1f);
+      EXPECT_FLOAT_EQ(pair.emitter_diameter_m, 0.1f);
       EXPECT_NEAR(pair.face.near_m, 2.5, 1e-4);
     }
   }

@@ -29,8 +29,8 @@ struct CaptureShadows : testing::Test {
   void run(std::span<const ViewSettings> views, std::uint64_t frame) {
     scene.run(*make_serial_executor(), views, frame);
   }
-  [[nodiscard]] const ShadowViews& shadows(const ViewSettings& view) const {
-    return scene.world.view_resource<ShadowViews>(view.id);
+  [[nodiscard]] const ViewFaces& shadows(const ViewSettings& view) const {
+    return scene.world.view_resource<ViewFaces>(view.id);
   }
 };
 

@@ -28,7 +28,7 @@ class ShadowsModuleTest : public ::testing::Test {
   }
   void prepare_view() {
     module->prepare_view(world, view.id, knobs);
-    world.view_resource<ShadowViews>(view.id).casting_lights = 1;
+    world.view_resource<ViewFaces>(view.id).casting_lights = 1;
   }
   [[nodiscard]] std::string reason(const RenderView* of = nullptr) const { return module->demand(world, of).reason; }
   [[nodiscard]] bool needed(const RenderView* of = nullptr) const { return module->demand(world, of).needed; }
@@ -64,7 +64,7 @@ TEST_F(ShadowsModuleTest, a_view_without_casting_lights_does_not) {
   world.create(Light{});
   prepare_view();
   EXPECT_TRUE(needed(&view));
-  world.view_resource<ShadowViews>(view.id).casting_lights = 0;
+  world.view_resource<ViewFaces>(view.id).casting_lights = 0;
   EXPECT_FALSE(needed(&view));
   EXPECT_EQ(reason(&view), "1 light casts shadows, none in view");
 }

@@ -22,7 +22,7 @@ namespace {
 using test::ShadowWorld;
 
 /// Hash of everything that passes and shaders read.
-std::uint64_t hash_of(const ShadowViews& shadows) {
+std::uint64_t hash_of(const ViewFaces& shadows) {
   Hasher hasher;
   const auto floats = [&](std::initializer_list<float> values) {
     for (const float value : values) hasher.bytes_of(value);
@@ -49,7 +49,7 @@ bool all_finite(std::span<const std::byte> bytes) {
 }
 
 /// Expects that rows and faces agree, and that all values are finite.
-void expect_sound(const ShadowViews& shadows) {
+void expect_sound(const ViewFaces& shadows) {
   EXPECT_TRUE(all_finite(std::as_bytes(std::span(shadows.rows))));
   std::size_t next = 0;
   for (const shaders::ShadowRow& row : shadows.rows) {
@@ -90,7 +90,7 @@ TEST(ShadowSystems, have_their_names) {
 
 TEST(ShadowSystems, find_nothing_in_a_world_without_lights) {
   ShadowWorld scene;
-  const ShadowViews& shadows = scene.run();
+  const ViewFaces& shadows = scene.run();
   EXPECT_TRUE(shadows.faces.empty());
   EXPECT_TRUE(shadows.rows.empty());
   EXPECT_EQ(shadows.casting_lights, 0u);
@@ -203,7 +203,7 @@ TEST(ShadowSystems, follow_the_settings) {
   scene.shadow_settings().cascades = 2;
   scene.shadow_settings().kernel_rim = 0.5f;
   scene.shadow_settings().atlas_size = 1024;
-  const ShadowViews& shadows = scene.run();
+  const ViewFaces& shadows = scene.run();
   EXPECT_EQ(shadows.block.directional[0].cascade_count, 2u);
   EXPECT_EQ(shadows.atlas.size(), 1024u);
   EXPECT_EQ(shadows.rows[0].tan_half, 1.5f);
@@ -219,7 +219,7 @@ TEST(ShadowSystems, give_lights_as_many_texels_as_the_atlas_has_room_for) {
     scene.add_sun();
     scene.add_mesh({0, 0, -30});
     scene.shadow_settings().texels_per_pixel = 4.0f;
-    const ShadowViews& shadows = scene.run();
+    const ViewFaces& shadows = scene.run();
     EXPECT_EQ(shadows.faces_shrunk, 0u) << count;
     EXPECT_GT(shadows.texels_per_pixel, 0.0f);
     EXPECT_LE(shadows.texels_per_pixel, 4.0f);
@@ -241,7 +241,7 @@ TEST(ShadowSystems, count_the_faces_that_have_fewer_texels_than_asked_for) {
   ShadowWorld full;
   full.add_random(60);
   full.shadow_settings().texels_per_pixel = 8.0f;
-  const ShadowViews& shadows = full.run();
+  const ViewFaces& shadows = full.run();
   EXPECT_EQ(shadows.faces_at_limit, shadows.faces.size()) << "the density was lowered";
 }
 
@@ -262,7 +262,7 @@ TEST(ShadowSystems, change_no_map_when_lights_leave_the_view_of_a_full_atlas) {
   ShadowWorld scene;
   scene.add_random(60);
   scene.shadow_settings().texels_per_pixel = 8.0f;
-  const ShadowViews& shadows = scene.run();
+  const ViewFaces& shadows = scene.run();
   EXPECT_LT(shadows.texels_per_pixel, 8.0f) << "the atlas is full";
   const std::vector<ShadowFace> first = shadows.faces;
   scene.settings.world_from_camera = glm::rotate(dmat4(1.0), 0.4, dvec3(0.0, 1.0, 0.0));
@@ -279,7 +279,7 @@ TEST(ShadowSystems, shrink_faces_of_a_full_atlas_and_say_so) {
   scene.world.view<const Light>().each([&](Entity light, const Light&) { lights.push_back(light); });
   for (const Entity light : lights) scene.world.add(light, ShadowCaster{.resolution = 64});
   scene.shadow_settings().atlas_size = 1024;
-  const ShadowViews& shadows = scene.run();
+  const ViewFaces& shadows = scene.run();
   EXPECT_GT(shadows.faces_shrunk, 0u);
   EXPECT_LE(shadows.atlas.used_texels(), 1024u * 1024u);
   expect_sound(shadows);
@@ -289,7 +289,7 @@ TEST(ShadowSystems, leave_lights_out_when_not_even_the_smallest_faces_fit) {
   ShadowWorld scene;
   scene.add_random(100);
   scene.shadow_settings().atlas_size = 64;
-  const ShadowViews& shadows = scene.run();
+  const ViewFaces& shadows = scene.run();
   EXPECT_GT(shadows.faces_left_out, 0u);
   EXPECT_LE(shadows.faces.size(), 16u);
   EXPECT_FALSE(shadows.faces.empty());
@@ -301,7 +301,7 @@ TEST(ShadowSystems, serve_a_thousand_and_twenty_four_point_lights) {
   ShadowWorld scene;
   scene.add_random(2000);
   scene.world.view<Light>().each([](Light& light) { light.kind = LightKind::point; });
-  const ShadowViews& shadows = scene.run();
+  const ViewFaces& shadows = scene.run();
   EXPECT_EQ(shadows.rows.size(), 1024u);
   EXPECT_EQ(shadows.faces.size() + shadows.faces_left_out, 6144u);
   EXPECT_EQ(shadows.faces_left_out, 0u);
@@ -339,7 +339,7 @@ TEST(ShadowSystems, keep_numbers_that_are_none_out_of_faces) {
   scene.add_mesh(dvec3(std::numeric_limits<double>::quiet_NaN()));
   scene.add_mesh(dvec3(std::numeric_limits<double>::infinity()));
   for (int frame = 0; frame < 2; ++frame) {
-    const ShadowViews& shadows = scene.run();
+    const ViewFaces& shadows = scene.run();
     EXPECT_FALSE(shadows.faces.empty());
     expect_sound(shadows);
   }
@@ -355,7 +355,7 @@ TEST(ShadowSystems, serve_lights_around_and_behind_every_kind_of_camera) {
   for (const bool orthographic : {false, true}) {
     scene.settings.camera.orthographic = orthographic;
     scene.settings.camera.half_height_m = 3.0f;
-    const ShadowViews& shadows = scene.run();
+    const ViewFaces& shadows = scene.run();
     EXPECT_EQ(shadows.rows.size(), 2u);
     EXPECT_EQ(shadows.faces.size(), 12u);
     expect_sound(shadows);
@@ -367,7 +367,7 @@ TEST(ShadowSystems, put_the_casters_between_a_suns_near_and_far_side) {
   scene.add_sun();
   scene.add_mesh({0, 0, -10});
   scene.add_mesh({3, 20, -30});
-  const ShadowViews& shadows = scene.run();
+  const ViewFaces& shadows = scene.run();
   ASSERT_FALSE(shadows.faces.empty());
   expect_sound(shadows);
   for (const ShadowFace& face : shadows.faces) {

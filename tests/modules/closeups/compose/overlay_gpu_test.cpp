@@ -94,7 +94,7 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
   }
   /// atlas: read while it had the size that it has now.
   [[nodiscard]] FaceDepths face_in(const std::vector<float>& atlas, const AtlasSquare& square) const {
-    const std::uint32_t side = world.view_resource<ShadowViews>(ViewId{0}).atlas.size();
+    const std::uint32_t side = world.view_resource<ViewFaces>(ViewId{0}).atlas.size();
     FaceDepths face{square.size, {}};
     for (std::uint32_t i = 0; i < square.size * square.size; ++i) {
       const uvec2 texel = square.origin + uvec2(i % square.size, i / square.size);

@@ -103,7 +103,7 @@ class UmbraProjection : public ::testing::Test {
     made.eye.camera.near_m = 0.1f;
     const dvec3 lamp = cases_.direction() * cases_.in(2.5, 6.0);
     made.light = light_at(lamp, glm::normalize(cases_.point(0.5) - lamp));
-    made.light.radius_m = std::min(made.light.radius_m, 0.15);
+    made.light.emitter_radius_m = std::min(made.light.emitter_radius_m, 0.15);
     made.light.spread = std::min(made.light.spread, 0.05);
     made.light.range_m = std::max(made.light.range_m, 4.0);
     made.receivers = cases_.box(dvec3(0.0), 8.0, 20.0);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/math/packing.h"
-#include "modules/depth_of_field/passes.h"
+#include "modules/depth_of_field/dof_passes.h"
 #include "tests/support/gpu_device.h"
 #include "tests/support/pass_frame.h"
 
@@ -100,7 +100,7 @@ inline constexpr double kDofOffset = 40.0;
     frame.put(LitOutput{frames.input("lit", light_image)});
     add_dof_passes(frame, {.focus_m = 1.0f, .bokeh = in.bokeh}, lens);
     frames.keep("light", frame.get<LitOutput>().color);
-    frames.keep(frame, "lists", frame.get<DofFrame>().lists, sizeof(DofResult::lists));
+    frames.keep(frame, "lists", frame.get<DofFrame>().tiles.lists, sizeof(DofResult::lists));
   });
   DofResult result;
   result.halves = frames.read<DofHalf>("light");

@@ -205,17 +205,17 @@ class GrassStage {
   /// Declares the copies of one view.
   void watch(FrameBuilder& frame) {
     const auto* board = frame.find<std::shared_ptr<GrassFrame>>();
-    if (board == nullptr || (*board)->patches.empty()) return;
+    if (board == nullptr || (*board)->stored.patches.empty()) return;
     const GrassFrame& grass = **board;
     const std::uint32_t view = frame.view().id.value;
-    copies_[view] = {grass.patches, grass.slot_masters, grass.lod, grass.steps};
+    copies_[view] = {grass.stored.patches, grass.stored.slot_masters, grass.lod, grass.steps};
     auto& captures = captures_[view];
     captures = std::make_unique<Captures>(*shared_device());
-    const std::pair<const char*, BufferRef> buffers[] = {{"draws", grass.draws},
+    const std::pair<const char*, BufferRef> buffers[] = {{"draws", grass.sorted.draws},
                                                          {"dispatch", grass.dispatch},
-                                                         {"blades", grass.blades},
-                                                         {"knots", grass.store.knots},
-                                                         {"previous_knots", grass.store.previous_knots}};
+                                                         {"blades", grass.sorted.blades},
+                                                         {"knots", grass.stored.store.knots},
+                                                         {"previous_knots", grass.stored.store.previous_knots}};
     for (const auto& [name, buffer] : buffers) EXPECT_TRUE(captures->add(frame.graph(), name, buffer).ok());
   }
 

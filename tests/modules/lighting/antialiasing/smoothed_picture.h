@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/math/packing.h"
-#include "modules/lighting/antialiasing/passes.h"
+#include "modules/lighting/antialiasing/smooth_edges_passes.h"
 #include "tests/support/gpu_device.h"
 #include "tests/support/pass_frame.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/render/view_constants.h"
-#include "modules/particles/simulation/pass.h"
+#include "modules/particles/simulation/simulate_particles_pass.h"
 #include "modules/particles/sorting/key_ranges.h"
 #include "shaders/particles/shaders.h"
 #include "tests/modules/particles/support/emitters.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/particles/sorting/pass.h"
+#include "modules/particles/sorting/sort_particles_passes.h"
 #include "tests/support/pass_frame.h"
 
 namespace gloam::test {
@@ -29,13 +29,9 @@ class ParticleSort : public ::testing::Test {
     const auto places = static_cast<std::uint32_t>(keys.size());
     ReadPassFrames frames(*device());
     frames.draw([&](FrameBuilder& frame) {
-      ParticlesFrame particles;
-      particles.two_digits = two_digits;
-      particles.constants.places = places;
-      particles.keys = frames.input("keys", keys);
-      add_particle_sort_passes(frame, particles);
-      frames.keep(frame, "order", particles.order, std::uint64_t{places} * sizeof(std::uint32_t));
-      frames.keep(frame, "draws", particles.draws, sizeof(shaders::ParticleDraws));
+      const SortedParticles sorted = add_particle_sort_passes(frame, frames.input("keys", keys), places, two_digits);
+      frames.keep(frame, "order", sorted.order, std::uint64_t{places} * sizeof(std::uint32_t));
+      frames.keep(frame, "draws", sorted.draws, sizeof(shaders::ParticleDraws));
     });
     std::vector<std::uint32_t> expected(keys.size());
     std::iota(expected.begin(), expected.end(), 0u);

@@ -155,15 +155,15 @@ class ParticleStage {
     const std::uint32_t view = frame.view().id.value;
     ParticleCopy& copy = copies_[view];
     copy.view = frame.view();
-    copy.constants = board->constants;
-    copy.two_digits = board->two_digits;
-    copy.lit_points = board->lit_points();
+    copy.constants = board->inputs.constants;
+    copy.two_digits = board->inputs.two_digits;
+    copy.lit_points = lit_points(board->inputs.lighting);
     auto& captures = captures_[view];
     captures = std::make_unique<Captures>(*shared_device());
-    const std::pair<const char*, BufferRef> buffers[] = {{"draws", board->draws},
-                                                         {"particles", board->state},
-                                                         {"keys", board->keys},
-                                                         {"order", board->order},
+    const std::pair<const char*, BufferRef> buffers[] = {{"draws", board->sorted.draws},
+                                                         {"particles", board->simulated.state},
+                                                         {"keys", board->simulated.keys},
+                                                         {"order", board->sorted.order},
                                                          {"light", board->light}};
     for (const auto& [name, buffer] : buffers)
       if (buffer) {

@@ -50,7 +50,7 @@ struct Blended {
   shaders::ReflectionConstants c = in.constants;
   c.changed_lights = static_cast<std::uint32_t>(in.changed.size());
   const std::size_t texels = std::size_t{c.size.x} * c.size.y;
-  Kernel kernel(device, shaders::reflections::blend_comp,
+  Kernel kernel(device, shaders::reflections::proxy_blending_comp,
                 {{0, in.ssr_color.empty() ? 0u : 1u},
                  {1, in.proxies_on ? 1u : 0u},
                  {2, in.layers},

@@ -29,11 +29,11 @@ using ByteTexel = std::array<std::uint8_t, 4>;
   return values;
 }
 
-/// The mirror surfaces of a view, as surfaces/find.comp finds them, by texel.
+/// The mirror surfaces of a view, as passes/mirror_surfaces.comp finds them, by texel.
 [[nodiscard]] inline std::vector<uvec2> find_mirrors(gpu::Device& device, const SyntheticView& seen,
                                                      const shaders::ReflectionConstants& constants) {
   const std::uint32_t w = seen.view.width, h = seen.view.height;
-  Kernel kernel(device, shaders::reflections::find_comp);
+  Kernel kernel(device, shaders::reflections::mirror_surfaces_comp);
   kernel.input(0, std::vector{view_constants(seen.view)});
   kernel.input(1, std::vector{constants});
   kernel.sampled_image(2, gpu::Format::rg32_uint, w, h, seen.normals);

@@ -87,7 +87,7 @@ class DrawnFaces : public ::testing::Test {
   std::vector<ShadowFace> faces;
   std::vector<Caster> casters;
   std::vector<std::unique_ptr<CasterSource>> sources;
-  ViewShadows kept;
+  ViewMapState kept;
   bool atlas_is_empty = false;  ///< of the next frame
   std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
 };

@@ -242,7 +242,7 @@ TEST_F(ShadowWithheld, other_lights_maps_hold_what_is_withheld_from_one) {
   draw();
   const Faces with = faces_now();
   ASSERT_EQ(with.size(), 7u);
-  const std::size_t spot_face = world.view_resource<ShadowViews>(ViewId{0}).faces[0].light == spot_ ? 0 : 6;
+  const std::size_t spot_face = world.view_resource<ViewFaces>(ViewId{0}).faces[0].light == spot_ ? 0 : 6;
   withhold({lamp_}, {movers[0]});
   draw();
   const Faces withheld = faces_now();

@@ -56,7 +56,7 @@ class DeferredShadowsHard : public test::DeferredShadowsTest {
       const std::uint32_t first = which == 0 ? 0 : GLOAM_SHADOW_PYRAMID_MIP;
       std::vector<float> values(image.bytes.size() / sizeof(float));
       std::memcpy(values.data(), image.bytes.data(), image.bytes.size());
-      for (const ShadowFace& face : world.view_resource<ShadowViews>(settings.id).faces)
+      for (const ShadowFace& face : world.view_resource<ViewFaces>(settings.id).faces)
         for (std::uint32_t mip = first; face.square.size >> mip != 0; ++mip) {
           const std::uint32_t level = mip - first, side = face.square.size >> mip;
           const uvec2 corner = mip_corner(size, level) + (face.square.origin >> mip);

@@ -341,7 +341,7 @@ TEST_F(CasterSources, an_extra_map_holds_the_blades_of_its_entities) {
   blades_->also = [&](FrameBuilder& frame, PassPhase phase) {
     if (phase != PassPhase::shading) return;
     const ShadowMapDrawer& drawer = frame.get<ShadowMapDrawer>();
-    ExtraMap map{frame.world().view_resource<ShadowViews>(frame.view().id).faces.front(), casters};
+    ExtraMap map{frame.world().view_resource<ViewFaces>(frame.view().id).faces.front(), casters};
     map.face.square.origin = uvec2(0);
     ExtraAtlas atlas = drawer.create(frame, 512);
     drawer.draw(frame, "extra", {&map, 1}, atlas);

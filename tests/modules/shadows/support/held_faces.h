@@ -28,13 +28,13 @@ inline void append_texels(FaceTexels& texels, std::span<const std::byte> image, 
   }
 }
 
-/// The contents of the first view's faces, in the order of its ShadowViews. Draws the view once more.
+/// The contents of the first view's faces, in the order of its ViewFaces. Draws the view once more.
 [[nodiscard]] inline std::vector<FaceTexels> held_faces(Renderer& renderer, World& world) {
   constexpr std::string_view kNames[] = {"shadow_atlas", "shadow_pyramid"};
   const std::vector<ImageBytes> images = value_of(renderer.read_images(world, ViewId{0}, kNames));
-  const std::uint32_t size = world.view_resource<ShadowViews>(ViewId{0}).atlas.size();
+  const std::uint32_t size = world.view_resource<ViewFaces>(ViewId{0}).atlas.size();
   std::vector<FaceTexels> faces;
-  for (const ShadowFace& face : world.view_resource<ShadowViews>(ViewId{0}).faces) {
+  for (const ShadowFace& face : world.view_resource<ViewFaces>(ViewId{0}).faces) {
     FaceTexels& texels = faces.emplace_back();
     for (std::uint32_t mip = 0; face.square.size >> mip != 0; ++mip) {
       append_texels(texels, images[0].bytes, size, mip, mip, face.square);

@@ -359,7 +359,7 @@ shaders::ShadowRow spot_row(const FacePose& pose, double tan_inner, double width
   shaders::ShadowRow row{};
   row.kind = GLOAM_SHADOW_SPOT;
   row.near_m = static_cast<float>(pose.near_m);
-  row.width_m = static_cast<float>(width_m);
+  row.emitter_diameter_m = static_cast<float>(width_m);
   row.size = static_cast<float>(size);
   row.right = vec3(pose.right);
   row.up = vec3(pose.up);

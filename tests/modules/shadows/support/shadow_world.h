@@ -74,11 +74,11 @@ struct ShadowWorld : ModuleWorld {
     for (const ViewSettings& view : views) schedule.run_view(view.id, world, executor);
   }
   void run(JobExecutor& executor) { run(executor, {&settings, 1}); }
-  const ShadowViews& run() {
+  const ViewFaces& run() {
     run(*make_serial_executor());
     return shadows();
   }
-  [[nodiscard]] const ShadowViews& shadows() const { return world.view_resource<ShadowViews>(settings.id); }
+  [[nodiscard]] const ViewFaces& shadows() const { return world.view_resource<ViewFaces>(settings.id); }
   [[nodiscard]] ShadowSettings& shadow_settings() {
     prepare_shadow_view(world, settings.id, ShadowKnobs{});
     return world.view_resource<ShadowSettings>(settings.id);

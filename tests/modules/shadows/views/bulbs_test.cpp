@@ -12,9 +12,9 @@ namespace {
 const double kRoot3 = std::sqrt(3.0);
 
 /// is_bulb() for a cube around `middle` and a light at a far place.
-bool cube_is_bulb(const dvec3& middle, double half, double emitter_m, bool emissive = true) {
+bool cube_is_bulb(const dvec3& middle, double half, double emitter_radius_m, bool emissive = true) {
   const dvec3 light(100e3, -3.0, 20e3);
-  return is_bulb(light, emitter_m, light + middle - half, light + middle + half, emissive ? half * kRoot3 : 0.0);
+  return is_bulb(light, emitter_radius_m, light + middle - half, light + middle + half, emissive ? half * kRoot3 : 0.0);
 }
 
 TEST(Bulbs, are_emissive_meshes_in_or_at_the_emitter) {

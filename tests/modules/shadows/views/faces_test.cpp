@@ -241,7 +241,7 @@ TEST(ShadowFaces, numbers_that_are_none_make_no_face) {
     EXPECT_EQ(local_shadow(light, dmat4(1.0), kRim).face_count(), 0u);
     light = spot(40.0f);
     light.width_m = static_cast<float>(bad);
-    EXPECT_EQ(local_shadow(light, dmat4(1.0), kRim).width_m, 0.0f);
+    EXPECT_EQ(local_shadow(light, dmat4(1.0), kRim).emitter_diameter_m, 0.0f);
     light.range_m = light.intensity = static_cast<float>(bad);
     const LocalShadow shadow = local_shadow(light, dmat4(1.0), kRim);
     EXPECT_TRUE(std::isfinite(shadow.range_m));
@@ -266,7 +266,7 @@ TEST(ShadowFaces, rows_carry_the_faces) {
   const shaders::ShadowRow row = shadow_row(shadow, std::span(&square, 1));
   EXPECT_EQ(row.kind, static_cast<float>(GLOAM_SHADOW_SPOT));
   EXPECT_EQ(row.near_m, 0.05f);
-  EXPECT_EQ(row.width_m, 0.2f);
+  EXPECT_EQ(row.emitter_diameter_m, 0.2f);
   EXPECT_EQ(row.size, 128.0f);
   EXPECT_EQ(row.origins[0], vec2(512.0f, 256.0f));
   EXPECT_EQ(row.tan_half, shadow.tan_half);

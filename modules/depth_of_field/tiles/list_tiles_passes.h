@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/render/declare/compute_pass.h"
+#include "modules/depth_of_field/frame.h"
+
+namespace gloam {
+
+[[nodiscard]] ComputeProgram dof_bounds_program();
+[[nodiscard]] ComputeProgram dof_reach_program();
+[[nodiscard]] ComputeProgram dof_list_program(std::uint32_t scale);
+
+/// Finds the tiles in which something is blurred, and lists those in which each later pass runs.
+[[nodiscard]] DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs);
+
+/// Binds list and entries of a pass over listed tiles (list_api.glsl).
+void read_dof_lists(ComputePass& pass, const DofTiles& tiles);
+/// One workgroup for each tile of a list (GLOAM_DOF_…).
+void dispatch_dof_list(ComputePass& pass, const DofTiles& tiles, std::uint32_t list);
+
+}  // namespace gloam

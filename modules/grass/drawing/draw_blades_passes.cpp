@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/grass/drawing/draw_blades_passes.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "engine/render/declare/kept_indices.h"
+#include "modules/grass/lod/detail.h"
+#include "shaders/grass/drawing/pose_shared.h"
+#include "shaders/grass/shaders.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::size_t kCasterClass = GLOAM_GRASS_CAST_CLASS;
+
+}  // namespace
+
+ComputeProgram grass_pose_program() { return {shaders::grass::pose_comp}; }
+
+DrawProgram blade_program(std::uint32_t draw_class, bool motion, bool clipped) {
+  return {.fragment = motion ? shaders::grass::surface_motion_frag : shaders::grass::surface_frag,
+          .constants = {{0, draw_class}, {1, kClassSegments[draw_class]}, {2, clipped ? 1u : 0u}},
+          .vertex = motion ? shaders::grass::blade_motion_vert : shaders::grass::blade_vert,
+          .depth_write = true};
+}
+
+CasterProgram blade_caster_program() {
+  return {.vertex = shaders::grass::caster_vert, .constants = {{1, kClassSegments[kCasterClass]}}};
+}
+
+void list_blade_pipelines(bool motion, bool clipped, PipelineList& list) {
+  for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i)
+    list.push_back(
+        pipeline_desc(blade_program(i, motion, clipped), "grass", geometry_formats(motion), kGeometryDepthFormat));
+}
+
+bool blade_pipelines_ready(const FrameBuilder& frame) {
+  const FrameServices& services = frame.services();
+  if (services.wait_for_pipelines) return true;
+  const auto* geometry = frame.find<GeometryOutputs>();
+  PipelineList list;
+  list_blade_pipelines(geometry != nullptr && geometry->motion, frame.view().clipped, list);
+  return services.pipelines.request(list, services.log);
+}
+
+void bind_blades(ShaderPass& pass, const DrawnBlades& blades) {
+  pass.read("poses", blades.poses);
+  pass.read("draws", blades.draws);
+  pass.read("knots", blades.knots);
+}
+
+BufferRef add_pose_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                        const SortedBlades& sorted) {
+  ComputePass pass(frame, "grass_poses", grass_pose_program());
+  pass.read("lod", inputs.lod_range);
+  pass.read("patches", inputs.patch_rows);
+  pass.read("blade_rows", store.rows);
+  pass.read("types", inputs.types);
+  pass.read("blades", sorted.blades);
+  pass.read("draws", sorted.draws);
+  pass.read("knots", store.knots);
+  pass.read("previous_knots", store.previous_knots);
+  pass.read("stamps", store.stamps);
+  gpu::BufferDesc desc;
+  desc.name = "grass_poses";
+  desc.module = "grass";
+  desc.size = std::uint64_t{inputs.patches} * GLOAM_GRASS_PATCH_BLADES * sizeof(shaders::GrassPose);
+  const BufferRef poses = pass.write("poses", frame.graph().create_buffer(desc));
+  pass.dispatch_indirect(sorted.draws, offsetof(shaders::GrassDraws, blade_groups));
+  return poses;
+}
+
+DrawnBlades add_blade_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                           const SortedBlades& sorted, BufferRef poses) {
+  const BufferRef indices = kept_indices(frame, "grass_indices", blade_indices());
+  const DrawnBlades blades{poses, sorted.draws, store.knots, indices};
+  if (!frame.status().ok()) return blades;
+  GeometryOutputs& geometry = frame.get<GeometryOutputs>();
+  const bool motion = static_cast<bool>(geometry.motion);
+  const bool clipped = frame.view().clipped;
+  DrawPass pass(frame, "grass_blades", blade_program(0, motion, clipped));
+  geometry_targets(pass, geometry);
+  for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
+    if (i > 0) pass.use(blade_program(i, motion, clipped));
+    bind_blades(pass, blades);
+    bind_motion(pass, frame.view());
+    if (motion) {
+      pass.uniform("steps", inputs.steps);
+      pass.read("previous_knots", store.previous_knots);
+      pass.read("stamps", store.stamps);
+    }
+    pass.draw_indexed_indirect(blades.indices, blades.draws,
+                               offsetof(shaders::GrassDraws, draws) + i * sizeof(shaders::GrassDraw), 1);
+  }
+  return blades;
+}
+
+void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const WorldBox& bounds) {
+  const auto pipeline = frame.services().pipelines.get(caster_pipeline_desc(blade_caster_program(), frame.module()));
+  if (!frame.check(pipeline)) return;
+  CasterSource source;
+  source.bounds = bounds;
+  source.moving = true;
+  source.declare_reads = [grass](PassBuilder& pass) {
+    const DrawnBlades& blades = grass->drawn;
+    for (const BufferRef buffer : {blades.poses, blades.draws, blades.knots})
+      pass.read(buffer, gpu::Access::vertex_read);
+    pass.read(blades.draws, gpu::Access::indirect_read);
+    pass.read(blades.indices, gpu::Access::vertex_input);
+  };
+  source.record = [grass, pipeline = *pipeline,
+                   world_from_relative =
+                       glm::translate(dmat4(1.0), frame.view().position)](const CasterSourceDraw& draw) {
+    PassContext& context = draw.context();
+    const DrawnBlades& blades = grass->drawn;
+    const auto bound = [&](std::uint32_t binding, BufferRef buffer) {
+      return gpu::Binding{binding, gpu::Binding::BufferRange{context.buffer(buffer)}};
+    };
+    const gpu::Binding bindings[] = {bound(1, blades.poses), bound(2, blades.draws), bound(3, blades.knots)};
+    gpu::CommandList& commands = context.commands();
+    draw.bind_pipeline(pipeline);
+    commands.bind(bindings);
+    commands.push(draw.projection().constants(world_from_relative));
+    commands.bind_indices(context.buffer(blades.indices), 0);
+    commands.draw_indexed_indirect(context.buffer(blades.draws), offsetof(shaders::GrassDraws, cast_draw), 1);
+  };
+  frame.add_caster_source(std::move(source));
+}
+
+}  // namespace gloam

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "engine/render/declare/compute_pass.h"
+#include "engine/render/declare/draw_pass.h"
+#include "engine/render/draws/caster_source.h"
+#include "modules/grass/frame.h"
+
+namespace gloam {
+
+[[nodiscard]] ComputeProgram grass_pose_program();
+/// Draws one class of blades into the geometry buffer. clipped: of a view with a clip plane.
+[[nodiscard]] DrawProgram blade_program(std::uint32_t draw_class, bool motion, bool clipped = false);
+[[nodiscard]] CasterProgram blade_caster_program();
+
+/// Pipelines that draw the blades. motion: into frames with GeometryOutputs::motion. clipped: of a view with a clip
+/// plane.
+void list_blade_pipelines(bool motion, bool clipped, PipelineList& list);
+/// Whether the pipelines of the view's kind exist, or the frame waits for them. Otherwise they are requested.
+[[nodiscard]] bool blade_pipelines_ready(const FrameBuilder& frame);
+
+/// Computes the poses of the live blades: shaders::GrassPose, in sorted order.
+[[nodiscard]] BufferRef add_pose_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                                      const SortedBlades& sorted);
+/// Draws the live blades into the geometry buffer. store: after the simulation.
+[[nodiscard]] DrawnBlades add_blade_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                                         const SortedBlades& sorted, BufferRef poses);
+/// Binds all that blade_shape.glsl reads.
+void bind_blades(ShaderPass& pass, const DrawnBlades& blades);
+
+/// Adds the blades near the camera as a caster of shadows, in PassPhase::announce. `grass` is set later in the frame,
+/// before shadow maps are drawn. bounds: of those blades.
+void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const WorldBox& bounds);
+
+}  // namespace gloam

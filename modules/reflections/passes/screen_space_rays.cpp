@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/reflections/passes/screen_space_rays.h"
+
+#include "modules/reflections/passes/mirror_surfaces.h"
+#include "shaders/reflections/shaders.h"
+
+namespace gloam {
+
+ComputeProgram screen_space_program(const ReflectionKnobs& knobs) {
+  return {shaders::reflections::screen_space_rays_comp, {{0, knobs.hierarchical ? 1u : 0u}}};
+}
+
+ScreenSpaceHits add_screen_space_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,
+                                      const ReflectionUniforms& uniforms, const MirrorTiles& tiles) {
+  ComputePass pass(frame, "reflection_screen_space", screen_space_program(knobs));
+  pass.read("reflection", uniforms.block);
+  read_geometry(pass, frame.get<GeometryOutputs>());
+  pass.read("lit_image", frame.get<LitOutput>().color);
+  const std::uint32_t scale = uniforms.constants.scale;
+  ScreenSpaceHits hits;
+  hits.color = pass.write("color_image", create_view_image(frame, "ssr_color", gpu::Format::rgba16_float, scale));
+  hits.distance =
+      pass.write("distance_image", create_view_image(frame, "ssr_distance", gpu::Format::rgba8_unorm, scale));
+  dispatch_mirror_tiles(pass, tiles);
+  return hits;
+}
+
+}  // namespace gloam

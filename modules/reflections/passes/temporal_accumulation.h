@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/render/declare/compute_pass.h"
+#include "modules/reflections/frame.h"
+
+namespace gloam {
+
+[[nodiscard]] ComputeProgram temporal_program();
+
+/// The light, accumulated over frames in an image that the view keeps.
+[[nodiscard]] MirroredLight add_temporal_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms,
+                                              const MirrorTiles& tiles, const MirroredLight& light);
+
+}  // namespace gloam

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/reflections/reflections_shared.h"
+#include "shaders/render/view_shared.h"
+
+// The same as blur.comp in the listed tiles only, without shared memory: for devices that run the threads of a
+// workgroup in turn, where a barrier costs more than it saves.
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 1, scalar) uniform Reflection { ReflectionConstants reflection; };
+layout(set = 0, binding = 2) uniform sampler2D dilated_image;
+layout(set = 0, binding = 3) uniform sampler2D surface_image;
+layout(set = 0, binding = 4) uniform sampler2D color_image;
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D blurred_image;
+layout(set = 0, binding = 8, scalar) readonly buffer Roughness { uint tile_roughness[]; };
+
+#define GLOAM_MIRROR_TILES 6
+#include "shaders/reflections/passes/blur_width.glsl"
+#include "shaders/reflections/mirror_surface_api.glsl"
+
+vec4 sum = vec4(0.0);
+float total = 0.0;
+
+void add(ivec2 texel, float weight) {
+  bool reflects = is_inside(texel) && texelFetch(surface_image, texel, 0).y > 0.0;
+  vec4 color = texelFetch(color_image, texel, 0);
+  sum += reflects ? weight * color : vec4(0.0);
+  total += reflects ? weight : 0.0;
+}
+
+// No blur in the workgroup's tile reaches farther than that of spread 1 and the tile's greatest roughness.
+int tile_reach(ivec2 texel) {
+  ivec2 tile = texel / GLOAM_REFLECTION_GROUP;
+  int row = (int(reflection.size.x) + GLOAM_REFLECTION_GROUP - 1) / GLOAM_REFLECTION_GROUP;
+  return blur_reach(reflection.blur_scale * blur_factor(float(tile_roughness[tile.y * row + tile.x]) / 255.0));
+}
+
+void main() {
+  ivec2 texel;
+  if (!mirror_texel(texel)) return;
+  float roughness = texelFetch(surface_image, texel, 0).y;
+  float sigma = blur_sigma(texel, texelFetch(dilated_image, texel, 0).x, roughness);
+  int reach = roughness > 0.0 && sigma > kLeastSigma ? blur_reach(sigma) : 0;
+  float falloff = -0.72134752 / max(sigma * sigma, 1e-6);  // −½ log₂ e / σ²
+  add(texel, 1.0);
+  // All threads take the same turns: lavapipe runs the body again for threads that have left a loop, and a sum would
+  // count its last terms twice.
+  int last = tile_reach(texel);
+  for (int k = 1; k <= last; ++k) {
+    float weight = k <= reach ? exp2(falloff * float(k * k)) : 0.0;
+    add(texel - k * kAlong, weight);
+    add(texel + k * kAlong, weight);
+  }
+  imageStore(blurred_image, texel, total > 0.0 ? sum / total : vec4(0.0));
+}
