@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "engine/core/assert.h"
 #include "engine/ecs/view.h"
 #include "engine/render/attempt.h"
 #include "engine/render/passes/passes.h"
@@ -19,10 +20,12 @@ namespace gloam {
 namespace {
 
 /// Whether the knob is at one of the choices, which are separated by '|'.
-bool is_one_of(const KnobRegistry& knobs, std::string_view knob, std::string_view choices) {
+bool is_one_of(const KnobRegistry& knobs, std::string_view name, std::string_view choices) {
+  const Knob* knob = knobs.find(name);
+  GLOAM_ASSERT(knob != nullptr, "the knob of a visualizer must be declared: " + std::string(name));
   for (std::size_t end = 0; !choices.empty(); choices.remove_prefix(std::min(end + 1, choices.size()))) {
     end = std::min(choices.find('|'), choices.size());
-    if (knobs.text(knob) == choices.substr(0, end)) return true;
+    if (knobs.text(*knob) == choices.substr(0, end)) return true;
   }
   return false;
 }

@@ -39,7 +39,7 @@ ComputeProgram edges_program(bool rows) { return {shaders::lighting::edges_comp,
 }  // namespace
 
 bool antialiases(const FrameBuilder& frame) {
-  return !frame.knobs().is("lighting.antialiasing", "off") && frame.visualizer() == "none" &&
+  return frame.knobs().value(kAntialiasing) != Antialiasing::off && frame.visualizer() == "none" &&
          frame.view().purpose != ViewPurpose::reference;
 }
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "engine/math/low_discrepancy.h"
+#include "modules/lighting/outputs.h"
 
 namespace gloam {
 namespace {
@@ -61,7 +63,7 @@ Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
 }
 
 ReferenceInfo antialiasing_reference() {
-  return {.knob = "lighting.antialiasing",
+  return {.knob = std::string(kAntialiasing.name),
           .kind = "accumulated",
           .name = "pictures sampled at points of each pixel",
           .samples = true,
