@@ -196,7 +196,7 @@ template <class K>
   const double number = reference.number_of(value);
   const bool valid = K::kType == Knob::Type::choice ? number >= 0.0 && number < static_cast<double>(knob.choices.size())
                                                     : number >= knob.min && number <= knob.max;
-  GLOAM_ASSERT(valid, "knob " + std::string(reference.name) + " has no value number " + std::to_string(number));
+  GLOAM_ASSERT(valid, "knob " + std::string(reference.name) + " has no such value");
   return value_text(knob, number);
 }
 
