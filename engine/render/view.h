@@ -10,6 +10,7 @@
 #include "engine/ecs/entity.h"
 #include "engine/math/types.h"
 #include "engine/math/view_projection.h"
+#include "engine/render/knobs/knobs.h"
 #include "engine/scene/components.h"
 
 namespace gloam {
@@ -39,12 +40,6 @@ struct LensPoint {
   Entity camera = kNoEntity;
   glm::dvec2 offset_m = glm::dvec2(0.0);  ///< from the centre of the lens, to the right and up
   double focus_m = 1.0;                   ///< view depth of the plane of focus, > 0; may be infinite
-};
-
-/// A knob's value for one view, as text (KnobRegistry::set).
-struct KnobOverride {
-  std::string name;
-  std::string value;
 };
 
 /// A caller's settings for a view.

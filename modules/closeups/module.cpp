@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "engine/render/frame_builder.h"
@@ -21,6 +22,7 @@
 #include "modules/lights/light_names.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/components.h"
+#include "modules/shadows/outputs.h"
 
 namespace gloam {
 namespace {
@@ -74,9 +76,9 @@ class CloseupsModule final : public Module {
   void knobs(KnobRegistry& registry) const override { add_closeup_knobs(registry); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
     std::vector<ReferenceInfo> references;
-    for (const char* knob :
-         {"closeups.max_pairs", "closeups.texels_per_pixel", "closeups.filter", "closeups.batch", "closeups.standard"})
-      references.push_back(traced_shadows(knob));
+    for (const std::string_view knob : {kMostCloseupPairs.name, kCloseupTexelsPerPixel.name, kCloseupSingleFetches.name,
+                                        kCloseupBatch.name, kCloseupDrawsStandard.name})
+      references.push_back(traced_shadows(std::string(knob)));
     return references;
   }
   void add_systems(Schedule& schedule) override { add_closeup_systems(schedule); }
@@ -110,7 +112,7 @@ class CloseupsModule final : public Module {
   }
 
   [[nodiscard]] bool needs_casters(const World&, const KnobRegistry& knobs) const override {
-    return knobs.is("shadows.mode", "deferred") && closeup_knobs(knobs).max_pairs > 0;
+    return knobs.value(kShadowMode) == ShadowMode::deferred && closeup_knobs(knobs).max_pairs > 0;
   }
 
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
@@ -120,7 +122,7 @@ class CloseupsModule final : public Module {
     const bool captures = seen != nullptr && seen->purpose == ViewPurpose::capture;
     world.set_view_resource(view, ListRoom{.all = !captures && needs_casters(world, knobs) && has_subjects(world)});
     world.view_resource<CloseupSettings>(view) =
-        closeup_settings(closeup_knobs(knobs), knobs.is("shadows.mode", "deferred"));
+        closeup_settings(closeup_knobs(knobs), knobs.value(kShadowMode) == ShadowMode::deferred);
   }
 
   void add_passes(FrameBuilder& frame, PassPhase phase) override {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/ecs/view.h"
@@ -57,7 +58,8 @@ class DepthOfFieldModule final : public Module {
   void knobs(KnobRegistry& registry) const override { add_dof_knobs(registry); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
     std::vector<ReferenceInfo> references;
-    for (const char* knob : {"dof.cache", "dof.radius", "dof.resolution"}) references.push_back(lens_reference(knob));
+    for (const std::string_view knob : {kDofCache.name, kDofRadius.name, kDofFullResolution.name})
+      references.push_back(lens_reference(std::string(knob)));
     return references;
   }
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {

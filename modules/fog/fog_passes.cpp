@@ -4,6 +4,7 @@
 
 #include "engine/render/declare/draw_pass.h"
 #include "modules/fog/fog_model.h"
+#include "modules/fog/knobs.h"
 #include "shaders/fog/fog_shared.h"
 #include "shaders/fog/shaders.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr gpu::Format kGlowFormat = gpu::Format::rgba16_float;
 
-std::uint32_t glow_divisor(const KnobRegistry& knobs) { return 1u << knobs.choice("fog.resolution"); }
+std::uint32_t glow_divisor(const KnobRegistry& knobs) { return knobs.value(kFogDivisor); }
 
 DrawProgram reduce_program(std::uint32_t divisor) { return {shaders::fog::reduce_frag, {{0, divisor}}}; }
 DrawProgram blur_program() { return {shaders::fog::blur_frag}; }
@@ -53,7 +54,7 @@ void list_fog_pipelines(const KnobRegistry& knobs, PipelineList& list) {
 
 void add_fog_passes(FrameBuilder& frame, const Fog& fog) {
   const ImageRef glow =
-      add_glow_passes(frame, glow_divisor(frame.knobs()), static_cast<float>(frame.knobs().number("fog.radius")));
+      add_glow_passes(frame, glow_divisor(frame.knobs()), static_cast<float>(frame.knobs().value(kFogRadius)));
   LitOutput& lit = frame.get<LitOutput>();
   DrawPass pass(frame, "fog_apply", apply_program(frame.view().camera.orthographic));
   pass.uniform("fog", shaders::FogConstants{vec4(fog.color, 0.0f), fog.density, kFogForwardShare, kFogSkyDistance});

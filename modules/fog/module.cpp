@@ -7,6 +7,7 @@
 #include "modules/fog/components.h"
 #include "modules/fog/fog_model.h"
 #include "modules/fog/fog_passes.h"
+#include "modules/fog/knobs.h"
 #include "modules/lighting/outputs.h"
 
 namespace gloam {
@@ -45,28 +46,7 @@ class FogModule final : public Module {
     registry.add_finish("fog", [](World& world) { return at_most_one(world.view<const Fog>().size(), "gloam.fog"); });
   }
 
-  void knobs(KnobRegistry& registry) const override {
-    Knob resolution;
-    resolution.name = "fog.resolution";
-    resolution.module = "fog";
-    resolution.meaning = "size of the image in which the fog's glow is blurred, relative to the picture";
-    resolution.choices = {"full", "half", "quarter"};
-    resolution.default_number = 2;
-    resolution.exact = "full";
-    registry.add(resolution);
-    Knob radius;
-    radius.name = "fog.radius";
-    radius.module = "fog";
-    radius.meaning = "radius at which the Gaussian blur of the fog's glow is cut off";
-    radius.type = Knob::Type::number;
-    radius.min = 0.5;
-    radius.max = 6.0;
-    radius.default_number = 2.5;
-    radius.unit = "standard deviations";
-    radius.exact = "6";
-    radius.ledger_values = {1.0, 2.0, 2.5, 3.0, 4.0};
-    registry.add(radius);
-  }
+  void knobs(KnobRegistry& registry) const override { add_knobs(registry, name(), kFogDivisor, kFogRadius); }
 
   /// For references that are computed after the frame.
   void prepare_view(World& world, ViewId, const KnobRegistry&) const override {

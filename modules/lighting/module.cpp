@@ -3,11 +3,15 @@
 #include "modules/lighting/module.h"
 
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "modules/lighting/antialiasing/reference.h"
 #include "modules/lighting/components.h"
+#include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
+#include "modules/lighting/outputs.h"
 #include "modules/lighting/tone_reference.h"
 
 namespace gloam {
@@ -22,36 +26,14 @@ class LightingModule final : public Module {
   void scene_keys(KeyRegistry&) const override {}
 
   void knobs(KnobRegistry& registry) const override {
-    Knob curve;
-    curve.name = "lighting.tone_map";
-    curve.module = "lighting";
-    curve.meaning = "tone curve that maps exposed linear light to the picture";
-    curve.choices = {"filmic", "reinhard", "linear", "agx"};
-    registry.add(curve);
-    Knob table;
-    table.name = "lighting.tone_map_table";
-    table.module = "lighting";
-    table.meaning = "entries of the tone curve's lookup table; exact: no table, computed for every pixel";
-    table.choices = {"exact", "1024", "256", "64"};
-    registry.add(table);
-    Knob dither;
-    dither.name = "lighting.dither";
-    dither.module = "lighting";
-    dither.meaning = "rounding of the picture to 8 bits with a fixed pattern, so that gradients show no bands";
-    dither.choices = {"on", "off"};
-    registry.add(dither);
-    Knob antialiasing;
-    antialiasing.name = "lighting.antialiasing";
-    antialiasing.module = "lighting";
-    antialiasing.meaning = "smoothing of slanted edges in the picture; play and render set smaa";
-    antialiasing.choices = {"off", "smaa"};
-    registry.add(antialiasing);
+    add_knobs(registry, name(), kToneMap, kToneMapTable, kDither, kAntialiasing);
   }
 
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
     std::vector<ReferenceInfo> list;
-    for (const char* knob : {"lighting.tone_map", "lighting.tone_map_table"})
-      list.push_back({knob, "double precision", "tone curve on the CPU", true, false, &draw_tone_reference});
+    for (const std::string_view knob : {kToneMap.name, kToneMapTable.name})
+      list.push_back(
+          {std::string(knob), "double precision", "tone curve on the CPU", true, false, &draw_tone_reference});
     list.push_back(antialiasing_reference());
     return list;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "engine/frame/frame_graph.h"
@@ -10,10 +11,25 @@
 #include "engine/math/types.h"
 #include "engine/render/declare/shader_pass.h"
 #include "engine/render/frame_builder.h"
+#include "engine/render/knobs/knob_table.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
 
 namespace gloam {
+
+enum class Antialiasing : std::uint8_t { off, smaa };
+[[nodiscard]] constexpr std::string_view name_of(Antialiasing antialiasing) {
+  switch (antialiasing) {
+    case Antialiasing::off:
+      return "off";
+    case Antialiasing::smaa:
+      return "smaa";
+  }
+  return {};
+}
+
+inline constexpr EnumKnob<Antialiasing> kAntialiasing{
+    .name = "lighting.antialiasing", .meaning = "smoothing of slanted edges in the picture; play and render set smaa"};
 
 /// Another module adds the specular reflection of the surroundings (sky and ground) to opaque surfaces itself. It puts
 /// this on the board in PassPhase::announce. LitOutput then lacks exactly occlusion · specular_ambient()

@@ -5,6 +5,7 @@
 #include "engine/scene/resources.h"
 #include "modules/lighting/antialiasing/smooth_edges_passes.h"
 #include "modules/lighting/exposure.h"
+#include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/shaders.h"
@@ -35,10 +36,14 @@ void add_meter_pass(FrameBuilder& frame, BufferRef& exposure) {
   pass.dispatch(1);
 }
 
+/// The curve's number in tone_curve.glsl.
+std::uint32_t tone_curve_of(const FrameBuilder& frame) {
+  return static_cast<std::uint32_t>(frame.knobs().value(kToneMap));
+}
+
 /// The chosen tone curve as a table; none if lighting.tone_map_table = exact.
 ImageRef add_tone_table_pass(FrameBuilder& frame) {
-  static constexpr std::uint32_t kSizes[] = {0, 1024, 256, 64};  // indexed by the choice of lighting.tone_map_table
-  const std::uint32_t size = kSizes[frame.knobs().choice("lighting.tone_map_table")];
+  const std::uint32_t size = frame.knobs().value(kToneMapTable);
   if (size == 0) return {};
   gpu::ImageDesc desc;
   desc.name = "tone_table";
@@ -47,12 +52,10 @@ ImageRef add_tone_table_pass(FrameBuilder& frame) {
   desc.width = size;
   ComputePass pass(frame, "tone_table", shaders::lighting::tone_table_comp);
   const ImageRef table = pass.write("table_image", frame.graph().create_image(desc));
-  pass.push(shaders::ToneTableConstants{frame.knobs().choice("lighting.tone_map"), size});
+  pass.push(shaders::ToneTableConstants{tone_curve_of(frame), size});
   pass.dispatch_over(size);
   return table;
 }
-
-bool dithers(const FrameBuilder& frame) { return frame.knobs().is("lighting.dither", "on"); }
 
 }  // namespace
 
@@ -63,7 +66,7 @@ void add_tone_map_passes(FrameBuilder& frame) {
   TargetOutput& target = frame.get<TargetOutput>();
 
   shaders::ToneMapConstants constants{};
-  constants.curve = frame.knobs().choice("lighting.tone_map");
+  constants.curve = tone_curve_of(frame);
   constants.encode_srgb = gpu::encodes_srgb(target.format) ? 0 : 1;
   if (environment.has_exposure) {
     constants.exposure = exposure_from_ev100(environment.exposure_ev100);
@@ -73,7 +76,7 @@ void add_tone_map_passes(FrameBuilder& frame) {
   }
 
   const ImageRef table = add_tone_table_pass(frame);
-  const bool smooth = antialiases(frame), dither = dithers(frame);
+  const bool smooth = antialiases(frame), dither = frame.knobs().value(kDither);
   const std::uint32_t output = smooth ? 2u : (dither ? 1u : 0u);  // kOutput of tone_map.frag
   ImageRef shown = smooth ? create_view_image(frame, "shown", kShownFormat) : target.color;
   {

@@ -11,8 +11,6 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kAgx = 3;
-
 double mean_of(const dvec3& x) { return (x.x + x.y + x.z) / 3.0; }
 
 /// The half of the sigmoid that begins at middle grey with slope 2.4 and ends at (width, height).
@@ -31,10 +29,10 @@ double agx_sigmoid(double x) {
 }
 
 /// The curve of one channel.
-double tone_curve(std::uint32_t curve, double x) {
-  if (curve == 0) return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-  if (curve == 1) return std::clamp(x / (1.0 + x), 0.0, 1.0);
-  if (curve == kAgx) return agx_sigmoid(x);
+double tone_curve(ToneCurve curve, double x) {
+  if (curve == ToneCurve::filmic) return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+  if (curve == ToneCurve::reinhard) return std::clamp(x / (1.0 + x), 0.0, 1.0);
+  if (curve == ToneCurve::agx) return agx_sigmoid(x);
   return std::clamp(x, 0.0, 1.0);
 }
 
@@ -63,10 +61,10 @@ LitPixels meter(const LinearPicture& lit, std::uint32_t side) {
 
 }  // namespace
 
-dvec3 tone_mapped(std::uint32_t curve, const dvec3& light) {
-  const dvec3 x = curve == kAgx ? glm::mix(light, dvec3(mean_of(light)), 0.2) : light;
+dvec3 tone_mapped(ToneCurve curve, const dvec3& light) {
+  const dvec3 x = curve == ToneCurve::agx ? glm::mix(light, dvec3(mean_of(light)), 0.2) : light;
   const dvec3 shown(tone_curve(curve, x.x), tone_curve(curve, x.y), tone_curve(curve, x.z));
-  if (curve != kAgx) return shown;
+  if (curve != ToneCurve::agx) return shown;
   return glm::clamp((shown - 0.15 * mean_of(shown)) / 0.85, dvec3(0.0), dvec3(1.0));
 }
 
@@ -93,8 +91,8 @@ Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
   const double exposure = environment.has_exposure
                               ? 1.0 / (1.2 * std::exp2(static_cast<double>(environment.exposure_ev100)))
                               : metered_exposure(lit);
-  const std::uint32_t curve = input.knobs.choice("lighting.tone_map");
-  const bool dithers = input.knobs.is("lighting.dither", "on");
+  const ToneCurve curve = input.knobs.value(kToneMap);
+  const bool dithers = input.knobs.value(kDither);
   FramePictures right;
   right.picture = {lit.width, lit.height, std::vector<std::uint8_t>(lit.rgba.size(), 255)};
   constexpr std::size_t kGrain = 16384;

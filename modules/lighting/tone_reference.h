@@ -6,12 +6,12 @@
 
 #include "engine/math/types.h"
 #include "engine/render/reference/reference.h"
+#include "modules/lighting/knobs.h"
 
 namespace gloam {
 
-/// The displayed linear light of shaders/lighting/tone_curve.glsl in double precision. `curve`: index of the choice of
-/// lighting.tone_map. light: exposed, ≥ 0.
-[[nodiscard]] dvec3 tone_mapped(std::uint32_t curve, const dvec3& light);
+/// The displayed linear light of shaders/lighting/tone_curve.glsl in double precision. light: exposed, ≥ 0.
+[[nodiscard]] dvec3 tone_mapped(ToneCurve curve, const dvec3& light);
 
 /// The exposure that meter.comp computes for a frame's light, in double precision.
 [[nodiscard]] double metered_exposure(const LinearPicture& lit);

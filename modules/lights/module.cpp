@@ -10,6 +10,7 @@
 #include "modules/lights/debug/pick.h"
 #include "modules/lights/debug/visualizers.h"
 #include "modules/lights/keys.h"
+#include "modules/lights/knobs.h"
 #include "modules/lights/lists/buffers.h"
 #include "modules/lights/lists/find_passes.h"
 #include "modules/lights/outputs.h"
@@ -18,9 +19,6 @@
 
 namespace gloam {
 namespace {
-
-/// Bins of the first choice of lights.z_bins; each further choice doubles the number.
-constexpr std::uint32_t kFewestZBins = 256;
 
 class LightsModule final : public Module {
  public:
@@ -34,46 +32,7 @@ class LightsModule final : public Module {
   void scene_keys(KeyRegistry& registry) const override { add_light_keys(registry); }
 
   void knobs(KnobRegistry& registry) const override {
-    Knob culling;
-    culling.name = "lights.culling";
-    culling.module = "lights";
-    culling.meaning = "lights evaluated at a pixel: all lights (brute), or the lights in the list of its tile (tiled)";
-    culling.choices = {"brute", "tiled"};
-    culling.default_number = 1;
-    culling.exact = "brute";
-    registry.add(culling);
-    Knob bound;
-    bound.name = "lights.tile_bound";
-    bound.module = "lights";
-    bound.meaning = "shape that bounds a light in the CPU's masks of 32x32-pixel tiles";
-    bound.choices = {"rect", "row_interval", "cone"};
-    bound.default_number = static_cast<double>(TileBound::cone);
-    bound.exact = "cone";
-    registry.add(bound);
-    Knob bins;
-    bins.name = "lights.z_bins";
-    bins.module = "lights";
-    bins.meaning = "number of depth ranges (zBins) that lights are sorted into";
-    bins.choices = {"256", "512", "1024", "2048", "4096"};
-    bins.default_number = 2;
-    bins.unit = "bins";
-    bins.exact = "4096";
-    registry.add(bins);
-    Knob fixed;
-    fixed.name = "lights.fixed_slots";
-    fixed.module = "lights";
-    fixed.meaning =
-        "list entries reserved for every shadow tile, which gives lists fixed addresses; 0: as many as a tile needs";
-    fixed.type = Knob::Type::integer;
-    fixed.max = GLOAM_MAX_LOCAL_LIGHTS;
-    registry.add(fixed);
-    Knob check;
-    check.name = "lights.check";
-    check.module = "lights";
-    check.meaning =
-        "test every light at every pixel, and count lights that are missing in light lists (lights.culling_errors)";
-    check.choices = {"off", "on"};
-    registry.add(check);
+    add_knobs(registry, name(), kLightCulling, kLightTileBound, kLightZBins, kFixedLightSlots, kLightCheck);
   }
 
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return light_measures(); }
@@ -100,8 +59,8 @@ class LightsModule final : public Module {
 
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
     prepare_light_view(world, view);
-    world.view_resource<TileBound>(view) = static_cast<TileBound>(knobs.choice("lights.tile_bound"));
-    world.view_resource<ZBinSettings>(view).count = kFewestZBins << knobs.choice("lights.z_bins");
+    world.view_resource<TileBound>(view) = knobs.value(kLightTileBound);
+    world.view_resource<ZBinSettings>(view).count = knobs.value(kLightZBins);
   }
 
   void add_passes(FrameBuilder& frame, PassPhase phase) override {

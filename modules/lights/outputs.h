@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "engine/ecs/entity.h"
@@ -13,11 +14,33 @@
 #include "engine/math/types.h"
 #include "engine/render/declare/shader_pass.h"
 #include "engine/render/frame_builder.h"
+#include "engine/render/knobs/knob_table.h"
 #include "modules/lights/components.h"
 
 namespace gloam {
 
 struct TileLightMasks;
+
+/// Lights that are evaluated at a pixel.
+enum class LightCulling : std::uint8_t {
+  brute,  ///< all lights
+  tiled,  ///< the lights in the list of its tile
+};
+[[nodiscard]] constexpr std::string_view name_of(LightCulling culling) {
+  switch (culling) {
+    case LightCulling::brute:
+      return "brute";
+    case LightCulling::tiled:
+      return "tiled";
+  }
+  return {};
+}
+
+inline constexpr EnumKnob<LightCulling> kLightCulling{
+    .name = "lights.culling",
+    .meaning = "lights evaluated at a pixel: all lights (brute), or the lights in the list of its tile (tiled)",
+    .default_value = LightCulling::tiled,
+    .exact = LightCulling::brute};
 
 /// Outputs of the lights module for a view; later modules read them from the board.
 struct LightsOutputs {

@@ -105,10 +105,11 @@ class ReflectionsModule final : public Module {
   /// Knobs whose values differ in the model are judged by traced reflections.
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
     std::vector<ReferenceInfo> references;
-    for (const char* knob :
-         {"reflections.mode", "reflections.tiers", "reflections.roughness", "reflections.blur", "reflections.temporal",
-          "ssr.k1", "ssr.k2", "ssr.reach", "ssr.refine", "ssr.resolution", "ssr.march", "ibr.layers"})
-      references.push_back(traced_reflections(knob, false, &traced_extras));
+    for (const std::string_view knob :
+         {kReflectionMode.name, kReflectionTiers.name, kReflectionPixelRoughness.name, kReflectionBlur.name,
+          kReflectionTemporal.name, kSsrK1.name, kSsrK2.name, kSsrReach.name, kSsrRefine.name, kSsrFullResolution.name,
+          kSsrHierarchical.name, kProxyLayers.name})
+      references.push_back(traced_reflections(std::string(knob), false, &traced_extras));
     return references;
   }
   void add_systems(Schedule& schedule) override { add_proxy_systems(schedule); }

@@ -6,10 +6,137 @@
 #include <vector>
 
 #include "engine/gpu/types.h"
-#include "engine/render/knobs/knobs.h"
+#include "engine/render/knobs/knob_table.h"
 #include "shaders/shadows/shadows_shared.h"
 
 namespace gloam {
+
+// Values of GLOAM_SHADOWS_FILTER_ID.
+inline constexpr std::uint32_t kSingleFetches = 2;
+inline constexpr std::uint32_t kContactHardening = 3;
+inline constexpr std::uint32_t kTracedShadows = 4;
+inline constexpr std::uint32_t kNoShadows = 5;  ///< no shadows, cookies only
+
+// The knobs that other modules do not read; kShadowMode is in outputs.h.
+inline constexpr OnOffKnob kShadowClassify{
+    .name = "shadows.classify",
+    .meaning =
+        "test whole tiles against shadow maps first, and filter only the pixels of undecided tiles "
+        "(shadows.mode=deferred)",
+    .default_value = true};
+/// Values of GLOAM_SHADOWS_FILTER_ID.
+inline constexpr ChoiceKnob<std::uint32_t> kShadowFilter{
+    .name = "shadows.filter",
+    .meaning =
+        "shadow filter: one texel (hard), a kernel of fixed width (pcf), penumbrae from single fetches (pcss), "
+        "or penumbrae from gathers in two mips (chs, contact hardening)",
+    .choices = {{"hard", 0}, {"pcf", 1}, {"pcss", kSingleFetches}, {"chs", kContactHardening}},
+    .default_value = kContactHardening};
+inline constexpr ChoiceKnob<std::uint32_t> kShadowKernel{.name = "shadows.kernel",
+                                                         .meaning = "width of the filter kernel",
+                                                         .choices = {{"4", 4}, {"8", 8}, {"12", 12}, {"16", 16}},
+                                                         .default_value = 8,
+                                                         .unit = "texels"};
+/// Values of GLOAM_SHADOWS_NEAR_ID.
+inline constexpr ChoiceKnob<std::uint32_t> kShadowNear{
+    .name = "shadows.near",
+    .meaning =
+        "where blockers are about as near to a lamp as it is wide, project them onto the lamp in place of one "
+        "kernel (shadows.filter=chs): never; only where the lamp sees them far off the receiver's direction; "
+        "or always",
+    .choices = {{"off", 0}, {"wide", 1}, {"all", 2}},
+    .default_value = 1,
+    .exact = 2};
+inline constexpr OnOffKnob kShadowMips{
+    .name = "shadows.mips", .meaning = "filter wide penumbrae in mips of the shadow maps", .default_value = true};
+inline constexpr ChoiceKnob<std::uint32_t> kShadowMipOperator{
+    .name = "shadows.mip_operator",
+    .meaning =
+        "how four texels become one texel of the next mip: their nearest depth, their mean depth, or "
+        "the mean depth of the nearest surface with the share of the texel that it covers",
+    .choices = {{"nearest", GLOAM_SHADOW_MIPS_NEAREST},
+                {"average", GLOAM_SHADOW_MIPS_AVERAGE},
+                {"coverage", GLOAM_SHADOW_MIPS_COVERAGE}},
+    .default_value = GLOAM_SHADOW_MIPS_COVERAGE};
+inline constexpr ChoiceKnob<bool> kSquareShadowKernel{.name = "shadows.kernel_shape",
+                                                      .meaning = "shape of the kernel for the widest penumbrae",
+                                                      .choices = {{"disc", false}, {"square", true}}};
+inline constexpr OnOffKnob kShadowReceiverPlane{
+    .name = "shadows.receiver_plane",
+    .meaning =
+        "compare each texel of the kernel with the plane of the receiving surface, not with the receiver's depth",
+    .default_value = true};
+inline constexpr OnOffKnob kShadowTerminator{
+    .name = "shadows.terminator",
+    .meaning =
+        "on smooth-shaded meshes, judge shadows from the smooth surface that the vertex normals describe, so "
+        "that shadow edges do not follow facets"};
+inline constexpr ChoiceKnob<bool> kShadowDepth16{
+    .name = "shadows.depth",
+    .meaning = "depth format of shadow maps: 32-bit float, or 16-bit integer",
+    .choices = {{"d32", false}, {"d16", true}}};
+inline constexpr ChoiceKnob<bool> kOrientedShadowBias{
+    .name = "shadows.bias",
+    .meaning =
+        "depth bias against self-shadowing: the rasteriser's constant bias (hardware), or an offset toward or "
+        "away from the light, depending on which side of the surface faces it (oriented)",
+    .choices = {{"hardware", false}, {"oriented", true}},
+    .default_value = true};
+inline constexpr NumberKnob kShadowBiasMm{.name = "shadows.bias_mm",
+                                          .meaning = "depth offset of shadows.bias=oriented",
+                                          .max = 20.0,
+                                          .default_value = 2.0,
+                                          .unit = "mm",
+                                          .ledger_values = {0.5, 1.0, 2.0, 5.0, 10.0}};
+/// One unit is 2^-23 of the depth's power of two: 0.06 to 0.12 µm per metre of distance.
+inline constexpr NumberKnob kShadowBiasUnits{.name = "shadows.bias_units",
+                                             .meaning = "constant depth bias of shadows.bias=hardware",
+                                             .max = 1e6,
+                                             .default_value = 2000.0,
+                                             .unit = "units of depth",
+                                             .ledger_values = {200.0, 1000.0, 2000.0, 10000.0, 50000.0}};
+/// Steps of a visibility; 0: it is not rounded.
+inline constexpr ChoiceKnob<std::uint32_t> kVisibilityLevels{
+    .name = "shadows.visibility_bits",
+    .meaning = "bits of a stored visibility, for each pixel and light; exact: not rounded",
+    .choices = {{"4", 15}, {"8", 255}, {"exact", 0}},
+    .default_value = 255,
+    .exact = 0};
+inline constexpr ChoiceKnob<std::uint32_t> kShadowAtlas{
+    .name = "shadows.atlas",
+    .meaning = "side of the atlas, the image that holds all shadow maps of a view",
+    .choices = {{"1024", 1024}, {"2048", 2048}, {"4096", 4096}, {"8192", 8192}},
+    .default_value = 4096,
+    .unit = "texels"};
+inline constexpr NumberKnob kShadowTexelsPerPixel{
+    .name = "shadows.texels_per_pixel",
+    .meaning = "shadow-map texels along a pixel's side; fewer if the atlas is full",
+    .min = 0.25,
+    .max = 8.0,
+    .default_value = 3.0,
+    .unit = "texels a pixel",
+    .ledger_values = {0.5, 1.0, 2.0, 3.0, 4.0}};
+inline constexpr ChoiceKnob<bool> kSimplifiedCasters{
+    .name = "shadows.casters",
+    .meaning = "triangles drawn into shadow maps: all of them, or a simplified mesh with fewer",
+    .choices = {{"full", false}, {"simplified", true}}};
+inline constexpr std::uint32_t kMostSlotsAndPairs = 4194301;
+inline constexpr IntegerKnob<std::uint32_t> kShadowSlotLimit{
+    .name = "shadows.slot_limit",
+    .meaning = "most visibility slots of a view; tiles without a free slot are shaded as with shadows.mode=monolithic",
+    .max = kMostSlotsAndPairs,
+    .default_value = kMostSlotsAndPairs};
+inline constexpr IntegerKnob<std::uint32_t> kShadowPairLimit{
+    .name = "shadows.pair_limit",
+    .meaning =
+        "most tile-light pairs of a view; tiles whose pairs do not fit are shaded as with "
+        "shadows.mode=monolithic",
+    .max = kMostSlotsAndPairs,
+    .default_value = kMostSlotsAndPairs};
+inline constexpr OnOffKnob kShadowEarlyOuts{
+    .name = "shadows.early_outs",
+    .meaning = "stop filtering as soon as the result is known; off: only to measure the whole filter",
+    .default_value = true};
 
 /// The module's knobs as numbers (shadows.NAME, see add_shadow_knobs).
 struct ShadowKnobs {
@@ -53,10 +180,5 @@ void add_shadow_knobs(KnobRegistry& registry);
 
 /// Specialisation constants of the knobs, for shaders that include shadows_api.glsl. filter: GLOAM_SHADOWS_FILTER_ID.
 [[nodiscard]] std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter);
-
-// Values of GLOAM_SHADOWS_FILTER_ID.
-inline constexpr std::uint32_t kContactHardening = 3;
-inline constexpr std::uint32_t kTracedShadows = 4;
-inline constexpr std::uint32_t kNoShadows = 5;  ///< no shadows, cookies only
 
 }  // namespace gloam

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,11 +24,39 @@
 #include "engine/math/types.h"
 #include "engine/render/declare/shader_pass.h"
 #include "engine/render/frame_builder.h"
+#include "engine/render/knobs/knob_table.h"
 #include "engine/render/reference/reference.h"
 #include "modules/lights/components.h"
 #include "shaders/shadows/shadows_shared.h"
 
 namespace gloam {
+
+/// When shadows are computed.
+enum class ShadowMode : std::uint8_t {
+  off,
+  monolithic,  ///< during shading, for each pixel and light
+  deferred,    ///< before shading: final lists are made
+};
+[[nodiscard]] constexpr std::string_view name_of(ShadowMode mode) {
+  switch (mode) {
+    case ShadowMode::off:
+      return "off";
+    case ShadowMode::monolithic:
+      return "monolithic";
+    case ShadowMode::deferred:
+      return "deferred";
+  }
+  return {};
+}
+
+inline constexpr EnumKnob<ShadowMode> kShadowMode{
+    .name = "shadows.mode",
+    .meaning =
+        "when shadows are computed: never; during shading, for each pixel and light (monolithic); or before "
+        "shading, for each pair of an 8x8 tile and a light that is neither wholly lit nor wholly unlit "
+        "(deferred)",
+    .default_value = ShadowMode::deferred,
+    .exact = ShadowMode::monolithic};
 
 /// A square of texels in an atlas. Its origin is a multiple of its size.
 struct AtlasSquare {

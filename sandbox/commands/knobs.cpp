@@ -29,7 +29,7 @@ std::string text_of(const KnobRegistry& registry) {
   for (const Knob& knob : registry.knobs()) {
     if (knob.module != module) text += (module.empty() ? "" : "\n") + knob.module + "\n";
     module = knob.module;
-    text += "  " + knob.name + "=" + registry.text(knob.name) + "  (" + values_text(knob) + ")\n      " + knob.meaning;
+    text += "  " + knob.name + "=" + registry.text(knob) + "  (" + values_text(knob) + ")\n      " + knob.meaning;
     text += knob.exact.empty() ? "\n" : "; exact: " + knob.exact + "\n";
   }
   return text;
@@ -38,12 +38,9 @@ std::string text_of(const KnobRegistry& registry) {
 Json json_of(const KnobRegistry& registry) {
   Json json = {{"version", 1}, {"knobs", Json::array()}};
   for (const Knob& knob : registry.knobs()) {
-    Json row = {{"name", knob.name},
-                {"module", knob.module},
-                {"meaning", knob.meaning},
-                {"unit", knob.unit},
-                {"value", registry.text(knob.name)},
-                {"default", value_text(knob, knob.default_number)}};
+    Json row = {
+        {"name", knob.name}, {"module", knob.module},        {"meaning", knob.meaning},
+        {"unit", knob.unit}, {"value", registry.text(knob)}, {"default", value_text(knob, knob.default_number)}};
     if (knob.type == Knob::Type::choice)
       row["values"] = knob.choices;
     else

@@ -13,6 +13,7 @@
 #include "sandbox/output/file_io.h"
 #include "sandbox/scenes/builtin.h"
 #include "sandbox/session/default_light.h"
+#include "sandbox/session/program_knobs.h"
 
 namespace gloam {
 namespace {
@@ -59,8 +60,7 @@ std::string scene_stem(const std::string& scene) {
 }
 
 SceneRequest scene_request(const Options& options, const KnobRegistry& knobs) {
-  return {
-      .scene = options.scene, .animation = options.animation, .default_light = knobs.is("scene.default_light", "on")};
+  return {.scene = options.scene, .animation = options.animation, .default_light = knobs.value(kDefaultLight)};
 }
 
 void prepare_world(World& world, const ModuleList& modules) {

@@ -129,7 +129,7 @@ Json knobs_json(const KnobRegistry& registry) {
   Json knobs = Json::object();
   for (const Knob& knob : registry.knobs()) {
     const bool choice = knob.type == Knob::Type::choice;
-    knobs[knob.name] = choice ? Json(registry.text(knob.name)) : Json(registry.number(knob.name));
+    knobs[knob.name] = choice ? Json(registry.text(knob)) : Json(registry.number(knob));
   }
   return knobs;
 }

@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "engine/render/passes/visualizer_pass.h"
+#include "sandbox/session/program_knobs.h"
 #include "shaders/common/heat_shared.h"
 
 namespace gloam {
@@ -239,7 +240,7 @@ void Panel::show_heat_scale(const PanelContent& content, const HeatScale& heat) 
     draw.AddText(ImVec2(left - shift, at.y + height), ImGui::GetColorU32(ImGuiCol_Text), number.c_str());
   }
   ImGui::Dummy(ImVec2(width, height + ImGui::GetTextLineHeightWithSpacing()));
-  const Knob* range = content.knobs.find("views.range");
+  const Knob* range = content.knobs.find(kHeatRange.name);
   if (range == nullptr || !ImGui::BeginTable("range", 3, ImGuiTableFlags_SizingFixedFit)) return;
   ImGui::TableSetupColumn("name");
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);

@@ -64,7 +64,7 @@ std::string knob_tooltip(const Knob& knob) {
   return text;
 }
 
-double knob_value(const KnobRegistry& registry, const Knob& knob) { return registry.number(knob.name); }
+double knob_value(const KnobRegistry& registry, const Knob& knob) { return registry.number(knob); }
 
 void set_knob_value(KnobRegistry& registry, const Knob& knob, double value) {
   double valid = std::clamp(value, knob.min, knob.max);
@@ -106,9 +106,9 @@ std::string config_text(const KnobRegistry& registry) {
   for (const Knob& knob : registry.knobs()) {
     if (is_default(registry, knob)) continue;
     if (knob.type == Knob::Type::choice)
-      json[knob.name] = registry.text(knob.name);
+      json[knob.name] = registry.text(knob);
     else
-      json[knob.name] = registry.number(knob.name);
+      json[knob.name] = registry.number(knob);
   }
   return json_text(json);
 }
@@ -116,18 +116,19 @@ std::string config_text(const KnobRegistry& registry) {
 std::string assignments_text(const KnobRegistry& registry) {
   std::string text;
   for (const Knob& knob : registry.knobs())
-    if (!is_default(registry, knob)) text += " --set " + knob.name + "=" + registry.text(knob.name);
+    if (!is_default(registry, knob)) text += " --set " + knob.name + "=" + registry.text(knob);
   return text;
 }
 
 void KnobSlots::keep(const KnobRegistry& registry, std::size_t slot) {
   slots_[slot].clear();
-  for (const Knob& knob : registry.knobs()) slots_[slot][knob.name] = registry.text(knob.name);
+  for (const Knob& knob : registry.knobs()) slots_[slot][knob.name] = registry.text(knob);
 }
 
 void KnobSlots::show(KnobRegistry& registry, std::size_t slot) const {
   for (const auto& [name, value] : slots_[slot]) {
-    if (registry.text(name) == value) continue;
+    const Knob* knob = registry.find(name);
+    if (knob != nullptr && registry.text(*knob) == value) continue;
     const Status set = registry.set(name, value);
     GLOAM_ASSERT(set.ok(), "a knob takes a value that it had");
   }

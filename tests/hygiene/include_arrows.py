@@ -39,11 +39,11 @@ CPU_LAYERS = ("core", "math", "jobs", "ecs")
 # that rooms may include. A room may include itself and earlier rooms. Other files directly in the folder may include
 # any room.
 ROOMS = {
-    "modules/lights": (("bins", "masks", "selection", "lists", "debug"), ("components", "outputs", "cpu_clones", "light_names", "light_set")),
+    "modules/lights": (("bins", "masks", "selection", "lists", "debug"), ("components", "outputs", "knobs", "cpu_clones", "light_names", "light_set")),
     "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
                         ("components", "outputs", "knobs", "reference")),
     "modules/closeups": (("umbra", "pairs", "compose", "debug"), ("components", "knobs")),
-    "modules/lighting": (("antialiasing",), ("components", "outputs", "environment", "exposure", "lighting_passes")),
+    "modules/lighting": (("antialiasing",), ("components", "outputs", "knobs", "environment", "exposure", "lighting_passes")),
     "modules/reflections": (("culling", "proxies", "planar", "probes", "passes", "fitting", "bake", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials")),
     "modules/grass": (("growth", "field", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -105,25 +106,30 @@ const Knob* KnobRegistry::find(std::string_view name) const {
   return found == knobs_.end() ? nullptr : &*found;
 }
 
-std::size_t KnobRegistry::index_of(std::string_view name) const {
+std::size_t KnobRegistry::index_of(const Knob& knob) const {
+  const std::less<const Knob*> before;
+  const bool own = !before(&knob, knobs_.data()) && before(&knob, knobs_.data() + knobs_.size());
+  GLOAM_ASSERT(own, "knob " + knob.name + " is read with a Knob of another registry");
+  return static_cast<std::size_t>(&knob - knobs_.data());
+}
+
+std::size_t KnobRegistry::index_of(std::string_view name, Knob::Type type) const {
   const Knob* knob = find(name);
-  GLOAM_ASSERT(knob != nullptr, "knob " + std::string(name) + " must be declared before it is read");
+  GLOAM_ASSERT(knob != nullptr, "knob " + std::string(name) + " must be declared before it is read or set");
+  GLOAM_ASSERT(knob->type == type, "knob " + std::string(name) + " is declared with another type");
   return static_cast<std::size_t>(knob - knobs_.data());
 }
 
-std::uint32_t KnobRegistry::choice(std::string_view name) const {
-  const std::size_t i = index_of(name);
-  GLOAM_ASSERT(knobs_[i].type == Knob::Type::choice, "knob " + std::string(name) + " has no choices");
-  return static_cast<std::uint32_t>(values_[i]);
+void KnobRegistry::store(std::string_view name, Knob::Type type, double value) {
+  const std::size_t i = index_of(name, type);
+  GLOAM_ASSERT(value >= knobs_[i].min && value <= knobs_[i].max,
+               "knob " + std::string(name) + " must be " + valid_values(knobs_[i]));
+  values_[i] = value;
+  ++version_;
 }
 
-double KnobRegistry::number(std::string_view name) const { return values_[index_of(name)]; }
+double KnobRegistry::number(const Knob& knob) const { return values_[index_of(knob)]; }
 
-bool KnobRegistry::is(std::string_view name, std::string_view value) const { return text(name) == value; }
-
-std::string KnobRegistry::text(std::string_view name) const {
-  const std::size_t i = index_of(name);
-  return value_text(knobs_[i], values_[i]);
-}
+std::string KnobRegistry::text(const Knob& knob) const { return value_text(knob, number(knob)); }
 
 }  // namespace gloam

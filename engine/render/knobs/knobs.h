@@ -3,17 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "engine/core/result.h"
 
 namespace gloam {
 
-/// A setting that trades accuracy for time. Its module declares it once, for the command line, files, panels, the cost
-/// ledger and tests. The default is the value for users who set nothing.
+/// A setting that trades accuracy for time. Its module declares it once (knob_table.h), for the command line, files,
+/// panels, the cost ledger and tests. The default is the value for users who set nothing.
 struct Knob {
   enum class Type { choice, integer, number };
   std::string name;  ///< "lights.culling"
@@ -30,6 +30,12 @@ struct Knob {
   /// Text of the exact value: the frame drawn with it is the reference for the other values. Empty: all values are
   /// equally right, or the module judges the knob by its own reference (Module::references).
   std::string exact;
+};
+
+/// A knob's value as text (KnobRegistry::set), for one view or while a measure counts. override_of() makes one.
+struct KnobOverride {
+  std::string name;
+  std::string value;
 };
 
 /// The text that sets a knob to `value` (for choice: an index).
@@ -49,19 +55,40 @@ class KnobRegistry {
   /// knobs before the faulty one stay set.
   [[nodiscard]] Status set_from_json(std::string_view text, std::string_view source);
 
-  /// Index of the current choice. The knob must exist and be of Type::choice (asserted).
-  [[nodiscard]] std::uint32_t choice(std::string_view name) const;
-  [[nodiscard]] double number(std::string_view name) const;
-  [[nodiscard]] bool is(std::string_view name, std::string_view choice) const;
-  [[nodiscard]] std::string text(std::string_view name) const;
+  /// Current value of a knob of a knob table (knob_table.h), of the reference's type. Asserts that the knob is declared
+  /// here, with the reference's type. Knobs of modules that a host leaves out are not: read them with try_value().
+  template <class K>
+  [[nodiscard]] typename K::Value value(const K& reference) const {
+    return reference.value_of(stored(reference.name, K::kType));
+  }
+  /// nullopt if the knob is not declared here.
+  template <class K>
+  [[nodiscard]] std::optional<typename K::Value> try_value(const K& reference) const {
+    if (find(reference.name) == nullptr) return std::nullopt;
+    return value(reference);
+  }
+  /// Asserts that the knob is declared here and that the value is one of its values.
+  template <class K>
+  void set(const K& reference, const typename K::Value& value) {
+    store(reference.name, K::kType, reference.number_of(value));
+  }
+
+  /// Current value of a knob of knobs() or find(), for lists of all knobs. Asserts that the knob is one of this
+  /// registry. number: for Type::choice, the index of the choice.
+  [[nodiscard]] double number(const Knob& knob) const;
+  [[nodiscard]] std::string text(const Knob& knob) const;
 
   [[nodiscard]] const std::vector<Knob>& knobs() const { return knobs_; }
+  /// For names from users; null if the knob is not declared here.
   [[nodiscard]] const Knob* find(std::string_view name) const;
   /// Incremented whenever a value is set.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
  private:
-  [[nodiscard]] std::size_t index_of(std::string_view name) const;
+  [[nodiscard]] std::size_t index_of(const Knob& knob) const;
+  [[nodiscard]] std::size_t index_of(std::string_view name, Knob::Type type) const;
+  [[nodiscard]] double stored(std::string_view name, Knob::Type type) const { return values_[index_of(name, type)]; }
+  void store(std::string_view name, Knob::Type type, double value);
   std::vector<Knob> knobs_;
   std::vector<double> values_;
   std::uint64_t version_ = 0;

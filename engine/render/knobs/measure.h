@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/render/knobs/knobs.h"
+
 namespace gloam {
 
 /// Counters of a frame, by name ("lights.visible").
@@ -21,10 +23,10 @@ struct MeasureInfo {
   std::string kind;  ///< kind of reference, for the ledger: "brute force"
   std::string name;  ///< "exact per-pixel lists"
   std::string unit;  ///< of the error: "false positives a tile"
-  /// "KNOB=VALUE" settings while frames are judged, but not while they are timed: counting may cost time.
-  std::vector<std::string> judged_with;
-  /// "KNOB=VALUE" settings of the frame with the right picture.
-  std::vector<std::string> picture;
+  /// Knobs while frames are judged, but not while they are timed: counting may cost time.
+  std::vector<KnobOverride> judged_with;
+  /// Knobs of the frame with the right picture.
+  std::vector<KnobOverride> picture;
   /// Error of a frame, from its counters and those of the same frame with the knob at its default (`standard`). ≥ 0,
   /// less is better; empty if the counters are missing.
   std::function<std::optional<double>(const FrameCounters& frame, const FrameCounters& standard)> error;

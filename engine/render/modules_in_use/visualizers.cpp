@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/assert.h"
 #include "engine/core/nearest_name.h"
 #include "engine/scene/resources.h"
 
@@ -26,10 +27,12 @@ constexpr EngineVisualizer kEngineVisualizers[] = {
     {"depth", "distance: white near, grey far, black sky"}};
 
 /// Whether the knob is at one of the choices, which are separated by '|'.
-bool is_one_of(const KnobRegistry& knobs, std::string_view knob, std::string_view choices) {
+bool is_one_of(const KnobRegistry& knobs, std::string_view name, std::string_view choices) {
+  const Knob* knob = knobs.find(name);
+  GLOAM_ASSERT(knob != nullptr, "the knob of a visualizer must be declared: " + std::string(name));
   for (std::size_t end = 0; !choices.empty(); choices.remove_prefix(std::min(end + 1, choices.size()))) {
     end = std::min(choices.find('|'), choices.size());
-    if (knobs.text(knob) == choices.substr(0, end)) return true;
+    if (knobs.text(*knob) == choices.substr(0, end)) return true;
   }
   return false;
 }

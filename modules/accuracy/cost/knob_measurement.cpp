@@ -62,7 +62,7 @@ KnobMeasurement::KnobMeasurement(const CostRequest& request, CostSubject& subjec
     : request_(request),
       subject_(subject),
       knob_(knob),
-      users_(subject.knobs().text(knob.name)),
+      users_(subject.knobs().text(knob)),
       default_(value_text(knob, knob.default_number)),
       cache_(request.folder + "/references") {
   for (ReferenceInfo& reference : subject.references()) {
@@ -80,7 +80,7 @@ KnobMeasurement::~KnobMeasurement() {
 
 Status KnobMeasurement::set(const std::string& value) {
   // A set counts as a change for observers of the knobs, even with the same value.
-  if (subject_.knobs().text(knob_.name) == value) return {};
+  if (subject_.knobs().text(knob_) == value) return {};
   return subject_.knobs().set(knob_.name, value);
 }
 
@@ -92,7 +92,7 @@ std::string KnobMeasurement::frame_identity(const std::string& value) const {
                      "' gloam " + header.version + " " + header.build + " samples " + std::to_string(header.samples) +
                      " " + request_.conditions;
   for (const Knob& other : subject_.knobs().knobs()) {
-    if (other.name != knob_.name) text += " " + other.name + "=" + subject_.knobs().text(other.name);
+    if (other.name != knob_.name) text += " " + other.name + "=" + subject_.knobs().text(other);
   }
   return joined_line(text + " measured " + knob_.name + "=" + value);
 }

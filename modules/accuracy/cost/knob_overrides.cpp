@@ -8,20 +8,19 @@ namespace gloam {
 
 KnobOverrides::~KnobOverrides() {
   for (auto before = before_.rbegin(); before != before_.rend(); ++before) {
-    const Status restored = knobs_.set(before->first, before->second);
+    const Status restored = knobs_.set(before->name, before->value);
     GLOAM_ASSERT(restored.ok(), "a knob's own value can be set");
   }
 }
 
-Status KnobOverrides::set(std::span<const std::string> assignments) {
-  for (const std::string& assignment : assignments) {
-    const std::string name = assignment.substr(0, assignment.find('='));
-    const bool exists = knobs_.find(name) != nullptr;
-    const std::string before = exists ? knobs_.text(name) : std::string();
+Status KnobOverrides::set(std::span<const KnobOverride> overrides) {
+  for (const KnobOverride& knob : overrides) {
+    const Knob* known = knobs_.find(knob.name);
+    const std::string before = known != nullptr ? knobs_.text(*known) : std::string();
     // A set counts as a change for observers of the knobs, even with the same value.
-    if (exists && assignment == name + "=" + before) continue;
-    GLOAM_TRY(knobs_.set_assignment(assignment));
-    before_.emplace_back(name, before);
+    if (known != nullptr && knob.value == before) continue;
+    GLOAM_TRY(knobs_.set(knob.name, knob.value));
+    before_.push_back({knob.name, before});
   }
   return {};
 }

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -20,12 +18,12 @@ class KnobOverrides {
   KnobOverrides(const KnobOverrides&) = delete;
   KnobOverrides& operator=(const KnobOverrides&) = delete;
 
-  /// `assignments`: "KNOB=VALUE", set in order. Assignments of the current value are skipped.
-  [[nodiscard]] Status set(std::span<const std::string> assignments);
+  /// Sets them in order. Overrides with the current value are skipped. Usage error for an unknown knob or value.
+  [[nodiscard]] Status set(std::span<const KnobOverride> overrides);
 
  private:
   KnobRegistry& knobs_;
-  std::vector<std::pair<std::string, std::string>> before_;  ///< name and previous value
+  std::vector<KnobOverride> before_;  ///< the previous values
 };
 
 }  // namespace gloam

@@ -9,6 +9,7 @@
 #include "engine/render/passes/visualizer_pass.h"
 #include "modules/closeups/compose/frame.h"
 #include "modules/closeups/debug/lines.h"
+#include "modules/shadows/outputs.h"
 #include "shaders/closeups/closeup_views_shared.h"
 #include "shaders/closeups/shaders.h"
 
@@ -115,8 +116,8 @@ std::vector<VisualizerInfo> closeup_visualizers() {
        "only the first " +
            most + " pairs"}};
   for (VisualizerInfo& view : views) {
-    view.knob = "shadows.mode";
-    view.value = "deferred";
+    view.knob = kShadowMode.name;
+    view.value = text_of(kShadowMode, ShadowMode::deferred);
   }
   return views;
 }

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "engine/math/low_discrepancy.h"
 #include "engine/math/srgb.h"
+#include "modules/lighting/outputs.h"
 
 namespace gloam {
 namespace {
@@ -57,7 +59,7 @@ Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
 }
 
 ReferenceInfo antialiasing_reference() {
-  return {.knob = "lighting.antialiasing",
+  return {.knob = std::string(kAntialiasing.name),
           .kind = "accumulated",
           .name = "pictures sampled at points of each pixel",
           .samples = true,

@@ -4,6 +4,7 @@
 
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
+#include "modules/lighting/outputs.h"
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/shaders.h"
 
@@ -39,7 +40,7 @@ ComputeProgram edges_program(bool rows) { return {shaders::lighting::edges_comp,
 }  // namespace
 
 bool antialiases(const FrameBuilder& frame) {
-  return !frame.knobs().is("lighting.antialiasing", "off") && frame.visualizer() == "none" &&
+  return frame.knobs().value(kAntialiasing) != Antialiasing::off && frame.visualizer() == "none" &&
          frame.view().purpose != ViewPurpose::reference;
 }
 

@@ -6,6 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "modules/lights/knobs.h"
+#include "modules/lights/outputs.h"
+
 namespace gloam {
 namespace {
 
@@ -45,21 +48,21 @@ std::string lost_lights(const FrameCounters& frame) {
 
 std::vector<MeasureInfo> light_measures() {
   std::vector<MeasureInfo> measures;
-  const auto add = [&](const char* knob, auto error) {
+  const auto add = [&](const auto& knob, auto error) {
     MeasureInfo info;
-    info.knob = knob;
+    info.knob = knob.name;
     info.kind = "brute force";
     info.name = "exact per-pixel lists; pictures against lights.culling=brute";
     info.unit = "false positives a tile";
-    info.judged_with = {"lights.check=on"};
-    info.picture = {"lights.culling=brute"};
+    info.judged_with = {override_of(kLightCheck, true)};
+    info.picture = {override_of(kLightCulling, LightCulling::brute)};
     info.error = error;
     info.fault = &lost_lights;
     measures.push_back(std::move(info));
   };
-  add("lights.culling", &shaded_beyond_exact);
-  add("lights.tile_bound", &candidates_beyond_exact);
-  add("lights.z_bins", &candidates_beyond_exact);
+  add(kLightCulling, &shaded_beyond_exact);
+  add(kLightTileBound, &candidates_beyond_exact);
+  add(kLightZBins, &candidates_beyond_exact);
   return measures;
 }
 

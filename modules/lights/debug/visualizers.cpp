@@ -68,8 +68,8 @@ std::vector<VisualizerInfo> light_visualizers() {
       {"lights_accurate", "lights", "", "number of lights in each 8x8 tile after the accurate search"},
       {"lights_difference", "lights", "", "number of lights that only the approximate search finds in each 8x8 tile"}};
   for (VisualizerInfo& view : views) {
-    view.knob = "lights.culling";
-    view.value = "tiled";
+    view.knob = kLightCulling.name;
+    view.value = text_of(kLightCulling, LightCulling::tiled);
     view.shows_lists = true;
     if (view.argument.empty()) view.heat = {31.0};
   }
@@ -112,8 +112,9 @@ void LightViews::add_pass(FrameBuilder& frame) {
   const auto* named =
       std::find_if(std::begin(kViews), std::end(kViews), [&](const NamedView& v) { return v.name == stem; });
   if (named == std::end(kViews)) return;
-  if (frame.knobs().is("lights.culling", "brute"))
-    return frame.fail({ErrorKind::usage, "view " + stem + " needs lights.culling=tiled"});
+  if (frame.knobs().value(kLightCulling) == LightCulling::brute)
+    return frame.fail(
+        {ErrorKind::usage, "view " + stem + " needs " + assignment_of(kLightCulling, LightCulling::tiled)});
   const LightsOutputs& lights = frame.get<LightsOutputs>();
   LightView view = lights.has_lists() ? named->view : LightView::nothing;
   std::optional<std::uint32_t> light;  // index of the shown light in the sorted local lights

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/render/readback/item_need.h"
+#include "modules/lights/knobs.h"
 #include "modules/lights/lists/uploads.h"
 #include "modules/lights/masks/mask_population.h"
 
@@ -88,7 +89,7 @@ bool light_lists_will_fit(const FrameBuilder& frame) {
   const ViewId view = frame.view().id;
   if (local_lights(world.view_resource<VisibleLights>(view)).empty()) return true;
   const bool flexible =
-      frame.knobs().is("lights.culling", "tiled") && frame.knobs().number("lights.fixed_slots") == 0.0;
+      frame.knobs().value(kLightCulling) == LightCulling::tiled && frame.knobs().value(kFixedLightSlots) == 0;
   if (!flexible || !world.view_resource<ListRoom>(view).all) return false;
   const std::uint64_t bound =
       mask_population(world.view_resource<TileLightMasks>(view), shadow_tiles_of(frame.view()), {}, 3);
@@ -118,7 +119,7 @@ void upload_light_lists(FrameBuilder& frame, const ZBins& bins, const TileLightM
   grid.z_bin_count = bins.params.count;
   grid.z_near = bins.params.near_m;
   grid.z_scale = bins.params.scale();
-  grid.fixed_slots = fixed_slots_of(static_cast<std::uint32_t>(frame.knobs().number("lights.fixed_slots")));
+  grid.fixed_slots = fixed_slots_of(frame.knobs().value(kFixedLightSlots));
   grid.slot_capacity = list_capacity(tile_count, grid.fixed_slots, feedback == nullptr ? LightFeedback{} : *feedback);
   outputs.masks = &masks;
   outputs.entry_bound = mask_population(masks, tiles, {}, 3);

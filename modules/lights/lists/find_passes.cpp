@@ -3,6 +3,7 @@
 #include "modules/lights/lists/find_passes.h"
 
 #include "engine/render/declare/compute_pass.h"
+#include "modules/lights/knobs.h"
 #include "modules/lights/lists/buffers.h"
 #include "modules/lights/outputs.h"
 #include "shaders/lights/shaders.h"
@@ -91,10 +92,10 @@ void add_check_pass(FrameBuilder& frame, LightsOutputs& outputs) {
 void list_light_pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "lights")); };
   add({shaders::lights::light_texels_comp});
-  if (knobs.is("lights.culling", "brute")) return;
+  if (knobs.value(kLightCulling) == LightCulling::brute) return;
   add({shaders::lights::find_lights_approx_comp});
   add(accurate_program(device));
-  if (knobs.is("lights.check", "on")) add({shaders::lights::check_lists_comp});
+  if (knobs.value(kLightCheck)) add({shaders::lights::check_lists_comp});
 }
 
 void add_find_lights_passes(FrameBuilder& frame, const VisibleLights& visible, const ZBins& bins,
@@ -103,13 +104,13 @@ void add_find_lights_passes(FrameBuilder& frame, const VisibleLights& visible, c
   outputs.local_count = visible.block.local_count;
   outputs.directional_count = visible.block.directional_count;
   outputs.lights = frame.upload_uniform(visible.block);
-  const bool searches = outputs.local_count > 0 && frame.knobs().is("lights.culling", "tiled");
+  const bool searches = outputs.local_count > 0 && frame.knobs().value(kLightCulling) == LightCulling::tiled;
   if (searches) upload_light_lists(frame, bins, masks, outputs);
   if (outputs.local_count > 0) add_light_texels_pass(frame, outputs);
   if (searches) {
     add_approx_pass(frame, outputs);
     add_accurate_pass(frame, outputs);
-    const bool checks = frame.knobs().is("lights.check", "on");
+    const bool checks = frame.knobs().value(kLightCheck);
     if (checks) add_check_pass(frame, outputs);
     frame.keep_result("lights", kLightCountersResult, outputs.counters,
                       LightCountersNote{frame.view(), outputs.slot_capacity, checks, outputs.entry_bound});

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "engine/jobs/executor.h"
@@ -23,6 +24,17 @@ enum class TileBound : std::uint8_t {
   row_interval,  ///< and, in each row of tiles, only the columns the sphere covers there
   cone,          ///< and, for spots, only the part between the two lines from the apex tangent to the cone's sides
 };
+[[nodiscard]] constexpr std::string_view name_of(TileBound bound) {
+  switch (bound) {
+    case TileBound::rect:
+      return "rect";
+    case TileBound::row_interval:
+      return "row_interval";
+    case TileBound::cone:
+      return "cone";
+  }
+  return {};
+}
 
 /// Scratch memory of build_tile_light_masks, reused between calls.
 struct TileMaskScratch {

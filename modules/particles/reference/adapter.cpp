@@ -7,11 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "modules/particles/bake.h"
 #include "modules/particles/emitters/placed.h"
 #include "modules/particles/emitters/visible.h"
+#include "modules/particles/knobs.h"
 
 namespace gloam {
 namespace {
@@ -76,8 +78,8 @@ Result<FramePictures> draw_traced_particles(const ReferenceInput& input) {
 
 std::vector<ReferenceInfo> particle_references() {
   std::vector<ReferenceInfo> references;
-  for (const char* knob : {"particles.lighting", "particles.light"})
-    references.push_back({.knob = knob,
+  for (const std::string_view knob : {kParticleLighting.name, kParticleLight.name})
+    references.push_back({.knob = std::string(knob),
                           .kind = "traced",
                           .name = "light at each pixel, with traced shadows",
                           .samples = true,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "engine/jobs/executor.h"
@@ -18,6 +19,15 @@ enum class ProxyTileBound : std::uint8_t {
   exact,  ///< volume of all mirror images, clipped exactly; never misses a hit
   paper,  ///< algorithm 1.1 at the lowest reflecting height; may miss hits
 };
+[[nodiscard]] constexpr std::string_view name_of(ProxyTileBound bound) {
+  switch (bound) {
+    case ProxyTileBound::exact:
+      return "exact";
+    case ProxyTileBound::paper:
+      return "paper";
+  }
+  return {};
+}
 
 /// A view resource; equality decides whether the tiles are built again.
 struct ProxyTileSettings {

@@ -10,6 +10,7 @@
 #include "engine/render/passes/visualizer_pass.h"
 #include "modules/reflections/bindings.h"
 #include "modules/reflections/culling/tiles.h"
+#include "modules/reflections/knobs.h"
 #include "shaders/reflections/shaders.h"
 
 namespace gloam {
@@ -21,13 +22,13 @@ constexpr const char* kReflectionViews[] = {"reflection_tier", "reflection_confi
 }  // namespace
 
 std::vector<VisualizerInfo> reflection_visualizers(const ExtrasOf& extras) {
+  const std::string mode(kReflectionMode.name), tiers = text_of(kReflectionMode, ReflectionKnobs::Mode::tiers);
   std::vector<VisualizerInfo> views = {
       {"reflection_tier", "reflections", "",
        "the tier that each reflection comes from: green screen space, orange proxies, blue probes with a box, violet "
        "the global probe and the sky; dark: no reflection",
-       true, "reflections.mode", "tiers"},
-      {"reflection_confidence", "reflections", "", "confidence of screen space at each pixel", true, "reflections.mode",
-       "tiers"},
+       true, mode, tiers},
+      {"reflection_confidence", "reflections", "", "confidence of screen space at each pixel", true, mode, tiers},
       {"ibr_tiles", "reflections", "", "number of proxies in the list of each vertical screen tile"},
       {"ibr_layers", "reflections", "", "layers along each mirrored ray, proxies and the hit of screen space"},
       {"probes", "reflections", "", "radiance of the probes in the mirror direction of each pixel, as x / (1 + x)"},

@@ -10,6 +10,7 @@
 #include "modules/lights/outputs.h"
 #include "modules/shadows/debug/shown_light.h"
 #include "modules/shadows/debug/visualizers.h"
+#include "modules/shadows/knobs.h"
 #include "modules/shadows/outputs.h"
 #include "shaders/shadows/shaders.h"
 
@@ -32,11 +33,12 @@ void draw(FrameBuilder& frame, const std::string& name, gpu::ShaderCode fragment
 /// Why a frame with shadows has no final lists.
 std::string reason_without_lists(const FrameBuilder& frame) {
   const KnobRegistry& knobs = frame.knobs();
-  if (!knobs.is("shadows.mode", "deferred"))
-    return "there are no final lists with shadows.mode=" + knobs.text("shadows.mode");
-  if (knobs.is("shadows.visibility_bits", "exact"))
-    return "there are no final lists with shadows.visibility_bits=exact";
-  if (knobs.is("lights.culling", "brute")) return "there are no final lists with lights.culling=brute";
+  const ShadowMode mode = knobs.value(kShadowMode);
+  if (mode != ShadowMode::deferred) return "there are no final lists with " + assignment_of(kShadowMode, mode);
+  if (knobs.value(kVisibilityLevels) == 0)
+    return "there are no final lists with " + assignment_of(kVisibilityLevels, 0);
+  if (knobs.value(kLightCulling) == LightCulling::brute)
+    return "there are no final lists with " + assignment_of(kLightCulling, LightCulling::brute);
   return "no light in view has a shadow map";
 }
 
@@ -51,8 +53,8 @@ std::vector<VisualizerInfo> final_list_visualizers() {
       {"lights_final", "shadows", "",
        "number of lights in the final list of each 8x8 tile; magenta: a buffer was full, the tile has no final list"}};
   for (VisualizerInfo& view : views) {
-    view.knob = "shadows.mode";
-    view.value = "deferred";
+    view.knob = kShadowMode.name;
+    view.value = text_of(kShadowMode, ShadowMode::deferred);
     view.shows_lists = true;
     view.heat = {view.name == "lights_final" ? 31.0 : 10.0};
   }

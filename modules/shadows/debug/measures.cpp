@@ -5,6 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "modules/shadows/knobs.h"
+#include "modules/shadows/outputs.h"
+
 namespace gloam {
 namespace {
 
@@ -21,12 +24,12 @@ std::string never_wrong(const FrameCounters&) { return {}; }
 
 std::vector<MeasureInfo> shadow_measures() {
   MeasureInfo info;
-  info.knob = "shadows.classify";
+  info.knob = kShadowClassify.name;
   info.kind = "brute force";
   info.name = "all tile-light pairs filtered: shadows.classify=off";
   info.unit = "share of tile-light pairs asked pixel by pixel";
-  info.judged_with = {"shadows.mode=deferred"};
-  info.picture = {"shadows.mode=deferred", "shadows.classify=off"};
+  info.judged_with = {override_of(kShadowMode, ShadowMode::deferred)};
+  info.picture = {override_of(kShadowMode, ShadowMode::deferred), override_of(kShadowClassify, false)};
   info.error = &filtered_share;
   info.fault = &never_wrong;
   std::vector<MeasureInfo> measures;

@@ -24,8 +24,8 @@ std::vector<VisualizerInfo> shadow_reference_visualizers() {
                                         "difference between drawn and traced visibility, mean over the lights that "
                                         "reach and face the pixel"}};
   for (VisualizerInfo& view : views) {
-    view.knob = "shadows.mode";
-    view.value = "monolithic|deferred";
+    view.knob = kShadowMode.name;
+    view.value = texts_of(kShadowMode, {ShadowMode::monolithic, ShadowMode::deferred});
     view.trace = put_traced_visibility;
   }
   views.back().image = "shadow_error";

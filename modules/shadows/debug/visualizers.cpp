@@ -103,8 +103,8 @@ std::vector<VisualizerInfo> shadow_visualizers() {
        "the shadow maps at their places in the atlas: white near the light, dark far from it, blue no caster; border: "
        "orange drawn in this frame, green kept from an earlier frame"}};
   for (VisualizerInfo& view : views) {
-    view.knob = "shadows.mode";
-    view.value = "monolithic|deferred";
+    view.knob = kShadowMode.name;
+    view.value = texts_of(kShadowMode, {ShadowMode::monolithic, ShadowMode::deferred});
   }
   views.front().image = "shadow_visibility";
   return views;

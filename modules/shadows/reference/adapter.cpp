@@ -127,13 +127,13 @@ std::vector<ReferenceInfo> shadow_references() {
   add_shadow_knobs(registry);
   // Knobs without this reference: mode and visibility_bits have an exact value, classify has a measure
   // (shadow_measures()), and limits have no right value.
-  constexpr std::string_view kOthers[] = {"shadows.mode", "shadows.classify", "shadows.visibility_bits",
-                                          "shadows.slot_limit", "shadows.pair_limit"};
+  constexpr std::string_view kOthers[] = {kShadowMode.name, kShadowClassify.name, kVisibilityLevels.name,
+                                          kShadowSlotLimit.name, kShadowPairLimit.name};
   std::vector<ReferenceInfo> references;
   for (const Knob& knob : registry.knobs()) {
     if (std::find(std::begin(kOthers), std::end(kOthers), knob.name) != std::end(kOthers)) continue;
     references.push_back(traced_shadows(knob.name));
-    references.back().follows_value = knob.name == "shadows.terminator";  // rays begin where receivers are judged
+    references.back().follows_value = knob.name == kShadowTerminator.name;  // rays begin where receivers are judged
   }
   return references;
 }

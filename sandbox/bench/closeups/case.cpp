@@ -12,6 +12,7 @@
 #include "modules/lights/components.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/components.h"
+#include "modules/shadows/knobs.h"
 #include "modules/shadows/reference/visibility_tracing.h"
 #include "sandbox/scenes/closeups.h"
 
@@ -176,7 +177,7 @@ Result<EqualTexels> find_equal_texels(ShadowCase& shadows, const char* most_pair
   if (auto frame = shadows.draw(); !frame) return frame.error();
   const Session& session = shadows.session();
   const float kept = session.world.view_resource<ViewFaces>(view_of(session)).texels_per_pixel;
-  const double users = session.renderer->knobs().number("shadows.texels_per_pixel");
+  const double users = session.renderer->knobs().value(kShadowTexelsPerPixel);
   const double density = kept > 0.0f ? std::min(static_cast<double>(kept), users) : users;
 
   GLOAM_TRY(shadows.set("shadows.atlas", kLargestAtlas));

@@ -23,11 +23,11 @@ Result<double> timed_ns(Work&& work) {
 }  // namespace
 
 WithoutShadows::WithoutShadows(Session& session)
-    : knobs_(session.renderer->knobs()), users_(knobs_.text("shadows.mode")) {
-  static_cast<void>(knobs_.set("shadows.mode", "off"));
+    : knobs_(session.renderer->knobs()), users_(knobs_.value(kShadowMode)) {
+  knobs_.set(kShadowMode, ShadowMode::off);
 }
 
-WithoutShadows::~WithoutShadows() { static_cast<void>(knobs_.set("shadows.mode", users_)); }
+WithoutShadows::~WithoutShadows() { knobs_.set(kShadowMode, users_); }
 
 Result<MeasuredFrames> measure_frames(Session& session, const Options& options) {
   const WithoutShadows off(session);

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "modules/shadows/outputs.h"
 #include "sandbox/options.h"
 #include "sandbox/session/session.h"
 
@@ -32,7 +32,7 @@ class WithoutShadows {
 
  private:
   KnobRegistry& knobs_;
-  std::string users_;
+  ShadowMode users_;
 };
 
 /// Measures frames of the session's camera at the size of the options, without shadows.

@@ -34,7 +34,7 @@ Result<CountedFrame> count_frame(Session& session, const Options& options, const
   KnobRegistry& knobs = session.renderer->knobs();
   Settings before;
   for (const auto& [name, value] : settings) {
-    before[name] = knobs.text(name);
+    if (const Knob* knob = knobs.find(name)) before[name] = knobs.text(*knob);
     GLOAM_TRY(knobs.set(name, value));
   }
   const ViewRequest request{session.view_settings(options.width, options.height, "none"), {}};

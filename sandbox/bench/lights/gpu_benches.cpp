@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/core/hash.h"
+#include "modules/lights/outputs.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/frame_times.h"
@@ -49,9 +50,9 @@ class LightFrames {
   LightFrames(Session& session, const Options& options)
       : session_(session),
         without_shadows_(session),
-        users_(session.renderer->knobs().text("lights.culling")),
+        users_(session.renderer->knobs().value(kLightCulling)),
         request_{session.view_settings(options.width, options.height, "none"), {}} {}
-  ~LightFrames() { static_cast<void>(session_.renderer->knobs().set("lights.culling", users_)); }
+  ~LightFrames() { session_.renderer->knobs().set(kLightCulling, users_); }
   LightFrames(const LightFrames&) = delete;
   LightFrames& operator=(const LightFrames&) = delete;
 
@@ -69,7 +70,7 @@ class LightFrames {
  private:
   Session& session_;
   WithoutShadows without_shadows_;
-  std::string users_;
+  LightCulling users_;
   ViewRequest request_;
 };
 

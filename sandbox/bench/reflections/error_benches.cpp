@@ -15,6 +15,7 @@
 #include "modules/accuracy/module.h"
 #include "modules/fog/components.h"
 #include "modules/fog/fog_model.h"
+#include "modules/reflections/knobs.h"
 #include "modules/reflections/reference/adapter.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
@@ -36,14 +37,15 @@ constexpr int kDraws = 3;  // the last frame finds what earlier ones left over (
 
 struct TierSet {
   const char* name;  ///< in the row's id
-  const char* mode;
-  const char* tiers;
+  ReflectionKnobs::Mode mode;
+  ReflectionTiers tiers;
 };
-constexpr std::array<TierSet, 5> kTierSets = {{{"off", "off", "all"},
-                                               {"cube", "tiers", "cube"},
-                                               {"ssr+cube", "tiers", "ssr+cube"},
-                                               {"ibr+cube", "tiers", "ibr+cube"},
-                                               {"all", "tiers", "all"}}};
+constexpr std::array<TierSet, 5> kTierSets = {
+    {{"off", ReflectionKnobs::Mode::off, {.screen_space = true, .proxies = true}},
+     {"cube", ReflectionKnobs::Mode::tiers, {.screen_space = false, .proxies = false}},
+     {"ssr+cube", ReflectionKnobs::Mode::tiers, {.screen_space = true, .proxies = false}},
+     {"ibr+cube", ReflectionKnobs::Mode::tiers, {.screen_space = false, .proxies = true}},
+     {"all", ReflectionKnobs::Mode::tiers, {.screen_space = true, .proxies = true}}}};
 constexpr std::size_t kCube = 1;
 constexpr std::size_t kAll = 4;
 
@@ -113,23 +115,23 @@ ReflectionExtras extras_of(const World& world) {
 class TierKnobs {
  public:
   explicit TierKnobs(KnobRegistry& knobs)
-      : knobs_(knobs), mode_(knobs.text("reflections.mode")), tiers_(knobs.text("reflections.tiers")) {}
-  ~TierKnobs() { static_cast<void>(set(mode_, tiers_)); }
+      : knobs_(knobs), mode_(knobs.value(kReflectionMode)), tiers_(knobs.value(kReflectionTiers)) {}
+  ~TierKnobs() { set(mode_, tiers_); }
   TierKnobs(const TierKnobs&) = delete;
   TierKnobs& operator=(const TierKnobs&) = delete;
-  [[nodiscard]] Status set(const std::string& mode, const std::string& tiers) {
-    GLOAM_TRY(knobs_.set("reflections.mode", mode));
-    return knobs_.set("reflections.tiers", tiers);
+  void set(ReflectionKnobs::Mode mode, ReflectionTiers tiers) {
+    knobs_.set(kReflectionMode, mode);
+    knobs_.set(kReflectionTiers, tiers);
   }
 
  private:
   KnobRegistry& knobs_;
-  std::string mode_;
-  std::string tiers_;
+  ReflectionKnobs::Mode mode_;
+  ReflectionTiers tiers_;
 };
 
 Result<FramePictures> draw_tiers(SessionCosts& costs, TierKnobs& knobs, const TierSet& tiers) {
-  GLOAM_TRY(knobs.set(tiers.mode, tiers.tiers));
+  knobs.set(tiers.mode, tiers.tiers);
   for (int i = 0; i < kDraws; ++i)
     if (const auto drawn = costs.draw(0); !drawn) return drawn.error();
   return costs.read();
@@ -146,7 +148,8 @@ Result<CameraErrors> measure_camera(BenchContext& context, Session& session) {
   TierKnobs knobs(session.renderer->knobs());
   const auto with_all = draw_tiers(costs, knobs, kTierSets[kAll]);
   if (!with_all) return with_all.error();
-  auto reference = costs.draw_reference(traced_reflections("reflections.tiers", false, &extras_of), *with_all, kRays);
+  auto reference =
+      costs.draw_reference(traced_reflections(std::string(kReflectionTiers.name), false, &extras_of), *with_all, kRays);
   if (!reference) return reference.error();
   const std::uint64_t expected = hash_of_light(reference->linear);
   const PictureJudge judge(std::move(reference).value());

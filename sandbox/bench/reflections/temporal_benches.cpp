@@ -12,6 +12,7 @@
 
 #include "modules/accuracy/cost/picture_error.h"
 #include "modules/accuracy/metrics/linear_error.h"
+#include "modules/reflections/knobs.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
@@ -76,8 +77,9 @@ Result<Flicker> measure_walks(BenchContext& context, const char* tiers) {
   std::vector<dmat4> poses = recorded_walk(**session, scene, kWalkFrames, false);
   poses.resize(kFrames);
   const KnobRegistry& knobs = (*session)->renderer->knobs();
-  const std::string resolution = knobs.text("ssr.resolution"), samples = knobs.text("ssr.k1");
-  const double more_samples = std::min(kMoreSamples * knobs.number("ssr.k1"), knobs.find("ssr.k1")->max);
+  const std::string resolution = text_of(kSsrFullResolution, knobs.value(kSsrFullResolution));
+  const std::string samples = text_of(kSsrK1, knobs.value(kSsrK1));
+  const double more_samples = std::min(kMoreSamples * knobs.value(kSsrK1), kSsrK1.max);
   ReflectionFrames frames(**session, kWidth, kHeight);
   GLOAM_TRY(frames.set("reflections.tiers", tiers));
   GLOAM_TRY(frames.set("reflections.temporal", "off"));

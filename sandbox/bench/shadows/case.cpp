@@ -28,7 +28,7 @@ ShadowCase::~ShadowCase() {
 
 Status ShadowCase::set(const std::string& knob, const std::string& value) {
   KnobRegistry& knobs = session_.renderer->knobs();
-  users_.try_emplace(knob, knobs.text(knob));
+  if (const Knob* known = knobs.find(knob)) users_.try_emplace(knob, knobs.text(*known));
   return knobs.set(knob, value);
 }
 

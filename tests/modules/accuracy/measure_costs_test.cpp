@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/math/srgb.h"
+#include "engine/render/knobs/knob_table.h"
 #include "modules/accuracy/module.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/temporary_folder.h"
@@ -23,38 +24,43 @@ using ::testing::Not;
 
 constexpr std::uint32_t kSide = 4;
 
+constexpr IntegerKnob<std::uint32_t> kSamples{.name = "fake.samples",
+                                              .meaning = "",
+                                              .min = 1,
+                                              .max = 64,
+                                              .default_value = 4,
+                                              .exact = 64,
+                                              .ledger_values = {1, 4, 16}};
+constexpr OnOffKnob kCount{.name = "fake.count", .meaning = ""};
+
 /// A fake renderer: "samples" makes the picture brighter by 1/samples and costs that many milliseconds; no value of
 /// "look" is more right than another.
 class FakeSubject final : public CostSubject {
  public:
   FakeSubject() {
-    Knob samples = {.name = "fake.samples", .module = "fake", .type = Knob::Type::integer, .min = 1, .max = 64};
-    samples.default_number = 4;
-    samples.ledger_values = {1, 4, 16};
-    samples.exact = "64";
-    knobs_.add(samples);
+    knobs_.add(declaration_of(kSamples, "fake"));
     knobs_.add({.name = "fake.look", .module = "fake", .choices = {"warm", "cold"}});
-    knobs_.add({.name = "fake.count", .module = "fake", .choices = {"off", "on"}});
+    knobs_.add(declaration_of(kCount, "fake"));
   }
 
   [[nodiscard]] KnobRegistry& knobs() override { return knobs_; }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override { return references_; }
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return measures_; }
   [[nodiscard]] FrameCounters counters() override {
-    if (!knobs_.is("fake.count", "on")) return {};
-    return {{"fake.work", knobs_.number("fake.samples")}};
+    if (!knobs_.value(kCount)) return {};
+    return {{"fake.work", static_cast<double>(knobs_.value(kSamples))}};
   }
   [[nodiscard]] Result<FrameCost> draw(std::int32_t index) override {
     ++frames_drawn;
     indices.push_back(index);
     index_ = index;
     if (fail_after > 0 && frames_drawn > fail_after) return Error{ErrorKind::failed, "the device is lost"};
-    counted_frames += knobs_.is("fake.count", "on") ? 1 : 0;
-    const double gpu_ms = knobs_.number("fake.samples");
+    counted_frames += knobs_.value(kCount) ? 1 : 0;
+    const double gpu_ms = knobs_.value(kSamples);
     return FrameCost{.cpu_ms = 1.0, .gpu_ms = gpu_ms, .modules = {{"other", 7.0, 7.0}, {"fake", 0.5, gpu_ms / 2.0}}};
   }
   [[nodiscard]] Result<std::uint64_t> gpu_bytes() override {
-    return static_cast<std::uint64_t>(knobs_.number("fake.samples")) * 100;
+    return std::uint64_t{knobs_.value(kSamples)} * 100;
   }
   [[nodiscard]] Result<FramePictures> read() override { return pictures(brightness()); }
   [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo&, const FramePictures& frame,
@@ -64,9 +70,9 @@ class FakeSubject final : public CostSubject {
   }
 
   [[nodiscard]] double brightness() const {
-    const double error = 1.0 / knobs_.number("fake.samples");
+    const double error = 1.0 / knobs_.value(kSamples);
     // The exact value does not flicker; the others do.
-    return 0.25 + (knobs_.text("fake.samples") == "64" ? 0.0 : error * (index_ % 2 == 0 ? 0.5 : 0.25));
+    return 0.25 + (knobs_.value(kSamples) == 64 ? 0.0 : error * (index_ % 2 == 0 ? 0.5 : 0.25));
   }
   static FramePictures pictures(double brightness) {
     const auto encoded = static_cast<std::uint8_t>(std::lround(255.0 * brightness));
@@ -147,7 +153,7 @@ TEST_F(MeasureCosts, holds_every_value_against_the_most_exact_one) {
 TEST_F(MeasureCosts, leaves_the_users_value_and_tells_progress) {
   ASSERT_TRUE(subject_.knobs().set("fake.samples", "7").ok());
   static_cast<void>(measure());
-  EXPECT_EQ(subject_.knobs().text("fake.samples"), "7");
+  EXPECT_EQ(subject_.knobs().value(kSamples), 7u);
   EXPECT_THAT(progress_.lines,
               ElementsAre("fake.samples=1 0/4", "fake.samples=4 1/4", "fake.samples=16 2/4", "fake.samples=64 3/4"));
   EXPECT_EQ(progress_.measured, 4);
@@ -180,7 +186,7 @@ TEST_F(MeasureCosts, goes_on_where_it_was_cut_off) {
   ASSERT_FALSE(broken.ok());
   EXPECT_THAT(broken.error().message, HasSubstr("fake.samples=16: the device is lost"));
   EXPECT_EQ(progress_.measured, 2);
-  EXPECT_EQ(subject_.knobs().text("fake.samples"), "4") << "put back after a failure, too";
+  EXPECT_EQ(subject_.knobs().value(kSamples), 4u) << "put back after a failure, too";
   subject_.fail_after = 0;
   static_cast<void>(measure());
   EXPECT_EQ(progress_.found, 2);
@@ -315,8 +321,8 @@ TEST_F(MeasureCosts, a_reference_that_fails_names_the_row) {
 /// Counts the work beyond that of the default. The value 16 is wrong.
 MeasureInfo work_measure() {
   MeasureInfo info = {.knob = "fake.samples", .kind = "brute force", .name = "the least work", .unit = "steps"};
-  info.judged_with = {"fake.count=on"};
-  info.picture = {"fake.samples=64"};
+  info.judged_with = {override_of(kCount, true)};
+  info.picture = {override_of(kSamples, 64)};
   info.error = [](const FrameCounters& frame, const FrameCounters& standard) -> std::optional<double> {
     if (!frame.contains("fake.work") || frame.at("fake.work") == 1.0) return std::nullopt;
     return frame.at("fake.work") - standard.at("fake.work");
@@ -350,17 +356,17 @@ TEST_F(MeasureCosts, what_counting_needs_is_set_for_judging_alone) {
   subject_.measures_ = {work_measure()};
   static_cast<void>(measure());
   EXPECT_EQ(subject_.counted_frames, 3 * 5) << "one standard and four values, three frames each to settle";
-  EXPECT_EQ(subject_.knobs().text("fake.count"), "off");
-  EXPECT_EQ(subject_.knobs().text("fake.samples"), "4");
+  EXPECT_FALSE(subject_.knobs().value(kCount));
+  EXPECT_EQ(subject_.knobs().value(kSamples), 4u);
 }
 
 TEST_F(MeasureCosts, a_measure_that_needs_an_unknown_knob_fails) {
   subject_.measures_ = {work_measure()};
-  subject_.measures_[0].judged_with.push_back("fake.nothing=1");
+  subject_.measures_[0].judged_with.push_back({"fake.nothing", "1"});
   const auto ledger = measure_costs(request_, subject_, progress_);
   ASSERT_FALSE(ledger.ok());
   EXPECT_THAT(ledger.error().message, HasSubstr("fake.nothing"));
-  EXPECT_EQ(subject_.knobs().text("fake.count"), "off") << "put back after a failure, too";
+  EXPECT_FALSE(subject_.knobs().value(kCount)) << "put back after a failure, too";
 }
 
 TEST_F(MeasureCosts, of_no_knobs_is_an_empty_ledger) {

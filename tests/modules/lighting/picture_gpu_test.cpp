@@ -95,7 +95,8 @@ TEST_F(PictureOfLight, follows_the_curve_that_mixes_channels) {
       const Picture shown = picture();
       for (std::size_t i = 0; i < shown.rgba.size(); i += 4) {
         const float* at = &light.rgba[i];
-        const dvec3 right = tone_mapped(3, dvec3(at[0], at[1], at[2]) * static_cast<double>(exposure_from_ev100(ev)));
+        const dvec3 right =
+            tone_mapped(ToneCurve::agx, dvec3(at[0], at[1], at[2]) * static_cast<double>(exposure_from_ev100(ev)));
         for (int c = 0; c < 3; ++c)
           ASSERT_NEAR(shown.rgba[i + static_cast<std::size_t>(c)], 255.0 * linear_to_srgb(right[c]), 1.0)
               << table << " " << ev;

@@ -7,6 +7,7 @@
 
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/frame_builder.h"
+#include "engine/render/knobs/knob_table.h"
 #include "engine/scene/key_registry.h"
 #include "shaders/render/shaders.h"
 #include "tests/render/misuse/careless_host.h"
@@ -149,8 +150,10 @@ TEST(ModuleMisuse, a_scene_key_of_two_modules) {
 TEST(ModuleMisuse, knobs_that_are_unknown_twice_or_of_another_type) {
   CarelessHost stage;
   KnobRegistry& knobs = stage.renderer->knobs();
-  EXPECT_ASSERT((void)knobs.number("shadows.maximum"), "knob shadows.maximum must be declared before it is read");
-  EXPECT_ASSERT((void)knobs.choice("lights.fixed_slots"), "knob lights.fixed_slots has no choices");
+  constexpr NumberKnob kUnknown{.name = "shadows.maximum"};
+  EXPECT_ASSERT((void)knobs.value(kUnknown), "knob shadows.maximum must be declared before it is read or set");
+  constexpr OnOffKnob kOtherType{.name = "lights.fixed_slots"};
+  EXPECT_ASSERT((void)knobs.value(kOtherType), "knob lights.fixed_slots is declared with another type");
   EXPECT_ASSERT(knobs.add(*knobs.find("shadows.mode")), "knob shadows.mode is declared twice");
 }
 

@@ -196,7 +196,8 @@ TEST(KnobsInUse, changed_values_wait_for_the_pipelines_of_shown_modules) {
   KnobsInUse knobs;
   knobs.set.add(level_knob());
   const auto drawn_level = [&](Readiness readiness) {
-    return knobs.settle(set.modules, set.wait(readiness)).text("a.level");
+    const KnobRegistry& drawn = knobs.settle(set.modules, set.wait(readiness));
+    return drawn.text(*drawn.find("a.level"));
   };
   set.draw(Readiness::background);
   EXPECT_EQ(drawn_level(Readiness::background), "0");

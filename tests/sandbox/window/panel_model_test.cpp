@@ -9,6 +9,7 @@
 
 #include "modules/module_list/module_list.h"
 #include "tests/sandbox/window/small_knobs.h"
+#include "tests/support/knob_text.h"
 
 namespace gloam {
 namespace {
@@ -47,13 +48,13 @@ TEST(PanelModel, a_tooltip_tells_meaning_range_default_and_the_exact_value) {
 TEST(PanelModel, setting_a_value_changes_the_registry_and_keeps_to_the_range) {
   KnobRegistry knobs = test::small_knobs();
   set_knob_value(knobs, knobs.knobs()[0], 2.0);
-  EXPECT_EQ(knobs.text("lamp.filter"), "tent");
+  EXPECT_EQ(test::knob_text(knobs, "lamp.filter"), "tent");
   set_knob_value(knobs, knobs.knobs()[1], 31.6);
-  EXPECT_EQ(knobs.number("lamp.samples"), 32.0);
+  EXPECT_EQ(test::knob_number(knobs, "lamp.samples"), 32.0);
   set_knob_value(knobs, knobs.knobs()[1], 1e9);
-  EXPECT_EQ(knobs.number("lamp.samples"), 256.0);
+  EXPECT_EQ(test::knob_number(knobs, "lamp.samples"), 256.0);
   set_knob_value(knobs, knobs.knobs()[2], -3.0);
-  EXPECT_EQ(knobs.number("lamp.share"), 0.0);
+  EXPECT_EQ(test::knob_number(knobs, "lamp.share"), 0.0);
 }
 
 TEST(PanelModel, a_reset_gives_the_default_back) {
@@ -143,8 +144,8 @@ TEST(KnobTexts, hold_what_is_not_at_its_default) {
   KnobRegistry read = test::small_knobs();
   ASSERT_TRUE(read.set_from_json(config, "test").ok());
   for (const Knob& knob : knobs.knobs()) {
-    EXPECT_EQ(read.text(knob.name), knobs.text(knob.name));
-    EXPECT_EQ(assignments.find(" --set " + knob.name + "=" + knobs.text(knob.name)) != std::string::npos,
+    EXPECT_EQ(test::knob_text(read, knob.name), test::knob_text(knobs, knob.name));
+    EXPECT_EQ(assignments.find(" --set " + knob.name + "=" + test::knob_text(knobs, knob.name)) != std::string::npos,
               !is_default(knobs, knob));
   }
 }
@@ -155,11 +156,11 @@ TEST(KnobSlotsTest, show_what_was_kept) {
   EXPECT_FALSE(slots.has(0));
   slots.keep(knobs, 0);
   const Knob& knob = knobs.knobs().back();
-  const std::string before = knobs.text(knob.name);
+  const std::string before = test::knob_text(knobs, knob.name);
   set_knob_value(knobs, knob, knob.max);
   slots.keep(knobs, 1);
   slots.show(knobs, 0);
-  EXPECT_EQ(knobs.text(knob.name), before);
+  EXPECT_EQ(test::knob_text(knobs, knob.name), before);
   slots.show(knobs, 1);
   EXPECT_EQ(knob_value(knobs, knob), knob.max);
 }

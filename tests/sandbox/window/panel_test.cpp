@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/sandbox/window/small_knobs.h"
+#include "tests/support/knob_text.h"
 
 namespace gloam {
 namespace {
@@ -119,7 +120,7 @@ TEST_F(PanelTest, nothing_changes_without_the_user) {
 TEST_F(PanelTest, a_combo_chooses) {
   click("lamp.filter");
   click("lamp.filter tent");
-  EXPECT_EQ(knobs_.text("lamp.filter"), "tent");
+  EXPECT_EQ(test::knob_text(knobs_, "lamp.filter"), "tent");
   EXPECT_EQ(find("lamp.filter tent"), nullptr) << "the list is closed again";
 }
 
@@ -127,16 +128,16 @@ TEST_F(PanelTest, sliders_reach_both_ends_of_their_range) {
   for (const char* name : {"lamp.samples", "lamp.share"}) {
     const Knob& knob = *knobs_.find(name);
     click(name, 0.99);
-    EXPECT_EQ(knobs_.number(name), knob.max);
+    EXPECT_EQ(test::knob_number(knobs_, name), knob.max);
     click(name, 0.01);
-    EXPECT_EQ(knobs_.number(name), knob.min);
+    EXPECT_EQ(test::knob_number(knobs_, name), knob.min);
   }
 }
 
 TEST_F(PanelTest, reset_gives_the_default_back) {
   ASSERT_TRUE(knobs_.set("lamp.samples", "200").ok());
   click("lamp.samples reset");
-  EXPECT_EQ(knobs_.number("lamp.samples"), 16.0);
+  EXPECT_EQ(test::knob_number(knobs_, "lamp.samples"), 16.0);
 }
 
 TEST_F(PanelTest, a_visualizer_is_chosen_and_one_that_is_not_built_is_not) {
@@ -198,16 +199,16 @@ TEST_F(PanelTest, a_picture_smaller_than_the_panel_is_no_fault) {
 
 TEST_F(PanelTest, keeps_two_settings_and_shows_them_in_turn) {
   const Knob knob = knobs_.knobs().front();
-  const std::string before = knobs_.text(knob.name);
+  const std::string before = test::knob_text(knobs_, knob.name);
   click("keep A");
   set_knob_value(knobs_, knob, knob_value(knobs_, knob) == 0.0 ? 1.0 : 0.0);
-  const std::string after = knobs_.text(knob.name);
+  const std::string after = test::knob_text(knobs_, knob.name);
   ASSERT_NE(before, after);
   click("keep B");
   click("show A");
-  EXPECT_EQ(knobs_.text(knob.name), before);
+  EXPECT_EQ(test::knob_text(knobs_, knob.name), before);
   click("show B");
-  EXPECT_EQ(knobs_.text(knob.name), after);
+  EXPECT_EQ(test::knob_text(knobs_, knob.name), after);
 }
 
 TEST_F(PanelTest, lights_and_scene_pass_on_what_the_user_changes) {

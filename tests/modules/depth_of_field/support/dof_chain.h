@@ -49,11 +49,10 @@ struct DofResult {
 }
 
 inline void set_dof_knobs(KnobRegistry& registry, const DofKnobs& knobs) {
-  const char* caches[] = {"none", "vec4", "channels"};
   add_dof_knobs(registry);
-  EXPECT_TRUE(registry.set("dof.cache", caches[static_cast<int>(knobs.cache)]).ok());
-  EXPECT_TRUE(registry.set("dof.radius", std::to_string(knobs.radius)).ok());
-  EXPECT_TRUE(registry.set("dof.resolution", knobs.full_resolution ? "full" : "half").ok());
+  registry.set(kDofCache, knobs.cache);
+  registry.set(kDofRadius, static_cast<double>(knobs.radius));
+  registry.set(kDofFullResolution, knobs.full_resolution);
 }
 
 /// Adds a pass that fills transient images of the picture's size with NaN. Images of later passes share their memory,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/modules/grass/support/grass_stage.h"
+#include "tests/support/knob_text.h"
 
 namespace gloam::test {
 namespace {
@@ -80,7 +81,7 @@ TEST_F(GrassTime, a_frame_at_the_same_time_does_not_depend_on_the_blades_of_the_
   for (const auto& [knob, other] : {std::pair{"grass.lod_pixels", "8"}, {"grass.masters", "1:16"}}) {
     GrassStage stage;
     const Entity ball = begin(stage);
-    const std::string usual = stage.renderer->knobs().text(knob);
+    const std::string usual = test::knob_text(stage.renderer->knobs(), knob);
     stage.set(knob, other);
     EXPECT_LT(show(stage, ball, 0).knots.size(), expected.knots.size()) << knob;
     stage.set(knob, usual);

@@ -60,10 +60,8 @@ TEST(LightMeasures, name_knobs_and_values_that_exist) {
   ASSERT_EQ(module->measures().size(), 3u);
   for (const MeasureInfo& measure : module->measures()) {
     EXPECT_NE(knobs.find(measure.knob), nullptr) << measure.knob;
-    for (const std::string& assignment : measure.judged_with)
-      EXPECT_TRUE(knobs.set_assignment(assignment).ok()) << assignment;
-    for (const std::string& assignment : measure.picture)
-      EXPECT_TRUE(knobs.set_assignment(assignment).ok()) << assignment;
+    for (const auto* list : {&measure.judged_with, &measure.picture})
+      for (const auto& [name, value] : *list) EXPECT_TRUE(knobs.set(name, value).ok()) << name << " " << value;
   }
 }
 

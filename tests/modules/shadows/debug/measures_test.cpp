@@ -30,7 +30,7 @@ TEST(ShadowMeasures, name_knobs_and_values_that_exist) {
   for (const MeasureInfo& measure : module->measures()) {
     EXPECT_NE(knobs.find(measure.knob), nullptr) << measure.knob;
     for (const auto* list : {&measure.judged_with, &measure.picture})
-      for (const std::string& assignment : *list) EXPECT_TRUE(knobs.set_assignment(assignment).ok()) << assignment;
+      for (const auto& [name, value] : *list) EXPECT_TRUE(knobs.set(name, value).ok()) << name << " " << value;
     for (const ReferenceInfo& reference : module->references()) EXPECT_NE(reference.knob, measure.knob);
   }
 }
