@@ -127,10 +127,32 @@ std::optional<ReflectedStruct> reflect_struct(const Module& module, std::uint32_
 }
 
 void reflect_local_size(const Module& module, SpirvReflection& reflection) {
+  static constexpr std::array<const char*, 3> kNames = {"local_size_x", "local_size_y", "local_size_z"};
   reflection.local_size = module.local_size;
-  for (std::size_t i = 0; i < module.local_size_ids.size(); ++i) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
     const Id& part = module.ids[module.local_size_ids[i]];
-    if (module.local_size_ids[i] != 0 && part.has_spec_id) reflection.local_size_constants[i] = part.spec_id;
+    if (module.local_size_ids[i] != 0 && part.has_spec_id)
+      reflection.constants.push_back({kNames[i], part.spec_id, SpecType::unsigned_integer});
+  }
+}
+
+std::optional<SpecType> spec_type_of(const Module& module, const Id& constant) {
+  if (constant.is_boolean) return SpecType::boolean;
+  if (!is_type(module, constant.value_type)) return std::nullopt;
+  const Type& type = module.ids[constant.value_type].type;
+  if (type.kind != TypeKind::scalar || type.bytes != 4) return std::nullopt;
+  if (type.is_float) return SpecType::floating;
+  return type.is_signed ? SpecType::signed_integer : SpecType::unsigned_integer;
+}
+
+void reflect_constants(const Module& module, SpirvReflection& reflection) {
+  for (const std::uint32_t id : module.spec_constants) {
+    const Id& constant = module.ids[id];
+    const auto type = spec_type_of(module, constant);
+    if (!type || !constant.has_spec_id || constant.name.empty()) continue;
+    reflection.constants.push_back({constant.name, constant.spec_id, *type});
+    for (const std::string& name : constant.other_names)
+      reflection.constants.push_back({name, constant.spec_id, *type});
   }
 }
 
@@ -163,6 +185,11 @@ const ReflectedBinding* SpirvReflection::find_binding(std::uint32_t set, std::ui
   return found == bindings.end() ? nullptr : &*found;
 }
 
+const ReflectedConstant* SpirvReflection::find_constant(std::string_view constant_name) const {
+  const auto found = std::ranges::find(constants, constant_name, &ReflectedConstant::name);
+  return found == constants.end() ? nullptr : &*found;
+}
+
 Result<SpirvReflection> reflect_spirv(const ShaderCode& code) {
   const std::string who = "shader \"" + std::string(code.name) + "\"";
   Result<Module> parsed = spirv::parse_module(code.words);
@@ -175,6 +202,7 @@ Result<SpirvReflection> reflect_spirv(const ShaderCode& code) {
   reflection.stage = *stage;
   reflection.selections = module.selections;
   if (*stage == ShaderStage::compute) reflect_local_size(module, reflection);
+  reflect_constants(module, reflection);
 
   for (const std::uint32_t id : module.variables) {
     const Id& variable = module.ids[id];

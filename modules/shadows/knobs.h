@@ -18,7 +18,7 @@ struct ShadowKnobs {
   bool classify = true;            ///< tiles are classified before pixels are filtered
   std::uint32_t slot_limit = ~0u;  ///< greatest number of visibility slots per view
   std::uint32_t pair_limit = ~0u;  ///< greatest number of tile-light pairs per view
-  std::uint32_t filter = 3;        ///< value of GLOAM_SHADOWS_FILTER_ID
+  std::uint32_t filter = 3;        ///< value of kFilter (shadows_api.glsl)
   std::uint32_t kernel = 8;        ///< texels of the kernel's side
   bool mips = true;
   std::uint32_t mip_operator = GLOAM_SHADOW_MIPS_COVERAGE;  ///< GLOAM_SHADOW_MIPS_…; with d16 never coverage
@@ -51,10 +51,10 @@ void add_shadow_knobs(KnobRegistry& registry);
 [[nodiscard]] ShadowKnobs shadow_knobs(const KnobRegistry& registry);
 [[nodiscard]] ShadowSettings shadow_settings(const ShadowKnobs& knobs);
 
-/// Specialisation constants of the knobs, for shaders that include shadows_api.glsl. filter: GLOAM_SHADOWS_FILTER_ID.
-[[nodiscard]] std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter);
+/// Specialisation constants of the knobs, for shaders that include shadows_api.glsl. filter: value of kFilter.
+[[nodiscard]] gpu::SpecConstants shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter);
 
-// Values of GLOAM_SHADOWS_FILTER_ID.
+// Values of kFilter.
 inline constexpr std::uint32_t kContactHardening = 3;
 inline constexpr std::uint32_t kTracedShadows = 4;
 inline constexpr std::uint32_t kNoShadows = 5;  ///< no shadows, cookies only

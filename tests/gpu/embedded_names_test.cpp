@@ -48,6 +48,23 @@ TEST(EmbeddedNames, are_those_of_bindings_constants_and_structures) {
   }
 }
 
+// Passes set specialisation constants by name. Parts of the workgroup size get theirs from reflection.
+TEST(EmbeddedNames, every_specialisation_constant_has_one) {
+  std::size_t constants = 0;
+  for (const ShaderCode* code : every_shader()) {
+    std::set<std::uint32_t> numbers, named;
+    for (std::size_t at = kHeaderWords; at < code->words.size(); at += code->words[at] >> 16)
+      if ((code->words[at] & 0xFFFFu) == kDecorate && code->words[at + 2] == kSpecId)
+        numbers.insert(code->words[at + 3]);
+    const auto reflection = reflect_spirv(*code);
+    ASSERT_TRUE(reflection.ok()) << code->name;
+    for (const ReflectedConstant& constant : reflection->constants) named.insert(constant.id);
+    EXPECT_EQ(named, numbers) << code->name;
+    constants += named.size();
+  }
+  EXPECT_GT(constants, 400u);
+}
+
 TEST(EmbeddedNames, every_binding_and_structure_in_memory_has_one) {
   std::size_t bindings = 0;
   for (const ShaderCode* code : every_shader()) {

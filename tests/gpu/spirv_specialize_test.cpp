@@ -40,7 +40,7 @@ bool has_specialisation(std::span<const std::uint32_t> words) {
 }
 
 Words disabled_code(std::uint32_t mode) {
-  const SpecConstant constants[] = {{.id = 0, .value = mode}};
+  const NumberedConstant constants[] = {{.id = 0, .value = mode}};
   return spirv::specialize(shaders::gpu_test::disabled_code_comp.words, constants);
 }
 
@@ -61,7 +61,7 @@ TEST(SpirvSpecialize, leaves_out_branches_that_are_never_taken) {
 
 TEST(SpirvSpecialize, leaves_no_choice_between_constant_vectors) {
   for (std::uint32_t flag = 0; flag < 3; ++flag) {
-    const SpecConstant constants[] = {{.id = 0, .value = flag}};
+    const NumberedConstant constants[] = {{.id = 0, .value = flag}};
     const Words words = spirv::specialize(shaders::gpu_test::choose_vectors_comp.words, constants);
     ASSERT_FALSE(words.empty());
     for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
@@ -108,7 +108,7 @@ Words constant_of(std::span<const std::uint32_t> words, std::uint32_t id, std::u
 TEST(SpirvSpecialize, chooses_components_of_constant_vectors_one_by_one) {
   const Words words = module_with_choice_by_components(spirv::op_constant_composite);
   EXPECT_EQ(constant_of(spirv::specialize(words, {}), 12, spirv::op_constant_composite), (Words{8, 9, 8}));
-  const SpecConstant off[] = {{.id = 0, .value = 0}};
+  const NumberedConstant off[] = {{.id = 0, .value = 0}};
   EXPECT_EQ(constant_of(spirv::specialize(words, off), 12, spirv::op_constant_composite), (Words{9, 9, 9}));
 }
 
@@ -117,7 +117,7 @@ TEST(SpirvSpecialize, leaves_choices_of_components_that_have_no_id_to_the_driver
   const Words words = module_with_choice_by_components(kConstantNull);
   EXPECT_EQ(constant_of(spirv::specialize(words, {}), 12, spirv::op_spec_constant_op),
             (Words{spirv::op_select, 5, 10, 11}));
-  const SpecConstant off[] = {{.id = 0, .value = 0}};
+  const NumberedConstant off[] = {{.id = 0, .value = 0}};
   const Words specialized = spirv::specialize(words, off);
   EXPECT_EQ(count_of(specialized, spirv::op_spec_constant_op), 0u);
   EXPECT_EQ(count_of(specialized, kConstantNull), 2u);
@@ -146,7 +146,7 @@ TEST(SpirvSpecialize, keeps_the_interface_of_every_shader) {
 TEST(SpirvSpecialize, names_only_blocks_and_functions_that_exist) {
   for (const ShaderCode* code : every_shader()) {
     for (std::uint32_t value = 0; value < 4; ++value) {
-      std::vector<SpecConstant> constants;
+      std::vector<NumberedConstant> constants;
       for (std::uint32_t id = 0; id < 32; ++id) constants.push_back({.id = id, .value = value});
       const Words words = spirv::specialize(code->words, constants);
       std::set<std::uint32_t> labels, functions, named;
@@ -178,7 +178,7 @@ TEST(SpirvSpecialize, survives_damaged_modules) {
       const std::size_t at = random() % damaged.size();
       damaged[at] = random() % 2 == 0 ? static_cast<std::uint32_t>(random()) : damaged[random() % damaged.size()];
     }
-    const SpecConstant constants[] = {{.id = 0, .value = round % 6u}};
+    const NumberedConstant constants[] = {{.id = 0, .value = round % 6u}};
     static_cast<void>(spirv::specialize(damaged, constants));
   }
 }

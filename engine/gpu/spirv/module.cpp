@@ -102,8 +102,12 @@ class Parser {
       case op_member_decorate:
         return member_decorate(o);
       case op_constant:
-      case op_spec_constant:
         return constant(o);
+      case op_spec_constant:
+        return constant(o) && spec_constant(o, false);
+      case op_spec_constant_true:
+      case op_spec_constant_false:
+        return spec_constant(o, true);
       case op_constant_composite:
       case op_spec_constant_composite:
         return constant_composite(o);
@@ -119,7 +123,13 @@ class Parser {
 
   bool name(Operands o) {
     if (o.size() < 2 || !known(o[0])) return false;
-    module_.ids[o[0]].name = literal_text(o.subspan(1));
+    Id& id = module_.ids[o[0]];
+    std::string text = literal_text(o.subspan(1));
+    if (id.name.empty()) {
+      id.name = std::move(text);
+    } else if (!text.empty()) {
+      id.other_names.push_back(std::move(text));
+    }
     return true;
   }
 
@@ -202,6 +212,14 @@ class Parser {
     if (o.size() < 3 || !known(o[1])) return false;
     module_.ids[o[1]].constant = o[2];
     module_.ids[o[1]].has_constant = true;
+    module_.ids[o[1]].value_type = o[0];
+    return true;
+  }
+
+  bool spec_constant(Operands o, bool boolean) {
+    if (o.size() < 2 || !known(o[1])) return false;
+    module_.ids[o[1]].is_boolean = boolean;
+    module_.spec_constants.push_back(o[1]);
     return true;
   }
 

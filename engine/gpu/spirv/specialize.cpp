@@ -123,7 +123,7 @@ struct LiveCode {
 
 class Specializer {
  public:
-  Specializer(std::span<const std::uint32_t> words, std::span<const SpecConstant> given)
+  Specializer(std::span<const std::uint32_t> words, std::span<const NumberedConstant> given)
       : words_(words), given_(given), bound_(words[kBoundWord]) {}
 
   std::vector<std::uint32_t> run() {
@@ -164,7 +164,7 @@ class Specializer {
   [[nodiscard]] std::uint32_t value_of(std::uint32_t id, std::uint32_t default_value) const {
     const auto spec = spec_ids_.find(id);
     if (spec == spec_ids_.end()) return default_value;
-    const auto found = std::ranges::find(given_, spec->second, &SpecConstant::id);
+    const auto found = std::ranges::find(given_, spec->second, &NumberedConstant::id);
     return found == given_.end() ? default_value : found->value;
   }
 
@@ -422,7 +422,7 @@ class Specializer {
   }
 
   std::span<const std::uint32_t> words_;
-  std::span<const SpecConstant> given_;
+  std::span<const NumberedConstant> given_;
   std::uint32_t bound_;
   std::vector<std::uint32_t> entries_;
   std::uint32_t bool_type_ = 0;
@@ -438,7 +438,8 @@ class Specializer {
 
 }  // namespace
 
-std::vector<std::uint32_t> specialize(std::span<const std::uint32_t> words, std::span<const SpecConstant> constants) {
+std::vector<std::uint32_t> specialize(std::span<const std::uint32_t> words,
+                                      std::span<const NumberedConstant> constants) {
   if (words.size() <= kModuleHeaderWords) return {};
   return Specializer(words, constants).run();
 }

@@ -49,11 +49,12 @@ ImageRef add_blur(FrameBuilder& frame, const ReflectionFrame& r, ImageRef dilate
 
 ComputeProgram dilate_program(bool columns, bool direct) {
   return {direct ? shaders::reflections::dilate_tiles_comp : shaders::reflections::dilate_comp,
-          {{0, columns ? 1u : 0u}}};
+          {{"kColumns", columns ? 1u : 0u}}};
 }
 
 ComputeProgram blur_program(bool columns, bool direct) {
-  return {direct ? shaders::reflections::blur_tiles_comp : shaders::reflections::blur_comp, {{0, columns ? 1u : 0u}}};
+  return {direct ? shaders::reflections::blur_tiles_comp : shaders::reflections::blur_comp,
+          {{"kColumns", columns ? 1u : 0u}}};
 }
 
 void add_glossy_passes(FrameBuilder& frame, ReflectionFrame& reflections) {

@@ -19,7 +19,7 @@ const CompanionLight::Images* images_of(const FrameBuilder& frame, ViewId compan
 }  // namespace
 
 ComputeProgram planar_program(const ReflectionKnobs& knobs) {
-  return {shaders::reflections::mirrored_comp, {{0, knobs.pixel_roughness ? 1u : 0u}}};
+  return {shaders::reflections::mirrored_comp, {{"kPixelRoughness", knobs.pixel_roughness ? 1u : 0u}}};
 }
 
 void find_planar_mirror(FrameBuilder& frame, ReflectionFrame& reflections) {

@@ -8,7 +8,7 @@
 namespace gloam {
 
 ComputeProgram screen_space_program(const ReflectionKnobs& knobs) {
-  return {shaders::reflections::trace_comp, {{0, knobs.hierarchical ? 1u : 0u}}};
+  return {shaders::reflections::trace_comp, {{"kHierarchical", knobs.hierarchical ? 1u : 0u}}};
 }
 
 void add_screen_space_pass(FrameBuilder& frame, ReflectionFrame& reflections) {
