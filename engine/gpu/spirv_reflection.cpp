@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/spirv_reflection.h"
 
+#include <spirv/unified1/spirv.hpp>
+
 #include <algorithm>
 #include <optional>
 #include <tuple>
@@ -16,20 +18,13 @@ using spirv::Module;
 using spirv::Type;
 using spirv::TypeKind;
 
-constexpr std::uint32_t kStorageUniform = 2;
-constexpr std::uint32_t kStoragePushConstant = 9;
-constexpr std::uint32_t kStorageStorageBuffer = 12;
-constexpr std::uint32_t kDim2d = 1;
-constexpr std::uint32_t kDim3d = 2;
-constexpr std::uint32_t kDimCube = 3;
-
 std::optional<ShaderStage> stage_of(std::uint32_t execution_model) {
   switch (execution_model) {
-    case 0:
+    case spv::ExecutionModelVertex:
       return ShaderStage::vertex;
-    case 4:
+    case spv::ExecutionModelFragment:
       return ShaderStage::fragment;
-    case 5:
+    case spv::ExecutionModelGLCompute:
       return ShaderStage::compute;
     default:
       return std::nullopt;
@@ -62,10 +57,10 @@ void describe_image(const Module& module, const Type& image, ReflectedBinding& b
   if (texel.kind == TypeKind::scalar && !texel.is_float)
     binding.texels = texel.is_signed ? TexelKind::signed_integers : TexelKind::unsigned_integers;
   binding.arrayed = image.image_arrayed;
-  binding.dimension = image.image_dimension == kDim2d     ? ImageDimension::plane
-                      : image.image_dimension == kDim3d   ? ImageDimension::volume
-                      : image.image_dimension == kDimCube ? ImageDimension::cube
-                                                          : ImageDimension::other;
+  binding.dimension = image.image_dimension == spv::Dim2D     ? ImageDimension::plane
+                      : image.image_dimension == spv::Dim3D   ? ImageDimension::volume
+                      : image.image_dimension == spv::DimCube ? ImageDimension::cube
+                                                              : ImageDimension::other;
 }
 
 ReflectedBinding reflect_binding(const Module& module, std::uint32_t id_of_variable) {
@@ -85,11 +80,11 @@ ReflectedBinding reflect_binding(const Module& module, std::uint32_t id_of_varia
     }
     if (type.kind == TypeKind::structure) {
       if (binding.name.empty()) binding.name = name_of_block(module.ids[id]);
-      const bool storage = variable.storage_class == kStorageStorageBuffer ||
-                           (variable.storage_class == kStorageUniform && module.ids[id].buffer_block);
-      binding.kind = storage                                     ? ResourceKind::storage_buffer
-                     : variable.storage_class == kStorageUniform ? ResourceKind::uniform_buffer
-                                                                 : ResourceKind::other;
+      const bool storage = variable.storage_class == spv::StorageClassStorageBuffer ||
+                           (variable.storage_class == spv::StorageClassUniform && module.ids[id].buffer_block);
+      binding.kind = storage                                              ? ResourceKind::storage_buffer
+                     : variable.storage_class == spv::StorageClassUniform ? ResourceKind::uniform_buffer
+                                                                          : ResourceKind::other;
       binding.writable = storage && !variable.non_writable && !is_read_only(module.ids[id]);
     } else if (type.kind == TypeKind::sampled_image) {
       binding.kind = ResourceKind::sampled_image;
@@ -208,7 +203,7 @@ Result<SpirvReflection> reflect_spirv(const ShaderCode& code) {
     const Id& variable = module.ids[id];
     if (variable.has_set && variable.has_binding) {
       reflection.bindings.push_back(reflect_binding(module, id));
-    } else if (variable.storage_class == kStoragePushConstant) {
+    } else if (variable.storage_class == spv::StorageClassPushConstant) {
       const std::uint32_t block = module.ids[variable.variable_type].type.element;
       if (is_type(module, block)) {
         reflection.push_constant_bytes = std::max(reflection.push_constant_bytes, module.ids[block].type.bytes);
