@@ -5,7 +5,16 @@
 # Of the names (OpName, OpMemberName) only those of bindings, of specialisation constants, and of structures and their
 # members stay. Reflection reads them, and tools show them. Mesa 22.3 refuses copies between two structures of which only
 # one has a name, so names of structures without a memory layout stay too. ALL_NAMES keeps all names.
+# spirv-opt cannot do this: it strips all names (--strip-debug) or none.
 cmake_minimum_required(VERSION 3.25)
+
+# Numbers of the SPIR-V specification, as in spirv.hpp.
+set(OpName 5)
+set(OpMemberName 6)
+set(OpTypeVoid 19)
+set(OpTypeForwardPointer 39)
+set(OpDecorate 71)
+set(SpecId_or_Binding "^(01|21)000000$")  # the decorations 1 and 33
 
 # Finds the names, which precede the first type, and the ids that keep theirs. An item of names: first byte, end byte, id.
 set(names "")
@@ -19,14 +28,14 @@ while(at LESS size AND NOT ALL_NAMES)
   list(POP_FRONT fields opcode words id second)
   math(EXPR opcode "${opcode}")
   math(EXPR end "${at} + 4 * ${words}")
-  if(opcode GREATER_EQUAL 19 AND opcode LESS_EQUAL 39)
+  if(opcode GREATER_EQUAL ${OpTypeVoid} AND opcode LESS_EQUAL ${OpTypeForwardPointer})
     break()  # the first type
-  elseif(opcode EQUAL 5 OR opcode EQUAL 6)
+  elseif(opcode EQUAL ${OpName} OR opcode EQUAL ${OpMemberName})
     list(APPEND names "${at} ${end} ${id}")
-    if(opcode EQUAL 6)
+    if(opcode EQUAL ${OpMemberName})
       list(APPEND named_ids ${id})  # a structure
     endif()
-  elseif(opcode EQUAL 71 AND second MATCHES "^(21|01)000000$")  # OpDecorate Binding, SpecId
+  elseif(opcode EQUAL ${OpDecorate} AND second MATCHES "${SpecId_or_Binding}")
     list(APPEND named_ids ${id})
   endif()
   set(at ${end})

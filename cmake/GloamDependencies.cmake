@@ -5,6 +5,7 @@ find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED)
 find_package(Vulkan REQUIRED)
+find_package(SPIRV-Headers REQUIRED)  # a header of numbers
 find_package(TinyGLTF REQUIRED)
 find_package(OpenMesh REQUIRED)
 find_package(OpenEXR REQUIRED)

@@ -19,9 +19,10 @@ void add(Hasher& hash, const ShaderCode& code, ShaderIdentity identity) {
   }
 }
 
-void add(Hasher& hash, std::span<const SpecConstant> constants) {
+// Sorted by name: the order in which a pass sets them does not count. Types and if_present do not change the pipeline.
+void add(Hasher& hash, const SpecConstants& constants) {
   hash.value(constants.size());
-  for (const SpecConstant& constant : constants) hash.value(constant.id).value(constant.value);
+  for (const SpecConstant& constant : constants) hash.text(constant.name).value(constant.value.bits);
 }
 
 }  // namespace

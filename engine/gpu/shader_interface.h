@@ -9,8 +9,8 @@
 namespace gloam::gpu {
 
 /// Whether passes that were written for one shader can use another in its place: the same stage, workgroup size, push
-/// constants, bindings and layouts of structures. Returns the first difference as a clause ("binding 'lights' is
-/// gone"); empty: none.
+/// constants, bindings, layouts of structures, and types of specialisation constants that both have. Returns the first
+/// difference as a clause ("binding 'lights' is gone"); empty: none.
 [[nodiscard]] std::string interface_difference(const SpirvReflection& from, const SpirvReflection& to);
 
 }  // namespace gloam::gpu

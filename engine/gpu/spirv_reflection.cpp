@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/spirv_reflection.h"
 
+#include <spirv/unified1/spirv.hpp>
+
 #include <algorithm>
 #include <optional>
 #include <tuple>
@@ -16,20 +18,13 @@ using spirv::Module;
 using spirv::Type;
 using spirv::TypeKind;
 
-constexpr std::uint32_t kStorageUniform = 2;
-constexpr std::uint32_t kStoragePushConstant = 9;
-constexpr std::uint32_t kStorageStorageBuffer = 12;
-constexpr std::uint32_t kDim2d = 1;
-constexpr std::uint32_t kDim3d = 2;
-constexpr std::uint32_t kDimCube = 3;
-
 std::optional<ShaderStage> stage_of(std::uint32_t execution_model) {
   switch (execution_model) {
-    case 0:
+    case spv::ExecutionModelVertex:
       return ShaderStage::vertex;
-    case 4:
+    case spv::ExecutionModelFragment:
       return ShaderStage::fragment;
-    case 5:
+    case spv::ExecutionModelGLCompute:
       return ShaderStage::compute;
     default:
       return std::nullopt;
@@ -62,10 +57,10 @@ void describe_image(const Module& module, const Type& image, ReflectedBinding& b
   if (texel.kind == TypeKind::scalar && !texel.is_float)
     binding.texels = texel.is_signed ? TexelKind::signed_integers : TexelKind::unsigned_integers;
   binding.arrayed = image.image_arrayed;
-  binding.dimension = image.image_dimension == kDim2d     ? ImageDimension::plane
-                      : image.image_dimension == kDim3d   ? ImageDimension::volume
-                      : image.image_dimension == kDimCube ? ImageDimension::cube
-                                                          : ImageDimension::other;
+  binding.dimension = image.image_dimension == spv::Dim2D     ? ImageDimension::plane
+                      : image.image_dimension == spv::Dim3D   ? ImageDimension::volume
+                      : image.image_dimension == spv::DimCube ? ImageDimension::cube
+                                                              : ImageDimension::other;
 }
 
 ReflectedBinding reflect_binding(const Module& module, std::uint32_t id_of_variable) {
@@ -85,11 +80,11 @@ ReflectedBinding reflect_binding(const Module& module, std::uint32_t id_of_varia
     }
     if (type.kind == TypeKind::structure) {
       if (binding.name.empty()) binding.name = name_of_block(module.ids[id]);
-      const bool storage = variable.storage_class == kStorageStorageBuffer ||
-                           (variable.storage_class == kStorageUniform && module.ids[id].buffer_block);
-      binding.kind = storage                                     ? ResourceKind::storage_buffer
-                     : variable.storage_class == kStorageUniform ? ResourceKind::uniform_buffer
-                                                                 : ResourceKind::other;
+      const bool storage = variable.storage_class == spv::StorageClassStorageBuffer ||
+                           (variable.storage_class == spv::StorageClassUniform && module.ids[id].buffer_block);
+      binding.kind = storage                                              ? ResourceKind::storage_buffer
+                     : variable.storage_class == spv::StorageClassUniform ? ResourceKind::uniform_buffer
+                                                                          : ResourceKind::other;
       binding.writable = storage && !variable.non_writable && !is_read_only(module.ids[id]);
     } else if (type.kind == TypeKind::sampled_image) {
       binding.kind = ResourceKind::sampled_image;
@@ -127,10 +122,32 @@ std::optional<ReflectedStruct> reflect_struct(const Module& module, std::uint32_
 }
 
 void reflect_local_size(const Module& module, SpirvReflection& reflection) {
+  static constexpr std::array<const char*, 3> kNames = {"local_size_x", "local_size_y", "local_size_z"};
   reflection.local_size = module.local_size;
-  for (std::size_t i = 0; i < module.local_size_ids.size(); ++i) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
     const Id& part = module.ids[module.local_size_ids[i]];
-    if (module.local_size_ids[i] != 0 && part.has_spec_id) reflection.local_size_constants[i] = part.spec_id;
+    if (module.local_size_ids[i] != 0 && part.has_spec_id)
+      reflection.constants.push_back({kNames[i], part.spec_id, SpecType::unsigned_integer});
+  }
+}
+
+std::optional<SpecType> spec_type_of(const Module& module, const Id& constant) {
+  if (constant.is_boolean) return SpecType::boolean;
+  if (!is_type(module, constant.value_type)) return std::nullopt;
+  const Type& type = module.ids[constant.value_type].type;
+  if (type.kind != TypeKind::scalar || type.bytes != 4) return std::nullopt;
+  if (type.is_float) return SpecType::floating;
+  return type.is_signed ? SpecType::signed_integer : SpecType::unsigned_integer;
+}
+
+void reflect_constants(const Module& module, SpirvReflection& reflection) {
+  for (const std::uint32_t id : module.spec_constants) {
+    const Id& constant = module.ids[id];
+    const auto type = spec_type_of(module, constant);
+    if (!type || !constant.has_spec_id || constant.name.empty()) continue;
+    reflection.constants.push_back({constant.name, constant.spec_id, *type});
+    for (const std::string& name : constant.other_names)
+      reflection.constants.push_back({name, constant.spec_id, *type});
   }
 }
 
@@ -163,6 +180,11 @@ const ReflectedBinding* SpirvReflection::find_binding(std::uint32_t set, std::ui
   return found == bindings.end() ? nullptr : &*found;
 }
 
+const ReflectedConstant* SpirvReflection::find_constant(std::string_view constant_name) const {
+  const auto found = std::ranges::find(constants, constant_name, &ReflectedConstant::name);
+  return found == constants.end() ? nullptr : &*found;
+}
+
 Result<SpirvReflection> reflect_spirv(const ShaderCode& code) {
   const std::string who = "shader \"" + std::string(code.name) + "\"";
   Result<Module> parsed = spirv::parse_module(code.words);
@@ -175,12 +197,13 @@ Result<SpirvReflection> reflect_spirv(const ShaderCode& code) {
   reflection.stage = *stage;
   reflection.selections = module.selections;
   if (*stage == ShaderStage::compute) reflect_local_size(module, reflection);
+  reflect_constants(module, reflection);
 
   for (const std::uint32_t id : module.variables) {
     const Id& variable = module.ids[id];
     if (variable.has_set && variable.has_binding) {
       reflection.bindings.push_back(reflect_binding(module, id));
-    } else if (variable.storage_class == kStoragePushConstant) {
+    } else if (variable.storage_class == spv::StorageClassPushConstant) {
       const std::uint32_t block = module.ids[variable.variable_type].type.element;
       if (is_type(module, block)) {
         reflection.push_constant_bytes = std::max(reflection.push_constant_bytes, module.ids[block].type.bytes);

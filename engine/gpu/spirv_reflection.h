@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/gpu/spec_constants.h"
 #include "engine/gpu/types.h"
 
 /// Reflection of compiled shaders: stage, bindings and memory layouts. SPIR-V specification 1.6, §2 (layout of a
@@ -53,11 +54,11 @@ struct ReflectedStruct {
 };
 
 struct SpirvReflection {
-  static constexpr std::uint32_t kNoConstant = ~0u;
   ShaderStage stage = ShaderStage::compute;
   std::array<std::uint32_t, 3> local_size = {0, 0, 0};  ///< compute shaders only, with default specialisation constants
-  /// Specialisation constants that replace parts of local_size; kNoConstant where there is none.
-  std::array<std::uint32_t, 3> local_size_constants = {kNoConstant, kNoConstant, kNoConstant};
+  /// Specialisation constants: booleans and 32-bit numbers. Those without a debug name are left out, except parts of
+  /// the workgroup size (see SpecConstant::name). An optimiser may give a constant more names; each is listed.
+  std::vector<ReflectedConstant> constants;
   std::uint32_t push_constant_bytes = 0;
   std::uint32_t selections = 0;  ///< branches in the code: if, switch and conditional expressions; functions count once
   std::vector<ReflectedBinding> bindings;  ///< ordered by set, then binding
@@ -66,6 +67,7 @@ struct SpirvReflection {
   /// The first structure with this name, or null. Names exist only if the shader was compiled with debug names.
   [[nodiscard]] const ReflectedStruct* find_struct(std::string_view struct_name) const;
   [[nodiscard]] const ReflectedBinding* find_binding(std::uint32_t set, std::uint32_t binding) const;
+  [[nodiscard]] const ReflectedConstant* find_constant(std::string_view constant_name) const;
 };
 
 /// Fails with ErrorKind::input if the words are not a SPIR-V module with an entry point "main" of a known stage. The

@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/gpu/spec_constants.h"
+
 /// Handles and descriptions of GPU objects, independent of any graphics API's headers.
 namespace gloam::gpu {
 
@@ -207,16 +209,11 @@ struct ShaderCode {
   std::span<const std::uint32_t> words;
 };
 
-struct SpecConstant {
-  std::uint32_t id = 0;
-  std::uint32_t value = 0;
-};
-
 struct ComputePipelineDesc {
   std::string name;
   std::string module;
   ShaderCode shader;
-  std::vector<SpecConstant> constants;
+  SpecConstants constants;
 };
 
 enum class CullMode : std::uint8_t { none, front, back };
@@ -234,7 +231,7 @@ struct GraphicsPipelineDesc {
   std::string module;
   ShaderCode vertex;
   ShaderCode fragment;  ///< no words: no fragment stage, depth only
-  std::vector<SpecConstant> constants;
+  SpecConstants constants;
   std::vector<VertexAttribute> attributes;
   std::vector<std::uint32_t> stream_strides;  ///< bytes, one per vertex stream
   std::vector<Format> color_formats;

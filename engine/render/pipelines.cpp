@@ -40,9 +40,11 @@ template <class Desc>
 std::string name_of(const Desc& desc) {
   if (!desc.name.empty()) return desc.name;
   std::string name(shader_of(desc));
-  for (const gpu::SpecConstant& constant : desc.constants)
-    name += (&constant == desc.constants.data() ? " " : ",") + std::to_string(constant.id) + "=" +
-            std::to_string(constant.value);
+  const char* separator = " ";
+  for (const gpu::SpecConstant& constant : desc.constants) {
+    name += separator + std::string(constant.name) + "=" + gpu::text_of(constant.value);
+    separator = ",";
+  }
   return name;
 }
 
@@ -73,6 +75,8 @@ Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
       named.vertex = current(desc.vertex);
       named.fragment = current(desc.fragment);
     }
+    // The new code of a replaced shader may not use all constants.
+    if (!replaced_.empty()) named.constants = desc.constants.where_present();
   }
   auto made = device_.create_pipeline(named);  // outside the lock: compiling takes long
   if (!made.ok()) return made.error();

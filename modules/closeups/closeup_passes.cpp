@@ -19,12 +19,11 @@ bool by_index(Entity a, Entity b) { return a.index < b.index; }
 
 ComputeProgram compose_program(const ShadowsOutputs& shadows, bool directional, const gpu::DeviceInfo& device) {
   using namespace shaders::closeups;
-  const std::vector<gpu::SpecConstant>& of_lists = shadows.final_lists->constants;
   ComputeProgram program{directional ? (shadows.standard ? compose_suns_standard_comp : compose_suns_comp)
                                      : (shadows.standard ? compose_local_standard_comp : compose_local_comp),
                          shadows.constants};
-  program.constants.push_back({0, threads_a_tile(device)});
-  program.constants.insert(program.constants.end(), of_lists.begin(), of_lists.end());
+  program.constants.set("local_size_x", threads_a_tile(device));
+  program.constants.set(shadows.final_lists->constants);
   return program;
 }
 

@@ -15,10 +15,12 @@ constexpr gpu::Format kGlowFormat = gpu::Format::rgba16_float;
 
 std::uint32_t glow_divisor(const KnobRegistry& knobs) { return knobs.value(kFogDivisor); }
 
-DrawProgram reduce_program(std::uint32_t divisor) { return {shaders::fog::reduce_frag, {{0, divisor}}}; }
+DrawProgram reduce_program(std::uint32_t divisor) {
+  return {shaders::fog::reduce_frag, {{"kDivisor", static_cast<std::int32_t>(divisor)}}};
+}
 DrawProgram blur_program() { return {shaders::fog::blur_frag}; }
 DrawProgram apply_program(bool orthographic) {
-  return {shaders::fog::apply_frag, {{0, orthographic ? 1u : 0u}}, gpu::BlendMode::premultiplied};
+  return {shaders::fog::apply_frag, {{"kOrthographic", orthographic ? 1u : 0u}}, gpu::BlendMode::premultiplied};
 }
 
 /// LitOutput blurred at 1/divisor of its size.

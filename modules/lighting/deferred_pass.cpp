@@ -48,14 +48,13 @@ DrawProgram shading_program(LocalLights source, const ShadingInputs& inputs, con
   program.depth_compare = gpu::CompareOp::less;
   if (shadows != nullptr) program.constants = shadows->constants;
   // Loops with shadows are not unrolled: one pipeline serves any number of directional lights.
-  if (!shadowed) program.constants.push_back({1, inputs.directional_count});
-  if (inputs.specular_ambient_taken) program.constants.push_back({3, 0});
-  if (inputs.diffuse_light_wanted) program.constants.push_back({4, 1});
+  if (!shadowed) program.constants.set("kDirectionalLights", inputs.directional_count);
+  if (inputs.specular_ambient_taken) program.constants.set("kSpecularAmbient", 0u);
+  if (inputs.diffuse_light_wanted) program.constants.set("kDiffuseLight", 1u);
   if (final_lists) {
-    const std::vector<gpu::SpecConstant>& constants = shadows->final_lists->constants;
-    program.constants.insert(program.constants.end(), constants.begin(), constants.end());
+    program.constants.set(shadows->final_lists->constants);
   } else if (tiled) {
-    program.constants.push_back({2, source == LocalLights::lists ? 1u : 0u});
+    program.constants.set("kAlwaysFit", source == LocalLights::lists ? 1u : 0u);
   }
   return program;
 }
@@ -71,7 +70,7 @@ DrawProgram fallback_program(const ShadingInputs& inputs, const ShadowsOutputs& 
 /// Draws the pixels without a surface.
 DrawProgram sky_program(const ShadingInputs& inputs) {
   DrawProgram program{shaders::lighting::sky_frag};
-  if (inputs.diffuse_light_wanted) program.constants.push_back({4, 1});
+  if (inputs.diffuse_light_wanted) program.constants.set("kDiffuseLight", 1u);
   program.depth_compare = gpu::CompareOp::equal;
   return program;
 }

@@ -76,7 +76,7 @@ enum class ForwardShadows : std::uint8_t {
 struct ForwardLighting {
   bool tiled = false;  ///< GLOAM_FORWARD_TILED may be used
   ForwardShadows shadows = ForwardShadows::none;
-  std::vector<gpu::SpecConstant> constants = {};  ///< of versions with shadows or cookies
+  gpu::SpecConstants constants = {};  ///< of versions with shadows or cookies
 };
 
 /// The version that these inputs call for; either may be null.

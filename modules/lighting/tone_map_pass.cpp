@@ -80,7 +80,8 @@ void add_tone_map_passes(FrameBuilder& frame) {
   const std::uint32_t output = smooth ? 2u : (dither ? 1u : 0u);  // kOutput of tone_map.frag
   ImageRef shown = smooth ? create_view_image(frame, "shown", kShownFormat) : target.color;
   {
-    DrawPass pass(frame, "tone_map", {shaders::lighting::tone_map_frag, {{0, table ? 1u : 0u}, {1, output}}});
+    DrawPass pass(frame, "tone_map",
+                  {shaders::lighting::tone_map_frag, {{"kTable", table ? 1u : 0u}, {"kOutput", output}}});
     pass.read("lit_image", frame.get<LitOutput>().color);
     pass.read("metered_exposure", metered->buffer);
     pass.read("table_image", table, Sampling::linear);

@@ -50,18 +50,20 @@ ShadowSettings shadow_settings(const ShadowKnobs& knobs) {
   return settings;
 }
 
-std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter) {
-  return {{GLOAM_SHADOWS_FILTER_ID, filter},
-          {GLOAM_SHADOWS_KERNEL_ID, knobs.kernel},
-          {GLOAM_SHADOWS_MIPS_ID, knobs.mips ? 1u : 0u},
-          {GLOAM_SHADOWS_RECEIVER_PLANE_ID, knobs.receiver_plane ? 1u : 0u},
-          {GLOAM_SHADOWS_BIAS_ID, knobs.oriented ? 1u : 0u},
-          {GLOAM_SHADOWS_KERNEL_SHAPE_ID, knobs.square ? 1u : 0u},
-          {GLOAM_SHADOWS_LEVELS_ID, knobs.levels},
-          {GLOAM_SHADOWS_FULL_PENUMBRA_ID, knobs.early_outs ? 0u : 1u},
-          {GLOAM_SHADOWS_COVERAGE_ID, knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u},
-          {GLOAM_SHADOWS_NEAR_ID, knobs.near},
-          {GLOAM_SHADOWS_TERMINATOR_ID, knobs.terminator ? 1u : 0u}};
+gpu::SpecConstants shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter) {
+  gpu::SpecConstants constants;
+  constants.set_if_present("kFilter", filter);
+  constants.set_if_present("kKernel", static_cast<std::int32_t>(knobs.kernel));
+  constants.set_if_present("kMips", knobs.mips ? 1u : 0u);
+  constants.set_if_present("kReceiverPlane", knobs.receiver_plane ? 1u : 0u);
+  constants.set_if_present("kBias", knobs.oriented ? 1u : 0u);
+  constants.set_if_present("kKernelShape", knobs.square ? 1u : 0u);
+  constants.set_if_present("kLevels", knobs.levels);
+  constants.set_if_present("kFullPenumbra", knobs.early_outs ? 0u : 1u);
+  constants.set_if_present("kCoverage", knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u);
+  constants.set_if_present("kNear", knobs.near);
+  constants.set_if_present("kTerminator", knobs.terminator ? 1u : 0u);
+  return constants;
 }
 
 }  // namespace gloam

@@ -11,7 +11,7 @@
 
 namespace gloam {
 
-// Values of GLOAM_SHADOWS_FILTER_ID.
+// Values of kFilter (shadows_api.glsl).
 inline constexpr std::uint32_t kSingleFetches = 2;
 inline constexpr std::uint32_t kContactHardening = 3;
 inline constexpr std::uint32_t kTracedShadows = 4;
@@ -24,7 +24,7 @@ inline constexpr OnOffKnob kShadowClassify{
         "test whole tiles against shadow maps first, and filter only the pixels of undecided tiles "
         "(shadows.mode=deferred)",
     .default_value = true};
-/// Values of GLOAM_SHADOWS_FILTER_ID.
+/// Values of kFilter (shadows_api.glsl).
 inline constexpr ChoiceKnob<std::uint32_t> kShadowFilter{
     .name = "shadows.filter",
     .meaning =
@@ -37,7 +37,7 @@ inline constexpr ChoiceKnob<std::uint32_t> kShadowKernel{.name = "shadows.kernel
                                                          .choices = {{"4", 4}, {"8", 8}, {"12", 12}, {"16", 16}},
                                                          .default_value = 8,
                                                          .unit = "texels"};
-/// Values of GLOAM_SHADOWS_NEAR_ID.
+/// Values of kShadowNear.
 inline constexpr ChoiceKnob<std::uint32_t> kShadowNear{
     .name = "shadows.near",
     .meaning =
@@ -145,7 +145,7 @@ struct ShadowKnobs {
   bool classify = true;            ///< tiles are classified before pixels are filtered
   std::uint32_t slot_limit = ~0u;  ///< greatest number of visibility slots per view
   std::uint32_t pair_limit = ~0u;  ///< greatest number of tile-light pairs per view
-  std::uint32_t filter = 3;        ///< value of GLOAM_SHADOWS_FILTER_ID
+  std::uint32_t filter = 3;        ///< value of kFilter (shadows_api.glsl)
   std::uint32_t kernel = 8;        ///< texels of the kernel's side
   bool mips = true;
   std::uint32_t mip_operator = GLOAM_SHADOW_MIPS_COVERAGE;  ///< GLOAM_SHADOW_MIPS_…; with d16 never coverage
@@ -178,7 +178,7 @@ void add_shadow_knobs(KnobRegistry& registry);
 [[nodiscard]] ShadowKnobs shadow_knobs(const KnobRegistry& registry);
 [[nodiscard]] ShadowSettings shadow_settings(const ShadowKnobs& knobs);
 
-/// Specialisation constants of the knobs, for shaders that include shadows_api.glsl. filter: GLOAM_SHADOWS_FILTER_ID.
-[[nodiscard]] std::vector<gpu::SpecConstant> shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter);
+/// Specialisation constants of the knobs, for shaders that include shadows_api.glsl. filter: value of kFilter.
+[[nodiscard]] gpu::SpecConstants shadow_constants(const ShadowKnobs& knobs, std::uint32_t filter);
 
 }  // namespace gloam

@@ -17,9 +17,9 @@ std::span<const Entity> WithheldCasters::of(Entity light) const {
 }
 
 ShadowsOutputs by_single_fetches(ShadowsOutputs shadows) {
-  for (gpu::SpecConstant& constant : shadows.constants) {
-    if (constant.id != GLOAM_SHADOWS_FILTER_ID || constant.value != kContactHardening) continue;
-    constant.value = kSingleFetches;
+  const gpu::SpecConstant* filter = shadows.constants.find("kFilter");
+  if (filter != nullptr && filter->value == gpu::SpecValue(kContactHardening)) {
+    shadows.constants.set_if_present("kFilter", kSingleFetches);
     shadows.standard = false;
   }
   return shadows;

@@ -127,8 +127,8 @@ struct FinalLists {
   std::uint32_t visibility_bits = 8;  ///< bits of one visibility: 8 or 4
   std::uint32_t slot_capacity = 0;    ///< visibility slots that both buffers hold together
   std::uint32_t pair_capacity = 0;    ///< tile-light pairs that the view has room for
-  /// Specialisation constants of shaders that include final_lists_api.glsl (GLOAM_FINAL_…_ID).
-  std::vector<gpu::SpecConstant> constants;
+  /// Specialisation constants of shaders that include final_lists_api.glsl.
+  gpu::SpecConstants constants;
 };
 
 /// The inputs of shaders that evaluate a view's shadows and cookies with shaders/shadows/shadows_api.glsl. Put on the
@@ -151,9 +151,9 @@ struct ShadowsOutputs {
   /// The view's shadows use the standard filter. Shaders may then define GLOAM_SHADOWS_STANDARD, which halves their
   /// code.
   bool standard = false;
-  /// Specialisation constants of shaders that include shadows_api.glsl (GLOAM_SHADOWS_…_ID), the same for all shaders
-  /// of the frame.
-  std::vector<gpu::SpecConstant> constants;
+  /// Specialisation constants of shaders that include shadows_api.glsl, the same for all shaders of the frame. They
+  /// apply where present: programs without shadows may take them, too.
+  gpu::SpecConstants constants;
 
   std::uint32_t cookie_lights = 0;  ///< spot lights of the scene that project a cookie
 

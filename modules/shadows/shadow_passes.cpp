@@ -18,7 +18,7 @@
 namespace gloam {
 namespace {
 
-/// Value of GLOAM_COOKIE_LIGHTS_ID. Only three values, because each makes other pipelines.
+/// Value of kCookieLights (arriving_light.glsl). Only three values, because each makes other pipelines.
 std::uint32_t looked_up_cookies(std::size_t lights) {
   constexpr std::uint32_t kMost = GLOAM_COOKIE_LIGHTS;
   return lights <= 1 ? static_cast<std::uint32_t>(lights) : lights <= kMost ? kMost : kMost + 1;
@@ -31,13 +31,13 @@ bool has_placed_face(const ViewFaces& view_faces) {
                      [](const ShadowFace& face) { return face.square.size > 0; });
 }
 
-/// Sets the specialisation constants of shaders that read `outputs`. filter: GLOAM_SHADOWS_FILTER_ID.
+/// Sets the specialisation constants of shaders that read `outputs`. filter: value of kFilter.
 void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutputs& outputs) {
   outputs.cookies_only = filter == kNoShadows;
   outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
   // Cookies do not depend on knobs: default values avoid further pipelines.
   outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
-  outputs.constants.push_back({GLOAM_COOKIE_LIGHTS_ID, looked_up_cookies(outputs.cookie_lights)});
+  outputs.constants.set_if_present("kCookieLights", looked_up_cookies(outputs.cookie_lights));
 }
 
 /// Updates the maps of the view's faces, of which at least one has a place. Withheld casters are left out only when the

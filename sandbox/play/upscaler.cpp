@@ -39,7 +39,7 @@ Result<gpu::PipelineHandle> Upscaler::pipeline_for(gpu::Format format, bool vert
   desc.module = kModule;
   desc.vertex = shaders::sandbox::upscale_vert;
   desc.fragment = shaders::sandbox::upscale_frag;
-  desc.constants = {{0, vertical ? 1u : 0u}};
+  desc.constants = {{"kVertical", vertical ? 1u : 0u}};
   desc.color_formats = {format};
   desc.cull = gpu::CullMode::none;
   desc.depth_compare = gpu::CompareOp::always;

@@ -60,7 +60,7 @@ Result<gpu::PipelineHandle> PanelRenderer::pipeline_for(gpu::Format format) {
   desc.module = kModule;
   desc.vertex = shaders::sandbox::panel_vert;
   desc.fragment = shaders::sandbox::panel_frag;
-  desc.constants = {{0, gpu::encodes_srgb(format) ? 1u : 0u}};
+  desc.constants = {{"kDecode", gpu::encodes_srgb(format) ? 1u : 0u}};
   desc.attributes = {{0, 0, gpu::Format::rg32_float, offsetof(ImDrawVert, pos)},
                      {1, 0, gpu::Format::rg32_float, offsetof(ImDrawVert, uv)},
                      {2, 0, gpu::Format::rgba8_unorm, offsetof(ImDrawVert, col)}};

@@ -5,7 +5,7 @@
 
 #include "shaders/common/heat_shared.h"
 
-layout(constant_id = GLOAM_HEAT_RANGE_CONSTANT) const float kHeatRange = 1.0;
+layout(constant_id = 99) const float kHeatRange = 1.0;  // factor on the value at the scale's end
 
 // The colour at a position of the heat scale, 0…1.
 vec3 heat_color(float share) {

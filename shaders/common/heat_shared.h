@@ -9,7 +9,5 @@
 #define GLOAM_HEAT_COLORS                                                                             \
   vec3(0.0), vec3(0.02, 0.05, 0.6), vec3(0.0, 0.45, 0.6), vec3(0.05, 0.5, 0.05), vec3(0.8, 0.6, 0.0), \
       vec3(0.8, 0.02, 0.02)
-// Specialisation constant: factor on the value at the scale's end.
-#define GLOAM_HEAT_RANGE_CONSTANT 99
 
 #endif

@@ -17,7 +17,7 @@
 // Lights whose cookies are looked up once per surface, before the loop over its lights: devices that run both sides of
 // a condition would look up a cookie for every light. If greater than GLOAM_COOKIE_LIGHTS, the cookie is looked up per
 // light instead.
-layout(constant_id = GLOAM_COOKIE_LIGHTS_ID) const uint kCookieLights = GLOAM_COOKIE_LIGHTS + 1u;
+layout(constant_id = 18) const uint kCookieLights = GLOAM_COOKIE_LIGHTS + 1u;
 
 vec3 receiver_position;
 vec3 cookie_colors[GLOAM_COOKIE_LIGHTS];

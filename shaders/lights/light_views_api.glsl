@@ -8,7 +8,7 @@
 #include "shaders/common/math.glsl"
 #include "shaders/lights/lights_shared.h"
 
-layout(constant_id = 0) const uint kEncodeSrgb =
+layout(constant_id = 0) const uint kEncode =
     0u;  // 1: the picture's format does not encode sRGB, so the shader does
 
 layout(location = 0) out vec4 out_color;  // over the picture
@@ -22,7 +22,7 @@ const float kDarkened = 0.75;  // opacity of other colours where the picture sho
 // Outputs a linear colour with this opacity over the picture.
 void show(vec3 color, float opacity) {
   vec3 encoded = linear_to_srgb(color);
-  out_color = vec4(kEncodeSrgb != 0u ? encoded : color, opacity);
+  out_color = vec4(kEncode != 0u ? encoded : color, opacity);
   out_named = vec4(encoded, opacity);
 }
 

@@ -15,8 +15,8 @@
 //     shade(entry_light(entry), entry_visibility(entry, slot_pixel(pixel)));
 //   }
 
-layout(constant_id = GLOAM_FINAL_BITS_ID) const uint kVisibilityBits = 8u;
-layout(constant_id = GLOAM_FINAL_BUFFERS_ID) const uint kVisibilityBuffers = 1u;
+layout(constant_id = 19) const uint kVisibilityBits = 8u;     // bits of a visibility: 8 or 4
+layout(constant_id = 20) const uint kVisibilityBuffers = 1u;  // visibility buffers that hold slots: 1 or 2
 
 layout(set = 0, binding = GLOAM_FINAL_LISTS_BINDING) uniform usampler2D final_tiles;
 layout(set = 0, binding = GLOAM_FINAL_LISTS_BINDING + 1, scalar) readonly buffer FinalEntries { uint final_entries[]; };

@@ -100,8 +100,4 @@ struct ShadowListCounters {
 
 GLOAM_SHARED_END
 
-// Specialisation constants of shaders that include final_lists_api.glsl
-#define GLOAM_FINAL_BITS_ID 19     // bits of a visibility: 8 or 4
-#define GLOAM_FINAL_BUFFERS_ID 20  // visibility buffers that hold slots: 1 or 2
-
 #endif

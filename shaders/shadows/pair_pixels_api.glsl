@@ -20,9 +20,9 @@
 //     and returns flags that are combined into `found`, and the steps to store in the slot,
 // and include pair_pixels_asked_api.glsl. Uses bindings 0, 3 to 6 and 21.
 
-layout(local_size_x = 64, local_size_x_id = 0) in;  // constant 0: 8, 16, 32 or 64
+layout(local_size_x = 64, local_size_x_id = 0) in;  // 8, 16, 32 or 64
 
-layout(constant_id = GLOAM_FINAL_BITS_ID) const uint kVisibilityBits = 8u;
+layout(constant_id = 19) const uint kVisibilityBits = 8u;  // bits of a visibility: 8 or 4
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 3) uniform sampler2D depth_image;

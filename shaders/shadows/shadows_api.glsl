@@ -28,27 +28,31 @@ layout(set = 0, binding = GLOAM_SHADOWS_BINDING + 5) uniform sampler2DArray shad
 const uint kFilter = 3u;
 const int kKernel = 8;
 #else
-layout(constant_id = GLOAM_SHADOWS_FILTER_ID) const uint kFilter = 3u;
-layout(constant_id = GLOAM_SHADOWS_KERNEL_ID) const int kKernel = 8;
+// 0 hard, 1 pcf, 2 pcss, 3 chs, 4 traced visibility (references), 5 no shadows, only cookies
+layout(constant_id = 8) const uint kFilter = 3u;
+layout(constant_id = 9) const int kKernel = 8;  // texels of the kernel's side: 4, 8, 12, 16
 #endif
-layout(constant_id = GLOAM_SHADOWS_MIPS_ID) const uint kMips = 1u;
-layout(constant_id = GLOAM_SHADOWS_RECEIVER_PLANE_ID) const uint kReceiverPlane = 1u;
-layout(constant_id = GLOAM_SHADOWS_BIAS_ID) const uint kBias = 1u;
-layout(constant_id = GLOAM_SHADOWS_KERNEL_SHAPE_ID) const uint kKernelShape = 0u;
-layout(constant_id = GLOAM_SHADOWS_LEVELS_ID) const uint kLevels = 255u;
-layout(constant_id = GLOAM_SHADOWS_FULL_PENUMBRA_ID) const uint kFullPenumbra = 0u;
-layout(constant_id = GLOAM_SHADOWS_COVERAGE_ID) const uint kCoverage = 0u;
-layout(constant_id = GLOAM_SHADOWS_NEAR_ID) const uint kNear = 1u;
-layout(constant_id = GLOAM_SHADOWS_TERMINATOR_ID) const uint kTerminator = 0u;
+layout(constant_id = 10) const uint kMips = 1u;           // 0 off, 1 on
+layout(constant_id = 11) const uint kReceiverPlane = 1u;  // 0, 1
+layout(constant_id = 12) const uint kBias = 1u;           // 0 hardware (already in the map), 1 oriented
+layout(constant_id = 13) const uint kKernelShape = 0u;    // 0 disc, 1 square
+layout(constant_id = 14) const uint kLevels = 255u;       // 255 or 15 steps of visibility; 0: not quantised
+layout(constant_id = 15) const uint kFullPenumbra = 0u;   // 1: no early-outs, to measure the filter alone
+// 1: the atlas holds coverage mips, whose depths hold counts in their 6 lowest bits (GLOAM_SHADOW_MIPS_COVERAGE)
+layout(constant_id = 17) const uint kCoverage = 0u;
+layout(constant_id = 21) const uint kNear = 1u;  // near_blockers.glsl: 0 off, 1 for wide blockers, 2 always where it may matter
+// 1: receivers under pixels are judged at their smooth surface (pixel_receiver()); 0: GeometryOutputs::smooth_surfaces
+// is not read
+layout(constant_id = 22) const uint kTerminator = 0u;
 // A pipeline may be restricted to some kinds of lights. Software devices would otherwise execute the code of all kinds
-// for every light. GLOAM_SHADOWS_KINDS_ID restricts the kinds when the pipeline is created. Shaders for fixed kinds
+// for every light. kKinds restricts the kinds when the pipeline is created. Shaders for fixed kinds
 // define GLOAM_SHADOWS_KINDS, which shortens their code as well. Shaders that define GLOAM_SHADOWS_IN_FACE promise that
 // no kernel leaves its receiver's cube face.
 #ifdef GLOAM_SHADOWS_KINDS
 const uint kKinds = GLOAM_SHADOWS_KINDS;
 #else
 #define GLOAM_SHADOWS_KINDS 7
-layout(constant_id = GLOAM_SHADOWS_KINDS_ID) const uint kKinds = GLOAM_SHADOWS_ALL_KINDS;
+layout(constant_id = 16) const uint kKinds = GLOAM_SHADOWS_ALL_KINDS;  // GLOAM_SHADOWS_SPOTS | …
 #endif
 #if (GLOAM_SHADOWS_KINDS & 2) != 0 && !defined(GLOAM_SHADOWS_IN_FACE)
 #define GLOAM_SHADOWS_CROSSING

@@ -59,7 +59,7 @@ struct ShadowRow {
   vec2 origins[6];  // corners of the faces in the atlas, texels of mip 0; spot: only the first
   float cookie_layer;  // layer of the cookie images; −1: none
   float cookie_tan;    // tangent of the half angle that the cookie fills
-  float traced_layer;  // layer of the traced visibility (GLOAM_SHADOWS_FILTER_ID 4); −1: always lit
+  float traced_layer;  // layer of the traced visibility (kFilter 4); −1: always lit
   float mirrored;      // 1: mirrored node, the axes are left-handed, forward is cross(right, up); else 0
   vec4 reserved1;
 };
@@ -111,29 +111,6 @@ struct ShadowBlock {
 };
 
 GLOAM_SHARED_END
-
-// Specialisation constants of shaders that include shadows_api.glsl
-
-// Filter: 0 hard, 1 pcf, 2 pcss, 3 chs, 4 traced visibility (references), 5 no shadows, only cookies
-#define GLOAM_SHADOWS_FILTER_ID 8
-#define GLOAM_SHADOWS_KERNEL_ID 9           // texels of the kernel's side: 4, 8, 12, 16
-#define GLOAM_SHADOWS_MIPS_ID 10            // 0 off, 1 on
-#define GLOAM_SHADOWS_RECEIVER_PLANE_ID 11  // 0, 1
-#define GLOAM_SHADOWS_BIAS_ID 12            // 0 hardware (already in the map), 1 oriented
-#define GLOAM_SHADOWS_KERNEL_SHAPE_ID 13    // 0 disc, 1 square
-#define GLOAM_SHADOWS_LEVELS_ID 14          // 255 or 15 steps of visibility; 0: not quantised
-#define GLOAM_SHADOWS_FULL_PENUMBRA_ID 15   // 1: no early-outs, to measure the filter alone
-#define GLOAM_SHADOWS_KINDS_ID 16           // kinds of lights that are evaluated: GLOAM_SHADOWS_SPOTS | …
-// 1: the atlas holds coverage mips, whose depths hold counts in their 6 lowest bits (GLOAM_SHADOW_MIPS_COVERAGE)
-#define GLOAM_SHADOWS_COVERAGE_ID 17
-#define GLOAM_SHADOWS_NEAR_ID 21  // near_blockers.glsl: 0 off, 1 for wide blockers, 2 always where it may matter
-
-// 1: receivers under pixels are judged at their smooth surface (pixel_receiver()); 0: GeometryOutputs::smooth_surfaces
-// is not read
-#define GLOAM_SHADOWS_TERMINATOR_ID 22
-
-// Lights whose cookies are read before the light loop; above GLOAM_COOKIE_LIGHTS: none (arriving_light.glsl)
-#define GLOAM_COOKIE_LIGHTS_ID 18
 
 #define GLOAM_SHADOWS_SPOTS 1u
 #define GLOAM_SHADOWS_CUBES 2u

@@ -3,6 +3,7 @@
 //
 // Names that the build leaves in embedded SPIR-V (cmake/EmbedSpirv.cmake).
 #include <gtest/gtest.h>
+#include <spirv/unified1/spirv.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -15,11 +16,6 @@ namespace gloam::gpu {
 namespace {
 
 constexpr std::uint32_t kHeaderWords = 5;
-constexpr std::uint32_t kName = 5;
-constexpr std::uint32_t kStructure = 30;
-constexpr std::uint32_t kDecorate = 71;
-constexpr std::uint32_t kSpecId = 1;
-constexpr std::uint32_t kBinding = 33;
 
 /// Ids of a module: those with a name, and those that should have one.
 struct NamedIds {
@@ -29,11 +25,12 @@ struct NamedIds {
 
 NamedIds named_ids(const ShaderCode& code) {
   NamedIds ids;
-  for (std::size_t at = kHeaderWords; at < code.words.size(); at += code.words[at] >> 16) {
-    const std::uint32_t op = code.words[at] & 0xFFFFu;
-    if (op == kName) ids.named.insert(code.words[at + 1]);
-    if (op == kStructure) ids.wanted.insert(code.words[at + 1]);
-    if (op == kDecorate && (code.words[at + 2] == kSpecId || code.words[at + 2] == kBinding))
+  for (std::size_t at = kHeaderWords; at < code.words.size(); at += code.words[at] >> spv::WordCountShift) {
+    const std::uint32_t op = code.words[at] & spv::OpCodeMask;
+    if (op == spv::OpName) ids.named.insert(code.words[at + 1]);
+    if (op == spv::OpTypeStruct) ids.wanted.insert(code.words[at + 1]);
+    if (op == spv::OpDecorate &&
+        (code.words[at + 2] == spv::DecorationSpecId || code.words[at + 2] == spv::DecorationBinding))
       ids.wanted.insert(code.words[at + 1]);
   }
   return ids;
@@ -46,6 +43,23 @@ TEST(EmbeddedNames, are_those_of_bindings_constants_and_structures) {
     for (const std::uint32_t id : ids.named)
       EXPECT_TRUE(GLOAM_ALL_SHADER_NAMES || ids.wanted.contains(id)) << code->name << ": id " << id;
   }
+}
+
+// Passes set specialisation constants by name. Parts of the workgroup size get theirs from reflection.
+TEST(EmbeddedNames, every_specialisation_constant_has_one) {
+  std::size_t constants = 0;
+  for (const ShaderCode* code : every_shader()) {
+    std::set<std::uint32_t> numbers, named;
+    for (std::size_t at = kHeaderWords; at < code->words.size(); at += code->words[at] >> spv::WordCountShift)
+      if ((code->words[at] & spv::OpCodeMask) == spv::OpDecorate && code->words[at + 2] == spv::DecorationSpecId)
+        numbers.insert(code->words[at + 3]);
+    const auto reflection = reflect_spirv(*code);
+    ASSERT_TRUE(reflection.ok()) << code->name;
+    for (const ReflectedConstant& constant : reflection->constants) named.insert(constant.id);
+    EXPECT_EQ(named, numbers) << code->name;
+    constants += named.size();
+  }
+  EXPECT_GT(constants, 400u);
 }
 
 TEST(EmbeddedNames, every_binding_and_structure_in_memory_has_one) {

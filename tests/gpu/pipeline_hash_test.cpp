@@ -19,7 +19,7 @@ GraphicsPipelineDesc drawn() {
   GraphicsPipelineDesc desc;
   desc.vertex.words = kWords;
   desc.fragment.words = kWords;
-  desc.constants = {{0, 4}, {1, 7}};
+  desc.constants = {{"kFirst", 4u}, {"kSecond", 7u}};
   desc.attributes = {{0, 0, Format::rgba32_float, 0}};
   desc.stream_strides = {16};
   desc.color_formats = {Format::rgba16_float};
@@ -32,9 +32,17 @@ TEST(PipelineHash, every_field_of_a_graphics_pipeline_counts) {
       [](auto& d) { d.vertex.words = kOtherWords; },
       [](auto& d) { d.fragment.words = kOtherWords; },
       [](auto& d) { d.fragment.words = {}; },
-      [](auto& d) { d.constants[1].value = 8; },
-      [](auto& d) { d.constants[1].id = 2; },
-      [](auto& d) { d.constants.pop_back(); },
+      [](auto& d) { d.constants.set("kSecond", 8u); },
+      [](auto& d) { d.constants.set("kThird", 7u); },
+      [](auto& d) {
+        d.constants = {{"kFirst", 4u}, {"kThird", 7u}};
+      },
+      [](auto& d) {
+        d.constants = {{"kFirst", 7u}, {"kSecond", 4u}};
+      },
+      [](auto& d) {
+        d.constants = {{"kFirst", 4u}};
+      },
       [](auto& d) { d.attributes[0].location = 1; },
       [](auto& d) { d.attributes[0].stream = 1; },
       [](auto& d) { d.attributes[0].format = Format::rg32_float; },
@@ -59,6 +67,18 @@ TEST(PipelineHash, every_field_of_a_graphics_pipeline_counts) {
   }
 }
 
+TEST(PipelineHash, the_order_of_constants_does_not_count) {
+  GraphicsPipelineDesc other = drawn();
+  other.constants = {{"kSecond", 7u}, {"kFirst", 4u}};
+  GraphicsPipelineDesc replaced = drawn();
+  replaced.constants.set("kFirst", 9u);
+  replaced.constants.set_if_present("kFirst", 4u);
+  for (const ShaderIdentity identity : {ShaderIdentity::address, ShaderIdentity::words}) {
+    EXPECT_EQ(description_hash(other, identity), description_hash(drawn(), identity));
+    EXPECT_EQ(description_hash(replaced, identity), description_hash(drawn(), identity));
+  }
+}
+
 TEST(PipelineHash, names_and_modules_do_not_count) {
   GraphicsPipelineDesc named = drawn();
   named.name = "name";
@@ -75,7 +95,7 @@ TEST(PipelineHash, equal_words_at_two_addresses_are_one_shader_by_words_only) {
   two.shader.words = kSameWords;
   EXPECT_EQ(description_hash(one, ShaderIdentity::words), description_hash(two, ShaderIdentity::words));
   EXPECT_NE(description_hash(one, ShaderIdentity::address), description_hash(two, ShaderIdentity::address));
-  two.constants = {{0, 1}};
+  two.constants = {{"kFirst", 1u}};
   EXPECT_NE(description_hash(one, ShaderIdentity::words), description_hash(two, ShaderIdentity::words));
 }
 

@@ -27,6 +27,9 @@ TEST_F(ShaderInterface, tells_the_first_difference) {
   to.local_size[1] += 1;
   EXPECT_EQ(interface_difference(from, to), "its workgroup size has changed");
   to = from;
+  to.constants.push_back({"local_size_x", 0, SpecType::unsigned_integer});
+  EXPECT_EQ(interface_difference(from, to), "its workgroup size has changed");
+  to = from;
   to.push_constant_bytes += 4;
   EXPECT_EQ(interface_difference(from, to), "its push constants have changed");
 }
@@ -42,6 +45,16 @@ TEST_F(ShaderInterface, compares_bindings_and_layouts) {
   to = from;
   to.structs.front().size += 16;
   EXPECT_EQ(interface_difference(from, to), "structure '" + from.structs.front().name + "' has changed");
+}
+
+TEST_F(ShaderInterface, compares_types_of_specialisation_constants_but_not_which_there_are) {
+  from = to = *reflect_spirv(shaders::gpu_test::disabled_code_comp);
+  to.constants.erase(to.constants.begin());
+  for (ReflectedConstant& constant : to.constants) ++constant.id;
+  EXPECT_EQ(interface_difference(from, to), "");
+  EXPECT_EQ(interface_difference(to, from), "");
+  to.constants.front().type = SpecType::floating;
+  EXPECT_EQ(interface_difference(from, to), "specialisation constant '" + to.constants.front().name + "' has changed");
 }
 
 }  // namespace

@@ -3,13 +3,13 @@
 #include "engine/gpu/spirv/specialize.h"
 
 #include <gtest/gtest.h>
+#include <spirv/unified1/spirv.hpp>
 
 #include <algorithm>
 #include <random>
 #include <set>
 #include <vector>
 
-#include "engine/gpu/spirv/opcodes.h"
 #include "engine/gpu/spirv_reflection.h"
 #include "shaders/every/shaders.h"
 #include "shaders/gpu_test/shaders.h"
@@ -22,8 +22,8 @@ using Words = std::vector<std::uint32_t>;
 /// Calls visit(opcode, words of the instruction).
 template <class Visit>
 void for_each_instruction(std::span<const std::uint32_t> words, const Visit& visit) {
-  for (std::size_t at = 5; at < words.size(); at += words[at] >> 16)
-    visit(words[at] & 0xffff, words.subspan(at, words[at] >> 16));
+  for (std::size_t at = 5; at < words.size(); at += words[at] >> spv::WordCountShift)
+    visit(words[at] & spv::OpCodeMask, words.subspan(at, words[at] >> spv::WordCountShift));
 }
 
 std::size_t count_of(std::span<const std::uint32_t> words, std::uint32_t op) {
@@ -34,65 +34,65 @@ std::size_t count_of(std::span<const std::uint32_t> words, std::uint32_t op) {
 
 bool has_specialisation(std::span<const std::uint32_t> words) {
   bool found = false;
-  for_each_instruction(
-      words, [&](std::uint32_t op, const auto& w) { found = found || (op == spirv::op_decorate && w[2] == 1); });
+  for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
+    found = found || (op == spv::OpDecorate && w[2] == spv::DecorationSpecId);
+  });
   return found;
 }
 
 Words disabled_code(std::uint32_t mode) {
-  const SpecConstant constants[] = {{.id = 0, .value = mode}};
+  const NumberedConstant constants[] = {{.id = 0, .value = mode}};
   return spirv::specialize(shaders::gpu_test::disabled_code_comp.words, constants);
 }
 
 TEST(SpirvSpecialize, leaves_out_functions_that_nothing_calls) {
-  EXPECT_EQ(count_of(disabled_code(4), spirv::op_function), 2u);
-  EXPECT_EQ(count_of(disabled_code(4), spirv::op_function_call), 1u);
-  EXPECT_EQ(count_of(disabled_code(0), spirv::op_function), 1u);
-  EXPECT_EQ(count_of(disabled_code(0), spirv::op_function_call), 0u);
+  EXPECT_EQ(count_of(disabled_code(4), spv::OpFunction), 2u);
+  EXPECT_EQ(count_of(disabled_code(4), spv::OpFunctionCall), 1u);
+  EXPECT_EQ(count_of(disabled_code(0), spv::OpFunction), 1u);
+  EXPECT_EQ(count_of(disabled_code(0), spv::OpFunctionCall), 0u);
 }
 
 TEST(SpirvSpecialize, leaves_out_branches_that_are_never_taken) {
   const Words all(shaders::gpu_test::disabled_code_comp.words.begin(),
                   shaders::gpu_test::disabled_code_comp.words.end());
-  EXPECT_LT(count_of(disabled_code(0), spirv::op_branch_conditional), count_of(all, spirv::op_branch_conditional));
-  EXPECT_LT(count_of(disabled_code(3), spirv::op_branch_conditional),
-            count_of(disabled_code(4), spirv::op_branch_conditional));
+  EXPECT_LT(count_of(disabled_code(0), spv::OpBranchConditional), count_of(all, spv::OpBranchConditional));
+  EXPECT_LT(count_of(disabled_code(3), spv::OpBranchConditional), count_of(disabled_code(4), spv::OpBranchConditional));
 }
 
 TEST(SpirvSpecialize, leaves_no_choice_between_constant_vectors) {
   for (std::uint32_t flag = 0; flag < 3; ++flag) {
-    const SpecConstant constants[] = {{.id = 0, .value = flag}};
+    const NumberedConstant constants[] = {{.id = 0, .value = flag}};
     const Words words = spirv::specialize(shaders::gpu_test::choose_vectors_comp.words, constants);
     ASSERT_FALSE(words.empty());
     for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
-      EXPECT_FALSE(op == spirv::op_spec_constant_op && w[3] == spirv::op_select) << "flag " << flag;
+      EXPECT_FALSE(op == spv::OpSpecConstantOp && w[3] == spv::OpSelect) << "flag " << flag;
     });
   }
 }
 
 /// A module with a specialisation constant, id 4, and a choice between two vectors, id 12, by components.
 Words module_with_choice_by_components(std::uint32_t second_vector_op) {
-  Words words = {0x07230203, 0x00010600, 0, 20, 0};
+  Words words = {spv::MagicNumber, 0x00010600, 0, 20, 0};
   const auto add = [&](std::uint32_t op, std::initializer_list<std::uint32_t> operands) {
-    words.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << 16 | op);
+    words.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << spv::WordCountShift | op);
     words.insert(words.end(), operands);
   };
-  add(spirv::op_decorate, {4, 1, 0});
-  add(spirv::op_type_bool, {1});
-  add(spirv::op_type_vector, {2, 1, 3});
-  add(spirv::op_constant_false, {1, 3});
-  add(spirv::op_spec_constant_true, {1, 4});
-  add(spirv::op_spec_constant_composite, {2, 5, 4, 3, 4});
-  add(spirv::op_type_float, {6, 32});
-  add(spirv::op_type_vector, {7, 6, 3});
-  for (const std::uint32_t number : {8u, 9u}) add(spirv::op_constant, {6, number, 0x3f800000u + number});
-  add(spirv::op_constant_composite, {7, 10, 8, 8, 8});
-  if (second_vector_op == spirv::op_constant_composite) {
+  add(spv::OpDecorate, {4, spv::DecorationSpecId, 0});
+  add(spv::OpTypeBool, {1});
+  add(spv::OpTypeVector, {2, 1, 3});
+  add(spv::OpConstantFalse, {1, 3});
+  add(spv::OpSpecConstantTrue, {1, 4});
+  add(spv::OpSpecConstantComposite, {2, 5, 4, 3, 4});
+  add(spv::OpTypeFloat, {6, 32});
+  add(spv::OpTypeVector, {7, 6, 3});
+  for (const std::uint32_t number : {8u, 9u}) add(spv::OpConstant, {6, number, 0x3f800000u + number});
+  add(spv::OpConstantComposite, {7, 10, 8, 8, 8});
+  if (second_vector_op == spv::OpConstantComposite) {
     add(second_vector_op, {7, 11, 9, 9, 9});
   } else {
     add(second_vector_op, {7, 11});
   }
-  add(spirv::op_spec_constant_op, {7, 12, spirv::op_select, 5, 10, 11});
+  add(spv::OpSpecConstantOp, {7, 12, spv::OpSelect, 5, 10, 11});
   return words;
 }
 
@@ -106,21 +106,19 @@ Words constant_of(std::span<const std::uint32_t> words, std::uint32_t id, std::u
 }
 
 TEST(SpirvSpecialize, chooses_components_of_constant_vectors_one_by_one) {
-  const Words words = module_with_choice_by_components(spirv::op_constant_composite);
-  EXPECT_EQ(constant_of(spirv::specialize(words, {}), 12, spirv::op_constant_composite), (Words{8, 9, 8}));
-  const SpecConstant off[] = {{.id = 0, .value = 0}};
-  EXPECT_EQ(constant_of(spirv::specialize(words, off), 12, spirv::op_constant_composite), (Words{9, 9, 9}));
+  const Words words = module_with_choice_by_components(spv::OpConstantComposite);
+  EXPECT_EQ(constant_of(spirv::specialize(words, {}), 12, spv::OpConstantComposite), (Words{8, 9, 8}));
+  const NumberedConstant off[] = {{.id = 0, .value = 0}};
+  EXPECT_EQ(constant_of(spirv::specialize(words, off), 12, spv::OpConstantComposite), (Words{9, 9, 9}));
 }
 
 TEST(SpirvSpecialize, leaves_choices_of_components_that_have_no_id_to_the_driver) {
-  constexpr std::uint32_t kConstantNull = 46;
-  const Words words = module_with_choice_by_components(kConstantNull);
-  EXPECT_EQ(constant_of(spirv::specialize(words, {}), 12, spirv::op_spec_constant_op),
-            (Words{spirv::op_select, 5, 10, 11}));
-  const SpecConstant off[] = {{.id = 0, .value = 0}};
+  const Words words = module_with_choice_by_components(spv::OpConstantNull);
+  EXPECT_EQ(constant_of(spirv::specialize(words, {}), 12, spv::OpSpecConstantOp), (Words{spv::OpSelect, 5, 10, 11}));
+  const NumberedConstant off[] = {{.id = 0, .value = 0}};
   const Words specialized = spirv::specialize(words, off);
-  EXPECT_EQ(count_of(specialized, spirv::op_spec_constant_op), 0u);
-  EXPECT_EQ(count_of(specialized, kConstantNull), 2u);
+  EXPECT_EQ(count_of(specialized, spv::OpSpecConstantOp), 0u);
+  EXPECT_EQ(count_of(specialized, spv::OpConstantNull), 2u);
 }
 
 TEST(SpirvSpecialize, gives_nothing_for_a_module_without_specialisation_constants) {
@@ -146,19 +144,19 @@ TEST(SpirvSpecialize, keeps_the_interface_of_every_shader) {
 TEST(SpirvSpecialize, names_only_blocks_and_functions_that_exist) {
   for (const ShaderCode* code : every_shader()) {
     for (std::uint32_t value = 0; value < 4; ++value) {
-      std::vector<SpecConstant> constants;
+      std::vector<NumberedConstant> constants;
       for (std::uint32_t id = 0; id < 32; ++id) constants.push_back({.id = id, .value = value});
       const Words words = spirv::specialize(code->words, constants);
       std::set<std::uint32_t> labels, functions, named;
       std::set<std::uint32_t> called;
       for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
-        if (op == spirv::op_label) labels.insert(w[1]);
-        if (op == spirv::op_function) functions.insert(w[2]);
-        if (op == spirv::op_function_call) called.insert(w[3]);
-        if (op == spirv::op_branch || op == spirv::op_selection_merge || op == spirv::op_loop_merge) named.insert(w[1]);
-        if (op == spirv::op_loop_merge) named.insert(w[2]);
-        if (op == spirv::op_branch_conditional) named.insert({w[2], w[3]});
-        for (std::size_t i = 4; op == spirv::op_phi && i < w.size(); i += 2) named.insert(w[i]);
+        if (op == spv::OpLabel) labels.insert(w[1]);
+        if (op == spv::OpFunction) functions.insert(w[2]);
+        if (op == spv::OpFunctionCall) called.insert(w[3]);
+        if (op == spv::OpBranch || op == spv::OpSelectionMerge || op == spv::OpLoopMerge) named.insert(w[1]);
+        if (op == spv::OpLoopMerge) named.insert(w[2]);
+        if (op == spv::OpBranchConditional) named.insert({w[2], w[3]});
+        for (std::size_t i = 4; op == spv::OpPhi && i < w.size(); i += 2) named.insert(w[i]);
       });
       EXPECT_TRUE(std::ranges::includes(labels, named)) << code->name << ", constants " << value;
       EXPECT_TRUE(std::ranges::includes(functions, called)) << code->name << ", constants " << value;
@@ -178,7 +176,7 @@ TEST(SpirvSpecialize, survives_damaged_modules) {
       const std::size_t at = random() % damaged.size();
       damaged[at] = random() % 2 == 0 ? static_cast<std::uint32_t>(random()) : damaged[random() % damaged.size()];
     }
-    const SpecConstant constants[] = {{.id = 0, .value = round % 6u}};
+    const NumberedConstant constants[] = {{.id = 0, .value = round % 6u}};
     static_cast<void>(spirv::specialize(damaged, constants));
   }
 }

@@ -25,7 +25,7 @@ class PipelinesTest : public ::testing::Test {
   [[nodiscard]] static gpu::ComputePipelineDesc compute(std::uint32_t number, std::string module) {
     gpu::ComputePipelineDesc desc;
     desc.module = std::move(module);
-    desc.constants = {{0, number}};
+    desc.constants = {{"kScale", number}};
     return desc;
   }
   void TearDown() override { EXPECT_TRUE(device_->faults().empty()) << device_->faults().front(); }

@@ -348,7 +348,7 @@ class BackgroundPipelines : public ::testing::Test {
  protected:
   /// Descriptions with different first letters differ in a constant.
   [[nodiscard]] static gpu::ComputePipelineDesc desc(const std::string& name, std::string module = "test") {
-    return {name, std::move(module), {}, {{0, static_cast<std::uint32_t>(name.front())}}};
+    return {name, std::move(module), {}, {{"kNumber", static_cast<std::uint32_t>(name.front())}}};
   }
   [[nodiscard]] static PipelineList list(const std::vector<std::string>& names) {
     PipelineList list;

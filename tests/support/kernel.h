@@ -24,7 +24,7 @@ class Kernel {
  public:
   static constexpr std::uint32_t kUntouched = 0xA5A5A5A5u;
 
-  Kernel(gpu::Device& device, const gpu::ShaderCode& shader, std::vector<gpu::SpecConstant> constants = {})
+  Kernel(gpu::Device& device, const gpu::ShaderCode& shader, gpu::SpecConstants constants = {})
       : device_(device),
         pipeline_(value_of(device.create_pipeline(
             gpu::ComputePipelineDesc{std::string(shader.name), "test", shader, std::move(constants)}))) {}

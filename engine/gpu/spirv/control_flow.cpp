@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/spirv/control_flow.h"
 
-#include <algorithm>
+#include <spirv/unified1/spirv.hpp>
 
-#include "engine/gpu/spirv/opcodes.h"
+#include <algorithm>
 
 namespace gloam::gpu::spirv {
 namespace {
 
 bool find_targets(FunctionBlocks& function, Block& block) {
   const Instruction& last = block.instructions.back();
-  if (last.op == op_switch) return false;
-  if (last.op != op_branch && last.op != op_branch_conditional) return true;
-  const std::size_t first = last.op == op_branch ? 1 : 2;
-  for (std::size_t i = first; i < first + (last.op == op_branch ? 1 : 2); ++i) {
+  if (last.op == spv::OpSwitch) return false;
+  if (last.op != spv::OpBranch && last.op != spv::OpBranchConditional) return true;
+  const std::size_t first = last.op == spv::OpBranch ? 1 : 2;
+  for (std::size_t i = first; i < first + (last.op == spv::OpBranch ? 1 : 2); ++i) {
     const auto found = function.block_of_label.find(last.words[i]);
     if (found == function.block_of_label.end()) return false;
     if (std::ranges::find(block.targets, found->second) == block.targets.end()) block.targets.push_back(found->second);
@@ -25,30 +25,30 @@ bool find_targets(FunctionBlocks& function, Block& block) {
 /// The fewest words of an instruction whose operands are read.
 std::size_t least_words(std::uint32_t op) {
   switch (op) {
-    case op_function:
+    case spv::OpFunction:
       return 5;
-    case op_entry_point:
-    case op_type_int:
-    case op_constant:
-    case op_spec_constant:
-    case op_spec_constant_op:
-    case op_function_call:
-    case op_loop_merge:
-    case op_branch_conditional:
+    case spv::OpEntryPoint:
+    case spv::OpTypeInt:
+    case spv::OpConstant:
+    case spv::OpSpecConstant:
+    case spv::OpSpecConstantOp:
+    case spv::OpFunctionCall:
+    case spv::OpLoopMerge:
+    case spv::OpBranchConditional:
       return 4;
-    case op_decorate:
-    case op_constant_true:
-    case op_constant_false:
-    case op_spec_constant_true:
-    case op_spec_constant_false:
-    case op_spec_constant_composite:
-    case op_phi:
-    case op_selection_merge:
+    case spv::OpDecorate:
+    case spv::OpConstantTrue:
+    case spv::OpConstantFalse:
+    case spv::OpSpecConstantTrue:
+    case spv::OpSpecConstantFalse:
+    case spv::OpSpecConstantComposite:
+    case spv::OpPhi:
+    case spv::OpSelectionMerge:
       return 3;
-    case op_name:
-    case op_type_bool:
-    case op_label:
-    case op_branch:
+    case spv::OpName:
+    case spv::OpTypeBool:
+    case spv::OpLabel:
+    case spv::OpBranch:
       return 2;
     default:
       return 1;
@@ -92,16 +92,16 @@ std::vector<Instruction> instructions_of(std::span<const std::uint32_t> words) {
   std::vector<Instruction> instructions;
   instructions.reserve(words.size() / 4);
   while (!words.empty()) {
-    const std::size_t count = words[0] >> 16;
-    if (count < least_words(words[0] & 0xffff) || count > words.size()) return {};
-    instructions.push_back({words[0] & 0xffff, words.first(count)});
+    const std::size_t count = words[0] >> spv::WordCountShift;
+    if (count < least_words(words[0] & spv::OpCodeMask) || count > words.size()) return {};
+    instructions.push_back({words[0] & spv::OpCodeMask, words.first(count)});
     words = words.subspan(count);
   }
   return instructions;
 }
 
 bool divide_into_blocks(std::span<const Instruction> function, FunctionBlocks& result) {
-  const auto is_label = [](const Instruction& instruction) { return instruction.op == op_label; };
+  const auto is_label = [](const Instruction& instruction) { return instruction.op == spv::OpLabel; };
   const auto begin = function.begin(), end = function.end();
   auto at = std::find_if(begin, end, is_label);
   result.head = {begin, at};
@@ -111,7 +111,7 @@ bool divide_into_blocks(std::span<const Instruction> function, FunctionBlocks& r
     Block block{.label = at->words[1], .instructions = {at + 1, next}, .targets = {}};
     if (const auto before = block.instructions.size(); before > 1) {
       const Instruction& merge = block.instructions[before - 2];
-      if (merge.op == op_selection_merge || merge.op == op_loop_merge) block.merge = &merge;
+      if (merge.op == spv::OpSelectionMerge || merge.op == spv::OpLoopMerge) block.merge = &merge;
     }
     result.block_of_label.emplace(block.label, static_cast<std::uint32_t>(result.blocks.size()));
     result.blocks.push_back(std::move(block));
@@ -121,7 +121,7 @@ bool divide_into_blocks(std::span<const Instruction> function, FunctionBlocks& r
   for (Block& block : result.blocks) {
     if (!find_targets(result, block)) return false;
     for (const Instruction& instruction : block.instructions)
-      if (instruction.op == op_phi && !names_known_blocks(result, instruction)) return false;
+      if (instruction.op == spv::OpPhi && !names_known_blocks(result, instruction)) return false;
   }
   sort_blocks(result);
   return true;

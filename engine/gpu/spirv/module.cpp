@@ -2,36 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/spirv/module.h"
 
+#include <spirv/unified1/spirv.hpp>
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
 
-#include "engine/gpu/spirv/opcodes.h"
-
 namespace gloam::gpu::spirv {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x07230203;
 constexpr std::uint32_t kHeaderWords = 5;
 constexpr std::uint32_t kMaxBound = 1u << 22;  // the specification's universal limit for the id bound
 
-enum Decoration : std::uint32_t {
-  decoration_spec_id = 1,
-  decoration_block = 2,
-  decoration_buffer_block = 3,
-  decoration_array_stride = 6,
-  decoration_matrix_stride = 7,
-  decoration_built_in = 11,
-  decoration_non_writable = 24,
-  decoration_binding = 33,
-  decoration_descriptor_set = 34,
-  decoration_offset = 35,
-};
-
-constexpr std::uint32_t kBuiltInWorkgroupSize = 25;
-constexpr std::uint32_t kModeLocalSize = 17;
-constexpr std::uint32_t kModeLocalSizeId = 38;
-constexpr std::uint32_t kStorageFunction = 7;
 constexpr std::uint32_t kPointerBytes = 8;  // size of a buffer reference
 
 /// The words of an instruction after its first word (word count and opcode).
@@ -59,14 +41,14 @@ class Parser {
 
   Result<Module> run() {
     if (words_.size() < kHeaderWords) return fault("it is shorter than the header of a module");
-    if (words_[0] != kMagic) return fault("it does not begin with the magic number of SPIR-V");
+    if (words_[0] != spv::MagicNumber) return fault("it does not begin with the magic number of SPIR-V");
     const std::uint32_t bound = words_[3];
     if (bound == 0 || bound > kMaxBound) return fault("its bound of ids is out of range");
     module_.ids.resize(bound);
     module_.used.resize(bound, false);
     for (std::size_t at = kHeaderWords; at < words_.size();) {
-      const std::uint32_t op = words_[at] & 0xffff;
-      const std::size_t count = words_[at] >> 16;
+      const std::uint32_t op = words_[at] & spv::OpCodeMask;
+      const std::size_t count = words_[at] >> spv::WordCountShift;
       if (count == 0 || count > words_.size() - at) return fault("an instruction runs past the end");
       if (!instruction(op, words_.subspan(at + 1, count - 1))) {
         return fault("the instruction at word " + std::to_string(at) + " is broken");
@@ -86,30 +68,34 @@ class Parser {
   }
 
   bool instruction(std::uint32_t op, Operands o) {
-    if (op >= op_type_bool && op <= op_type_pointer) return type_instruction(op, o);
+    if (op >= spv::OpTypeBool && op <= spv::OpTypePointer) return type_instruction(op, o);
     switch (op) {
-      case op_name:
+      case spv::OpName:
         return name(o);
-      case op_member_name:
+      case spv::OpMemberName:
         return member_name(o);
-      case op_entry_point:
+      case spv::OpEntryPoint:
         return entry_point(o);
-      case op_execution_mode:
-      case op_execution_mode_id:
+      case spv::OpExecutionMode:
+      case spv::OpExecutionModeId:
         return execution_mode(o);
-      case op_decorate:
+      case spv::OpDecorate:
         return decorate(o);
-      case op_member_decorate:
+      case spv::OpMemberDecorate:
         return member_decorate(o);
-      case op_constant:
-      case op_spec_constant:
+      case spv::OpConstant:
         return constant(o);
-      case op_constant_composite:
-      case op_spec_constant_composite:
+      case spv::OpSpecConstant:
+        return constant(o) && spec_constant(o, false);
+      case spv::OpSpecConstantTrue:
+      case spv::OpSpecConstantFalse:
+        return spec_constant(o, true);
+      case spv::OpConstantComposite:
+      case spv::OpSpecConstantComposite:
         return constant_composite(o);
-      case op_variable:
+      case spv::OpVariable:
         return variable(o);
-      case op_selection_merge:
+      case spv::OpSelectionMerge:
         ++module_.selections;
         return true;
       default:
@@ -119,7 +105,13 @@ class Parser {
 
   bool name(Operands o) {
     if (o.size() < 2 || !known(o[0])) return false;
-    module_.ids[o[0]].name = literal_text(o.subspan(1));
+    Id& id = module_.ids[o[0]];
+    std::string text = literal_text(o.subspan(1));
+    if (id.name.empty()) {
+      id.name = std::move(text);
+    } else if (!text.empty()) {
+      id.other_names.push_back(std::move(text));
+    }
     return true;
   }
 
@@ -139,9 +131,9 @@ class Parser {
 
   bool execution_mode(Operands o) {
     if (o.size() < 2) return false;
-    if (o[1] != kModeLocalSize && o[1] != kModeLocalSizeId) return true;
+    if (o[1] != spv::ExecutionModeLocalSize && o[1] != spv::ExecutionModeLocalSizeId) return true;
     if (o.size() < 5) return false;
-    local_size_are_ids_ = o[1] == kModeLocalSizeId;
+    local_size_are_ids_ = o[1] == spv::ExecutionModeLocalSizeId;
     std::copy_n(o.begin() + 2, 3, module_.local_size.begin());
     return true;
   }
@@ -151,30 +143,30 @@ class Parser {
     const auto id = [&]() -> Id& { return module_.ids[o[0]]; };  // other decorations make no properties
     const bool has_value = o.size() >= 3;
     switch (o[1]) {
-      case decoration_block:
+      case spv::DecorationBlock:
         id().block = true;
         return true;
-      case decoration_buffer_block:
+      case spv::DecorationBufferBlock:
         id().buffer_block = true;
         return true;
-      case decoration_array_stride:
+      case spv::DecorationArrayStride:
         if (has_value) id().array_stride = o[2];
         return has_value;
-      case decoration_built_in:
-        if (has_value) id().is_workgroup_size = o[2] == kBuiltInWorkgroupSize;
+      case spv::DecorationBuiltIn:
+        if (has_value) id().is_workgroup_size = o[2] == spv::BuiltInWorkgroupSize;
         return has_value;
-      case decoration_spec_id:
+      case spv::DecorationSpecId:
         id().has_spec_id = has_value;
         if (has_value) id().spec_id = o[2];
         return has_value;
-      case decoration_non_writable:
+      case spv::DecorationNonWritable:
         id().non_writable = true;
         return true;
-      case decoration_binding:
+      case spv::DecorationBinding:
         id().has_binding = has_value;
         if (has_value) id().binding = o[2];
         return has_value;
-      case decoration_descriptor_set:
+      case spv::DecorationDescriptorSet:
         id().has_set = has_value;
         if (has_value) id().set = o[2];
         return has_value;
@@ -185,11 +177,11 @@ class Parser {
 
   bool member_decorate(Operands o) {
     if (o.size() < 3 || !known(o[0])) return false;
-    if (o[2] == decoration_non_writable) module_.ids[o[0]].members[o[1]].non_writable = true;
-    if (o[2] != decoration_offset && o[2] != decoration_matrix_stride) return true;
+    if (o[2] == spv::DecorationNonWritable) module_.ids[o[0]].members[o[1]].non_writable = true;
+    if (o[2] != spv::DecorationOffset && o[2] != spv::DecorationMatrixStride) return true;
     if (o.size() < 4) return false;
     MemberDecorations& member = module_.ids[o[0]].members[o[1]];
-    if (o[2] == decoration_offset) {
+    if (o[2] == spv::DecorationOffset) {
       member.offset = o[3];
       member.has_offset = true;
     } else {
@@ -202,6 +194,14 @@ class Parser {
     if (o.size() < 3 || !known(o[1])) return false;
     module_.ids[o[1]].constant = o[2];
     module_.ids[o[1]].has_constant = true;
+    module_.ids[o[1]].value_type = o[0];
+    return true;
+  }
+
+  bool spec_constant(Operands o, bool boolean) {
+    if (o.size() < 2 || !known(o[1])) return false;
+    module_.ids[o[1]].is_boolean = boolean;
+    module_.spec_constants.push_back(o[1]);
     return true;
   }
 
@@ -221,7 +221,7 @@ class Parser {
 
   bool variable(Operands o) {
     if (o.size() < 3 || !known(o[1]) || !is_type(o[0])) return false;
-    if (o[2] == kStorageFunction) return true;
+    if (o[2] == spv::StorageClassFunction) return true;
     Id& id = module_.ids[o[1]];
     id.variable_type = o[0];
     id.storage_class = o[2];
@@ -233,23 +233,23 @@ class Parser {
     if (o.empty() || !known(o[0]) || is_type(o[0])) return false;
     Type& type = module_.ids[o[0]].type;
     switch (op) {
-      case op_type_int:
-      case op_type_float:
+      case spv::OpTypeInt:
+      case spv::OpTypeFloat:
         if (o.size() < 2 || o[1] > 64) return false;
         type = {.kind = TypeKind::scalar, .bytes = o[1] / 8};
-        type.is_float = op == op_type_float;
-        type.is_signed = op == op_type_int && o.size() >= 3 && o[2] != 0;
+        type.is_float = op == spv::OpTypeFloat;
+        type.is_signed = op == spv::OpTypeInt && o.size() >= 3 && o[2] != 0;
         return true;
-      case op_type_vector:
+      case spv::OpTypeVector:
         if (o.size() < 3 || !is_type(o[1])) return false;
         type = {.kind = TypeKind::vector, .element = o[1], .count = o[2]};
         type.bytes = clamp_bytes(std::uint64_t{o[2]} * module_.ids[o[1]].type.bytes);
         return true;
-      case op_type_matrix:
+      case spv::OpTypeMatrix:
         if (o.size() < 3 || !is_type(o[1])) return false;
         type = {.kind = TypeKind::matrix, .element = o[1], .count = o[2]};
         return true;
-      case op_type_image:
+      case spv::OpTypeImage:
         if (o.size() < 8) return false;
         type.kind = TypeKind::image;
         type.element = known(o[1]) ? o[1] : 0;
@@ -257,20 +257,20 @@ class Parser {
         type.image_arrayed = o[4] != 0;
         type.image_sampled = o[6];
         return true;
-      case op_type_sampled_image:
-      case op_type_runtime_array:
+      case spv::OpTypeSampledImage:
+      case spv::OpTypeRuntimeArray:
         if (o.size() < 2 || !is_type(o[1])) return false;
-        type.kind = op == op_type_sampled_image ? TypeKind::sampled_image : TypeKind::runtime_array;
+        type.kind = op == spv::OpTypeSampledImage ? TypeKind::sampled_image : TypeKind::runtime_array;
         type.element = o[1];
         return true;
-      case op_type_array:
+      case spv::OpTypeArray:
         if (o.size() < 3 || !is_type(o[1]) || !known(o[2])) return false;
         type = {.kind = TypeKind::array, .element = o[1], .count = module_.ids[o[2]].constant};
         type.bytes = clamp_bytes(std::uint64_t{type.count} * module_.ids[o[0]].array_stride);
         return true;
-      case op_type_struct:
+      case spv::OpTypeStruct:
         return structure(o);
-      case op_type_pointer:
+      case spv::OpTypePointer:
         if (o.size() < 3 || !known(o[2])) return false;
         type = {.kind = TypeKind::pointer, .element = o[2], .bytes = kPointerBytes, .storage_class = o[1]};
         return true;
@@ -301,30 +301,30 @@ class Parser {
     std::size_t first = o.size();
     std::size_t last = o.size();
     switch (op) {
-      case op_load:
-      case op_copy_object:
-      case op_image_texel_pointer:
-      case op_access_chain:
-      case op_in_bounds_access_chain:
-      case op_ptr_access_chain:
-      case op_array_length:
+      case spv::OpLoad:
+      case spv::OpCopyObject:
+      case spv::OpImageTexelPointer:
+      case spv::OpAccessChain:
+      case spv::OpInBoundsAccessChain:
+      case spv::OpPtrAccessChain:
+      case spv::OpArrayLength:
         first = 2;
         last = 3;
         break;
-      case op_function_call:
+      case spv::OpFunctionCall:
         first = 3;
         break;
-      case op_store:
-      case op_atomic_store:
+      case spv::OpStore:
+      case spv::OpAtomicStore:
         first = 0;
         last = 1;
         break;
-      case op_copy_memory:
+      case spv::OpCopyMemory:
         first = 0;
         last = 2;
         break;
       default:
-        if (op < op_atomic_load || op > op_atomic_last) return true;
+        if (op < spv::OpAtomicLoad || op > spv::OpAtomicXor) return true;
         first = 2;
         last = 3;
         break;

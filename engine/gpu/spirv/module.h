@@ -56,9 +56,12 @@ struct MemberDecorations {
 /// The properties of one id.
 struct Id {
   std::string name;
+  std::vector<std::string> other_names;  ///< further OpNames: optimisers merge ids and keep the names of both
   Type type;
   std::uint32_t constant = 0;  ///< value of a constant: its first word
   bool has_constant = false;
+  std::uint32_t value_type = 0;                        ///< id of a scalar constant's type
+  bool is_boolean = false;                             ///< a boolean specialisation constant
   std::array<std::uint32_t, 3> composite = {0, 0, 0};  ///< first words of a composite constant's parts
   std::array<std::uint32_t, 3> parts = {0, 0, 0};      ///< ids of a composite constant's parts
   bool has_spec_id = false;
@@ -105,6 +108,7 @@ struct Module {
   std::vector<bool> used;                ///< by id: function bodies read or write through it
   std::vector<std::uint32_t> variables;  ///< ids of the global variables, in order
   std::vector<std::uint32_t> structures;
+  std::vector<std::uint32_t> spec_constants;  ///< ids of the scalar specialisation constants, in order
   bool has_entry = false;
   std::uint32_t execution_model = 0;
   std::uint32_t selections = 0;

@@ -6,6 +6,8 @@
 // a loop carries counts as unknown.
 #include "engine/gpu/spirv/specialize.h"
 
+#include <spirv/unified1/spirv.hpp>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -13,21 +15,18 @@
 #include <utility>
 
 #include "engine/gpu/spirv/control_flow.h"
-#include "engine/gpu/spirv/opcodes.h"
 
 namespace gloam::gpu::spirv {
 namespace {
 
-constexpr std::uint32_t kSpecId = 1;
 constexpr std::size_t kModuleHeaderWords = 5;
 constexpr std::size_t kBoundWord = 3;
 
-/// Whether an instruction of a function body has a result, which is then its second operand (a label's is its first).
-bool has_result(std::uint32_t op) {
-  // No result: OpNop, lines, stores, barriers, merges, terminators.
-  static constexpr std::array<std::uint32_t, 22> kWithout = {0,   8,   62,  63,  64,  99,  218, 219, 220,  221,  224,
-                                                             225, 228, 246, 247, 249, 250, 251, 317, 4416, 5380, 319};
-  return std::ranges::find(kWithout, op) == kWithout.end() && !(op >= 252 && op <= op_unreachable);
+/// Whether an instruction has a type and a result, which are then its first two operands.
+bool has_typed_result(std::uint32_t op) {
+  bool result = false, type = false;
+  spv::HasResultAndType(static_cast<spv::Op>(op), &result, &type);
+  return result && type;
 }
 
 /// Values of scalars of booleans and 32-bit integers.
@@ -48,45 +47,45 @@ class Constants {
 std::optional<std::uint32_t> evaluate_pair(std::uint32_t op, std::uint32_t a, std::uint32_t b) {
   const auto s = static_cast<std::int32_t>(a), t = static_cast<std::int32_t>(b);
   switch (op) {
-    case op_i_add:
+    case spv::OpIAdd:
       return a + b;
-    case op_i_sub:
+    case spv::OpISub:
       return a - b;
-    case op_i_mul:
+    case spv::OpIMul:
       return a * b;
-    case op_logical_equal:
-    case op_i_equal:
+    case spv::OpLogicalEqual:
+    case spv::OpIEqual:
       return a == b;
-    case op_logical_not_equal:
-    case op_i_not_equal:
+    case spv::OpLogicalNotEqual:
+    case spv::OpINotEqual:
       return a != b;
-    case op_logical_or:
-    case op_bitwise_or:
+    case spv::OpLogicalOr:
+    case spv::OpBitwiseOr:
       return a | b;
-    case op_logical_and:
-    case op_bitwise_and:
+    case spv::OpLogicalAnd:
+    case spv::OpBitwiseAnd:
       return a & b;
-    case op_bitwise_xor:
+    case spv::OpBitwiseXor:
       return a ^ b;
-    case op_u_greater_than:
+    case spv::OpUGreaterThan:
       return a > b;
-    case op_s_greater_than:
+    case spv::OpSGreaterThan:
       return s > t;
-    case op_u_greater_than_equal:
+    case spv::OpUGreaterThanEqual:
       return a >= b;
-    case op_s_greater_than_equal:
+    case spv::OpSGreaterThanEqual:
       return s >= t;
-    case op_u_less_than:
+    case spv::OpULessThan:
       return a < b;
-    case op_s_less_than:
+    case spv::OpSLessThan:
       return s < t;
-    case op_u_less_than_equal:
+    case spv::OpULessThanEqual:
       return a <= b;
-    case op_s_less_than_equal:
+    case spv::OpSLessThanEqual:
       return s <= t;
-    case op_shift_right_logical:
+    case spv::OpShiftRightLogical:
       return b < 32 ? std::optional(a >> b) : std::nullopt;
-    case op_shift_left_logical:
+    case spv::OpShiftLeftLogical:
       return b < 32 ? std::optional(a << b) : std::nullopt;
     default:
       return std::nullopt;
@@ -96,17 +95,17 @@ std::optional<std::uint32_t> evaluate_pair(std::uint32_t op, std::uint32_t a, st
 std::optional<std::uint32_t> Constants::evaluate(std::uint32_t op, std::span<const std::uint32_t> operands) const {
   if (operands.empty()) return std::nullopt;
   const auto first = of(operands[0]);
-  if (op == op_copy_object) return first;
-  if (op == op_logical_not && first) return *first ^ 1u;
-  if (op == op_not && first) return ~*first;
-  if (op == op_select && operands.size() == 3 && first) return of(operands[*first != 0 ? 1 : 2]);
+  if (op == spv::OpCopyObject) return first;
+  if (op == spv::OpLogicalNot && first) return *first ^ 1u;
+  if (op == spv::OpNot && first) return ~*first;
+  if (op == spv::OpSelect && operands.size() == 3 && first) return of(operands[*first != 0 ? 1 : 2]);
   if (operands.size() != 2) return std::nullopt;
   const auto second = of(operands[1]);
   if (first && second) return evaluate_pair(op, *first, *second);
   if (!first && !second) return std::nullopt;
   const std::uint32_t known = first ? *first : *second;
-  if (op == op_logical_and && known == 0) return 0u;
-  if (op == op_logical_or && known == 1) return 1u;
+  if (op == spv::OpLogicalAnd && known == 0) return 0u;
+  if (op == spv::OpLogicalOr && known == 1) return 1u;
   return std::nullopt;
 }
 
@@ -123,18 +122,18 @@ struct LiveCode {
 
 class Specializer {
  public:
-  Specializer(std::span<const std::uint32_t> words, std::span<const SpecConstant> given)
+  Specializer(std::span<const std::uint32_t> words, std::span<const NumberedConstant> given)
       : words_(words), given_(given), bound_(words[kBoundWord]) {}
 
   std::vector<std::uint32_t> run() {
     const std::vector<Instruction> all = instructions_of(words_.subspan(kModuleHeaderWords));
     if (all.empty()) return {};
-    const auto first = std::ranges::find(all, std::uint32_t{op_function}, &Instruction::op);
+    const auto first = std::ranges::find(all, std::uint32_t{spv::OpFunction}, &Instruction::op);
     const std::span<const Instruction> globals{all.begin(), first};
     if (!read_constants(globals)) return {};
     std::vector<std::span<const Instruction>> functions;
     for (auto at = first; at != all.end();) {
-      const auto end = std::find_if(at, all.end(), [](const auto& i) { return i.op == op_function_end; });
+      const auto end = std::find_if(at, all.end(), [](const auto& i) { return i.op == spv::OpFunctionEnd; });
       if (end == all.end()) return {};
       functions.emplace_back(at, end);
       at = end + 1;
@@ -146,7 +145,7 @@ class Specializer {
       if (const auto found = live_.find(function.front().words[2]); found != live_.end()) write(found->second, bodies);
     out_.assign(words_.begin(), words_.begin() + kModuleHeaderWords);
     for (const Instruction& instruction : globals) write_global(instruction);
-    for (const auto& [type, id] : undefined_) append(out_, op_undef, {type, id});
+    for (const auto& [type, id] : undefined_) append(out_, spv::OpUndef, {type, id});
     out_.insert(out_.end(), bodies.begin(), bodies.end());
     out_[kBoundWord] = bound_;
     return std::move(out_);
@@ -154,7 +153,7 @@ class Specializer {
 
  private:
   static void append(std::vector<std::uint32_t>& to, std::uint32_t op, std::initializer_list<std::uint32_t> operands) {
-    to.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << 16 | op);
+    to.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << spv::WordCountShift | op);
     to.insert(to.end(), operands);
   }
   static void append(std::vector<std::uint32_t>& to, const Instruction& instruction) {
@@ -164,7 +163,7 @@ class Specializer {
   [[nodiscard]] std::uint32_t value_of(std::uint32_t id, std::uint32_t default_value) const {
     const auto spec = spec_ids_.find(id);
     if (spec == spec_ids_.end()) return default_value;
-    const auto found = std::ranges::find(given_, spec->second, &SpecConstant::id);
+    const auto found = std::ranges::find(given_, spec->second, &NumberedConstant::id);
     return found == given_.end() ? default_value : found->value;
   }
 
@@ -172,17 +171,18 @@ class Specializer {
   bool read_constants(std::span<const Instruction> globals) {
     for (const Instruction& i : globals) {
       const auto& w = i.words;
-      if (i.op == op_entry_point) entries_.push_back(w[2]);
-      if (i.op == op_decorate && w[2] == kSpecId && w.size() > 3) spec_ids_.emplace(w[1], w[3]);
-      if (i.op == op_type_bool) bool_type_ = w[1];
-      if (i.op == op_type_bool || (i.op == op_type_int && w[2] == 32)) scalar_types_.push_back(w[1]);
+      if (i.op == spv::OpEntryPoint) entries_.push_back(w[2]);
+      if (i.op == spv::OpDecorate && w[2] == spv::DecorationSpecId && w.size() > 3) spec_ids_.emplace(w[1], w[3]);
+      if (i.op == spv::OpTypeBool) bool_type_ = w[1];
+      if (i.op == spv::OpTypeBool || (i.op == spv::OpTypeInt && w[2] == 32)) scalar_types_.push_back(w[1]);
       if (w.size() < 3 || std::ranges::find(scalar_types_, w[1]) == scalar_types_.end()) continue;
-      if (i.op == op_constant) constants_.set(w[2], w[3]);
-      if (i.op == op_constant_true || i.op == op_constant_false) constants_.set(w[2], i.op == op_constant_true);
-      if (i.op == op_spec_constant) constants_.set(w[2], value_of(w[2], w[3]));
-      if (i.op == op_spec_constant_true || i.op == op_spec_constant_false)
-        constants_.set(w[2], value_of(w[2], i.op == op_spec_constant_true) != 0);
-      if (i.op == op_spec_constant_op)
+      if (i.op == spv::OpConstant) constants_.set(w[2], w[3]);
+      if (i.op == spv::OpConstantTrue || i.op == spv::OpConstantFalse)
+        constants_.set(w[2], i.op == spv::OpConstantTrue);
+      if (i.op == spv::OpSpecConstant) constants_.set(w[2], value_of(w[2], w[3]));
+      if (i.op == spv::OpSpecConstantTrue || i.op == spv::OpSpecConstantFalse)
+        constants_.set(w[2], value_of(w[2], i.op == spv::OpSpecConstantTrue) != 0);
+      if (i.op == spv::OpSpecConstantOp)
         if (const auto value = constants_.evaluate(w[3], w.subspan(4))) constants_.set(w[2], *value);
     }
     return !spec_ids_.empty();
@@ -217,14 +217,14 @@ class Specializer {
       passed[at] = true;
       if (!code.live[at]) continue;
       for (const Instruction& i : block.instructions) {
-        if (i.op == op_function_call) code.called.push_back(i.words[3]);
-        if (!has_result(i.op) || i.words.size() < 4) continue;
+        if (i.op == spv::OpFunctionCall) code.called.push_back(i.words[3]);
+        if (!has_typed_result(i.op) || i.words.size() < 4) continue;
         const auto value =
-            i.op == op_phi ? joined_value(code, at, i, passed) : constants_.evaluate(i.op, i.words.subspan(3));
+            i.op == spv::OpPhi ? joined_value(code, at, i, passed) : constants_.evaluate(i.op, i.words.subspan(3));
         if (value) constants_.set(i.words[2], *value);
       }
       const Instruction& last = block.instructions.back();
-      if (last.op == op_branch_conditional)
+      if (last.op == spv::OpBranchConditional)
         if (const auto condition = constants_.of(last.words[1])) code.taken[at] = last.words[*condition != 0 ? 2 : 3];
       for (const std::uint32_t target : block.targets) {
         if (code.taken[at] && code.function.blocks[target].label != *code.taken[at]) continue;
@@ -258,7 +258,7 @@ class Specializer {
     for (const std::uint32_t at : function.order) {
       const Block& block = function.blocks[at];
       if (!code.live[at] || block.merge == nullptr) continue;
-      const bool loop = block.merge->op == op_loop_merge;
+      const bool loop = block.merge->op == spv::OpLoopMerge;
       if (!loop && code.taken[at]) continue;
       const auto merge = function.block_of_label.find(block.merge->words[1]);
       if (merge == function.block_of_label.end()) return false;
@@ -279,9 +279,9 @@ class Specializer {
     const auto found = live_.find(function.front().words[2]);
     const auto remove = [&](std::span<const Instruction> instructions) {
       for (const Instruction& i : instructions)
-        if (i.op == op_label) {
+        if (i.op == spv::OpLabel) {
           removed_.emplace(i.words[1], true);
-        } else if (has_result(i.op) && i.words.size() > 2) {
+        } else if (has_typed_result(i.op) && i.words.size() > 2) {
           removed_.emplace(i.words[2], true);
         }
     };
@@ -299,20 +299,20 @@ class Specializer {
     const auto found = places_.find(id);
     if (found == places_.end()) return {};
     const auto words = std::span(out_).subspan(found->second);
-    return words.first(words[0] >> 16);
+    return words.first(words[0] >> spv::WordCountShift);
   }
 
   /// Ids of the components of a vector constant; empty if the constant is not an OpConstantComposite.
   [[nodiscard]] std::span<const std::uint32_t> components_of(std::uint32_t id) const {
     const auto words = definition_of(id);
-    if (words.empty() || (words[0] & 0xffff) != op_constant_composite) return {};
+    if (words.empty() || (words[0] & spv::OpCodeMask) != spv::OpConstantComposite) return {};
     return words.subspan(3);
   }
 
   /// The constant in place of an OpSpecConstantOp with OpSelect, `w`, whose operands are not all scalars of Constants;
   /// empty if its condition is not known, or components of something other than an OpConstantComposite are chosen.
   [[nodiscard]] std::vector<std::uint32_t> chosen_constant(std::span<const std::uint32_t> w) const {
-    if (w.size() != 7 || w[3] != op_select) return {};
+    if (w.size() != 7 || w[3] != spv::OpSelect) return {};
     const auto conditions = constants_.of(w[4]) ? w.subspan(4, 1) : components_of(w[4]);
     std::vector<std::uint32_t> sources;  // the chosen operands: one a component, or one for all
     for (const std::uint32_t condition : conditions) {
@@ -327,8 +327,8 @@ class Specializer {
       if (!copy.empty()) copy[2] = w[2];
       return copy;
     }
-    std::vector<std::uint32_t> mixed = {(static_cast<std::uint32_t>(sources.size()) + 3) << 16 | op_constant_composite,
-                                        w[1], w[2]};
+    std::vector<std::uint32_t> mixed = {
+        (static_cast<std::uint32_t>(sources.size()) + 3) << spv::WordCountShift | spv::OpConstantComposite, w[1], w[2]};
     for (std::size_t i = 0; i < sources.size(); ++i) {
       const auto components = components_of(sources[i]);
       if (components.size() != sources.size()) return {};
@@ -340,33 +340,35 @@ class Specializer {
   void write_global(const Instruction& i) {
     const std::size_t place = out_.size();
     write_specialized(i);
-    if (i.op >= op_constant_true && i.op <= op_spec_constant_op && i.words.size() > 2) places_[i.words[2]] = place;
+    if (i.op >= spv::OpConstantTrue && i.op <= spv::OpSpecConstantOp && i.words.size() > 2) places_[i.words[2]] = place;
   }
 
   void write_specialized(const Instruction& i) {
     const auto& w = i.words;
-    if (i.op == op_decorate && w[2] == kSpecId) return;
-    if ((i.op == op_name || i.op == op_decorate) && removed_.contains(w[1])) return;
-    const bool spec = i.op >= op_spec_constant_true && i.op <= op_spec_constant_op;
+    if (i.op == spv::OpDecorate && w[2] == spv::DecorationSpecId) return;
+    if ((i.op == spv::OpName || i.op == spv::OpDecorate) && removed_.contains(w[1])) return;
+    const bool spec = i.op >= spv::OpSpecConstantTrue && i.op <= spv::OpSpecConstantOp;
     if (!spec) return append(out_, i);
-    if (i.op == op_spec_constant_composite) {
+    if (i.op == spv::OpSpecConstantComposite) {
       append(out_, i);
-      out_[out_.size() - w.size()] = static_cast<std::uint32_t>(w.size()) << 16 | op_constant_composite;
+      out_[out_.size() - w.size()] =
+          static_cast<std::uint32_t>(w.size()) << spv::WordCountShift | spv::OpConstantComposite;
       return;
     }
     if (const auto value = constants_.of(w[2])) {
-      if (w[1] == bool_type_) return append(out_, *value != 0 ? op_constant_true : op_constant_false, {w[1], w[2]});
-      return append(out_, op_constant, {w[1], w[2], *value});
+      if (w[1] == bool_type_)
+        return append(out_, *value != 0 ? spv::OpConstantTrue : spv::OpConstantFalse, {w[1], w[2]});
+      return append(out_, spv::OpConstant, {w[1], w[2], *value});
     }
-    if (i.op == op_spec_constant_op) {
+    if (i.op == spv::OpSpecConstantOp) {
       const auto chosen = chosen_constant(w);
       if (!chosen.empty()) return static_cast<void>(out_.insert(out_.end(), chosen.begin(), chosen.end()));
     }
     append(out_, i);
     // Not a boolean or 32-bit integer: the given value replaces the first word.
-    if (i.op != op_spec_constant) return;
+    if (i.op != spv::OpSpecConstant) return;
     const std::size_t at = out_.size() - w.size();
-    out_[at] = static_cast<std::uint32_t>(w.size()) << 16 | op_constant;
+    out_[at] = static_cast<std::uint32_t>(w.size()) << spv::WordCountShift | spv::OpConstant;
     out_[at + 3] = value_of(w[2], w[3]);
   }
 
@@ -375,28 +377,28 @@ class Specializer {
     for (std::uint32_t at = 0; at < code.function.blocks.size(); ++at) {
       const Block& block = code.function.blocks[at];
       if (code.live[at]) {
-        append(to, op_label, {block.label});
+        append(to, spv::OpLabel, {block.label});
         write_block(code, at, to);
       } else if (const auto stub = code.stubs.find(at); stub != code.stubs.end()) {
-        append(to, op_label, {block.label});
+        append(to, spv::OpLabel, {block.label});
         if (stub->second != 0) {
-          append(to, op_branch, {stub->second});
+          append(to, spv::OpBranch, {stub->second});
         } else {
-          append(to, op_unreachable, {});
+          append(to, spv::OpUnreachable, {});
         }
       }
     }
-    append(to, op_function_end, {});
+    append(to, spv::OpFunctionEnd, {});
   }
 
   void write_block(const LiveCode& code, std::uint32_t at, std::vector<std::uint32_t>& to) {
     const Block& block = code.function.blocks[at];
     for (const Instruction& i : block.instructions) {
-      if (i.op == op_phi) {
+      if (i.op == spv::OpPhi) {
         write_phi(code, at, i, to);
       } else if (code.taken[at] && &i == &block.instructions.back()) {
-        append(to, op_branch, {*code.taken[at]});
-      } else if (!(code.taken[at] && i.op == op_selection_merge)) {
+        append(to, spv::OpBranch, {*code.taken[at]});
+      } else if (!(code.taken[at] && i.op == spv::OpSelectionMerge)) {
         append(to, i);
       }
     }
@@ -412,7 +414,7 @@ class Specializer {
     for (const auto& [stub, header] : code.stubs)
       if (header == code.function.blocks[at].label)
         to.insert(to.end(), {undefined(phi.words[1]), code.function.blocks[stub].label});
-    to[start] = static_cast<std::uint32_t>(to.size() - start) << 16 | op_phi;
+    to[start] = static_cast<std::uint32_t>(to.size() - start) << spv::WordCountShift | spv::OpPhi;
   }
 
   std::uint32_t undefined(std::uint32_t type) {
@@ -422,7 +424,7 @@ class Specializer {
   }
 
   std::span<const std::uint32_t> words_;
-  std::span<const SpecConstant> given_;
+  std::span<const NumberedConstant> given_;
   std::uint32_t bound_;
   std::vector<std::uint32_t> entries_;
   std::uint32_t bool_type_ = 0;
@@ -438,7 +440,8 @@ class Specializer {
 
 }  // namespace
 
-std::vector<std::uint32_t> specialize(std::span<const std::uint32_t> words, std::span<const SpecConstant> constants) {
+std::vector<std::uint32_t> specialize(std::span<const std::uint32_t> words,
+                                      std::span<const NumberedConstant> constants) {
   if (words.size() <= kModuleHeaderWords) return {};
   return Specializer(words, constants).run();
 }

@@ -17,6 +17,6 @@ namespace gloam::gpu::spirv {
 /// words: a valid module. Empty if the module has no specialisation constants, or control flow that is not handled
 /// (OpSwitch, a loop whose back edge is disabled while its continue target is not): use the module as it is then.
 [[nodiscard]] std::vector<std::uint32_t> specialize(std::span<const std::uint32_t> words,
-                                                    std::span<const SpecConstant> constants);
+                                                    std::span<const NumberedConstant> constants);
 
 }  // namespace gloam::gpu::spirv

@@ -14,14 +14,31 @@ namespace gloam::gpu::vulkan {
 
 Pipelines::~Pipelines() { static_cast<void>(table_.remove_all()); }
 
-Result<Pipeline> Pipelines::prepare(std::string_view name, std::string_view module, std::span<const ShaderCode> shaders,
-                                    std::span<const ShaderStage> stages) {
+namespace {
+
+/// Asserts that the shaders take the constants.
+void check_constants(std::string_view pipeline, std::span<const ShaderCode> shaders, const SpecConstants& constants,
+                     std::span<const SpirvReflection> reflections) {
+  std::vector<ReflectedConstant> declared;
+  for (const SpirvReflection& reflection : reflections)
+    declared.insert(declared.end(), reflection.constants.begin(), reflection.constants.end());
+  if (const auto fault = find_fault(constants, declared)) {
+    std::string names;
+    for (const ShaderCode& shader : shaders) names += (names.empty() ? "'" : " and '") + std::string(shader.name) + "'";
+    GLOAM_ASSERT(!fault, "pipeline '" + std::string(pipeline) + "', shader " + names + ", constant '" +
+                             std::string(fault->name) + "': " + fault->clause);
+  }
+}
+
+}  // namespace
+
+template <class Desc>
+Result<Pipelines::Prepared> Pipelines::prepare(const Desc& desc, std::span<const ShaderCode> shaders,
+                                               std::span<const ShaderStage> stages) {
   std::vector<SpirvReflection> reflections;
   for (std::size_t i = 0; i < shaders.size(); ++i) {
     Result<SpirvReflection> reflection = reflect_spirv(shaders[i]);
-    if (!reflection) {
-      return Error{ErrorKind::failed, "Pipeline \"" + std::string(name) + "\": " + reflection.error().message};
-    }
+    if (!reflection) return Error{ErrorKind::failed, "Pipeline \"" + desc.name + "\": " + reflection.error().message};
     GLOAM_ASSERT(reflection->stage == stages[i], "a shader is used as the stage it was written for");
     if (reflection->selections > context_.physical.max_selections) {
       return Error{ErrorKind::no_device, "The compiler of " + context_.physical.info.name +
@@ -31,18 +48,23 @@ Result<Pipeline> Pipelines::prepare(std::string_view name, std::string_view modu
     }
     reflections.push_back(std::move(*reflection));
   }
-  Result<ShaderInterface> shader = merge_stages(context_, name, reflections);
+  check_constants(desc.name, shaders, desc.constants, reflections);
+  Result<ShaderInterface> shader = merge_stages(context_, desc.name, reflections);
   if (!shader) return shader.error();
   const Result<const PipelineLayout*> layout = layouts_.find_or_create(*shader);
   if (!layout) return layout.error();
   std::uint32_t used_sets = 0;
   for (const ReflectedBinding& binding : shader->bindings)
     if (binding.used) used_sets |= 1u << binding.set;
-  return Pipeline{.name = std::string(name),
-                  .module = std::string(module),
-                  .layout = *layout,
-                  .shader = std::move(*shader),
-                  .used_sets = used_sets};
+  Prepared prepared{{.name = desc.name,
+                     .module = desc.module,
+                     .layout = *layout,
+                     .shader = std::move(*shader),
+                     .used_sets = used_sets},
+                    ShaderStages(context_)};
+  for (std::size_t i = 0; i < shaders.size(); ++i)
+    GLOAM_TRY(prepared.stages.add(shaders[i], stages[i], numbered(desc.constants, reflections[i].constants)));
+  return prepared;
 }
 
 template <class Compile>
@@ -61,14 +83,12 @@ Result<PipelineHandle> Pipelines::finish(Pipeline pipeline, std::uint64_t conten
 
 Result<PipelineHandle> Pipelines::create(const ComputePipelineDesc& desc) {
   constexpr std::array kStages = {ShaderStage::compute};
-  Result<Pipeline> pipeline = prepare(desc.name, desc.module, {&desc.shader, 1}, kStages);
-  if (!pipeline) return pipeline.error();
-  ShaderStages stages(context_, desc.constants);
-  GLOAM_TRY(stages.add(desc.shader, ShaderStage::compute));
+  Result<Prepared> prepared = prepare(desc, {&desc.shader, 1}, kStages);
+  if (!prepared) return prepared.error();
   const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                            .stage = stages.infos().front(),
-                                            .layout = pipeline->layout->layout};
-  return finish(std::move(*pipeline), retained_.enabled() ? description_hash(desc, ShaderIdentity::words) : 0,
+                                            .stage = prepared->stages.infos().front(),
+                                            .layout = prepared->pipeline.layout->layout};
+  return finish(std::move(prepared->pipeline), retained_.enabled() ? description_hash(desc, ShaderIdentity::words) : 0,
                 [&](VkPipeline& compiled) {
                   return context_.vk.vkCreateComputePipelines(context_.device, cache_.handle(), 1, &info, nullptr,
                                                               &compiled);
@@ -83,12 +103,10 @@ Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
     return Error{ErrorKind::no_device,
                  context_.physical.info.name + " crashes at depth tests: set LP_NATIVE_VECTOR_WIDTH to 128 or 256"};
   }
-  Result<Pipeline> pipeline = prepare(desc.name, desc.module, std::span(shaders).first(count), kStages);
-  if (!pipeline) return pipeline.error();
-  pipeline->bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
-  pipeline->vertex_streams = static_cast<std::uint32_t>(desc.stream_strides.size());
-  ShaderStages stages(context_, desc.constants);
-  for (std::size_t i = 0; i < count; ++i) GLOAM_TRY(stages.add(shaders[i], kStages[i]));
+  Result<Prepared> prepared = prepare(desc, std::span(shaders).first(count), kStages);
+  if (!prepared) return prepared.error();
+  prepared->pipeline.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  prepared->pipeline.vertex_streams = static_cast<std::uint32_t>(desc.stream_strides.size());
 
   const GraphicsState state(desc);
   if (state.blends_differ() && context_.physical.features.core.features.independentBlend == VK_FALSE) {
@@ -97,10 +115,11 @@ Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
                                            context_.physical.info.name + " has no independentBlend"};
   }
   VkGraphicsPipelineCreateInfo info = state.info();
-  info.stageCount = static_cast<std::uint32_t>(stages.infos().size());
-  info.pStages = stages.infos().data();
-  info.layout = pipeline->layout->layout;
-  return finish(std::move(*pipeline), retained_.enabled() ? description_hash(desc, ShaderIdentity::words) : 0,
+  const auto stages = prepared->stages.infos();
+  info.stageCount = static_cast<std::uint32_t>(stages.size());
+  info.pStages = stages.data();
+  info.layout = prepared->pipeline.layout->layout;
+  return finish(std::move(prepared->pipeline), retained_.enabled() ? description_hash(desc, ShaderIdentity::words) : 0,
                 [&](VkPipeline& compiled) {
                   return context_.vk.vkCreateGraphicsPipelines(context_.device, cache_.handle(), 1, &info, nullptr,
                                                                &compiled);

@@ -16,6 +16,7 @@
 #include "engine/gpu/vulkan/pipeline_cache.h"
 #include "engine/gpu/vulkan/pipeline_layouts.h"
 #include "engine/gpu/vulkan/retained_pipelines.h"
+#include "engine/gpu/vulkan/shader_stages.h"
 
 namespace gloam::gpu::vulkan {
 
@@ -49,9 +50,16 @@ class Pipelines {
   [[nodiscard]] std::uint32_t count(std::string_view module) const;
 
  private:
-  /// Reflects the stages and finds the layout. The result has no VkPipeline yet.
-  [[nodiscard]] Result<Pipeline> prepare(std::string_view name, std::string_view module,
-                                         std::span<const ShaderCode> shaders, std::span<const ShaderStage> stages);
+  /// A pipeline that is being created.
+  struct Prepared {
+    Pipeline pipeline;  ///< without VkPipeline
+    ShaderStages stages;
+  };
+  /// Reflects the shaders, finds the layout and creates the shader modules. Asserts that the shaders take the
+  /// constants.
+  template <class Desc>
+  [[nodiscard]] Result<Prepared> prepare(const Desc& desc, std::span<const ShaderCode> shaders,
+                                         std::span<const ShaderStage> stages);
   /// Uses the retained pipeline with this content hash. If there is none, compile(VkPipeline&) creates it.
   template <class Compile>
   [[nodiscard]] Result<PipelineHandle> finish(Pipeline pipeline, std::uint64_t content, const Compile& compile);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,21 +16,25 @@ namespace gloam::gpu::vulkan {
 /// The shader modules and specialisation constants of one pipeline while it is being compiled.
 class ShaderStages {
  public:
-  /// constants: must outlive this.
-  ShaderStages(Context& context, std::span<const SpecConstant> constants);
+  explicit ShaderStages(Context& context) : context_(&context) {}
   ~ShaderStages();
-  ShaderStages(const ShaderStages&) = delete;
-  ShaderStages& operator=(const ShaderStages&) = delete;
+  ShaderStages(ShaderStages&& other) noexcept;
+  ShaderStages& operator=(ShaderStages&&) = delete;
 
-  [[nodiscard]] Status add(const ShaderCode& code, ShaderStage stage);
-  [[nodiscard]] std::span<const VkPipelineShaderStageCreateInfo> infos() const { return infos_; }
+  [[nodiscard]] Status add(const ShaderCode& code, ShaderStage stage, std::span<const NumberedConstant> constants);
+  /// Valid until this is moved or another stage is added.
+  [[nodiscard]] std::span<const VkPipelineShaderStageCreateInfo> infos();
 
  private:
-  Context& context_;
-  std::span<const SpecConstant> constants_;
-  std::vector<VkSpecializationMapEntry> entries_;
-  std::vector<std::uint32_t> values_;
-  VkSpecializationInfo specialization_ = {};
+  struct Stage {
+    VkShaderModule module = VK_NULL_HANDLE;
+    ShaderStage stage = ShaderStage::compute;
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+    VkSpecializationInfo specialization = {};
+  };
+  Context* context_;
+  std::vector<Stage> stages_;
   std::vector<VkPipelineShaderStageCreateInfo> infos_;
 };
 

@@ -3,6 +3,7 @@
 #include "engine/render/declare/compute_pass.h"
 
 #include <algorithm>
+#include <array>
 
 #include "engine/core/assert.h"
 #include "engine/render/declare/recording.h"
@@ -74,8 +75,9 @@ void ComputePass::use(const ComputeProgram& program) {
   constants_ = program.constants;
   auto interface = frame().services().declared.interfaces.of(program.shader);
   if (!interface.ok()) return fail(interface.error());
-  use_pipeline(pipeline_desc(program, frame().module()));
   ShaderPass::use(*interface);
+  check_constants(program.constants);
+  use_pipeline(pipeline_desc(program, frame().module()));
 }
 
 void ComputePass::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
@@ -87,9 +89,9 @@ void ComputePass::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
 }
 
 std::uint32_t ComputePass::local_size(std::size_t axis) const {
-  for (const gpu::SpecConstant& constant : constants_)
-    if (constant.id == interface().local_size_constants[axis]) return std::max(constant.value, 1u);
-  return std::max(interface().local_size[axis], 1u);
+  static constexpr std::array<const char*, 3> kNames = {"local_size_x", "local_size_y", "local_size_z"};
+  const gpu::SpecConstant* constant = constants_.find(kNames[axis]);
+  return std::max(constant != nullptr ? constant->value.bits : interface().local_size[axis], 1u);
 }
 
 void ComputePass::dispatch_over(std::uint32_t x, std::uint32_t y, std::uint32_t z) {

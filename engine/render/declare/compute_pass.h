@@ -14,7 +14,7 @@ namespace gloam {
 /// A compute shader with its specialisation constants.
 struct ComputeProgram {
   gpu::ShaderCode shader;
-  std::vector<gpu::SpecConstant> constants = {};
+  gpu::SpecConstants constants = {};
 };
 /// For Module::pipelines.
 [[nodiscard]] gpu::ComputePipelineDesc pipeline_desc(const ComputeProgram& program, std::string_view module);
@@ -42,7 +42,7 @@ class ComputePass : public ShaderPass {
 
  private:
   [[nodiscard]] std::uint32_t local_size(std::size_t axis) const;
-  std::vector<gpu::SpecConstant> constants_;
+  gpu::SpecConstants constants_;  ///< of the program in use
 };
 
 }  // namespace gloam

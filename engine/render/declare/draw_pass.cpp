@@ -121,6 +121,7 @@ void DrawPass::use(const DrawProgram& program) {
   auto interface = frame().services().declared.interfaces.of(vertex, program.fragment);
   if (!interface.ok()) return fail(interface.error());
   ShaderPass::use(*interface);
+  check_constants(program.constants);
 }
 
 void DrawPass::use(const SurfacePass& surfaces) {
@@ -128,6 +129,7 @@ void DrawPass::use(const SurfacePass& surfaces) {
   auto interface = frame().services().declared.interfaces.of(surface_vertex_shader(surfaces), surfaces.fragment);
   if (!interface.ok()) return fail(interface.error());
   ShaderPass::use(*interface);
+  check_constants(surfaces.constants);
 }
 
 bool DrawPass::choose_pipeline() {

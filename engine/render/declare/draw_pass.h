@@ -14,7 +14,7 @@ namespace gloam {
 /// A fragment shader with its vertex shader, constants and fixed state. Draws have no vertex streams.
 struct DrawProgram {
   gpu::ShaderCode fragment;
-  std::vector<gpu::SpecConstant> constants = {};
+  gpu::SpecConstants constants = {};
   gpu::BlendMode blend = gpu::BlendMode::opaque;
   /// With a depth target: the test of the fragment's depth against the stored one.
   gpu::CompareOp depth_compare = gpu::CompareOp::greater_equal;

@@ -18,10 +18,8 @@ Status add_shader(const gpu::ShaderCode& code, ShaderStage stage, ShaderInterfac
   if (reflected->stage != stage) return Error{ErrorKind::input, who + " is a shader of another stage"};
   interface.name = code.name;
   interface.push_constant_bytes = std::max(interface.push_constant_bytes, reflected->push_constant_bytes);
-  if (stage == ShaderStage::compute) {
-    interface.local_size = reflected->local_size;
-    interface.local_size_constants = reflected->local_size_constants;
-  }
+  if (stage == ShaderStage::compute) interface.local_size = reflected->local_size;
+  interface.constants.insert(interface.constants.end(), reflected->constants.begin(), reflected->constants.end());
   for (const ReflectedBinding& b : reflected->bindings) {
     if (b.set != 0) continue;
     auto at = std::ranges::find(interface.bindings, b.binding, &InterfaceBinding::binding);

@@ -47,7 +47,7 @@ struct ShaderInterface {
   std::vector<InterfaceBinding> bindings;  ///< of set 0
   std::uint32_t push_constant_bytes = 0;
   std::array<std::uint32_t, 3> local_size = {1, 1, 1};  ///< with default constants; compute only
-  std::array<std::uint32_t, 3> local_size_constants{};  ///< as in gpu::SpirvReflection
+  std::vector<gpu::ReflectedConstant> constants;        ///< of all shaders
 
   /// Null if set 0 has no binding of this name.
   [[nodiscard]] const InterfaceBinding* find(std::uint64_t key) const {

@@ -29,10 +29,11 @@ ShaderPass::ShaderPass(FrameBuilder& frame, std::string_view name)
       graph_pass_(frame.graph().add_pass(name, frame.module())),
       recording_(frame.services().declared.recordings.next(name)) {}
 
-std::string ShaderPass::sentence(std::string_view binding, std::string_view fault) const {
+std::string ShaderPass::sentence(std::string_view binding, std::string_view fault, std::string_view constant) const {
   std::string text = "pass '" + recording_.name + "'";
   if (interface_ != nullptr) text += ", shader '" + interface_->name + "'";
   if (!binding.empty()) text += ", binding '" + std::string(binding) + "'";
+  if (!constant.empty()) text += ", constant '" + std::string(constant) + "'";
   return text + ": " + std::string(fault);
 }
 
@@ -44,6 +45,12 @@ void ShaderPass::fail(Error error) {
 void ShaderPass::use(const ShaderInterface* interface) {
   interface_ = interface;
   if (interface == nullptr) recording_.failed = true;
+}
+
+void ShaderPass::check_constants(const gpu::SpecConstants& constants) const {
+  if (interface_ == nullptr) return;
+  const auto fault = gpu::find_fault(constants, interface_->constants);
+  GLOAM_ASSERT(!fault, sentence("", fault->clause, fault->name));
 }
 
 bool ShaderPass::declares(std::string_view binding) const {

@@ -31,8 +31,9 @@ enum class StepKind : std::uint8_t;
 /// engine.
 ///
 /// Misuse asserts, with pass, shader and binding in the sentence: a name that the shader does not declare, a used
-/// binding that was left out at a dispatch or draw, a write to a read-only binding, a resource of another kind. If a
-/// pipeline or an upload fails, FrameBuilder::fail keeps the error and the pass records nothing.
+/// binding that was left out at a dispatch or draw, a write to a read-only binding, a resource of another kind, a
+/// specialisation constant that the program does not have (see gpu::SpecConstants). If a pipeline or an upload fails,
+/// FrameBuilder::fail keeps the error and the pass records nothing.
 ///
 /// Names of bindings: see gpu::ReflectedBinding::name. Declare a pass completely before the next one.
 class ShaderPass {
@@ -101,10 +102,13 @@ class ShaderPass {
   void use_pipeline(const gpu::ComputePipelineDesc& desc) { use_or_await(desc); }
   void use_pipeline(const gpu::GraphicsPipelineDesc& desc) { use_or_await(desc); }
   void forget_pipeline();
+  /// Asserts that the program in use takes these constants.
+  void check_constants(const gpu::SpecConstants& constants) const;
   [[nodiscard]] bool has_pipeline() const { return pipeline_ || due_pipeline_ != nullptr; }
   [[nodiscard]] FrameBuilder& frame() { return frame_; }
   [[nodiscard]] declare::Recording& recording() { return recording_; }
-  [[nodiscard]] std::string sentence(std::string_view binding, std::string_view fault) const;
+  [[nodiscard]] std::string sentence(std::string_view binding, std::string_view fault,
+                                     std::string_view constant = {}) const;
   void fail(Error error);
 
  private:

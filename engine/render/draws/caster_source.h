@@ -27,7 +27,7 @@ inline constexpr gpu::Format kCasterDepthFormat = gpu::Format::d32_float;
 struct CasterProgram {
   gpu::ShaderCode vertex;
   gpu::ShaderCode fragment = {};  ///< no words: none. It may discard fragments, and has no outputs
-  std::vector<gpu::SpecConstant> constants = {};
+  gpu::SpecConstants constants = {};
   std::vector<gpu::VertexAttribute> attributes = {};
   std::vector<std::uint32_t> stream_strides = {};  ///< bytes, one per vertex stream
   /// A culled side casts no shadow. Sheets without thickness need `none`.

@@ -10,9 +10,9 @@ void add_debug_view_pass(FrameBuilder& frame, std::uint32_t code) {
   frame.upload_view_constants(code);
   TargetOutput& target = frame.get<TargetOutput>();
   const GeometryOutputs& geometry = frame.get<GeometryOutputs>();
-  DrawPass pass(
-      frame, "debug_view",
-      {.fragment = shaders::render::debug_view_frag, .constants = {{0, gpu::encodes_srgb(target.format) ? 0u : 1u}}});
+  DrawPass pass(frame, "debug_view",
+                {.fragment = shaders::render::debug_view_frag,
+                 .constants = {{"kEncode", gpu::encodes_srgb(target.format) ? 0u : 1u}}});
   pass.read("base_color_image", geometry.base_color);
   pass.read("normal_image", geometry.normals);
   pass.read("depth_image", geometry.depth);

@@ -3,7 +3,6 @@
 #include "engine/render/passes/visualizer_pass.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <utility>
 
@@ -18,9 +17,11 @@ void add_visualizer_targets(FrameBuilder& frame, DrawPass& pass, std::string nam
   frame.expose(pass.target(create_view_image(frame, std::move(name), values), gpu::LoadOp::clear));
 }
 
-std::vector<gpu::SpecConstant> visualizer_constants(FrameBuilder& frame) {
-  return {{0, gpu::encodes_srgb(frame.get<TargetOutput>().format) ? 0u : 1u},
-          {GLOAM_HEAT_RANGE_CONSTANT, std::bit_cast<std::uint32_t>(frame.heat_range())}};
+gpu::SpecConstants visualizer_constants(FrameBuilder& frame) {
+  gpu::SpecConstants constants;
+  constants.set("kEncode", gpu::encodes_srgb(frame.get<TargetOutput>().format) ? 0u : 1u);
+  constants.set_if_present("kHeatRange", frame.heat_range());
+  return constants;
 }
 
 double heat_value(const HeatScale& scale, float heat_range, int stop) {

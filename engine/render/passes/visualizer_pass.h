@@ -16,9 +16,9 @@ namespace gloam {
 void add_visualizer_targets(FrameBuilder& frame, DrawPass& pass, std::string name, gpu::Format values,
                             gpu::LoadOp picture = gpu::LoadOp::load);
 
-/// Specialisation constants of visualizers' shaders: 0, whether the shader encodes sRGB itself, and the factor on the
-/// end of heat scales (shaders/common/heat.glsl).
-[[nodiscard]] std::vector<gpu::SpecConstant> visualizer_constants(FrameBuilder& frame);
+/// Specialisation constants of visualizers' shaders: kEncode, 1 if the shader encodes sRGB itself; and, in shaders with
+/// a heat scale, kHeatRange, the factor on its end (shaders/common/heat.glsl).
+[[nodiscard]] gpu::SpecConstants visualizer_constants(FrameBuilder& frame);
 
 /// The value at a stop of a heat scale, 0…GLOAM_HEAT_STOPS − 1, and the text of a whole scale: "black 0, blue 6, cyan
 /// 12, green 19, yellow 25, red 31, white more".

@@ -16,8 +16,8 @@ gpu::GraphicsPipelineDesc surface_pipeline_desc(const SurfacePass& pass, Surface
   desc.module = pass.module;
   desc.vertex = surface_vertex_shader(pass);
   desc.fragment = pass.fragment;
-  desc.constants = {{0, variant.features}};
-  desc.constants.insert(desc.constants.end(), pass.constants.begin(), pass.constants.end());
+  desc.constants = pass.constants;
+  desc.constants.set("kSurface", variant.features);
   desc.attributes = {{0, 0, gpu::Format::rgb32_float, 0},
                      {1, 1, gpu::Format::rg32_uint, 0},
                      {2, 2, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)},

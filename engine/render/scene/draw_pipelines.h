@@ -18,8 +18,8 @@ struct SurfacePass {
   std::vector<gpu::Format> color_formats;
   gpu::BlendMode blend = gpu::BlendMode::opaque;
   bool depth_write = true;
-  /// Constants of the fragment shader, except constant 0.
-  std::vector<gpu::SpecConstant> constants = {};
+  /// Constants of the fragment shader, except kSurface (surface_api.glsl).
+  gpu::SpecConstants constants = {};
   /// The fragment shader reads the positions in the previous frame (surface_motion.vert).
   bool motion = false;
 };

@@ -40,7 +40,7 @@ ComputeProgram scan_program(bool threads_in_turn) {
 }
 ComputeProgram scatter_program(bool threads_in_turn, bool implied_values) {
   return {threads_in_turn ? shaders::render::scatter_runs_comp : shaders::render::scatter_blocks_comp,
-          {{0, implied_values ? 1u : 0u}}};
+          {{"kImpliedValues", implied_values ? 1u : 0u}}};
 }
 
 /// Inputs, buffers and sizes that the passes of one sort share.

@@ -104,22 +104,27 @@ DofLayers add_line_passes(FrameBuilder& frame, const DofFrame& dof, const DofLay
 }  // namespace
 
 ComputeProgram dof_prefilter_program(std::uint32_t scale, bool near) {
-  return {shaders::depth_of_field::prefilter_comp, {{0, scale}, {1, near ? 1u : 0u}}};
+  return {shaders::depth_of_field::prefilter_comp, {{"kScale", scale}, {"kNear", near ? 1u : 0u}}};
 }
 ComputeProgram dof_round_program(std::uint32_t scale, bool near, bool columns) {
-  return {shaders::depth_of_field::round_comp, {{0, scale}, {1, near ? 1u : 0u}, {2, columns ? 1u : 0u}}};
+  return {shaders::depth_of_field::round_comp,
+          {{"kScale", scale}, {"kNear", near ? 1u : 0u}, {"kDirection", columns ? 1u : 0u}}};
 }
 ComputeProgram dof_hexagon_lines_program(std::uint32_t scale, bool near) {
-  return {shaders::depth_of_field::hexagon_lines_comp, {{0, scale}, {1, near ? 1u : 0u}}};
+  return {shaders::depth_of_field::hexagon_lines_comp, {{"kScale", scale}, {"kNear", near ? 1u : 0u}}};
 }
 ComputeProgram dof_hexagon_rhombi_program(std::uint32_t scale, bool near) {
-  return {shaders::depth_of_field::hexagon_rhombi_comp, {{0, scale}, {1, near ? 1u : 0u}}};
+  return {shaders::depth_of_field::hexagon_rhombi_comp, {{"kScale", scale}, {"kNear", near ? 1u : 0u}}};
 }
 ComputeProgram dof_line_program(DofKnobs::Cache cache, std::uint32_t scale, bool near, const DofLine& line) {
   const std::uint32_t layer = near ? 1 : 0;
   return {cache == DofKnobs::Cache::vectors ? shaders::depth_of_field::line_vec4_comp
                                             : shaders::depth_of_field::line_channels_comp,
-          {{0, scale}, {1, layer}, {2, line.direction}, {3, line.list + layer}, {4, line.other}}};
+          {{"kScale", scale},
+           {"kNear", layer},
+           {"kDirection", line.direction},
+           {"kList", line.list + layer},
+           {"kOther", line.other}}};
 }
 
 std::vector<ComputeProgram> dof_blur_programs(const DofKnobs& knobs, Bokeh bokeh) {

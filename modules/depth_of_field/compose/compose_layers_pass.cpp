@@ -8,9 +8,12 @@
 namespace gloam {
 
 ComputeProgram dof_compose_program(std::uint32_t scale, bool near, bool in_turn) {
-  const std::uint32_t rows = in_turn ? GLOAM_DOF_BLOCK : 1;
+  const std::int32_t rows = in_turn ? GLOAM_DOF_BLOCK : 1;
   return {shaders::depth_of_field::compose_comp,
-          {{0, scale}, {1, near ? 1u : 0u}, {2, rows}, {3, GLOAM_DOF_BLOCK / rows}}};
+          {{"kScale", scale},
+           {"kNear", near ? 1u : 0u},
+           {"kRows", rows},
+           {"local_size_y", static_cast<std::uint32_t>(GLOAM_DOF_BLOCK / rows)}}};
 }
 
 void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& blurred) {

@@ -19,7 +19,9 @@ BufferRef words(FrameBuilder& frame, const char* name, std::uint64_t count) {
 
 ComputeProgram dof_bounds_program() { return {shaders::depth_of_field::bounds_comp}; }
 ComputeProgram dof_reach_program() { return {shaders::depth_of_field::reach_comp}; }
-ComputeProgram dof_list_program(std::uint32_t scale) { return {shaders::depth_of_field::list_comp, {{0, scale}}}; }
+ComputeProgram dof_list_program(std::uint32_t scale) {
+  return {shaders::depth_of_field::list_comp, {{"kScale", scale}}};
+}
 
 DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs) {
   const uvec2 size = inputs.constants.tiles;

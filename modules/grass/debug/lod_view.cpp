@@ -11,10 +11,11 @@
 namespace gloam {
 namespace {
 
-DrawProgram view_program(std::uint32_t draw_class, bool encode) {
+DrawProgram view_program(FrameBuilder& frame, std::uint32_t draw_class) {
   DrawProgram program = blade_program(draw_class, false);
   program.fragment = shaders::grass::lod_view_frag;
-  program.constants[2] = {2, encode ? 1u : 0u};
+  program.constants = program.constants.where_present();  // without the clip plane of the shading's fragment shader
+  program.constants.set(visualizer_constants(frame));
   program.depth_write = false;
   return program;
 }
@@ -28,12 +29,11 @@ std::vector<VisualizerInfo> grass_visualizers() {
 
 void add_grass_view_pass(FrameBuilder& frame, const GrassFrame& grass) {
   if (frame.visualizer() != "grass_lod" || grass.stored.patches.empty()) return;
-  const bool encode = visualizer_constants(frame).front().value != 0;
-  DrawPass pass(frame, "grass_lod_view", view_program(0, encode));
+  DrawPass pass(frame, "grass_lod_view", view_program(frame, 0));
   add_visualizer_targets(frame, pass, "grass_lod", gpu::Format::rgba16_float);
   pass.test_depth(frame.get<GeometryOutputs>().depth);
   for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
-    if (i > 0) pass.use(view_program(i, encode));
+    if (i > 0) pass.use(view_program(frame, i));
     bind_blades(pass, grass.drawn);
     pass.draw_indexed_indirect(grass.drawn.indices, grass.drawn.draws,
                                offsetof(shaders::GrassDraws, draws) + i * sizeof(shaders::GrassDraw), 1);

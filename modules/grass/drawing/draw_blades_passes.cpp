@@ -20,14 +20,15 @@ constexpr std::size_t kCasterClass = GLOAM_GRASS_CAST_CLASS;
 ComputeProgram grass_pose_program() { return {shaders::grass::pose_comp}; }
 
 DrawProgram blade_program(std::uint32_t draw_class, bool motion, bool clipped) {
-  return {.fragment = motion ? shaders::grass::surface_motion_frag : shaders::grass::surface_frag,
-          .constants = {{0, draw_class}, {1, kClassSegments[draw_class]}, {2, clipped ? 1u : 0u}},
-          .vertex = motion ? shaders::grass::blade_motion_vert : shaders::grass::blade_vert,
-          .depth_write = true};
+  return {
+      .fragment = motion ? shaders::grass::surface_motion_frag : shaders::grass::surface_frag,
+      .constants = {{"kClass", draw_class}, {"kSegments", kClassSegments[draw_class]}, {"kClipped", clipped ? 1u : 0u}},
+      .vertex = motion ? shaders::grass::blade_motion_vert : shaders::grass::blade_vert,
+      .depth_write = true};
 }
 
 CasterProgram blade_caster_program() {
-  return {.vertex = shaders::grass::caster_vert, .constants = {{1, kClassSegments[kCasterClass]}}};
+  return {.vertex = shaders::grass::caster_vert, .constants = {{"kSegments", kClassSegments[kCasterClass]}}};
 }
 
 void list_blade_pipelines(bool motion, bool clipped, PipelineList& list) {

@@ -23,7 +23,7 @@ BufferRef frame_buffer(FrameBuilder& frame, const char* name, std::uint64_t byte
 ComputeProgram grass_keys_program() { return {shaders::grass::keys_comp}; }
 ComputeProgram grass_live_program() { return {shaders::grass::live_comp}; }
 ComputeProgram grass_masters_program(std::uint32_t group_masters) {
-  return {shaders::grass::masters_comp, {{0, group_masters}}};
+  return {shaders::grass::masters_comp, {{"kGroupMasters", group_masters}}};
 }
 
 SortedBlades add_blade_sort_passes(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store) {

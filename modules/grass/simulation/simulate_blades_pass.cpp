@@ -28,9 +28,9 @@ std::uint32_t simulation_group_masters(SimulationThreads threads) {
 }
 
 ComputeProgram grass_simulation_program(SimulationThreads threads, bool colliders) {
-  const gpu::SpecConstant with_colliders{1, colliders ? 1u : 0u};
+  const gpu::SpecConstant with_colliders{"kColliders", colliders};
   if (threads == SimulationThreads::blade) return {shaders::grass::simulate_blades_comp, {with_colliders}};
-  return {shaders::grass::simulate_comp, {{0, knot_threads(threads)}, with_colliders}};
+  return {shaders::grass::simulate_comp, {{"local_size_x", knot_threads(threads)}, with_colliders}};
 }
 
 GrassStore add_simulation_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,

@@ -35,7 +35,7 @@ BufferRef make_words(FrameBuilder& frame, const char* name, std::uint64_t count)
   return frame.graph().create_buffer(desc);
 }
 
-ComputeProgram edges_program(bool rows) { return {shaders::lighting::edges_comp, {{0, rows ? 1u : 0u}}}; }
+ComputeProgram edges_program(bool rows) { return {shaders::lighting::edges_comp, {{"kRows", rows ? 1u : 0u}}}; }
 
 }  // namespace
 
@@ -74,7 +74,7 @@ AntialiasingWeights add_antialiasing_weights(FrameBuilder& frame, ImageRef shown
 void add_antialiasing_passes(FrameBuilder& frame, ImageRef shown, bool dither) {
   const AntialiasingWeights weights = add_antialiasing_weights(frame, shown);
   TargetOutput& target = frame.get<TargetOutput>();
-  DrawPass blend(frame, "antialiasing_blend", {shaders::lighting::blend_frag, {{0, dither ? 1u : 0u}}});
+  DrawPass blend(frame, "antialiasing_blend", {shaders::lighting::blend_frag, {{"kDither", dither ? 1u : 0u}}});
   blend.read("shown_image", shown);
   blend.read("weights", weights.weights);
   blend.read("masks", weights.masks);

@@ -47,7 +47,7 @@ DrawProgram program_of(FrameBuilder& frame, LightView view) {
   if (view == LightView::culling) program.fragment = light_culling_view_frag;
   if (view == LightView::list) program.fragment = light_list_view_frag;
   if (view == LightView::nothing) program.fragment = light_nothing_view_frag;
-  if (shows_counts(view)) program.constants.push_back({1, static_cast<std::uint32_t>(view)});
+  if (shows_counts(view)) program.constants.set("kCount", static_cast<std::uint32_t>(view));
   return program;
 }
 

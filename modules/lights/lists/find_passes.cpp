@@ -17,7 +17,7 @@ bool runs_threads_in_turn(const gpu::DeviceInfo& device) { return device.threads
 
 ComputeProgram accurate_program(const gpu::DeviceInfo& device) {
   if (runs_threads_in_turn(device)) return {shaders::lights::find_lights_accurate_tiles_comp};
-  return {shaders::lights::find_lights_accurate_comp, {{0, 8}}};  // one thread per pixel
+  return {shaders::lights::find_lights_accurate_comp, {{"local_size_y", 8u}}};  // one thread per pixel
 }
 
 uvec2 tiles_of(FrameBuilder& frame, const LightsOutputs& outputs) {

@@ -23,8 +23,8 @@ DrawProgram sprite_program(std::uint32_t lit_points, bool clipped, const Particl
         version->cookies ? shaders::particles::sprite_pixel_cookies_frag : shaders::particles::sprite_pixel_frag;
     program.constants = version->constants;
   }
-  program.constants.push_back({0, lit_points});
-  program.constants.push_back({1, clipped ? 1u : 0u});
+  program.constants.set("kLitPoints", lit_points);
+  program.constants.set("kClipped", clipped ? 1u : 0u);
   return program;
 }
 

@@ -12,16 +12,15 @@ ParticleLightVersion particle_light_version(const FrameBuilder& frame, const Bak
   ParticleLightVersion version;
   const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
   version.cookies = shadows != nullptr && shadows->cookie_lights > 0;
-  version.constants = {{2, atlas.visibility ? 1u : 0u}};
-  if (version.cookies)
-    version.constants.insert(version.constants.end(), shadows->constants.begin(), shadows->constants.end());
+  version.constants = {{"kMaps", atlas.visibility ? 1u : 0u}};
+  if (version.cookies) version.constants.set(shadows->constants);
   return version;
 }
 
 ComputeProgram particle_light_program(const ParticleLightVersion& version, std::uint32_t lit_points) {
   ComputeProgram program{version.cookies ? shaders::particles::light_cookies_comp : shaders::particles::light_comp,
                          version.constants};
-  program.constants.push_back({0, lit_points});
+  program.constants.set("kLitPoints", lit_points);
   return program;
 }
 

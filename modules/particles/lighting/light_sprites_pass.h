@@ -11,7 +11,7 @@ namespace gloam {
 /// The version of shaders that include scattered_light.glsl which a frame calls for. Particles see no shadow maps.
 struct ParticleLightVersion {
   bool cookies = false;
-  std::vector<gpu::SpecConstant> constants = {{2, 0}};
+  gpu::SpecConstants constants = {{"kMaps", 0u}};
 };
 [[nodiscard]] ParticleLightVersion particle_light_version(const FrameBuilder& frame, const BakedLightAtlas& atlas);
 

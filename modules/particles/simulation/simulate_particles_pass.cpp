@@ -7,7 +7,7 @@
 namespace gloam {
 
 ComputeProgram particle_simulation_program(bool one_emitter) {
-  return {shaders::particles::simulate_comp, {{0, one_emitter ? 1u : 0u}}};
+  return {shaders::particles::simulate_comp, {{"kOneEmitter", one_emitter ? 1u : 0u}}};
 }
 
 std::vector<SimulationDispatch> simulation_dispatches(std::span<const std::uint32_t> emitter_of_group) {

@@ -11,7 +11,7 @@ namespace gloam {
 namespace {
 
 ComputeProgram digits_program(std::uint32_t shift, bool ordered) {
-  return {shaders::particles::digits_comp, {{0, shift}, {1, ordered ? 1u : 0u}}};
+  return {shaders::particles::digits_comp, {{"kShift", shift}, {"kOrdered", ordered ? 1u : 0u}}};
 }
 ComputeProgram count_program() { return {shaders::particles::count_comp}; }
 

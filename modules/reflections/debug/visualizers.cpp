@@ -53,7 +53,7 @@ void add_reflection_view_pass(FrameBuilder& frame) {
   DrawProgram program{.fragment = shaders::reflections::reflection_view_frag,
                       .constants = visualizer_constants(frame),
                       .blend = gpu::BlendMode::alpha};
-  program.constants.push_back({1, code});
+  program.constants.set("kShown", code);
   DrawPass pass(frame, std::string(*shown) + "_view", program);
   read_geometry(pass, frame.get<GeometryOutputs>());
   pass.read("reflection", drawn->uniforms.block);

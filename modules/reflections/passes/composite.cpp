@@ -14,9 +14,9 @@ namespace gloam {
 
 DrawProgram composite_program(bool mirror, std::size_t probes, bool tiles, bool traced) {
   DrawProgram program{shaders::reflections::composite_frag,
-                      {{0, mirror ? 1u : 0u},
-                       {1, static_cast<std::uint32_t>(std::min<std::size_t>(probes, GLOAM_FEW_PROBES + 1))},
-                       {2, traced ? 1u : 0u}}};
+                      {{"kMirror", mirror ? 1u : 0u},
+                       {"kProbes", static_cast<std::uint32_t>(std::min<std::size_t>(probes, GLOAM_FEW_PROBES + 1))},
+                       {"kTraced", traced ? 1u : 0u}}};
   program.blend = gpu::BlendMode::additive;
   program.depth_compare = gpu::CompareOp::less;  // drawn at the depth of the sky: surfaces only
   if (tiles) program.vertex = shaders::reflections::composite_tiles_vert;
@@ -24,7 +24,7 @@ DrawProgram composite_program(bool mirror, std::size_t probes, bool tiles, bool 
 }
 
 ComputeProgram sharpen_program(bool screen_space) {
-  return {shaders::reflections::sharpen_comp, {{0, 1}, {1, screen_space ? 1u : 0u}}};
+  return {shaders::reflections::sharpen_comp, {{"kColumns", 1u}, {"kScreenSpace", screen_space ? 1u : 0u}}};
 }
 
 ImageRef add_sharpen_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,

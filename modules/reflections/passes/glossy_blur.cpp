@@ -51,11 +51,12 @@ MirroredLight add_blur(FrameBuilder& frame, const ReflectionUniforms& uniforms, 
 
 ComputeProgram dilate_program(bool columns, bool direct) {
   return {direct ? shaders::reflections::dilate_tiles_comp : shaders::reflections::dilate_comp,
-          {{0, columns ? 1u : 0u}}};
+          {{"kColumns", columns ? 1u : 0u}}};
 }
 
 ComputeProgram blur_program(bool columns, bool direct) {
-  return {direct ? shaders::reflections::blur_tiles_comp : shaders::reflections::blur_comp, {{0, columns ? 1u : 0u}}};
+  return {direct ? shaders::reflections::blur_tiles_comp : shaders::reflections::blur_comp,
+          {{"kColumns", columns ? 1u : 0u}}};
 }
 
 MirroredLight add_glossy_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,

@@ -19,7 +19,7 @@ const CompanionLight::Images* images_of(const FrameBuilder& frame, ViewId compan
 }  // namespace
 
 ComputeProgram planar_program(const ReflectionKnobs& knobs) {
-  return {shaders::reflections::planar_mirror_comp, {{0, knobs.pixel_roughness ? 1u : 0u}}};
+  return {shaders::reflections::planar_mirror_comp, {{"kPixelRoughness", knobs.pixel_roughness ? 1u : 0u}}};
 }
 
 std::optional<PlanarMirror> drawn_planar_mirror(const FrameBuilder& frame) {

@@ -10,12 +10,12 @@ namespace gloam {
 
 ComputeProgram proxy_program(const ReflectionKnobs& knobs) {
   return {shaders::reflections::proxy_blending_comp,
-          {{0, knobs.screen_space ? 1u : 0u},
-           {1, knobs.proxies ? 1u : 0u},
-           {2, knobs.layers},
-           {3, knobs.sphere_test ? 1u : 0u},
-           {4, knobs.naive ? 1u : 0u},
-           {5, knobs.pixel_roughness ? 1u : 0u}}};
+          {{"kScreenSpace", knobs.screen_space ? 1u : 0u},
+           {"kProxies", knobs.proxies ? 1u : 0u},
+           {"kLayers", knobs.layers},
+           {"kSphereTest", knobs.sphere_test ? 1u : 0u},
+           {"kNaive", knobs.naive ? 1u : 0u},
+           {"kPixelRoughness", knobs.pixel_roughness ? 1u : 0u}}};
 }
 
 MirroredLight add_proxy_pass(FrameBuilder& frame, const ReflectionKnobs& knobs, const ReflectionUniforms& uniforms,

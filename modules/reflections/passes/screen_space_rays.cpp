@@ -8,7 +8,7 @@
 namespace gloam {
 
 ComputeProgram screen_space_program(const ReflectionKnobs& knobs) {
-  return {shaders::reflections::screen_space_rays_comp, {{0, knobs.hierarchical ? 1u : 0u}}};
+  return {shaders::reflections::screen_space_rays_comp, {{"kHierarchical", knobs.hierarchical ? 1u : 0u}}};
 }
 
 ScreenSpaceHits add_screen_space_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,

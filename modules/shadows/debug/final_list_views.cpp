@@ -21,8 +21,8 @@ void draw(FrameBuilder& frame, const std::string& name, gpu::ShaderCode fragment
   DrawProgram program{.fragment = fragment,
                       .constants = frame.get<ShadowsOutputs>().final_lists->constants,
                       .blend = gpu::BlendMode::alpha};
-  program.constants.push_back({1, frame.get<LightsOutputs>().has_lists() ? 1u : 0u});
-  if (name != "light_list") program.constants.push_back({2, name == "visibility_slots" ? 1u : 0u});
+  program.constants.set("kEarlyLists", frame.get<LightsOutputs>().has_lists() ? 1u : 0u);
+  if (name != "light_list") program.constants.set("kSlots", name == "visibility_slots" ? 1u : 0u);
   draw_shadow_picture(frame, {.pass = name + "_view",
                               .values = name,
                               .format = name == "light_list" ? gpu::Format::rgba8_unorm : gpu::Format::rgba16_float,

@@ -73,15 +73,15 @@ DrawProgram drawn_visibility_program(const ShadowsOutputs& shadows, const gpu::S
   if (!shadows.final_lists) return program;
   const FinalLists& lists = *shadows.final_lists;
   program.fragment = from_lists;
-  program.constants.insert(program.constants.end(), lists.constants.begin(), lists.constants.end());
-  program.constants.push_back({1, lists.always_complete ? 0u : 1u});
+  program.constants.set(lists.constants);
+  program.constants.set("kFallback", lists.always_complete ? 0u : 1u);
   return program;
 }
 
 void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture) {
   const ShadowsOutputs& shadows = frame.get<ShadowsOutputs>();
   const bool over = picture.program.blend != gpu::BlendMode::opaque;
-  for (const gpu::SpecConstant& constant : visualizer_constants(frame)) picture.program.constants.push_back(constant);
+  picture.program.constants.set(visualizer_constants(frame));
   DrawPass pass(frame, picture.pass, picture.program);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_light_lists(pass, frame.get<LightsOutputs>());
@@ -124,7 +124,7 @@ void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states, OnceL
   } else if (const auto light = shown_light_or_warn(frame, once_log)) {
     DrawProgram program = drawn_visibility_program(*shadows, shaders::shadows::visibility_view_frag,
                                                    shaders::shadows::final_visibility_view_frag);
-    program.constants.push_back({GLOAM_SHADOWS_KINDS_ID, kind_of(frame, *light)});
+    program.constants.set("kKinds", kind_of(frame, *light));
     draw_shadow_picture(frame, {.pass = "shadow_view",
                                 .values = "shadow_visibility",
                                 .program = std::move(program),

@@ -61,6 +61,13 @@ void add_reserved(const ReservedTiles& reserved, std::uint64_t pair_bound, const
   c.slots = at_most(std::uint64_t{reserved.slots} + c.slots, std::min(kMostSlots, knobs.slot_limit));
 }
 
+gpu::SpecConstants list_constants(std::uint32_t visibility_bits, bool split) {
+  gpu::SpecConstants constants;
+  constants.set_if_present("kVisibilityBits", visibility_bits);
+  constants.set_if_present("kVisibilityBuffers", split ? 2u : 1u);
+  return constants;
+}
+
 void create_visibilities(FrameGraph& graph, FinalLists& lists) {
   const std::uint32_t bits = lists.visibility_bits, first = std::min(lists.slot_capacity, slots_per_buffer(bits));
   const bool split = lists.slot_capacity > first;
@@ -69,7 +76,7 @@ void create_visibilities(FrameGraph& graph, FinalLists& lists) {
   if (split)
     lists.visibilities[1] =
         create(graph, "more_shadow_visibilities", std::uint64_t{lists.slot_capacity - first} * slot_bytes(bits));
-  lists.constants = {{GLOAM_FINAL_BITS_ID, bits}, {GLOAM_FINAL_BUFFERS_ID, split ? 2u : 1u}};
+  lists.constants = list_constants(bits, split);
 }
 
 }  // namespace
@@ -77,7 +84,7 @@ void create_visibilities(FrameGraph& graph, FinalLists& lists) {
 void set_list_constants(const ShadowKnobs& knobs, FinalLists& lists) {
   const bool split = lists.visibilities[1].resource != lists.visibilities[0].resource;
   lists.visibility_bits = visibility_bits_of(knobs);
-  lists.constants = {{GLOAM_FINAL_BITS_ID, lists.visibility_bits}, {GLOAM_FINAL_BUFFERS_ID, split ? 2u : 1u}};
+  lists.constants = list_constants(lists.visibility_bits, split);
   const ShadowKnobs unlimited;
   if (knobs.slot_limit != unlimited.slot_limit || knobs.pair_limit != unlimited.pair_limit)
     lists.always_complete = false;

@@ -38,8 +38,8 @@ gpu::ShaderCode generate_code(std::uint32_t kind, bool standard) {
 ComputeProgram generate_program(const ShadowsOutputs& shadows, std::uint32_t visibility_bits, std::uint32_t kind,
                                 const gpu::DeviceInfo& device) {
   ComputeProgram program{generate_code(kind, shadows.standard), shadows.constants};
-  program.constants.push_back({0, threads_a_tile(device)});
-  program.constants.push_back({GLOAM_FINAL_BITS_ID, visibility_bits});
+  program.constants.set("local_size_x", threads_a_tile(device));
+  program.constants.set("kVisibilityBits", visibility_bits);
   return program;
 }
 

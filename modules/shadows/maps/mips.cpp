@@ -114,7 +114,7 @@ shaders::ShadowMipConstants constants_of(const ShadowKnobs& knobs) {
 
 ComputeProgram shadow_mips_program(const ShadowKnobs& knobs) {
   return {knobs.d16 ? shaders::shadows::mips_r16_comp : shaders::shadows::mips_comp,
-          {{GLOAM_SHADOW_MIP_OPERATOR_ID, knobs.mip_operator}}};
+          {{"kMipOperator", knobs.mip_operator}}};
 }
 
 ComputeProgram shadow_bounds_program(bool d16) {

@@ -15,7 +15,7 @@
 #include "shaders/shadows/shadows_api.glsl"
 #include "shaders/shadows/debug/drawn_visibility.glsl"
 
-layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture's format does not encode sRGB
+layout(constant_id = 0) const uint kEncode = 0u;  // 1: the picture's format does not encode sRGB
 
 const float kWhite = 0.5;  // difference that is shown white
 
@@ -70,7 +70,7 @@ void main() {
     sum = local_differences(uvec2(pixel), position, normal, r) + directional_differences(uvec2(pixel), normal, r);
   float difference = sum.y > 0.0 ? sum.x / sum.y : -1.0;
   vec3 color = heat(max(difference, 0.0) / kWhite);
-  out_color = vec4(kEncodeSrgb != 0u ? linear_to_srgb(color) : color, 1.0);
+  out_color = vec4(kEncode != 0u ? linear_to_srgb(color) : color, 1.0);
   out_difference = vec4(difference, 0.0, 0.0, 1.0);
 }
 

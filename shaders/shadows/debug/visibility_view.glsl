@@ -15,7 +15,7 @@
 #include "shaders/shadows/shadows_api.glsl"
 #include "shaders/shadows/debug/drawn_visibility.glsl"
 
-layout(constant_id = 0) const uint kEncodeSrgb = 0u;  // 1: the picture's format does not encode sRGB
+layout(constant_id = 0) const uint kEncode = 0u;  // 1: the picture's format does not encode sRGB
 
 layout(push_constant, scalar) uniform Push { ShownLightConstants shown; };
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
@@ -45,7 +45,7 @@ void main() {
   float visibility =
       depth > 0.0 && reaches ? drawn_visibility(uvec2(pixel), directional, shown.light, light_vector, r, faces) : -1.0;
   vec3 color = visibility < 0.0 ? vec3(0.0, 0.0, 0.04) : vec3(visibility);
-  out_color = vec4(kEncodeSrgb != 0u ? linear_to_srgb(color) : color, 1.0);
+  out_color = vec4(kEncode != 0u ? linear_to_srgb(color) : color, 1.0);
   out_visibility = vec4(visibility, 0.0, 0.0, 1.0);
 }
 

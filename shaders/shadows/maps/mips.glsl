@@ -26,7 +26,8 @@ layout(set = 0, binding = 3, scalar) readonly buffer Groups { ShadowMipGroup gro
 layout(set = 0, binding = 4) uniform sampler2DArray backgrounds;
 #endif
 layout(push_constant, scalar) uniform Constants { ShadowMipConstants run; };
-layout(constant_id = GLOAM_SHADOW_MIP_OPERATOR_ID) const uint kMipOperator = GLOAM_SHADOW_MIPS_AS_PUSHED;
+// The mip operator, so that the shader holds no code of the others.
+layout(constant_id = 0) const uint kMipOperator = GLOAM_SHADOW_MIPS_AS_PUSHED;
 
 bool is_operator(int mip_operator) {
   return (kMipOperator == uint(GLOAM_SHADOW_MIPS_AS_PUSHED) ? run.mip_operator : kMipOperator) == uint(mip_operator);

@@ -12,9 +12,7 @@
 // Low bits of a depth in coverage mips: how many 64ths of the texel its surface leaves free; 0 in mip 0.
 #define GLOAM_SHADOW_FREE_BITS 63u
 
-// Specialisation constant of mips.comp: the mip operator, so that the shader holds no code of the others.
-#define GLOAM_SHADOW_MIP_OPERATOR_ID 0
-#define GLOAM_SHADOW_MIPS_AS_PUSHED 3  // the default: ShadowMipConstants::mip_operator
+#define GLOAM_SHADOW_MIPS_AS_PUSHED 3  // default of kMipOperator: ShadowMipConstants::mip_operator
 
 GLOAM_SHARED_BEGIN
 

@@ -3,7 +3,6 @@
 #include "engine/gpu/vulkan/pipelines.h"
 
 #include <array>
-#include <bit>
 #include <numeric>
 #include <thread>
 
@@ -16,7 +15,7 @@ namespace {
 
 class Pipelines : public VulkanTest {
  protected:
-  ComputePipelineDesc doubling(std::vector<SpecConstant> constants = {}) {
+  ComputePipelineDesc doubling(SpecConstants constants = {}) {
     return {.name = "double numbers",
             .module = "test",
             .shader = shaders::gpu_test::double_numbers_comp,
@@ -55,8 +54,20 @@ TEST_F(Pipelines, a_kernel_sees_buffers_uniforms_and_push_constants) {
 }
 
 TEST_F(Pipelines, specialisation_constants_reach_the_kernel) {
-  const auto result = run(test::value_of(device().create_pipeline(doubling({{.id = 0, .value = 5}}))));
+  const auto result = run(test::value_of(device().create_pipeline(doubling({{"kScale", 5u}}))));
   EXPECT_EQ(result[3], 1015u);
+}
+
+TEST_F(Pipelines, constants_that_the_shader_does_not_take_assert_with_pipeline_shader_and_name) {
+  EXPECT_ASSERT(
+      (void)device().create_pipeline(doubling({{"kStale", 5u}})),
+      "pipeline 'double numbers', shader 'gpu_test/double_numbers.comp', constant 'kStale': the program has no "
+      "specialisation constant of this name");
+  EXPECT_ASSERT((void)device().create_pipeline(doubling({{"kScale", 5.0f}})),
+                "constant 'kScale': the shader declares it as uint, and the value is of type float");
+  SpecConstants shared;
+  shared.set_if_present("kStale", 5u);
+  EXPECT_TRUE(device().create_pipeline(doubling(shared)).ok());
 }
 
 /// The results of disabled_code.comp for the sources 0 … 63.
@@ -89,17 +100,14 @@ TEST_F(Pipelines, kernels_compute_the_same_without_disabled_code) {
   std::iota(numbers.begin(), numbers.end(), 0u);
   const BufferHandle source = test::make_upload(device(), numbers);
   for (std::uint32_t mode = 0; mode < 6; ++mode) {
-    for (const std::uint32_t twice : {0u, 1u}) {
-      const int steps = static_cast<int>(mode + twice) % 4;
+    for (const bool twice : {false, true}) {
+      const int steps = static_cast<int>(mode + (twice ? 1 : 0)) % 4;
       const float factor = 0.5f + static_cast<float>(mode);
-      const auto pipeline = test::value_of(device().create_pipeline(
-          ComputePipelineDesc{.name = "disabled code",
-                              .module = "test",
-                              .shader = shaders::gpu_test::disabled_code_comp,
-                              .constants = {{.id = 0, .value = mode},
-                                            {.id = 1, .value = twice},
-                                            {.id = 2, .value = static_cast<std::uint32_t>(steps)},
-                                            {.id = 3, .value = std::bit_cast<std::uint32_t>(factor)}}}));
+      const auto pipeline = test::value_of(device().create_pipeline(ComputePipelineDesc{
+          .name = "disabled code",
+          .module = "test",
+          .shader = shaders::gpu_test::disabled_code_comp,
+          .constants = {{"kMode", mode}, {"kTwice", twice}, {"kSteps", steps}, {"kFactor", factor}}}));
       const BufferHandle target = test::make_readback(device(), 256);
       test::run_frame(device(), [&](CommandList& commands) {
         commands.bind_pipeline(pipeline);
@@ -107,7 +115,7 @@ TEST_F(Pipelines, kernels_compute_the_same_without_disabled_code) {
         commands.dispatch(1, 1, 1);
         to(commands, target, Access::compute_write, Access::host_read);
       });
-      EXPECT_EQ(test::items_of<std::uint32_t>(device(), target), without_disabled_code(mode, twice != 0, steps, factor))
+      EXPECT_EQ(test::items_of<std::uint32_t>(device(), target), without_disabled_code(mode, twice, steps, factor))
           << "mode " << mode << ", twice " << twice;
     }
   }
@@ -116,11 +124,11 @@ TEST_F(Pipelines, kernels_compute_the_same_without_disabled_code) {
 TEST_F(Pipelines, kernels_choose_vectors_by_specialisation_constants) {
   constexpr float kFactor = 0.25f;
   for (std::uint32_t flag = 0; flag < 3; ++flag) {
-    const auto pipeline = test::value_of(device().create_pipeline(ComputePipelineDesc{
-        .name = "choose vectors",
-        .module = "test",
-        .shader = shaders::gpu_test::choose_vectors_comp,
-        .constants = {{.id = 0, .value = flag}, {.id = 1, .value = std::bit_cast<std::uint32_t>(kFactor)}}}));
+    const auto pipeline = test::value_of(
+        device().create_pipeline(ComputePipelineDesc{.name = "choose vectors",
+                                                     .module = "test",
+                                                     .shader = shaders::gpu_test::choose_vectors_comp,
+                                                     .constants = {{"kFlag", flag}, {"kFactor", kFactor}}}));
     const BufferHandle target = test::make_readback(device(), 36);
     test::run_frame(device(), [&](CommandList& commands) {
       commands.bind_pipeline(pipeline);

@@ -122,7 +122,8 @@ TEST_F(ShadowsModuleTest, constants_tell_knobs_apart) {
                     knobs.set("shadows.receiver_plane", plane).ok());
         const ShadowKnobs now = shadow_knobs(knobs);
         std::vector<std::uint32_t> constants;
-        for (const gpu::SpecConstant& constant : shadow_constants(now, now.filter)) constants.push_back(constant.value);
+        for (const gpu::SpecConstant& constant : shadow_constants(now, now.filter))
+          constants.push_back(constant.value.bits);
         values.insert(constants);
       }
   EXPECT_EQ(values.size(), 16u);

@@ -128,7 +128,7 @@ TEST_F(DeclaredPass, dispatches_as_many_workgroups_as_the_items_need) {
 
 TEST_F(DeclaredPass, workgroup_sizes_follow_specialisation_constants) {
   ASSERT_TRUE(render([](FrameBuilder& frame) {
-                ComputePass pass(frame, "tested", {shaders::lights::find_lights_accurate_comp, {{0, 4}}});
+                ComputePass pass(frame, "tested", {shaders::lights::find_lights_accurate_comp, {{"local_size_y", 4u}}});
                 pass.keep();
                 for (const char* name : {"depth_image", "light_texels", "depth_bounds"}) pass.read(name, ImageRef{});
                 for (const char* name : {"lights", "grid", "group_masks"}) pass.read(name, BufferRef{});
@@ -231,6 +231,15 @@ TEST_F(DeclaredPass, misuse_asserts_with_pass_shader_and_binding) {
        [](FrameBuilder&, ComputePass& pass) { pass.read("source", ImageRef{}); }},
       {"declares 4 bytes of push constants, and 0 were given",
        [](FrameBuilder&, ComputePass& pass) { pass.push_bytes({}); }},
+      {"pass 'tested', shader 'gpu_test/double_numbers.comp', constant 'kStale': the program has no specialisation "
+       "constant of this name",
+       [](FrameBuilder&, ComputePass& pass) {
+         pass.use({code::double_numbers_comp, {{"kStale", 1u}}});
+       }},
+      {"constant 'kScale': the shader declares it as uint, and the value is of type int",
+       [](FrameBuilder&, ComputePass& pass) {
+         pass.use({code::double_numbers_comp, {{"kScale", 1}}});
+       }},
       {"shader 'gpu_test/look.comp', binding 'plane': nothing was bound to it", [](FrameBuilder&, ComputePass& pass) {
          pass.push(vec3(0.0f));
          pass.use({code::look_comp});
@@ -242,6 +251,20 @@ TEST_F(DeclaredPass, misuse_asserts_with_pass_shader_and_binding) {
                   }),
                   misuse.sentence);
   }
+}
+
+TEST_F(DeclaredPass, a_constant_of_a_draw_must_be_in_one_of_its_shaders) {
+  const auto declare = [](FrameBuilder& frame, const gpu::SpecConstants& constants) {
+    DrawPass pass(frame, "tested", {.fragment = shaders::render::debug_view_frag, .constants = constants});
+  };
+  EXPECT_ASSERT((void)render([&](FrameBuilder& frame) {
+                  declare(frame, {{"kEncoding", 1u}});
+                }),
+                "pass 'tested', shader 'render/debug_view.frag', constant 'kEncoding': the program has no");
+  device_ = gpu::make_recording_device();  // a failed assertion leaves a frame begun
+  gpu::SpecConstants shared = {{"kEncode", 1u}};
+  shared.set_if_present("kEncoding", 1u);
+  EXPECT_TRUE(render([&](FrameBuilder& frame) { declare(frame, shared); }).ok());
 }
 
 TEST_F(DeclaredPass, an_image_that_the_shader_may_write_cannot_be_bound_for_reading) {

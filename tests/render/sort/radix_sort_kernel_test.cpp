@@ -217,7 +217,7 @@ class SortKernel : public test::KernelTest {
       totals.push_back(before);
     }
     test::Kernel kernel(device(), runs ? shaders::render::scatter_runs_comp : shaders::render::scatter_blocks_comp,
-                        {{0, 0u}});
+                        {{"kImpliedValues", 0u}});
     kernel.push(c);
     kernel.input(0, packed(keys));
     kernel.input(1, counters);

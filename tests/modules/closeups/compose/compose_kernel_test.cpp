@@ -284,8 +284,8 @@ class ComposeCloseup : public test::ShadowKernelTest {
     d.sampled(21, gpu::Format::rg32_uint, {1, 1}, std::vector<uvec2>(1));  // not read: no terminator
     test::ProbeSettings filter{.filter = s.standard ? 3u : 0u, .levels = (1u << s.bits) - 1, .standard = s.standard};
     auto constants = filter.constants();
-    constants.push_back({0, s.threads});
-    constants.push_back({GLOAM_FINAL_BITS_ID, s.bits});
+    constants.set("local_size_x", s.threads);
+    constants.set("kVisibilityBits", s.bits);
     const auto pipeline = test::value_of(
         device().create_pipeline(gpu::ComputePipelineDesc{"closeup_compose", "test", code_of(s), constants}));
     d.run(pipeline, Wall::end() - Wall::first());

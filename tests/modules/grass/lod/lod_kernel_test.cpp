@@ -82,7 +82,7 @@ class GrassDetail : public KernelTest {
     lod.most_masters = most_masters;
     shaders::GrassDraws draws{};
     draws.live = live;
-    Kernel kernel(device(), shaders::grass::masters_comp, {{0, group_masters}});
+    Kernel kernel(device(), shaders::grass::masters_comp, {{"kGroupMasters", group_masters}});
     kernel.input(0, std::vector<shaders::GrassSteps>{steps});
     kernel.input(1, field.patches);
     kernel.input(2, field.blades);

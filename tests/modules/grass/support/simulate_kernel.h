@@ -121,10 +121,10 @@ class SimulateKernel {
 
  private:
   [[nodiscard]] GrassOutput run_with(const GrassInput& input, std::uint32_t threads) const {
-    const gpu::SpecConstant colliders{1, input.colliders.empty() ? 0u : 1u};
+    const gpu::SpecConstant colliders{"kColliders", !input.colliders.empty()};
     const bool of_blades = threads == 1;
     Kernel kernel(device_, of_blades ? shaders::grass::simulate_blades_comp : shaders::grass::simulate_comp,
-                  of_blades ? std::vector{colliders} : std::vector{gpu::SpecConstant{0, threads}, colliders});
+                  of_blades ? gpu::SpecConstants{colliders} : gpu::SpecConstants{{"local_size_x", threads}, colliders});
     const auto some = [](auto items) {
       if (items.empty()) items.resize(1);
       return items;

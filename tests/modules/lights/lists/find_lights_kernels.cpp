@@ -124,13 +124,13 @@ void read(gpu::Device& device, gpu::BufferHandle buffer, std::vector<T>& items) 
 }  // namespace
 
 FindLights::FindLights(gpu::Device& device, std::uint32_t rows) : device_(device) {
-  const auto make = [&](gpu::ShaderCode code, std::vector<gpu::SpecConstant> constants = {}) {
+  const auto make = [&](gpu::ShaderCode code, gpu::SpecConstants constants = {}) {
     return value_of(
         device.create_pipeline(gpu::ComputePipelineDesc{std::string(code.name), "test", code, std::move(constants)}));
   };
   approx_ = make(shaders::lights::find_lights_approx_comp);
   accurate_ = make(shaders::lights::find_lights_accurate_comp,
-                   rows == 0 ? std::vector<gpu::SpecConstant>{} : std::vector<gpu::SpecConstant>{{0, rows}});
+                   rows == 0 ? gpu::SpecConstants{} : gpu::SpecConstants{{"local_size_y", rows}});
   accurate_tiles_ = make(shaders::lights::find_lights_accurate_tiles_comp);
   check_ = make(shaders::lights::check_lists_comp);
   sampler_ = value_of(device.create_sampler(

@@ -56,7 +56,7 @@ struct Scene {
 class ParticleSimulation : public KernelTest {
  protected:
   [[nodiscard]] static Simulated simulate(const Scene& scene) {
-    Kernel kernel(device(), shaders::particles::simulate_comp, {{0, 0}});
+    Kernel kernel(device(), shaders::particles::simulate_comp, {{"kOneEmitter", 0u}});
     kernel.push(shaders::ParticleDispatch{});
     const std::size_t places = scene.groups.size() * GLOAM_PARTICLE_GROUP;
     kernel.input(0, std::vector{view_constants(scene.view)});
@@ -164,7 +164,7 @@ TEST_F(ParticleSimulation, a_dispatch_of_one_emitter_gives_the_same_particles_to
   Scene scene;
   for (std::uint32_t i = 0; i < 3; ++i) scene.add(placed(values, dmat4(1.0), i), 333);
   const Simulated all = simulate(scene);
-  Kernel kernel(device(), shaders::particles::simulate_comp, {{0, 1}});
+  Kernel kernel(device(), shaders::particles::simulate_comp, {{"kOneEmitter", 1u}});
   const shaders::ParticleEmitterRow& row = scene.rows[1];
   const std::uint32_t first_group = row.first / GLOAM_PARTICLE_GROUP, groups = (row.count + 63) / 64;
   kernel.push(shaders::ParticleDispatch{first_group, 1});

@@ -63,7 +63,7 @@ struct LightKernelScene {
 
   /// The light at points of the sprites.
   [[nodiscard]] std::vector<uvec2> run(gpu::Device& device, std::uint32_t points, bool maps) const {
-    Kernel kernel(device, shaders::particles::light_comp, {{0, points}, {2, maps ? 1u : 0u}});
+    Kernel kernel(device, shaders::particles::light_comp, {{"kLitPoints", points}, {"kMaps", maps ? 1u : 0u}});
     kernel.input(0, std::vector{view_constants(make_view(look_at(dvec3(0.0, 0.0, 5.0), dvec3(0.0), 64, 64), 0))});
     kernel.input(1, std::vector{frame()});
     kernel.input(2, emitters);

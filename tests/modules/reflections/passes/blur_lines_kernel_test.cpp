@@ -73,7 +73,7 @@ class GlossyLines : public KernelTest {
     return made;
   }
   [[nodiscard]] std::vector<std::uint8_t> dilate(const GlossyImages& in, bool columns) {
-    Kernel kernel(device(), shaders::reflections::dilate_comp, {{0, columns ? 1u : 0u}});
+    Kernel kernel(device(), shaders::reflections::dilate_comp, {{"kColumns", columns ? 1u : 0u}});
     bind(kernel, in);
     kernel.sampled_image(2, gpu::Format::rgba8_unorm, in.c.size.x, in.c.size.y, in.surface);
     kernel.sampled_image(3, gpu::Format::rgba8_unorm, in.c.size.x, in.c.size.y, in.surface);
@@ -84,7 +84,7 @@ class GlossyLines : public KernelTest {
     return dilated;
   }
   [[nodiscard]] std::vector<vec4> blur(const GlossyImages& in, const std::vector<std::uint8_t>& spread, bool columns) {
-    Kernel kernel(device(), shaders::reflections::blur_comp, {{0, columns ? 1u : 0u}});
+    Kernel kernel(device(), shaders::reflections::blur_comp, {{"kColumns", columns ? 1u : 0u}});
     bind(kernel, in);
     kernel.sampled_image(2, gpu::Format::r8_unorm, in.c.size.x, in.c.size.y, spread);
     kernel.sampled_image(3, gpu::Format::rgba8_unorm, in.c.size.x, in.c.size.y, in.surface);

@@ -39,7 +39,7 @@ class HitDistances : public test::KernelTest {
   template <class T>
   std::vector<T> run(std::uint32_t unpack, const std::vector<float>& metres, const std::vector<Texel>& texels,
                      std::uint32_t result, std::size_t count) {
-    test::Kernel kernel(device(), shaders::reflections_test::hit_distances_comp, {{0, unpack}});
+    test::Kernel kernel(device(), shaders::reflections_test::hit_distances_comp, {{"kUnpack", unpack}});
     kernel.input(0, metres);
     kernel.output_image(1, gpu::Format::rgba8_unorm, kSide, kSide);
     kernel.sampled_image(2, gpu::Format::rgba8_unorm, kSide, kSide, texels);

@@ -51,12 +51,12 @@ struct Blended {
   c.changed_lights = static_cast<std::uint32_t>(in.changed.size());
   const std::size_t texels = std::size_t{c.size.x} * c.size.y;
   Kernel kernel(device, shaders::reflections::proxy_blending_comp,
-                {{0, in.ssr_color.empty() ? 0u : 1u},
-                 {1, in.proxies_on ? 1u : 0u},
-                 {2, in.layers},
-                 {3, in.sphere_test ? 1u : 0u},
-                 {4, in.naive ? 1u : 0u},
-                 {5, c.pixel_roughness}});
+                {{"kScreenSpace", in.ssr_color.empty() ? 0u : 1u},
+                 {"kProxies", in.proxies_on ? 1u : 0u},
+                 {"kLayers", in.layers},
+                 {"kSphereTest", in.sphere_test ? 1u : 0u},
+                 {"kNaive", in.naive ? 1u : 0u},
+                 {"kPixelRoughness", c.pixel_roughness}});
   kernel.input(0, std::vector{view_constants(in.seen.view)});
   kernel.input(1, std::vector{c});
   kernel.sampled_image(2, gpu::Format::rg32_uint, c.size.x, c.size.y, find_mirrors(device, in.seen, c));

@@ -35,7 +35,7 @@ class TraceKernelTest : public KernelTest {
   [[nodiscard]] Traced trace(const SyntheticView& seen, const shaders::ReflectionConstants& c, bool hierarchical,
                              const std::vector<vec4>& lit) {
     const std::uint32_t w = seen.view.width, h = seen.view.height;
-    Kernel kernel(device(), shaders::reflections::screen_space_rays_comp, {{0, hierarchical ? 1u : 0u}});
+    Kernel kernel(device(), shaders::reflections::screen_space_rays_comp, {{"kHierarchical", hierarchical ? 1u : 0u}});
     kernel.input(0, std::vector{view_constants(seen.view)});
     kernel.input(1, std::vector{c});
     kernel.sampled_image(2, gpu::Format::rg32_uint, w, h, seen.normals);

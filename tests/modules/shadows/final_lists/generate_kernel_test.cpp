@@ -242,8 +242,8 @@ class GenerateShadows : public test::ShadowKernelTest {
     d.input(19, std::vector<std::uint32_t>{0});                            // no tile is reserved
     d.sampled(21, gpu::Format::rg32_uint, {1, 1}, std::vector<uvec2>(1));  // not read: no terminator
     auto constants = s.filter.constants();
-    constants.push_back({0, s.threads});
-    constants.push_back({GLOAM_FINAL_BITS_ID, s.bits});
+    constants.set("local_size_x", s.threads);
+    constants.set("kVisibilityBits", s.bits);
     for (std::uint32_t kind = 0; kind < GLOAM_PAIR_KINDS; ++kind) {
       if (commands.pairs[kind].w == 0) continue;
       const auto pipeline = test::value_of(device().create_pipeline(

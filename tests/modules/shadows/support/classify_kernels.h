@@ -61,7 +61,7 @@ class ClassifyKernels : public ShadowKernelTest {
   }
   static gpu::PipelineHandle pipeline(bool directional, const ProbeSettings& settings) {
     std::vector<std::uint32_t> key = {directional ? 1u : 0u};
-    for (const gpu::SpecConstant& constant : settings.constants()) key.push_back(constant.value);
+    for (const gpu::SpecConstant& constant : settings.constants()) key.push_back(constant.value.bits);
     gpu::PipelineHandle& found = pipelines()[key];
     using namespace shaders::shadows;
     if (!found)

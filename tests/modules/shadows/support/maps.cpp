@@ -37,7 +37,7 @@ ProbePipelines& probe_pipelines() {
 gpu::PipelineHandle probe_pipeline(gpu::Device& device, const ProbeSettings& settings) {
   const auto constants = settings.constants();
   std::vector<std::uint32_t> key = {settings.standard ? 1u : 0u};
-  for (const gpu::SpecConstant& constant : constants) key.push_back(constant.value);
+  for (const gpu::SpecConstant& constant : constants) key.push_back(constant.value.bits);
   probe_pipelines().device = &device;
   gpu::PipelineHandle& pipeline = probe_pipelines().by_constants[key];
   if (!pipeline)
@@ -134,12 +134,19 @@ std::vector<float> draw_face(const FacePose& pose, std::uint32_t size, const Ray
   return depths;
 }
 
-std::vector<gpu::SpecConstant> ProbeSettings::constants() const {
-  return {{GLOAM_SHADOWS_FILTER_ID, filter},     {GLOAM_SHADOWS_KERNEL_ID, kernel},
-          {GLOAM_SHADOWS_MIPS_ID, mips},         {GLOAM_SHADOWS_RECEIVER_PLANE_ID, receiver_plane},
-          {GLOAM_SHADOWS_BIAS_ID, bias},         {GLOAM_SHADOWS_KERNEL_SHAPE_ID, shape},
-          {GLOAM_SHADOWS_LEVELS_ID, levels},     {GLOAM_SHADOWS_FULL_PENUMBRA_ID, full_penumbra},
-          {GLOAM_SHADOWS_COVERAGE_ID, coverage}, {GLOAM_SHADOWS_NEAR_ID, near}};
+gpu::SpecConstants ProbeSettings::constants() const {
+  gpu::SpecConstants constants;
+  constants.set_if_present("kFilter", filter);
+  constants.set_if_present("kKernel", static_cast<std::int32_t>(kernel));
+  constants.set("kMips", mips);
+  constants.set("kReceiverPlane", receiver_plane);
+  constants.set("kBias", bias);
+  constants.set("kKernelShape", shape);
+  constants.set("kLevels", levels);
+  constants.set("kFullPenumbra", full_penumbra);
+  constants.set("kCoverage", coverage);
+  constants.set("kNear", near);
+  return constants;
 }
 
 ShadowMaps::ShadowMaps(gpu::Device& device, std::uint32_t atlas_size, gpu::Format format)

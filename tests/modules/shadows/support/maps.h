@@ -56,7 +56,7 @@ struct ProbeSettings {
   std::uint32_t near = 1;      ///< values of the knob shadows.near
   std::uint32_t coverage = 0;  ///< faces were added with GLOAM_SHADOW_MIPS_COVERAGE
   bool standard = false;       ///< compiled with GLOAM_SHADOWS_STANDARD, which supports filter 3 and kernel 8 only
-  [[nodiscard]] std::vector<gpu::SpecConstant> constants() const;
+  [[nodiscard]] gpu::SpecConstants constants() const;
 };
 
 /// A shadow atlas on the device: mips.comp fills it with faces, and probe.comp evaluates visibilities. Any error fails
