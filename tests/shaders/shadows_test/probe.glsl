@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#ifndef GLOAM_SHADERS_SHADOWS_SHADOW_PROBE_GLSL
-#define GLOAM_SHADERS_SHADOWS_SHADOW_PROBE_GLSL
+#ifndef GLOAM_TESTS_SHADOW_PROBE_GLSL
+#define GLOAM_TESTS_SHADOW_PROBE_GLSL
 
-#include "shaders/shadows/filter/probe_shared.h"
+#include "tests/shaders/shadows_test/probe_shared.h"
 
 // Evaluates the functions of shadows_api.glsl at a list of points, for tests.
 

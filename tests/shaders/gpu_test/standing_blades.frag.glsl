@@ -2,6 +2,4 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-
-#define GLOAM_MOTION
-#include "shaders/gpu_test/standing_blades.glsl"
+#include "tests/shaders/gpu_test/standing_blades.glsl"

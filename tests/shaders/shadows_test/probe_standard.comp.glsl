@@ -2,4 +2,5 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/shadows/filter/probe.glsl"
+#define GLOAM_SHADOWS_STANDARD
+#include "tests/shaders/shadows_test/probe.glsl"

@@ -3,7 +3,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Forward light loop over tile masks and zBins.
-
-#define GLOAM_FORWARD_TILED
-#include "shaders/lighting_test/shade.glsl"
+#define GLOAM_MOTION
+#include "tests/shaders/gpu_test/standing_blades.glsl"

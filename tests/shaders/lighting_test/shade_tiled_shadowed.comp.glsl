@@ -8,4 +8,4 @@
 #define GLOAM_FORWARD_TILED
 #define GLOAM_FORWARD_SHADOWS
 #define GLOAM_SHADOWS_STANDARD
-#include "shaders/lighting_test/shade.glsl"
+#include "tests/shaders/lighting_test/shade.glsl"

@@ -2,5 +2,4 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define GLOAM_SHADOWS_STANDARD
-#include "shaders/shadows/filter/probe.glsl"
+#include "tests/shaders/shadows_test/probe.glsl"

@@ -7,4 +7,4 @@
 
 #define GLOAM_FORWARD_TILED
 #define GLOAM_FORWARD_RESPONSE
-#include "shaders/lighting_test/shade.glsl"
+#include "tests/shaders/lighting_test/shade.glsl"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#ifndef GLOAM_SHADERS_SHADOWS_SHADOW_PROBE_SHARED_H
-#define GLOAM_SHADERS_SHADOWS_SHADOW_PROBE_SHARED_H
+#ifndef GLOAM_TESTS_SHADOW_PROBE_SHARED_H
+#define GLOAM_TESTS_SHADOW_PROBE_SHARED_H
 
 #include "shaders/common/prelude.h"
 

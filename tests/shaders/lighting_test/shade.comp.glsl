@@ -5,4 +5,4 @@
 
 // Forward light loop over all lights.
 
-#include "shaders/lighting_test/shade.glsl"
+#include "tests/shaders/lighting_test/shade.glsl"

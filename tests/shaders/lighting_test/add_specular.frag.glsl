@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lighting/environment_api.glsl"
-#include "shaders/lighting_test/surfaces.glsl"
+#include "tests/shaders/lighting_test/surfaces.glsl"
 
 // Linear light plus the specular ambient term.
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#ifndef GLOAM_SHADERS_GPU_TEST_BLADES_SHARED_H
-#define GLOAM_SHADERS_GPU_TEST_BLADES_SHARED_H
+#ifndef GLOAM_TESTS_BLADES_SHARED_H
+#define GLOAM_TESTS_BLADES_SHARED_H
 
 #include "shaders/common/prelude.h"
 

@@ -9,4 +9,4 @@
 #define GLOAM_FORWARD_SHADOWS
 #define GLOAM_SHADOWS_STANDARD
 #define GLOAM_FORWARD_RESPONSE
-#include "shaders/lighting_test/shade.glsl"
+#include "tests/shaders/lighting_test/shade.glsl"

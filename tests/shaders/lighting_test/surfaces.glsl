@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#ifndef GLOAM_SHADERS_LIGHTING_TEST_SURFACES_GLSL
-#define GLOAM_SHADERS_LIGHTING_TEST_SURFACES_GLSL
+#ifndef GLOAM_TESTS_LIGHTING_SURFACES_GLSL
+#define GLOAM_TESTS_LIGHTING_SURFACES_GLSL
 
 #include "shaders/lighting/brdf_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#ifndef GLOAM_SHADERS_LIGHTING_TEST_SHADE_GLSL
-#define GLOAM_SHADERS_LIGHTING_TEST_SHADE_GLSL
+#ifndef GLOAM_TESTS_LIGHTING_SHADE_GLSL
+#define GLOAM_TESTS_LIGHTING_SHADE_GLSL
 
-#include "shaders/lighting_test/surfaces.glsl"
+#include "tests/shaders/lighting_test/surfaces.glsl"
 
 // Shades the surfaces of the geometry buffer by the forward light loop, without emission. With GLOAM_FORWARD_RESPONSE,
 // the sum of the lights' illuminances.

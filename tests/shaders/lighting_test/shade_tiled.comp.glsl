@@ -2,4 +2,8 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/gpu_test/standing_blades.glsl"
+
+// Forward light loop over tile masks and zBins.
+
+#define GLOAM_FORWARD_TILED
+#include "tests/shaders/lighting_test/shade.glsl"
