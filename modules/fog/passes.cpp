@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/fog/fog_passes.h"
+#include "modules/fog/passes.h"
 
 #include "engine/render/declare/draw_pass.h"
-#include "modules/fog/fog_model.h"
+#include "modules/fog/model.h"
 #include "shaders/fog/fog_shared.h"
 #include "shaders/fog/shaders.h"
 
@@ -16,8 +16,8 @@ std::uint32_t glow_divisor(const KnobRegistry& knobs) { return 1u << knobs.choic
 
 DrawProgram reduce_program(std::uint32_t divisor) { return {shaders::fog::reduce_frag, {{0, divisor}}}; }
 DrawProgram blur_program() { return {shaders::fog::blur_frag}; }
-DrawProgram apply_program(bool orthographic) {
-  return {shaders::fog::apply_frag, {{0, orthographic ? 1u : 0u}}, gpu::BlendMode::premultiplied};
+DrawProgram apply_program(bool orthographic, std::uint32_t divisor) {
+  return {shaders::fog::apply_frag, {{0, orthographic ? 1u : 0u}, {1, divisor}}, gpu::BlendMode::premultiplied};
 }
 
 /// LitOutput blurred at 1/divisor of its size.
@@ -46,16 +46,17 @@ ImageRef add_glow_passes(FrameBuilder& frame, std::uint32_t divisor, float radiu
 void list_fog_pipelines(const KnobRegistry& knobs, PipelineList& list) {
   const gpu::Format formats[] = {kGlowFormat};
   const auto add = [&](const DrawProgram& program) { list.push_back(pipeline_desc(program, "fog", formats)); };
-  if (glow_divisor(knobs) > 1) add(reduce_program(glow_divisor(knobs)));
+  const std::uint32_t divisor = glow_divisor(knobs);
+  if (divisor > 1) add(reduce_program(divisor));
   add(blur_program());
-  for (const bool orthographic : {false, true}) add(apply_program(orthographic));
+  for (const bool orthographic : {false, true}) add(apply_program(orthographic, divisor));
 }
 
 void add_fog_passes(FrameBuilder& frame, const Fog& fog) {
-  const ImageRef glow =
-      add_glow_passes(frame, glow_divisor(frame.knobs()), static_cast<float>(frame.knobs().number("fog.radius")));
+  const std::uint32_t divisor = glow_divisor(frame.knobs());
+  const ImageRef glow = add_glow_passes(frame, divisor, static_cast<float>(frame.knobs().number("fog.radius")));
   LitOutput& lit = frame.get<LitOutput>();
-  DrawPass pass(frame, "fog_apply", apply_program(frame.view().camera.orthographic));
+  DrawPass pass(frame, "fog_apply", apply_program(frame.view().camera.orthographic, divisor));
   pass.uniform("fog", shaders::FogConstants{vec4(fog.color, 0.0f), fog.density, kFogForwardShare, kFogSkyDistance});
   pass.read("depth_image", frame.get<GeometryOutputs>().depth);
   pass.read("glow_image", glow, Sampling::linear);

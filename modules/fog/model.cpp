@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/fog/fog_model.h"
+#include "modules/fog/model.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/assert.h"
+#include "engine/ecs/view.h"
 
 namespace gloam {
 namespace {
 
+constexpr double kMostLight = 65504.0;    // of rgba16f
 constexpr double kReferenceRadius = 6.0;  // standard deviations; the weight cut off is below 1e-8
 
 /// One direction of the blur, for three doubles per texel. `lines`: number of lines, `line_step` texels apart; `count`:
@@ -41,6 +43,14 @@ std::vector<double> blur_lines(const std::vector<double>& source, std::size_t li
 
 }  // namespace
 
+Fog find_fog(const World& world) {
+  Fog found;
+  world.view<const Fog>().each([&](const Fog& fog) {
+    if (fog.density > 0.0f) found = fog;
+  });
+  return found;
+}
+
 GlowKernel glow_kernel(std::uint32_t height, std::uint32_t divisor, float radius) {
   GlowKernel kernel;
   kernel.sigma = std::max(kFogGlowSigma * static_cast<float>(height) / static_cast<float>(divisor), 1e-3f);
@@ -66,7 +76,7 @@ std::vector<double> fog_reference(std::span<const float> lit, std::span<const do
     for (std::size_t c = 0; c < 3; ++c) {
       const double scattered =
           static_cast<double>(fog.color[static_cast<int>(c)]) + static_cast<double>(kFogForwardShare) * glow[3 * i + c];
-      fogged[4 * i + c] = transmitted * light[3 * i + c] + (1.0 - transmitted) * scattered;
+      fogged[4 * i + c] = transmitted * light[3 * i + c] + (1.0 - transmitted) * std::min(scattered, kMostLight);
     }
   }
   return fogged;
