@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "engine/ecs/world.h"
 #include "engine/render/view.h"
 #include "modules/fog/components.h"
 #include "modules/fog/module.h"

@@ -128,7 +128,8 @@ TEST_F(FogHard, edges_of_depth_stay_sharp_while_the_glow_is_small) {
     for (std::size_t i = 0; i < distances.size(); ++i) {
       if (std::isinf(distances[i])) continue;
       // At most the glow of a white picture, half of which is seen, on the square's own short path.
-      const double most = 0.5 * (1.0 - std::exp(-0.05 * distances[i]));
+      const double kept = std::exp(-0.05 * distances[i]);
+      const double most = kept * clear.texels[i].r + 0.5 * (1.0 - kept);
       ASSERT_LE(static_cast<double>(drawn.rgba[4 * i]), most * (1.0 + kDrawnSteps)) << resolution << " " << i;
       ++dark;
     }

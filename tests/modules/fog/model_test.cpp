@@ -77,6 +77,7 @@ TEST(FogModel, the_kernel_ends_at_the_radius_and_covers_the_same_part_of_the_pic
 
 TEST(FogModel, finds_the_fog_that_has_a_density) {
   World world;
+  world.register_component<Fog>("fog");
   EXPECT_EQ(find_fog(world).density, 0.0f);
   world.create(Fog{0.5f, vec3(1.0f)});
   world.create(Fog{0.0f, vec3(2.0f)});

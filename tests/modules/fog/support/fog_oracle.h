@@ -43,11 +43,12 @@ struct LightMap {
 }
 
 /// Light at the camera's end of a path through fog: dL/ds = density · (source − L), by Runge and Kutta's method in
-/// steps of at most a 64th of the mean free path.
+/// steps of at most a 64th of the mean free path. At most the last 60 mean free paths are integrated: 10⁻²⁶ of the
+/// light before them comes through.
 [[nodiscard]] inline dvec3 integrate_fog(dvec3 light, const dvec3& source, double density, double path_m) {
-  const double path = std::min(path_m, kLongestPath_m);
-  const auto steps = static_cast<std::size_t>(std::ceil(64.0 * density * path)) + 16;
-  const double step = density * path / static_cast<double>(steps);
+  const double paths = std::min(density * std::min(path_m, kLongestPath_m), 60.0);
+  const auto steps = static_cast<std::size_t>(std::ceil(64.0 * paths)) + 16;
+  const double step = paths / static_cast<double>(steps);
   for (std::size_t i = 0; i < steps; ++i) {
     const dvec3 a = source - light;
     const dvec3 b = source - (light + 0.5 * step * a);
@@ -133,25 +134,35 @@ struct LightMap {
   return result;
 }
 
+/// A picture with fog as the passes draw it. slack: how far the filtering of the glow may be off at each pixel. Devices
+/// place a sample in steps of 1/256 of a texel in each direction.
+struct TwinPicture {
+  std::vector<dvec3> light;
+  std::vector<dvec3> slack;
+};
+
 /// The picture with fog as the passes draw it with these values of the knobs.
-[[nodiscard]] inline std::vector<dvec3> twin_picture(const LightMap& light, std::span<const double> distance_m,
-                                                     const Fog& fog, std::uint32_t divisor, double radius) {
+[[nodiscard]] inline TwinPicture twin_picture(const LightMap& light, std::span<const double> distance_m, const Fog& fog,
+                                              std::uint32_t divisor, double radius) {
   const double sigma = kGlowSigma * light.height / divisor;
   const LightMap small = divisor > 1 ? reduced(light, divisor) : light;
   const LightMap glow = blurred(blurred(small, 1, 0, sigma, radius), 0, 1, sigma, radius);
-  std::vector<dvec3> fogged;
+  TwinPicture twin;
   for (std::uint32_t y = 0; y < light.height; ++y)
     for (std::uint32_t x = 0; x < light.width; ++x) {
       const double at_x = (x + 0.5) / divisor - 0.5, at_y = (y + 0.5) / divisor - 0.5;
       const long left = static_cast<long>(std::floor(at_x)), top = static_cast<long>(std::floor(at_y));
       const double right_share = at_x - static_cast<double>(left), low_share = at_y - static_cast<double>(top);
-      const dvec3 high = glm::mix(glow.at(left, top), glow.at(left + 1, top), right_share);
-      const dvec3 low = glm::mix(glow.at(left, top + 1), glow.at(left + 1, top + 1), right_share);
+      const dvec3 &a = glow.at(left, top), &b = glow.at(left + 1, top);
+      const dvec3 &c = glow.at(left, top + 1), &d = glow.at(left + 1, top + 1);
+      const dvec3 seen = glm::mix(glm::mix(a, b, right_share), glm::mix(c, d, right_share), low_share);
+      const dvec3 contrast = glm::max(glm::max(a, b), glm::max(c, d)) - glm::min(glm::min(a, b), glm::min(c, d));
       const std::size_t i = std::size_t{y} * light.width + x;
       const double kept = std::exp(-static_cast<double>(fog.density) * std::min(distance_m[i], kLongestPath_m));
-      fogged.push_back(kept * light.texels[i] + (1.0 - kept) * fog_source(fog, glm::mix(high, low, low_share)));
+      twin.light.push_back(kept * light.texels[i] + (1.0 - kept) * fog_source(fog, seen));
+      twin.slack.push_back((1.0 - kept) * kForwardShare * contrast * (divisor > 1 ? 2.0 / 256.0 : 0.0));
     }
-  return fogged;
+  return twin;
 }
 
 }  // namespace gloam::test
