@@ -29,7 +29,7 @@ void main() {
   if (depth <= 0.0) distance_m = fog.sky_distance_m;
   float scattered = 1.0 - exp(-fog.density * min(distance_m, fog.sky_distance_m));
   // A texel of the glow covers kDivisor × kDivisor pixels, also where the picture ends inside it.
-  vec2 glow_size = vec2(textureSize(glow_image, 0) * kDivisor);
-  vec3 glow = textureLod(glow_image, gl_FragCoord.xy / glow_size, 0.0).rgb;
+  vec2 covered = vec2(view.size) / vec2(textureSize(glow_image, 0) * kDivisor);
+  vec3 glow = textureLod(glow_image, gl_FragCoord.xy * view.inverse_size * covered, 0.0).rgb;
   out_light = vec4(scattered * min(fog.radiance.rgb + fog.forward * glow, vec3(65504.0)), scattered);
 }
