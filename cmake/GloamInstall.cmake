@@ -5,7 +5,7 @@
 include(CMakePackageConfigHelpers)
 
 get_property(gloam_layers GLOBAL PROPERTY GLOAM_LAYERS)
-list(FILTER gloam_layers EXCLUDE REGEX "^gloam_(sandbox|shaders_sandbox|shaders_.*_test)$")
+list(FILTER gloam_layers EXCLUDE REGEX "^gloam_(sandbox|shaders_sandbox)$")
 
 add_library(gloam_gloam INTERFACE)
 add_library(gloam::gloam ALIAS gloam_gloam)
@@ -88,14 +88,14 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION ${gloam_include_dir}
   FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|light_names|module_list)\\.h$"
   REGEX "/modules/(lights/(bins|masks|selection)|closeups/umbra|reflections/culling|grass/growth)/[a-z_]+\\.h$")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
-  FILES_MATCHING REGEX "_(shared\\.h|api\\.glsl)$|/shaders/common/[a-z_]+\\.(h|glsl)$" PATTERN "*_test" EXCLUDE PATTERN "sandbox" EXCLUDE)
+  FILES_MATCHING REGEX "_(shared\\.h|api\\.glsl)$|/shaders/common/[a-z_]+\\.(h|glsl)$" PATTERN "sandbox" EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING PATTERN "shaders.h" PATTERN "*_test" EXCLUDE PATTERN "every" EXCLUDE PATTERN "sandbox" EXCLUDE)
 # Shaders that installed *_api.glsl include.
 install(FILES ${PROJECT_SOURCE_DIR}/shaders/lighting/arriving_light.glsl
   DESTINATION ${gloam_include_dir}/shaders/lighting COMPONENT gloam)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/shadows/filter DESTINATION ${gloam_include_dir}/shaders/shadows
-  COMPONENT gloam FILES_MATCHING PATTERN "*.glsl" PATTERN "probe.*" EXCLUDE PATTERN "probe_standard.*" EXCLUDE)
+  COMPONENT gloam FILES_MATCHING PATTERN "*.glsl")
 # Programs that use the package; tests/embedding builds and runs them as they are installed.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tests/embedding/host/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gloam/examples
   COMPONENT gloam)

@@ -17,17 +17,33 @@ set(GLOAM_SPIRV_PASSES --preserve-bindings --preserve-spec-constants --inline-en
   --eliminate-dead-code-aggressive --ssa-rewrite --eliminate-dead-code-aggressive
   CACHE INTERNAL "passes of spirv-opt")
 
-# gloam_add_shaders(<folder> <file.comp.glsl>…)
-# Compiles shaders/<folder>/<file> to SPIR-V and embeds it in the library gloam_shaders_<folder>. The header
-# shaders/<folder>/shaders.h in the build tree declares each shader as gloam::shaders::<folder>::<symbol>: the file name
-# without .glsl and with _ for ., so blur.frag.glsl is blur_frag; every_shader lists them. The SPIR-V keeps names of bindings, specialisation
-# constants and structures, by which reflection finds them; in Debug builds all names. Shaders include files by full path from the root of their project or of gloam.
+# gloam_add_shaders(<folder> [FOR_TESTS] [<file.comp.glsl>…])
+# Compiles shaders/<folder>/<file> to SPIR-V and embeds it in the library gloam_shaders_<folder>. Without files: all
+# *.comp.glsl, *.vert.glsl and *.frag.glsl below shaders/<folder>. FOR_TESTS: the files are below
+# tests/shaders/<folder>, and the library is no part of the package. The header shaders/<folder>/shaders.h in the build
+# tree declares each shader as gloam::shaders::<folder>::<symbol>: the file name without .glsl and with _ for ., so
+# blur.frag.glsl is blur_frag; every_shader lists them. The SPIR-V keeps names of bindings, specialisation constants and
+# structures, by which reflection finds them; in Debug builds all names. Shaders include files by full path from the
+# root of their project or of gloam.
 function(gloam_add_shaders folder)
   if(NOT GLSLANG_VALIDATOR)
     find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
   endif()
   if(NOT SPIRV_OPT)
     find_program(SPIRV_OPT spirv-opt REQUIRED)
+  endif()
+  cmake_parse_arguments(ARG "FOR_TESTS" "" "" ${ARGN})
+  set(source_dir ${PROJECT_SOURCE_DIR}/shaders/${folder})
+  if(ARG_FOR_TESTS)
+    set(source_dir ${PROJECT_SOURCE_DIR}/tests/shaders/${folder})
+  endif()
+  set(sources ${ARG_UNPARSED_ARGUMENTS})
+  if(NOT sources)
+    file(GLOB_RECURSE sources RELATIVE ${source_dir} CONFIGURE_DEPENDS
+      ${source_dir}/*.comp.glsl ${source_dir}/*.vert.glsl ${source_dir}/*.frag.glsl)
+  endif()
+  if(NOT sources)
+    message(FATAL_ERROR "${source_dir} has no *.comp.glsl, *.vert.glsl or *.frag.glsl")
   endif()
   get_property(root GLOBAL PROPERTY GLOAM_SHADER_ROOT)
   set(out_dir ${PROJECT_BINARY_DIR}/generated/shaders/${folder})
@@ -37,7 +53,7 @@ function(gloam_add_shaders folder)
   set(includes "")
   set(addresses "")
   set(outputs "")
-  foreach(source IN LISTS ARGN)
+  foreach(source IN LISTS sources)
     string(REGEX REPLACE "\\.glsl$" "" stem ${source})
     get_filename_component(base ${stem} NAME)
     string(REPLACE "." "_" symbol ${base})
@@ -48,11 +64,11 @@ function(gloam_add_shaders folder)
     # The first command writes SPIR-V to the header's place, because the dependency file names that as its target.
     add_custom_command(OUTPUT ${output}
       COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.3 -S ${stage} -I${PROJECT_SOURCE_DIR} -I${root}
-        --depfile ${output}.d -o ${output} ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source}
+        --depfile ${output}.d -o ${output} ${source_dir}/${source}
       COMMAND ${SPIRV_OPT} ${GLOAM_SPIRV_PASSES} ${output} -o ${output}.spv
       COMMAND ${CMAKE_COMMAND} -DINPUT=${output}.spv -DOUTPUT=${output} -DNAME=${symbol}_words
         -DALL_NAMES=$<CONFIG:Debug> -P ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
-      DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${folder}/${source} ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
+      DEPENDS ${source_dir}/${source} ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
       DEPFILE ${output}.d
       COMMENT "Shader ${folder}/${source}" VERBATIM)
     list(APPEND outputs ${output})
@@ -78,7 +94,6 @@ ${definitions}constexpr const gpu::ShaderCode* kEveryShader[] = {${addresses}};
 const std::span<const gpu::ShaderCode* const> every_shader = kEveryShader;
 }
 ")
-  set_property(GLOBAL APPEND PROPERTY GLOAM_SHADER_FOLDERS ${folder})
   add_custom_target(gloam_shaders_${folder}_words DEPENDS ${outputs})
   add_library(gloam_shaders_${folder} STATIC ${out_dir}/shaders.cpp ${outputs})
   add_library(gloam::shaders_${folder} ALIAS gloam_shaders_${folder})
@@ -87,11 +102,15 @@ const std::span<const gpu::ShaderCode* const> every_shader = kEveryShader;
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated> $<BUILD_INTERFACE:${root}>
     $<INSTALL_INTERFACE:include/gloam>)
   target_link_libraries(gloam_shaders_${folder} PUBLIC gloam::options)
-  set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_shaders_${folder})
+  if(NOT ARG_FOR_TESTS)
+    set_property(GLOBAL APPEND PROPERTY GLOAM_SHADER_FOLDERS ${folder})
+    set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_shaders_${folder})
+  endif()
 endfunction()
 
 # Defines the library gloam_every_shader. Its header shaders/every/shaders.h in the build tree declares
-# gloam::every_shader(), which returns all shaders that were embedded so far.
+# gloam::every_shader(), which returns all shaders that were embedded so far, without those of
+# tests.
 function(gloam_list_shaders)
   get_property(folders GLOBAL PROPERTY GLOAM_SHADER_FOLDERS)
   set(includes "")

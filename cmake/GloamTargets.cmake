@@ -21,6 +21,19 @@ if(GLOAM_SANITIZE)
   target_link_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE})
 endif()
 
+# gloam_list_folders(<variable>): the names of the folders directly below the current source folder. An added or removed
+# folder configures the project again.
+function(gloam_list_folders variable)
+  file(GLOB names RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*)
+  set(folders "")
+  foreach(name IN LISTS names)
+    if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${name})
+      list(APPEND folders ${name})
+    endif()
+  endforeach()
+  set(${variable} ${folders} PARENT_SCOPE)
+endfunction()
+
 # gloam_compile_together(<target> [source…])
 # Compiles several sources of a target in one compiler run. That halves the time, most of which goes into headers that
 # the sources share. The sources named here are compiled alone; sources that share a file-local name with another one

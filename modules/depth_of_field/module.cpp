@@ -95,7 +95,7 @@ class DepthOfFieldModule final : public Module {
  private:
   void add_post_passes(FrameBuilder& frame) {
     if (const LensPicture* picture = find_lens_picture(frame.world(), frame.view()))
-      return add_lens_picture_pass(frame, staging_, *picture);
+      return add_light_picture_pass(frame, staging_, "dof_lens_picture", *picture);
     const DepthOfField* values = find_depth_of_field(frame.world(), frame.view());
     const std::optional<Lens> lens = values != nullptr ? lens_of(*values, frame.view()) : std::nullopt;
     if (lens) add_dof_passes(frame, *values, *lens);

@@ -2,25 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "modules/fog/module.h"
 
-#include "engine/ecs/view.h"
+#include <vector>
+
 #include "engine/scene/key_table.h"
 #include "modules/fog/components.h"
-#include "modules/fog/fog_model.h"
-#include "modules/fog/fog_passes.h"
 #include "modules/fog/knobs.h"
+#include "modules/fog/model.h"
+#include "modules/fog/passes.h"
+#include "modules/fog/references.h"
 #include "modules/lighting/outputs.h"
 
 namespace gloam {
 namespace {
-
-/// The scene's fog; density 0 if it has none.
-Fog find_fog(const World& world) {
-  Fog found;
-  world.view<const Fog>().each([&](const Fog& fog) {
-    if (fog.density > 0.0f) found = fog;
-  });
-  return found;
-}
 
 HomogeneousFog homogeneous(const Fog& fog) { return {fog.density, fog.color, kFogSkyDistance}; }
 
@@ -48,6 +41,8 @@ class FogModule final : public Module {
 
   void knobs(KnobRegistry& registry) const override { add_knobs(registry, name(), kFogDivisor, kFogRadius); }
 
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override { return fog_references(); }
+
   /// For references that are computed after the frame.
   void prepare_view(World& world, ViewId, const KnobRegistry&) const override {
     world.set_resource(homogeneous(find_fog(world)));
@@ -66,8 +61,21 @@ class FogModule final : public Module {
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     const Fog fog = find_fog(frame.world());
     if (phase == PassPhase::announce) frame.put(homogeneous(fog));
-    if (phase == PassPhase::post) add_fog_passes(frame, fog);
+    const bool bare = frame.world().try_resource<BareLight>() != nullptr;
+    if (phase == PassPhase::post) {
+      if (bare) return add_bare_light_pass(frame);
+      const auto* picture = frame.world().try_resource<FogPicture>();
+      if (picture != nullptr && picture->fits(frame.view()))
+        return add_light_picture_pass(frame, staging_, "fog_picture", *picture);
+      add_fog_passes(frame, fog);
+    }
+    if (phase == PassPhase::output && bare) show_bare_light(frame);
   }
+
+  void release() override { staging_.release(); }
+
+ private:
+  Staging staging_{"fog"};  // of references
 };
 
 }  // namespace

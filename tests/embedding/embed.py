@@ -60,16 +60,23 @@ def compiler_faults(compiler, include, work):
     return faults
 
 
+FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+NOT_BUILT = ("sh",)  # languages of blocks that are commands
+
+
 def guide_faults(host):
-    """Checks that the documents quote the examples verbatim: docs/adding-a-module.md the class and the shaders of the veil
-    module, README.md the smallest host."""
+    """Checks that the code on the pages is code that is built: docs/adding-a-module.md shows the files of the veil module and parts
+    of CMake lists, README.md the smallest host."""
     root = host.parents[2]
-    guide = (root / "docs/adding-a-module.md").read_text(encoding="utf-8")
-    text = (host / "veil_module.cpp").read_text(encoding="utf-8")
-    shown = {"veil_module.cpp": text[text.index("class VeilModule"):text.index("}  // namespace\n")].strip()}
-    for shader in sorted((host / "shaders/veil").iterdir()):
-        shown[f"shaders/veil/{shader.name}"] = f"```glsl\n{without_licence(shader)}\n```\n"
-    faults = [f"docs/adding-a-module.md does not show {name} as it is" for name, part in shown.items() if part not in guide]
+    page = "docs/adding-a-module.md"
+    blocks = [(language, code) for language, code in FENCED.findall((root / page).read_text(encoding="utf-8")) if language not in NOT_BUILT]
+    whole = [host / "veil_module.h", host / "veil_module.cpp", *sorted((host / "shaders/veil").iterdir())]
+    built = [*whole, host / "CMakeLists.txt", root / "modules/fog/CMakeLists.txt", root / "tests/modules/fog/CMakeLists.txt"]
+    texts = [without_licence(path) + "\n" for path in built]
+    faults = [f"{page} does not show {path.relative_to(host)} as it is" for path in whole
+              if without_licence(path) + "\n" not in (code for _, code in blocks)]
+    faults += [f"{page} shows code that is in no built file: {code.strip().splitlines()[0]} …" for _, code in blocks
+               if not any(code in text for text in texts)]
     minimal = f"```cpp\n{without_licence(host / 'minimal.cpp')}\n```\n"
     if minimal not in (root / "README.md").read_text(encoding="utf-8"):
         faults.append("README.md does not show minimal.cpp as it is")

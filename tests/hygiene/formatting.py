@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Fails on a C++ or GLSL source that clang-format would change. usage: formatting.py ROOT
 
-The style is in .clang-format and shaders/.clang-format. Versions of clang-format differ in their results: version 14 decides.
+The style is in .clang-format and shaders/.clang-format (and tests/shaders). Versions of clang-format differ in their results: version 14 decides.
 To fix: git ls-files '*.h' '*.cpp' '*.glsl' | xargs clang-format-14 -i"""
 import concurrent.futures
 import re

@@ -8,24 +8,22 @@ import re
 import sys
 from pathlib import Path
 
+import module_graph
 import source_text
 
-# The layers and modules that each one may include directly; closed transitively below.
+# The layers that each one may include directly; closed transitively below. The graph of modules: module_graph.py.
 LAYERS = {
     "core": (), "math": ("core",), "jobs": ("core",), "ecs": ("core", "jobs"), "schedule": ("ecs", "jobs"),
     "gpu": ("core", "math", "jobs"), "frame": ("gpu",), "scene": ("ecs", "schedule", "math"),
     "render": ("schedule", "frame", "scene"),
 }
-MODULES = {
-    "lights": (), "shadows": ("lights",), "closeups": ("shadows",), "lighting": ("closeups",),
-    "fog": ("lighting",), "reflections": ("lighting",), "grass": ("lighting",), "particles": ("lighting",),
-    "depth_of_field": ("fog", "reflections", "grass", "particles"),
-    "visualizers": ("depth_of_field",), "accuracy": ("depth_of_field",),
-}
 # Separate projects, which see our headers as installed and their own headers by their names.
 HOSTS = ("tests/embedding/host/", "tests/embedding/host_cpu/", "tests/embedding/host_ecs/")
-MODULE_LIST = "module_list"  # knows every module; no module may include it
-MODULE_PUBLIC = ("components.h", "module.h", "outputs.h", "bake.h", "captures.h", "baked_light.h", "reference.h", "light_names.h")
+MODULE_LIST = module_graph.LIST  # knows every module; no module may include it
+# The headers of a module that others may include; a few modules have more.
+MODULE_PUBLIC = ("components.h", "module.h", "outputs.h")
+MODULE_PUBLIC_TOO = {"lights": ("light_names.h",), "particles": ("bake.h", "baked_light.h"), "reflections": ("bake.h", "captures.h"),
+                     "shadows": ("reference.h",)}
 
 # The rooms of modules that are also a target <module>_cpu, for hosts without a GPU, and the files directly in the folder that
 # belong to it. They include one another along the arrows of modules, the layers below, and nothing else.
@@ -76,21 +74,8 @@ NOT_IN_PUBLIC_HEADERS = re.compile(r"^(vulkan/|volk\.h$|GLFW/|imgui|tiny_gltf|st
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"\n]+)"|<([^>\n]+)>)', re.MULTILINE)
 
 
-def closure(graph):
-    reach = {}
-    for name in graph:
-        seen, todo = set(), list(graph[name])
-        while todo:
-            at = todo.pop()
-            if at not in seen:
-                seen.add(at)
-                todo.extend(graph[at])
-        reach[name] = seen
-    return reach
-
-
-LAYER_REACH = closure(LAYERS)
-MODULE_REACH = closure(MODULES)
+LAYER_REACH = module_graph.closure(LAYERS)
+MODULE_REACH = {}  # of the tree that check() checks
 
 
 def includes(text):
@@ -104,7 +89,8 @@ def is_public_header(name):
     parts = name.split("/")
     if not name.endswith(".h") or parts[0] not in ("engine", "modules"):
         return False
-    return parts[0] == "engine" or parts[1] == MODULE_LIST or (len(parts) == 3 and parts[-1] in MODULE_PUBLIC)
+    return parts[0] == "engine" or parts[1] == MODULE_LIST or (
+        len(parts) == 3 and parts[-1] in (*MODULE_PUBLIC, *MODULE_PUBLIC_TOO.get(parts[1], ())))
 
 
 def is_cpu_file(parts):
@@ -171,8 +157,8 @@ def shader_arrow(parts, target):
         return None
     if own == "common":
         return "shaders/common stands on nothing"
-    if own == "sandbox" or own.endswith("_test"):
-        return None if own != "sandbox" or leaf.endswith(("_api.glsl", "_shared.h")) else "only *_api.glsl and *_shared.h"
+    if own == "sandbox":
+        return None if leaf.endswith(("_api.glsl", "_shared.h")) else "only *_api.glsl and *_shared.h"
     below = LAYER_REACH[own] if own in LAYERS else set(LAYERS) | MODULE_REACH[own]
     if to_own not in below:
         return f"shaders/{own} does not stand on shaders/{to_own}"
@@ -182,7 +168,7 @@ def shader_arrow(parts, target):
 
 
 def exists(root, include):
-    generated = re.fullmatch(r"shaders/\w+/(shaders\.h|(\w+/)?[\w.]+\.spv\.h)", include)
+    generated = re.fullmatch(r"shaders/\w+/(shaders\.h|(\w+/)?[\w.]+\.spv\.h)|tests/render/shared_structs_table\.h", include)
     return bool(generated) or (root / include).is_file()
 
 
@@ -199,13 +185,13 @@ def third_party_fault(name, include):
 
 
 def owner_fault(parts):
-    known = {"engine": LAYERS, "modules": (*MODULES, MODULE_LIST)}
+    known = {"engine": LAYERS, "modules": (*MODULE_REACH, MODULE_LIST)}
     if parts[0] in known and len(parts) > 2 and parts[1] not in known[parts[0]]:
         return f"{parts[0]}/{parts[1]} is not in the architecture"
     if parts[0] == "shaders":
-        owners = ("common", "sandbox", *LAYERS, *MODULES)
-        if len(parts) not in (3, 4) or (parts[1] not in owners and not parts[1].endswith("_test")):
-            return "a shader stands in shaders/common, in the folder of a layer, a module or the sandbox, or in <suite>_test"
+        owners = ("common", "sandbox", *LAYERS, *MODULE_REACH)
+        if len(parts) not in (3, 4) or parts[1] not in owners:
+            return "a shader stands in shaders/common, or in the folder of a layer, a module or the sandbox"
     return None
 
 
@@ -273,6 +259,8 @@ def check_file(root, name):
 
 def check(root):
     root = Path(root)
+    MODULE_REACH.clear()
+    MODULE_REACH.update(module_graph.closure(module_graph.read(root)))
     names = source_text.files(root, (".h", ".cpp", ".glsl"))
     return [fault for name in names for fault in check_file(root, name)], len(names)
 

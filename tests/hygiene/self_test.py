@@ -15,6 +15,7 @@ import formatting
 import headers_alone
 import include_arrows
 import licences
+import module_graph
 import one_definition
 import packages
 import sizes
@@ -114,8 +115,15 @@ class Formatting(Tree):
         self.assert_faults(sorted(faults), "engine/core/bad.h:2", "shaders/core/long.glsl:1")
 
 
+MODULES = {"lights": (), "shadows": ("lights",), "closeups": ("shadows",), "lighting": ("closeups",), "reflections": ("lighting",),
+           "grass": ("lighting",), "particles": ("lighting",), "depth_of_field": ("reflections", "grass", "particles"),
+           "accuracy": ("depth_of_field",)}
+
+
 class IncludeArrows(Tree):
     def faults_with(self, name, text, *others):
+        for module, below in MODULES.items():
+            self.write(f"modules/{module}/CMakeLists.txt", " ".join(f"gloam::{other}" for other in below))
         for other in others:
             self.write(other)
         self.write(name, text)
@@ -149,7 +157,8 @@ class IncludeArrows(Tree):
         self.check_include("modules/shadows/a.cpp", "modules/lights/bins/z_bins.h", "of another module only")
         self.check_include("modules/lights/a.cpp", "modules/shadows/module.h", "does not stand on modules/shadows")
         self.check_include("modules/grass/a.cpp", "modules/particles/module.h", "does not stand on modules/particles")
-        self.check_include("modules/accuracy/a.cpp", "modules/visualizers/module.h", "does not stand on")
+        self.check_include("modules/particles/a.cpp", "modules/shadows/reference.h")
+        self.check_include("modules/particles/a.cpp", "modules/lights/reference.h", "of another module only")
         self.check_include("modules/grass/a.cpp", "modules/module_list/module_list.h", "does not stand on")
         self.check_include("modules/module_list/a.cpp", "modules/accuracy/module.h")
         self.check_include("modules/module_list/a.cpp", "modules/lights/bins/z_bins.h", "of another module only")
@@ -200,6 +209,7 @@ class IncludeArrows(Tree):
         self.check_include("shaders/render/a.comp.glsl", "shaders/lights/find_api.glsl", "does not stand on")
         self.check_include("shaders/common/a.glsl", "shaders/lights/find_api.glsl", "stands on nothing")
         self.check_include("shaders/lights/a.comp.glsl", "engine/core/b.h", "shaders include shaders only")
+        self.check_include("shaders/lights_test/a.comp.glsl", "shaders/common/a.glsl", "a shader stands in")
         self.check_include("shaders/elsewhere/a.comp.glsl", "shaders/common/a.glsl", "a shader stands in")
 
     def test_third_party_headers_stay_in_their_place(self):
@@ -233,10 +243,52 @@ class IncludeArrows(Tree):
     def test_includes_in_comments_do_not_count(self):
         self.assertEqual(self.faults_with("engine/core/a.cpp", '// #include "modules/x.h"\n/*\n#include "b.h"\n*/\n'), [])
 
-    def test_the_graphs_have_no_cycle(self):
-        for reach in (include_arrows.LAYER_REACH, include_arrows.MODULE_REACH):
-            for name, below in reach.items():
-                self.assertNotIn(name, below)
+    def test_the_graph_of_layers_has_no_cycle(self):
+        for name, below in include_arrows.LAYER_REACH.items():
+            self.assertNotIn(name, below)
+
+
+class ModuleGraph(Tree):
+    def setUp(self):
+        super().setUp()
+        for name, links in {"lights": "gloam::render gloam::shaders_lights", "fog": "gloam::lights_cpu gloam::lights",
+                            "lens": "gloam::fog gloam::lights"}.items():
+            self.write(f"modules/{name}/CMakeLists.txt", f"gloam_add_layer({name} PUBLIC {links})\n")
+            self.write(f"modules/{name}/module.h", f"std::unique_ptr<Module> make_{name}_module();\n")
+            self.write(f"tests/modules/{name}/CMakeLists.txt")
+        self.write_list("lights", "fog", "lens")
+        self.write("docs/architecture.md", "modules/   lights → fog → lens\n")
+
+    def write_list(self, *names):
+        self.write("modules/module_list/module_list.cpp", "".join(f"make_{name}_module();\n" for name in names))
+
+    def faults(self):
+        return module_graph.check(self.root)[0]
+
+    def test_a_module_stands_on_what_it_links(self):
+        self.assertEqual(module_graph.read(self.root), {"fog": ("lights",), "lens": ("fog", "lights"), "lights": ()})
+        self.assertEqual(self.faults(), [])
+
+    def test_a_cycle_is_a_fault(self):
+        self.write("modules/lights/CMakeLists.txt", "gloam::lens")
+        self.assertIn("modules/lights stands on itself", self.faults())
+
+    def test_the_list_is_in_the_order_of_the_graph_and_lacks_none(self):
+        self.write_list("fog", "lights", "lens")
+        self.assert_faults(self.faults(), "lights comes after fog")
+        self.write_list("lights", "lens")
+        self.assert_faults(self.faults(), "make_all_modules lacks fog")
+
+    def test_a_module_has_tests(self):
+        shutil.rmtree(self.root / "tests/modules/fog")
+        self.assert_faults(self.faults(), "modules/fog has no tests")
+
+    def test_the_page_shows_the_graph_and_can_be_written(self):
+        self.write("modules/mist/CMakeLists.txt", "gloam::lights")
+        self.write("tests/modules/mist/CMakeLists.txt")
+        self.assert_faults(self.faults(), "another graph than lights → {fog, mist} → lens")
+        self.assertEqual(module_graph.check(self.root, write=True)[0], [])
+        self.assertEqual(self.faults(), [])
 
 
 def statements(count):

@@ -22,6 +22,7 @@
 #include "modules/fog/module.h"
 #include "modules/lighting/module.h"
 #include "modules/lights/module.h"
+#include "modules/module_list/module_list.h"
 #include "modules/shadows/module.h"
 #include "tests/render/counting_module.h"
 #include "tests/render/draws/small_scene.h"
@@ -76,14 +77,20 @@ class DemandTest : public ::testing::Test {
     options.log = &log_;
     options.zones = &zones_;
     options.readiness = readiness;
-    options.modules.push_back(make_lights_module());
-    if (with_shadows_) options.modules.push_back(make_shadows_module());
-    options.modules.push_back(make_lighting_module());
-    options.modules.push_back(make_fog_module());
-    options.modules.push_back(std::make_unique<CountingModule>(calls_));
+    options.modules = every_module_ ? make_all_modules() : make_modules();
     renderer_ = Renderer::create(std::move(options)).value();
     renderer_->prepare_world(*world_);
     fill_small_scene(*world_);
+  }
+
+  [[nodiscard]] ModuleList make_modules() {
+    ModuleList modules;
+    modules.push_back(make_lights_module());
+    if (with_shadows_) modules.push_back(make_shadows_module());
+    modules.push_back(make_lighting_module());
+    modules.push_back(make_fog_module());
+    modules.push_back(std::make_unique<CountingModule>(calls_));
+    return modules;
   }
 
   void TearDown() override {
@@ -185,6 +192,7 @@ class DemandTest : public ::testing::Test {
     if (name == "counting") world_->get<Counted>(entity).in_view = visible;
   }
 
+  bool every_module_ = false;  ///< whether the next renderer has make_all_modules() and nothing else
   bool with_shadows_ = false;  ///< whether the next renderer has the shadows module
   CountedCalls calls_;
   LineLog log_;

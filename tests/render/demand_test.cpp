@@ -41,6 +41,25 @@ class DemandOf : public test::DemandTest, public ::testing::WithParamInterface<s
 INSTANTIATE_TEST_SUITE_P(Modules, DemandOf, ::testing::ValuesIn(kOptionalModules),
                          [](const auto& instance) { return instance.param; });
 
+using DemandOfEveryModule = test::DemandTest;
+
+TEST_F(DemandOfEveryModule, without_it_a_module_runs_nothing_and_owns_nothing) {
+  every_module_ = true;
+  make_renderer(Readiness::wait);
+  frames(3);
+  std::size_t idle = 0;
+  for (const ModuleState& state : renderer_->report().modules) {
+    if (state.demanded || state.name == "engine") continue;
+    SCOPED_TRACE(state.name);
+    const Seen n = seen(state.name);
+    EXPECT_THAT(n.systems, IsEmpty());
+    EXPECT_EQ(n.passes + n.dispatches + n.draws + n.pipelines, 0u);
+    EXPECT_EQ(n.bytes, 0u);
+    ++idle;
+  }
+  EXPECT_EQ(idle, make_all_modules().size() - 1) << "the small scene is lit, and calls for nothing else";
+}
+
 /// Modules whose demand depends on the view.
 class DemandInView : public DemandOf {};
 INSTANTIATE_TEST_SUITE_P(Modules, DemandInView, ::testing::Values("lights", "counting"),

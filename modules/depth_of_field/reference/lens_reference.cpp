@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "engine/core/hash.h"
-#include "engine/math/packing.h"
 #include "modules/depth_of_field/lens/lens.h"
 #include "modules/depth_of_field/reference/lens_picture.h"
 #include "modules/depth_of_field/reference/lens_points.h"
@@ -73,13 +72,6 @@ Result<LinearPicture> accumulate(const ReferenceInput& input, const Lens& lens, 
   return picture;
 }
 
-LensPicture to_half(const LinearPicture& picture) {
-  LensPicture half{picture.width, picture.height, {}};
-  half.light.reserve(picture.rgba.size());
-  for (const float value : picture.rgba) half.light.push_back(float_to_half(std::min(value, 65504.0f)));
-  return half;
-}
-
 }  // namespace
 
 Result<LinearPicture> light_through_lens(const ReferenceInput& input) {
@@ -97,7 +89,7 @@ Result<LinearPicture> light_through_lens(const ReferenceInput& input) {
 Result<FramePictures> draw_through_lens(const ReferenceInput& input) {
   auto light = light_through_lens(input);
   if (!light) return light.error();
-  auto shown = input.redraw([&](World& world) { world.set_resource(to_half(*light)); },
+  auto shown = input.redraw([&](World& world) { world.set_resource(LensPicture{to_light_picture(*light)}); },
                             [](World& world) { world.remove_resource<LensPicture>(); });
   if (!shown) return shown.error();
   return FramePictures{std::move(light).value(), std::move(shown->picture)};
@@ -106,7 +98,7 @@ Result<FramePictures> draw_through_lens(const ReferenceInput& input) {
 Status put_lens_picture(World& world, const ReferenceInput& input) {
   const auto light = light_through_lens(input);
   if (!light) return light.error();
-  world.set_resource(to_half(*light));
+  world.set_resource(LensPicture{to_light_picture(*light)});
   return {};
 }
 

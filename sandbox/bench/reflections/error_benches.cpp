@@ -14,7 +14,7 @@
 #include "modules/accuracy/cost/picture_error.h"
 #include "modules/accuracy/module.h"
 #include "modules/fog/components.h"
-#include "modules/fog/fog_model.h"
+#include "modules/fog/model.h"
 #include "modules/reflections/knobs.h"
 #include "modules/reflections/reference/adapter.h"
 #include "sandbox/bench/harness/benches.h"

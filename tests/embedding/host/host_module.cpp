@@ -69,7 +69,11 @@ int main() {
   world.create(host::Veil{.density = 0.05f});
   for (int frame = 0; frame < 3; ++frame) right = draws() && right;
   right = right && has_pass(*renderer, "veil") && has_pass(*renderer, "veil_average");
-  right = right && renderer->report().counters.contains("veil.density");
+  const double risen = renderer->report().counters["veil.density"];
+  right = right && risen > 0.0 && risen < 0.05 && !has_pass(*renderer, "veil_share");
+  right = right && renderer->knobs().set("veil.stride", "1").ok();
+  views[1].settings.visualizer = "veil_share";
+  right = draws() && right && has_pass(*renderer, "veil_share");
   renderer.reset();
   device->destroy(surroundings);
   for (const std::string& fault : device->faults()) std::printf("%s\n", fault.c_str());

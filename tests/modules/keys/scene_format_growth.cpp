@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/fog/components.h"
 #include "modules/grass/components.h"
 #include "modules/particles/components.h"
 #include "tests/modules/keys/scene_format_looks.h"
@@ -187,24 +186,6 @@ std::vector<Line> particle_lines() {
        list({2, 0, 2}),
        {list({2, 0}), list({2, -1, 2})},
        field(&ParticleEmitter::box_m, vec3(2.0f, 0.0f, 2.0f))},
-      {node,
-       "gloam.fog.density",
-       "fog",
-       KeyType::number,
-       "1/m",
-       "0",
-       number(0.02),
-       {number(-0.1), text("thick")},
-       field(&Fog::density, 0.02f)},
-      {node,
-       "gloam.fog.color",
-       "fog",
-       KeyType::vec3,
-       "cd/m²",
-       "[0, 0, 0]",
-       list({1, 2, 3}),
-       {list({1, 2}), list({-1, 0, 0})},
-       field(&Fog::color, vec3(1.0f, 2.0f, 3.0f))},
   };
 }
 

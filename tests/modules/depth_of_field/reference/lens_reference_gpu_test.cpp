@@ -118,7 +118,7 @@ TEST_F(LensReference, is_shown_in_place_of_the_frame) {
   stage.glow({0.0, 0.0, -9.0}, 1.0f, vec3(1.0f));
   stage.focus({.focus_m = 2.0f, .f_number = 0.5f});
   const LinearPicture mean = through_lens(stage, 16);
-  LensPicture picture{mean.width, mean.height, {}};
+  LensPicture picture{{mean.width, mean.height, {}}};
   for (const float value : mean.rgba) picture.light.push_back(float_to_half(value));
   stage.world.set_resource(picture);
   const LinearPicture shown = stage.draw();

@@ -12,6 +12,7 @@
 #include "modules/shadows/views/cascade_rows.h"
 #include "shaders/shadows/maps/mips_shared.h"
 #include "shaders/shadows/shaders.h"
+#include "shaders/shadows_test/shaders.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam::test {
@@ -43,7 +44,8 @@ gpu::PipelineHandle probe_pipeline(gpu::Device& device, const ProbeSettings& set
   if (!pipeline)
     pipeline = value_of(device.create_pipeline(gpu::ComputePipelineDesc{
         "shadow_probe", "test",
-        settings.standard ? shaders::shadows::probe_standard_comp : shaders::shadows::probe_comp, constants}));
+        settings.standard ? shaders::shadows_test::probe_standard_comp : shaders::shadows_test::probe_comp,
+        constants}));
   return pipeline;
 }
 

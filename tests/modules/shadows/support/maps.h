@@ -10,8 +10,8 @@
 #include "engine/gpu/device.h"
 #include "engine/math/types.h"
 #include "modules/shadows/maps/work_groups.h"
-#include "shaders/shadows/filter/probe_shared.h"
 #include "shaders/shadows/shadows_shared.h"
+#include "tests/shaders/shadows_test/probe_shared.h"
 
 namespace gloam::test {
 

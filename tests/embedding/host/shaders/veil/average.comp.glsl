@@ -15,9 +15,13 @@ layout(set = 0, binding = 2, rgba16f) writeonly uniform image2D current;
 void main() {
   ivec2 size = textureSize(surroundings, 0);
   vec3 sum = vec3(0.0);
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x) sum += texelFetch(surroundings, ivec2(x, y), 0).rgb;
-  vec3 mean = sum / float(size.x * size.y);
+  float count = 0.0;
+  for (int y = 0; y < size.y; y += average.stride)
+    for (int x = 0; x < size.x; x += average.stride) {
+      sum += texelFetch(surroundings, ivec2(x, y), 0).rgb;
+      count += 1.0;
+    }
+  vec3 mean = sum / count;
   vec3 old = average.share < 1.0 ? texelFetch(previous, ivec2(0), 0).rgb : mean;
   imageStore(current, ivec2(0), vec4(mix(old, mean, average.share), 1.0));
 }

@@ -14,6 +14,7 @@ struct VeilConstants {
 
 struct VeilAverage {
   float share;  // of this frame in the average; 1: `previous` has no content
+  int stride;   // texels from one that counts to the next
 };
 
 GLOAM_SHARED_END

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/frame/staging.h"
+#include "engine/render/frame_builder.h"
+#include "engine/render/readback/picture.h"
+
+namespace gloam {
+
+/// Light of a view that a reference has computed, to be shown in place of the frame's own light. Modules derive a world
+/// resource of their own from it. rgba half floats, rows from the top.
+struct LightPicture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint16_t> light;
+
+  [[nodiscard]] bool fits(const RenderView& view) const { return width == view.width && height == view.height; }
+};
+
+/// The picture in half floats; light above 65504 becomes 65504.
+[[nodiscard]] LightPicture to_light_picture(const LinearPicture& picture);
+
+/// PassPhase::post: LitOutput becomes the picture, which must fit the view. pass: name of the pass and its image.
+void add_light_picture_pass(FrameBuilder& frame, Staging& staging, const std::string& pass,
+                            const LightPicture& picture);
+
+}  // namespace gloam

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/math/types.h"
+#include "modules/fog/components.h"
+
+namespace gloam {
+
+/// Share of the scattered light that nearly keeps its direction and shows as glow.
+inline constexpr float kFogForwardShare = 0.5f;
+/// Path length through the fog for sky pixels, metres. Fog lies near the ground, so the sky is dimmed but still
+/// visible.
+inline constexpr float kFogSkyDistance = 200.0f;
+/// Standard deviation of the glow as a share of the picture's height.
+inline constexpr float kFogGlowSigma = 0.02f;
+
+/// The scene's fog; density 0 if it has none.
+[[nodiscard]] Fog find_fog(const World& world);
+
+/// Gaussian of the blur, in texels of the image that is blurred.
+struct GlowKernel {
+  float sigma = 1.0f;  ///< texels
+  int taps = 1;        ///< on each side of the centre
+};
+
+/// The kernel for a picture of `height` pixels, blurred at 1/divisor of its size. The Gaussian is cut at `radius`
+/// standard deviations.
+[[nodiscard]] GlowKernel glow_kernel(std::uint32_t height, std::uint32_t divisor, float radius);
+
+/// The whole effect in double: the full picture blurred with a kernel cut at 6 standard deviations, then the fog of
+/// shaders/fog/apply.frag.glsl. `lit`: width · height · 4 floats before fog; `distance_m`: length of the path through
+/// the fog, one per pixel, infinite for sky. Returns the picture with fog, same layout, alpha 1.
+[[nodiscard]] std::vector<double> fog_reference(std::span<const float> lit, std::span<const double> distance_m,
+                                                std::uint32_t width, std::uint32_t height, const Fog& fog);
+
+}  // namespace gloam

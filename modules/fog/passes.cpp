@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/fog/passes.h"
+
+#include "engine/render/declare/draw_pass.h"
+#include "modules/fog/knobs.h"
+#include "modules/fog/model.h"
+#include "shaders/fog/fog_shared.h"
+#include "shaders/fog/shaders.h"
+
+namespace gloam {
+namespace {
+
+constexpr gpu::Format kGlowFormat = gpu::Format::rgba16_float;
+
+std::uint32_t glow_divisor(const KnobRegistry& knobs) { return knobs.value(kFogDivisor); }
+
+DrawProgram reduce_program(std::uint32_t divisor) {
+  return {shaders::fog::reduce_frag, {{"kDivisor", static_cast<std::int32_t>(divisor)}}};
+}
+DrawProgram blur_program() { return {shaders::fog::blur_frag}; }
+DrawProgram apply_program(bool orthographic, std::uint32_t divisor) {
+  return {shaders::fog::apply_frag,
+          {{"kOrthographic", orthographic ? 1u : 0u}, {"kDivisor", divisor}},
+          gpu::BlendMode::premultiplied};
+}
+
+/// LitOutput blurred at 1/divisor of its size.
+ImageRef add_glow_passes(FrameBuilder& frame, std::uint32_t divisor, float radius) {
+  ImageRef source = frame.get<LitOutput>().color;
+  if (divisor > 1) {
+    DrawPass reduce(frame, "fog_reduce", reduce_program(divisor));
+    reduce.read("lit_image", source);
+    source = reduce.target(create_view_image(frame, "fog_reduced", kGlowFormat, divisor));
+    reduce.draw_triangle();
+  }
+  const GlowKernel kernel = glow_kernel(frame.view().height, divisor, radius);
+  const auto blurred = [&](const char* name, glm::ivec2 direction, ImageRef from) {
+    DrawPass blur(frame, name, blur_program());
+    blur.read("image", from);
+    blur.push(shaders::FogBlurConstants{direction, kernel.taps, 1.0f / kernel.sigma});
+    const ImageRef target = blur.target(create_view_image(frame, name, kGlowFormat, divisor));
+    blur.draw_triangle();
+    return target;
+  };
+  return blurred("fog_blur_y", {0, 1}, blurred("fog_blur_x", {1, 0}, source));
+}
+
+}  // namespace
+
+void list_fog_pipelines(const KnobRegistry& knobs, PipelineList& list) {
+  const gpu::Format formats[] = {kGlowFormat};
+  const auto add = [&](const DrawProgram& program) { list.push_back(pipeline_desc(program, "fog", formats)); };
+  const std::uint32_t divisor = glow_divisor(knobs);
+  if (divisor > 1) add(reduce_program(divisor));
+  add(blur_program());
+  for (const bool orthographic : {false, true}) add(apply_program(orthographic, divisor));
+}
+
+void add_fog_passes(FrameBuilder& frame, const Fog& fog) {
+  const std::uint32_t divisor = glow_divisor(frame.knobs());
+  const ImageRef glow = add_glow_passes(frame, divisor, static_cast<float>(frame.knobs().value(kFogRadius)));
+  LitOutput& lit = frame.get<LitOutput>();
+  DrawPass pass(frame, "fog_apply", apply_program(frame.view().camera.orthographic, divisor));
+  pass.uniform("fog", shaders::FogConstants{vec4(fog.color, 0.0f), fog.density, kFogForwardShare, kFogSkyDistance});
+  pass.read("depth_image", frame.get<GeometryOutputs>().depth);
+  pass.read("glow_image", glow, Sampling::linear);
+  lit.color = pass.target(lit.color, gpu::LoadOp::load);  // the fog is blended over the light
+  pass.draw_triangle();
+}
+
+}  // namespace gloam

@@ -1,0 +1,7 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#define GLOAM_MOTION
+#include "tests/shaders/gpu_test/standing_blades.glsl"

@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Forward light loop over tile masks and zBins.
+
+#define GLOAM_FORWARD_TILED
+#include "tests/shaders/lighting_test/shade.glsl"
