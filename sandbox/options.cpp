@@ -103,7 +103,7 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
                    "Source tree whose changed shaders are compiled while the program runs; default: the one that the "
                    "program was built from, if it is there")
       ->type_name("FOLDER");
-  // For tests: see sandbox/play/input_script.h.
+  // For tests: see sandbox/window/input_script.h.
   play->add_option("--script", options.script)->group("");
   CLI::App* render = add(Command::render, "render", "Render without a window");
   render->add_option("SCENE", options.scene, scene_text)->required();

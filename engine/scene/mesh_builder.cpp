@@ -22,12 +22,12 @@ void complete_primitive(Primitive& primitive, const TextureSlot* normal_texture)
   GLOAM_ASSERT(primitive.normals.empty() || primitive.normals.size() == vertices,
                "a primitive has a normal for each position, or none");
   primitive.normals.resize(vertices, vec3(0.0f));
-  static_cast<void>(gltf::repair_normals(primitive));
+  static_cast<void>(repair_normals(primitive));
   if (normal_texture != nullptr && primitive.tangents.empty()) {
     const auto& uv = normal_texture->uv_set == 0 ? primitive.uv0 : primitive.uv1;
     GLOAM_ASSERT(uv.empty() || uv.size() == vertices,
                  "a primitive has a texture coordinate for each position, or none");
-    if (!uv.empty()) gltf::make_tangents(primitive, *normal_texture);
+    if (!uv.empty()) make_tangents(primitive, *normal_texture);
   }
   primitive.bounds = {};
   for (const vec3& position : primitive.positions) primitive.bounds.grow(position);

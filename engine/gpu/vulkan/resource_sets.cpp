@@ -11,7 +11,7 @@ namespace gloam::gpu::vulkan {
 namespace {
 
 constexpr std::uint32_t kSetsPerPool = 64;
-constexpr std::uint32_t kDescriptorsPerKind = 256;
+constexpr std::uint32_t kSpareDescriptorsPerKind = 256;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ Result<ResourceSets::ResourceSet> ResourceSets::allocate(VkDescriptorSetLayout l
 
 VkResult ResourceSets::add_pool(std::span<const ReflectedBinding> bindings) {
   DescriptorCounts counts = count_descriptors(bindings);
-  for (std::uint32_t& count : counts) count += kDescriptorsPerKind;
+  for (std::uint32_t& count : counts) count += kSpareDescriptorsPerKind;
   VkDescriptorPool pool = VK_NULL_HANDLE;
   const VkResult result =
       create_descriptor_pool(context_, VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT, kSetsPerPool, counts, pool);

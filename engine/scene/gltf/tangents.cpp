@@ -11,7 +11,7 @@
 // Tangents weighted as in MikkTSpace (by corner angle, projected off the normal), but without its welding: vertices are
 // shared as in the file. The distribution does not package MikkTSpace itself.
 
-namespace gloam::gltf {
+namespace gloam {
 namespace {
 
 dvec3 perpendicular(const dvec3& normal) {
@@ -130,4 +130,4 @@ void repair_tangents(Primitive& primitive) {
   }
 }
 
-}  // namespace gloam::gltf
+}  // namespace gloam

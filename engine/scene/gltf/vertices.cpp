@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace gloam::gltf {
+namespace gloam {
 namespace {
 
 constexpr vec3 kUp = vec3(0.0f, 1.0f, 0.0f);
@@ -100,4 +100,4 @@ std::uint32_t repair_normals(Primitive& primitive) {
   return static_cast<std::uint32_t>(zero.size());
 }
 
-}  // namespace gloam::gltf
+}  // namespace gloam

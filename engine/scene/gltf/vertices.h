@@ -7,7 +7,7 @@
 
 #include "engine/scene/assets.h"
 
-namespace gloam::gltf {
+namespace gloam {
 
 /// Makes new vertex i a copy of old vertex sources[i], in every array of the primitive. Does not change the indices.
 void gather_vertices(Primitive& primitive, std::span<const std::uint32_t> sources);
@@ -30,4 +30,4 @@ void make_tangents(Primitive& primitive, const TextureSlot& normal_texture);
 /// Makes tangents unit length and perpendicular to the normal, and handedness ±1.
 void repair_tangents(Primitive& primitive);
 
-}  // namespace gloam::gltf
+}  // namespace gloam

@@ -6,7 +6,7 @@
 #include "shaders/render/view_shared.h"
 
 // Blades without vertex streams, for the tests of PassPhase::geometry: three triangles a blade, in the plane of x and
-// y, counter-clockwise seen from +z. tests/render/passes/blades.h has the same corners.
+// y, counter-clockwise seen from +z. tests/render/passes/geometry_phase_gpu_test.cpp has the same corners.
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform MotionBlock { MotionConstants motion; };
