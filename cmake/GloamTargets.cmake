@@ -35,20 +35,33 @@ function(gloam_list_folders variable)
 endfunction()
 
 # gloam_compile_together(<target> [source…])
-# Compiles several sources of a target in one compiler run. That halves the time, most of which goes into headers that
-# the sources share. The sources named here are compiled alone; sources that share a file-local name with another one
-# must be.
+# Compiles several sources of a target in one compiler run: most of a source's time goes into headers that the others
+# share. Sources that are neighbours in the target's list form a group of at most GLOAM_TOGETHER_COUNT. Compiled alone are
+# the sources named here (they share a file-local name with another one) and those in GLOAM_SOURCES_ALONE; the groups of
+# the other sources stay as they are.
 function(gloam_compile_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(REMOVE_ITEM sources ${ARGN} "")
+  list(LENGTH sources count)
+  math(EXPR groups "(${count} + ${GLOAM_TOGETHER_COUNT} - 1) / ${GLOAM_TOGETHER_COUNT}")
+  set(at 0)
+  foreach(source IN LISTS sources)
+    math(EXPR group "${at} * ${groups} / ${count}")
+    math(EXPR at "${at} + 1")
+    file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    if(NOT path IN_LIST GLOAM_SOURCES_ALONE)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${target}_${group})
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# gloam_add_layer(<name> [APART] SOURCES … [ALONE sources…] [PUBLIC targets…] [PRIVATE targets…])
-# Static library gloam_<name>, exported as gloam::<name>. Its headers are included by full path from the root. Sources
-# are compiled together only in sanitized builds or with GLOAM_LAYERS_TOGETHER, so that the usual release build proves
-# that each source includes what it uses. ALONE: sources that are never compiled together; APART: no source is.
+# gloam_add_layer(<name> SOURCES … [ALONE sources…] [PUBLIC targets…] [PRIVATE targets…])
+# Static library gloam_<name>, exported as gloam::<name>. Its headers are included by full path from the root. ALONE:
+# sources that share a file-local name with another one and are compiled alone.
 function(gloam_add_layer name)
-  cmake_parse_arguments(ARG "APART" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
   add_library(gloam_${name} STATIC ${ARG_SOURCES})
   add_library(gloam::${name} ALIAS gloam_${name})
   set_target_properties(gloam_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
@@ -56,7 +69,7 @@ function(gloam_add_layer name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:include/gloam>)
   target_link_libraries(gloam_${name} PUBLIC gloam_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(GLOAM_TOGETHER AND (GLOAM_SANITIZE OR GLOAM_LAYERS_TOGETHER) AND NOT ARG_APART)
+  if(GLOAM_TOGETHER)
     gloam_compile_together(gloam_${name} ${ARG_ALONE})
   endif()
   set_property(GLOBAL APPEND PROPERTY GLOAM_LAYERS gloam_${name})

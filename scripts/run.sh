@@ -10,7 +10,7 @@ cd "$root"
 source scripts/common.sh
 scripts/setup.sh
 configure release build
-[ -x build/bin/gloam ] || echo "building (the first time takes some minutes)" >&2
+[ -x build/bin/gloam ] || echo "the first build takes some minutes" >&2
 build build gloam_program
 
 if [ $# -gt 0 ]; then

@@ -12,7 +12,7 @@
 namespace gloam {
 
 namespace {
-constexpr std::uint64_t kSmallestBuffer = 256;  ///< bytes; sizes are powers of two, so that buffers can be reused
+constexpr std::uint64_t kSmallestReadback = 256;  ///< bytes; sizes are powers of two, so that buffers can be reused
 }
 
 Readback::Readback(gpu::Device& device, std::string module) : device_(device), module_(std::move(module)) {}
@@ -24,7 +24,7 @@ Readback::~Readback() {
 
 Result<Readback::Request*> Readback::make_request(std::uint64_t size) {
   recycle_finished();
-  const std::uint64_t capacity = std::bit_ceil(std::max(size, kSmallestBuffer));
+  const std::uint64_t capacity = std::bit_ceil(std::max(size, kSmallestReadback));
   gpu::BufferHandle buffer;
   const auto found = std::ranges::find_if(
       free_buffers_, [&](gpu::BufferHandle handle) { return device_.desc(handle).size == capacity; });

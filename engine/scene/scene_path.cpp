@@ -55,19 +55,19 @@ bool leaves_folder(std::string_view path) {
   return false;
 }
 
-Error fault(std::string sentence) { return {ErrorKind::input, std::move(sentence)}; }
+Error path_fault(std::string sentence) { return {ErrorKind::input, std::move(sentence)}; }
 
 }  // namespace
 
 Result<std::string> resolve_scene_path(const std::string& directory, std::string_view uri) {
   const std::string path = percent_decoded(uri);
-  if (path.empty()) return fault("the path of a file is empty");
-  if (path.find('\0') != std::string::npos) return fault("the path " + in_quotes(path) + " holds a zero byte");
+  if (path.empty()) return path_fault("the path of a file is empty");
+  if (path.find('\0') != std::string::npos) return path_fault("the path " + in_quotes(path) + " holds a zero byte");
   const bool absolute = path.front() == '/' || path.front() == '\\';
   // A colon before the first separator marks a scheme ("file:…", "https://…") or a drive ("C:…").
   const bool scheme = path.find(':') < path.find_first_of("/\\");
   if (absolute || scheme || leaves_folder(path))
-    return fault("the path " + in_quotes(path) + " leaves the scene's folder");
+    return path_fault("the path " + in_quotes(path) + " leaves the scene's folder");
   const std::string normal = std::filesystem::path(path).lexically_normal().string();
   return directory.empty() ? normal : directory + "/" + normal;
 }
@@ -75,19 +75,19 @@ Result<std::string> resolve_scene_path(const std::string& directory, std::string
 Result<std::vector<std::uint8_t>> read_scene_file(const std::string& path, std::uint64_t wanted_bytes) {
   std::error_code code;
   const std::filesystem::file_status status = std::filesystem::status(path, code);
-  if (!std::filesystem::exists(status)) return fault("the file " + in_quotes(path) + " is absent");
+  if (!std::filesystem::exists(status)) return path_fault("the file " + in_quotes(path) + " is absent");
   // Reading a device or a pipe may never end.
-  if (!std::filesystem::is_regular_file(status)) return fault(in_quotes(path) + " is not a file");
+  if (!std::filesystem::is_regular_file(status)) return path_fault(in_quotes(path) + " is not a file");
   const std::uint64_t size = std::filesystem::file_size(path, code);
-  if (code) return fault("the file " + in_quotes(path) + " cannot be read: " + code.message());
+  if (code) return path_fault("the file " + in_quotes(path) + " cannot be read: " + code.message());
   if (wanted_bytes != ~std::uint64_t{0} && size < wanted_bytes)
-    return fault("the file " + in_quotes(path) + " has " + std::to_string(size) + " bytes, needs " +
-                 std::to_string(wanted_bytes));
+    return path_fault("the file " + in_quotes(path) + " has " + std::to_string(size) + " bytes, needs " +
+                      std::to_string(wanted_bytes));
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) return fault("the file " + in_quotes(path) + " cannot be read: " + std::strerror(errno));
+  if (!file) return path_fault("the file " + in_quotes(path) + " cannot be read: " + std::strerror(errno));
   std::vector<std::uint8_t> bytes(std::min(size, wanted_bytes));
   if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
-    return fault("the file " + in_quotes(path) + " cannot be read to its end");
+    return path_fault("the file " + in_quotes(path) + " cannot be read to its end");
   return bytes;
 }
 

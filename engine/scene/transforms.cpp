@@ -10,7 +10,7 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kRowsPerJob = 512;
+constexpr std::size_t kTransformsPerJob = 512;
 constexpr std::uint32_t kUnknownDepth = ~0u;
 
 bool depths_fit(std::span<const std::uint32_t> parents, std::span<const std::uint32_t> depths) {
@@ -67,7 +67,7 @@ void compose_worlds(const TransformLevels& levels, std::span<const std::uint32_t
   for (std::size_t level = 1; level + 1 < levels.starts.size(); ++level) {
     const auto rows =
         std::span(levels.order).subspan(levels.starts[level], levels.starts[level + 1] - levels.starts[level]);
-    executor.parallel_for(rows.size(), kRowsPerJob, [&](JobRange range) {
+    executor.parallel_for(rows.size(), kTransformsPerJob, [&](JobRange range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {
         const std::uint32_t row = rows[i];
         matrices[row] = matrices[parents[row]] * matrices[row];

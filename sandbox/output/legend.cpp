@@ -24,7 +24,7 @@
 namespace gloam {
 namespace {
 
-constexpr int kMargin = 4;
+constexpr int kLegendMargin = 4;
 constexpr int kLineHeight = 12;  // pixels at scale 1
 constexpr int kBarHeight = 8;
 constexpr int kBarWidth = 240;
@@ -101,12 +101,12 @@ class Canvas {
 
 /// A bar with its values below it.
 void draw_scale(Canvas& canvas, int top, int width, int scale, const HeatScale& heat, float heat_range) {
-  canvas.draw_bar(scale * kMargin, top, width, scale * (kBarHeight - 2));
+  canvas.draw_bar(scale * kLegendMargin, top, width, scale * (kBarHeight - 2));
   for (int stop = 0; stop < GLOAM_HEAT_STOPS; ++stop) {
     std::string number = heat_number(heat_value(heat, heat_range, stop));
     const bool last = stop == GLOAM_HEAT_STOPS - 1;
     if (last && !heat.unit.empty()) number += " " + heat.unit;
-    const int at = scale * kMargin + width * stop / (GLOAM_HEAT_STOPS - 1);
+    const int at = scale * kLegendMargin + width * stop / (GLOAM_HEAT_STOPS - 1);
     const int wide = scale * text_width(number);
     canvas.draw_line(number, stop == 0 ? at : last ? at - wide : at - wide / 2, top + scale * kBarHeight);
   }
@@ -117,16 +117,17 @@ void draw_scale(Canvas& canvas, int top, int width, int scale, const HeatScale& 
 void draw_legend(Picture& picture, std::string_view text, const HeatScale& heat, float heat_range) {
   if (text.empty() || picture.width < 64 || picture.height < 32) return;
   const int scale = picture.height >= 720 ? 2 : 1;
-  const int room = static_cast<int>(picture.width) / scale - 2 * kMargin;
+  const int room = static_cast<int>(picture.width) / scale - 2 * kLegendMargin;
   const std::vector<std::string> lines = wrapped(text, room);
   const bool has_bar = heat.most > 0.0 && picture.width >= 128 && picture.height >= 72;
   const int bar = has_bar ? scale * (kBarHeight + kLineHeight) : 0;
-  const int top = static_cast<int>(picture.height) - scale * (static_cast<int>(lines.size()) * kLineHeight + kMargin);
+  const int top =
+      static_cast<int>(picture.height) - scale * (static_cast<int>(lines.size()) * kLineHeight + kLegendMargin);
   Canvas canvas(picture, scale);
-  canvas.darken_below(top - scale * kMargin - bar);
+  canvas.darken_below(top - scale * kLegendMargin - bar);
   if (has_bar) draw_scale(canvas, top - bar, std::min(scale * room, scale * kBarWidth), scale, heat, heat_range);
   for (std::size_t i = 0; i < lines.size(); ++i)
-    canvas.draw_line(lines[i], scale * kMargin, top + scale * static_cast<int>(i) * kLineHeight);
+    canvas.draw_line(lines[i], scale * kLegendMargin, top + scale * static_cast<int>(i) * kLineHeight);
 }
 
 }  // namespace gloam

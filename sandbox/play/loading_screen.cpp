@@ -10,9 +10,9 @@
 namespace gloam {
 namespace {
 
-constexpr float kBarWidth = 420.0f;
-constexpr float kBarHeight = 18.0f;
-constexpr float kTurn = 0.07f;  // of the bar, per frame
+constexpr float kLoadingBarWidth = 420.0f;
+constexpr float kLoadingBarHeight = 18.0f;
+constexpr float kLoadingTurn = 0.07f;  // of the bar, per frame
 constexpr std::array<float, 4> kBackground = {0.05f, 0.055f, 0.07f, 1.0f};
 
 void add_clear_pass(FrameGraph& graph, ImageRef& picture) {
@@ -37,16 +37,17 @@ void LoadingScreen::lay_out(const LoadingStep& step) {
   const auto width = static_cast<float>(pictures_.width());
   const auto height = static_cast<float>(pictures_.height());
   gui_.begin({}, {.width = pictures_.width(), .height = pictures_.height(), .dt_s = 0.03});
-  const float bar = std::min(kBarWidth * gui_.scale(), 0.8f * width);
+  const float bar = std::min(kLoadingBarWidth * gui_.scale(), 0.8f * width);
   ImGui::SetNextWindowPos(ImVec2(0.5f * (width - bar), 0.45f * height));
-  ImGui::SetNextWindowSize(ImVec2(bar, 4.0f * kBarHeight * gui_.scale()));  // of a fixed size: shown from frame 1 on
+  ImGui::SetNextWindowSize(
+      ImVec2(bar, 4.0f * kLoadingBarHeight * gui_.scale()));  // of a fixed size: shown from frame 1 on
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
   if (ImGui::Begin("loading", nullptr,
                    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoInputs)) {
     ImGui::TextUnformatted(step.what.c_str());
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float tall = kBarHeight * gui_.scale();
-    turn_ = std::fmod(turn_ + kTurn, 1.0f);
+    const float tall = kLoadingBarHeight * gui_.scale();
+    turn_ = std::fmod(turn_ + kLoadingTurn, 1.0f);
     const float share = step.total == 0 ? 0.2f : static_cast<float>(step.done) / static_cast<float>(step.total);
     const float from = step.total == 0 ? turn_ * 1.2f - 0.2f : 0.0f;
     ImDrawList* list = ImGui::GetWindowDrawList();

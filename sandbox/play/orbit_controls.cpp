@@ -8,7 +8,7 @@
 namespace gloam {
 namespace {
 
-constexpr double kRadiansPerPixel = 0.005;
+constexpr double kOrbitRadiansPerPixel = 0.005;
 constexpr double kFactorPerStep = 0.85;  // of the wheel
 constexpr double kDistance = 5.0;        // metres, of a pivot where nothing is seen
 
@@ -44,8 +44,8 @@ Status OrbitControls::add(const WindowInput& input, const ViewSettings& view, do
   if (picks) GLOAM_TRY(take_pivot(view, {input.pointer_x, input.pointer_y, scale}));
   if (!pivot_) GLOAM_TRY(take_pivot(view, {0.5 * view.width, 0.5 * view.height, scale}));
   flight.pivot = *pivot_;
-  flight.orbit_turn = -input.orbit_x * kRadiansPerPixel;
-  flight.orbit_tilt = input.orbit_y * kRadiansPerPixel;
+  flight.orbit_turn = -input.orbit_x * kOrbitRadiansPerPixel;
+  flight.orbit_tilt = input.orbit_y * kOrbitRadiansPerPixel;
   flight.approach = std::pow(kFactorPerStep, input.wheel);
   flight.look_at_pivot = input.look_at;
   return {};

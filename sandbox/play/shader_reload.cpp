@@ -29,7 +29,7 @@ std::string quoted(const std::string& word) {
 }
 
 /// Runs a shell command. The error is what it printed.
-Status run_command(const std::string& command) {
+Status run_compiler(const std::string& command) {
   FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return Error{ErrorKind::failed, "cannot start: " + command};
   std::string printed;
@@ -76,10 +76,10 @@ Result<std::vector<std::uint32_t>> compile_shader(const std::string& root, const
   const TemporaryFile spirv;
   if (spirv.path().empty()) return Error{ErrorKind::failed, "no file can be made in the temporary folder"};
   const std::string out = quoted(spirv.path());
-  GLOAM_TRY(run_command("cd " + quoted(root) + " && " + quoted(GLOAM_GLSLANG_VALIDATOR) +
-                        " --quiet -V --target-env vulkan1.3 -S " + quoted(stage_of(file)) + " -I. -o " + out + " " +
-                        quoted(file)));
-  GLOAM_TRY(run_command(quoted(GLOAM_SPIRV_OPT) + " " GLOAM_SPIRV_PASSES " " + out + " -o " + out));
+  GLOAM_TRY(run_compiler("cd " + quoted(root) + " && " + quoted(GLOAM_GLSLANG_VALIDATOR) +
+                         " --quiet -V --target-env vulkan1.3 -S " + quoted(stage_of(file)) + " -I. -o " + out + " " +
+                         quoted(file)));
+  GLOAM_TRY(run_compiler(quoted(GLOAM_SPIRV_OPT) + " " GLOAM_SPIRV_PASSES " " + out + " -o " + out));
   const auto bytes = read_text_file(spirv.path(), ErrorKind::failed);
   if (!bytes.ok()) return bytes.error();
   std::vector<std::uint32_t> words(bytes->size() / sizeof(std::uint32_t));

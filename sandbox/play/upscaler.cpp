@@ -10,7 +10,7 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kModule = "panel";
+constexpr const char* kUpscaleModule = "panel";
 
 }  // namespace
 
@@ -18,7 +18,7 @@ Result<gpu::ImageHandle> Upscaler::image(std::uint32_t width, std::uint32_t heig
   if (image_ && device_.desc(image_).width == width && device_.desc(image_).height == height) return image_;
   release();
   const auto made = device_.create_image({.name = "reduced_picture",
-                                          .module = kModule,
+                                          .module = kUpscaleModule,
                                           .format = gpu::Format::rgba8_unorm,
                                           .width = width,
                                           .height = height,
@@ -36,7 +36,7 @@ void Upscaler::release() {
 Result<gpu::PipelineHandle> Upscaler::pipeline_for(gpu::Format format, bool vertical) {
   gpu::GraphicsPipelineDesc desc;
   desc.name = "upscale/" + std::string(gpu::name_of(format)) + (vertical ? "/vertical" : "/horizontal");
-  desc.module = kModule;
+  desc.module = kUpscaleModule;
   desc.vertex = shaders::sandbox::upscale_vert;
   desc.fragment = shaders::sandbox::upscale_frag;
   desc.constants = {{"kVertical", vertical ? 1u : 0u}};
@@ -56,7 +56,7 @@ Status Upscaler::add_pass(FrameGraph& graph, ImageRef from, ImageRef& to, bool v
   if (!sampler.ok()) return sampler.error();
   const std::array ratio = {vertical ? static_cast<float>(source.height) / static_cast<float>(target.height)
                                      : static_cast<float>(source.width) / static_cast<float>(target.width)};
-  PassBuilder pass = graph.add_pass(vertical ? "upscale_y" : "upscale_x", kModule);
+  PassBuilder pass = graph.add_pass(vertical ? "upscale_y" : "upscale_x", kUpscaleModule);
   pass.read(from, gpu::Access::fragment_read);
   to = pass.write(to, gpu::Access::color_target);
   pass.execute([from, to, ratio, pipeline = *pipeline, sampler = *sampler, width = target.width,
@@ -77,7 +77,7 @@ Status Upscaler::add_pass(FrameGraph& graph, ImageRef from, ImageRef& to, bool v
 
 Status Upscaler::add_passes(FrameGraph& graph, ImageRef picture, ImageRef& window) {
   ImageRef wide = graph.create_image({.name = "upscaled_x",
-                                      .module = kModule,
+                                      .module = kUpscaleModule,
                                       .format = gpu::Format::rgba8_unorm,
                                       .width = graph.desc(window).width,
                                       .height = graph.desc(picture).height});

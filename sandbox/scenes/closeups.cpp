@@ -16,18 +16,18 @@
 namespace gloam {
 namespace {
 
-struct Materials {
+struct CloseUpMaterials {
   std::uint32_t floor, wall, wood;
   std::array<std::uint32_t, kCloseupFigures> coats;
   std::uint32_t skin;
 };
 
-Materials add_materials(SceneBuilder& builder) {
+CloseUpMaterials add_close_up_materials(SceneBuilder& builder) {
   const auto material = [&](const std::string& name, vec3 color, float roughness) {
     return builder.add_material(
         {.name = name, .base_color = vec4(color, 1.0f), .metallic = 0.0f, .roughness = roughness});
   };
-  Materials m{};
+  CloseUpMaterials m{};
   m.floor = material("floor", vec3(0.40f, 0.38f, 0.35f), 0.8f);
   m.wall = material("wall", vec3(0.58f, 0.52f, 0.46f), 0.9f);
   m.wood = material("wood", vec3(0.30f, 0.20f, 0.12f), 0.7f);
@@ -45,14 +45,14 @@ Materials add_materials(SceneBuilder& builder) {
 }
 
 /// One mesh of a figure, placed relative to the figure's root.
-struct Part {
+struct CloseUpPart {
   const char* name;
   std::uint32_t mesh;
   dvec3 at;
   dvec3 scale = dvec3(1.0);
 };
 
-std::vector<Part> figure_parts(SceneBuilder& builder, const Materials& m, std::size_t figure) {
+std::vector<CloseUpPart> figure_parts(SceneBuilder& builder, const CloseUpMaterials& m, std::size_t figure) {
   const vec2 coat[] = {{0.0f, 0.0f},  {0.24f, 0.0f},  {0.26f, 0.06f}, {0.19f, 0.55f}, {0.15f, 0.85f},
                        {0.2f, 1.15f}, {0.17f, 1.28f}, {0.05f, 1.36f}, {0.0f, 1.38f}};
   const std::uint32_t body = builder.add_mesh("coat", turned_shape(coat, 32), m.coats[figure]);
@@ -61,24 +61,25 @@ std::vector<Part> figure_parts(SceneBuilder& builder, const Materials& m, std::s
   const std::uint32_t finger = builder.add_mesh("finger", box_shape({0.012f, 0.09f, 0.012f}), m.skin);
   const vec2 brim[] = {{0.0f, 0.0f}, {0.2f, 0.0f}, {0.21f, 0.01f}, {0.12f, 0.02f}, {0.1f, 0.13f}, {0.0f, 0.15f}};
   const std::uint32_t hat = builder.add_mesh("hat", turned_shape(brim, 32), m.coats[(figure + 3) % m.coats.size()]);
-  std::vector<Part> parts = {{"coat", body, {0.0, 0.0, 0.0}},
-                             {"head", ball, {0.0, 1.5, 0.0}},
-                             {"hat", hat, {0.0, 1.56, 0.0}},
-                             {"left arm", bar, {-0.25, 0.66, 0.04}},
-                             {"right arm", bar, {0.25, 0.66, 0.04}}};
+  std::vector<CloseUpPart> parts = {{"coat", body, {0.0, 0.0, 0.0}},
+                                    {"head", ball, {0.0, 1.5, 0.0}},
+                                    {"hat", hat, {0.0, 1.56, 0.0}},
+                                    {"left arm", bar, {-0.25, 0.66, 0.04}},
+                                    {"right arm", bar, {0.25, 0.66, 0.04}}};
   for (const double side : {-0.25, 0.25})
     for (int i = 0; i < 3; ++i) parts.push_back({"finger", finger, {side + 0.026 * (i - 1), 0.58, 0.04}});
   return parts;
 }
 
-void add_figure(World& world, SceneBuilder& builder, const Materials& m, std::size_t figure, dvec3 at, double heading) {
+void add_close_up_figure(World& world, SceneBuilder& builder, const CloseUpMaterials& m, std::size_t figure, dvec3 at,
+                         double heading) {
   const Entity root = builder.add_group("figure " + std::to_string(figure), at, heading);
   world.add(root, CloseupSubject{.enabled = true, .priority = 1.0f, .lights = 0});
-  for (const Part& part : figure_parts(builder, m, figure))
+  for (const CloseUpPart& part : figure_parts(builder, m, figure))
     world.add(builder.add_instance(part.name, part.mesh, part.at, 0.0, part.scale), Parent{root, 1});
 }
 
-void add_yard(SceneBuilder& builder, const Materials& m) {
+void add_yard(SceneBuilder& builder, const CloseUpMaterials& m) {
   builder.add_instance("floor", builder.add_mesh("floor", box_shape({26.0f, 0.2f, 26.0f}), m.floor), {0.0, -0.2, 0.0});
   builder.add_instance("wall", builder.add_mesh("wall", box_shape({26.0f, 4.0f, 0.3f}), m.wall), {0.0, 0.0, -4.5});
   const std::uint32_t post = builder.add_mesh("post", box_shape({0.14f, 3.0f, 0.14f}), m.wood);
@@ -87,7 +88,7 @@ void add_yard(SceneBuilder& builder, const Materials& m) {
   builder.add_instance("bench", bench, {1.4, 0.0, -2.4}, 0.2);
 }
 
-void add_lights(SceneBuilder& builder) {
+void add_close_up_lights(SceneBuilder& builder) {
   for (int i = 0; i < kCloseupLamps; ++i) {
     const double turn = 6.283185307179586 * i / kCloseupLamps;
     const bool spot = i % 2 == 1;
@@ -114,12 +115,12 @@ void add_lights(SceneBuilder& builder) {
 
 void build_closeups_scene(World& world, SceneInfo& info) {
   SceneBuilder builder(world, info);
-  const Materials materials = add_materials(builder);
+  const CloseUpMaterials materials = add_close_up_materials(builder);
   add_yard(builder, materials);
   for (int i = 0; i < kCloseupFigures; ++i)
-    add_figure(world, builder, materials, static_cast<std::size_t>(i),
-               {-2.7 + 1.8 * (i % 4), 0.0, i < 4 ? 0.6 : -1.3 + 0.3 * (i % 2)}, 0.7 * i);
-  add_lights(builder);
+    add_close_up_figure(world, builder, materials, static_cast<std::size_t>(i),
+                        {-2.7 + 1.8 * (i % 4), 0.0, i < 4 ? 0.6 : -1.3 + 0.3 * (i % 2)}, 0.7 * i);
+  add_close_up_lights(builder);
   builder.add_camera("main", {0.6, 2.3, 5.6}, {0.0, 0.7, -0.4}, 0.75f);
   builder.add_camera("face", {-0.5, 1.55, 2.5}, {-0.9, 1.3, 0.6}, 0.6f);
 

@@ -27,11 +27,11 @@ constexpr double kTerraceY = kSteps * kStepRise;
 constexpr double kTerraceDepth = 6.0;
 constexpr double kGateZ = kTerraceZ - kTerraceDepth + 0.4;
 
-constexpr std::array<vec3, 6> kPalette = {vec3(1.0f, 0.55f, 0.18f),  vec3(1.0f, 0.30f, 0.12f),
-                                          vec3(0.95f, 0.22f, 0.45f), vec3(0.20f, 0.75f, 0.70f),
-                                          vec3(0.32f, 0.38f, 1.0f),  vec3(0.70f, 0.32f, 1.0f)};
+constexpr std::array<vec3, 6> kLanternPalette = {vec3(1.0f, 0.55f, 0.18f),  vec3(1.0f, 0.30f, 0.12f),
+                                                 vec3(0.95f, 0.22f, 0.45f), vec3(0.20f, 0.75f, 0.70f),
+                                                 vec3(0.32f, 0.38f, 1.0f),  vec3(0.70f, 0.32f, 1.0f)};
 
-struct Materials {
+struct LanternMaterials {
   std::uint32_t paving = 0;
   std::uint32_t stone = 0;
   std::uint32_t wall = 0;
@@ -39,9 +39,9 @@ struct Materials {
 };
 
 /// One mesh per palette colour, which emits that colour.
-using GlowMeshes = std::array<std::uint32_t, kPalette.size()>;
+using GlowMeshes = std::array<std::uint32_t, kLanternPalette.size()>;
 
-Materials add_materials(SceneBuilder& builder) {
+LanternMaterials add_lantern_materials(SceneBuilder& builder) {
   return {
       .paving = builder.add_material(
           {.name = "wet paving", .base_color = vec4(0.10f, 0.10f, 0.11f, 1.0f), .metallic = 0.0f, .roughness = 0.2f}),
@@ -56,10 +56,10 @@ Materials add_materials(SceneBuilder& builder) {
 
 GlowMeshes add_glow_meshes(SceneBuilder& builder, const std::string& name, const Primitive& shape, float luminance) {
   GlowMeshes meshes{};
-  for (std::size_t i = 0; i < kPalette.size(); ++i) {
+  for (std::size_t i = 0; i < kLanternPalette.size(); ++i) {
     const Material glow = {.name = name + " " + std::to_string(i),
                            .base_color = vec4(0.02f, 0.02f, 0.02f, 1.0f),
-                           .emissive = kPalette[i] * luminance,
+                           .emissive = kLanternPalette[i] * luminance,
                            .metallic = 0.0f,
                            .roughness = 0.6f};
     meshes[i] = builder.add_mesh(name, shape, builder.add_material(glow));
@@ -70,7 +70,7 @@ GlowMeshes add_glow_meshes(SceneBuilder& builder, const std::string& name, const
 Light point_light(std::size_t color, float candela, float range_m, float width_m) {
   Light light;
   light.kind = LightKind::point;
-  light.color = kPalette[color];
+  light.color = kLanternPalette[color];
   light.intensity = candela;
   light.range_m = range_m;
   light.width_m = width_m;
@@ -88,7 +88,7 @@ Light spot_light(std::size_t color, float candela, float range_m, float half_ang
 /// Name of the next light; count: number of lights named so far.
 std::string next_name(int& count) { return "light " + std::to_string(count++); }
 
-void add_arcades(SceneBuilder& builder, const Materials& materials) {
+void add_arcades(SceneBuilder& builder, const LanternMaterials& materials) {
   const vec2 column[] = {{0.0f, 0.0f},   {0.36f, 0.0f}, {0.36f, 0.16f}, {0.29f, 0.26f}, {0.25f, 0.34f},
                          {0.21f, 2.62f}, {0.26f, 2.7f}, {0.36f, 2.84f}, {0.36f, 3.0f},  {0.0f, 3.0f}};
   const ArchSize arch = {
@@ -104,7 +104,7 @@ void add_arcades(SceneBuilder& builder, const Materials& materials) {
   }
 }
 
-void add_grounds(SceneBuilder& builder, const Materials& materials) {
+void add_grounds(SceneBuilder& builder, const LanternMaterials& materials) {
   const std::uint32_t ground = builder.add_mesh("paving", box_shape({60.0f, 0.2f, 70.0f}), materials.paving);
   builder.add_instance("paving", ground, {0.0, -0.2, -18.0});
   const std::uint32_t wall = builder.add_mesh("wall", box_shape({0.4f, 5.2f, 46.0f}), materials.wall);
@@ -128,7 +128,7 @@ void add_grounds(SceneBuilder& builder, const Materials& materials) {
     builder.add_instance("gate pier", pier, {side * (2.2 + pier_width * 0.5), kTerraceY, kGateZ});
 }
 
-void add_urn(SceneBuilder& builder, const Materials& materials) {
+void add_urn(SceneBuilder& builder, const LanternMaterials& materials) {
   const vec2 urn[] = {{0.0f, 0.0f},   {0.62f, 0.0f}, {0.62f, 0.35f}, {0.3f, 0.5f},  {0.24f, 0.75f},
                       {0.55f, 1.15f}, {0.78f, 1.6f}, {0.72f, 1.95f}, {0.5f, 2.15f}, {0.62f, 2.3f},
                       {0.55f, 2.3f},  {0.42f, 2.1f}, {0.0f, 2.1f}};
@@ -161,7 +161,7 @@ void add_candles(SceneBuilder& builder, int& count) {
       for (int corner = 0; corner < 4; ++corner) {
         const double angle = (corner + 0.5) * 0.5 * static_cast<double>(kPi);
         const dvec3 position(side * kArcadeX + 0.52 * std::cos(angle), 0.0, -i * kBayLength + 0.52 * std::sin(angle));
-        const auto color = static_cast<std::size_t>(i + corner) % kPalette.size();
+        const auto color = static_cast<std::size_t>(i + corner) % kLanternPalette.size();
         builder.add_instance("candle", meshes[color], position);
         builder.add_light(next_name(count), point_light(color, 0.9f, 2.6f, 0.0f), position + dvec3(0.0, 0.3, 0.0),
                           {0, -1, 0}, false);
@@ -171,7 +171,7 @@ void add_candles(SceneBuilder& builder, int& count) {
 }
 
 /// Ten strings of nine paper globes from arcade to arcade: 90 point lights.
-void add_garlands(SceneBuilder& builder, int& count) {
+void add_lantern_garlands(SceneBuilder& builder, int& count) {
   constexpr int kGlobes = 9;
   const GlowMeshes meshes = add_glow_meshes(builder, "globe", sphere_shape(0.11f, 14), 1.8f);
   for (int string = 0; string < kBays; ++string) {
@@ -179,7 +179,7 @@ void add_garlands(SceneBuilder& builder, int& count) {
       const double along = (i + 1.0) / (kGlobes + 1.0) * 2.0 - 1.0;
       const double height = 3.55 + 1.15 * along * along + 0.12 * ((string * 5 + i * 3) % 4);
       const dvec3 position(along * kArcadeX, height, -(string + 0.5) * kBayLength + 0.6 * along);
-      const auto color = static_cast<std::size_t>(string * 2 + i) % kPalette.size();
+      const auto color = static_cast<std::size_t>(string * 2 + i) % kLanternPalette.size();
       builder.add_instance("globe", meshes[color], position);
       builder.add_light(next_name(count), point_light(color, 3.2f, 5.5f, 0.0f), position - dvec3(0.0, 0.16, 0.0),
                         {0, -1, 0}, false);
@@ -229,14 +229,14 @@ void add_terrace_lights(SceneBuilder& builder, int& count) {
 
 void build_lanterns_scene(World& world, SceneInfo& info) {
   SceneBuilder builder(world, info);
-  const Materials materials = add_materials(builder);
+  const LanternMaterials materials = add_lantern_materials(builder);
   add_grounds(builder, materials);
   add_arcades(builder, materials);
   add_urn(builder, materials);
   int count = 0;
   add_arch_lanterns(builder, count);
   add_candles(builder, count);
-  add_garlands(builder, count);
+  add_lantern_garlands(builder, count);
   add_wall_washers(builder, count);
   add_terrace_lights(builder, count);
   builder.add_camera("main", {0.9, 1.65, 2.6}, {-0.35, 1.75, -14.0}, 0.95f);

@@ -27,11 +27,11 @@ constexpr int kLightsAStone = 4;
 constexpr int kFireflies = 128;
 constexpr int kPanes = 30;
 
-constexpr std::array<vec3, 6> kPalette = {vec3(1.0f, 0.62f, 0.26f),  vec3(1.0f, 0.36f, 0.16f),
-                                          vec3(0.96f, 0.24f, 0.42f), vec3(0.62f, 0.30f, 1.0f),
-                                          vec3(0.26f, 0.42f, 1.0f),  vec3(0.16f, 0.80f, 0.72f)};
+constexpr std::array<vec3, 6> kGardenPalette = {vec3(1.0f, 0.62f, 0.26f),  vec3(1.0f, 0.36f, 0.16f),
+                                                vec3(0.96f, 0.24f, 0.42f), vec3(0.62f, 0.30f, 1.0f),
+                                                vec3(0.26f, 0.42f, 1.0f),  vec3(0.16f, 0.80f, 0.72f)};
 
-struct Materials {
+struct GardenMaterials {
   std::uint32_t ground = 0;
   std::uint32_t stone = 0;
   std::uint32_t post = 0;
@@ -39,7 +39,7 @@ struct Materials {
 };
 
 /// One merged mesh per palette colour, so that a thousand small objects need only a few draws.
-using ColoredShapes = std::array<Primitive, kPalette.size()>;
+using ColoredShapes = std::array<Primitive, kGardenPalette.size()>;
 
 /// Height of the ground: hills around a hollow.
 double ground_height(double x, double z) {
@@ -63,10 +63,10 @@ double spread(int i, double step) { return std::fmod(0.37 + i * step, 1.0); }
 std::size_t color_at(const dvec3& place, int i) {
   const double turns = std::atan2(place.z, place.x) / (2.0 * static_cast<double>(kPi)) + 1.0;
   const double along = turns + std::hypot(place.x, place.z) * 0.022 + 0.12 * spread(i, 0.618033988);
-  return static_cast<std::size_t>(along * kPalette.size()) % kPalette.size();
+  return static_cast<std::size_t>(along * kGardenPalette.size()) % kGardenPalette.size();
 }
 
-void append(Primitive& into, const Primitive& part, const dvec3& offset, float scale = 1.0f) {
+void append_lights(Primitive& into, const Primitive& part, const dvec3& offset, float scale = 1.0f) {
   const auto first = static_cast<std::uint32_t>(into.positions.size());
   for (const vec3& position : part.positions) {
     into.positions.push_back(position * scale + vec3(offset));
@@ -76,8 +76,8 @@ void append(Primitive& into, const Primitive& part, const dvec3& offset, float s
   for (const std::uint32_t index : part.indices) into.indices.push_back(first + index);
 }
 
-Materials add_materials(SceneBuilder& builder) {
-  Materials materials;
+GardenMaterials add_garden_materials(SceneBuilder& builder) {
+  GardenMaterials materials;
   const auto add = [&](const char* name, vec4 color, float roughness) {
     Material material = {.name = name, .base_color = color, .metallic = 0.0f, .roughness = roughness};
     if (color.w < 1.0f) material.alpha_mode = AlphaMode::blend;
@@ -93,7 +93,7 @@ Materials add_materials(SceneBuilder& builder) {
   return materials;
 }
 
-void add_ground(SceneBuilder& builder, const Materials& materials) {
+void add_garden_ground(SceneBuilder& builder, const GardenMaterials& materials) {
   Primitive ground;
   constexpr double kCell = kGroundSize / kGroundCells;
   for (int row = 0; row <= kGroundCells; ++row) {
@@ -119,10 +119,10 @@ void add_ground(SceneBuilder& builder, const Materials& materials) {
 }
 
 void add_glowing(SceneBuilder& builder, const std::string& name, ColoredShapes& shapes, float luminance) {
-  for (std::size_t i = 0; i < kPalette.size(); ++i) {
+  for (std::size_t i = 0; i < kGardenPalette.size(); ++i) {
     const Material glow = {.name = name + " " + std::to_string(i),
                            .base_color = vec4(0.02f, 0.02f, 0.02f, 1.0f),
-                           .emissive = kPalette[i] * luminance,
+                           .emissive = kGardenPalette[i] * luminance,
                            .metallic = 0.0f,
                            .roughness = 0.6f};
     const std::uint32_t mesh = builder.add_mesh(name, std::move(shapes[i]), builder.add_material(glow));
@@ -133,16 +133,16 @@ void add_glowing(SceneBuilder& builder, const std::string& name, ColoredShapes& 
 Light local_light(std::size_t color, float range_m) {
   Light light;
   light.kind = LightKind::point;
-  light.color = kPalette[color];
+  light.color = kGardenPalette[color];
   light.intensity = 0.17f * range_m * range_m;
   light.range_m = range_m;
   return light;
 }
 
-std::string next_name(int& count) { return "light " + std::to_string(count++); }
+std::string next_garden_name(int& count) { return "light " + std::to_string(count++); }
 
 /// Lanterns on posts of different heights. Every fourth is a spot light that shines down.
-void add_lanterns(SceneBuilder& builder, const Materials& materials, int& count) {
+void add_garden_lanterns(SceneBuilder& builder, const GardenMaterials& materials, int& count) {
   const vec2 outline[] = {{0.0f, -0.16f}, {0.11f, -0.03f}, {0.0f, 0.16f}};
   const Primitive lantern = turned_shape(outline, 5);
   const vec2 post_outline[] = {{0.022f, 0.0f}, {0.022f, 1.0f}};
@@ -153,8 +153,8 @@ void add_lanterns(SceneBuilder& builder, const Materials& materials, int& count)
     const double height = 0.45 + 1.5 * spread(i, 0.754877666);
     const dvec3 place = spiral_place(i, kLanterns, 0.0, height);
     const std::size_t color = color_at(place, i);
-    append(lanterns[color], lantern, place);
-    append(posts, post, place + dvec3(0.0, -1.14, 0.0));
+    append_lights(lanterns[color], lantern, place);
+    append_lights(posts, post, place + dvec3(0.0, -1.14, 0.0));
     Light light = local_light(color, static_cast<float>(1.6 + 2.6 * spread(i, 0.569840291)));
     if (i % 4 == 3) {
       light.kind = LightKind::spot;
@@ -162,14 +162,14 @@ void add_lanterns(SceneBuilder& builder, const Materials& materials, int& count)
       light.outer_angle = 1.0f;
       light.inner_angle = 0.5f;
     }
-    builder.add_light(next_name(count), light, place - dvec3(0.0, 0.2, 0.0), {0.05, -1.0, 0.0}, false);
+    builder.add_light(next_garden_name(count), light, place - dvec3(0.0, 0.2, 0.0), {0.05, -1.0, 0.0}, false);
   }
   add_glowing(builder, "lantern", lanterns, 1.15f);
   builder.add_instance("posts", builder.add_mesh("posts", std::move(posts), materials.post), dvec3(0.0));
 }
 
 /// Standing stones, each with spot lights at its feet that shine up its sides.
-void add_stones(SceneBuilder& builder, const Materials& materials, int& count) {
+void add_stones(SceneBuilder& builder, const GardenMaterials& materials, int& count) {
   for (int i = 0; i < kStones; ++i) {
     const dvec3 place = spiral_place(i, kStones, 1.1, -0.4);
     const double height = 1.8 + 2.9 * spread(i, 0.754877666);
@@ -189,7 +189,7 @@ void add_stones(SceneBuilder& builder, const Materials& materials, int& count) {
       light.outer_angle = 0.6f;
       light.inner_angle = 0.25f;
       light.width_m = 0.06f;
-      builder.add_light(next_name(count), light, on_ground(foot.x, foot.z, 0.12),
+      builder.add_light(next_garden_name(count), light, on_ground(foot.x, foot.z, 0.12),
                         dvec3(0.0, 1.0, 0.0) - out * (0.2 * side), true);
     }
   }
@@ -201,14 +201,14 @@ void add_fireflies(SceneBuilder& builder, int& count) {
   for (int i = 0; i < kFireflies; ++i) {
     const dvec3 place = spiral_place(i, kFireflies, 2.3, 0.5 + 2.8 * spread(i, 0.819172513));
     const std::size_t color = i % 3 == 0 ? 5 : 0;
-    append(bodies[color], body, place);
-    builder.add_light(next_name(count), local_light(color, static_cast<float>(1.0 + spread(i, 0.671043607))), place,
-                      {0.0, -1.0, 0.0}, false);
+    append_lights(bodies[color], body, place);
+    builder.add_light(next_garden_name(count), local_light(color, static_cast<float>(1.0 + spread(i, 0.671043607))),
+                      place, {0.0, -1.0, 0.0}, false);
   }
   add_glowing(builder, "firefly", bodies, 1.6f);
 }
 
-void add_panes(SceneBuilder& builder, const Materials& materials) {
+void add_panes(SceneBuilder& builder, const GardenMaterials& materials) {
   std::array<std::uint32_t, 3> meshes{};
   for (std::size_t i = 0; i < meshes.size(); ++i)
     meshes[i] = builder.add_mesh("pane", box_shape({2.0f, 2.9f, 0.04f}), materials.glass[i]);
@@ -226,7 +226,7 @@ void add_moon(SceneBuilder& builder) {
   builder.add_light("moon", moon, {0.0, 20.0, 0.0}, {0.5, -0.8, -0.35}, true);
 }
 
-void add_cameras(SceneBuilder& builder) {
+void add_garden_cameras(SceneBuilder& builder) {
   builder.add_camera("main", on_ground(-32.0, -17.0, 5.6), {4.0, 0.4, 2.0}, 0.85f);
   builder.add_camera("edge", on_ground(7.0, 32.0, 2.4), on_ground(-1.0, -6.0, 1.2), 0.9f);
   builder.add_camera("path", on_ground(-8.0, 13.0, 1.1), on_ground(7.0, -9.0, 1.2), 1.0f);
@@ -237,15 +237,15 @@ void add_cameras(SceneBuilder& builder) {
 
 void build_many_lights_scene(World& world, SceneInfo& info) {
   SceneBuilder builder(world, info);
-  const Materials materials = add_materials(builder);
-  add_ground(builder, materials);
+  const GardenMaterials materials = add_garden_materials(builder);
+  add_garden_ground(builder, materials);
   int count = 0;
-  add_lanterns(builder, materials, count);
+  add_garden_lanterns(builder, materials, count);
   add_stones(builder, materials, count);
   add_fireflies(builder, count);
   add_panes(builder, materials);
   add_moon(builder);
-  add_cameras(builder);
+  add_garden_cameras(builder);
 
   auto& environment = world.resource<SceneEnvironment>();
   environment.sky_zenith = vec3(0.006f, 0.010f, 0.032f);

@@ -15,7 +15,7 @@
 namespace gloam {
 namespace {
 
-struct Materials {
+struct MeadowMaterials {
   std::uint32_t soil, path, hills, wood, iron, coat, trousers, skin, hat;
 };
 
@@ -45,12 +45,12 @@ struct Pole {
 constexpr Pole kPoles[kMeadowLanterns] = {
     {1.15, 0.2, 3.1}, {1.4, 9.3, 3.0}, {-1.5, -9.7, 0.3}, {7.4, -0.6, 1.2}, {-8.7, 1.2, -1.0}};
 
-Materials add_materials(SceneBuilder& builder) {
+MeadowMaterials add_meadow_materials(SceneBuilder& builder) {
   const auto material = [&](const char* name, vec3 color, float roughness) {
     return builder.add_material(
         {.name = name, .base_color = vec4(color, 1.0f), .metallic = 0.0f, .roughness = roughness});
   };
-  Materials m{};
+  MeadowMaterials m{};
   m.soil = material("soil", vec3(0.085f, 0.105f, 0.038f), 0.95f);
   m.path = material("path", vec3(0.30f, 0.21f, 0.13f), 0.95f);
   m.hills = material("hills", vec3(0.075f, 0.105f, 0.042f), 0.95f);
@@ -63,7 +63,7 @@ Materials add_materials(SceneBuilder& builder) {
   return m;
 }
 
-void add_ground(World& world, SceneBuilder& builder, const Materials& m) {
+void add_meadow_ground(World& world, SceneBuilder& builder, const MeadowMaterials& m) {
   MeadowGround ground = meadow_ground_shapes();
   const double area = upward_area_m2(ground.field);
   const std::uint32_t field = builder.add_mesh("field", std::move(ground.field), m.soil);
@@ -110,7 +110,7 @@ void add_balls(World& world, SceneBuilder& builder) {
   }
 }
 
-void add_walker(World& world, SceneBuilder& builder, const Materials& m) {
+void add_walker(World& world, SceneBuilder& builder, const MeadowMaterials& m) {
   const std::vector<PoseKey> keys = walking_keys(kWalkerLoop);
   const Entity walker = builder.add_group("walker", keys.front().translation);
   world.add<Collider>(walker, {.shape = ColliderShape::capsule, .radius_m = 0.25f, .height_m = 1.8f});
@@ -148,7 +148,7 @@ void add_walker(World& world, SceneBuilder& builder, const Materials& m) {
   }
 }
 
-void add_crates(World& world, SceneBuilder& builder, const Materials& m) {
+void add_crates(World& world, SceneBuilder& builder, const MeadowMaterials& m) {
   struct Crate {
     const char* name;
     double x, z, heading;
@@ -172,7 +172,7 @@ void add_crates(World& world, SceneBuilder& builder, const Materials& m) {
 }
 
 /// Poles, each with an arm from which a bulb hangs below a hood.
-void add_lanterns(SceneBuilder& builder, const Materials& m, bool are_lit) {
+void add_meadow_lanterns(SceneBuilder& builder, const MeadowMaterials& m, bool are_lit) {
   constexpr vec3 kWarm(1.0f, 0.66f, 0.32f);
   const vec2 shaft[] = {{0.0f, -0.3f}, {0.06f, -0.3f}, {0.05f, 0.3f}, {0.03f, 0.4f}, {0.022f, 2.3f}, {0.0f, 2.32f}};
   const vec2 hood[] = {{0.0f, 0.05f}, {0.05f, 0.05f}, {0.16f, 0.0f}, {0.17f, 0.01f}, {0.07f, 0.1f}, {0.0f, 0.14f}};
@@ -205,7 +205,7 @@ void add_lanterns(SceneBuilder& builder, const Materials& m, bool are_lit) {
   }
 }
 
-void add_cameras(SceneBuilder& builder) {
+void add_meadow_cameras(SceneBuilder& builder) {
   builder.add_camera("near", meadow_point(-3.2, 11.3, 1.2), meadow_point(-4.8, 4.0, 0.6), 0.85f);
   builder.add_camera("far", meadow_point(-15.0, 15.2, 1.6), meadow_point(0.5, -0.5, 0.0), 0.8f);
   builder.add_camera("ground", meadow_point(-7.3, -3.1, 0.35), meadow_point(0.0, 1.2, 0.8), 0.9f);
@@ -228,13 +228,13 @@ struct Meadow {
 
 void build_meadow(World& world, SceneInfo& info, Meadow meadow) {
   SceneBuilder builder(world, info);
-  const Materials materials = add_materials(builder);
-  add_ground(world, builder, materials);
+  const MeadowMaterials materials = add_meadow_materials(builder);
+  add_meadow_ground(world, builder, materials);
   add_balls(world, builder);
   add_walker(world, builder, materials);
   add_crates(world, builder, materials);
-  add_lanterns(builder, materials, meadow.lanterns_are_lit);
-  add_cameras(builder);
+  add_meadow_lanterns(builder, materials, meadow.lanterns_are_lit);
+  add_meadow_cameras(builder);
   meadow.light.kind = LightKind::directional;
   builder.add_light(meadow.light_name, meadow.light, {0.0, 20.0, 0.0}, meadow.light_direction, true);
   world.resource<SceneEnvironment>() = meadow.sky;

@@ -30,8 +30,9 @@ constexpr int kCrates = 90;
 constexpr int kBoards = 8;
 constexpr double kBoardTurn = 0.9;  // radians per second
 
-constexpr std::array<vec3, 5> kPalette = {vec3(1.0f, 0.60f, 0.26f), vec3(1.0f, 0.38f, 0.16f), vec3(0.95f, 0.78f, 0.45f),
-                                          vec3(0.30f, 0.52f, 1.0f), vec3(0.62f, 0.36f, 1.0f)};
+constexpr std::array<vec3, 5> kGridPalette = {vec3(1.0f, 0.60f, 0.26f), vec3(1.0f, 0.38f, 0.16f),
+                                              vec3(0.95f, 0.78f, 0.45f), vec3(0.30f, 0.52f, 1.0f),
+                                              vec3(0.62f, 0.36f, 1.0f)};
 
 /// Point i of Roberts' R2 sequence in a square of side `side`. The first n points are spread evenly for every n.
 dvec3 spread_place(int i, double side, double start) {
@@ -47,11 +48,11 @@ dvec3 beside_pillars(dvec3 place, double distance) {
   return place;
 }
 
-struct Materials {
+struct GridMaterials {
   std::uint32_t ground, stone, wood, brick, iron;
 };
 
-Materials add_materials(SceneBuilder& builder) {
+GridMaterials add_grid_materials(SceneBuilder& builder) {
   const auto material = [&](const char* name, vec3 color, float roughness) {
     return builder.add_material(
         {.name = name, .base_color = vec4(color, 1.0f), .metallic = 0.0f, .roughness = roughness});
@@ -63,7 +64,7 @@ Materials add_materials(SceneBuilder& builder) {
           .iron = material("iron", vec3(0.08f, 0.08f, 0.09f), 0.5f)};
 }
 
-void add_pergola(SceneBuilder& builder, const Materials& m) {
+void add_pergola(SceneBuilder& builder, const GridMaterials& m) {
   const auto side = static_cast<float>(kSide);
   builder.add_instance("ground", builder.add_mesh("ground", box_shape({side * 2.0f, 0.2f, side * 2.0f}), m.ground),
                        {0.0, -0.2, 0.0});
@@ -78,7 +79,7 @@ void add_pergola(SceneBuilder& builder, const Materials& m) {
 }
 
 /// Low walls, crates, stacks of two crates, and posts with boards that turn.
-void add_things(SceneBuilder& builder, const Materials& m) {
+void add_things(SceneBuilder& builder, const GridMaterials& m) {
   const std::uint32_t wall = builder.add_mesh("wall", box_shape({2.6f, 1.1f, 0.24f}), m.brick);
   for (int i = 0; i < kWalls; ++i)
     builder.add_instance("wall", wall, beside_pillars(spread_place(i, kSide - 6.0, 0.31), 1.8),
@@ -100,7 +101,7 @@ void add_things(SceneBuilder& builder, const Materials& m) {
 
 Light lamp(int i) {
   Light light;
-  light.color = kPalette[static_cast<std::size_t>(i) % kPalette.size()];
+  light.color = kGridPalette[static_cast<std::size_t>(i) % kGridPalette.size()];
   light.width_m = 0.12f;
   if (i % 2 == 0) return light;
   light.kind = LightKind::spot;
@@ -110,16 +111,16 @@ Light lamp(int i) {
 }
 
 /// Lamps under the beams: a point light below a lantern, or a spot light below a hood.
-void add_lamps(SceneBuilder& builder, const Materials& m) {
+void add_lamps(SceneBuilder& builder, const GridMaterials& m) {
   const vec2 lantern[] = {{0.0f, 0.0f}, {0.12f, 0.03f}, {0.17f, 0.16f}, {0.12f, 0.3f}, {0.0f, 0.33f}};
   const vec2 hood[] = {{0.0f, 0.12f}, {0.26f, 0.12f}, {0.06f, 0.3f}, {0.0f, 0.32f}};
   const std::uint32_t rod = builder.add_mesh("rod", box_shape({0.02f, 0.5f, 0.02f}), m.iron);
   const std::uint32_t hood_mesh = builder.add_mesh("hood", turned_shape(hood, 12), m.iron);
-  std::array<std::uint32_t, kPalette.size()> lanterns{};
+  std::array<std::uint32_t, kGridPalette.size()> lanterns{};
   for (std::size_t i = 0; i < lanterns.size(); ++i) {
     const Material glow = {.name = "glow " + std::to_string(i),
                            .base_color = vec4(0.02f, 0.02f, 0.02f, 1.0f),
-                           .emissive = kPalette[i] * 1.6f,
+                           .emissive = kGridPalette[i] * 1.6f,
                            .metallic = 0.0f,
                            .roughness = 0.6f};
     lanterns[i] = builder.add_mesh("lantern", turned_shape(lantern, 12), builder.add_material(glow));
@@ -128,7 +129,7 @@ void add_lamps(SceneBuilder& builder, const Materials& m) {
     dvec3 place = spread_place(i, kSide, 0.5);
     place.z = kBeamStep * std::round(place.z / kBeamStep);
     place = beside_pillars(place, 0.9) + dvec3(0.0, kLampHeight, 0.0);
-    const std::size_t color = static_cast<std::size_t>(i) % kPalette.size();
+    const std::size_t color = static_cast<std::size_t>(i) % kGridPalette.size();
     builder.add_instance("lamp", i % 2 == 0 ? lanterns[color] : hood_mesh, place + dvec3(0.0, 0.06, 0.0));
     builder.add_instance("rod", rod, place + dvec3(0.0, 0.34, 0.0));
     builder.add_light("light " + std::to_string(i), lamp(i), place, {0.0, -1.0, 0.0}, true);
@@ -139,7 +140,7 @@ void add_lamps(SceneBuilder& builder, const Materials& m) {
 
 void build_shadow_grid_scene(World& world, SceneInfo& info) {
   SceneBuilder builder(world, info);
-  const Materials materials = add_materials(builder);
+  const GridMaterials materials = add_grid_materials(builder);
   add_pergola(builder, materials);
   add_things(builder, materials);
   add_lamps(builder, materials);

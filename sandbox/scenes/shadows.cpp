@@ -14,16 +14,16 @@ namespace {
 constexpr int kBars = 9;
 constexpr double kBarStep = 0.22;
 
-struct Materials {
+struct ShadowMaterials {
   std::uint32_t floor, plaster, clay, iron, cloth;
 };
 
-Materials add_materials(SceneBuilder& builder) {
+ShadowMaterials add_shadow_materials(SceneBuilder& builder) {
   const auto material = [&](const char* name, vec3 color, float metallic, float roughness) {
     return builder.add_material(
         {.name = name, .base_color = vec4(color, 1.0f), .metallic = metallic, .roughness = roughness});
   };
-  Materials m{};
+  ShadowMaterials m{};
   m.floor = material("floor", vec3(0.42f, 0.40f, 0.37f), 0.0f, 0.85f);
   m.plaster = material("plaster", vec3(0.62f, 0.58f, 0.52f), 0.0f, 0.9f);
   m.clay = material("clay", vec3(0.52f, 0.20f, 0.12f), 0.0f, 0.7f);
@@ -46,7 +46,7 @@ Primitive sheet_shape(float width_m, float depth_m) {
   return sheet;
 }
 
-void add_room(SceneBuilder& builder, const Materials& m) {
+void add_shadow_room(SceneBuilder& builder, const ShadowMaterials& m) {
   builder.add_instance("floor", builder.add_mesh("floor", box_shape({24.0f, 0.2f, 24.0f}), m.floor), {0.0, -0.2, 0.0});
   builder.add_instance("wall", builder.add_mesh("wall", box_shape({24.0f, 4.5f, 0.3f}), m.plaster), {0.0, 0.0, -4.0});
   const vec2 column[] = {{0.0f, 0.0f},   {0.34f, 0.0f}, {0.34f, 0.18f}, {0.24f, 0.26f},
@@ -55,7 +55,7 @@ void add_room(SceneBuilder& builder, const Materials& m) {
   for (int i = 0; i < 3; ++i) builder.add_instance("column " + std::to_string(i), mesh, {-3.6 + 1.7 * i, 0.0, -1.6});
 }
 
-void add_grille(SceneBuilder& builder, const Materials& m) {
+void add_grille(SceneBuilder& builder, const ShadowMaterials& m) {
   const std::uint32_t bar = builder.add_mesh("bar", box_shape({0.05f, 1.8f, 0.05f}), m.iron);
   const std::uint32_t rail = builder.add_mesh("rail", box_shape({2.1f, 0.06f, 0.06f}), m.iron);
   for (int i = 0; i < kBars; ++i)
@@ -64,7 +64,7 @@ void add_grille(SceneBuilder& builder, const Materials& m) {
     builder.add_instance("rail", rail, {1.4 + 0.5 * kBarStep * (kBars - 1), height, -1.1});
 }
 
-void add_table(SceneBuilder& builder, const Materials& m) {
+void add_table(SceneBuilder& builder, const ShadowMaterials& m) {
   const std::uint32_t leg = builder.add_mesh("leg", box_shape({0.06f, 0.72f, 0.06f}), m.clay);
   for (const double x : {-0.55, 0.55})
     for (const double z : {-0.35, 0.35}) builder.add_instance("leg", leg, {-0.6 + x, 0.0, 1.2 + z});
@@ -75,7 +75,7 @@ void add_table(SceneBuilder& builder, const Materials& m) {
   builder.add_instance("sheet in the air", sheet, {2.5, 0.9, 0.9}, -0.4);
 }
 
-void add_lights(SceneBuilder& builder) {
+void add_shadow_lights(SceneBuilder& builder) {
   Light lamp;
   lamp.color = vec3(1.0f, 0.78f, 0.52f);
   lamp.intensity = 220.0f;
@@ -103,11 +103,11 @@ void add_lights(SceneBuilder& builder) {
 
 void build_shadows_scene(World& world, SceneInfo& info) {
   SceneBuilder builder(world, info);
-  const Materials materials = add_materials(builder);
-  add_room(builder, materials);
+  const ShadowMaterials materials = add_shadow_materials(builder);
+  add_shadow_room(builder, materials);
   add_grille(builder, materials);
   add_table(builder, materials);
-  add_lights(builder);
+  add_shadow_lights(builder);
   builder.add_camera("main", {0.8, 2.6, 6.0}, {0.0, 0.5, -0.6}, 0.8f);
   builder.add_camera("close", {1.9, 0.55, 2.4}, {1.1, 0.0, 1.1}, 0.7f);
 

@@ -19,11 +19,11 @@ constexpr dvec3 kBowl(3.4, 0.0, 1.6);    // the fire burns here
 constexpr dvec3 kSpot(-4.6, 3.4, -1.5);  // the dust is in its beam
 constexpr double kLampX = 1.7;
 
-struct Materials {
+struct SmokeMaterials {
   std::uint32_t stone, wall, iron, water, warm, cold, ember;
 };
 
-Materials add_materials(SceneBuilder& builder) {
+SmokeMaterials add_smoke_materials(SceneBuilder& builder) {
   const auto material = [&](const char* name, vec3 color, float roughness) {
     return builder.add_material(
         {.name = name, .base_color = vec4(color, 1.0f), .metallic = 0.0f, .roughness = roughness});
@@ -35,7 +35,7 @@ Materials add_materials(SceneBuilder& builder) {
                                  .metallic = 0.0f,
                                  .roughness = 1.0f});
   };
-  Materials m{};
+  SmokeMaterials m{};
   m.stone = material("stone", vec3(0.20f, 0.19f, 0.18f), 0.9f);
   m.wall = material("wall", vec3(0.26f, 0.22f, 0.19f), 0.95f);
   m.iron = material("iron", vec3(0.05f, 0.05f, 0.055f), 0.6f);
@@ -46,7 +46,7 @@ Materials add_materials(SceneBuilder& builder) {
   return m;
 }
 
-void add_courtyard(SceneBuilder& builder, const Materials& m) {
+void add_courtyard(SceneBuilder& builder, const SmokeMaterials& m) {
   builder.add_instance("floor", builder.add_mesh("floor", box_shape({18.0f, 0.4f, 14.0f}), m.stone), {0.0, -0.4, 0.0});
   const std::uint32_t wall = builder.add_mesh("wall", box_shape({18.0f, 4.2f, 0.4f}), m.wall);
   builder.add_instance("back wall", wall, {0.0, 0.0, -5.2});
@@ -61,7 +61,8 @@ void add_courtyard(SceneBuilder& builder, const Materials& m) {
   builder.add_instance("vent", builder.add_mesh("vent", turned_shape(vent, 24), m.iron), kVent);
 }
 
-void add_lamp(SceneBuilder& builder, const Materials& m, const char* name, double x, vec3 color, std::uint32_t bulb) {
+void add_lamp(SceneBuilder& builder, const SmokeMaterials& m, const char* name, double x, vec3 color,
+              std::uint32_t bulb) {
   const vec2 post[] = {{0.0f, 0.0f}, {0.09f, 0.0f}, {0.03f, 0.1f}, {0.03f, 1.5f}, {0.07f, 1.54f}, {0.0f, 1.56f}};
   const std::string lamp = name;
   builder.add_instance(lamp + " post", builder.add_mesh(lamp + " post", turned_shape(post, 16), m.iron), {x, 0.0, 0.1});
@@ -93,7 +94,7 @@ void add_smoke(World& world, SceneBuilder& builder) {
 }
 
 /// A bowl of embers on a wet floor, with flames, their smoke and the proxy that stands for them in the water.
-void add_fire(World& world, SceneBuilder& builder, const Materials& m) {
+void add_smoke_fire(World& world, SceneBuilder& builder, const SmokeMaterials& m) {
   const vec2 bowl[] = {{0.0f, 0.0f},   {0.22f, 0.0f},  {0.1f, 0.08f},  {0.1f, 0.3f},
                        {0.36f, 0.46f}, {0.42f, 0.56f}, {0.38f, 0.56f}, {0.3f, 0.46f}};
   builder.add_instance("bowl", builder.add_mesh("bowl", turned_shape(bowl, 32), m.iron), kBowl);
@@ -126,7 +127,7 @@ void add_fire(World& world, SceneBuilder& builder, const Materials& m) {
   builder.add_light("fire light", light, flames + dvec3(0.0, 0.35, 0.0), {0.0, -1.0, 0.0}, true);
 }
 
-void add_beam(World& world, SceneBuilder& builder, const Materials& m) {
+void add_beam(World& world, SceneBuilder& builder, const SmokeMaterials& m) {
   const dvec3 target(-4.0, 0.0, 1.2);
   const vec2 hood[] = {{0.0f, 0.2f}, {0.06f, 0.18f}, {0.13f, 0.0f}, {0.12f, 0.0f}, {0.05f, 0.16f}};
   builder.add_instance("spot", builder.add_mesh("spot", turned_shape(hood, 20), m.iron), kSpot);
@@ -160,7 +161,7 @@ void add_ground_fog(World& world, SceneBuilder& builder) {
                .box_m = vec3(12.0f, 0.25f, 8.0f)});
 }
 
-void add_cameras(SceneBuilder& builder) {
+void add_smoke_cameras(SceneBuilder& builder) {
   builder.add_camera("near", {0.3, 1.35, 4.6}, {0.0, 1.5, 0.0}, 0.75f);
   builder.add_camera("far", {1.2, 2.9, 11.5}, {-0.2, 1.1, -1.0}, 0.7f);
   builder.add_camera("fire", {4.2, 1.0, 6.2}, {3.5, 0.2, 2.0}, 0.62f);
@@ -173,15 +174,15 @@ void add_cameras(SceneBuilder& builder) {
 
 void build_smoke_scene(World& world, SceneInfo& info) {
   SceneBuilder builder(world, info);
-  const Materials m = add_materials(builder);
+  const SmokeMaterials m = add_smoke_materials(builder);
   add_courtyard(builder, m);
   add_lamp(builder, m, "warm lamp", -kLampX, kWarm, m.warm);
   add_lamp(builder, m, "cold lamp", kLampX, kCold, m.cold);
   add_smoke(world, builder);
-  add_fire(world, builder, m);
+  add_smoke_fire(world, builder, m);
   add_beam(world, builder, m);
   add_ground_fog(world, builder);
-  add_cameras(builder);
+  add_smoke_cameras(builder);
 
   auto& environment = world.resource<SceneEnvironment>();
   environment.sky_zenith = vec3(0.010f, 0.014f, 0.030f);

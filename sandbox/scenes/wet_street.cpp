@@ -78,7 +78,8 @@ void add_puddles(WetStreet& street) {
 }
 
 /// A room and its probe, each a box between two corners.
-void add_room(WetStreet& street, const std::string& name, dvec3 min, dvec3 max, dvec3 probe_min, dvec3 probe_max) {
+void add_street_room(WetStreet& street, const std::string& name, dvec3 min, dvec3 max, dvec3 probe_min,
+                     dvec3 probe_max) {
   const Entity room = street.builder.add_group("room " + name, 0.5 * (min + max));
   street.world.add<IbrRoom>(room, {.size_m = vec3(max - min)});
   if (name == "terrace") {
@@ -95,10 +96,11 @@ void add_rooms(WetStreet& street) {
   constexpr double kRoomX = kStreetFacadeX + 0.3;
   // The passage of the gatehouse lies in both halves of the street; the alley's room reaches across the street, so
   // that the houses opposite its mouth belong to it. Probes reach a little behind the walls they show.
-  add_room(street, "near", {-kRoomX, -0.1, -28.5}, {kRoomX, 11.0, 9.3}, {-6.0, -1.0, -24.5}, {6.0, 10.0, 9.5});
-  add_room(street, "far", {-kRoomX, -0.1, -50.3}, {kRoomX, 16.0, -24.4}, {-6.0, -1.0, -50.5}, {6.0, 10.0, -28.5});
-  add_room(street, "alley", {-kRoomX, -0.1, -22.3}, {16.3, 10.5, -17.7}, {5.5, -1.0, -22.5}, {16.5, 9.0, -17.5});
-  add_room(street, "terrace", {-kRoomX, 3.4, -24.3}, {13.3, 11.0, -5.7}, {5.5, 3.0, -18.5}, {13.5, 9.5, -5.5});
+  add_street_room(street, "near", {-kRoomX, -0.1, -28.5}, {kRoomX, 11.0, 9.3}, {-6.0, -1.0, -24.5}, {6.0, 10.0, 9.5});
+  add_street_room(street, "far", {-kRoomX, -0.1, -50.3}, {kRoomX, 16.0, -24.4}, {-6.0, -1.0, -50.5},
+                  {6.0, 10.0, -28.5});
+  add_street_room(street, "alley", {-kRoomX, -0.1, -22.3}, {16.3, 10.5, -17.7}, {5.5, -1.0, -22.5}, {16.5, 9.0, -17.5});
+  add_street_room(street, "terrace", {-kRoomX, 3.4, -24.3}, {13.3, 11.0, -5.7}, {5.5, 3.0, -18.5}, {13.5, 9.5, -5.5});
   const Entity sky = street.builder.add_group("probe sky", {0.0, 18.0, -18.0});
   street.world.add<CubeProbe>(sky, {.size_m = vec3(0.0f), .resolution = 128, .global = true});
 }

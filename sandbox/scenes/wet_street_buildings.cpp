@@ -32,7 +32,7 @@ Facade row_facade(const char* name, double side, double z0, double z1, float hei
   return facade;
 }
 
-void add_ground(WetStreet& street) {
+void add_street_ground(WetStreet& street) {
   const StreetMaterials& m = street.materials;
   add_block(street, "road", m.asphalt, {-kStreetKerbX, -0.3, kStreetNorthZ}, {kStreetKerbX, 0.0, kStreetSouthZ});
   add_block(street, "alley road", m.asphalt, {kStreetKerbX, -0.3, kAlleyNorthZ}, {kAlleyEndX, 0.0, kAlleySouthZ});
@@ -280,7 +280,7 @@ void add_canopy(WetStreet& street) {
 }  // namespace
 
 void add_street_buildings(WetStreet& street) {
-  add_ground(street);
+  add_street_ground(street);
   add_road_marks(street);
   add_left_row(street);
   add_right_row(street);

@@ -57,7 +57,7 @@ void add_street_lamps(WetStreet& street) {
 }
 
 /// A burning barrel, with its proxy.
-void add_fire(WetStreet& street, dvec3 at) {
+void add_street_fire(WetStreet& street, dvec3 at) {
   SceneBuilder& builder = street.builder;
   const vec2 barrel[] = {{0.0f, 0.0f},   {0.29f, 0.0f},  {0.29f, 0.28f}, {0.31f, 0.3f}, {0.29f, 0.32f}, {0.29f, 0.6f},
                          {0.31f, 0.62f}, {0.29f, 0.64f}, {0.29f, 0.9f},  {0.27f, 0.9f}, {0.26f, 0.7f},  {0.0f, 0.7f}};
@@ -124,7 +124,7 @@ void add_wall_lamps(WetStreet& street) {
 }
 
 /// Bulbs on two cords over the terrace.
-void add_garlands(WetStreet& street) {
+void add_street_garlands(WetStreet& street) {
   const std::uint32_t bulb =
       street.builder.add_mesh("small bulb", sphere_shape(0.055f, 10), add_glow(street, "small bulb", kWarm * 9.0f));
   const std::uint32_t cord =
@@ -173,9 +173,9 @@ void add_hidden_lamps(WetStreet& street) {
 
 void add_street_lights(WetStreet& street) {
   add_street_lamps(street);
-  add_fire(street, {-2.2, 0.0, -4.6});
+  add_street_fire(street, {-2.2, 0.0, -4.6});
   add_wall_lamps(street);
-  add_garlands(street);
+  add_street_garlands(street);
   add_hidden_lamps(street);
 }
 

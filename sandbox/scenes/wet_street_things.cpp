@@ -11,7 +11,7 @@ namespace {
 
 const dquat kYToX(std::sqrt(0.5), 0.0, 0.0, -std::sqrt(0.5));  // a rotation that takes +Y to +X
 
-void add_figure(WetStreet& street, dvec3 at, double heading) {
+void add_street_figure(WetStreet& street, dvec3 at, double heading) {
   const StreetMaterials& m = street.materials;
   const vec2 coat[] = {{0.0f, 0.45f}, {0.22f, 0.45f}, {0.17f, 0.85f}, {0.15f, 1.0f},
                        {0.2f, 1.32f}, {0.16f, 1.42f}, {0.05f, 1.5f},  {0.0f, 1.52f}};
@@ -117,7 +117,7 @@ void add_railing(WetStreet& street, dvec3 start, double heading, float length_m)
 }  // namespace
 
 void add_street_things(WetStreet& street) {
-  add_figure(street, {1.05, 0.0, -3.2}, 0.5);
+  add_street_figure(street, {1.05, 0.0, -3.2}, 0.5);
   add_van(street, 2.0, -11.5);
   add_small_things(street);
   add_railing(street, {kStreetFacadeX + 0.1, kTerraceFloorY, kAlleySouthZ + 0.1}, -0.5 * kPi,

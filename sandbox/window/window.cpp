@@ -40,6 +40,10 @@ static_assert(std::size(kEditKeys) == kEditKeyCount);
 /// GLFW's buttons in the order of PanelInput::buttons.
 constexpr int kButtons[] = {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE};
 
+}  // namespace
+
+// Window::State has members of these types, so they have linkage.
+
 /// Input events since the last poll. Polled states miss a key or button that is released within a slow frame.
 struct Strikes {
   std::bitset<GLFW_KEY_LAST + 1> keys;
@@ -57,6 +61,8 @@ struct Scripted {
   bool minimised = false;
   std::optional<std::pair<double, double>> pointer;
 };
+
+namespace {
 
 Strikes& strikes_of(GLFWwindow* window) { return *static_cast<Strikes*>(glfwGetWindowUserPointer(window)); }
 

@@ -13,7 +13,6 @@ namespace gloam {
 namespace {
 
 using declare::Item;
-using gpu::Access;
 using gpu::ResourceKind;
 
 constexpr std::uint64_t kViewKey = binding_key("view");
@@ -87,18 +86,18 @@ void ShaderPass::declare_read(const InterfaceBinding& slot, ImageRef image, cons
   if (slot.kind == ResourceKind::storage_image) {
     GLOAM_ASSERT(interface_->compute && !slot.writable,
                  sentence(slot.name, "the shader may write this image, so the pass must write it"));
-    return graph_pass_.read(image, Access::compute_storage_read, range);
+    return graph_pass_.read(image, gpu::Access::compute_storage_read, range);
   }
-  if (interface_->compute) return graph_pass_.read(image, Access::compute_read, range);
-  if (slot.in_vertex) graph_pass_.read(image, Access::vertex_read, range);
-  if (slot.in_last) graph_pass_.read(image, Access::fragment_read, range);
+  if (interface_->compute) return graph_pass_.read(image, gpu::Access::compute_read, range);
+  if (slot.in_vertex) graph_pass_.read(image, gpu::Access::vertex_read, range);
+  if (slot.in_last) graph_pass_.read(image, gpu::Access::fragment_read, range);
 }
 
 void ShaderPass::declare_read(const InterfaceBinding& slot, BufferRef buffer) {
-  if (slot.kind == ResourceKind::uniform_buffer) return graph_pass_.read(buffer, Access::uniform_read);
-  if (interface_->compute) return graph_pass_.read(buffer, Access::compute_read);
-  if (slot.in_vertex) graph_pass_.read(buffer, Access::vertex_read);
-  if (slot.in_last) graph_pass_.read(buffer, Access::fragment_read);
+  if (slot.kind == ResourceKind::uniform_buffer) return graph_pass_.read(buffer, gpu::Access::uniform_read);
+  if (interface_->compute) return graph_pass_.read(buffer, gpu::Access::compute_read);
+  if (slot.in_vertex) graph_pass_.read(buffer, gpu::Access::vertex_read);
+  if (slot.in_last) graph_pass_.read(buffer, gpu::Access::fragment_read);
 }
 
 void ShaderPass::bind_image(const InterfaceBinding& slot, ImageRef image, gpu::SamplerHandle sampler,
@@ -161,15 +160,15 @@ void ShaderPass::read(std::string_view binding, const gpu::Binding::BufferRange&
   set(*slot, item);
 }
 
-Access ShaderPass::write_access(const InterfaceBinding& slot) const {
+gpu::Access ShaderPass::write_access(const InterfaceBinding& slot) const {
   GLOAM_ASSERT(interface_->compute || !slot.in_vertex, sentence(slot.name, "vertex shaders write no resources"));
-  return interface_->compute ? Access::compute_write : Access::fragment_write;
+  return interface_->compute ? gpu::Access::compute_write : gpu::Access::fragment_write;
 }
 
 ImageRef ShaderPass::write(std::string_view binding, ImageRef image, const gpu::ImageRange& range) {
   const InterfaceBinding* slot = expect(binding, true, true);
   // Also written if the program failed: later passes of a frame that is given up may still declare reads.
-  if (slot == nullptr) return graph_pass_.write(image, Access::compute_write, range);
+  if (slot == nullptr) return graph_pass_.write(image, gpu::Access::compute_write, range);
   image = graph_pass_.write(image, write_access(*slot), range);
   bind_image(*slot, image, {}, range);
   recording_.items.back().written = true;
@@ -180,7 +179,7 @@ BufferRef ShaderPass::write(std::string_view binding, BufferRef buffer) { return
 
 BufferRef ShaderPass::write_part(std::string_view binding, BufferRef buffer, std::uint64_t offset, std::uint64_t size) {
   const InterfaceBinding* slot = expect(binding, false, true);
-  if (slot == nullptr) return graph_pass_.write(buffer, Access::compute_write);
+  if (slot == nullptr) return graph_pass_.write(buffer, gpu::Access::compute_write);
   buffer = graph_pass_.write(buffer, write_access(*slot));
   bind_buffer(*slot, buffer, offset, size);
   recording_.items.back().written = true;

@@ -37,25 +37,26 @@ std::uint32_t target_count(const Document& document, std::uint32_t node) {
   return static_cast<std::uint32_t>(document.meshes[mesh].primitives[0].targets.size());
 }
 
-Error fault(std::string sentence) { return {ErrorKind::input, std::move(sentence)}; }
+Error animation_fault(std::string sentence) { return {ErrorKind::input, std::move(sentence)}; }
 
 Status read_keys(const Document& document, const AnimationSource::Sampler& sampler, AnimationChannel& channel) {
   const Accessor& input = document.accessors[sampler.input];
   const Accessor& output = document.accessors[sampler.output];
   if (input.components != 1 || input.component_type != ComponentType::f32)
-    return fault("its times (" + place("accessor", sampler.input) + ") must be floats");
+    return animation_fault("its times (" + place("accessor", sampler.input) + ") must be floats");
   const std::uint32_t components = channel.path == AnimationPath::weights ? 1 : channel.width;
   const std::uint64_t values = channel.interpolation == Interpolation::cubic ? 3 : 1;
   const std::uint64_t wanted = input.count * values * (channel.path == AnimationPath::weights ? channel.width : 1);
   if (output.components != components || output.count != wanted)
-    return fault("its values (" + place("accessor", sampler.output) + ") must be " + std::to_string(wanted) + " of " +
-                 std::to_string(components) + " components, are " + std::to_string(output.count) + " of " +
-                 std::to_string(output.components));
+    return animation_fault("its values (" + place("accessor", sampler.output) + ") must be " + std::to_string(wanted) +
+                           " of " + std::to_string(components) + " components, are " + std::to_string(output.count) +
+                           " of " + std::to_string(output.components));
   channel.times.resize(input.count);
   GLOAM_TRY(read_floats(document, sampler.input, channel.times));
   if (std::adjacent_find(channel.times.begin(), channel.times.end(), std::greater_equal<>()) != channel.times.end())
-    return fault("its times (" + place("accessor", sampler.input) + ") must increase strictly");
-  if (channel.times.front() < 0.0f) return fault("its times (" + place("accessor", sampler.input) + ") must be ≥ 0");
+    return animation_fault("its times (" + place("accessor", sampler.input) + ") must increase strictly");
+  if (channel.times.front() < 0.0f)
+    return animation_fault("its times (" + place("accessor", sampler.input) + ") must be ≥ 0");
   channel.values.resize(output.count * output.components);
   return read_floats(document, sampler.output, channel.values);
 }
@@ -72,7 +73,8 @@ Result<std::optional<AnimationChannel>> import_channel(const Document& document,
                   : *path == AnimationPath::weights ? target_count(document, source.node)
                                                     : 3;
   if (channel.width == 0)
-    return fault("it moves the weights of node " + std::to_string(source.node) + ", which has no morph targets");
+    return animation_fault("it moves the weights of node " + std::to_string(source.node) +
+                           ", which has no morph targets");
   const AnimationSource::Sampler& sampler = animation.samplers[source.sampler];
   channel.interpolation = interpolation_of(sampler.interpolation);
   GLOAM_TRY(read_keys(document, sampler, channel));

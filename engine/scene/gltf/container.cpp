@@ -15,7 +15,7 @@ constexpr std::uint32_t kBinChunk = 0x004e4942;   // "BIN"
 constexpr std::uint64_t kHeaderSize = 12;
 constexpr std::uint64_t kChunkHeaderSize = 8;
 
-Error fault(std::string sentence) { return {ErrorKind::input, std::move(sentence)}; }
+Error container_fault(std::string sentence) { return {ErrorKind::input, std::move(sentence)}; }
 
 /// Little-endian word at a byte offset, which must be in range.
 std::uint32_t word(const std::vector<std::uint8_t>& bytes, std::uint64_t offset) {
@@ -26,25 +26,28 @@ std::uint32_t word(const std::vector<std::uint8_t>& bytes, std::uint64_t offset)
 
 Status read_chunks(Container& file) {
   const std::vector<std::uint8_t>& bytes = file.bytes;
-  if (bytes.size() < kHeaderSize + kChunkHeaderSize) return fault("is a .glb of less than 20 bytes");
+  if (bytes.size() < kHeaderSize + kChunkHeaderSize) return container_fault("is a .glb of less than 20 bytes");
   const std::uint32_t version = word(bytes, 4);
-  if (version != 2) return fault("is a .glb of version " + std::to_string(version) + ", only version 2 is read");
+  if (version != 2)
+    return container_fault("is a .glb of version " + std::to_string(version) + ", only version 2 is read");
   const std::uint64_t length = word(bytes, 8);
   if (length > bytes.size())
-    return fault("is cut short: its header says " + std::to_string(length) + " bytes, there are " +
-                 std::to_string(bytes.size()));
+    return container_fault("is cut short: its header says " + std::to_string(length) + " bytes, there are " +
+                           std::to_string(bytes.size()));
   file.length = length;
   file.json_offset = kHeaderSize + kChunkHeaderSize;
   file.json_size = word(bytes, kHeaderSize);
   const std::uint64_t json_end = file.json_offset + file.json_size;
-  if (word(bytes, kHeaderSize + 4) != kJsonChunk) return fault("is a .glb whose first chunk is not JSON");
-  if (file.json_size == 0 || json_end > length) return fault("is a .glb whose JSON chunk does not fit its length");
+  if (word(bytes, kHeaderSize + 4) != kJsonChunk) return container_fault("is a .glb whose first chunk is not JSON");
+  if (file.json_size == 0 || json_end > length)
+    return container_fault("is a .glb whose JSON chunk does not fit its length");
   if (json_end == length) return {};
-  if (json_end + kChunkHeaderSize > length) return fault("is a .glb that ends within a chunk's header");
+  if (json_end + kChunkHeaderSize > length) return container_fault("is a .glb that ends within a chunk's header");
   const std::uint64_t bin_size = word(bytes, json_end);
-  if (word(bytes, json_end + 4) != kBinChunk) return fault("is a .glb whose second chunk is not BIN");
+  if (word(bytes, json_end + 4) != kBinChunk) return container_fault("is a .glb whose second chunk is not BIN");
   if (bin_size == 0 || bin_size % 4 != 0 || json_end + kChunkHeaderSize + bin_size > length)
-    return fault("is a .glb whose BIN chunk of " + std::to_string(bin_size) + " bytes does not fit its length");
+    return container_fault("is a .glb whose BIN chunk of " + std::to_string(bin_size) +
+                           " bytes does not fit its length");
   file.has_binary_chunk = true;
   return {};
 }
@@ -54,8 +57,8 @@ Status read_chunks(Container& file) {
 Result<Container> open_container(std::vector<std::uint8_t> bytes) {
   Container file;
   file.bytes = std::move(bytes);
-  if (file.bytes.size() >= std::numeric_limits<std::uint32_t>::max()) return fault("is larger than 4 GiB");
-  if (file.bytes.empty()) return fault("is empty");
+  if (file.bytes.size() >= std::numeric_limits<std::uint32_t>::max()) return container_fault("is larger than 4 GiB");
+  if (file.bytes.empty()) return container_fault("is empty");
   file.binary = file.bytes.size() >= 4 && word(file.bytes, 0) == kMagic;
   file.json_size = file.length = file.bytes.size();
   if (file.binary) GLOAM_TRY(read_chunks(file));

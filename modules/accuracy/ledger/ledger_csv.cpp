@@ -41,7 +41,7 @@ class CsvLine {
   bool first_ = true;
 };
 
-constexpr const char* kColumns =
+constexpr const char* kCsvColumns =
     "knob,value,default,reference_kind,reference,reference_noise,below_noise,counted,counted_unit,wrong,flip_mean,flip_"
     "p99,rmse,"
     "rmse_p99,psnr_db,temporal_mean,temporal_p99,median_ms,p10_ms,p90_ms,cpu_ms,gpu_ms,module_cpu_ms,module_gpu_ms,"
@@ -50,7 +50,7 @@ constexpr const char* kColumns =
 }  // namespace
 
 std::string ledger_csv(const Ledger& ledger) {
-  std::string text = kColumns;
+  std::string text = kCsvColumns;
   for (const LedgerRow& row : ledger.rows) {
     CsvLine line;
     line.text(row.knob).text(row.value).flag(row.is_default);

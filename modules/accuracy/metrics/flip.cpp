@@ -23,14 +23,14 @@ constexpr double kCompressTo = 0.95;      // p_t: … to this share of the range
 constexpr double kFeatureExponent = 0.5;  // q_f
 
 struct Opponents {
-  std::array<Plane, 3> planes;
+  std::array<FlipPlane, 3> planes;
 };
 
 Opponents opponents_of(const EncodedPixels& picture) {
   std::array<double, 256> linear;
   for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = srgb_to_linear(static_cast<double>(i) / 255.0);
   Opponents result;
-  for (Plane& plane : result.planes) plane = {picture.width, picture.height, std::vector<double>(picture.count())};
+  for (FlipPlane& plane : result.planes) plane = {picture.width, picture.height, std::vector<double>(picture.count())};
   for (std::size_t i = 0; i < picture.count(); ++i) {
     const std::uint8_t* const pixel = picture.rgba.data() + i * 4;
     const Color color = ycxcz_from_linear({linear[pixel[0]], linear[pixel[1]], linear[pixel[2]]});
@@ -40,10 +40,10 @@ Opponents opponents_of(const EncodedPixels& picture) {
 }
 
 /// Gradient magnitude of one feature: `kernel` across, the Gaussian along.
-std::vector<float> feature_strength(const Plane& luminance, const Plane& smooth_rows, const Kernel& kernel,
+std::vector<float> feature_strength(const FlipPlane& luminance, const FlipPlane& smooth_rows, const Kernel& kernel,
                                     const Kernel& gaussian) {
-  const Plane across_x = filter_columns(filter_rows(luminance, kernel), gaussian);
-  const Plane across_y = filter_columns(smooth_rows, kernel);
+  const FlipPlane across_x = filter_columns(filter_rows(luminance, kernel), gaussian);
+  const FlipPlane across_y = filter_columns(smooth_rows, kernel);
   std::vector<float> strength(luminance.values.size());
   for (std::size_t i = 0; i < strength.size(); ++i) {
     const double x = across_x.values[i];
@@ -53,10 +53,10 @@ std::vector<float> feature_strength(const Plane& luminance, const Plane& smooth_
   return strength;
 }
 
-void add_features(FlipFeatures& features, Plane luminance) {
+void add_features(FlipFeatures& features, FlipPlane luminance) {
   for (double& value : luminance.values) value = (value + 16.0) / 116.0;
   const FeatureKernels kernels = feature_kernels(features.pixels_per_degree);
-  const Plane smooth_rows = filter_rows(luminance, kernels.gaussian);
+  const FlipPlane smooth_rows = filter_rows(luminance, kernels.gaussian);
   features.edges = feature_strength(luminance, smooth_rows, kernels.edge, kernels.gaussian);
   features.points = feature_strength(luminance, smooth_rows, kernels.point, kernels.gaussian);
 }

@@ -68,10 +68,10 @@ void add_scaled(std::span<double> to, const double* from, double weight) {
 
 }  // namespace
 
-Plane filter_rows(const Plane& plane, const Kernel& kernel) {
+FlipPlane filter_rows(const FlipPlane& plane, const Kernel& kernel) {
   const auto radius = static_cast<std::size_t>(kernel.radius);
   const std::size_t width = plane.width;
-  Plane result{plane.width, plane.height, std::vector<double>(plane.values.size())};
+  FlipPlane result{plane.width, plane.height, std::vector<double>(plane.values.size())};
   std::vector<double> padded(width + 2 * radius);
   for (std::size_t y = 0; y < plane.height; ++y) {
     const double* const row = plane.values.data() + y * width;
@@ -85,10 +85,10 @@ Plane filter_rows(const Plane& plane, const Kernel& kernel) {
   return result;
 }
 
-Plane filter_columns(const Plane& plane, const Kernel& kernel) {
+FlipPlane filter_columns(const FlipPlane& plane, const Kernel& kernel) {
   const std::size_t width = plane.width;
   const int last = static_cast<int>(plane.height) - 1;
-  Plane result{plane.width, plane.height, std::vector<double>(plane.values.size())};
+  FlipPlane result{plane.width, plane.height, std::vector<double>(plane.values.size())};
   for (int y = 0; y <= last; ++y) {
     const std::span<double> out(result.values.data() + static_cast<std::size_t>(y) * width, width);
     for (int offset = -kernel.radius; offset <= kernel.radius; ++offset) {
@@ -119,10 +119,10 @@ SensitivityFilter sensitivity_filter(Opponent channel, double pixels_per_degree)
   return filter;
 }
 
-Plane apply(const SensitivityFilter& filter, const Plane& plane) {
-  Plane sum{plane.width, plane.height, std::vector<double>(plane.values.size())};
+FlipPlane apply(const SensitivityFilter& filter, const FlipPlane& plane) {
+  FlipPlane sum{plane.width, plane.height, std::vector<double>(plane.values.size())};
   for (const SensitivityFilter::Part& part : filter.parts) {
-    const Plane filtered = filter_columns(filter_rows(plane, part.kernel), part.kernel);
+    const FlipPlane filtered = filter_columns(filter_rows(plane, part.kernel), part.kernel);
     add_scaled(sum.values, filtered.values.data(), part.share);
   }
   return sum;

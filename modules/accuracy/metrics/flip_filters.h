@@ -7,7 +7,7 @@
 
 namespace gloam::flip {
 
-struct Plane {
+struct FlipPlane {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<double> values;
@@ -20,8 +20,8 @@ struct Kernel {
 };
 
 /// Correlation along rows or columns. Beyond the border the border pixel repeats.
-[[nodiscard]] Plane filter_rows(const Plane& plane, const Kernel& kernel);
-[[nodiscard]] Plane filter_columns(const Plane& plane, const Kernel& kernel);
+[[nodiscard]] FlipPlane filter_rows(const FlipPlane& plane, const Kernel& kernel);
+[[nodiscard]] FlipPlane filter_columns(const FlipPlane& plane, const Kernel& kernel);
 
 /// A contrast sensitivity as a weighted sum of two-dimensional Gaussians. Each is separable: its kernel along rows
 /// times the same kernel along columns. The weights of a kernel sum to 1, and so do the shares.
@@ -35,7 +35,7 @@ struct SensitivityFilter {
 
 enum class Opponent { luminance, red_green, blue_yellow };
 [[nodiscard]] SensitivityFilter sensitivity_filter(Opponent channel, double pixels_per_degree);
-[[nodiscard]] Plane apply(const SensitivityFilter& filter, const Plane& plane);
+[[nodiscard]] FlipPlane apply(const SensitivityFilter& filter, const FlipPlane& plane);
 
 /// Kernels that detect features: a Gaussian and its first and second derivative. In a derivative, the positive weights
 /// sum to 1 and the negative ones to −1.

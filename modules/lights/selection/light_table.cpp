@@ -12,7 +12,7 @@ namespace gloam {
 namespace {
 
 constexpr float kMostColor = 1e20f;  // candela or lux: limit that keeps shading results finite in floats
-constexpr double kHalfPi = 3.14159265358979323846 / 2;
+constexpr double kRightAngle = 3.14159265358979323846 / 2;
 /// A spot's bound grows by this share: its axis and cosine are rounded to floats, so a lit pixel may lie outside the
 /// exact cone by as much.
 constexpr double kSpotRounding = 1e-6;
@@ -31,9 +31,9 @@ bool shines(const Light& light) {
 /// Smallest sphere around a spherical sector of range 1: for a narrow cone it passes through apex and rim, for a wide
 /// one the rim is its great circle.
 void set_spot(const Light& light, LightRecord& record) {
-  const double angle = std::clamp<double>(light.outer_angle, 0.0, kHalfPi);
+  const double angle = std::clamp<double>(light.outer_angle, 0.0, kRightAngle);
   const double cosine = std::cos(angle);
-  const bool wide = angle > kHalfPi / 2;
+  const bool wide = angle > kRightAngle / 2;
   record.inner_angle = light.inner_angle;
   record.outer_angle = light.outer_angle;
   record.ramp = spot_ramp(light);

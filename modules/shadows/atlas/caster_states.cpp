@@ -15,7 +15,7 @@
 namespace gloam {
 namespace {
 
-void add(Hasher& hasher, std::span<const float> values) {
+void add_floats(Hasher& hasher, std::span<const float> values) {
   for (const float value : values) hasher.value(std::bit_cast<std::uint32_t>(value));
 }
 
@@ -37,7 +37,7 @@ std::map<std::uint32_t, std::uint64_t> joint_hashes(const JointMatrices& joints)
     if (std::size_t{range.first} + range.count > joints.matrices.size()) continue;
     Hasher hasher;
     for (const mat4& matrix : std::span(joints.matrices).subspan(range.first, range.count))
-      add(hasher, {&matrix[0][0], 16});
+      add_floats(hasher, {&matrix[0][0], 16});
     hashes[range.first] = hasher.digest();
   }
   return hashes;
@@ -53,7 +53,7 @@ std::uint64_t pose_of(const shaders::DeformConstants& deform, const std::map<std
   }
   if (deform.morph_targets > 0) {
     if (std::size_t{deform.first_weight} + deform.morph_targets > weights.size()) return 0;
-    add(hasher, weights.subspan(deform.first_weight, deform.morph_targets));
+    add_floats(hasher, weights.subspan(deform.first_weight, deform.morph_targets));
   }
   return std::max<std::uint64_t>(hasher.digest(), 1);
 }

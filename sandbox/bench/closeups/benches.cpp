@@ -35,9 +35,9 @@ namespace gloam {
 namespace {
 
 constexpr const char* kMostPairs = "16";
-constexpr std::uint32_t kSamples = 256;  // as ShadowCase::traced
-constexpr double kSeen = 0.02;           // a pixel counts if a subject changes its visibility by more
-constexpr double kPenumbra = 0.02;       // a pixel is in a penumbra if its traced visibility is 0.02 … 0.98
+constexpr std::uint32_t kCloseUpSamples = 256;  // as ShadowCase::traced
+constexpr double kSeen = 0.02;                  // a pixel counts if a subject changes its visibility by more
+constexpr double kPenumbra = 0.02;              // a pixel is in a penumbra if its traced visibility is 0.02 … 0.98
 
 /// Sums over pixels and lights.
 struct MeanError {
@@ -102,7 +102,7 @@ Result<std::vector<LitBySubject>> find_pixels(Session& session, const GeometryPi
   for (const DrawnSubject& subject : subjects) {
     const std::vector<Entity> casters = session.world.resource<CloseupSubjects>().subjects[subject.index].casters;
     const WithoutMeshes absent(session.world, casters);
-    const auto without = trace_lights(session, geometry, subject.lights, kSamples);
+    const auto without = trace_lights(session, geometry, subject.lights, kCloseUpSamples);
     if (!without) return without.error();
     for (std::uint32_t layer = 0; layer < without->lights.size(); ++layer) {
       const auto in_all = all.layer_of(without->lights[layer]);
@@ -157,7 +157,7 @@ Status spend_the_rest(ShadowCase& shadows, EqualTexels& texels) {
   return {};
 }
 
-Result<CloseupErrors> measure_errors(Session& session, const Options& options) {
+Result<CloseupErrors> measure_close_up_errors(Session& session, const Options& options) {
   ShadowCase shadows(session, options.width, options.height);
   auto texels = find_equal_texels(shadows, kMostPairs);
   if (!texels) return texels.error();
@@ -180,7 +180,7 @@ Result<CloseupErrors> measure_errors(Session& session, const Options& options) {
   for (const CloseupView& pair : views.pairs) lights.push_back(pair.light);
   const auto geometry = session.renderer->read_geometry(session.world, view);
   if (!geometry) return geometry.error();
-  const auto all = trace_lights(session, *geometry, lights, kSamples);
+  const auto all = trace_lights(session, *geometry, lights, kCloseUpSamples);
   if (!all) return all.error();
   const auto pixels = find_pixels(session, *geometry, subjects, *all);
   if (!pixels) return pixels.error();
@@ -211,7 +211,7 @@ void add_closeup_benches(BenchRegistry& registry) {
       const auto errors = shared->get([&]() -> Result<CloseupErrors> {
         auto opened = open_closeups(context, 1);
         if (!opened) return opened.error();
-        return measure_errors(*opened->session, context.options());
+        return measure_close_up_errors(*opened->session, context.options());
       });
       if (!errors) return errors.error();
       BenchValue result = value(**errors);

@@ -22,7 +22,8 @@ namespace {
 constexpr const char* kLargestAtlas = "8192";
 constexpr double kMostDensity = 8.0;  // largest shadows.texels_per_pixel that is tried
 constexpr double kLeastDensity = 0.25;
-constexpr double kStep = 1.0905077326652577;  // 2^⅛: faces have power-of-two sides and change size at different steps
+constexpr double kCaseStep =
+    1.0905077326652577;  // 2^⅛: faces have power-of-two sides and change size at different steps
 constexpr double kNearEnough = 1.05;
 
 ViewId view_of(const Session& session) { return session.view_settings(1, 1, "none").id; }
@@ -47,7 +48,7 @@ Result<MapTexels> texels_at(ShadowCase& shadows, double density, const char* pai
 /// kMostDensity is not enough.
 Result<std::optional<EqualTexels>> raise_standard(ShadowCase& shadows, EqualTexels texels) {
   texels.standard = 0;
-  for (double density = texels.with_density; density <= kMostDensity; density *= kStep) {
+  for (double density = texels.with_density; density <= kMostDensity; density *= kCaseStep) {
     const auto at = texels_at(shadows, density, "0");
     if (!at) return at.error();
     texels.standard_density = density;
@@ -66,7 +67,7 @@ Result<std::optional<EqualTexels>> lower_beside(ShadowCase& shadows, double user
   if (!alone) return alone.error();
   texels.standard = alone->standard;
   if (closeups >= texels.standard) return std::optional<EqualTexels>();
-  for (double density = user_density; density >= kLeastDensity; density /= kStep) {
+  for (double density = user_density; density >= kLeastDensity; density /= kCaseStep) {
     const auto at = texels_at(shadows, density, pairs);
     if (!at) return at.error();
     texels.with_density = density;

@@ -29,20 +29,19 @@
 namespace gloam {
 namespace {
 
-constexpr int kRounds = 11;
-constexpr int kWarmUp = 2;
-constexpr double kNsPerMs = 1e6;
+constexpr int kCloseUpRounds = 11;
+constexpr int kCloseUpWarmUp = 2;
 /// For the built-in scene: copies of standard maps need as much room again, and a pair whose copies find no room is not
 /// drawn.
 constexpr const char* kDensity = "1";
 constexpr const char* kAtlas = "8192";
 
 enum Step : std::size_t { kDraw, kResolve, kCompose, kTransfer };
-constexpr std::size_t kSteps = 4;
-constexpr std::array<const char*, kSteps> kStepNames = {"draw", "resolve", "compose", "transfer"};
+constexpr std::size_t kCloseUpSteps = 4;
+constexpr std::array<const char*, kCloseUpSteps> kCloseUpStepNames = {"draw", "resolve", "compose", "transfer"};
 
 /// Passes for forward-lit surfaces count as transfer, copies of faces included.
-std::optional<Step> step_of(const PassTime& pass) {
+std::optional<Step> close_up_step_of(const PassTime& pass) {
   if (pass.name == "shadow_map_closeup") return kDraw;
   if (pass.name == "shadow_map_closeup_mips") return kResolve;
   if (pass.name == "closeup_compose") return kCompose;
@@ -50,29 +49,30 @@ std::optional<Step> step_of(const PassTime& pass) {
   return std::nullopt;
 }
 
-using StepTimes = std::array<double, kSteps>;
+using StepTimes = std::array<double, kCloseUpSteps>;
 StepTimes step_ns(const FrameReport& report) {
   StepTimes ns{};
   for (const PassTime& pass : report.passes)
-    if (const auto step = step_of(pass)) ns[*step] += pass.ms * kNsPerMs;
+    if (const auto step = close_up_step_of(pass)) ns[*step] += pass.ms * kNsPerMs;
   return ns;
 }
 
 /// Ways to draw eight pairs.
-enum Way : std::size_t { kBatch1, kBatch2, kBatch4, kStandardDrawn };
+enum CloseUpWay : std::size_t { kBatch1, kBatch2, kBatch4, kStandardDrawn };
 struct WayKnobs {
   const char* batch;
   const char* standard;
 };
-constexpr std::array<WayKnobs, 4> kWays = {{{"1", "transfer"}, {"2", "transfer"}, {"4", "transfer"}, {"1", "draw"}}};
+constexpr std::array<WayKnobs, 4> kCloseUpWays = {
+    {{"1", "transfer"}, {"2", "transfer"}, {"4", "transfer"}, {"1", "draw"}}};
 
-struct WayCost {
+struct CloseUpWayCost {
   std::vector<double> total_ns;
-  std::array<std::vector<double>, kSteps> step_ns;
+  std::array<std::vector<double>, kCloseUpSteps> step_ns;
   double pairs = 0.0;      ///< pairs drawn in the last frame
   std::uint64_t hash = 0;  ///< of the picture of the last frame
 };
-using WayCosts = std::array<WayCost, kWays.size()>;
+using CloseUpWayCosts = std::array<CloseUpWayCost, kCloseUpWays.size()>;
 
 /// Adds a window pane in front of the scene: a forward-lit surface, for which standard maps must hold the subjects.
 void add_pane(Session& session) {
@@ -97,20 +97,20 @@ Result<FrameSample> draw_way(ShadowCase& shadows, const WayKnobs& way) {
 }
 
 /// Measures all ways alternately, with one camera at rest.
-Result<WayCosts> measure_ways(Session& session, const Options& options) {
+Result<CloseUpWayCosts> measure_close_up_ways(Session& session, const Options& options) {
   ShadowCase shadows(session, options.width, options.height);
   if (options.scene_is_default) GLOAM_TRY(leave_room_for_copies(shadows));
-  WayCosts costs;
-  for (int round = -kWarmUp; round < kRounds; ++round) {
-    for (std::size_t way = 0; way < kWays.size(); ++way) {
-      const auto sample = draw_way(shadows, kWays[way]);
+  CloseUpWayCosts costs;
+  for (int round = -kCloseUpWarmUp; round < kCloseUpRounds; ++round) {
+    for (std::size_t way = 0; way < kCloseUpWays.size(); ++way) {
+      const auto sample = draw_way(shadows, kCloseUpWays[way]);
       if (!sample) return sample.error();
       if (round < 0) continue;
       const StepTimes ns = step_ns(sample->report);
-      for (std::size_t step = 0; step < kSteps; ++step) costs[way].step_ns[step].push_back(ns[step]);
+      for (std::size_t step = 0; step < kCloseUpSteps; ++step) costs[way].step_ns[step].push_back(ns[step]);
       costs[way].total_ns.push_back(std::accumulate(ns.begin(), ns.end(), 0.0));
       costs[way].pairs = counter_of(sample->report, "closeups.pairs");
-      if (round + 1 < kRounds) continue;
+      if (round + 1 < kCloseUpRounds) continue;
       const auto hash = shadows.picture_hash();
       if (!hash) return hash.error();
       costs[way].hash = *hash;
@@ -119,14 +119,14 @@ Result<WayCosts> measure_ways(Session& session, const Options& options) {
   return costs;
 }
 
-Result<WayCosts> measure_ways(BenchContext& context) {
+Result<CloseUpWayCosts> measure_close_up_ways(BenchContext& context) {
   auto opened = open_closeups(context, kCloseupFigures);
   if (!opened) return opened.error();
   if (opened->own != nullptr) add_pane(*opened->session);
-  return measure_ways(*opened->session, context.options());
+  return measure_close_up_ways(*opened->session, context.options());
 }
 
-using SharedWays = std::shared_ptr<Once<WayCosts>>;
+using SharedWays = std::shared_ptr<Once<CloseUpWayCosts>>;
 
 template <class Value>
 void add_way_row(BenchRegistry& registry, const SharedWays& shared, const std::string& id, const char* unit,
@@ -135,7 +135,7 @@ void add_way_row(BenchRegistry& registry, const SharedWays& shared, const std::s
   row.id = "closeups." + id;
   row.unit = unit;
   row.run = [shared, value](BenchContext& context) -> Result<BenchValue> {
-    const auto costs = shared->get([&] { return measure_ways(context); });
+    const auto costs = shared->get([&] { return measure_close_up_ways(context); });
     if (!costs) return costs.error();
     BenchValue result = value(**costs);
     result.scene = context.scene_or(kCloseupScene);
@@ -145,22 +145,23 @@ void add_way_row(BenchRegistry& registry, const SharedWays& shared, const std::s
 }
 
 void add_time_rows(BenchRegistry& registry) {
-  const auto shared = std::make_shared<Once<WayCosts>>();
-  for (std::size_t i = 0; i < kSteps; ++i)
-    add_way_row(registry, shared, std::string("figure14.") + kStepNames[i], "share of a pair", [i](const WayCosts& c) {
-      return ratio_of(c[kBatch1].step_ns[i], c[kBatch1].total_ns, c[kBatch1].hash);
-    });
-  add_way_row(registry, shared, "pair_ms", "ms a pair", [](const WayCosts& c) {
+  const auto shared = std::make_shared<Once<CloseUpWayCosts>>();
+  for (std::size_t i = 0; i < kCloseUpSteps; ++i)
+    add_way_row(registry, shared, std::string("figure14.") + kCloseUpStepNames[i], "share of a pair",
+                [i](const CloseUpWayCosts& c) {
+                  return ratio_of(c[kBatch1].step_ns[i], c[kBatch1].total_ns, c[kBatch1].hash);
+                });
+  add_way_row(registry, shared, "pair_ms", "ms a pair", [](const CloseUpWayCosts& c) {
     return per_item(c[kBatch1].total_ns, kNsPerMs * std::max(1.0, c[kBatch1].pairs), c[kBatch1].hash);
   });
   add_way_row(registry, shared, "drawn_pairs", "pairs",
-              [](const WayCosts& c) { return single_value(c[kBatch1].pairs, c[kBatch1].hash); });
-  const auto add_way = [&](const std::string& id, Way way) {
+              [](const CloseUpWayCosts& c) { return single_value(c[kBatch1].pairs, c[kBatch1].hash); });
+  const auto add_way = [&](const std::string& id, CloseUpWay way) {
     add_way_row(registry, shared, id, "ms",
-                [way](const WayCosts& c) { return per_item(c[way].total_ns, kNsPerMs, c[way].hash); });
+                [way](const CloseUpWayCosts& c) { return per_item(c[way].total_ns, kNsPerMs, c[way].hash); });
   };
-  const auto add_ratio = [&](const std::string& id, Way way) {
-    add_way_row(registry, shared, id, "ratio", [way](const WayCosts& c) {
+  const auto add_ratio = [&](const std::string& id, CloseUpWay way) {
+    add_way_row(registry, shared, id, "ratio", [way](const CloseUpWayCosts& c) {
       return ratio_of(c[way].total_ns, c[kBatch1].total_ns, hash_of_both(c[way].hash, c[kBatch1].hash));
     });
   };
@@ -174,17 +175,17 @@ void add_time_rows(BenchRegistry& registry) {
   add_ratio("standard.draw_over_transfer", kStandardDrawn);
 }
 
-struct Memory {
+struct CloseUpMemory {
   double bytes = 0.0;             ///< GPU memory of module closeups
   double visibility_bytes = 0.0;  ///< memory of visibility slots, of all shadows
   double pairs = 0.0;             ///< pairs drawn
   std::uint64_t hash = 0;         ///< of the picture
 };
 constexpr std::array<const char*, 3> kMemoryPairs = {"1", "8", "64"};
-using Memories = std::array<Memory, kMemoryPairs.size()>;
+using Memories = std::array<CloseUpMemory, kMemoryPairs.size()>;
 
 /// Measures settled frames of the built-in scene without forward-lit surfaces, after idle memory has been freed.
-Result<Memory> measure_memory(BenchContext& context, const char* pairs) {
+Result<CloseUpMemory> measure_close_up_memory(BenchContext& context, const char* pairs) {
   auto session = context.open_builtin(kCloseupScene);
   if (!session) return session.error();
   ShadowCase shadows(**session, context.options().width, context.options().height);
@@ -194,7 +195,7 @@ Result<Memory> measure_memory(BenchContext& context, const char* pairs) {
   (*session)->renderer->free_idle_memory();
   const auto frame = draw_settled(shadows, variant);
   if (!frame) return frame.error();
-  Memory memory;
+  CloseUpMemory memory;
   for (const ModuleState& module : frame->report.modules)
     if (module.name == "closeups") memory.bytes = static_cast<double>(module.gpu_bytes);
   memory.visibility_bytes = counter_of(frame->report, "shadows.visibility_bytes");
@@ -208,7 +209,7 @@ Result<Memory> measure_memory(BenchContext& context, const char* pairs) {
 Result<Memories> measure_memories(BenchContext& context) {
   Memories memories;
   for (std::size_t i = 0; i < memories.size(); ++i) {
-    const auto memory = measure_memory(context, kMemoryPairs[i]);
+    const auto memory = measure_close_up_memory(context, kMemoryPairs[i]);
     if (!memory) return memory.error();
     memories[i] = *memory;
   }

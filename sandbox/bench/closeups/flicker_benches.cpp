@@ -31,13 +31,13 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kWidth = 320, kHeight = 180;
-constexpr std::size_t kFrames = 120;
-constexpr double kFrame_s = 1.0 / 60.0;
-constexpr double kSpeed = 1.2;  // metres per second
-constexpr std::uint32_t kSamples = 64;
-constexpr const char* kMostPairs = "8";
-constexpr int kMostDraws = 6;
+constexpr std::uint32_t kFlickerWidth = 320, kHeight = 180;
+constexpr std::size_t kFlickerFrames = 120;
+constexpr double kFlickerFrame_s = 1.0 / 60.0;
+constexpr double kFlickerSpeed = 1.2;  // metres per second
+constexpr std::uint32_t kFlickerSamples = 64;
+constexpr const char* kFlickerMostPairs = "8";
+constexpr int kFlickerMostDraws = 6;
 
 dquat turned_by(double angle, const dvec3& axis) { return {std::cos(0.5 * angle), std::sin(0.5 * angle) * axis}; }
 
@@ -64,9 +64,9 @@ Result<Walker> find_walker(World& world) {
 }
 
 void pose(World& world, const Walker& walker, std::size_t frame) {
-  const double time_s = kFrame_s * static_cast<double>(frame);
+  const double time_s = kFlickerFrame_s * static_cast<double>(frame);
   auto& root = world.get<LocalTransform>(walker.root);
-  root.translation = dvec3(-1.9 + kSpeed * time_s, 0.0, 1.7);
+  root.translation = dvec3(-1.9 + kFlickerSpeed * time_s, 0.0, 1.7);
   root.rotation = turned_by(1.5707963267948966, dvec3(0.0, 1.0, 0.0));
   const double swing = 0.5 * std::sin(6.0 * time_s);
   for (const auto& [part, rest] : walker.arms) {
@@ -80,7 +80,7 @@ void pose(World& world, const Walker& walker, std::size_t frame) {
 }
 
 /// Visibilities of one lamp, per frame and pixel.
-struct Walk {
+struct FlickerWalk {
   std::vector<std::vector<float>> with;  ///< below 0 where the lamp does not reach
   std::vector<std::vector<float>> standard;
   std::vector<TracedVisibility> traced;
@@ -106,7 +106,7 @@ std::uint64_t hash_of_walk(const std::vector<std::vector<float>>& drawn, const s
 
 /// Draws the frame again until it has no fallback tiles.
 Status draw_with_room(ShadowCase& shadows) {
-  for (int i = 0; i < kMostDraws; ++i) {
+  for (int i = 0; i < kFlickerMostDraws; ++i) {
     const auto sample = shadows.draw();
     if (!sample) return sample.error();
     if (lists_had_room(sample->report)) return {};
@@ -115,9 +115,9 @@ Status draw_with_room(ShadowCase& shadows) {
 }
 
 Result<std::uint64_t> most_closeup_texels(ShadowCase& shadows, const Walker& walker) {
-  GLOAM_TRY(shadows.set("closeups.max_pairs", kMostPairs));
+  GLOAM_TRY(shadows.set("closeups.max_pairs", kFlickerMostPairs));
   std::uint64_t most = 0;
-  for (std::size_t frame = 0; frame < kFrames; ++frame) {
+  for (std::size_t frame = 0; frame < kFlickerFrames; ++frame) {
     pose(shadows.session().world, walker, frame);
     if (auto sample = shadows.draw(); !sample) return sample.error();
     most = std::max(most, map_texels(shadows.session()).closeups);
@@ -125,11 +125,11 @@ Result<std::uint64_t> most_closeup_texels(ShadowCase& shadows, const Walker& wal
   return most;
 }
 
-Status trace_frame(Session& session, Entity lamp, Walk& walk) {
-  const ViewId view = session.view_settings(kWidth, kHeight, "none").id;
+Status trace_frame(Session& session, Entity lamp, FlickerWalk& walk) {
+  const ViewId view = session.view_settings(kFlickerWidth, kHeight, "none").id;
   const auto geometry = session.renderer->read_geometry(session.world, view);
   if (!geometry) return geometry.error();
-  auto rays = trace_lights(session, *geometry, {&lamp, 1}, kSamples);
+  auto rays = trace_lights(session, *geometry, {&lamp, 1}, kFlickerSamples);
   if (!rays) return rays.error();
   if (rays->lights.empty()) return Error{ErrorKind::failed, "the lamp reaches no pixel"};
   walk.traced.push_back(std::move(*rays));
@@ -139,10 +139,10 @@ Status trace_frame(Session& session, Entity lamp, Walk& walk) {
 
 /// Draws the walk with the current knobs, and traces it too unless `traced` is null. most: raised to the largest number
 /// of texels of all maps in a frame.
-Status draw_walk(ShadowCase& shadows, const Walker& walker, Entity lamp, std::vector<std::vector<float>>& drawn,
-                 Walk* traced, double& most) {
+Status draw_flicker_walk(ShadowCase& shadows, const Walker& walker, Entity lamp, std::vector<std::vector<float>>& drawn,
+                         FlickerWalk* traced, double& most) {
   Session& session = shadows.session();
-  for (std::size_t frame = 0; frame < kFrames; ++frame) {
+  for (std::size_t frame = 0; frame < kFlickerFrames; ++frame) {
     pose(session.world, walker, frame);
     GLOAM_TRY(draw_with_room(shadows));
     most = std::max(most, static_cast<double>(map_texels(session).total()));
@@ -154,10 +154,10 @@ Status draw_walk(ShadowCase& shadows, const Walker& walker, Entity lamp, std::ve
   return {};
 }
 
-Flicker flicker_of(const Walk& walk) {
+Flicker flicker_of(const FlickerWalk& walk) {
   Flicker flicker;
   double changing = 0.0;
-  for (std::size_t t = 1; t < kFrames; ++t) {
+  for (std::size_t t = 1; t < kFlickerFrames; ++t) {
     const TracedVisibility &now = walk.traced[t], &before = walk.traced[t - 1];
     for (std::size_t pixel = 0; pixel < now.pixels(); ++pixel) {
       const float values[] = {walk.with[t][pixel], walk.with[t - 1][pixel], walk.standard[t][pixel],
@@ -178,7 +178,7 @@ Flicker flicker_of(const Walk& walk) {
   return flicker;
 }
 
-Result<Flicker> measure(BenchContext& context) {
+Result<Flicker> measure_flicker(BenchContext& context) {
   auto session = context.open_builtin(kCloseupScene);
   if (!session) return session.error();
   World& world = (*session)->world;
@@ -188,19 +188,19 @@ Result<Flicker> measure(BenchContext& context) {
   const OnlyCasting only(world, {&*lamp, 1});
   const auto walker = find_walker(world);
   if (!walker) return walker.error();
-  ShadowCase shadows(**session, kWidth, kHeight);
+  ShadowCase shadows(**session, kFlickerWidth, kHeight);
   GLOAM_TRY(shadows.set("shadows.mode", "deferred"));
   const auto most = most_closeup_texels(shadows, *walker);
   if (!most) return most.error();
   pose(world, *walker, 0);
-  const auto texels = find_equal_texels(shadows, kMostPairs, *most);
+  const auto texels = find_equal_texels(shadows, kFlickerMostPairs, *most);
   if (!texels) return texels.error();
-  Walk both;
+  FlickerWalk both;
   double texels_with = 0.0, texels_standard = 0.0;
-  GLOAM_TRY(use_closeups(shadows, *texels, kMostPairs));
-  GLOAM_TRY(draw_walk(shadows, *walker, *lamp, both.with, &both, texels_with));
+  GLOAM_TRY(use_closeups(shadows, *texels, kFlickerMostPairs));
+  GLOAM_TRY(draw_flicker_walk(shadows, *walker, *lamp, both.with, &both, texels_with));
   GLOAM_TRY(use_standard(shadows, *texels));
-  GLOAM_TRY(draw_walk(shadows, *walker, *lamp, both.standard, nullptr, texels_standard));
+  GLOAM_TRY(draw_flicker_walk(shadows, *walker, *lamp, both.standard, nullptr, texels_standard));
   Flicker flicker = flicker_of(both);
   flicker.texels = texels_with;
   flicker.texels_standard = texels_standard;
@@ -220,7 +220,7 @@ void add_closeup_flicker_benches(BenchRegistry& registry) {
     row.unit = unit;
     row.bar = bar;
     row.run = [shared, value = std::move(value)](BenchContext& context) -> Result<BenchValue> {
-      const auto flicker = shared->get([&] { return measure(context); });
+      const auto flicker = shared->get([&] { return measure_flicker(context); });
       if (!flicker) return flicker.error();
       BenchValue result = value(**flicker);
       result.scene = kCloseupScene;

@@ -24,9 +24,8 @@
 namespace gloam {
 namespace {
 
-constexpr int kRounds = 9;
-constexpr int kWarmUp = 1;
-constexpr double kNsPerMs = 1e6;
+constexpr int kDofCacheRounds = 9;
+constexpr int kDofCacheWarmUp = 1;
 constexpr std::array<const char*, 3> kForms = {"none", "vec4", "channels"};  // values of dof.cache
 constexpr std::size_t kPlainForm = 0, kChannelsForm = 2;
 constexpr std::array<const char*, 5> kRadii = {"3", "7", "15", "23", "31"};
@@ -79,13 +78,13 @@ Result<FormCosts> measure_forms(BenchContext& context, DofFramesPool& pool, Boke
   GLOAM_TRY((*frames)->set("dof.resolution", "full"));
   GLOAM_TRY((*frames)->set("dof.radius", radius));
   std::array<LinearPicture, kForms.size()> pictures;
-  for (int i = -kWarmUp; i < kRounds; ++i) {
+  for (int i = -kDofCacheWarmUp; i < kDofCacheRounds; ++i) {
     for (std::size_t form = 0; form < kForms.size(); ++form) {
       GLOAM_TRY((*frames)->set("dof.cache", kForms[form]));
       const auto sample = (*frames)->draw();
       if (!sample) return sample.error();
       if (i >= 0) costs.blur_ns[form].push_back(dof_times(*sample).blur_ns);
-      if (i + 1 < kRounds) continue;
+      if (i + 1 < kDofCacheRounds) continue;
       auto light = (*frames)->linear();
       if (!light) return light.error();
       pictures[form] = std::move(light).value();

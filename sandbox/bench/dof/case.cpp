@@ -7,12 +7,12 @@
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
 #include "modules/depth_of_field/lens/lens.h"
+#include "sandbox/bench/harness/measure.h"
 #include "sandbox/session/scene_loading.h"
 
 namespace gloam {
 namespace {
 
-constexpr double kNsPerMs = 1e6;
 constexpr float kNearestFocus_m = 1e-3f;  // counts as that of the near plane (lens_of)
 
 /// kNoEntity if no camera has a focus.

@@ -22,11 +22,11 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kWidth = 320;
-constexpr std::uint32_t kHeight = 180;
-constexpr std::uint32_t kSamples = 256;
-constexpr int kDraws = 3;  // the last frame finds what earlier ones left over (shadow caches, light scale)
-constexpr std::array<const char*, 2> kResolutions = {"half", "full"};
+constexpr std::uint32_t kDofErrorWidth = 320;
+constexpr std::uint32_t kDofErrorHeight = 180;
+constexpr std::uint32_t kDofErrorSamples = 256;
+constexpr int kDofErrorDraws = 3;  // the last frame finds what earlier ones left over (shadow caches, light scale)
+constexpr std::array<const char*, 2> kDofErrorResolutions = {"half", "full"};
 
 struct DofError {
   double rmse = 0.0;       ///< linear light, cd/m²
@@ -34,14 +34,14 @@ struct DofError {
   std::uint64_t hash = 0;  ///< of the compared and the expected light
 };
 struct DofErrors {
-  std::array<DofError, kResolutions.size()> by_resolution;
+  std::array<DofError, kDofErrorResolutions.size()> by_resolution;
   DofError noise;         ///< change of the reference from half of the samples to all
   bool measured = false;  ///< false: no camera has a focus
 };
 
 Result<FramePictures> draw_resolution(SessionCosts& costs, const char* resolution) {
   GLOAM_TRY(costs.knobs().set("dof.resolution", resolution));
-  for (int i = 0; i < kDraws; ++i)
+  for (int i = 0; i < kDofErrorDraws; ++i)
     if (const auto drawn = costs.draw(0); !drawn) return drawn.error();
   return costs.read();
 }
@@ -54,33 +54,33 @@ Result<DofError> error_of(const PictureJudge& judge, const FramePictures& pictur
                   .hash = hash_of_both(hash_of_dof_light(pictures.linear), expected)};
 }
 
-Result<DofErrors> measure_errors(BenchContext& context, Bokeh bokeh) {
+Result<DofErrors> measure_dof_errors(BenchContext& context, Bokeh bokeh) {
   const auto frames = DofFrames::open(context, bokeh);
   if (!frames) return frames.error();
   DofErrors errors;
   if (*frames == nullptr) return errors;
   errors.measured = true;
   Options options = context.options();
-  options.width = kWidth;
-  options.height = kHeight;
+  options.width = kDofErrorWidth;
+  options.height = kDofErrorHeight;
   options.view = "none";
   options.time_s = 0.0;
   options.out = options.cache_dir.empty() ? "" : options.cache_dir + "/bench";
   SessionCosts costs((*frames)->session(), options);
   const ReferenceInfo reference = lens_reference("dof.resolution");
-  const auto drawn = draw_resolution(costs, kResolutions[0]);
+  const auto drawn = draw_resolution(costs, kDofErrorResolutions[0]);
   if (!drawn) return drawn.error();
-  auto expected = costs.draw_reference(reference, *drawn, kSamples);
+  auto expected = costs.draw_reference(reference, *drawn, kDofErrorSamples);
   if (!expected) return expected.error();
-  const auto rough = costs.draw_reference(reference, *drawn, kSamples / 2);
+  const auto rough = costs.draw_reference(reference, *drawn, kDofErrorSamples / 2);
   if (!rough) return rough.error();
   const std::uint64_t expected_hash = hash_of_dof_light(expected->linear);
   const PictureJudge judge(std::move(expected).value());
   const auto noise = error_of(judge, *rough, expected_hash);
   if (!noise) return noise.error();
   errors.noise = *noise;
-  for (std::size_t i = 0; i < kResolutions.size(); ++i) {
-    const auto pictures = draw_resolution(costs, kResolutions[i]);
+  for (std::size_t i = 0; i < kDofErrorResolutions.size(); ++i) {
+    const auto pictures = draw_resolution(costs, kDofErrorResolutions[i]);
     if (!pictures) return pictures.error();
     const auto error = error_of(judge, *pictures, expected_hash);
     if (!error) return error.error();
@@ -94,7 +94,7 @@ void add_dof_error_rows(BenchRegistry& registry, Bokeh bokeh) {
   const auto add = [&](const std::string& name, const char* unit, double DofError::*value, auto choose) {
     BenchRow row{.id = std::string("dof.error.") + bokeh_name(bokeh) + "." + name, .unit = unit};
     row.run = [=](BenchContext& context) -> Result<BenchValue> {
-      const auto errors = shared->get([&] { return measure_errors(context, bokeh); });
+      const auto errors = shared->get([&] { return measure_dof_errors(context, bokeh); });
       if (!errors) return errors.error();
       if (!(*errors)->measured) return skipped_row(kNoFocus);
       const DofError& error = choose(**errors);
@@ -108,8 +108,8 @@ void add_dof_error_rows(BenchRegistry& registry, Bokeh bokeh) {
     add(name + ".flip", "FLIP", &DofError::flip, choose);
     add(name + ".rmse", "cd/m²", &DofError::rmse, choose);
   };
-  for (std::size_t i = 0; i < kResolutions.size(); ++i)
-    add_both(kResolutions[i], [i](const DofErrors& errors) { return errors.by_resolution[i]; });
+  for (std::size_t i = 0; i < kDofErrorResolutions.size(); ++i)
+    add_both(kDofErrorResolutions[i], [i](const DofErrors& errors) { return errors.by_resolution[i]; });
   add_both("reference_noise", [](const DofErrors& errors) { return errors.noise; });
 }
 

@@ -20,9 +20,8 @@
 namespace gloam {
 namespace {
 
-constexpr int kRounds = 15;
-constexpr int kWarmUp = 2;
-constexpr double kNsPerMs = 1e6;
+constexpr int kDofFrameRounds = 15;
+constexpr int kDofFrameWarmUp = 2;
 
 struct DofCost {
   std::vector<double> passes_ns;  ///< all passes of the module
@@ -72,7 +71,7 @@ Result<DofCost> measure_dof_cost(BenchContext& context, Bokeh bokeh) {
   auto yardstick =
       GatherYardstick::create(*(*frames)->session().device, context.options().width, context.options().height);
   if (!yardstick) return yardstick.error();
-  for (int i = -kWarmUp; i < kRounds; ++i) {
+  for (int i = -kDofFrameWarmUp; i < kDofFrameRounds; ++i) {
     const auto with = draw_turned(**frames, true, cost.hash);
     if (!with) return with.error();
     const auto without = draw_turned(**frames, false, cost.without_hash);

@@ -14,7 +14,7 @@ namespace gloam {
 namespace bench {
 namespace {
 
-constexpr int kRepetitions = 21;
+constexpr int kEcsRepetitions = 21;
 
 struct Comparison {
   PairTimes times;  ///< a: the world
@@ -24,14 +24,14 @@ struct Comparison {
 
 using MakeSide = std::function<std::unique_ptr<Contender>()>;
 
-Comparison compare(const MakeSide& make_world, const MakeSide& make_bare) {
+Comparison compare_worlds(const MakeSide& make_world, const MakeSide& make_bare) {
   const auto world = make_world();
   const auto bare = make_bare();
   const auto side_of = [](Contender& contender) {
     return TimedCall{.prepare = [&] { contender.prepare(); }, .run = [&] { contender.run(); }};
   };
   Comparison comparison;
-  comparison.times = time_pair_ns(kRepetitions, side_of(*world), side_of(*bare));
+  comparison.times = time_pair_ns(kEcsRepetitions, side_of(*world), side_of(*bare));
   comparison.world_hash = world->hash();
   comparison.bare_hash = bare->hash();
   return comparison;
@@ -42,7 +42,7 @@ class SharedComparison {
  public:
   SharedComparison(MakeSide world, MakeSide bare) : world_(std::move(world)), bare_(std::move(bare)) {}
   [[nodiscard]] const Comparison& get() {
-    if (!comparison_) comparison_ = compare(world_, bare_);
+    if (!comparison_) comparison_ = compare_worlds(world_, bare_);
     return *comparison_;
   }
 
@@ -52,8 +52,8 @@ class SharedComparison {
   std::optional<Comparison> comparison_;
 };
 
-void add_ratio(BenchRegistry& registry, const std::string& id, std::optional<double> bar,
-               const std::shared_ptr<SharedComparison>& shared) {
+void add_ecs_ratio(BenchRegistry& registry, const std::string& id, std::optional<double> bar,
+                   const std::shared_ptr<SharedComparison>& shared) {
   registry.add({.id = id,
                 .unit = "ratio",
                 .bar = bar,
@@ -78,10 +78,10 @@ void add_case(BenchRegistry& registry, const EcsCase& ecs_case) {
                   const Comparison& c = shared->get();
                   return per_item(c.times.a_ns, entities, c.world_hash);
                 }});
-  add_ratio(registry, ecs_case.id + "_over_bare", ecs_case.bar_ratio, shared);
+  add_ecs_ratio(registry, ecs_case.id + "_over_bare", ecs_case.bar_ratio, shared);
   if (!ecs_case.unchecked_bare) return;
-  add_ratio(registry, ecs_case.id + "_over_unchecked_bare", {},
-            std::make_shared<SharedComparison>(ecs_case.world, ecs_case.unchecked_bare));
+  add_ecs_ratio(registry, ecs_case.id + "_over_unchecked_bare", {},
+                std::make_shared<SharedComparison>(ecs_case.world, ecs_case.unchecked_bare));
 }
 
 }  // namespace bench

@@ -83,7 +83,7 @@ Numbers make_numbers(bool shuffled, std::size_t count) {
 }
 
 /// One change and the things to which it is made.
-struct Change {
+struct EcsChange {
   const char* id;
   Start start = Start::empty;
   void (*world)(WorldSide&);
@@ -97,7 +97,8 @@ struct Change {
 
 class ChangeWorld final : public Contender {
  public:
-  explicit ChangeWorld(const Change& change) : change_(change), numbers_(make_numbers(change.shuffled, change.count)) {}
+  explicit ChangeWorld(const EcsChange& change)
+      : change_(change), numbers_(make_numbers(change.shuffled, change.count)) {}
   void prepare() override {
     side_.start(change_.start);
     side_.chosen.clear();
@@ -107,14 +108,14 @@ class ChangeWorld final : public Contender {
   [[nodiscard]] std::uint64_t hash() override { return content_hash(side_.world); }
 
  private:
-  Change change_;
+  EcsChange change_;
   Numbers numbers_;
   WorldSide side_;
 };
 
 class ChangeBare final : public Contender {
  public:
-  ChangeBare(const Change& change, void (*make)(BareSide&)) : change_(change), make_(make) {
+  ChangeBare(const EcsChange& change, void (*make)(BareSide&)) : change_(change), make_(make) {
     for (const std::uint32_t number : make_numbers(change.shuffled, change.count)) side_.chosen.push_back({number});
   }
   void prepare() override { side_.start(change_.start); }
@@ -122,7 +123,7 @@ class ChangeBare final : public Contender {
   [[nodiscard]] std::uint64_t hash() override { return content_hash(side_.table); }
 
  private:
-  Change change_;
+  EcsChange change_;
   void (*make_)(BareSide&);
   BareSide side_;
 };
@@ -168,7 +169,7 @@ void get_unchecked_bare(BareSide& s) {
 void add_change_cases(BenchRegistry& registry) {
   // A quarter is not destroyed: the hash of the rest shows whether the right ones were destroyed.
   constexpr std::size_t kDestroyed = kEntities / 4 * 3;
-  const Change changes[] = {
+  const EcsChange changes[] = {
       {.id = "ecs.create", .world = create_world, .bare = create_bare, .bar_ns = 30.0},
       {.id = "ecs.create_bulk", .world = create_bulk_world, .bare = create_bulk_bare, .bar_ns = 6.0},
       {.id = "ecs.destroy",
@@ -199,7 +200,7 @@ void add_change_cases(BenchRegistry& registry) {
        .shuffled = true,
        .bar_ratio = 1.4},
   };
-  for (const Change& change : changes) {
+  for (const EcsChange& change : changes) {
     const auto bare_side = [change](void (*run)(BareSide&)) {
       return [change, run] { return std::make_unique<ChangeBare>(change, run); };
     };

@@ -27,10 +27,10 @@
 namespace gloam {
 namespace {
 
-constexpr int kSide = 141;  // boxes in a row: 19,881 of them
+constexpr int kAssetSide = 141;  // boxes in a row: 19,881 of them
 constexpr std::uint32_t kTextures = 48;
 constexpr std::uint32_t kTextureSide = 1024;
-constexpr int kRounds = 9;
+constexpr int kAssetRounds = 9;
 
 Mesh box_mesh(float half_m, std::uint32_t material) {
   Mesh mesh;
@@ -46,7 +46,7 @@ Mesh box_mesh(float half_m, std::uint32_t material) {
   return mesh;
 }
 
-Image image_of(std::uint32_t side, std::uint8_t value) {
+Image asset_image_of(std::uint32_t side, std::uint8_t value) {
   return {"bench", side, side, std::vector<std::uint8_t>(std::size_t{4} * side * side, value)};
 }
 
@@ -63,16 +63,17 @@ class Field {
                     .value();
     renderer_->prepare_world(world_);
     for (std::uint32_t i = 0; i < kTextures; ++i) {
-      const std::uint32_t image = assets().add(image_of(kTextureSide, static_cast<std::uint8_t>(60 + 4 * i)));
+      const std::uint32_t image = assets().add(asset_image_of(kTextureSide, static_cast<std::uint8_t>(60 + 4 * i)));
       Material material;
       material.metallic = 0.0f;
       material.base_color_texture.texture = assets().add(Texture{.name = "bench", .image = image, .srgb = true});
       assets().add(material);
     }
-    for (int i = 0; i < kSide * kSide; ++i) {
+    for (int i = 0; i < kAssetSide * kAssetSide; ++i) {
       const std::uint32_t mesh = assets().add(box_mesh(0.3f, static_cast<std::uint32_t>(i) % kTextures));
-      world_.create(WorldTransform{glm::translate(dmat4(1.0), dvec3(i % kSide - kSide / 2, 0.0, -i / kSide - 2))},
-                    MeshInstance{mesh});
+      world_.create(
+          WorldTransform{glm::translate(dmat4(1.0), dvec3(i % kAssetSide - kAssetSide / 2, 0.0, -i / kAssetSide - 2))},
+          MeshInstance{mesh});
     }
     Light sun;
     sun.kind = LightKind::directional;
@@ -113,17 +114,17 @@ class Field {
   ViewRequest request_;
 };
 
-using Change = std::function<void(SceneAssets& assets, int round)>;
+using AssetChange = std::function<void(SceneAssets& assets, int round)>;
 
 /// Frames with a change against still frames.
-Result<BenchValue> run_change(BenchContext& context, const Change& change) {
+Result<BenchValue> run_change(BenchContext& context, const AssetChange& change) {
   auto session = context.open_builtin("builtin:plain");
   if (!session) return session.error();
   Field field(**session, Readiness::wait);
   for (int warm = 0; warm < 3; ++warm)
     if (auto frame = field.frame_ns(); !frame) return frame.error();
   std::vector<double> changed, still;
-  for (int round = -1; round < kRounds; ++round) {
+  for (int round = -1; round < kAssetRounds; ++round) {
     change(field.assets(), round);
     const auto with = field.frame_ns();
     if (!with) return with.error();
@@ -149,7 +150,7 @@ Result<BenchValue> run_stream(BenchContext& context) {
   for (int round = 0; round < 3; ++round) {
     const auto without = field.frame_ns();
     if (!without) return without.error();
-    field.assets().images[0] = image_of(2048, static_cast<std::uint8_t>(90 + round));
+    field.assets().images[0] = asset_image_of(2048, static_cast<std::uint8_t>(90 + round));
     field.assets().mark_changed(AssetKind::image, 0);
     double most = 0.0;
     do {
@@ -168,7 +169,7 @@ Result<BenchValue> run_stream(BenchContext& context) {
 }  // namespace
 
 void add_asset_benches(BenchRegistry& registry) {
-  const auto add = [&](const char* id, std::optional<double> bar, Change change) {
+  const auto add = [&](const char* id, std::optional<double> bar, AssetChange change) {
     registry.add({.id = id,
                   .unit = "ratio",
                   .bar = bar,
@@ -184,7 +185,7 @@ void add_asset_benches(BenchRegistry& registry) {
     assets.mark_changed(AssetKind::mesh, 70);
   });
   add("assets.image_over_still", std::nullopt, [](SceneAssets& assets, int round) {
-    assets.images[7] = image_of(kTextureSide, static_cast<std::uint8_t>(100 + round));
+    assets.images[7] = asset_image_of(kTextureSide, static_cast<std::uint8_t>(100 + round));
     assets.mark_changed(AssetKind::image, 7);
   });
   add("assets.everything_over_still", std::nullopt, [](SceneAssets& assets, int) { ++assets.version; });

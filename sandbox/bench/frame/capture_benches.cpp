@@ -22,11 +22,11 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kSide = 128;
+constexpr std::uint32_t kCaptureSide = 128;
 constexpr std::uint32_t kCubes = 4;
-constexpr std::uint32_t kViews = 6 * kCubes;
+constexpr std::uint32_t kCaptureViews = 6 * kCubes;
 constexpr std::uint32_t kFirstView = 1000;
-constexpr int kRounds = 5;
+constexpr int kCaptureRounds = 5;
 
 /// The images that the views capture into; destroyed with their views at the end.
 class Cubes {
@@ -36,7 +36,7 @@ class Cubes {
   Cubes& operator=(const Cubes&) = delete;
   ~Cubes() {
     static_cast<void>(session_.renderer->wait());
-    for (std::uint32_t view = 0; view < kViews; ++view)
+    for (std::uint32_t view = 0; view < kCaptureViews; ++view)
       session_.renderer->release_view(session_.world, ViewId{kFirstView + view});
     for (const gpu::ImageHandle image : images_)
       if (image) session_.device->destroy(image);
@@ -47,8 +47,8 @@ class Cubes {
       auto made = session_.device->create_image({.name = "capture",
                                                  .module = "bench",
                                                  .format = gpu::Format::rgba16_float,
-                                                 .width = kSide,
-                                                 .height = kSide,
+                                                 .width = kCaptureSide,
+                                                 .height = kCaptureSide,
                                                  .layers = 6,
                                                  .usage = gpu::ImageUsage::color_target | gpu::ImageUsage::sampled,
                                                  .shape = gpu::ImageShape::cube});
@@ -61,7 +61,7 @@ class Cubes {
   /// Views around `eye`, cube after cube. All content of a cube is drawn in each frame.
   [[nodiscard]] std::vector<ViewRequest> requests(const dvec3& eye) const {
     std::vector<ViewRequest> requests;
-    for (std::uint32_t i = 0; i < kViews; ++i) {
+    for (std::uint32_t i = 0; i < kCaptureViews; ++i) {
       const std::uint32_t cube = i / 6, face = i % 6;
       dvec3 forward(0.0);
       forward[static_cast<int>(face / 2)] = face % 2 == 0 ? 1.0 : -1.0;
@@ -70,7 +70,7 @@ class Cubes {
       ViewSettings& settings = request.settings;
       settings.id = ViewId{kFirstView + i};
       settings.purpose = ViewPurpose::capture;
-      settings.width = settings.height = kSide;
+      settings.width = settings.height = kCaptureSide;
       settings.camera.fov_y = std::numbers::pi_v<float> / 2.0f;
       settings.world_from_camera = glm::inverse(glm::lookAt(dvec3(0.0), forward, up));
       settings.world_from_camera[3] =
@@ -97,12 +97,12 @@ Result<BenchValue> run_captures(BenchContext& context) {
   if (!session) return session.error();
   Cubes cubes(**session);
   GLOAM_TRY(cubes.create());
-  const ViewSettings main = (*session)->view_settings(kSide, kSide, "none");
+  const ViewSettings main = (*session)->view_settings(kCaptureSide, kCaptureSide, "none");
   ViewSettings placed = main;
   follow_camera((*session)->world, placed);
   const std::vector<ViewRequest> requests = cubes.requests(dvec3(placed.world_from_camera[3]));
   std::vector<double> together, alone;
-  for (int round = -1; round < kRounds; ++round) {  // one round warms up
+  for (int round = -1; round < kCaptureRounds; ++round) {  // one round warms up
     auto all = frame_ns(**session, requests);
     if (!all) return all.error();
     double sum = 0.0;

@@ -23,17 +23,16 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kPasses = 100;
-constexpr int kRepetitions = 101;
+constexpr std::size_t kDeclarePasses = 100;
+constexpr int kDeclareRepetitions = 101;
 constexpr int kFramesARepetition = 10;
-constexpr double kNsPerMs = 1e6;
 
 /// A frame of 100 passes with ten bindings each. Each reads what the pass before it and the pass eight before it wrote,
 /// and writes a transient image, a transient buffer and an imported buffer, so that no pass is culled.
 class HundredPasses {
  public:
   explicit HundredPasses(gpu::Device& device) : frames_(device, null_log(), "bench", small_view()) {
-    for (std::size_t i = 0; i < kPasses; ++i) names_.push_back("declared_pass_" + std::to_string(i));
+    for (std::size_t i = 0; i < kDeclarePasses; ++i) names_.push_back("declared_pass_" + std::to_string(i));
     gpu::BufferDesc kept = buffer_desc("declared_counters");
     kept.usage = gpu::BufferUsage::storage;
     counters_ = device.create_buffer(kept).value();
@@ -48,7 +47,7 @@ class HundredPasses {
     BufferRef counters =
         graph.import_buffer("declared_counters", counters_, gpu::Access::compute_write, gpu::Access::compute_write);
     BufferRef masks;
-    for (std::size_t i = 0; i < kPasses; ++i) {
+    for (std::size_t i = 0; i < kDeclarePasses; ++i) {
       ComputePass pass(frame, names_[i], shaders::lights::find_lights_accurate_tiles_comp);
       pass.read("lights", uniform);
       pass.read("grid", uniform);
@@ -87,7 +86,7 @@ class HundredPasses {
   PassFrames frames_;
   std::vector<std::string> names_;
   gpu::BufferHandle counters_;
-  std::array<ImageRef, kPasses> images_;
+  std::array<ImageRef, kDeclarePasses> images_;
   std::size_t recorded_ = 0;
 };
 
@@ -99,7 +98,7 @@ Result<std::uint64_t> recorded_hash(gpu::RecordingDevice& device, HundredPasses&
   GLOAM_TRY(frame.record(**commands));
   GLOAM_TRY(device.submit_frame());
   if (!device.faults().empty()) return Error{ErrorKind::failed, "frame.declare_100_passes: " + device.faults().front()};
-  if (frame.recorded() != kPasses)
+  if (frame.recorded() != kDeclarePasses)
     return Error{ErrorKind::failed, "frame.declare_100_passes: a declared pass was culled"};
   if (frame.graph().plans_compiled() != 1)
     return Error{ErrorKind::failed, "frame.declare_100_passes: the plan did not come from the cache"};
@@ -113,7 +112,7 @@ Result<BenchValue> run_declaration(BenchContext&) {
   const auto device = gpu::make_recording_device();
   HundredPasses frame(*device);
   Status status = frame.declare();
-  auto times = time_ns(kRepetitions, {}, [&] {
+  auto times = time_ns(kDeclareRepetitions, {}, [&] {
     for (int i = 0; i < kFramesARepetition && status.ok(); ++i) status = frame.declare();
   });
   GLOAM_TRY(status);

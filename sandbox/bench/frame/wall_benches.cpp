@@ -20,9 +20,8 @@
 namespace gloam {
 namespace {
 
-constexpr int kRounds = 5;
+constexpr int kWallRounds = 5;
 constexpr std::uint32_t kFramesARun = 8;  // the first is not counted: with two in flight it waits for none
-constexpr double kNsPerMs = 1e6;
 
 /// Times of frames in nanoseconds and the hash of the last picture, by frames in flight less 1.
 struct WallTimes {
@@ -52,7 +51,7 @@ Result<WallTimes> measure_walls(BenchContext& context) {
   auto session = context.session();
   if (!session) return session.error();
   WallTimes times;
-  for (int round = -1; round < kRounds; ++round) {  // one round warms up
+  for (int round = -1; round < kWallRounds; ++round) {  // one round warms up
     for (const std::uint32_t in_flight : {1u, 2u})
       GLOAM_TRY(draw_run(**session, context.options(), in_flight, round < 0 ? nullptr : &times));
   }

@@ -9,14 +9,11 @@
 #include "engine/render/readback/geometry_picture.h"
 #include "modules/grass/components.h"
 #include "modules/grass/simulation/steps.h"
+#include "sandbox/bench/harness/measure.h"
 #include "sandbox/session/scene_loading.h"
 
 namespace gloam {
-namespace {
-
-constexpr double kNsPerMs = 1e6;
-
-}  // namespace
+namespace {}  // namespace
 
 Result<std::unique_ptr<GrassCase>> GrassCase::open(BenchContext& context, const std::string& camera,
                                                    std::uint32_t width, std::uint32_t height) {

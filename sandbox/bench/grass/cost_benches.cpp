@@ -20,11 +20,10 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kWidth = 640;
-constexpr std::uint32_t kHeight = 360;
-constexpr int kFrames = 9;
-constexpr int kWarmUp = 3;
-constexpr double kNsPerMs = 1e6;
+constexpr std::uint32_t kGrassCostWidth = 640;
+constexpr std::uint32_t kGrassCostHeight = 360;
+constexpr int kGrassCostFrames = 9;
+constexpr int kGrassCostWarmUp = 3;
 
 struct GrassCost {
   std::vector<double> sort_ns, lod_ns, simulation_ns, drawing_ns, all_ns;
@@ -33,7 +32,7 @@ struct GrassCost {
   std::uint64_t hash = 0;  ///< of the poses of the live blades
 };
 
-Result<GrassCost> measure_cost(GrassCase& grass, int warm_up, int frames) {
+Result<GrassCost> measure_grass_cost(GrassCase& grass, int warm_up, int frames) {
   GrassCost cost;
   for (int i = -warm_up; i < frames; ++i) {
     const auto sample = grass.draw(kGrassFrame_s);
@@ -84,12 +83,12 @@ void add_cost_rows(BenchRegistry& registry, const std::string& id, std::optional
 }
 
 Result<GrassCost> measure_frame(BenchContext& context) {
-  const auto grass = GrassCase::open(context, "near", kWidth, kHeight);
+  const auto grass = GrassCase::open(context, "near", kGrassCostWidth, kGrassCostHeight);
   if (!grass) return grass.error();
-  return measure_cost(**grass, kWarmUp, kFrames);
+  return measure_grass_cost(**grass, kGrassCostWarmUp, kGrassCostFrames);
 }
 
-void add_frame_rows(BenchRegistry& registry) {
+void add_grass_frame_rows(BenchRegistry& registry) {
   const auto shared = std::make_shared<Once<GrassCost>>();
   add_cost_rows(registry, "grass.frame", 60.0,
                 [shared](BenchContext& context) { return shared->get([&] { return measure_frame(context); }); });
@@ -106,13 +105,13 @@ constexpr double kMostMiss = 0.05;
 
 /// The meadow from afar, all blades in view drawn, with the density that gives so many live blades.
 Result<GrassCost> measure_live(BenchContext& context, double blades) {
-  const auto grass = GrassCase::open(context, "far", kWidth, kHeight);
+  const auto grass = GrassCase::open(context, "far", kGrassCostWidth, kGrassCostHeight);
   if (!grass) return grass.error();
   GLOAM_TRY((*grass)->set("grass.lod_pixels", "0"));
   const auto usual = (*grass)->draw_and_read(0.0);
   if (!usual) return usual.error();
   GLOAM_TRY((*grass)->set("grass.density_scale", std::to_string(blades / usual->draws.live)));
-  auto cost = measure_cost(**grass, kLiveWarmUp, kLiveFrames);
+  auto cost = measure_grass_cost(**grass, kLiveWarmUp, kLiveFrames);
   if (!cost) return cost.error();
   if (std::abs(cost->live / blades - 1.0) > kMostMiss)
     return Error{ErrorKind::failed, std::to_string(cost->live) + " blades are live, not " + std::to_string(blades)};
@@ -132,7 +131,7 @@ void add_live_rows(BenchRegistry& registry) {
 }  // namespace
 
 void add_grass_cost_benches(BenchRegistry& registry) {
-  add_frame_rows(registry);
+  add_grass_frame_rows(registry);
   add_live_rows(registry);
 }
 

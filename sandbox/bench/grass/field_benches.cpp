@@ -24,12 +24,11 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kCamera = "near";
-constexpr std::uint32_t kWidth = 640;
-constexpr std::uint32_t kHeight = 360;
-constexpr int kRounds = 15;
-constexpr int kWarmUp = 3;
-constexpr double kNsPerMs = 1e6;
+constexpr const char* kFieldCamera = "near";
+constexpr std::uint32_t kFieldWidth = 640;
+constexpr std::uint32_t kFieldHeight = 360;
+constexpr int kFieldRounds = 15;
+constexpr int kFieldWarmUp = 3;
 constexpr std::uint32_t kFewLive = 20'000;
 constexpr double kFieldSide_m = 24.0;
 constexpr double kFirstRow_m = -60.0;  // z of the middle of the nearest row of further fields
@@ -83,10 +82,10 @@ Status draw_once(GrassCase& grass, bool measured, FieldTimes& times, double& liv
   return {};
 }
 
-Result<Fields> compare(GrassCase& small, GrassCase& large) {
+Result<Fields> compare_fields(GrassCase& small, GrassCase& large) {
   Fields fields;
   double large_live = 0.0;
-  for (int i = -kWarmUp; i < kRounds; ++i) {
+  for (int i = -kFieldWarmUp; i < kFieldRounds; ++i) {
     GLOAM_TRY(draw_once(small, i >= 0, fields.small, fields.live));
     GLOAM_TRY(draw_once(large, i >= 0, fields.large, large_live));
   }
@@ -106,12 +105,12 @@ struct BothFields {
 };
 
 Result<BothFields> measure_fields(BenchContext& context) {
-  const auto small = GrassCase::open(context, kCamera, kWidth, kHeight);
+  const auto small = GrassCase::open(context, kFieldCamera, kFieldWidth, kFieldHeight);
   if (!small) return small.error();
-  const auto large = GrassCase::open(context, kCamera, kWidth, kHeight);
+  const auto large = GrassCase::open(context, kFieldCamera, kFieldWidth, kFieldHeight);
   if (!large) return large.error();
   add_fields(**large);
-  const auto usual = compare(**small, **large);
+  const auto usual = compare_fields(**small, **large);
   if (!usual) return usual.error();
   for (GrassCase* grass : {small->get(), large->get()}) GLOAM_TRY(grass->set("grass.lod_pixels", "0"));
   const auto all = (*small)->draw_and_read(kGrassFrame_s);
@@ -119,7 +118,7 @@ Result<BothFields> measure_fields(BenchContext& context) {
   if (const auto also = (*large)->draw(kGrassFrame_s); !also) return also.error();  // both at the same step
   const double distance_m = distance_of_live(all->bins, static_cast<double>(all->range_m), kFewLive);
   for (GrassCase* grass : {small->get(), large->get()}) set_max_distance(*grass, distance_m);
-  const auto few_live = compare(**small, **large);
+  const auto few_live = compare_fields(**small, **large);
   if (!few_live) return few_live.error();
   const auto blades = [](GrassCase& grass) { return grass.session().world.resource<GrassField>().statistics.blades; };
   if (blades(**large) != 10 * blades(**small))

@@ -21,11 +21,10 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kCamera = "near";
-constexpr std::uint32_t kWidth = 160;  // the simulation does not depend on the size
-constexpr std::uint32_t kHeight = 90;
-constexpr int kRounds = 7;
-constexpr double kNsPerMs = 1e6;
+constexpr const char* kSimulationCamera = "near";
+constexpr std::uint32_t kSimulationWidth = 160;  // the simulation does not depend on the size
+constexpr std::uint32_t kSimulationHeight = 90;
+constexpr int kSimulationRounds = 7;
 constexpr int kWindFrames = 45;               // before tips are compared: 3 s
 constexpr double kWindFrame_s = 8.0 / 120.0;  // the longest frame of which no time is dropped
 constexpr std::size_t kTips = 8192;           // of all live blades
@@ -47,7 +46,7 @@ struct SimulationRun {
 };
 
 Result<std::unique_ptr<GrassCase>> open_case(BenchContext& context) {
-  auto grass = GrassCase::open(context, kCamera, kWidth, kHeight);
+  auto grass = GrassCase::open(context, kSimulationCamera, kSimulationWidth, kSimulationHeight);
   if (!grass) return grass.error();
   (*grass)->remove_colliders();
   GLOAM_TRY((*grass)->set("grass.lod_pixels", "0"));
@@ -103,7 +102,7 @@ Result<MasterRuns> measure_masters(BenchContext& context) {
   const auto grass = open_case(context);
   if (!grass) return grass.error();
   MasterRuns runs;
-  for (int round = -1; round < kRounds; ++round) {
+  for (int round = -1; round < kSimulationRounds; ++round) {
     for (std::size_t i = 0; i < kRatios.size(); ++i) {
       GLOAM_TRY((*grass)->set("grass.masters", kRatios[i]));
       if (const auto regrown = (*grass)->draw(kGrassFrame_s); !regrown) return regrown.error();
@@ -131,7 +130,7 @@ Result<IterationRuns> measure_iterations(BenchContext& context) {
   const auto set = [&](std::size_t i) { return (*grass)->set("grass.iterations", std::to_string(i + 1)); };
   IterationRuns all;
   auto& runs = all.runs;
-  for (int round = -1; round < kRounds; ++round) {
+  for (int round = -1; round < kSimulationRounds; ++round) {
     for (std::size_t i = 0; i < kMostIterations; ++i) {
       GLOAM_TRY(set(i));
       const auto sample = (*grass)->draw(kGrassFrame_s);

@@ -25,20 +25,19 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:plain";  // opens a device; nothing of it is drawn
-constexpr std::uint32_t kKeys = 1'000'000;
-constexpr int kPairs = 21;
-constexpr int kWarmUp = 2;
-constexpr double kNsPerMs = 1e6;
+constexpr const char* kSortScene = "builtin:plain";  // opens a device; nothing of it is drawn
+constexpr std::uint32_t kSortKeys = 1'000'000;
+constexpr int kSortPairs = 21;
+constexpr int kSortWarmUp = 2;
 /// Each key is read twice, for its counter and for its place, and each value is written; value i is i. Half of the
 /// bytes of a copy are read and half are written.
-constexpr std::uint64_t kMovedBytes = std::uint64_t{kKeys} * (1 + 1 + 4);
+constexpr std::uint64_t kMovedBytes = std::uint64_t{kSortKeys} * (1 + 1 + 4);
 
 /// Pseudo-random keys with all 256 values, the same on every platform.
 std::vector<std::uint8_t> random_keys() {
-  std::vector<std::uint8_t> keys(packed_key_bytes(kKeys), 0);
+  std::vector<std::uint8_t> keys(packed_key_bytes(kSortKeys), 0);
   std::uint32_t state = 1;
-  for (std::uint32_t i = 0; i < kKeys; ++i) {
+  for (std::uint32_t i = 0; i < kSortKeys; ++i) {
     state = state * 1664525u + 1013904223u;
     keys[i] = static_cast<std::uint8_t>(state >> 24);
   }
@@ -73,7 +72,7 @@ class SortFrames {
     };
     GLOAM_TRY(create(keys_, {.name = "sort_keys", .size = keys.size(), .usage = storage | transfer_target}));
     GLOAM_TRY(create(sorted_, {.name = "sort_result",
-                               .size = std::uint64_t{kKeys} * 4,
+                               .size = std::uint64_t{kSortKeys} * 4,
                                .usage = transfer_target,
                                .memory = gpu::MemoryKind::readback}));
     GLOAM_TRY(
@@ -106,7 +105,7 @@ class SortFrames {
   }
   /// The values as the last frame has sorted them.
   [[nodiscard]] std::vector<std::uint32_t> sorted() {
-    std::vector<std::uint32_t> values(kKeys);
+    std::vector<std::uint32_t> values(kSortKeys);
     std::memcpy(values.data(), device_.mapped(sorted_).data(), values.size() * sizeof(std::uint32_t));
     return values;
   }
@@ -116,11 +115,11 @@ class SortFrames {
     FrameGraph& graph = frame.graph();
     const BufferRef keys =
         graph.import_buffer("sort_keys", keys_, gpu::Access::compute_read, gpu::Access::compute_read);
-    const SortedKeys sorted = add_radix_sort_passes(frame, "sort", keys, {}, kKeys);
+    const SortedKeys sorted = add_radix_sort_passes(frame, "sort", keys, {}, kSortKeys);
     add_copy(graph, "copy_moved_bytes",
              graph.import_buffer("copy_source", source_, gpu::Access::transfer_read, gpu::Access::transfer_read),
              target_, kMovedBytes / 2);
-    add_copy(graph, "keep_sorted", sorted.values, sorted_, std::uint64_t{kKeys} * 4);
+    add_copy(graph, "keep_sorted", sorted.values, sorted_, std::uint64_t{kSortKeys} * 4);
   }
   void add_copy(FrameGraph& graph, const char* name, BufferRef from, gpu::BufferHandle to, std::uint64_t bytes) {
     PassBuilder pass = graph.add_pass(name, "bench");
@@ -155,7 +154,7 @@ bool by_key(const Pair& a, const Pair& b) { return a.first < b.first; }
 
 std::vector<Pair> pairs_of(std::span<const std::uint8_t> keys) {
   std::vector<Pair> pairs;
-  for (std::uint32_t i = 0; i < kKeys; ++i) pairs.emplace_back(keys[i], i);
+  for (std::uint32_t i = 0; i < kSortKeys; ++i) pairs.emplace_back(keys[i], i);
   return pairs;
 }
 
@@ -163,13 +162,13 @@ double std_sort_once_ns(std::vector<Pair> pairs) {
   const auto begin = std::chrono::steady_clock::now();
   std::sort(pairs.begin(), pairs.end(), by_key);
   const auto end = std::chrono::steady_clock::now();
-  keep(pairs[kKeys / 2].second);
+  keep(pairs[kSortKeys / 2].second);
   return std::chrono::duration<double, std::nano>(end - begin).count();
 }
 
 /// Sorts on the CPU and on the device, alternately. ErrorKind::failed unless the device's sort is the stable one.
 Result<Sorts> measure_sorts(BenchContext& context) {
-  auto session = context.open_builtin(kScene);
+  auto session = context.open_builtin(kSortScene);
   if (!session) return session.error();
   const std::vector<std::uint8_t> keys = random_keys();
   const std::vector<Pair> pairs = pairs_of(keys);
@@ -178,7 +177,7 @@ Result<Sorts> measure_sorts(BenchContext& context) {
   SortFrames frames(*(*session)->device);
   GLOAM_TRY(frames.prepare(keys));
   Sorts sorts;
-  for (int i = -kWarmUp; i < kPairs; ++i) {
+  for (int i = -kSortWarmUp; i < kSortPairs; ++i) {
     const double std_sort_ns = std_sort_once_ns(pairs);
     const auto times = frames.draw();
     if (!times) return times.error();

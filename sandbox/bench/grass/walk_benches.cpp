@@ -26,14 +26,14 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kWidth = 320;
-constexpr std::uint32_t kHeight = 180;
-constexpr std::uint32_t kSide = 4;  // samples of the reference in a pixel, along each axis
-constexpr std::size_t kFrames = 60;
+constexpr std::uint32_t kWalkWidth = 320;
+constexpr std::uint32_t kWalkHeight = 180;
+constexpr std::uint32_t kWalkSide = 4;  // samples of the reference in a pixel, along each axis
+constexpr std::size_t kGrassWalkFrames = 60;
 constexpr std::size_t kJudgedEvery = 10;  // frames
-constexpr double kFrame_s = 1.0 / 30.0;
+constexpr double kGrassFrame_s = 1.0 / 30.0;
 
-struct Walk {
+struct GrassWalk {
   std::vector<LinearPicture> light;
   std::vector<Picture> pictures;  ///< every kJudgedEvery frames
   std::vector<double> coverage;   ///< of the same frames
@@ -53,16 +53,16 @@ struct WalkErrors {
 
 enum class Level { on, off };
 
-Result<Walk> draw_walk(GrassCase& grass, Level level, std::uint32_t side) {
+Result<GrassWalk> draw_grass_walk(GrassCase& grass, Level level, std::uint32_t side) {
   GLOAM_TRY(grass.set("grass.lod_pixels", level == Level::on ? "1" : "0"));
   GLOAM_TRY(grass.set("grass.segments", level == Level::on ? "distance" : "full"));
-  grass.set_size(side * kWidth, side * kHeight);
-  Walk walk;
-  for (std::size_t i = 0; i < kFrames; ++i) {
-    grass.set_time(kFrame_s * static_cast<double>(i));
+  grass.set_size(side * kWalkWidth, side * kWalkHeight);
+  GrassWalk walk;
+  for (std::size_t i = 0; i < kGrassWalkFrames; ++i) {
+    grass.set_time(kGrassFrame_s * static_cast<double>(i));
     const auto sample = grass.draw(0.0);  // the camera moves with the time; a frame without duration has no steps
     if (!sample) return sample.error();
-    walk.live += counter_of(*sample, "grass.live") / kFrames;
+    walk.live += counter_of(*sample, "grass.live") / kGrassWalkFrames;
     auto light = grass.linear();
     if (!light) return light.error();
     walk.light.push_back(averaged(*light, side));
@@ -77,9 +77,9 @@ Result<Walk> draw_walk(GrassCase& grass, Level level, std::uint32_t side) {
   return walk;
 }
 
-Result<double> temporal_mean(const Walk& reference, const Walk& drawn) {
+Result<double> temporal_mean(const GrassWalk& reference, const GrassWalk& drawn) {
   std::vector<LinearPixels> expected, found;
-  for (std::size_t i = 0; i < kFrames; ++i) {
+  for (std::size_t i = 0; i < kGrassWalkFrames; ++i) {
     expected.push_back(pixels_of(reference.light[i]));
     found.push_back(pixels_of(drawn.light[i]));
   }
@@ -88,7 +88,7 @@ Result<double> temporal_mean(const Walk& reference, const Walk& drawn) {
   return statistics->mean;
 }
 
-double mean_flip(const Walk& reference, const Walk& drawn) {
+double mean_flip(const GrassWalk& reference, const GrassWalk& drawn) {
   double sum = 0.0;
   for (std::size_t i = 0; i < drawn.pictures.size(); ++i) {
     const std::vector<float> map =
@@ -102,21 +102,21 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-Result<WalkErrors> measure_walks(BenchContext& context) {
-  const auto grass = GrassCase::open(context, "walk", kWidth, kHeight);
+Result<WalkErrors> measure_grass_walks(BenchContext& context) {
+  const auto grass = GrassCase::open(context, "walk", kWalkWidth, kWalkHeight);
   if (!grass) return grass.error();
-  const auto reference = draw_walk(**grass, Level::off, kSide);
+  const auto reference = draw_grass_walk(**grass, Level::off, kWalkSide);
   if (!reference) return reference.error();
-  const auto without = draw_walk(**grass, Level::off, 1);
+  const auto without = draw_grass_walk(**grass, Level::off, 1);
   if (!without) return without.error();
-  const auto with = draw_walk(**grass, Level::on, 1);
+  const auto with = draw_grass_walk(**grass, Level::on, 1);
   if (!with) return with.error();
   const auto temporal = temporal_mean(*reference, *with);
   if (!temporal) return temporal.error();
   const auto temporal_without = temporal_mean(*reference, *without);
   if (!temporal_without) return temporal_without.error();
   Hasher hasher;
-  for (const Walk* walk : {&*reference, &*without, &*with})
+  for (const GrassWalk* walk : {&*reference, &*without, &*with})
     for (const LinearPicture& light : walk->light) hasher.items(light.rgba);
   return WalkErrors{.temporal = *temporal,
                     .temporal_without = *temporal_without,
@@ -138,7 +138,7 @@ void add_grass_walk_benches(BenchRegistry& registry) {
     row.unit = unit;
     row.bar = bar;
     row.run = [shared, value](BenchContext& context) -> Result<BenchValue> {
-      const auto errors = shared->get([&] { return measure_walks(context); });
+      const auto errors = shared->get([&] { return measure_grass_walks(context); });
       if (!errors) return errors.error();
       BenchValue result = single_value(value(**errors), (*errors)->hash);
       result.scene = kMeadow;

@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-constexpr int kRepetitions = 15;
+constexpr int kFrameTimeRepetitions = 15;
 
 template <class Work>
 Result<double> timed_ns(Work&& work) {
@@ -40,7 +40,7 @@ Result<MeasuredFrames> measure_frames(Session& session, const Options& options) 
   };
   const auto draw_gathers = [&]() -> Status { return (*yardstick)->draw(); };
   MeasuredFrames times;
-  for (int i = -2; i < kRepetitions; ++i) {  // two rounds warm up
+  for (int i = -2; i < kFrameTimeRepetitions; ++i) {  // two rounds warm up
     auto scene = timed_ns(draw_scene);
     if (!scene.ok()) return scene.error();
     auto gather = timed_ns(draw_gathers);

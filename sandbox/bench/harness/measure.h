@@ -11,6 +11,8 @@
 
 namespace gloam {
 
+inline constexpr double kNsPerMs = 1e6;
+
 /// Makes the compiler assume that the value is read and that all memory may have changed, so that it removes no work.
 void keep(std::uint64_t value);
 

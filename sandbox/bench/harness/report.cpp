@@ -18,7 +18,7 @@ std::string short_number(double value) {
 }
 
 /// scene: the scene of the run. The row names its scene only if it is a different one.
-Json row_json(const MeasuredRow& measured, const std::string& scene) {
+Json bench_row_json(const MeasuredRow& measured, const std::string& scene) {
   const BenchRow& row = *measured.row;
   const BenchValue& value = measured.value;
   Json json = {{"id", row.id}, {"value", value.value}, {"unit", row.unit}};
@@ -59,7 +59,7 @@ std::string bench_json(const RunDescription& run, std::span<const MeasuredRow> r
     if (measured.value.skipped)
       json["skipped"].push_back({{"id", measured.row->id}, {"reason", *measured.value.skipped}});
     else
-      json["rows"].push_back(row_json(measured, run.scene));
+      json["rows"].push_back(bench_row_json(measured, run.scene));
   }
   return json_text(json);
 }

@@ -20,7 +20,7 @@
 namespace gloam {
 namespace {
 
-constexpr int kRepetitions = 15;
+constexpr int kJobRepetitions = 15;
 
 std::uint64_t hash_of(std::span<const std::uint32_t> values) { return hash_bytes(std::as_bytes(values)); }
 
@@ -43,14 +43,14 @@ class EmptyJobs {
 
 Result<BenchValue> run_empty_jobs(JobExecutor& executor) {
   const EmptyJobs jobs;
-  auto times = time_ns(kRepetitions, {}, [&] { jobs.run(executor); });
+  auto times = time_ns(kJobRepetitions, {}, [&] { jobs.run(executor); });
   return per_item(std::move(times), EmptyJobs::kJobs, jobs.hash());
 }
 
 Result<BenchValue> compare_empty_jobs(JobExecutor& executor) {
   const EmptyJobs jobs;
   const auto one = make_pool_executor(1);
-  const PairTimes times = time_pair_ns(kRepetitions, {.prepare = {}, .run = [&] { jobs.run(executor); }},
+  const PairTimes times = time_pair_ns(kJobRepetitions, {.prepare = {}, .run = [&] { jobs.run(executor); }},
                                        {.prepare = {}, .run = [&] { jobs.run(*one); }});
   return ratio_of(times.a_ns, times.b_ns, jobs.hash());
 }
@@ -96,7 +96,7 @@ class SpawnedJobs {
 Result<BenchValue> run_spawned_jobs(BenchContext&) {
   const auto two_workers = make_pool_executor(2);
   SpawnedJobs jobs;
-  auto times = time_ns(kRepetitions, {}, [&] { jobs.run(*two_workers); });
+  auto times = time_ns(kJobRepetitions, {}, [&] { jobs.run(*two_workers); });
   if (!jobs.all_ran()) return Error{ErrorKind::failed, "jobs.spawn: a job did not run exactly once a round"};
   return per_item(std::move(times), SpawnedJobs::kJobs, jobs.hash());
 }
@@ -126,7 +126,7 @@ Result<BenchValue> run_parallel_for(JobExecutor& pool) {
   const auto side = [](JobExecutor& executor, std::vector<std::uint32_t>& results) {
     return TimedCall{.prepare = [&] { std::ranges::fill(results, 0u); }, .run = [&] { grind_all(executor, results); }};
   };
-  PairTimes times = time_pair_ns(kRepetitions, side(*serial, serial_results), side(pool, pool_results));
+  PairTimes times = time_pair_ns(kJobRepetitions, side(*serial, serial_results), side(pool, pool_results));
   if (serial_results != pool_results)
     return Error{ErrorKind::failed, "jobs.parallel_for_efficiency: the pool's results differ from the serial ones"};
   for (double& time : times.b_ns) time *= pool.worker_count();
@@ -151,7 +151,7 @@ Result<BenchValue> run_graph_nodes(JobExecutor& executor) {
     nodes[i].work = [&cell = cells[i]] { ++cell; };
     nodes[i].successors = std::span(successors[i].data(), edges);
   }
-  auto times = time_ns(kRepetitions, {}, [&] {
+  auto times = time_ns(kJobRepetitions, {}, [&] {
     for (int run = 0; run < 10; ++run) executor.run_graph(nodes);
   });
   return per_item(std::move(times), 10.0 * static_cast<double>(nodes.size()), hash_of(cells));

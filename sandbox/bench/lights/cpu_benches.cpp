@@ -22,8 +22,7 @@ namespace {
 using bench::LightCpuCase;
 using bench::LightCpuScene;
 
-constexpr int kRepetitions = 101;
-constexpr double kNsPerMs = 1e6;
+constexpr int kLightCpuRepetitions = 101;
 
 struct Setup {
   LightCpuScene scene;
@@ -31,7 +30,7 @@ struct Setup {
   const char* z_bins = "1024";
 };
 
-LightCpuScene scene_of(std::uint32_t lights, bool is_4k, bool sparse) {
+LightCpuScene cpu_scene_of(std::uint32_t lights, bool is_4k, bool sparse) {
   LightCpuScene scene;
   scene.lights = lights;
   scene.width = is_4k ? 3840 : 1920;
@@ -52,7 +51,7 @@ BenchValue run_ms(const Setup& setup) {
   const auto lights = make_case(setup);
   const auto executor = make_serial_executor();
   auto times = time_ns(
-      kRepetitions, [&] { lights->move(); }, [&] { lights->run(*executor); });
+      kLightCpuRepetitions, [&] { lights->move(); }, [&] { lights->run(*executor); });
   return per_item(std::move(times), kNsPerMs, lights->hash());
 }
 
@@ -64,7 +63,7 @@ BenchValue run_over_memset(const Setup& setup) {
   lights->run(*executor);
   std::vector<std::byte> bytes(lights->bytes_written());
   int value = 0;
-  const PairTimes times = time_pair_ns(kRepetitions, {[&] { lights->move(); }, [&] { lights->run(*executor); }},
+  const PairTimes times = time_pair_ns(kLightCpuRepetitions, {[&] { lights->move(); }, [&] { lights->run(*executor); }},
                                        {{}, [&] {
                                           std::memset(bytes.data(), ++value, bytes.size());
                                           keep(static_cast<std::uint64_t>(bytes[0]));
@@ -80,7 +79,7 @@ BenchValue run_bandwidth(const Setup& setup) {
   lights->run(*executor);
   std::vector<std::byte> from(lights->bytes_written(), std::byte{1});
   std::vector<std::byte> to(from.size());
-  const PairTimes times = time_pair_ns(kRepetitions, {[&] { lights->move(); }, [&] { lights->run(*executor); }},
+  const PairTimes times = time_pair_ns(kLightCpuRepetitions, {[&] { lights->move(); }, [&] { lights->run(*executor); }},
                                        {{}, [&] {
                                           std::memcpy(to.data(), from.data(), to.size());
                                           keep(static_cast<std::uint64_t>(to[0]));
@@ -108,7 +107,7 @@ Result<BenchValue> run_two_workers(const Setup& setup) {
     shared->move();
     wake(*pool);
   };
-  const PairTimes times = time_pair_ns(kRepetitions, {[&] { alone->move(); }, [&] { alone->run(*executor); }},
+  const PairTimes times = time_pair_ns(kLightCpuRepetitions, {[&] { alone->move(); }, [&] { alone->run(*executor); }},
                                        {prepare, [&] { shared->run(*pool); }});
   if (alone->hash() != shared->hash()) return Error{ErrorKind::failed, "one thread and two made different light lists"};
   return ratio_of(times.a_ns, times.b_ns, alone->hash());
@@ -127,8 +126,8 @@ void add_ms(BenchRegistry& registry, std::string id, const Setup& setup) {
 }
 
 void add_ratios(BenchRegistry& registry) {
-  const Setup dense{scene_of(1024, true, false)};
-  const Setup sparse{scene_of(1024, true, true)};
+  const Setup dense{cpu_scene_of(1024, true, false)};
+  const Setup sparse{cpu_scene_of(1024, true, true)};
   add(registry, "lights.cpu_over_memset", "ratio", 6.0, Better::lower, [dense] { return run_over_memset(dense); });
   add(registry, "lights.cpu_over_memset.sparse", "ratio", 6.0, Better::lower,
       [sparse] { return run_over_memset(sparse); });
@@ -147,7 +146,7 @@ void add_ratios(BenchRegistry& registry) {
 void add_bounds(BenchRegistry& registry) {
   for (const char* bound : {"rect", "row_interval", "cone"}) {
     for (const bool sparse : {false, true}) {
-      const Setup setup{scene_of(1024, true, sparse), bound};
+      const Setup setup{cpu_scene_of(1024, true, sparse), bound};
       const std::string id = std::string("lights.cpu_1024_4k.") + bound + (sparse ? ".sparse" : "");
       add_ms(registry, id, setup);
       add(registry, id + ".lights_per_tile", "lights", {}, Better::lower, [setup]() -> Result<BenchValue> {
@@ -166,12 +165,12 @@ void add_light_cpu_benches(BenchRegistry& registry) {
   for (const bool is_4k : {true, false}) {
     for (const std::uint32_t lights : {1024u, 256u, 64u})
       add_ms(registry, "lights.cpu_" + std::to_string(lights) + (is_4k ? "_4k" : "_1080p"),
-             {scene_of(lights, is_4k, false)});
+             {cpu_scene_of(lights, is_4k, false)});
   }
   add_ratios(registry);
   add_bounds(registry);
   for (const char* bins : {"256", "512", "1024", "2048", "4096"})
-    add_ms(registry, std::string("lights.cpu_1024_4k.z_bins_") + bins, {scene_of(1024, true, false), "rect", bins});
+    add_ms(registry, std::string("lights.cpu_1024_4k.z_bins_") + bins, {cpu_scene_of(1024, true, false), "rect", bins});
 }
 
 }  // namespace gloam

@@ -20,9 +20,9 @@ namespace gloam::bench {
 namespace {
 
 constexpr std::size_t kMoments = 4;
-constexpr double kTurn = 0.01;  // radians per frame
-constexpr double kMove = 0.05;  // metres per frame
-constexpr float kFov = 1.0471975512f;
+constexpr double kLightCaseTurn = 0.01;  // radians per frame
+constexpr double kMove = 0.05;           // metres per frame
+constexpr float kLightCaseFov = 1.0471975512f;
 constexpr ViewId kView{0};
 
 /// Uniform numbers that are the same with every standard library.
@@ -57,7 +57,7 @@ Placed draw_light(Draw& draw, const LightCpuScene& scene, std::uint32_t i) {
   placed.light.outer_angle = static_cast<float>(draw(0.2, 1.0));
   placed.light.inner_angle = placed.light.outer_angle * 0.7f;
   const double depth = draw(1.0, 100.0);
-  const double high = std::tan(0.5 * static_cast<double>(kFov)) * depth;
+  const double high = std::tan(0.5 * static_cast<double>(kLightCaseFov)) * depth;
   const double wide = high * scene.width / scene.height;
   placed.position = dvec3(draw(-wide, wide), draw(-high, high), -depth);
   placed.axis = draw.direction();
@@ -85,9 +85,9 @@ LightCpuCase::LightCpuCase(const LightCpuScene& scene) : scene_(scene), module_(
     const double at = static_cast<double>(m);
     for (const Placed& p : placed) {
       const dmat4 stands = glm::translate(dmat4(1.0), p.position + kMove * at * p.axis);
-      moment.lights.push_back(glm::rotate(stands, p.angle + kTurn * at, p.axis));
+      moment.lights.push_back(glm::rotate(stands, p.angle + kLightCaseTurn * at, p.axis));
     }
-    moment.camera = glm::rotate(dmat4(1.0), kTurn * at, dvec3(0.0, 1.0, 0.0));
+    moment.camera = glm::rotate(dmat4(1.0), kLightCaseTurn * at, dvec3(0.0, 1.0, 0.0));
     moments_.push_back(std::move(moment));
   }
 }
@@ -104,7 +104,7 @@ void LightCpuCase::move() {
   settings.id = kView;
   settings.width = scene_.width;
   settings.height = scene_.height;
-  settings.camera.fov_y = kFov;
+  settings.camera.fov_y = kLightCaseFov;
   settings.world_from_camera = moment.camera;
   world_.set_view_resource(kView, make_view(settings, next_));
   module_->prepare_view(world_, kView, knobs_);

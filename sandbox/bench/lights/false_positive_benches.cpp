@@ -18,7 +18,7 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:many_lights";  // unless the user names one
+constexpr const char* kFalsePositiveScene = "builtin:many_lights";  // unless the user names one
 constexpr int kSettlingFrames = 3;
 
 /// Values of knobs while frames are counted, by knob name.
@@ -60,7 +60,7 @@ class CountedFrames {
   };
   [[nodiscard]] Result<Counter> counter(BenchContext& context, const Settings& settings, const std::string& name) {
     if (!frames_.contains(settings)) {
-      auto session = context.session_or(kScene);
+      auto session = context.session_or(kFalsePositiveScene);
       if (!session) return session.error();
       auto counted = count_frame(**session, context.options(), settings);
       if (!counted) return counted.error();
@@ -77,9 +77,9 @@ class CountedFrames {
 };
 
 /// The value, with a hash of the number and of the picture of the counted frame.
-BenchValue value_of(const BenchContext& context, double value, std::uint64_t picture_hash) {
+BenchValue false_positives_of(const BenchContext& context, double value, std::uint64_t picture_hash) {
   BenchValue result = single_value(value, hash_of_both(hash_of_number(value), picture_hash));
-  result.scene = context.scene_or(kScene);
+  result.scene = context.scene_or(kFalsePositiveScene);
   return result;
 }
 
@@ -92,10 +92,10 @@ BenchRow counter_row(std::string id, std::string unit, std::shared_ptr<CountedFr
              less = std::move(less)](BenchContext& context) -> Result<BenchValue> {
     const auto counted = frames->counter(context, settings, counter);
     if (!counted) return counted.error();
-    if (less.empty()) return value_of(context, counted->value, counted->picture_hash);
+    if (less.empty()) return false_positives_of(context, counted->value, counted->picture_hash);
     const auto right = frames->counter(context, settings, less);
     if (!right) return right.error();
-    return value_of(context, counted->value - right->value, counted->picture_hash);
+    return false_positives_of(context, counted->value - right->value, counted->picture_hash);
   };
   return row;
 }

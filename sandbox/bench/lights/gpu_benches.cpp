@@ -22,12 +22,11 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:many_lights";  // unless the user names one
-constexpr int kPairs = 7;
-constexpr int kFrames = 9;
+constexpr const char* kLightScene = "builtin:many_lights";  // unless the user names one
+constexpr int kLightPairs = 7;
+constexpr int kLightFrames = 9;
 constexpr int kBruteFrames = 3;
-constexpr int kWarmUp = 3;  // lists also grow to their size
-constexpr double kNsPerMs = 1e6;
+constexpr int kLightWarmUp = 3;  // lists also grow to their size
 constexpr std::array<std::uint32_t, 4> kLightCounts = {8, 64, 256, 1024};
 
 double pass_ns(const FrameSample& sample, std::string_view name) {
@@ -38,7 +37,7 @@ double pass_ns(const FrameSample& sample, std::string_view name) {
 
 /// Time of the passes that search the lights of tiles and shade opaque surfaces, and of passes that only the searches
 /// need.
-double lighting_ns(const FrameSample& sample) {
+double light_pass_ns(const FrameSample& sample) {
   double ns = pass_ns(sample, "deferred") + pass_ns(sample, "depth_bounds") + pass_ns(sample, "results");
   for (const PassTime& pass : sample.report.passes) ns += pass.module == "lights" ? pass.ms * kNsPerMs : 0.0;
   return ns;
@@ -61,7 +60,7 @@ class LightFrames {
     return session_.render_frame(request_);
   }
   [[nodiscard]] Status warm_up(const char* culling) {
-    for (int i = 0; i < kWarmUp; ++i) GLOAM_TRY(draw(culling));
+    for (int i = 0; i < kLightWarmUp; ++i) GLOAM_TRY(draw(culling));
     return {};
   }
   /// Picture of the last frame.
@@ -74,7 +73,7 @@ class LightFrames {
   ViewRequest request_;
 };
 
-std::uint64_t hash_of(const Picture& picture) { return hash_bytes(std::as_bytes(std::span(picture.rgba))); }
+std::uint64_t image_hash_of(const Picture& picture) { return hash_bytes(std::as_bytes(std::span(picture.rgba))); }
 
 /// ErrorKind::failed if a channel differs by more than one step of 8 bits.
 Status expect_same(const Picture& brute, const Picture& tiled) {
@@ -102,15 +101,15 @@ Result<Culling> measure_culling(Session& session, const Options& options) {
   auto tiled_picture = frames.picture();
   if (!tiled_picture) return tiled_picture.error();
   GLOAM_TRY(expect_same(*brute_picture, *tiled_picture));
-  result.brute_hash = hash_of(*brute_picture);
-  result.tiled_hash = hash_of(*tiled_picture);
-  for (int pair = 0; pair < kPairs; ++pair) {
+  result.brute_hash = image_hash_of(*brute_picture);
+  result.tiled_hash = image_hash_of(*tiled_picture);
+  for (int pair = 0; pair < kLightPairs; ++pair) {
     const auto brute = frames.draw("brute");
     if (!brute) return brute.error();
     const auto tiled = frames.draw("tiled");
     if (!tiled) return tiled.error();
-    result.brute_ns.push_back(lighting_ns(*brute));
-    result.tiled_ns.push_back(lighting_ns(*tiled));
+    result.brute_ns.push_back(light_pass_ns(*brute));
+    result.tiled_ns.push_back(light_pass_ns(*tiled));
   }
   return result;
 }
@@ -129,7 +128,7 @@ Result<PassTimes> measure_passes(Session& session, const Options& options) {
   LightFrames frames(session, options);
   PassTimes times;
   GLOAM_TRY(frames.warm_up("tiled"));
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kLightFrames; ++i) {
     const auto sample = frames.draw("tiled");
     if (!sample) return sample.error();
     times.approx_ns.push_back(pass_ns(*sample, "find_lights_approx"));
@@ -138,7 +137,7 @@ Result<PassTimes> measure_passes(Session& session, const Options& options) {
   }
   auto tiled_picture = frames.picture();
   if (!tiled_picture) return tiled_picture.error();
-  times.tiled_hash = hash_of(*tiled_picture);
+  times.tiled_hash = image_hash_of(*tiled_picture);
   for (int i = -1; i < kBruteFrames; ++i) {
     const auto sample = frames.draw("brute");
     if (!sample) return sample.error();
@@ -146,14 +145,14 @@ Result<PassTimes> measure_passes(Session& session, const Options& options) {
   }
   auto brute_picture = frames.picture();
   if (!brute_picture) return brute_picture.error();
-  times.brute_hash = hash_of(*brute_picture);
+  times.brute_hash = image_hash_of(*brute_picture);
   return times;
 }
 
 /// Measures the built-in scene with 1024 lights, then with fewer and fewer. The results are in the order of
 /// kLightCounts.
-Result<std::array<PassTimes, kLightCounts.size()>> measure_counts(BenchContext& context) {
-  auto session = context.open_builtin(kScene);
+Result<std::array<PassTimes, kLightCounts.size()>> measure_light_counts(BenchContext& context) {
+  auto session = context.open_builtin(kLightScene);
   if (!session) return session.error();
   std::array<PassTimes, kLightCounts.size()> times;
   for (std::size_t i = kLightCounts.size(); i-- > 0;) {
@@ -165,13 +164,13 @@ Result<std::array<PassTimes, kLightCounts.size()>> measure_counts(BenchContext& 
   return times;
 }
 
-struct Shared {
+struct SharedLights {
   Once<Culling> culling;
   Once<MeasuredFrames> frames;
   Once<std::array<PassTimes, kLightCounts.size()>> counts;
 };
 
-BenchRow row_of(std::string id, std::string unit, std::function<Result<BenchValue>(BenchContext&)> run) {
+BenchRow light_row_of(std::string id, std::string unit, std::function<Result<BenchValue>(BenchContext&)> run) {
   BenchRow row;
   row.id = std::move(id);
   row.unit = std::move(unit);
@@ -180,21 +179,21 @@ BenchRow row_of(std::string id, std::string unit, std::function<Result<BenchValu
 }
 
 template <class Value>
-BenchRow culling_row(std::string id, std::string unit, const std::shared_ptr<Shared>& shared, Value value) {
-  return row_of(std::move(id), std::move(unit), [shared, value](BenchContext& context) -> Result<BenchValue> {
+BenchRow culling_row(std::string id, std::string unit, const std::shared_ptr<SharedLights>& shared, Value value) {
+  return light_row_of(std::move(id), std::move(unit), [shared, value](BenchContext& context) -> Result<BenchValue> {
     const auto culling = shared->culling.get([&]() -> Result<Culling> {
-      auto session = context.session_or(kScene);
+      auto session = context.session_or(kLightScene);
       if (!session) return session.error();
       return measure_culling(**session, context.options());
     });
     if (!culling) return culling.error();
     BenchValue result = value(**culling);
-    result.scene = context.scene_or(kScene);
+    result.scene = context.scene_or(kLightScene);
     return result;
   });
 }
 
-void add_culling_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shared) {
+void add_culling_rows(BenchRegistry& registry, const std::shared_ptr<SharedLights>& shared) {
   BenchRow ratio = culling_row("lights.brute_over_tiled", "ratio", shared, [](const Culling& c) {
     return ratio_of(c.brute_ns, c.tiled_ns, hash_of_both(c.brute_hash, c.tiled_hash));
   });
@@ -207,25 +206,25 @@ void add_culling_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& sh
                            [](const Culling& c) { return per_item(c.brute_ns, kNsPerMs, c.brute_hash); }));
 }
 
-void add_frame_row(BenchRegistry& registry, const std::shared_ptr<Shared>& shared) {
+void add_frame_row(BenchRegistry& registry, const std::shared_ptr<SharedLights>& shared) {
   BenchRow row =
-      row_of("lights.frame_1024_over_gather48", "ratio", [shared](BenchContext& context) -> Result<BenchValue> {
+      light_row_of("lights.frame_1024_over_gather48", "ratio", [shared](BenchContext& context) -> Result<BenchValue> {
         const auto times = shared->frames.get([&]() -> Result<MeasuredFrames> {
-          auto session = context.session_or(kScene);
+          auto session = context.session_or(kLightScene);
           if (!session) return session.error();
           return measure_frames(**session, context.options());
         });
         if (!times) return times.error();
         const MeasuredFrames& t = **times;
         BenchValue value = ratio_of(t.scene_ns, t.gather_ns, hash_of_both(t.scene_hash, t.gather_hash));
-        value.scene = context.scene_or(kScene);
+        value.scene = context.scene_or(kLightScene);
         return value;
       });
   row.bar = 3.2;
   registry.add(std::move(row));
 }
 
-void add_count_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shared) {
+void add_count_rows(BenchRegistry& registry, const std::shared_ptr<SharedLights>& shared) {
   struct Column {
     const char* name;
     std::vector<double> PassTimes::*times_ns;
@@ -238,12 +237,12 @@ void add_count_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shar
   for (const Column& column : columns) {
     for (std::size_t i = 0; i < kLightCounts.size(); ++i) {
       const std::string id = std::string("lights.gpu.") + column.name + "." + std::to_string(kLightCounts[i]);
-      registry.add(row_of(id, "ms", [shared, i, column](BenchContext& context) -> Result<BenchValue> {
-        const auto counts = shared->counts.get([&] { return measure_counts(context); });
+      registry.add(light_row_of(id, "ms", [shared, i, column](BenchContext& context) -> Result<BenchValue> {
+        const auto counts = shared->counts.get([&] { return measure_light_counts(context); });
         if (!counts) return counts.error();
         const PassTimes& times = (**counts)[i];
         BenchValue value = per_item(times.*column.times_ns, kNsPerMs, times.*column.hash);
-        value.scene = kScene;
+        value.scene = kLightScene;
         return value;
       }));
     }
@@ -253,7 +252,7 @@ void add_count_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shar
 }  // namespace
 
 void add_light_gpu_benches(BenchRegistry& registry) {
-  const auto shared = std::make_shared<Shared>();
+  const auto shared = std::make_shared<SharedLights>();
   add_culling_rows(registry, shared);
   add_frame_row(registry, shared);
   add_count_rows(registry, shared);

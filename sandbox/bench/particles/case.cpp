@@ -9,15 +9,15 @@
 #include "engine/ecs/view.h"
 #include "engine/scene/components.h"
 #include "modules/particles/components.h"
+#include "sandbox/bench/harness/measure.h"
 #include "sandbox/session/scene_loading.h"
 
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kWidth = 640;
-constexpr std::uint32_t kHeight = 360;
-constexpr double kNsPerMs = 1e6;
-constexpr double kFrame_s = 1.0 / 60.0;
+constexpr std::uint32_t kParticleWidth = 640;
+constexpr std::uint32_t kParticleHeight = 360;
+constexpr double kParticleFrame_s = 1.0 / 60.0;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Result<std::unique_ptr<ParticleCase>> ParticleCase::open(BenchContext& context, 
   const auto entity = find_camera(found->session_->world, found->session_->info, camera);
   if (!entity) return entity.error();
   found->session_->camera = *entity;
-  found->settings_ = found->session_->view_settings(kWidth, kHeight, "none");
+  found->settings_ = found->session_->view_settings(kParticleWidth, kParticleHeight, "none");
   GLOAM_TRY(found->set("shadows.mode", "off"));
   return found;
 }
@@ -55,8 +55,8 @@ Status ParticleCase::set(std::string_view knob, std::string_view value) {
 }
 
 Result<FrameSample> ParticleCase::draw() {
-  time_s_ += kFrame_s;
-  session_->set_clock(time_s_, kFrame_s);
+  time_s_ += kParticleFrame_s;
+  session_->set_clock(time_s_, kParticleFrame_s);
   return session_->render_frame({settings_, {}});
 }
 

@@ -19,7 +19,6 @@
 namespace gloam {
 namespace {
 
-constexpr double kNsPerMs = 1e6;
 constexpr double kLitParticles = 2e4;
 
 struct ParticleCost {
@@ -75,8 +74,8 @@ using SharedCost = std::shared_ptr<Once<ParticleCost>>;
 using Times = std::vector<double> ParticleCost::*;
 
 template <class Measure>
-void add_row(BenchRegistry& registry, const std::string& id, std::optional<double> bar, const SharedCost& shared,
-             Times times, Measure measure) {
+void add_particle_row(BenchRegistry& registry, const std::string& id, std::optional<double> bar,
+                      const SharedCost& shared, Times times, Measure measure) {
   BenchRow row;
   row.id = id;
   row.unit = "ms";
@@ -107,13 +106,14 @@ void add_number_rows(BenchRegistry& registry) {
     };
     const std::string name = number.name;
     const auto bar = name == "1e5" ? std::optional(8.0) : std::nullopt;
-    add_row(registry, "particles.simulate_and_sort_" + name + ".ms", bar, shared, &ParticleCost::simulate_and_sort_ns,
-            measure);
-    add_row(registry, "particles.cost." + name + ".simulation_ms", std::nullopt, shared, &ParticleCost::simulation_ns,
-            measure);
-    add_row(registry, "particles.cost." + name + ".light_ms", std::nullopt, shared, &ParticleCost::light_ns, measure);
-    add_row(registry, "particles.cost." + name + ".drawing_ms", std::nullopt, shared, &ParticleCost::drawing_ns,
-            measure);
+    add_particle_row(registry, "particles.simulate_and_sort_" + name + ".ms", bar, shared,
+                     &ParticleCost::simulate_and_sort_ns, measure);
+    add_particle_row(registry, "particles.cost." + name + ".simulation_ms", std::nullopt, shared,
+                     &ParticleCost::simulation_ns, measure);
+    add_particle_row(registry, "particles.cost." + name + ".light_ms", std::nullopt, shared, &ParticleCost::light_ns,
+                     measure);
+    add_particle_row(registry, "particles.cost." + name + ".drawing_ms", std::nullopt, shared,
+                     &ParticleCost::drawing_ns, measure);
   }
 }
 
@@ -125,8 +125,8 @@ void add_rate_rows(BenchRegistry& registry) {
       GLOAM_TRY((*particles)->set("particles.lighting", rate));
       return measure_frames(**particles, 2, 9);
     };
-    add_row(registry, std::string("particles.cost.") + rate + ".ms", std::nullopt,
-            std::make_shared<Once<ParticleCost>>(), &ParticleCost::all_ns, measure);
+    add_particle_row(registry, std::string("particles.cost.") + rate + ".ms", std::nullopt,
+                     std::make_shared<Once<ParticleCost>>(), &ParticleCost::all_ns, measure);
   }
 }
 

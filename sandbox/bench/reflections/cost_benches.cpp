@@ -28,18 +28,18 @@
 namespace gloam {
 namespace {
 
-constexpr int kRounds = 15;
-constexpr int kWarmUp = 3;
-constexpr double kNsPerMs = 1e6;
-constexpr std::uint32_t kWidth = 640;  // of the frames that are compared with the gather pass
-constexpr std::uint32_t kHeight = 360;
+constexpr int kReflectionCostRounds = 15;
+constexpr int kReflectionCostWarmUp = 3;
+constexpr std::uint32_t kReflectionCostWidth = 640;  // of the frames that are compared with the gather pass
+constexpr std::uint32_t kReflectionCostHeight = 360;
 
 /// Steps of the chain that have rows.
 enum ChainStep : std::size_t { kScreenSpace, kProxies, kGlossy, kComposite };
 constexpr std::size_t kChainSteps = 4;
-constexpr std::array<const char*, kChainSteps> kStepNames = {"screen_space", "proxies", "glossy", "composite"};
+constexpr std::array<const char*, kChainSteps> kReflectionStepNames = {"screen_space", "proxies", "glossy",
+                                                                       "composite"};
 
-std::optional<ChainStep> step_of(std::string_view pass) {
+std::optional<ChainStep> reflection_step_of(std::string_view pass) {
   if (pass.starts_with("reflection_screen_space")) return kScreenSpace;
   if (pass.starts_with("reflection_proxies")) return kProxies;
   if (pass.starts_with("reflection_dilate") || pass.starts_with("reflection_blur")) return kGlossy;
@@ -69,12 +69,12 @@ Result<double> gather_ns(GatherYardstick& yardstick) {
 void add_steps(ReflectionCost& cost, const FrameSample& sample) {
   std::array<double, kChainSteps> ms{};
   for (const PassTime& pass : sample.report.passes)
-    if (const auto step = step_of(pass.name)) ms[*step] += pass.ms;
+    if (const auto step = reflection_step_of(pass.name)) ms[*step] += pass.ms;
   for (std::size_t step = 0; step < kChainSteps; ++step) cost.step_ns[step].push_back(ms[step] * kNsPerMs);
   cost.chain_ns.push_back(reflection_ms(sample) * kNsPerMs);
 }
 
-double lighting_ns(const FrameSample& sample) {
+double reflected_lighting_ns(const FrameSample& sample) {
   double ms = 0.0;
   for (const PassTime& pass : sample.report.passes) ms += pass.module == "lighting" ? pass.ms : 0.0;
   return ms * kNsPerMs;
@@ -91,15 +91,15 @@ Result<FrameSample> draw_mode(ReflectionFrames& frames, const char* mode, std::u
 }
 
 /// Frames with reflections, frames without them and gather passes, in turn.
-Result<ReflectionCost> measure_cost(BenchContext& context) {
+Result<ReflectionCost> measure_reflection_cost(BenchContext& context) {
   ReflectionCost cost;
   cost.scene = courtyard_scene(context).value_or(context.scene_or(kWetStreet));
   auto session = context.open_builtin(cost.scene);
   if (!session) return session.error();
-  auto yardstick = GatherYardstick::create(*(*session)->device, kWidth, kHeight);
+  auto yardstick = GatherYardstick::create(*(*session)->device, kReflectionCostWidth, kReflectionCostHeight);
   if (!yardstick) return yardstick.error();
-  ReflectionFrames frames(**session, kWidth, kHeight);
-  for (int i = -kWarmUp; i < kRounds; ++i) {
+  ReflectionFrames frames(**session, kReflectionCostWidth, kReflectionCostHeight);
+  for (int i = -kReflectionCostWarmUp; i < kReflectionCostRounds; ++i) {
     const auto with = draw_mode(frames, "tiers", cost.hash);
     if (!with) return with.error();
     const auto without = draw_mode(frames, "off", cost.without_hash);
@@ -108,7 +108,7 @@ Result<ReflectionCost> measure_cost(BenchContext& context) {
     if (!gather) return gather.error();
     if (i < 0) continue;
     add_steps(cost, *with);
-    cost.lighting_ns.push_back(lighting_ns(*with) - lighting_ns(*without));
+    cost.lighting_ns.push_back(reflected_lighting_ns(*with) - reflected_lighting_ns(*without));
     cost.with_ns.push_back(with->report.gpu_ms * kNsPerMs);
     cost.without_ns.push_back(without->report.gpu_ms * kNsPerMs);
     cost.gather_ns.push_back(*gather);
@@ -161,7 +161,7 @@ Result<Chain> measure_chain(BenchContext& context, int planes) {
   lay_strips(**session, planes);
   ReflectionFrames frames(**session, context.options().width, context.options().height);
   Chain chain;
-  for (int i = -kWarmUp; i < kRounds; ++i) {
+  for (int i = -kReflectionCostWarmUp; i < kReflectionCostRounds; ++i) {
     std::uint64_t tiers_hash = 0, planar_hash = 0;
     const auto tiers = draw_mode(frames, "tiers", tiers_hash);
     if (!tiers) return tiers.error();
@@ -205,7 +205,7 @@ void add_chain_rows(BenchRegistry& registry) {
   }
 }
 
-void add_frame_rows(BenchRegistry& registry) {
+void add_reflection_frame_rows(BenchRegistry& registry) {
   const auto shared = std::make_shared<Once<ReflectionCost>>();
   const auto add = [&](const std::string& id, const char* unit, std::optional<double> bar, auto value) {
     BenchRow row;
@@ -213,7 +213,7 @@ void add_frame_rows(BenchRegistry& registry) {
     row.unit = unit;
     row.bar = bar;
     row.run = [=](BenchContext& context) -> Result<BenchValue> {
-      const auto cost = shared->get([&] { return measure_cost(context); });
+      const auto cost = shared->get([&] { return measure_reflection_cost(context); });
       if (!cost) return cost.error();
       BenchValue result = value(**cost);
       result.scene = (*cost)->scene;
@@ -235,7 +235,7 @@ void add_frame_rows(BenchRegistry& registry) {
   add("frame.lighting_growth_ms", "ms", std::nullopt,
       [=](const C& c) { return per_item(c.lighting_ns, kNsPerMs, hash(c)); });
   for (std::size_t step = 0; step < kChainSteps; ++step)
-    add(std::string("frame.") + kStepNames[step] + "_ms", "ms", std::nullopt,
+    add(std::string("frame.") + kReflectionStepNames[step] + "_ms", "ms", std::nullopt,
         [step](const C& c) { return per_item(c.step_ns[step], kNsPerMs, c.hash); });
 }
 
@@ -243,7 +243,7 @@ void add_frame_rows(BenchRegistry& registry) {
 
 void add_reflection_cost_benches(BenchRegistry& registry) {
   add_chain_rows(registry);
-  add_frame_rows(registry);
+  add_reflection_frame_rows(registry);
 }
 
 }  // namespace gloam

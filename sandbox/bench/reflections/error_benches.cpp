@@ -30,10 +30,11 @@ namespace {
 
 // Size of the pictures that are compared with rays for every pixel. A mirror has one ray a pixel, so the reference is
 // not smooth: the smaller the picture, the more of the difference is aliasing of the reference.
-constexpr std::uint32_t kWidth = 640;
-constexpr std::uint32_t kHeight = 360;
+constexpr std::uint32_t kReflectionErrorWidth = 640;
+constexpr std::uint32_t kReflectionErrorHeight = 360;
 constexpr std::uint32_t kRays = 256;
-constexpr int kDraws = 3;  // the last frame finds what earlier ones left over (shadow caches, light scale)
+constexpr int kReflectionErrorDraws =
+    3;  // the last frame finds what earlier ones left over (shadow caches, light scale)
 
 struct TierSet {
   const char* name;  ///< in the row's id
@@ -72,19 +73,20 @@ struct TierError {
 using CameraErrors = std::array<TierError, kTierSets.size()>;
 
 /// The last session that was opened, and all errors found so far.
-struct Shared {
+struct SharedReflections {
   std::string scene;
   std::unique_ptr<Session> session;
   std::map<std::size_t, CameraErrors> judged;  ///< by index in kCameras
 };
 
 /// The scene file or built-in scene of a judged camera; none if it is missing.
-std::optional<std::string> scene_of(const BenchContext& context, const JudgedCamera& judged) {
+std::optional<std::string> judged_scene_of(const BenchContext& context, const JudgedCamera& judged) {
   if (judged.scene == std::string("courtyard")) return courtyard_scene(context);
   return kWetStreet;
 }
 
-Result<Session*> session_of(BenchContext& context, Shared& shared, const std::string& scene, const char* camera) {
+Result<Session*> reflection_session_of(BenchContext& context, SharedReflections& shared, const std::string& scene,
+                                       const char* camera) {
   if (shared.session == nullptr || shared.scene != scene) {
     shared.session.reset();
     auto opened = context.open_builtin(scene);
@@ -132,15 +134,15 @@ class TierKnobs {
 
 Result<FramePictures> draw_tiers(SessionCosts& costs, TierKnobs& knobs, const TierSet& tiers) {
   knobs.set(tiers.mode, tiers.tiers);
-  for (int i = 0; i < kDraws; ++i)
+  for (int i = 0; i < kReflectionErrorDraws; ++i)
     if (const auto drawn = costs.draw(0); !drawn) return drawn.error();
   return costs.read();
 }
 
 Result<CameraErrors> measure_camera(BenchContext& context, Session& session) {
   Options options = context.options();
-  options.width = kWidth;
-  options.height = kHeight;
+  options.width = kReflectionErrorWidth;
+  options.height = kReflectionErrorHeight;
   options.view = "none";
   options.time_s = 0.0;
   options.out = options.cache_dir.empty() ? "" : options.cache_dir + "/bench";
@@ -167,11 +169,11 @@ Result<CameraErrors> measure_camera(BenchContext& context, Session& session) {
 }
 
 /// Null if the camera's scene is missing.
-Result<const CameraErrors*> judge(BenchContext& context, Shared& shared, std::size_t index) {
+Result<const CameraErrors*> judge_reflections(BenchContext& context, SharedReflections& shared, std::size_t index) {
   if (const auto found = shared.judged.find(index); found != shared.judged.end()) return &found->second;
-  const auto scene = scene_of(context, kCameras[index]);
+  const auto scene = judged_scene_of(context, kCameras[index]);
   if (!scene) return static_cast<const CameraErrors*>(nullptr);
-  auto session = session_of(context, shared, *scene, kCameras[index].camera);
+  auto session = reflection_session_of(context, shared, *scene, kCameras[index].camera);
   if (!session) return session.error();
   auto errors = measure_camera(context, **session);
   if (!errors) return errors.error();
@@ -179,7 +181,8 @@ Result<const CameraErrors*> judge(BenchContext& context, Shared& shared, std::si
   return &kept;
 }
 
-void add_camera_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shared, std::size_t index) {
+void add_reflection_camera_rows(BenchRegistry& registry, const std::shared_ptr<SharedReflections>& shared,
+                                std::size_t index) {
   const JudgedCamera& judged = kCameras[index];
   const auto add = [&](std::size_t tiers, const char* name, const char* unit, auto value) {
     BenchRow row;
@@ -187,12 +190,12 @@ void add_camera_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& sha
              "." + name;
     row.unit = unit;
     row.run = [=](BenchContext& context) -> Result<BenchValue> {
-      const auto errors = judge(context, *shared, index);
+      const auto errors = judge_reflections(context, *shared, index);
       if (!errors) return errors.error();
       if (*errors == nullptr) return skipped_row(no_courtyard());
       const TierError& error = (**errors)[tiers];
       BenchValue result = single_value(value(error), error.hash);
-      result.scene = scene_of(context, kCameras[index]);
+      result.scene = judged_scene_of(context, kCameras[index]);
       return result;
     };
     registry.add(std::move(row));
@@ -204,12 +207,12 @@ void add_camera_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& sha
 }
 
 /// Mean FLIP of all tiers over that of cube maps alone. scene: of JudgedCamera; empty: over all scenes.
-Result<BenchValue> flip_ratio(BenchContext& context, Shared& shared, std::string_view scene) {
+Result<BenchValue> flip_ratio(BenchContext& context, SharedReflections& shared, std::string_view scene) {
   double all = 0.0, cube = 0.0;
   std::uint64_t hash = 0;
   for (std::size_t index = 0; index < kCameras.size(); ++index) {
     if (!scene.empty() && scene != kCameras[index].scene) continue;
-    const auto errors = judge(context, shared, index);
+    const auto errors = judge_reflections(context, shared, index);
     if (!errors) return errors.error();
     if (*errors == nullptr) continue;
     all += (**errors)[kAll].flip;
@@ -223,8 +226,8 @@ Result<BenchValue> flip_ratio(BenchContext& context, Shared& shared, std::string
 }  // namespace
 
 void add_reflection_error_benches(BenchRegistry& registry) {
-  const auto shared = std::make_shared<Shared>();
-  for (std::size_t index = 0; index < kCameras.size(); ++index) add_camera_rows(registry, shared, index);
+  const auto shared = std::make_shared<SharedReflections>();
+  for (std::size_t index = 0; index < kCameras.size(); ++index) add_reflection_camera_rows(registry, shared, index);
   const auto add = [&](const std::string& suffix, std::string scene, std::optional<double> bar) {
     BenchRow row;
     row.id = "reflections.flip_full_over_cube" + suffix;

@@ -23,9 +23,9 @@ constexpr double kHalfWidth_m = 5.5;   // of the street
 constexpr double kHouseDepth_m = 4.0;  // from a facade to the back of its house
 constexpr double kSlot_m = 4.0;        // length of a house along the street
 constexpr float kHeight_m = 8.0f;
-constexpr double kBefore_m = 9.0;      // length of the first room before the first house
-constexpr std::uint32_t kSide = 16;    // texels of a captured image
-constexpr float kBrightest = 4000.0f;  // cd/m², so that a mirrored facade is well exposed
+constexpr double kBefore_m = 9.0;        // length of the first room before the first house
+constexpr std::uint32_t kHallSide = 16;  // texels of a captured image
+constexpr float kBrightest = 4000.0f;    // cd/m², so that a mirrored facade is well exposed
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 /// Destroys all nodes of the scene.
@@ -44,7 +44,7 @@ ReflectionCaptures plain_captures(const World& world) {
   world.view<const IbrProxy>().each([&](Entity entity, const IbrProxy&) { captures.proxy_entities.push_back(entity); });
   std::ranges::sort(captures.proxy_entities, {}, &Entity::index);
   captures.proxies = {
-      .side = kSide, .mips = 5, .count = static_cast<std::uint32_t>(captures.proxy_entities.size()), .texels = {}};
+      .side = kHallSide, .mips = 5, .count = static_cast<std::uint32_t>(captures.proxy_entities.size()), .texels = {}};
   for (std::uint32_t layer = 0; layer < captures.proxies.count; ++layer) {
     const auto share = [&](std::uint32_t steps) {
       return static_cast<float>(layer % steps + 1) / static_cast<float>(steps);

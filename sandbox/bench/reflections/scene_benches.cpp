@@ -41,12 +41,12 @@ struct MeasuredScene {
   const char* name;
   std::optional<double> bake_bar_s;
 };
-constexpr std::array<MeasuredScene, 2> kScenes = {{{"courtyard", 10.0}, {"wet_street", std::nullopt}}};
+constexpr std::array<MeasuredScene, 2> kReflectionScenes = {{{"courtyard", 10.0}, {"wet_street", std::nullopt}}};
 constexpr std::array<std::uint32_t, 2> kProxyCounts = {50, 500};
-constexpr int kRepetitions = 101;
+constexpr int kReflectionSceneRepetitions = 101;
 constexpr double kNsPerUs = 1e3;
 
-std::optional<std::string> file_of(const BenchContext& context, const MeasuredScene& scene) {
+std::optional<std::string> scene_file_of(const BenchContext& context, const MeasuredScene& scene) {
   if (scene.name == std::string("courtyard")) return courtyard_scene(context);
   return kWetStreet;
 }
@@ -111,8 +111,8 @@ Result<BenchValue> tiles_us(const BenchContext& context, std::uint32_t proxies) 
   settings.camera.fov_y = 0.9f;
   const RenderView view = make_view(settings, 0);
   ProxyTiles tiles;
-  const auto times =
-      time_ns(kRepetitions, {}, [&] { build_proxy_tiles(set, view, ProxyTileSettings(), *executor, tiles); });
+  const auto times = time_ns(kReflectionSceneRepetitions, {},
+                             [&] { build_proxy_tiles(set, view, ProxyTileSettings(), *executor, tiles); });
   Hasher hasher;
   for (const std::uint32_t word : tiles.masks) hasher.value(word);
   return per_item(times, kNsPerUs, hasher.digest());
@@ -128,7 +128,7 @@ BenchRow scene_row(std::string id, const char* unit, std::optional<double> bar, 
   row.unit = unit;
   row.bar = bar;
   row.run = [scene, value](BenchContext& context) -> Result<BenchValue> {
-    const auto file = file_of(context, scene);
+    const auto file = scene_file_of(context, scene);
     if (!file) return skipped_row(no_courtyard());
     auto result = value(context, *file);
     if (result) result->scene = *file;
@@ -140,14 +140,14 @@ BenchRow scene_row(std::string id, const char* unit, std::optional<double> bar, 
 }  // namespace
 
 void add_reflection_scene_benches(BenchRegistry& registry) {
-  for (const MeasuredScene& scene : kScenes) {
+  for (const MeasuredScene& scene : kReflectionScenes) {
     BenchRow caught =
         scene_row(std::string("reflections.caught.fitted_over_authored.") + scene.name, "ratio", 0.8, scene,
                   [](BenchContext& context, const std::string& file) { return caught_ratio(context, file); });
     caught.better = Better::higher;
     registry.add(std::move(caught));
   }
-  for (const MeasuredScene& scene : kScenes)
+  for (const MeasuredScene& scene : kReflectionScenes)
     registry.add(scene_row(std::string("reflections.bake.") + scene.name, "s", scene.bake_bar_s, scene, &bake_seconds));
   for (const std::uint32_t proxies : kProxyCounts) {
     BenchRow row;

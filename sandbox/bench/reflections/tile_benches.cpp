@@ -25,11 +25,10 @@ namespace gloam {
 namespace {
 
 constexpr const char* kPass = "reflection_proxies";
-constexpr int kPairs = 11;
-constexpr int kWarmUp = 2;
-constexpr double kNsPerMs = 1e6;
+constexpr int kTilePairs = 11;
+constexpr int kTileWarmUp = 2;
 constexpr std::array<const char*, 6> kTileCounts = {"1", "4", "8", "16", "32", "64"};
-constexpr std::size_t kViews = 200;
+constexpr std::size_t kTileViews = 200;
 constexpr int kViewRounds = 5;
 constexpr std::uint32_t kViewWidth = 640;
 constexpr std::uint32_t kViewHeight = 360;
@@ -59,7 +58,7 @@ Result<Loops> measure_loops(BenchContext& context, std::uint32_t rooms, const ch
   GLOAM_TRY(frames.set("reflections.tiers", "ibr+cube"));
   GLOAM_TRY(frames.set("ibr.sphere_test", sphere_test));
   Loops loops;
-  for (int i = -kWarmUp; i < kPairs; ++i) {
+  for (int i = -kTileWarmUp; i < kTilePairs; ++i) {
     std::uint64_t naive_hash = 0;
     const auto tiled = loop_ns(frames, "tiles", loops.hash);
     if (!tiled) return tiled.error();
@@ -85,7 +84,7 @@ Result<Curve> measure_curve(BenchContext& context) {
   ReflectionFrames frames(**session, context.options().width, context.options().height);
   GLOAM_TRY(frames.set("reflections.tiers", "ibr+cube"));
   Curve curve;
-  for (int i = -kWarmUp; i < kPairs; ++i)
+  for (int i = -kTileWarmUp; i < kTilePairs; ++i)
     for (std::size_t count = 0; count < kTileCounts.size(); ++count) {
       GLOAM_TRY(frames.set("ibr.tiles", kTileCounts[count]));
       std::uint64_t hash = 0;
@@ -112,7 +111,7 @@ Result<Views> measure_views(BenchContext& context) {
   ReflectionFrames frames(**session, kViewWidth, kViewHeight);
   GLOAM_TRY(frames.set("shadows.mode", "off"));
   if (const auto first = frames.draw(); !first) return first.error();  // uploads the captured images
-  const std::vector<dmat4> poses = recorded_walk(**session, context.scene_or(kWetStreet), kViews, true);
+  const std::vector<dmat4> poses = recorded_walk(**session, context.scene_or(kWetStreet), kTileViews, true);
   Views views{.ms = std::vector<double>(poses.size(), 1e9)};
   for (int round = 0; round < kViewRounds; ++round)
     for (std::size_t i = 0; i < poses.size(); ++i) {

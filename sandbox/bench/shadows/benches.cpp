@@ -16,14 +16,13 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:shadows";  // unless the user names one
+constexpr const char* kShadowScene = "builtin:shadows";  // unless the user names one
 // Size of the pictures that are compared with rays for every light and pixel. It does not depend on the size of timed
 // frames.
 constexpr std::uint32_t kErrorWidth = 320;
 constexpr std::uint32_t kErrorHeight = 180;
-constexpr int kPairs = 9;
-constexpr int kWarmUp = 2;
-constexpr double kNsPerMs = 1e6;
+constexpr int kShadowPairs = 9;
+constexpr int kShadowWarmUp = 2;
 
 /// A shadow filter and its knobs.
 struct Lookup {
@@ -54,7 +53,7 @@ Result<double> shading_ns(ShadowCase& shadows) {
 
 /// Times frames with one filter and without shadows, alternately.
 Status time_lookup(ShadowCase& shadows, LookupCost& cost) {
-  for (int i = -kWarmUp; i < kPairs; ++i) {
+  for (int i = -kShadowWarmUp; i < kShadowPairs; ++i) {
     GLOAM_TRY(shadows.set("shadows.mode", "monolithic"));
     const auto with = shading_ns(shadows);
     if (!with) return with.error();
@@ -98,13 +97,13 @@ Result<JudgedShadows> measure_default(Session& session) {
   return judged.error();
 }
 
-struct Shared {
+struct SharedShadows {
   Once<LookupCosts> lookups;
   Once<JudgedShadows> standard;
 };
 
 template <class T, class Measure, class Value>
-BenchRow row_of(std::string id, std::string unit, Measure measure, Value value) {
+BenchRow shadow_row_of(std::string id, std::string unit, Measure measure, Value value) {
   BenchRow row;
   row.id = "shadows." + std::move(id);
   row.unit = std::move(unit);
@@ -112,59 +111,60 @@ BenchRow row_of(std::string id, std::string unit, Measure measure, Value value) 
     const Result<const T*> measured = measure(context);
     if (!measured) return measured.error();
     BenchValue result = value(**measured);
-    result.scene = context.scene_or(kScene);
+    result.scene = context.scene_or(kShadowScene);
     return result;
   };
   return row;
 }
 
-void add_error_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shared) {
+void add_error_rows(BenchRegistry& registry, const std::shared_ptr<SharedShadows>& shared) {
   const auto measure = [shared](BenchContext& context) {
     return shared->standard.get([&]() -> Result<JudgedShadows> {
-      auto session = context.session_or(kScene);
+      auto session = context.session_or(kShadowScene);
       if (!session) return session.error();
       return measure_default(**session);
     });
   };
-  BenchRow mean = row_of<JudgedShadows>("error_traced_mean", "visibility", measure,
-                                        [](const JudgedShadows& e) { return single_value(e.mean(), e.hash); });
+  BenchRow mean = shadow_row_of<JudgedShadows>("error_traced_mean", "visibility", measure,
+                                               [](const JudgedShadows& e) { return single_value(e.mean(), e.hash); });
   mean.bar = 0.02;
   registry.add(std::move(mean));
   BenchRow penumbra =
-      row_of<JudgedShadows>("error_traced_penumbra_mean", "visibility", measure,
-                            [](const JudgedShadows& e) { return single_value(e.penumbra_mean(), e.hash); });
+      shadow_row_of<JudgedShadows>("error_traced_penumbra_mean", "visibility", measure,
+                                   [](const JudgedShadows& e) { return single_value(e.penumbra_mean(), e.hash); });
   penumbra.bar = 0.08;
   registry.add(std::move(penumbra));
-  registry.add(row_of<JudgedShadows>("error_traced_off", "share of pairs", measure,
-                                     [](const JudgedShadows& e) { return single_value(e.off_share(), e.hash); }));
-  registry.add(row_of<JudgedShadows>("acne", "share of pairs", measure,
-                                     [](const JudgedShadows& e) { return single_value(e.acne_share(), e.hash); }));
-  registry.add(row_of<JudgedShadows>("leaks", "share of pairs", measure,
-                                     [](const JudgedShadows& e) { return single_value(e.leak_share(), e.hash); }));
+  registry.add(shadow_row_of<JudgedShadows>("error_traced_off", "share of pairs", measure, [](const JudgedShadows& e) {
+    return single_value(e.off_share(), e.hash);
+  }));
+  registry.add(shadow_row_of<JudgedShadows>(
+      "acne", "share of pairs", measure, [](const JudgedShadows& e) { return single_value(e.acne_share(), e.hash); }));
+  registry.add(shadow_row_of<JudgedShadows>(
+      "leaks", "share of pairs", measure, [](const JudgedShadows& e) { return single_value(e.leak_share(), e.hash); }));
 }
 
-void add_lookup_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shared) {
+void add_lookup_rows(BenchRegistry& registry, const std::shared_ptr<SharedShadows>& shared) {
   const auto measure = [shared](BenchContext& context) {
     return shared->lookups.get([&]() -> Result<LookupCosts> {
-      auto session = context.session_or(kScene);
+      auto session = context.session_or(kShadowScene);
       if (!session) return session.error();
       return measure_lookups(**session, context.options());
     });
   };
   for (std::size_t i = 0; i < kLookups.size(); ++i) {
     const std::string id = std::string("filter.") + kLookups[i].name;
-    registry.add(row_of<LookupCosts>(id + ".ms", "ms", measure, [i](const LookupCosts& costs) {
+    registry.add(shadow_row_of<LookupCosts>(id + ".ms", "ms", measure, [i](const LookupCosts& costs) {
       return per_item(costs[i].shadows_ns, kNsPerMs, hash_of_both(costs[i].hash, costs[i].without_hash));
     }));
-    registry.add(row_of<LookupCosts>(id + ".error", "visibility", measure, [i](const LookupCosts& costs) {
+    registry.add(shadow_row_of<LookupCosts>(id + ".error", "visibility", measure, [i](const LookupCosts& costs) {
       return single_value(costs[i].error.mean(), costs[i].error.hash);
     }));
-    registry.add(row_of<LookupCosts>(id + ".error_penumbra", "visibility", measure, [i](const LookupCosts& costs) {
-      return single_value(costs[i].error.penumbra_mean(), costs[i].error.hash);
-    }));
+    registry.add(shadow_row_of<LookupCosts>(
+        id + ".error_penumbra", "visibility", measure,
+        [i](const LookupCosts& costs) { return single_value(costs[i].error.penumbra_mean(), costs[i].error.hash); }));
   }
   // 48 gathers from mips against 128 single fetches without (Thief §1.3.3).
-  registry.add(row_of<LookupCosts>("filter.chs_over_pcss", "ratio", measure, [](const LookupCosts& costs) {
+  registry.add(shadow_row_of<LookupCosts>("filter.chs_over_pcss", "ratio", measure, [](const LookupCosts& costs) {
     return ratio_of(costs[3].shadows_ns, costs[2].shadows_ns, hash_of_both(costs[3].hash, costs[2].hash));
   }));
 }
@@ -172,7 +172,7 @@ void add_lookup_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& sha
 }  // namespace
 
 void add_shadow_benches(BenchRegistry& registry) {
-  const auto shared = std::make_shared<Shared>();
+  const auto shared = std::make_shared<SharedShadows>();
   add_error_rows(registry, shared);
   add_lookup_rows(registry, shared);
   add_shadow_error_benches(registry);

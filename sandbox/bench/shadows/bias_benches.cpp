@@ -22,12 +22,11 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:shadows";  // unless the user names one
-constexpr std::uint32_t kErrorWidth = 640;
-constexpr std::uint32_t kErrorHeight = 360;
-constexpr int kPairs = 15;
-constexpr int kWarmUp = 2;
-constexpr double kNsPerMs = 1e6;
+constexpr const char* kBiasScene = "builtin:shadows";  // unless the user names one
+constexpr std::uint32_t kBiasErrorWidth = 640;
+constexpr std::uint32_t kBiasErrorHeight = 360;
+constexpr int kBiasPairs = 15;
+constexpr int kBiasWarmUp = 2;
 
 constexpr std::array<const char*, 8> kMillimetres = {"0", "0.5", "1", "2", "3", "5", "10", "20"};
 constexpr std::array<const char*, 10> kUnits = {"0",     "100",   "300",    "1000",   "3000",
@@ -69,7 +68,7 @@ Status choose(ShadowCase& shadows, std::size_t method, std::size_t value) {
 /// Times both methods at their best values alternately, with the user's filter.
 Status time_best(Session& session, const Options& options, Sweeps& sweeps) {
   ShadowCase timed(session, options.width, options.height);
-  for (int i = -kWarmUp; i < kPairs; ++i) {
+  for (int i = -kBiasWarmUp; i < kBiasPairs; ++i) {
     for (std::size_t method = 0; method < kMethods.size(); ++method) {
       GLOAM_TRY(choose(timed, method, sweeps[method].best()));
       if (auto redrawn = timed.draw(); !redrawn) return redrawn.error();  // redraws the maps
@@ -96,7 +95,7 @@ Status time_best(Session& session, const Options& options, Sweeps& sweeps) {
 Result<Sweeps> measure_sweeps(Session& session, const Options& options) {
   Sweeps sweeps;
   {
-    ShadowCase judged(session, kErrorWidth, kErrorHeight);
+    ShadowCase judged(session, kBiasErrorWidth, kBiasErrorHeight);
     GLOAM_TRY(judged.set("shadows.filter", "hard"));
     for (std::size_t method = 0; method < kMethods.size(); ++method) {
       for (std::size_t value = 0; value < kMethods[method].values.size(); ++value) {
@@ -120,13 +119,13 @@ BenchRow sweep_row(std::string id, std::string unit, SharedSweeps shared, Value 
   row.unit = std::move(unit);
   row.run = [shared = std::move(shared), value](BenchContext& context) -> Result<BenchValue> {
     const auto sweeps = shared->get([&]() -> Result<Sweeps> {
-      auto session = context.session_or(kScene);
+      auto session = context.session_or(kBiasScene);
       if (!session) return session.error();
       return measure_sweeps(**session, context.options());
     });
     if (!sweeps) return sweeps.error();
     BenchValue result = value(**sweeps);
-    result.scene = context.scene_or(kScene);
+    result.scene = context.scene_or(kBiasScene);
     return result;
   };
   return row;

@@ -13,7 +13,7 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint32_t kSamples = 256;
+constexpr std::uint32_t kShadowCaseSamples = 256;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ Result<const TracedVisibility*> ShadowCase::traced() {
                               .geometry = *geometry,
                               .tracer = **tracer,
                               .executor = *session_.executor,
-                              .samples = kSamples,
+                              .samples = kShadowCaseSamples,
                               .progress = {}});
   return &*traced_;
 }

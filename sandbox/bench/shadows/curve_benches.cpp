@@ -20,13 +20,12 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:shadow_grid";
-constexpr int kFrames = 5;
-constexpr double kNsPerMs = 1e6;
-constexpr double kLightsAPoint = 24.0;  // with all lights; fewer lights have the same range
+constexpr const char* kCurveScene = "builtin:shadow_grid";
+constexpr int kCurveFrames = 5;
+constexpr double kCurveLightsAPoint = 24.0;  // with all lights; fewer lights have the same range
 constexpr std::array<std::uint32_t, 6> kCounts = {8, 16, 32, 64, 128, 256};
-constexpr std::uint32_t kWidth = 640;  // size for the curve over light counts
-constexpr std::uint32_t kHeight = 360;
+constexpr std::uint32_t kCurveWidth = 640;  // size for the curve over light counts
+constexpr std::uint32_t kCurveHeight = 360;
 
 struct Size {
   const char* name;
@@ -68,7 +67,7 @@ void add_deferred(Point& point, const FrameReport& report) {
 Result<Point> measure_point(Session& session, std::uint32_t width, std::uint32_t height) {
   ShadowCase shadows(session, width, height);
   Point point;
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kCurveFrames; ++i) {
     const auto deferred = draw_settled(shadows, kClassified);
     if (!deferred) return deferred.error();
     add_deferred(point, deferred->report);
@@ -88,14 +87,14 @@ Result<Point> measure_point(Session& session, std::uint32_t width, std::uint32_t
 using CountPoints = std::array<Point, kCounts.size()>;
 
 /// Measures from many lights to few, because removed lights do not come back.
-Result<CountPoints> measure_counts(BenchContext& context) {
-  auto session = context.open_builtin(kScene);
+Result<CountPoints> measure_curve_counts(BenchContext& context) {
+  auto session = context.open_builtin(kCurveScene);
   if (!session) return session.error();
   CountPoints points;
   for (std::size_t i = kCounts.size(); i-- > 0;) {
-    const double lights_a_point = kLightsAPoint * kCounts[i] / static_cast<double>(kShadowGridLights);
+    const double lights_a_point = kCurveLightsAPoint * kCounts[i] / static_cast<double>(kShadowGridLights);
     arrange_shadow_grid_lights((*session)->world, kCounts[i], lights_a_point);
-    auto point = measure_point(**session, kWidth, kHeight);
+    auto point = measure_point(**session, kCurveWidth, kCurveHeight);
     if (!point) return point.error();
     points[i] = std::move(*point);
   }
@@ -114,7 +113,7 @@ BenchRow point_row(std::string id, std::string unit, GetPoint get, PointValue va
     const auto point = get(context);
     if (!point) return point.error();
     BenchValue result = value(**point);
-    result.scene = scene.empty() ? context.scene_or(kScene) : scene;
+    result.scene = scene.empty() ? context.scene_or(kCurveScene) : scene;
     return result;
   };
   return row;
@@ -157,17 +156,17 @@ void add_shadow_curve_benches(BenchRegistry& registry) {
   const auto counts = std::make_shared<Once<CountPoints>>();
   for (std::size_t i = 0; i < kCounts.size(); ++i) {
     const GetPoint get = [counts, i](BenchContext& context) -> Result<const Point*> {
-      const auto points = counts->get([&] { return measure_counts(context); });
+      const auto points = counts->get([&] { return measure_curve_counts(context); });
       if (!points) return points.error();
       return &(**points)[i];
     };
-    add_point(registry, "lights", std::to_string(kCounts[i]), get, kScene);
+    add_point(registry, "lights", std::to_string(kCounts[i]), get, kCurveScene);
   }
   for (const Size& size : kSizes) {
     const auto shared = std::make_shared<Once<Point>>();
     const GetPoint get = [shared, &size](BenchContext& context) -> Result<const Point*> {
       return shared->get([&]() -> Result<Point> {
-        auto session = context.session_or(kScene);
+        auto session = context.session_or(kCurveScene);
         if (!session) return session.error();
         return measure_point(**session, size.width, size.height);
       });

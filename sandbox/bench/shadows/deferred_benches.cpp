@@ -23,15 +23,14 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:shadow_grid";  // unless the user names one
-constexpr int kRounds = 11;
-constexpr int kWarmUp = 2;
-constexpr double kNsPerMs = 1e6;
+constexpr const char* kDeferredScene = "builtin:shadow_grid";  // unless the user names one
+constexpr int kDeferredRounds = 11;
+constexpr int kDeferredWarmUp = 2;
 
-enum Way : std::size_t { kMono, kPlain, kTiles, kPairs };
-constexpr std::array<ShadowVariant, 4> kWays = {kMonolithic, kUnclassified, kClassified, kWithCloseups};
+enum DeferredWay : std::size_t { kMono, kPlain, kTiles, kPairs };
+constexpr std::array<ShadowVariant, 4> kDeferredWays = {kMonolithic, kUnclassified, kClassified, kWithCloseups};
 
-struct WayCost {
+struct DeferredWayCost {
   std::vector<double> total_ns;
   std::vector<double> all_ns;  ///< total_ns and the maps of close-up pairs
   std::array<std::vector<double>, kShadowPhases> phase_ns;
@@ -39,9 +38,9 @@ struct WayCost {
   std::uint64_t hash = 0;
   FrameReport report;  ///< of the last frame
 };
-using WayCosts = std::array<WayCost, kWays.size()>;
+using DeferredWayCosts = std::array<DeferredWayCost, kDeferredWays.size()>;
 
-Status add_frame(ShadowCase& shadows, const ShadowVariant& way, bool counts, WayCost& cost) {
+Status add_deferred_frame(ShadowCase& shadows, const ShadowVariant& way, bool counts, DeferredWayCost& cost) {
   auto sample = draw_settled(shadows, way);
   if (!sample) return sample.error();
   if (!counts) return {};
@@ -54,14 +53,14 @@ Status add_frame(ShadowCase& shadows, const ShadowVariant& way, bool counts, Way
 }
 
 /// Measures all ways alternately, with one camera at rest: shadow maps are drawn once, before the first counted frame.
-Result<WayCosts> measure_ways(Session& session, const Options& options) {
-  WayCosts costs;
+Result<DeferredWayCosts> measure_deferred_ways(Session& session, const Options& options) {
+  DeferredWayCosts costs;
   ShadowCase shadows(session, options.width, options.height);
-  for (int round = -kWarmUp; round < kRounds; ++round)
-    for (std::size_t way = 0; way < kWays.size(); ++way)
-      GLOAM_TRY(add_frame(shadows, kWays[way], round >= 0, costs[way]));
-  for (std::size_t way = 0; way < kWays.size(); ++way) {
-    GLOAM_TRY(draw_settled(shadows, kWays[way]));
+  for (int round = -kDeferredWarmUp; round < kDeferredRounds; ++round)
+    for (std::size_t way = 0; way < kDeferredWays.size(); ++way)
+      GLOAM_TRY(add_deferred_frame(shadows, kDeferredWays[way], round >= 0, costs[way]));
+  for (std::size_t way = 0; way < kDeferredWays.size(); ++way) {
+    GLOAM_TRY(draw_settled(shadows, kDeferredWays[way]));
     auto picture = shadows.picture();
     if (!picture) return picture.error();
     costs[way].hash = hash_bytes(std::as_bytes(std::span(picture->rgba)));
@@ -85,34 +84,35 @@ double equal_share(const Picture& a, const Picture& b) {
   return static_cast<double>(equal) / std::max(1.0, static_cast<double>(a.rgba.size() / 4));
 }
 
-using Shared = std::shared_ptr<Once<WayCosts>>;
+using SharedDeferred = std::shared_ptr<Once<DeferredWayCosts>>;
 
 template <class Value>
-BenchRow way_row(std::string id, std::string unit, Shared shared, Value value) {
+BenchRow way_row(std::string id, std::string unit, SharedDeferred shared, Value value) {
   BenchRow row;
   row.id = "shadows." + std::move(id);
   row.unit = std::move(unit);
   row.run = [shared = std::move(shared), value](BenchContext& context) -> Result<BenchValue> {
-    const auto costs = shared->get([&]() -> Result<WayCosts> {
-      auto session = context.session_or(kScene);
+    const auto costs = shared->get([&]() -> Result<DeferredWayCosts> {
+      auto session = context.session_or(kDeferredScene);
       if (!session) return session.error();
-      return measure_ways(**session, context.options());
+      return measure_deferred_ways(**session, context.options());
     });
     if (!costs) return costs.error();
     BenchValue result = value(**costs);
-    result.scene = context.scene_or(kScene);
+    result.scene = context.scene_or(kDeferredScene);
     return result;
   };
   return row;
 }
 
 /// Hash of the pictures of a way and of the monolithic one.
-std::uint64_t hash_beside_monolithic(const WayCosts& costs, Way way) {
+std::uint64_t hash_beside_monolithic(const DeferredWayCosts& costs, DeferredWay way) {
   return hash_of_both(costs[way].hash, costs[kMono].hash);
 }
 
-void add_ratio(BenchRegistry& registry, const Shared& shared, const char* id, Way way, std::optional<double> bar) {
-  BenchRow row = way_row(std::string("table1.") + id, "ratio", shared, [way](const WayCosts& c) {
+void add_deferred_ratio(BenchRegistry& registry, const SharedDeferred& shared, const char* id, DeferredWay way,
+                        std::optional<double> bar) {
+  BenchRow row = way_row(std::string("table1.") + id, "ratio", shared, [way](const DeferredWayCosts& c) {
     return ratio_of(c[way].total_ns, c[kMono].total_ns, hash_beside_monolithic(c, way));
   });
   row.bar = bar;
@@ -121,12 +121,13 @@ void add_ratio(BenchRegistry& registry, const Shared& shared, const char* id, Wa
 
 /// Adds the rows of deferred shadows with close-ups and everything that close-ups take: their maps are drawn and
 /// resolved in every frame, and the paper's figure includes that.
-void add_rows_with_closeup_maps(BenchRegistry& registry, const Shared& shared) {
+void add_rows_with_closeup_maps(BenchRegistry& registry, const SharedDeferred& shared) {
   registry.add(way_row("table1.deferred_8_closeups_all", "ms", shared,
-                       [](const WayCosts& c) { return per_item(c[kPairs].all_ns, kNsPerMs, c[kPairs].hash); }));
-  BenchRow ratio = way_row("table1.deferred_8_closeups_all_over_monolithic", "ratio", shared, [](const WayCosts& c) {
-    return ratio_of(c[kPairs].all_ns, c[kMono].total_ns, hash_beside_monolithic(c, kPairs));
-  });
+                       [](const DeferredWayCosts& c) { return per_item(c[kPairs].all_ns, kNsPerMs, c[kPairs].hash); }));
+  BenchRow ratio =
+      way_row("table1.deferred_8_closeups_all_over_monolithic", "ratio", shared, [](const DeferredWayCosts& c) {
+        return ratio_of(c[kPairs].all_ns, c[kMono].total_ns, hash_beside_monolithic(c, kPairs));
+      });
   ratio.bar = 0.9;
   registry.add(std::move(ratio));
 }
@@ -145,46 +146,49 @@ void add_paper_row(BenchRegistry& registry, const char* id, const char* unit, do
   registry.add(std::move(row));
 }
 
-void add_table(BenchRegistry& registry, const Shared& shared) {
-  constexpr std::pair<const char*, Way> kColumns[] = {
+void add_deferred_table(BenchRegistry& registry, const SharedDeferred& shared) {
+  constexpr std::pair<const char*, DeferredWay> kColumns[] = {
       {"monolithic", kMono}, {"deferred_unclassified", kPlain}, {"deferred", kTiles}, {"deferred_8_closeups", kPairs}};
   for (const auto& [name, way] : kColumns)
-    registry.add(way_row(std::string("table1.") + name, "ms", shared,
-                         [way = way](const WayCosts& c) { return per_item(c[way].total_ns, kNsPerMs, c[way].hash); }));
-  add_ratio(registry, shared, "deferred_unclassified_over_monolithic", kPlain, std::nullopt);
-  add_ratio(registry, shared, "deferred_over_monolithic", kTiles, 0.5);
-  add_ratio(registry, shared, "deferred_8_closeups_over_monolithic", kPairs, std::nullopt);
+    registry.add(way_row(std::string("table1.") + name, "ms", shared, [way = way](const DeferredWayCosts& c) {
+      return per_item(c[way].total_ns, kNsPerMs, c[way].hash);
+    }));
+  add_deferred_ratio(registry, shared, "deferred_unclassified_over_monolithic", kPlain, std::nullopt);
+  add_deferred_ratio(registry, shared, "deferred_over_monolithic", kTiles, 0.5);
+  add_deferred_ratio(registry, shared, "deferred_8_closeups_over_monolithic", kPairs, std::nullopt);
   add_rows_with_closeup_maps(registry, shared);
   add_paper_row(registry, "monolithic", "ms on a console", 5.73);
   add_paper_row(registry, "deferred", "ms on a console", 3.94);
   add_paper_row(registry, "deferred_8_closeups", "ms on a console", 6.29);
   add_paper_row(registry, "deferred_over_monolithic", "ratio on a console", 3.94 / 5.73);
-  constexpr std::pair<const char*, Way> kHeld[] = {{"deferred_unclassified", kPlain}, {"deferred", kTiles}};
+  constexpr std::pair<const char*, DeferredWay> kHeld[] = {{"deferred_unclassified", kPlain}, {"deferred", kTiles}};
   for (const auto& [name, way] : kHeld) {
     BenchRow difference =
-        way_row(std::string("table1.") + name + "_difference", "1/255", shared, [way = way](const WayCosts& c) {
+        way_row(std::string("table1.") + name + "_difference", "1/255", shared, [way = way](const DeferredWayCosts& c) {
           return single_value(largest_difference(c[kMono].picture, c[way].picture), hash_beside_monolithic(c, way));
         });
     difference.bar = 1.0;
     registry.add(std::move(difference));
-    registry.add(way_row(
-        std::string("table1.") + name + "_equal_pixels", "share of pixels", shared, [way = way](const WayCosts& c) {
-          return single_value(equal_share(c[kMono].picture, c[way].picture), hash_beside_monolithic(c, way));
-        }));
+    registry.add(way_row(std::string("table1.") + name + "_equal_pixels", "share of pixels", shared,
+                         [way = way](const DeferredWayCosts& c) {
+                           return single_value(equal_share(c[kMono].picture, c[way].picture),
+                                               hash_beside_monolithic(c, way));
+                         }));
   }
-  registry.add(way_row("table1.closeup_pairs", "pairs", shared, [](const WayCosts& c) {
+  registry.add(way_row("table1.closeup_pairs", "pairs", shared, [](const DeferredWayCosts& c) {
     return single_value(counter_of(c[kPairs].report, "closeups.pairs"), c[kPairs].hash);
   }));
-  registry.add(way_row("table1.lights_a_tile", "lights", shared, [](const WayCosts& c) {
+  registry.add(way_row("table1.lights_a_tile", "lights", shared, [](const DeferredWayCosts& c) {
     return single_value(counter_of(c[kTiles].report, "lights.per_tile_accurate_mean"), c[kTiles].hash);
   }));
 }
 
-void add_shares(BenchRegistry& registry, const Shared& shared) {
+void add_shares(BenchRegistry& registry, const SharedDeferred& shared) {
   for (std::size_t i = 0; i < kShadowPhases; ++i)
-    registry.add(way_row(
-        std::string("figure13.") + kShadowPhaseNames[i], "share of deferred", shared,
-        [i](const WayCosts& c) { return ratio_of(c[kTiles].phase_ns[i], c[kTiles].total_ns, c[kTiles].hash); }));
+    registry.add(way_row(std::string("figure13.") + kShadowPhaseNames[i], "share of deferred", shared,
+                         [i](const DeferredWayCosts& c) {
+                           return ratio_of(c[kTiles].phase_ns[i], c[kTiles].total_ns, c[kTiles].hash);
+                         }));
   constexpr std::array<std::pair<const char*, const char*>, 6> kCounters = {
       {{"unshadowed", "shadows.tile_lights_unshadowed"},
        {"lit_at_once", "shadows.tile_lights_lit"},
@@ -193,18 +197,19 @@ void add_shares(BenchRegistry& registry, const Shared& shared) {
        {"filtered_unlit", "shadows.tile_lights_filtered_unlit"},
        {"slot", "shadows.slots"}}};
   for (const auto& [name, counter] : kCounters)
-    registry.add(way_row(
-        std::string("tile_lights.") + name, "share of tiles' lights", shared, [counter = counter](const WayCosts& c) {
-          const double all = counter_of(c[kTiles].report, "shadows.tile_lights");
-          return single_value(counter_of(c[kTiles].report, counter) / std::max(all, 1.0), c[kTiles].hash);
-        }));
+    registry.add(way_row(std::string("tile_lights.") + name, "share of tiles' lights", shared,
+                         [counter = counter](const DeferredWayCosts& c) {
+                           const double all = counter_of(c[kTiles].report, "shadows.tile_lights");
+                           return single_value(counter_of(c[kTiles].report, counter) / std::max(all, 1.0),
+                                               c[kTiles].hash);
+                         }));
 }
 
 }  // namespace
 
 void add_shadow_deferred_benches(BenchRegistry& registry) {
-  const auto shared = std::make_shared<Once<WayCosts>>();
-  add_table(registry, shared);
+  const auto shared = std::make_shared<Once<DeferredWayCosts>>();
+  add_deferred_table(registry, shared);
   add_shares(registry, shared);
 }
 

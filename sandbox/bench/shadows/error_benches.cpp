@@ -22,21 +22,21 @@ namespace gloam {
 namespace {
 
 // Size of the pictures that are compared with rays for every light and pixel.
-constexpr std::uint32_t kWidth = 320;
-constexpr std::uint32_t kHeight = 180;
+constexpr std::uint32_t kShadowErrorWidth = 320;
+constexpr std::uint32_t kShadowErrorHeight = 180;
 
 /// The simpler filters, none of which may be better than the default.
 constexpr std::array<const char*, 3> kOthers = {"hard", "pcf", "pcss"};
 
 /// Sessions by scene; only the last one is kept.
-struct Shared {
+struct SharedErrors {
   std::string scene;
   std::unique_ptr<Session> session;
   std::map<std::string, JudgedShadows> judged;  ///< by "scene camera"
 };
 
-Result<Session*> session_of(BenchContext& context, Shared& shared, const std::string& scene,
-                            const std::string& camera) {
+Result<Session*> shadow_session_of(BenchContext& context, SharedErrors& shared, const std::string& scene,
+                                   const std::string& camera) {
   if (shared.session == nullptr || shared.scene != scene) {
     shared.session.reset();
     auto opened = context.open_builtin("builtin:" + scene);
@@ -50,26 +50,26 @@ Result<Session*> session_of(BenchContext& context, Shared& shared, const std::st
   return shared.session.get();
 }
 
-Result<const JudgedShadows*> judge(BenchContext& context, Shared& shared, const std::string& scene,
-                                   const std::string& camera) {
+Result<const JudgedShadows*> judge_shadows(BenchContext& context, SharedErrors& shared, const std::string& scene,
+                                           const std::string& camera) {
   const std::string key = scene + " " + camera;
   if (const auto found = shared.judged.find(key); found != shared.judged.end()) return &found->second;
-  auto session = session_of(context, shared, scene, camera);
+  auto session = shadow_session_of(context, shared, scene, camera);
   if (!session) return session.error();
-  ShadowCase shadows(**session, kWidth, kHeight);
+  ShadowCase shadows(**session, kShadowErrorWidth, kShadowErrorHeight);
   auto error = shadows.error();
   if (!error) return error.error();
   return &shared.judged.emplace(key, *error).first->second;
 }
 
 /// Mean error of the default over that of the best other filter.
-Result<BenchValue> over_others(BenchContext& context, Shared& shared, const std::string& scene,
+Result<BenchValue> over_others(BenchContext& context, SharedErrors& shared, const std::string& scene,
                                const std::string& camera) {
-  const auto standard = judge(context, shared, scene, camera);
+  const auto standard = judge_shadows(context, shared, scene, camera);
   if (!standard) return standard.error();
-  auto session = session_of(context, shared, scene, camera);
+  auto session = shadow_session_of(context, shared, scene, camera);
   if (!session) return session.error();
-  ShadowCase shadows(**session, kWidth, kHeight);
+  ShadowCase shadows(**session, kShadowErrorWidth, kShadowErrorHeight);
   double least = 1.0;
   for (const char* filter : kOthers) {
     GLOAM_TRY(shadows.set("shadows.filter", filter));
@@ -81,8 +81,8 @@ Result<BenchValue> over_others(BenchContext& context, Shared& shared, const std:
   return single_value(((*standard)->mean() + kNoise) / (least + kNoise), (*standard)->hash);
 }
 
-void add_camera_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& shared, const std::string& scene,
-                     const std::string& camera) {
+void add_shadow_camera_rows(BenchRegistry& registry, const std::shared_ptr<SharedErrors>& shared,
+                            const std::string& scene, const std::string& camera) {
   const std::string id = "shadows.error." + scene + "." + camera;
   const auto add = [&](const char* name, const char* unit, std::optional<double> bar, auto value) {
     BenchRow row;
@@ -90,7 +90,7 @@ void add_camera_rows(BenchRegistry& registry, const std::shared_ptr<Shared>& sha
     row.unit = unit;
     row.bar = bar;
     row.run = [=](BenchContext& context) -> Result<BenchValue> {
-      const auto judged = judge(context, *shared, scene, camera);
+      const auto judged = judge_shadows(context, *shared, scene, camera);
       if (!judged) return judged.error();
       BenchValue result = single_value(value(**judged), (*judged)->hash);
       result.scene = "builtin:" + scene;
@@ -133,10 +133,10 @@ std::vector<std::string> judged_cameras(const BuiltinScene& scene) {
 }  // namespace
 
 void add_shadow_error_benches(BenchRegistry& registry) {
-  const auto shared = std::make_shared<Shared>();
+  const auto shared = std::make_shared<SharedErrors>();
   for (const BuiltinScene& scene : builtin_scenes())
     for (const std::string& camera : judged_cameras(scene))
-      add_camera_rows(registry, shared, std::string(scene.name), camera);
+      add_shadow_camera_rows(registry, shared, std::string(scene.name), camera);
 }
 
 }  // namespace gloam

@@ -21,20 +21,19 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:shadow_grid";  // unless the user names one
-constexpr std::size_t kLights = 20;                    // number of lights that are kept of the built-in scene
-constexpr double kLightsAPoint = 4.0;
+constexpr const char* kShadowFrameScene = "builtin:shadow_grid";  // unless the user names one
+constexpr std::size_t kShadowFrameLights = 20;  // number of lights that are kept of the built-in scene
+constexpr double kShadowFrameLightsAPoint = 4.0;
 constexpr int kBlocks = 15;
 constexpr int kWarmUpBlocks = 2;
 constexpr int kBlockFrames = 5;
-constexpr double kNsPerMs = 1e6;
 
 /// Parts of a frame's time.
 enum FramePart : std::size_t { kMaps, kLists, kShadows, kLighting, kRest, kOutside };
 constexpr std::size_t kFrameParts = 6;
 constexpr std::array<const char*, kFrameParts> kPartNames = {"maps", "lists", "shadows", "lighting", "rest", "outside"};
 
-FramePart part_of(const PassTime& pass) {
+FramePart frame_part_of(const PassTime& pass) {
   if (makes_shadow_maps(pass)) return kMaps;
   const auto phase = shadow_phase_of(pass);
   if (!phase) return kRest;
@@ -65,11 +64,11 @@ struct ShadowFrames {
   double room = 1.0;              ///< share of frames in which every tile had room
 };
 
-void add_frame(ShadowFrames& frames, const FrameSample& sample) {
+void add_shadow_frame(ShadowFrames& frames, const FrameSample& sample) {
   std::array<double, kFrameParts> ms{};
   double passes_ms = 0.0;
   for (const PassTime& pass : sample.report.passes) {
-    ms[part_of(pass)] += pass.ms;
+    ms[frame_part_of(pass)] += pass.ms;
     passes_ms += pass.ms;
   }
   ms[kOutside] = sample.wall_ms() - passes_ms;
@@ -87,7 +86,7 @@ Result<double> draw_gathers(GatherYardstick& yardstick) {
 }
 
 /// Measures blocks of frames and blocks of gather passes alternately. Simulated time advances with each frame.
-Result<ShadowFrames> measure(Session& session, const Options& options) {
+Result<ShadowFrames> measure_shadow_frames(Session& session, const Options& options) {
   auto yardstick = GatherYardstick::create(*session.device, options.width, options.height);
   if (!yardstick) return yardstick.error();
   ShadowCase shadows(session, options.width, options.height);
@@ -103,7 +102,7 @@ Result<ShadowFrames> measure(Session& session, const Options& options) {
       time_s += options.dt_s;
       const auto sample = shadows.draw();
       if (!sample) return sample.error();
-      if (block >= 0) add_frame(frames, *sample);
+      if (block >= 0) add_shadow_frame(frames, *sample);
     }
     for (int i = 0; i < kBlockFrames; ++i) {
       const auto gather_ns = draw_gathers(**yardstick);
@@ -128,19 +127,19 @@ Result<ShadowFrames> measure_chosen(BenchContext& context) {
   if (!context.options().scene_is_default) {
     auto session = context.session();
     if (!session) return session.error();
-    return measure(**session, context.options());
+    return measure_shadow_frames(**session, context.options());
   }
-  auto session = context.open_builtin(kScene);
+  auto session = context.open_builtin(kShadowFrameScene);
   if (!session) return session.error();
-  arrange_shadow_grid_lights((*session)->world, kLights, kLightsAPoint);
-  return measure(**session, context.options());
+  arrange_shadow_grid_lights((*session)->world, kShadowFrameLights, kShadowFrameLightsAPoint);
+  return measure_shadow_frames(**session, context.options());
 }
 
-using Shared = std::shared_ptr<Once<ShadowFrames>>;
+using SharedShadowFrames = std::shared_ptr<Once<ShadowFrames>>;
 
 template <class Value>
-void add_row(BenchRegistry& registry, const Shared& shared, const std::string& id, const char* unit,
-             std::optional<double> bar, Value value) {
+void add_shadow_row(BenchRegistry& registry, const SharedShadowFrames& shared, const std::string& id, const char* unit,
+                    std::optional<double> bar, Value value) {
   BenchRow row;
   row.id = "shadows.frame." + id;
   row.unit = unit;
@@ -149,7 +148,7 @@ void add_row(BenchRegistry& registry, const Shared& shared, const std::string& i
     const auto frames = shared->get([&] { return measure_chosen(context); });
     if (!frames) return frames.error();
     BenchValue result = value(**frames);
-    result.scene = context.scene_or(kScene);
+    result.scene = context.scene_or(kShadowFrameScene);
     return result;
   };
   registry.add(std::move(row));
@@ -160,26 +159,27 @@ void add_row(BenchRegistry& registry, const Shared& shared, const std::string& i
 void add_shadow_frame_benches(BenchRegistry& registry) {
   const auto shared = std::make_shared<Once<ShadowFrames>>();
   const auto times = [&](const std::string& id, std::vector<double> ShadowFrames::*ns) {
-    add_row(registry, shared, id, "ms", std::nullopt,
-            [ns](const ShadowFrames& f) { return per_item(f.*ns, kNsPerMs, f.hash); });
+    add_shadow_row(registry, shared, id, "ms", std::nullopt,
+                   [ns](const ShadowFrames& f) { return per_item(f.*ns, kNsPerMs, f.hash); });
   };
   times("whole_ms", &ShadowFrames::frame_ns);
   times("gpu_ms", &ShadowFrames::gpu_ns);
-  add_row(registry, shared, "gather48_ms", "ms", std::nullopt,
-          [](const ShadowFrames& f) { return per_item(f.gather_ns, kNsPerMs, f.gather_hash); });
-  add_row(registry, shared, "over_gather48", "ratio", 3.7,
-          [](const ShadowFrames& f) { return ratio_of(f.frame_ns, f.gather_ns, hash_of_both(f.hash, f.gather_hash)); });
+  add_shadow_row(registry, shared, "gather48_ms", "ms", std::nullopt,
+                 [](const ShadowFrames& f) { return per_item(f.gather_ns, kNsPerMs, f.gather_hash); });
+  add_shadow_row(registry, shared, "over_gather48", "ratio", 3.7, [](const ShadowFrames& f) {
+    return ratio_of(f.frame_ns, f.gather_ns, hash_of_both(f.hash, f.gather_hash));
+  });
   for (std::size_t i = 0; i < kFrameParts; ++i) {
     const std::string name = kPartNames[i];
-    add_row(registry, shared, name + "_ms", "ms", std::nullopt,
-            [i](const ShadowFrames& f) { return per_item(f.part_ns[i], kNsPerMs, f.hash); });
-    add_row(registry, shared, name + "_share", "share of the frame", std::nullopt,
-            [i](const ShadowFrames& f) { return ratio_of(f.part_ns[i], f.frame_ns, f.hash); });
+    add_shadow_row(registry, shared, name + "_ms", "ms", std::nullopt,
+                   [i](const ShadowFrames& f) { return per_item(f.part_ns[i], kNsPerMs, f.hash); });
+    add_shadow_row(registry, shared, name + "_share", "share of the frame", std::nullopt,
+                   [i](const ShadowFrames& f) { return ratio_of(f.part_ns[i], f.frame_ns, f.hash); });
   }
-  add_row(registry, shared, "casting_lights", "lights", std::nullopt,
-          [](const ShadowFrames& f) { return single_value(f.lights, f.hash); });
-  add_row(registry, shared, "with_room", "share of frames", std::nullopt,
-          [](const ShadowFrames& f) { return single_value(f.room, f.hash); });
+  add_shadow_row(registry, shared, "casting_lights", "lights", std::nullopt,
+                 [](const ShadowFrames& f) { return single_value(f.lights, f.hash); });
+  add_shadow_row(registry, shared, "with_room", "share of frames", std::nullopt,
+                 [](const ShadowFrames& f) { return single_value(f.room, f.hash); });
 }
 
 }  // namespace gloam

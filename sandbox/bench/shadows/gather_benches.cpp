@@ -15,11 +15,10 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:penumbra";
+constexpr const char* kGatherScene = "builtin:penumbra";
 constexpr const char* kLight = "lamp";  // a spot: one face
-constexpr int kPairs = 15;
-constexpr int kWarmUp = 2;
-constexpr double kNsPerMs = 1e6;
+constexpr int kGatherPairs = 15;
+constexpr int kGatherWarmUp = 2;
 
 struct Rates {
   std::vector<double> bare_ns;
@@ -33,7 +32,7 @@ struct Rates {
 Result<Rates> measure_rates(BenchContext& context) {
   ModuleList more;
   more.push_back(make_shadow_gathers_module());
-  auto session = context.open_builtin(kScene, std::move(more));
+  auto session = context.open_builtin(kGatherScene, std::move(more));
   if (!session) return session.error();
   ShadowCase shadows(**session, context.options().width, context.options().height);
   for (const auto& [knob, value] :
@@ -41,7 +40,7 @@ Result<Rates> measure_rates(BenchContext& context) {
     GLOAM_TRY(shadows.set(knob, value));
   GLOAM_TRY(shadows.set("shadows.early_outs", "off"));
   Rates rates;
-  for (int i = -kWarmUp; i < kPairs; ++i) {
+  for (int i = -kGatherWarmUp; i < kGatherPairs; ++i) {
     const auto filter = shadows.draw(std::string("shadow:") + kLight);
     if (!filter) return filter.error();
     const auto hash = shadows.picture_hash();
@@ -68,7 +67,7 @@ BenchRow rate_row(std::string id, std::string unit, std::shared_ptr<Once<Rates>>
     const auto rates = shared->get([&] { return measure_rates(context); });
     if (!rates) return rates.error();
     BenchValue result = value(**rates);
-    result.scene = kScene;
+    result.scene = kGatherScene;
     return result;
   };
   return row;

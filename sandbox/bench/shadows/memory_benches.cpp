@@ -21,7 +21,7 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:shadow_grid";
+constexpr const char* kMemoryScene = "builtin:shadow_grid";
 constexpr std::size_t kPathFrames = 300;
 constexpr int kMostDraws = 6;
 
@@ -85,7 +85,7 @@ Result<double> slots_of_small_kernel(ShadowCase& shadows) {
 /// Measures along the path through the scene's cameras. Buffer sizes depend on the numbers of tiles and lights. So the
 /// 4-texel kernel is used: it is as wide as larger kernels and takes a quarter of the gathers.
 Result<Memory> measure_memory(BenchContext& context, const LightCase& lights, const PathCase& size) {
-  auto session = context.open_builtin(kScene);
+  auto session = context.open_builtin(kMemoryScene);
   if (!session) return session.error();
   arrange_shadow_grid_lights((*session)->world, kShadowGridLights, lights.lights_a_point);
   const std::vector<PathKey> path = path_through_cameras((*session)->world, (*session)->info);
@@ -138,7 +138,7 @@ void add_case(BenchRegistry& registry, const LightCase& lights, const PathCase& 
       if (!memory) return memory.error();
       // The hash is of the last frame's picture: it shows that lights and visibilities had room.
       BenchValue result = single_value(value(**memory), (*memory)->hash);
-      result.scene = kScene;
+      result.scene = kMemoryScene;
       return result;
     };
     registry.add(std::move(row));

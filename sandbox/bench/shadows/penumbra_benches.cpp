@@ -28,13 +28,13 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kScene = "builtin:penumbra";
+constexpr const char* kPenumbraScene = "builtin:penumbra";
 constexpr std::array<double, 5> kHeights_m = {0.1, 0.3, 1.0, 3.0, 10.0};
 constexpr std::array<const char*, 5> kHeightNames = {"0.1m", "0.3m", "1m", "3m", "10m"};
 constexpr std::array<std::uint32_t, 3> kResolutions = {512, 1024, 2048};
 constexpr std::array<float, 2> kOuterAngles = {0.35f, 0.7f};
-constexpr std::uint32_t kColumns = 512;
-constexpr std::uint32_t kRows = 8;
+constexpr std::uint32_t kPenumbraColumns = 512;
+constexpr std::uint32_t kPenumbraRows = 8;
 constexpr double kEnoughTexels = 8.0;
 constexpr double kLow = 0.1, kHigh = 0.9;
 
@@ -85,21 +85,21 @@ struct Penumbra {
 /// Looks straight down onto the edge's shadow, from below the sheet.
 ViewSettings view_below(const Setting& setting, double half_width_m) {
   ViewSettings settings;
-  settings.width = kColumns;
-  settings.height = kRows;
+  settings.width = kPenumbraColumns;
+  settings.height = kPenumbraRows;
   settings.follow_camera = false;
   settings.world_from_camera =
       dmat4(dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0), dvec4(0, 1, 0, 0), dvec4(0.0, 0.5 * setting.height_m, 0.0, 1.0));
   settings.camera.orthographic = true;
   settings.camera.half_width_m = static_cast<float>(half_width_m);
-  settings.camera.half_height_m = static_cast<float>(half_width_m * kRows / kColumns);
+  settings.camera.half_height_m = static_cast<float>(half_width_m * kPenumbraRows / kPenumbraColumns);
   settings.camera.near_m = static_cast<float>(0.1 * setting.height_m);
   settings.camera.far_m = static_cast<float>(setting.height_m);
   settings.visualizer = "shadow:lamp";
   return settings;
 }
 
-Result<Penumbra> measure(Session& session, const Setting& setting) {
+Result<Penumbra> measure_penumbra(Session& session, const Setting& setting) {
   World& world = session.world;
   const auto lamp = world.resource<SceneNames>().find("light", "lamp");
   if (!lamp) return lamp.error();
@@ -120,13 +120,14 @@ Result<Penumbra> measure(Session& session, const Setting& setting) {
   if (auto frame = session.render_frame(request); !frame) return frame.error();
   const auto image = session.renderer->read_image(world, request.settings.id, "shadow_visibility");
   if (!image) return image.error();
-  std::vector<float> visibility(std::size_t{kColumns} * kRows);
+  std::vector<float> visibility(std::size_t{kPenumbraColumns} * kPenumbraRows);
   std::memcpy(visibility.data(), image->bytes.data(), visibility.size() * sizeof(float));
   penumbra.hash = hash_bytes(image->bytes);
-  std::vector<double> row(kColumns, 0.0);
-  for (std::size_t i = 0; i < visibility.size(); ++i) row[i % kColumns] += static_cast<double>(visibility[i]) / kRows;
+  std::vector<double> row(kPenumbraColumns, 0.0);
+  for (std::size_t i = 0; i < visibility.size(); ++i)
+    row[i % kPenumbraColumns] += static_cast<double>(visibility[i]) / kPenumbraRows;
   const double columns = crossing(row, kHigh) - crossing(row, kLow);
-  penumbra.drawn_m = columns * 2.0 * half_width_m / kColumns / measured_share_of_disc();
+  penumbra.drawn_m = columns * 2.0 * half_width_m / kPenumbraColumns / measured_share_of_disc();
   return penumbra;
 }
 
@@ -138,7 +139,7 @@ struct Widths {
 };
 
 Result<Widths> measure_all(BenchContext& context) {
-  auto session = context.open_builtin(kScene);
+  auto session = context.open_builtin(kPenumbraScene);
   if (!session) return session.error();
   const auto lamp = (*session)->world.resource<SceneNames>().find("light", "lamp");
   if (!lamp) return lamp.error();
@@ -149,7 +150,7 @@ Result<Widths> measure_all(BenchContext& context) {
     bool fine = true;
     for (const std::uint32_t resolution : kResolutions) {
       for (const float angle : kOuterAngles) {
-        const auto penumbra = measure(**session, {kHeights_m[h], resolution, angle});
+        const auto penumbra = measure_penumbra(**session, {kHeights_m[h], resolution, angle});
         if (!penumbra) return penumbra.error();
         widths.hash = hash_of_both(widths.hash, penumbra->hash);
         if (resolution == 1024 && angle == kOuterAngles[0]) widths.standard[h] = *penumbra;
@@ -173,7 +174,7 @@ BenchRow width_row(std::string id, std::string unit, std::shared_ptr<Once<Widths
     const auto widths = shared->get([&] { return measure_all(context); });
     if (!widths) return widths.error();
     BenchValue result = value(**widths);
-    result.scene = kScene;
+    result.scene = kPenumbraScene;
     return result;
   };
   return row;

@@ -14,7 +14,7 @@ namespace {
 
 using enum ImageUsage;
 
-constexpr std::array<std::uint32_t, 3> kSize = {5, 3, 4};
+constexpr std::array<std::uint32_t, 3> kVolumeSize = {5, 3, 4};
 
 class Volumes : public VulkanTest {
  protected:
@@ -22,12 +22,12 @@ class Volumes : public VulkanTest {
     return test::value_of(device().create_image({.name = "volume",
                                                  .module = "test",
                                                  .format = Format::r32_float,
-                                                 .width = kSize[0],
-                                                 .height = kSize[1],
+                                                 .width = kVolumeSize[0],
+                                                 .height = kVolumeSize[1],
                                                  .mips = mips,
                                                  .usage = usage,
                                                  .shape = ImageShape::volume,
-                                                 .depth = kSize[2]}));
+                                                 .depth = kVolumeSize[2]}));
   }
   PipelineHandle pipeline(const char* name, const ShaderCode& shader) {
     return test::value_of(device().create_pipeline({.name = name, .module = "test", .shader = shader}));
@@ -46,8 +46,8 @@ double painted_at(const std::array<float, 3>& position) {
   constexpr std::array<double, 3> kWeights = {1.0, 10.0, 100.0};
   double value = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double texel = static_cast<double>(position[axis]) * kSize[axis] - 0.5;
-    value += kWeights[axis] * std::clamp(texel, 0.0, kSize[axis] - 1.0);
+    const double texel = static_cast<double>(position[axis]) * kVolumeSize[axis] - 0.5;
+    value += kWeights[axis] * std::clamp(texel, 0.0, kVolumeSize[axis] - 1.0);
   }
   return value;
 }
@@ -62,7 +62,7 @@ TEST_F(Volumes, are_written_by_one_kernel_and_sampled_by_another) {
     const std::array<std::uint32_t, 3> step = {i % 9, i / 9 % 7, i / 63};
     auto& position = positions.emplace_back();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      position[axis] = static_cast<float>(step[axis]) * 0.5f / static_cast<float>(kSize[axis]);
+      position[axis] = static_cast<float>(step[axis]) * 0.5f / static_cast<float>(kVolumeSize[axis]);
     }
   }
   const auto sampler = test::value_of(
@@ -98,9 +98,10 @@ TEST_F(Volumes, copies_hold_slice_after_slice_in_every_mip) {
   });
   EXPECT_EQ(test::items_of<float>(device(), read_small), small);
   const auto texels = test::items_of<float>(device(), read_painted);
-  ASSERT_EQ(texels.size(), kSize[0] * kSize[1] * kSize[2]);
+  ASSERT_EQ(texels.size(), kVolumeSize[0] * kVolumeSize[1] * kVolumeSize[2]);
   for (std::uint32_t i = 0; i < texels.size(); ++i) {
-    const std::uint32_t x = i % kSize[0], y = i / kSize[0] % kSize[1], z = i / (kSize[0] * kSize[1]);
+    const std::uint32_t x = i % kVolumeSize[0], y = i / kVolumeSize[0] % kVolumeSize[1],
+                        z = i / (kVolumeSize[0] * kVolumeSize[1]);
     EXPECT_EQ(texels[i], static_cast<float>(x + 10 * y + 100 * z));
   }
 }

@@ -14,7 +14,7 @@
 namespace gloam::test {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;
+constexpr double kStep_s = 1.0 / 60.0;
 
 /// Grass in wind, with a ball that rolls through it.
 class GrassTime : public GrassTest {
@@ -28,12 +28,12 @@ class GrassTime : public GrassTest {
   static Entity begin(GrassStage& stage) {
     stage.lawn(0.6f, 500);
     stage.wind(vec3(4.0f, 0.0f, 1.0f), 0.7f);
-    stage.run_at(kFrame);
+    stage.run_at(kStep_s);
     return stage.world.create(Collider{ColliderShape::sphere, 0.12f, 1.8f, vec3(1.0f)}, WorldTransform{});
   }
   /// Draws frame `index`: its time and the ball's place.
   static Shown show(GrassStage& stage, Entity ball, int index) {
-    const double time_s = 3.0 + kFrame * index;
+    const double time_s = 3.0 + kStep_s * index;
     stage.world.get<WorldTransform>(ball).matrix =
         glm::translate(dmat4(1.0), dvec3(-0.3 + 1.5 * (time_s - 3.0), 0.15, 0.1));
     stage.draw_at(time_s, front());
@@ -46,7 +46,7 @@ TEST_F(GrassTime, frames_at_the_time_of_the_last_one_show_the_same) {
   const Entity ball = begin(stage);
   std::vector<Shown> frames;
   for (int frame = 0; frame < 4; ++frame) frames.push_back(show(stage, ball, frame));
-  for (const double dt_s : {kFrame, 0.0}) {
+  for (const double dt_s : {kStep_s, 0.0}) {
     stage.run_at(dt_s);
     for (int repeated = 0; repeated < 2; ++repeated) {
       EXPECT_TRUE(show(stage, ball, 3) == frames[3]) << "duration " << dt_s;
