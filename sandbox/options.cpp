@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "engine/core/env.h"
-#include "engine/core/nearest_name.h"
+#include "engine/core/text/nearest_name.h"
 
 namespace gloam {
 namespace {

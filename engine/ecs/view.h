@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "engine/core/assert.h"
-#include "engine/ecs/query.h"
+#include "engine/ecs/storage/query.h"
 #include "engine/ecs/view_terms.h"
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"

@@ -18,14 +18,14 @@
 
 #include "engine/core/assert.h"
 #include "engine/ecs/access_checker.h"
-#include "engine/ecs/archetype.h"
 #include "engine/ecs/component.h"
 #include "engine/ecs/entity.h"
-#include "engine/ecs/query.h"
 #include "engine/ecs/resources.h"
+#include "engine/ecs/storage/archetype.h"
+#include "engine/ecs/storage/query.h"
+#include "engine/ecs/storage/virtual_memory.h"
 #include "engine/ecs/type_key.h"
 #include "engine/ecs/type_table.h"
-#include "engine/ecs/virtual_memory.h"
 
 namespace gloam {
 

@@ -8,7 +8,7 @@
 #include "engine/frame/declaration.h"
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/pass_timer.h"
-#include "engine/frame/plan_cache.h"
+#include "engine/frame/planning/plan_cache.h"
 
 namespace gloam {
 

@@ -6,8 +6,8 @@
 #include <exception>
 #include <string>
 
-#include "engine/core/plain_text.h"
 #include "engine/core/result.h"
+#include "engine/core/text/plain_text.h"
 
 namespace gloam {
 

@@ -14,9 +14,9 @@
 
 #include "engine/core/log.h"
 #include "engine/frame/frame_graph.h"
-#include "engine/frame/frame_results.h"
 #include "engine/frame/history.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/results.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/board.h"
 #include "engine/render/draws/caster_source.h"

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "engine/frame/frame_graph.h"
-#include "engine/frame/frame_results.h"
 #include "engine/frame/history.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/results.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/render/camera_cuts.h"
 #include "engine/render/declare/recording.h"
 #include "engine/render/draws/motion_history.h"

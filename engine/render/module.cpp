@@ -8,7 +8,7 @@
 #include "engine/core/assert.h"
 #include "engine/render/knobs/measure.h"
 #include "engine/render/reference/reference.h"
-#include "engine/scene/key_registry.h"
+#include "engine/scene/keys/registry.h"
 
 namespace gloam {
 namespace {

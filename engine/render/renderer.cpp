@@ -4,13 +4,13 @@
 
 #include <utility>
 
-#include "engine/gpu/shader_interface.h"
+#include "engine/gpu/spirv/shader_interface.h"
 #include "engine/render/frame/draw_frame.h"
 #include "engine/render/modules_in_use/visualizers.h"
 #include "engine/render/redraw/redraw.h"
 #include "engine/render/renderer_parts.h"
 #include "engine/render/views/read_picture.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 
 namespace gloam {
 

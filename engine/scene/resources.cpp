@@ -3,8 +3,8 @@
 #include "engine/scene/resources.h"
 
 #include "engine/core/assert.h"
-#include "engine/core/nearest_name.h"
-#include "engine/core/plain_text.h"
+#include "engine/core/text/nearest_name.h"
+#include "engine/core/text/plain_text.h"
 
 namespace gloam {
 

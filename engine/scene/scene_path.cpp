@@ -10,7 +10,7 @@
 #include <memory>
 #include <system_error>
 
-#include "engine/core/plain_text.h"
+#include "engine/core/text/plain_text.h"
 
 namespace gloam {
 namespace {

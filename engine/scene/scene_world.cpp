@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/scene/resources.h"
 #include "engine/scene/system_state.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/system_state.h"
 
-#include "engine/scene/animation.h"
+#include "engine/scene/posing/animation.h"
 
 namespace gloam {
 

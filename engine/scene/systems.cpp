@@ -10,8 +10,8 @@
 #include "engine/core/assert.h"
 #include "engine/ecs/world.h"
 #include "engine/scene/assets.h"
-#include "engine/scene/morphing.h"
-#include "engine/scene/skinning.h"
+#include "engine/scene/posing/morphing.h"
+#include "engine/scene/posing/skinning.h"
 
 namespace gloam {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "engine/ecs/view.h"
-#include "engine/scene/animation.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
+#include "engine/scene/posing/animation.h"
 #include "engine/scene/resources.h"
 #include "engine/scene/system_state.h"
 #include "engine/schedule/schedule.h"

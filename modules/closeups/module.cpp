@@ -10,7 +10,7 @@
 #include "engine/render/frame_builder.h"
 #include "engine/render/worlds/world_id.h"
 #include "engine/scene/components.h"
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 #include "modules/closeups/closeup_passes.h"
 #include "modules/closeups/components.h"
 #include "modules/closeups/compose/frame.h"

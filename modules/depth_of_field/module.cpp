@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/ecs/view.h"
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/depth_of_field/debug/coc_view.h"
 #include "modules/depth_of_field/dof_passes.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 #include "modules/fog/components.h"
 #include "modules/fog/knobs.h"
 #include "modules/fog/model.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/ecs/view.h"
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 #include "engine/scene/resources.h"
 #include "modules/grass/components.h"
 #include "modules/grass/growth/blade_types.h"

@@ -9,7 +9,7 @@
 
 namespace gloam {
 
-/// The values are those of shaders/lighting/tone_curve.glsl.
+/// The values are those of shaders/lighting/display/tone_curve.glsl.
 enum class ToneCurve : std::uint32_t { filmic, reinhard, linear, agx };
 [[nodiscard]] constexpr std::string_view name_of(ToneCurve curve) {
   switch (curve) {

@@ -9,10 +9,10 @@
 
 #include "modules/lighting/antialiasing/reference.h"
 #include "modules/lighting/components.h"
+#include "modules/lighting/display/tone_reference.h"
 #include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
 #include "modules/lighting/outputs.h"
-#include "modules/lighting/tone_reference.h"
 
 namespace gloam {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 #include "modules/lights/components.h"
 
 namespace gloam {

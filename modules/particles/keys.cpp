@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 #include "modules/particles/components.h"
 
 namespace gloam {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/scene/key_registry.h"
+#include "engine/scene/keys/registry.h"
 
 namespace gloam {
 

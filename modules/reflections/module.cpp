@@ -4,7 +4,7 @@
 
 #include "engine/render/frame_builder.h"
 #include "engine/scene/assets.h"
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 #include "modules/lighting/outputs.h"
 #include "modules/lights/components.h"
 #include "modules/lights/light_names.h"

@@ -8,7 +8,7 @@
 
 #include "engine/ecs/view.h"
 #include "engine/scene/components.h"
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/components.h"

@@ -4,7 +4,7 @@
 
 #include "engine/ecs/world.h"
 #include "engine/render/module.h"
-#include "engine/scene/key_registry.h"
+#include "engine/scene/keys/registry.h"
 
 namespace gloam {
 

@@ -13,9 +13,9 @@
 #include "sandbox/commands/commands.h"
 #include "sandbox/commands/fit_proxies.h"
 #include "sandbox/output/file_io.h"
-#include "sandbox/output/image_io.h"
-#include "sandbox/session/captures.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/output/pictures/image_io.h"
+#include "sandbox/session/baking/captures.h"
+#include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/session.h"
 
 namespace gloam {

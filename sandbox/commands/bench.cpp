@@ -9,7 +9,7 @@
 #include "sandbox/bench/harness/run_rows.h"
 #include "sandbox/commands/commands.h"
 #include "sandbox/output/file_io.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/loading/scene_loading.h"
 
 namespace gloam {
 namespace {

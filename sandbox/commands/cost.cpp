@@ -12,10 +12,10 @@
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/identity.h"
 #include "sandbox/output/progress_bar.h"
-#include "sandbox/session/captures.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/baking/captures.h"
+#include "sandbox/session/drawing/session_costs.h"
+#include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/session.h"
-#include "sandbox/session/session_costs.h"
 
 namespace gloam {
 namespace {

@@ -13,7 +13,7 @@
 #include "modules/reflections/module.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/json_text.h"
-#include "sandbox/session/loaded_scene.h"
+#include "sandbox/session/loading/loaded_scene.h"
 #include "sandbox/session/surface_distances.h"
 
 namespace gloam {

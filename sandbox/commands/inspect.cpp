@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include "sandbox/commands/commands.h"
-#include "sandbox/session/loaded_scene.h"
+#include "sandbox/session/loading/loaded_scene.h"
+#include "sandbox/session/loading/scene_summary.h"
 #include "sandbox/session/program_knobs.h"
-#include "sandbox/session/scene_summary.h"
 
 namespace gloam {
 

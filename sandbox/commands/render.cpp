@@ -7,14 +7,14 @@
 
 #include "sandbox/commands/commands.h"
 #include "sandbox/output/numbered_path.h"
-#include "sandbox/session/captures.h"
-#include "sandbox/session/frame_run.h"
-#include "sandbox/session/frame_tracing.h"
-#include "sandbox/session/heat_fit.h"
-#include "sandbox/session/list_room.h"
+#include "sandbox/session/baking/captures.h"
+#include "sandbox/session/drawing/frame_run.h"
+#include "sandbox/session/drawing/frame_tracing.h"
+#include "sandbox/session/drawing/list_room.h"
+#include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
-#include "sandbox/session/run_output.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/results/heat_fit.h"
+#include "sandbox/session/results/run_output.h"
 #include "sandbox/session/session.h"
 
 namespace gloam {

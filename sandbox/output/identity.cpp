@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "engine/scene/asset_hash.h"
+#include "engine/scene/assets/hash.h"
 #include "sandbox/output/file_io.h"
 
 namespace gloam {

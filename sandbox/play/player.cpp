@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "sandbox/output/file_io.h"
-#include "sandbox/session/frame_tracing.h"
-#include "sandbox/session/heat_fit.h"
+#include "sandbox/session/drawing/frame_tracing.h"
+#include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
-#include "sandbox/session/run_output.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/results/heat_fit.h"
+#include "sandbox/session/results/run_output.h"
 
 namespace gloam {
 namespace {

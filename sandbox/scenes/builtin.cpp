@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/nearest_name.h"
-#include "sandbox/scenes/closeups.h"
-#include "sandbox/scenes/lanterns.h"
+#include "engine/core/text/nearest_name.h"
+#include "sandbox/scenes/lamps/closeups.h"
+#include "sandbox/scenes/lamps/lanterns.h"
+#include "sandbox/scenes/lamps/many_lights.h"
+#include "sandbox/scenes/lamps/penumbra.h"
+#include "sandbox/scenes/lamps/shadow_grid.h"
+#include "sandbox/scenes/lamps/shadows.h"
 #include "sandbox/scenes/lens.h"
-#include "sandbox/scenes/many_lights.h"
-#include "sandbox/scenes/meadow.h"
-#include "sandbox/scenes/penumbra.h"
+#include "sandbox/scenes/meadow/scene.h"
 #include "sandbox/scenes/plain.h"
-#include "sandbox/scenes/shadow_grid.h"
-#include "sandbox/scenes/shadows.h"
 #include "sandbox/scenes/smoke.h"
-#include "sandbox/scenes/wet_street.h"
+#include "sandbox/scenes/wet_street/scene.h"
 
 namespace gloam {
 namespace {

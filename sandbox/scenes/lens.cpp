@@ -7,8 +7,8 @@
 
 #include "engine/scene/resources.h"
 #include "modules/depth_of_field/components.h"
-#include "sandbox/scenes/scene_builder.h"
-#include "sandbox/scenes/shapes.h"
+#include "sandbox/scenes/construction/scene_builder.h"
+#include "sandbox/scenes/construction/shapes.h"
 
 namespace gloam {
 namespace {

@@ -3,8 +3,8 @@
 #include "sandbox/scenes/plain.h"
 
 #include "engine/scene/resources.h"
-#include "sandbox/scenes/scene_builder.h"
-#include "sandbox/scenes/shapes.h"
+#include "sandbox/scenes/construction/scene_builder.h"
+#include "sandbox/scenes/construction/shapes.h"
 
 namespace gloam {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/ecs/world.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 
 namespace gloam {
 

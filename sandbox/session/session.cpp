@@ -10,9 +10,9 @@
 #include "engine/scene/resources.h"
 #include "engine/scene/systems.h"
 #include "modules/module_list/module_list.h"
-#include "sandbox/session/frame_run.h"
+#include "sandbox/session/drawing/frame_run.h"
+#include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
-#include "sandbox/session/scene_loading.h"
 
 namespace gloam {
 namespace {

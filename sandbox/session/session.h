@@ -15,7 +15,7 @@
 #include "engine/gpu/device.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/renderer.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "sandbox/options.h"
 #include "sandbox/output/frame_sample.h"
 

@@ -10,7 +10,7 @@
 
 #include "engine/core/assert.h"
 #include "sandbox/output/json_text.h"
-#include "sandbox/session/summary.h"
+#include "sandbox/session/results/summary.h"
 
 namespace gloam {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/core/result.h"
 #include "engine/frame/frame_graph.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/gpu/device.h"
 #include "engine/render/pipelines.h"
 #include "sandbox/window/panel.h"

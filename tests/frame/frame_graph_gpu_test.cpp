@@ -7,8 +7,8 @@
 
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/history.h"
-#include "engine/frame/readback.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/readback.h"
+#include "engine/frame/transfers/upload.h"
 #include "shaders/gpu_test/shaders.h"
 #include "tests/frame/random_frames.h"
 #include "tests/support/gpu_device.h"

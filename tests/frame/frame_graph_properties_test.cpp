@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "engine/frame/plan.h"
-#include "engine/gpu/recording_device.h"
+#include "engine/frame/planning/plan.h"
+#include "engine/gpu/recording/device.h"
 #include "tests/frame/random_frames.h"
 #include "tests/support/property.h"
 

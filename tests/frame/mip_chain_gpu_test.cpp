@@ -7,8 +7,8 @@
 #include <random>
 
 #include "engine/frame/mip_chain_passes.h"
-#include "engine/frame/readback.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/readback.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/gpu/image_size.h"
 #include "tests/support/gpu_device.h"
 

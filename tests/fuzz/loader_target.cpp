@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "engine/jobs/executor.h"
-#include "engine/scene/asset_check.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/assets/check.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/scene/systems.h"
 #include "modules/module_list/module_list.h"
 #include "tests/support/gltf_files.h"

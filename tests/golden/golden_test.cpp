@@ -8,9 +8,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "engine/scene/image_file.h"
-#include "sandbox/output/image_io.h"
-#include "sandbox/session/particle_light.h"
+#include "engine/scene/decoding/image_file.h"
+#include "sandbox/output/pictures/image_io.h"
+#include "sandbox/session/baking/particle_light.h"
 #include "sandbox/session/session.h"
 #include "tests/golden/whole_pictures.h"
 #include "tests/support/gpu_device.h"

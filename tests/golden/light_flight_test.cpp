@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sandbox/scenes/many_lights.h"
+#include "sandbox/scenes/lamps/many_lights.h"
 #include "tests/golden/flight.h"
 #include "tests/golden/flight_path.h"
 #include "tests/support/gpu_device.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "modules/lights/components.h"
-#include "sandbox/session/captures.h"
+#include "sandbox/session/baking/captures.h"
 #include "tests/golden/whole_pictures.h"
 #include "tests/support/gltf_files.h"
 #include "tests/support/gpu_device.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "sandbox/session/view_values.h"
+#include "sandbox/session/results/view_values.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <set>
 
-#include "engine/gpu/spirv_reflection.h"
+#include "engine/gpu/spirv/reflection.h"
 #include "shaders/every/shaders.h"
 
 namespace gloam::gpu {

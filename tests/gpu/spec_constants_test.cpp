@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/gpu/spirv_reflection.h"
+#include "engine/gpu/spirv/reflection.h"
 #include "shaders/gpu_test/shaders.h"
 #include "shaders/lights/shaders.h"
 

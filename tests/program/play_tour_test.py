@@ -133,7 +133,7 @@ class PlayTour(WindowCase):
 
     def test_a_changed_shader_is_compiled_and_a_broken_one_is_shown(self):
         shutil.copytree(self.source / "shaders", self.folder / "tree/shaders")
-        shader = self.folder / "tree/shaders/lighting/tone_map.frag.glsl"
+        shader = self.folder / "tree/shaders/lighting/display/tone_map.frag.glsl"
         text = shader.read_text(encoding="utf-8")
         self.assertIn("exposure;", text)
         run = self.start("builtin:plain", *SIZE, "--dt", "0", "--set", "lighting.antialiasing=off", "--validate", "--shaders", "tree",

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "engine/core/zones.h"
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/renderer.h"
 #include "modules/fog/components.h"
 #include "modules/fog/module.h"

@@ -9,7 +9,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <vector>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/scene/resources.h"
 #include "tests/support/render_scene.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/renderer.h"
 #include "modules/lighting/module.h"
 #include "modules/lights/module.h"

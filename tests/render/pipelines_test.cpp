@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/scene/draw_pipelines.h"
 #include "engine/render/scene/material_packing.h"
 #include "shaders/render/draw_shared.h"

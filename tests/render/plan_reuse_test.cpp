@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/frame/frame_graph.h"
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 
 namespace gloam {
 namespace {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "engine/ecs/view.h"
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/frame_builder.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/module_list/module_list.h"
 #include "tests/render/draws/small_scene.h"
 #include "tests/support/expect_assert.h"

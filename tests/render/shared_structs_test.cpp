@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/gpu/spirv_reflection.h"
+#include "engine/gpu/spirv/reflection.h"
 #include "engine/render/packing/mesh_packing.h"
 #include "engine/render/scene/material_packing.h"
 #include "shaders/every/shaders.h"

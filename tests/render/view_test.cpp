@@ -8,7 +8,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <vector>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/render_scene.h"
 

@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "engine/scene/asset_check.h"
-#include "engine/scene/mesh_builder.h"
+#include "engine/scene/assets/check.h"
+#include "engine/scene/assets/mesh_builder.h"
 #include "tests/support/expect_assert.h"
 
 namespace gloam {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/core/hash.h"
-#include "engine/scene/gltf_import.h"
-#include "engine/scene/morphing.h"
+#include "engine/scene/gltf/import.h"
+#include "engine/scene/posing/morphing.h"
 #include "tests/scene/forest.h"
 
 namespace gloam {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/scene/systems.h"
 #include "tests/scene/forest.h"
 

@@ -13,8 +13,8 @@
 #include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
-#include "engine/scene/gltf_import.h"
-#include "engine/scene/key_registry.h"
+#include "engine/scene/gltf/import.h"
+#include "engine/scene/keys/registry.h"
 
 namespace gloam::test {
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam::test {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "engine/core/zones.h"
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/renderer.h"
 #include "modules/module_list/module_list.h"

@@ -9,7 +9,7 @@
 #include "engine/render/knobs/knobs.h"
 #include "engine/render/module.h"
 #include "engine/render/view.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/schedule/schedule.h"
 
 namespace gloam::test {

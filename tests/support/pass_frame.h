@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/render/declare/pass_frames.h"
 #include "engine/render/readback/capture.h"
 #include "tests/support/gpu_device.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/gpu/recording/device.h"
 #include "engine/gpu/recording/objects.h"
 #include "engine/gpu/recording/tracker.h"
-#include "engine/gpu/recording_device.h"
 
 namespace gloam::gpu::recording {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/gpu/spirv_reflection.h"
+#include "engine/gpu/spirv/reflection.h"
 #include "engine/gpu/types.h"
 #include "engine/gpu/vulkan/api.h"
 

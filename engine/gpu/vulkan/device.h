@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "engine/gpu/device.h"
-#include "engine/gpu/vulkan/buffers.h"
-#include "engine/gpu/vulkan/command_list.h"
-#include "engine/gpu/vulkan/context.h"
-#include "engine/gpu/vulkan/frame_sets.h"
-#include "engine/gpu/vulkan/frames.h"
-#include "engine/gpu/vulkan/graveyard.h"
-#include "engine/gpu/vulkan/images.h"
-#include "engine/gpu/vulkan/instance.h"
-#include "engine/gpu/vulkan/memory.h"
-#include "engine/gpu/vulkan/memory_blocks.h"
-#include "engine/gpu/vulkan/pipelines.h"
-#include "engine/gpu/vulkan/resource_sets.h"
-#include "engine/gpu/vulkan/samplers.h"
+#include "engine/gpu/vulkan/binding/frame_sets.h"
+#include "engine/gpu/vulkan/binding/resource_sets.h"
+#include "engine/gpu/vulkan/compile/pipelines.h"
+#include "engine/gpu/vulkan/resources/buffers.h"
+#include "engine/gpu/vulkan/resources/graveyard.h"
+#include "engine/gpu/vulkan/resources/images.h"
+#include "engine/gpu/vulkan/resources/memory.h"
+#include "engine/gpu/vulkan/resources/memory_blocks.h"
+#include "engine/gpu/vulkan/resources/samplers.h"
+#include "engine/gpu/vulkan/startup/context.h"
+#include "engine/gpu/vulkan/startup/instance.h"
+#include "engine/gpu/vulkan/submission/command_list.h"
+#include "engine/gpu/vulkan/submission/frames.h"
 
 namespace gloam::gpu::vulkan {
 

@@ -5,7 +5,7 @@
 #include "engine/gpu/access.h"
 #include "engine/gpu/vulkan/barriers.h"
 #include "engine/gpu/vulkan/device.h"
-#include "engine/gpu/vulkan/features.h"
+#include "engine/gpu/vulkan/startup/features.h"
 
 namespace gloam::gpu {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/spirv_reflection.h"
+#include "engine/gpu/spirv/reflection.h"
 #include "engine/gpu/types.h"
 
 namespace gloam {

@@ -8,7 +8,7 @@
 
 #include "engine/ecs/view.h"
 #include "engine/render/packing/caster_bounds.h"
-#include "engine/scene/animated_nodes.h"
+#include "engine/scene/posing/animated_nodes.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {

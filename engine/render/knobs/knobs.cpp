@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "engine/core/assert.h"
-#include "engine/core/nearest_name.h"
+#include "engine/core/text/nearest_name.h"
 
 namespace gloam {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/core/assert.h"
-#include "engine/core/nearest_name.h"
+#include "engine/core/text/nearest_name.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {

@@ -4,7 +4,7 @@
 
 #include "engine/render/declare/draw_pass.h"
 #include "engine/render/passes/renderer_passes.h"
-#include "shaders/render/host_geometry_shared.h"
+#include "shaders/render/gbuffer/host_geometry_shared.h"
 #include "shaders/render/shaders.h"
 
 namespace gloam {

@@ -4,8 +4,8 @@
 
 #include "engine/render/declare/draw_pass.h"
 #include "engine/render/passes/renderer_passes.h"
+#include "shaders/render/gbuffer/smooth_surface_shared.h"
 #include "shaders/render/shaders.h"
-#include "shaders/render/smooth_surface_shared.h"
 
 namespace gloam {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "engine/core/nearest_name.h"
+#include "engine/core/text/nearest_name.h"
 #include "engine/render/redraw/redraw.h"
 
 namespace gloam {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame/staging.h"
+#include "engine/frame/transfers/staging.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/readback/picture.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/nearest_name.h"
+#include "engine/core/text/nearest_name.h"
 #include "engine/render/placeless.h"
 #include "engine/scene/components.h"
 

@@ -8,7 +8,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/render/scene/gpu_scene.h"
-#include "engine/scene/asset_check.h"
+#include "engine/scene/assets/check.h"
 
 namespace gloam {
 namespace {

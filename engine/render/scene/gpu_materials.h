@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/gpu/device.h"
 #include "engine/render/scene/draw_pipelines.h"
 #include "engine/render/uploads/asset_uploads.h"

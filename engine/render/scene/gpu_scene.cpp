@@ -9,7 +9,7 @@
 #include "engine/core/assert.h"
 #include "engine/render/packing/mip_chain.h"
 #include "engine/render/packing/simplified_casters.h"
-#include "engine/scene/asset_check.h"
+#include "engine/scene/assets/check.h"
 #include "shaders/render/draw_shared.h"
 
 namespace gloam {

@@ -11,7 +11,7 @@
 
 #include "engine/core/result.h"
 #include "engine/frame/frame_graph.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/gpu/device.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/packing/gpu_primitive.h"

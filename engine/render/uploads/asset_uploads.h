@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/frame/staging.h"
+#include "engine/frame/transfers/staging.h"
 #include "engine/gpu/device.h"
 
 namespace gloam {

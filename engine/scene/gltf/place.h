@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/core/plain_text.h"
 #include "engine/core/result.h"
+#include "engine/core/text/plain_text.h"
 
 namespace gloam::gltf {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "engine/core/nearest_name.h"
+#include "engine/core/text/nearest_name.h"
 #include "modules/accuracy/module.h"
 
 namespace gloam {

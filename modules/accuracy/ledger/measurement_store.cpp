@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/accuracy/ledger/measurement_store.h"
 
-#include "engine/core/sealed_file.h"
+#include "engine/core/storage/sealed_file.h"
 #include "modules/accuracy/ledger/row_json.h"
 
 namespace gloam {

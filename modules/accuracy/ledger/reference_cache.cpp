@@ -5,7 +5,7 @@
 #include <cstring>
 #include <span>
 
-#include "engine/core/sealed_file.h"
+#include "engine/core/storage/sealed_file.h"
 
 namespace gloam {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <utility>
 
-#include "engine/core/sealed_file.h"
+#include "engine/core/storage/sealed_file.h"
 #include "modules/accuracy/module.h"
 
 namespace gloam {

@@ -9,8 +9,8 @@
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
 #include "engine/render/packing/caster_bounds.h"
-#include "engine/scene/animated_nodes.h"
 #include "engine/scene/components.h"
+#include "engine/scene/posing/animated_nodes.h"
 #include "engine/scene/resources.h"
 #include "modules/accuracy/tracing/texture_fetch.h"
 

@@ -8,7 +8,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/math/finite.h"
-#include "engine/scene/topology.h"
+#include "engine/scene/assets/topology.h"
 
 namespace gloam {
 namespace {

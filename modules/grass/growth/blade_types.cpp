@@ -10,7 +10,7 @@
 #include <optional>
 #include <sstream>
 
-#include "engine/core/plain_text.h"
+#include "engine/core/text/plain_text.h"
 
 namespace gloam {
 namespace {

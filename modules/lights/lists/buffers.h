@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "engine/core/result.h"
-#include "engine/frame/frame_results.h"
+#include "engine/frame/transfers/results.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
 #include "modules/lights/bins/z_bins.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/scene/animated_nodes.h"
+#include "engine/scene/posing/animated_nodes.h"
 #include "modules/lights/components.h"
 #include "modules/particles/baked_light.h"
 #include "modules/particles/emitters/strongest_lights.h"

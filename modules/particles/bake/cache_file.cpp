@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/core/assert.h"
-#include "engine/core/byte_stream.h"
+#include "engine/core/storage/byte_stream.h"
 #include "engine/ecs/view.h"
 #include "modules/lights/components.h"
 #include "modules/particles/bake.h"

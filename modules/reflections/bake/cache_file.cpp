@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/core/assert.h"
-#include "engine/core/byte_stream.h"
-#include "engine/core/sealed_file.h"
+#include "engine/core/storage/byte_stream.h"
+#include "engine/core/storage/sealed_file.h"
 #include "engine/ecs/view.h"
 #include "modules/lights/components.h"
 #include "modules/reflections/components.h"

@@ -11,10 +11,10 @@
 
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
-#include "engine/scene/animated_nodes.h"
-#include "engine/scene/animation.h"
-#include "engine/scene/asset_hash.h"
+#include "engine/scene/assets/hash.h"
 #include "engine/scene/components.h"
+#include "engine/scene/posing/animated_nodes.h"
+#include "engine/scene/posing/animation.h"
 #include "engine/scene/resources.h"
 #include "modules/lighting/components.h"
 #include "modules/lights/components.h"

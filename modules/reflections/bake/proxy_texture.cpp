@@ -6,7 +6,7 @@
 #include <array>
 
 #include "engine/math/srgb.h"
-#include "engine/scene/image_file.h"
+#include "engine/scene/decoding/image_file.h"
 
 namespace gloam {
 

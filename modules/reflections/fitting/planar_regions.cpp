@@ -10,7 +10,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/math/finite.h"
-#include "engine/scene/topology.h"
+#include "engine/scene/assets/topology.h"
 
 namespace gloam {
 namespace {

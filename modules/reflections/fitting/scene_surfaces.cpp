@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "engine/ecs/view.h"
-#include "engine/scene/animated_nodes.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
+#include "engine/scene/posing/animated_nodes.h"
 
 namespace gloam {
 namespace {

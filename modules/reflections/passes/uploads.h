@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "engine/frame/staging.h"
+#include "engine/frame/transfers/staging.h"
 #include "engine/render/frame_builder.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/override.h"

@@ -9,7 +9,7 @@
 
 #include "engine/ecs/view.h"
 #include "engine/math/srgb.h"
-#include "engine/scene/image_file.h"
+#include "engine/scene/decoding/image_file.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {

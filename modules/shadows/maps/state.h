@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/result.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/gpu/device.h"
 #include "modules/shadows/atlas/view_map_state.h"
 #include "modules/shadows/maps/scratch.h"

@@ -14,7 +14,7 @@
 #include "modules/shadows/components.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/reference/visibility_tracing.h"
-#include "sandbox/scenes/closeups.h"
+#include "sandbox/scenes/lamps/closeups.h"
 
 namespace gloam {
 namespace {

@@ -19,9 +19,9 @@
 #include "sandbox/bench/shadows/case.h"
 #include "sandbox/bench/shadows/phases.h"
 #include "sandbox/bench/shadows/variant.h"
-#include "sandbox/scenes/closeups.h"
-#include "sandbox/scenes/scene_builder.h"
-#include "sandbox/scenes/shapes.h"
+#include "sandbox/scenes/construction/scene_builder.h"
+#include "sandbox/scenes/construction/shapes.h"
+#include "sandbox/scenes/lamps/closeups.h"
 
 // Cost of close-ups: memory by number of pairs (FF §3), time by step (FF figure 14), and time by number of pairs in a
 // batch.

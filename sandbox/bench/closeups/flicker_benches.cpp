@@ -23,7 +23,7 @@
 #include "sandbox/bench/shadows/case.h"
 #include "sandbox/bench/shadows/phases.h"
 #include "sandbox/bench/shadows/variant.h"
-#include "sandbox/scenes/closeups.h"
+#include "sandbox/scenes/lamps/closeups.h"
 
 // Error of the changes of visibility from frame to frame, against traced changes, while a subject walks with swinging
 // arms under one lamp: close-ups compared with standard maps that have as many texels (see benches.cpp).

@@ -8,7 +8,7 @@
 #include "engine/ecs/view.h"
 #include "modules/depth_of_field/lens/lens.h"
 #include "sandbox/bench/harness/measure.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/loading/scene_loading.h"
 
 namespace gloam {
 namespace {

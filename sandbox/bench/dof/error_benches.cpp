@@ -15,7 +15,7 @@
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
-#include "sandbox/session/session_costs.h"
+#include "sandbox/session/drawing/session_costs.h"
 
 // Error of depth of field against frames through many points of the lens, by bokeh and resolution of the layers.
 

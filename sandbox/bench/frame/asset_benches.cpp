@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/core/hash.h"
-#include "engine/scene/mesh_builder.h"
+#include "engine/scene/assets/mesh_builder.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
 #include "modules/module_list/module_list.h"

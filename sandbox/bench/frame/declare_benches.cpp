@@ -10,7 +10,7 @@
 #include "engine/core/hash.h"
 #include "engine/core/log.h"
 #include "engine/frame/frame_graph.h"
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/pass_frames.h"
 #include "sandbox/bench/harness/benches.h"

@@ -13,7 +13,7 @@
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
-#include "sandbox/session/frame_run.h"
+#include "sandbox/session/drawing/frame_run.h"
 
 // Time from frame to frame with one and with two frames in flight, in runs of the same animated frames that alternate.
 

@@ -10,7 +10,7 @@
 #include "modules/grass/components.h"
 #include "modules/grass/simulation/steps.h"
 #include "sandbox/bench/harness/measure.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/loading/scene_loading.h"
 
 namespace gloam {
 namespace {}  // namespace

@@ -16,7 +16,7 @@
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
-#include "sandbox/scenes/scene_builder.h"
+#include "sandbox/scenes/construction/scene_builder.h"
 
 // Cost of a field ten times as large in which the same blades are live: builtin:meadow against the meadow with nine
 // more fields in view, beyond the greatest distance of its blades.

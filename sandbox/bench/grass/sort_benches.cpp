@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/core/hash.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/render/declare/pass_frames.h"
 #include "engine/render/sort/radix_sort.h"
 #include "sandbox/bench/harness/benches.h"

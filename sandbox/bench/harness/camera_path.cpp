@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/scene/components.h"
-#include "sandbox/scenes/scene_builder.h"
+#include "sandbox/scenes/construction/scene_builder.h"
 
 namespace gloam {
 namespace {

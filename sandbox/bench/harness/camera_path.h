@@ -8,7 +8,7 @@
 
 #include "engine/ecs/world.h"
 #include "engine/math/types.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 
 namespace gloam {
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "sandbox/session/captures.h"
+#include "sandbox/session/baking/captures.h"
 
 namespace gloam {
 

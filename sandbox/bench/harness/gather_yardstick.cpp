@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/hash.h"
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "engine/render/declare/draw_pass.h"
 #include "engine/render/readback/capture.h"
 #include "shaders/sandbox/shaders.h"

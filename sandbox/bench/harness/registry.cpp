@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core/assert.h"
-#include "engine/core/nearest_name.h"
+#include "engine/core/text/nearest_name.h"
 #include "sandbox/bench/harness/benches.h"
 
 namespace gloam {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sandbox/bench/harness/registry.h"
-#include "sandbox/session/stats.h"
+#include "sandbox/session/results/stats.h"
 
 namespace gloam {
 

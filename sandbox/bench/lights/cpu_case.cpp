@@ -12,7 +12,7 @@
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
 #include "engine/render/view.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/lights/module.h"
 #include "modules/lights/selection/light_list.h"
 

@@ -17,7 +17,7 @@
 #include "sandbox/bench/harness/frame_times.h"
 #include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
-#include "sandbox/scenes/many_lights.h"
+#include "sandbox/scenes/lamps/many_lights.h"
 
 namespace gloam {
 namespace {

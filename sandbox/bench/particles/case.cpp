@@ -10,7 +10,7 @@
 #include "engine/scene/components.h"
 #include "modules/particles/components.h"
 #include "sandbox/bench/harness/measure.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/loading/scene_loading.h"
 
 namespace gloam {
 namespace {

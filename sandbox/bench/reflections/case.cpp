@@ -11,8 +11,8 @@
 #include "engine/core/hash.h"
 #include "sandbox/bench/harness/camera_path.h"
 #include "sandbox/bench/shadows/phases.h"
-#include "sandbox/scenes/scene_builder.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/scenes/construction/scene_builder.h"
+#include "sandbox/session/loading/scene_loading.h"
 
 namespace gloam {
 namespace {

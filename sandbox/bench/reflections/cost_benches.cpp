@@ -20,8 +20,8 @@
 #include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
 #include "sandbox/bench/reflections/case.h"
-#include "sandbox/scenes/scene_builder.h"
-#include "sandbox/scenes/shapes.h"
+#include "sandbox/scenes/construction/scene_builder.h"
+#include "sandbox/scenes/construction/shapes.h"
 
 // Cost of the whole reflection chain: against the gather pass, and against drawing the mirrored scene.
 

@@ -21,7 +21,7 @@
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/reflections/case.h"
-#include "sandbox/session/session_costs.h"
+#include "sandbox/session/drawing/session_costs.h"
 
 // Error of each set of reflection tiers against traced reflections, by camera.
 

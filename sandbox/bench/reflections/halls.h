@@ -7,7 +7,7 @@
 
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/session/session.h"
 

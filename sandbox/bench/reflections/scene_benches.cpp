@@ -26,9 +26,9 @@
 #include "sandbox/bench/harness/once.h"
 #include "sandbox/bench/reflections/case.h"
 #include "sandbox/bench/reflections/halls.h"
-#include "sandbox/session/captures.h"
-#include "sandbox/session/loaded_scene.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/baking/captures.h"
+#include "sandbox/session/loading/loaded_scene.h"
+#include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/surface_distances.h"
 
 // Data for reflections that the CPU makes from a scene: fitted proxies, compared with those of the scene's author;

@@ -17,7 +17,7 @@
 #include "sandbox/bench/reflections/case.h"
 #include "sandbox/bench/reflections/halls.h"
 #include "sandbox/bench/shadows/case.h"
-#include "sandbox/session/summary.h"
+#include "sandbox/session/results/summary.h"
 
 // The proxy pass with proxy tiles against the loop over all proxies, by number of tiles, and by view.
 

@@ -15,7 +15,7 @@
 #include "sandbox/bench/shadows/case.h"
 #include "sandbox/bench/shadows/phases.h"
 #include "sandbox/bench/shadows/variant.h"
-#include "sandbox/scenes/shadow_grid.h"
+#include "sandbox/scenes/lamps/shadow_grid.h"
 
 namespace gloam {
 namespace {

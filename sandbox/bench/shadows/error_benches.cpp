@@ -16,7 +16,7 @@
 #include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/shadows/case.h"
 #include "sandbox/scenes/builtin.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/loading/scene_loading.h"
 
 namespace gloam {
 namespace {

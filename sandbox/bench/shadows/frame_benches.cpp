@@ -16,7 +16,7 @@
 #include "sandbox/bench/harness/once.h"
 #include "sandbox/bench/shadows/case.h"
 #include "sandbox/bench/shadows/phases.h"
-#include "sandbox/scenes/shadow_grid.h"
+#include "sandbox/scenes/lamps/shadow_grid.h"
 
 namespace gloam {
 namespace {

@@ -20,7 +20,7 @@
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
 #include "sandbox/bench/harness/once.h"
-#include "sandbox/scenes/penumbra.h"
+#include "sandbox/scenes/lamps/penumbra.h"
 
 // Drawn width of the penumbra of a disc light and a straight edge against the analytic width: by height of the edge,
 // resolution of the map and field of view of the light.

@@ -12,7 +12,7 @@
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
 #include "engine/scene/components.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/scene/systems.h"
 #include "engine/schedule/schedule.h"
 #include "modules/module_list/module_list.h"

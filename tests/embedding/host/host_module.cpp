@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/renderer.h"
-#include "engine/scene/key_registry.h"
+#include "engine/scene/keys/registry.h"
 #include "little_world.h"
 #include "modules/module_list/module_list.h"
 #include "veil_module.h"

@@ -12,7 +12,7 @@
 #include "engine/render/declare/draw_pass.h"
 #include "engine/render/knobs/knob_table.h"
 #include "engine/render/passes/visualizer_pass.h"
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 #include "engine/scene/resources.h"
 #include "engine/schedule/schedule.h"
 #include "shaders/veil/shaders.h"

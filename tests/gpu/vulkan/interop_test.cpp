@@ -9,7 +9,7 @@
 
 #include "engine/gpu/access.h"
 #include "engine/gpu/vulkan/device.h"
-#include "engine/gpu/vulkan/features.h"
+#include "engine/gpu/vulkan/startup/features.h"
 #include "shaders/gpu_test/shaders.h"
 #include "tests/gpu/vulkan/device_fixture.h"
 #include "tests/support/expect_assert.h"

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "engine/scene/image_file.h"
+#include "engine/scene/decoding/image_file.h"
 #include "modules/accuracy/metrics/flip_color.h"
 #include "modules/accuracy/metrics/statistics.h"
 #include "tests/modules/accuracy/test_pictures.h"

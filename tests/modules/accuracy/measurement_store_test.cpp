@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "engine/core/sealed_file.h"
+#include "engine/core/storage/sealed_file.h"
 #include "modules/accuracy/ledger/reference_cache.h"
 #include "tests/modules/accuracy/ledger_rows.h"
 #include "tests/support/temporary_folder.h"

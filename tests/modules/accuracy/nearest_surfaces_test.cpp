@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "engine/math/srgb.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/accuracy/module.h"
 #include "tests/support/render_scene.h"
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <random>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/accuracy/module.h"
 #include "modules/accuracy/tracing/scene_triangles.h"
 #include "tests/support/render_scene.h"

@@ -16,7 +16,7 @@
 #include "modules/closeups/components.h"
 #include "modules/closeups/pairs/views.h"
 #include "modules/shadows/atlas/view_faces.h"
-#include "tests/modules/shadows/support/deferred_scene.h"
+#include "tests/modules/shadows/support/final_lists/deferred_scene.h"
 
 namespace gloam::test {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/assets.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/closeups/components.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/grass/components.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/scene/key_table.h"
+#include "engine/scene/keys/table.h"
 
 #include <gmock/gmock.h>
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/scene/assets.h"
-#include "engine/scene/gltf_import.h"
-#include "engine/scene/key_table.h"
+#include "engine/scene/gltf/import.h"
+#include "engine/scene/keys/table.h"
 #include "modules/lights/components.h"
 #include "modules/module_list/module_list.h"
 #include "tests/support/gltf_files.h"

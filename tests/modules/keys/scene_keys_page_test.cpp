@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/core/env.h"
-#include "engine/scene/key_registry.h"
+#include "engine/scene/keys/registry.h"
 #include "modules/module_list/module_list.h"
 
 // The table in docs/scene-keys.md must match the registry, line by line.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/math/srgb.h"
-#include "modules/lighting/exposure.h"
-#include "modules/lighting/tone_reference.h"
+#include "modules/lighting/display/exposure.h"
+#include "modules/lighting/display/tone_reference.h"
 #include "tests/modules/lighting/lit_scene.h"
 
 namespace gloam {

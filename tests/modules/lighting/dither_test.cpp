@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "modules/lighting/tone_reference.h"
+#include "modules/lighting/display/tone_reference.h"
 
 namespace gloam {
 namespace {

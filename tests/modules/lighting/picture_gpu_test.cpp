@@ -7,8 +7,8 @@
 
 #include "engine/math/srgb.h"
 #include "engine/render/readback/capture.h"
-#include "modules/lighting/exposure.h"
-#include "modules/lighting/tone_reference.h"
+#include "modules/lighting/display/exposure.h"
+#include "modules/lighting/display/tone_reference.h"
 #include "tests/modules/lighting/lit_scene.h"
 
 namespace gloam {

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "engine/scene/components.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/schedule/schedule.h"
 #include "modules/lights/light_set.h"
 #include "modules/lights/module.h"

@@ -6,10 +6,10 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/ecs/view.h"
-#include "engine/scene/animation.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
+#include "engine/scene/posing/animation.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/components.h"
 #include "modules/reflections/fitting/scene_surfaces.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/components.h"

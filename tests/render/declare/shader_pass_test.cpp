@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
 #include "engine/render/renderer.h"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/renderer.h"
 #include "tests/support/expect_assert.h"

@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/draws/draw_lists.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "tests/render/draws/one_view.h"
 #include "tests/render/draws/small_scene.h"
 #include "tests/render/draws/visible_points.h"

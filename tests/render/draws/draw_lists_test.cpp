@@ -14,9 +14,9 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
-#include "engine/scene/animation.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/gpu/recording/device.h"
+#include "engine/scene/gltf/import.h"
+#include "engine/scene/posing/animation.h"
 #include "tests/jobs/executors.h"
 #include "tests/render/draws/one_view.h"
 #include "tests/render/draws/visible_points.h"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/renderer.h"
 #include "modules/module_list/module_list.h"
 #include "tests/render/draws/small_scene.h"

@@ -3,7 +3,7 @@
 //
 // Frame graphs as a careless module declares them: each kind of misuse, and the sentence that names it.
 #include "engine/frame/frame_graph.h"
-#include "engine/frame/readback.h"
+#include "engine/frame/transfers/readback.h"
 #include "tests/render/misuse/careless_host.h"
 
 namespace gloam {

@@ -8,7 +8,7 @@
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/knobs/knob_table.h"
-#include "engine/scene/key_registry.h"
+#include "engine/scene/keys/registry.h"
 #include "shaders/render/shaders.h"
 #include "tests/render/misuse/careless_host.h"
 

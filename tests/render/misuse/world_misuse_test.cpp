@@ -4,7 +4,7 @@
 // Worlds as a careless host fills them: each kind of misuse, and the sentence that names it.
 #include <limits>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "tests/render/misuse/careless_host.h"
 
 namespace gloam {

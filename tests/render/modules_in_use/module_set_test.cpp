@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/modules_in_use/knobs_in_use.h"
 #include "engine/render/worlds/world_slots.h"
 

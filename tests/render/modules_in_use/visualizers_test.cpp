@@ -8,7 +8,7 @@
 #include <memory>
 #include <string_view>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/scene/gpu_scene.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "tests/jobs/executors.h"
 #include "tests/render/draws/small_scene.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/renderer.h"
 #include "shaders/render/shaders.h"
 #include "tests/support/render_scene.h"

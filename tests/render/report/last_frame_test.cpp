@@ -7,7 +7,7 @@
 
 #include <memory>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "tests/render/counting_module.h"
 
 namespace gloam {

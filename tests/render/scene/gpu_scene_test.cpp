@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "engine/ecs/world.h"
-#include "engine/gpu/recording_device.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/gpu/recording/device.h"
+#include "engine/scene/gltf/import.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/render_scene.h"
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "engine/render/frame_resources.h"
 #include "engine/render/views/read_picture.h"
 #include "engine/render/views/view_checks.h"

@@ -9,8 +9,8 @@
 #include <optional>
 #include <set>
 
-#include "engine/gpu/recording_device.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/gpu/recording/device.h"
+#include "engine/scene/gltf/import.h"
 #include "tests/support/expect_assert.h"
 
 namespace gloam {

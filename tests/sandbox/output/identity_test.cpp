@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/scene/assets.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "sandbox/output/file_io.h"
 
 namespace gloam {

@@ -14,8 +14,8 @@
 #include "modules/lights/components.h"
 #include "modules/module_list/module_list.h"
 #include "sandbox/scenes/builtin.h"
-#include "sandbox/scenes/many_lights.h"
-#include "sandbox/scenes/scene_builder.h"
+#include "sandbox/scenes/construction/scene_builder.h"
+#include "sandbox/scenes/lamps/many_lights.h"
 
 namespace gloam {
 namespace {

@@ -15,7 +15,7 @@
 #include "modules/particles/emitters/placed.h"
 #include "modules/particles/emitters/visible.h"
 #include "modules/reflections/components.h"
-#include "sandbox/session/scene_loading.h"
+#include "sandbox/session/loading/scene_loading.h"
 
 namespace gloam {
 namespace {

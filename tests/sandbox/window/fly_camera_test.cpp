@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 
 namespace gloam {
 namespace {

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/gpu/recording_device.h"
+#include "engine/gpu/recording/device.h"
 #include "tests/sandbox/window/small_knobs.h"
 
 namespace gloam {

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "engine/scene/asset_check.h"
+#include "engine/scene/assets/check.h"
 #include "tests/support/gltf_files.h"
 
 namespace gloam {

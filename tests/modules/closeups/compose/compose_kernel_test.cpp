@@ -20,7 +20,7 @@
 #include "shaders/lights/lights_shared.h"
 #include "shaders/shadows/final_lists_shared.h"
 #include "tests/modules/shadows/rig.h"
-#include "tests/modules/shadows/support/final_lists_kernels.h"
+#include "tests/modules/shadows/support/final_lists/kernels.h"
 #include "tests/modules/shadows/support/maps.h"
 
 // Runs compose_local.comp and compose_suns.comp on a wall with synthetic lists, and compares with a model in double.

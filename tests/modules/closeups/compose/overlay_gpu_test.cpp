@@ -13,7 +13,7 @@
 
 #include "modules/closeups/components.h"
 #include "modules/closeups/compose/frame.h"
-#include "tests/modules/shadows/support/deferred_scene.h"
+#include "tests/modules/shadows/support/final_lists/deferred_scene.h"
 #include "tests/modules/shadows/support/held_faces.h"
 
 // Close-up subjects as forward-lit surfaces see them: the overlay.

@@ -14,7 +14,7 @@
 #include "modules/closeups/components.h"
 #include "modules/closeups/debug/visualizers.h"
 #include "modules/shadows/views/faces.h"
-#include "tests/modules/shadows/support/deferred_scene.h"
+#include "tests/modules/shadows/support/final_lists/deferred_scene.h"
 
 // Close-up visualizers and pixel picking, checked against projections computed from the camera's lens.
 

@@ -9,7 +9,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <limits>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/schedule/schedule.h"
 #include "modules/grass/module.h"
 #include "tests/jobs/executors.h"

@@ -11,7 +11,7 @@
 #include "engine/ecs/world.h"
 #include "engine/render/reference/scene_tracer.h"
 #include "engine/scene/components.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
 #include "modules/particles/bake.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/math/packing.h"
-#include "engine/scene/animation.h"
+#include "engine/scene/posing/animation.h"
 #include "engine/schedule/schedule.h"
 #include "modules/particles/bake/grid.h"
 #include "modules/particles/bake/texels.h"

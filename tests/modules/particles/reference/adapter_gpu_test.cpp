@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/animation.h"
+#include "engine/scene/posing/animation.h"
 #include "modules/particles/emitters/strongest_lights.h"
 #include "tests/modules/particles/bake/bake_scene.h"
 #include "tests/modules/particles/support/particle_stage.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/ecs/world.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
 #include "modules/reflections/captures.h"

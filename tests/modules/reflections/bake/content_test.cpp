@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "engine/scene/animation.h"
+#include "engine/scene/posing/animation.h"
 #include "tests/modules/reflections/bake/bake_world.h"
 #include "tests/modules/reflections/bake/small_png.h"
 #include "tests/support/temporary_folder.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/reflections/planar/mirror.h"
 #include "tests/support/render_scene.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/jobs/executor.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/accuracy/module.h"
 #include "modules/lights/components.h"
 #include "modules/reflections/reference/reflection_tracing.h"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"
 #include "tests/support/render_scene.h"

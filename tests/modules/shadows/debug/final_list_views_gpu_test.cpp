@@ -9,7 +9,7 @@
 #include <set>
 
 #include "engine/ecs/view.h"
-#include "tests/modules/shadows/support/final_list_scene.h"
+#include "tests/modules/shadows/support/final_lists/scene.h"
 
 namespace gloam {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "tests/modules/shadows/support/final_list_scene.h"
+#include "tests/modules/shadows/support/final_lists/scene.h"
 
 namespace gloam {
 namespace {

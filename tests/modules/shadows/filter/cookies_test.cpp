@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "engine/scene/resources.h"
 #include "modules/shadows/components.h"
 #include "tests/support/gltf_files.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "tests/modules/shadows/support/final_lists_classify.h"
+#include "tests/modules/shadows/support/final_lists/classify.h"
 
 // Classification may leave a tile and a light unknown, but any verdict must be what the filter finds for every pixel.
 

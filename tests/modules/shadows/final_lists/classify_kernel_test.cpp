@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/modules/shadows/support/classify_kernels.h"
+#include "tests/modules/shadows/support/final_lists/classify_kernels.h"
 #include "tests/support/scale.h"
 
 // The shaders of classify.glsl on synthetic tiles and maps. Their verdicts are compared with a brute-force search of

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "tests/modules/shadows/support/final_lists_classify.h"
+#include "tests/modules/shadows/support/final_lists/classify.h"
 
 // Classification where casters are close to receivers, to borders of maps and to borders of light.
 

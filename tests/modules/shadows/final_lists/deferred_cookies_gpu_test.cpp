@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "modules/fog/components.h"
-#include "tests/modules/shadows/support/deferred_scene.h"
+#include "tests/modules/shadows/support/final_lists/deferred_scene.h"
 
 // shadows.mode=deferred draws the same picture as monolithic: with cookies, which need their own pipelines.
 

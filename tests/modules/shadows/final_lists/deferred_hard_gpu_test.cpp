@@ -6,7 +6,7 @@
 
 #include "modules/shadows/atlas/mip_places.h"
 #include "modules/shadows/atlas/view_faces.h"
-#include "tests/modules/shadows/support/deferred_scene.h"
+#include "tests/modules/shadows/support/final_lists/deferred_scene.h"
 
 // Difficult lights, cameras and positions: deferred gives the same picture as monolithic, without NaN or infinity.
 

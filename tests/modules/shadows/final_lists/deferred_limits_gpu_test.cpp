@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "tests/modules/shadows/support/deferred_scene.h"
+#include "tests/modules/shadows/support/final_lists/deferred_scene.h"
 
 // shadows.mode=deferred draws the same picture as monolithic, however small the buffers are.
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "tests/modules/shadows/support/deferred_scene.h"
+#include "tests/modules/shadows/support/final_lists/deferred_scene.h"
 #include "tests/render/draws/small_scene.h"
 
 // A camera on a closed curve through a scene of moving casters and lights: each frame is compared with monolithic.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "tests/modules/shadows/support/final_lists_classify.h"
+#include "tests/modules/shadows/support/final_lists/classify.h"
 
 // Classification with filters other than the standard one, each of which needs its own pipelines.
 

@@ -18,7 +18,7 @@
 #include "shaders/shadows/final_lists_shared.h"
 #include "shaders/shadows/shaders.h"
 #include "tests/modules/shadows/rig.h"
-#include "tests/modules/shadows/support/final_lists_kernels.h"
+#include "tests/modules/shadows/support/final_lists/kernels.h"
 #include "tests/modules/shadows/support/maps.h"
 
 // The shaders of generate.glsl on a synthetic picture, compared with visibilities that probe.comp finds at each pixel's

@@ -7,7 +7,7 @@
 
 #include "shaders/shadows/final_lists_shared.h"
 #include "shaders/shadows/shaders.h"
-#include "tests/modules/shadows/support/final_lists_kernels.h"
+#include "tests/modules/shadows/support/final_lists/kernels.h"
 #include "tests/support/kernel.h"
 #include "tests/support/scale.h"
 

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/accuracy/module.h"
 #include "modules/shadows/reference/adapter.h"
 #include "modules/shadows/reference/statistics.h"

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <map>
 
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "modules/shadows/views/cascade_rows.h"
 #include "shaders/shadows/maps/mips_shared.h"
 #include "shaders/shadows/shaders.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/frame/upload.h"
+#include "engine/frame/transfers/upload.h"
 #include "modules/shadows/atlas/mip_places.h"
 #include "shaders/shadows/shaders.h"
 #include "tests/support/gpu_device.h"

@@ -9,7 +9,7 @@
 #include "engine/jobs/executor.h"
 #include "engine/math/packing.h"
 #include "engine/render/readback/geometry_picture.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/accuracy/module.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"

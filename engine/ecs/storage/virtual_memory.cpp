@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/ecs/storage/virtual_memory.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <new>
+
+// POSIX: mmap, mprotect and munmap. Their equivalents on Windows are VirtualAlloc with MEM_RESERVE, VirtualAlloc with
+// MEM_COMMIT, and VirtualFree.
+
+namespace gloam {
+
+std::size_t ReservedMemory::page_size() {
+  static const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return size;
+}
+
+ReservedMemory::ReservedMemory(std::size_t bytes) : bytes_(round_up(bytes, page_size())) {
+  const std::size_t slack = bytes_ >= kLargePage ? kLargePage : 0;
+  void* address = mmap(nullptr, bytes_ + slack, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (address == MAP_FAILED) throw std::bad_alloc();
+  data_ = static_cast<std::byte*>(address);
+  if (slack > 0) {
+    const auto begin = reinterpret_cast<std::uintptr_t>(address);
+    const std::size_t before = round_up(begin, kLargePage) - begin;
+    if (before > 0) munmap(data_, before);
+    data_ += before;
+    if (before < slack) munmap(data_ + bytes_, slack - before);
+  }
+#ifdef MADV_HUGEPAGE
+  // Advice only; it has no effect where less than a large page is committed.
+  madvise(data_, bytes_, MADV_HUGEPAGE);
+#endif
+}
+
+ReservedMemory::~ReservedMemory() {
+  if (data_ != nullptr) munmap(data_, bytes_);
+}
+
+void ReservedMemory::commit(std::size_t begin, std::size_t end) {
+  GLOAM_ASSERT(begin <= end && end <= bytes_, "pages are committed within their reservation");
+  GLOAM_ASSERT(begin % page_size() == 0 && end % page_size() == 0, "memory is committed by whole pages");
+  if (begin == end) return;
+  if (mprotect(data_ + begin, end - begin, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
+}
+
+void ReservedMemory::extend(Stretch& stretch, std::size_t end) {
+  if (end <= stretch.committed) return;
+  const std::size_t large = stretch.begin + kLargePage;
+  const bool by_large_pages = end - stretch.begin >= kLargePage / 2 && large <= stretch.limit;
+  const std::size_t old_end = stretch.committed;
+  const std::size_t new_end =
+      std::min(stretch.begin + round_up(end - stretch.begin, by_large_pages ? kLargePage : page_size()), stretch.limit);
+  commit(old_end, new_end);
+  stretch.committed = new_end;
+#ifdef MADV_COLLAPSE
+  // Bytes after the first large page get large pages on their first touch. The first one was touched page by page.
+  if (old_end < large && large <= new_end) madvise(data_ + stretch.begin, kLargePage, MADV_COLLAPSE);
+#endif
+}
+
+std::byte* PackedMemory::take(std::size_t bytes) {
+  constexpr std::size_t kAlignment = 64;
+  constexpr std::size_t kStep = std::size_t{64} << 10;
+  constexpr std::size_t kBlock = std::size_t{64} << 20;
+  bytes = round_up(bytes, kAlignment);
+  if (blocks_.empty() || bytes > blocks_.back().memory.size() - used_) {
+    ReservedMemory memory(std::max(kBlock, bytes));
+    const std::size_t size = memory.size();
+    blocks_.push_back({std::move(memory), {.limit = size}});
+    used_ = 0;
+  }
+  Block& block = blocks_.back();
+  std::byte* const piece = block.memory.data() + used_;
+  used_ += bytes;
+  block.memory.extend(block.stretch, std::min(round_up(used_, kStep), block.memory.size()));
+  return piece;
+}
+
+}  // namespace gloam

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/compile/pipeline_cache.h"
+
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "engine/core/hash.h"
+#include "engine/gpu/vulkan/errors.h"
+
+namespace gloam::gpu::vulkan {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Precedes the driver's data in the file. Drivers may crash on damaged data, so only data with a correct hash reaches
+/// them.
+struct FileHeader {
+  std::uint64_t magic = 0x3163656e69706c67ull;
+  std::uint64_t bytes = 0;
+  std::uint64_t hash = 0;
+};
+
+std::string hex(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const std::uint8_t b : bytes) {
+    text += kDigits[b >> 4];
+    text += kDigits[b & 15];
+  }
+  return text;
+}
+
+std::vector<std::byte> read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<char> chars{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const auto bytes = std::as_bytes(std::span(chars));
+  return {bytes.begin(), bytes.end()};
+}
+
+bool of_this_driver(const PhysicalDevice& device, std::span<const std::byte> data) {
+  VkPipelineCacheHeaderVersionOne header;
+  if (data.size() < sizeof header) return false;
+  std::memcpy(&header, data.data(), sizeof header);
+  return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == device.vendor &&
+         header.deviceID == device.device &&
+         std::memcmp(header.pipelineCacheUUID, device.cache_uuid.data(), device.cache_uuid.size()) == 0;
+}
+
+/// The driver's data, or an empty span if the file is damaged or of another driver.
+std::span<const std::byte> checked(const PhysicalDevice& device, std::span<const std::byte> file) {
+  FileHeader header;
+  if (file.size() < sizeof header) return {};
+  std::memcpy(&header, file.data(), sizeof header);
+  const auto data = file.subspan(sizeof header);
+  const bool whole =
+      header.magic == FileHeader().magic && header.bytes == data.size() && header.hash == hash_bytes(data);
+  return whole && of_this_driver(device, data) ? data : std::span<const std::byte>();
+}
+
+}  // namespace
+
+PipelineCache::PipelineCache(Context& context, const std::string& directory) : context_(context) {
+  std::vector<std::byte> file;
+  std::span<const std::byte> data;
+  if (!directory.empty()) {
+    file_ = fs::path(directory) / ("pipelines-" + hex(context.physical.cache_uuid) + ".bin");
+    std::error_code absent;
+    if (fs::exists(file_, absent)) {
+      file = read_file(file_);
+      data = checked(context.physical, file);
+      if (data.empty())
+        context.log().info("Pipeline cache " + file_.string() + " is damaged or foreign; starting anew");
+    }
+  }
+  VkPipelineCacheCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+                                    .initialDataSize = data.size(),
+                                    .pInitialData = data.data()};
+  VkResult result = context.vk.vkCreatePipelineCache(context.device, &info, nullptr, &cache_);
+  if (result != VK_SUCCESS) {
+    cache_ = VK_NULL_HANDLE;
+    context.log().warning("No pipeline cache: " + describe(result));
+  }
+}
+
+PipelineCache::~PipelineCache() {
+  if (cache_ == VK_NULL_HANDLE) return;
+  if (!file_.empty()) save();
+  context_.vk.vkDestroyPipelineCache(context_.device, cache_, nullptr);
+}
+
+void PipelineCache::save() const {
+  std::size_t size = 0;
+  context_.vk.vkGetPipelineCacheData(context_.device, cache_, &size, nullptr);
+  std::vector<char> data(size);
+  if (context_.vk.vkGetPipelineCacheData(context_.device, cache_, &size, data.data()) != VK_SUCCESS) return;
+  data.resize(size);
+
+  FileHeader header;
+  header.bytes = size;
+  header.hash = hash_bytes(std::as_bytes(std::span(data)));
+  // Written to a temporary file and renamed, so that another process never reads a partial file.
+  const auto unique = Hasher()
+                          .value(std::chrono::steady_clock::now().time_since_epoch().count())
+                          .value(reinterpret_cast<std::uintptr_t>(this))
+                          .digest();
+  const fs::path temporary = fs::path(file_).concat("." + std::to_string(unique));
+  std::error_code error;
+  fs::create_directories(file_.parent_path(), error);
+  bool written = false;
+  {
+    std::ofstream file(temporary, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(&header), sizeof header);
+    file.write(data.data(), static_cast<std::streamsize>(data.size()));
+    written = static_cast<bool>(file.flush());
+  }
+  if (written) fs::rename(temporary, file_, error);
+  if (written && !error) return;
+  context_.log().warning("The pipeline cache could not be written to " + file_.string());
+  fs::remove(temporary, error);
+}
+
+}  // namespace gloam::gpu::vulkan

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/vulkan/startup/physical_device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "engine/gpu/vulkan/errors.h"
+
+namespace gloam::gpu::vulkan {
+namespace {
+
+constexpr VkQueueFlags kQueueNeeds = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+
+struct Candidate {
+  PhysicalDevice device;
+  std::string lacks;  ///< missing requirements; empty: the device can be used
+};
+
+DeviceType type_of(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return DeviceType::discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return DeviceType::integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return DeviceType::cpu;
+    default:
+      return DeviceType::other;
+  }
+}
+
+/// Smaller is better: discrete, integrated, other (virtual machines), cpu.
+int rank_of(DeviceType type) {
+  switch (type) {
+    case DeviceType::discrete:
+      return 0;
+    case DeviceType::integrated:
+      return 1;
+    case DeviceType::other:
+      return 2;
+    case DeviceType::cpu:
+      break;
+  }
+  return 3;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+void add(std::string& list, std::string_view item) {
+  if (!list.empty()) list += ", ";
+  list += item;
+}
+
+bool has_extension(const InstanceFunctions& f, VkPhysicalDevice device, const char* name) {
+  std::uint32_t count = 0;
+  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+// Shaders of up to 39 branches compile in 0.1 s. Those of shadow filters have 94 to 170, and their compilation does not
+// end in minutes and 16 GiB.
+constexpr std::uint32_t kSwiftShaderSelections = 60;
+constexpr std::uint32_t kLlvmpipeLanes[] = {4, 8};  ///< vectors that llvmpipe tests depth with
+
+void read_properties(const InstanceFunctions& f, PhysicalDevice& device) {
+  VkPhysicalDevicePushDescriptorPropertiesKHR push = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR};
+  device.push_descriptors = has_extension(f, device.handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+  VkPhysicalDeviceVulkan11Properties v11 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
+                                            .pNext = device.push_descriptors ? &push : nullptr};
+  VkPhysicalDeviceVulkan12Properties v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,
+                                            .pNext = &v11};
+  VkPhysicalDeviceVulkan13Properties v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES,
+                                            .pNext = &v12};
+  VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &v13};
+  f.vkGetPhysicalDeviceProperties2(device.handle, &properties);
+  const VkPhysicalDeviceProperties& core = properties.properties;
+  device.limits = core.limits;
+  device.vendor = core.vendorID;
+  device.device = core.deviceID;
+  std::copy(std::begin(core.pipelineCacheUUID), std::end(core.pipelineCacheUUID), device.cache_uuid.begin());
+  device.max_buffer_size = v13.maxBufferSize;
+  device.max_allocation_size = v11.maxMemoryAllocationSize;
+  device.max_push_descriptors = push.maxPushDescriptors;
+  device.info.name = core.deviceName;
+  device.info.driver = std::string(v12.driverName) + " " + v12.driverInfo;
+  device.info.subgroup_size = v11.subgroupSize;
+  device.info.threads_in_turn = device.info.type == DeviceType::cpu;
+  device.crashes_at_depth_tests =
+      v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE &&
+      std::find(std::begin(kLlvmpipeLanes), std::end(kLlvmpipeLanes), v11.subgroupSize) == std::end(kLlvmpipeLanes);
+  if (v12.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER) device.max_selections = kSwiftShaderSelections;
+  device.info.max_storage_range = core.limits.maxStorageBufferRange;
+  f.vkGetPhysicalDeviceMemoryProperties(device.handle, &device.memory);
+  f.vkGetPhysicalDeviceFeatures2(device.handle, device.features.chain());
+}
+
+std::vector<VkQueueFamilyProperties> queue_families(const InstanceFunctions& f, VkPhysicalDevice device) {
+  std::uint32_t count = 0;
+  f.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  f.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  return families;
+}
+
+bool can_draw(std::span<const VkQueueFamilyProperties> families, std::uint32_t index) {
+  return index < families.size() && (families[index].queueFlags & kQueueNeeds) == kQueueNeeds;
+}
+
+/// Whether the family supports graphics and compute. If so, stores its index and timestamp bits in `device`.
+bool take_queue_family(PhysicalDevice& device, std::span<const VkQueueFamilyProperties> families, std::uint32_t index) {
+  if (!can_draw(families, index)) return false;
+  device.queue_family = index;
+  device.timestamp_bits = families[index].timestampValidBits;
+  return true;
+}
+
+bool presents_to(const InstanceFunctions& f, VkPhysicalDevice device, std::uint32_t family, VkSurfaceKHR surface) {
+  VkBool32 supported = VK_FALSE;
+  const VkResult result = f.vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &supported);
+  return result == VK_SUCCESS && supported == VK_TRUE;
+}
+
+/// Takes the first queue family for graphics and compute that presents to the window, if there is one. Returns what
+/// the device lacks, or nothing.
+std::string_view find_queue_family(const InstanceFunctions& f, PhysicalDevice& device, const WindowNeeds& window) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(f, device.handle);
+  bool draws = false;
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    if (!can_draw(families, i)) continue;
+    draws = true;
+    if (window.surface != VK_NULL_HANDLE && !presents_to(f, device.handle, i, window.surface)) continue;
+    static_cast<void>(take_queue_family(device, families, i));
+    return {};
+  }
+  return draws ? "a queue that can present to this window" : "a queue for graphics and compute";
+}
+
+constexpr std::uint32_t kLeastUniformRange = 65536;
+constexpr std::uint32_t kLeastPushConstants = 128;
+constexpr std::uint32_t kLeastColorTargets = 5;  // of the geometry buffer with motion; Vulkan guarantees 4
+
+Candidate examine(const Instance& instance, VkPhysicalDevice handle, const WindowNeeds& window) {
+  const InstanceFunctions& f = instance.functions();
+  Candidate candidate;
+  PhysicalDevice& device = candidate.device;
+  device.handle = handle;
+  VkPhysicalDeviceProperties properties;
+  f.vkGetPhysicalDeviceProperties(handle, &properties);
+  device.info.name = properties.deviceName;
+  device.info.type = type_of(properties.deviceType);
+  if (properties.apiVersion < VK_API_VERSION_1_3) {
+    candidate.lacks = "Vulkan 1.3";
+    return candidate;
+  }
+  read_properties(f, device);
+  candidate.lacks = missing_features(device.features);
+  // Uniform blocks of lights are larger than the 16 KiB that Vulkan guarantees; every desktop device has 64 KiB or
+  // more.
+  if (device.limits.maxUniformBufferRange < kLeastUniformRange) add(candidate.lacks, "uniform buffers of 64 KiB");
+  if (device.limits.maxPushConstantsSize < kLeastPushConstants) add(candidate.lacks, "128 bytes of push constants");
+  if (std::min(device.limits.maxColorAttachments, device.limits.maxFragmentOutputAttachments) < kLeastColorTargets)
+    add(candidate.lacks, "5 colour targets");
+  device.can_present = window.present && has_extension(f, handle, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (window.present && !device.can_present) add(candidate.lacks, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (const std::string_view queue = find_queue_family(f, device, window); !queue.empty()) add(candidate.lacks, queue);
+  return candidate;
+}
+
+bool fits(const Candidate& candidate, const std::string& wish) {
+  const DeviceInfo& info = candidate.device.info;
+  if (wish.empty() || wish == "auto") return true;
+  if (wish == "cpu") return info.type == DeviceType::cpu;
+  if (wish == "gpu") return info.type != DeviceType::cpu;
+  return lower(info.name).find(wish) != std::string::npos;
+}
+
+Error no_device(std::string_view wish, const std::vector<Candidate>& candidates) {
+  std::string there;
+  for (const Candidate& c : candidates) {
+    std::string item = c.device.info.name + " (" + std::string(name_of(c.device.info.type));
+    if (!c.lacks.empty()) item += "; lacks " + c.lacks;
+    add(there, item + ")");
+  }
+  return {ErrorKind::no_device, "No usable Vulkan device fits \"" + std::string(wish) +
+                                    "\"; there is: " + (there.empty() ? "none at all" : there)};
+}
+
+}  // namespace
+
+Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::string_view wish,
+                                              const WindowNeeds& window) {
+  const InstanceFunctions& f = instance.functions();
+  std::uint32_t count = 0;
+  VkResult result = f.vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr);
+  std::vector<VkPhysicalDevice> handles(count);
+  if (result == VK_SUCCESS) result = f.vkEnumeratePhysicalDevices(instance.handle(), &count, handles.data());
+  if (result != VK_SUCCESS && result != VK_INCOMPLETE) {
+    return Error{ErrorKind::no_device, "The Vulkan devices could not be listed: " + describe(result)};
+  }
+  std::vector<Candidate> candidates;
+  for (VkPhysicalDevice handle : handles) candidates.push_back(examine(instance, handle, window));
+
+  const std::string wanted = lower(wish);
+  const Candidate* best = nullptr;
+  for (const Candidate& c : candidates) {
+    if (!c.lacks.empty() || !fits(c, wanted)) continue;
+    if (best == nullptr || rank_of(c.device.info.type) < rank_of(best->device.info.type)) best = &c;
+  }
+  if (best == nullptr) return no_device(wish, candidates);
+  return best->device;
+}
+
+Result<PhysicalDevice> examine_host_device(const Instance& instance, const HostDevice& host) {
+  Candidate candidate = examine(instance, host.physical_device, {});
+  PhysicalDevice& device = candidate.device;
+  const std::string subject = "The host's device " + device.info.name + " cannot be used: ";
+  if (!candidate.lacks.empty()) return Error{ErrorKind::no_device, subject + "it lacks " + candidate.lacks};
+  if (!take_queue_family(device, queue_families(instance.functions(), device.handle), host.queue_family)) {
+    return Error{ErrorKind::no_device, subject + "its queue family " + std::to_string(host.queue_family) +
+                                           " is not one for graphics and compute"};
+  }
+  const auto enabled = [&](const char* name) {
+    return std::any_of(host.enabled_extensions.begin(), host.enabled_extensions.end(),
+                       [&](const char* extension) { return std::strcmp(extension, name) == 0; });
+  };
+  device.features = host.enabled_features == nullptr ? Features() : features_of_chain(*host.enabled_features);
+  device.can_present = enabled(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  device.push_descriptors = enabled(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+  std::string absent = missing_features(device.features);
+  for (const char* name : required_device_extensions()) {
+    if (!enabled(name)) add(absent, name);
+  }
+  if (!absent.empty()) {
+    return Error{ErrorKind::no_device, subject + "vkCreateDevice must enable " + absent +
+                                           " (see required_device_extensions and fill_required_features)"};
+  }
+  return device;
+}
+
+}  // namespace gloam::gpu::vulkan

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/jobs/pool/crew.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <thread>
+
+namespace gloam {
+namespace {
+
+constexpr std::chrono::microseconds kSpinTime{25};
+constexpr int kPausesBeforeYield = 128;
+
+thread_local std::uint32_t t_depth = 0;  // depth of the innermost region on the thread's stack, across all executors
+
+void pause_core() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#else
+  std::this_thread::yield();
+#endif
+}
+
+/// Raises oneTBB's thread limit for a crew that has more threads than cores. By default oneTBB has one worker fewer
+/// than cores. Limits are process-wide and oneTBB applies the smallest, so the process keeps only one limit: the
+/// largest that any of these crews asks for.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(std::uint32_t threads) : threads_(threads) {
+    if (threads_ <= Crew::core_count()) return;
+    Shared& all = shared();
+    const std::lock_guard lock(all.mutex);
+    all.wishes.insert(threads_);
+    all.grant_largest();
+  }
+  ~ThreadLimit() {
+    if (threads_ <= Crew::core_count()) return;
+    Shared& all = shared();
+    const std::lock_guard lock(all.mutex);
+    all.wishes.erase(all.wishes.find(threads_));
+    all.grant_largest();
+  }
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Shared {
+    void grant_largest() {
+      control.reset();
+      if (!wishes.empty()) control.emplace(tbb::global_control::max_allowed_parallelism, *wishes.rbegin());
+    }
+    std::mutex mutex;
+    std::multiset<std::uint32_t> wishes;
+    std::optional<tbb::global_control> control;
+  };
+  static Shared& shared() {
+    static Shared shared;
+    return shared;
+  }
+  const std::uint32_t threads_;
+};
+
+}  // namespace
+
+Region::Region() : depth_(t_depth + 1) {}
+
+InsideRegion::InsideRegion(const Region& region) : outer_depth_(t_depth) { t_depth = region.depth(); }
+InsideRegion::~InsideRegion() { t_depth = outer_depth_; }
+
+CrewState::CrewState(std::uint32_t threads) : crowded(threads > Crew::core_count()) {}
+
+void CrewState::release() {
+  if (holders.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+}
+
+void CrewState::announce() {
+  // Sequentially consistent, because a sleeper increments `sleepers` and then waits for the epoch to change: either
+  // this thread sees the sleeper, or the sleeper sees the new epoch.
+  epoch.fetch_add(1, std::memory_order_seq_cst);
+  if (sleepers.load(std::memory_order_seq_cst) > 0) epoch.notify_all();
+}
+
+bool CrewState::help_deeper_than(std::uint32_t depth, bool was_idle) {
+  // A thread that has seen the epoch of an offer sees the offered region here.
+  if (first.load(std::memory_order_acquire) == nullptr) return false;
+  Region* region = nullptr;
+  {
+    const std::lock_guard lock(mutex);
+    region = first.load(std::memory_order_relaxed);
+    while (region != nullptr && (region->depth_ <= depth || !region->has_work())) region = region->next_;
+    if (region == nullptr) return false;
+    region->helpers_.fetch_add(1, std::memory_order_relaxed);
+  }
+  if (was_idle) idle.fetch_sub(1, std::memory_order_relaxed);
+  {
+    const InsideRegion inside(*region);
+    region->help();
+  }
+  if (was_idle) idle.fetch_add(1, std::memory_order_relaxed);
+  region->helpers_.fetch_sub(1, std::memory_order_release);  // the region may be destroyed from here on
+  announce();
+  return true;
+}
+
+bool CrewState::spin(std::uint32_t seen) const {
+  for (int i = 0; i < kPausesBeforeYield && !crowded; ++i) {
+    if (epoch.load(std::memory_order_acquire) != seen) return true;
+    pause_core();
+  }
+  const auto deadline = Clock::now() + kSpinTime;
+  while (epoch.load(std::memory_order_acquire) == seen) {
+    std::this_thread::yield();
+    if (Clock::now() >= deadline) return false;
+  }
+  return true;
+}
+
+void CrewState::visit() {
+  while (!closing.load(std::memory_order_relaxed)) {
+    const std::uint32_t seen = epoch.load(std::memory_order_seq_cst);
+    if (help_deeper_than(0, true) || spin(seen)) continue;
+    // An offer that still counted this helper as idle had advanced the epoch before it read `idle`.
+    idle.fetch_sub(1, std::memory_order_seq_cst);
+    if (epoch.load(std::memory_order_seq_cst) == seen) return;
+    idle.fetch_add(1, std::memory_order_relaxed);
+  }
+  idle.fetch_sub(1, std::memory_order_relaxed);
+}
+
+namespace {
+
+void run_visit(CrewState* state) {
+  (void)state->holders.load(std::memory_order_acquire);  // pairs with the increment in call_helpers
+  state->visit();
+  state->release();
+}
+
+/// One visit of a helper, run by a oneTBB worker. oneTBB is not instrumented, so ThreadSanitizer does not see the
+/// hand-over of this object to the worker. Only the read of the pointer is excluded from the checks; everything in
+/// run_visit is checked.
+struct Visit {
+  CrewState* state;
+  __attribute__((no_sanitize("thread"))) void operator()() const { run_visit(state); }
+};
+
+}  // namespace
+
+struct Crew::Workers {
+  explicit Workers(std::uint32_t threads) : limit(threads), arena(static_cast<int>(threads), 1) {}
+  ThreadLimit limit;
+  tbb::task_arena arena;
+  tbb::task_group visits;  ///< every enqueued visit, so that the destructor can wait for visits that have not begun
+};
+
+std::uint32_t Crew::core_count() { return static_cast<std::uint32_t>(tbb::info::default_concurrency()); }
+
+Crew::Crew(std::uint32_t threads)
+    : threads_(threads),
+      state_(new CrewState(threads)),
+      workers_(threads > 1 ? std::make_unique<Workers>(threads) : nullptr) {}
+
+Crew::~Crew() {
+  state_->closing.store(true, std::memory_order_relaxed);
+  state_->announce();
+  // Runs the visits that are still enqueued; they leave at once. A visit that never runs would keep the state alive
+  // forever.
+  if (workers_ != nullptr) workers_->arena.execute([this] { workers_->visits.wait(); });
+  workers_.reset();
+  state_->release();
+}
+
+void Crew::call_helpers(std::uint32_t wanted) {
+  wanted = std::min(wanted, threads_ - 1);
+  std::uint32_t holders = state_->holders.load(std::memory_order_relaxed);
+  while (state_->idle.load(std::memory_order_seq_cst) < wanted && holders < threads_) {
+    if (!state_->holders.compare_exchange_weak(holders, holders + 1, std::memory_order_release,
+                                               std::memory_order_relaxed)) {
+      continue;
+    }
+    ++holders;
+    state_->idle.fetch_add(1, std::memory_order_relaxed);
+    workers_->arena.enqueue(workers_->visits.defer(Visit{state_}));
+  }
+}
+
+void Crew::offer(Region& region, std::uint32_t wanted) {
+  if (!region.open_) {
+    region.open_ = true;
+    const std::lock_guard lock(state_->mutex);
+    region.next_ = state_->first.load(std::memory_order_relaxed);
+    state_->first.store(&region, std::memory_order_release);
+  }
+  state_->announce();
+  call_helpers(wanted);
+}
+
+void Crew::wait(const Region& region, const std::function<bool()>& done) {
+  while (true) {
+    const std::uint32_t seen = state_->epoch.load(std::memory_order_seq_cst);
+    if (done()) return;
+    if (state_->help_deeper_than(region.depth_, false) || state_->spin(seen)) continue;
+    state_->sleepers.fetch_add(1, std::memory_order_seq_cst);
+    state_->epoch.wait(seen, std::memory_order_seq_cst);
+    state_->sleepers.fetch_sub(1, std::memory_order_relaxed);
+  }
+}
+
+void Crew::close(Region& region) {
+  if (!region.open_) return;
+  {
+    const std::lock_guard lock(state_->mutex);
+    Region* before = state_->first.load(std::memory_order_relaxed);
+    if (before == &region) {
+      state_->first.store(region.next_, std::memory_order_release);
+    } else {
+      while (before->next_ != &region) before = before->next_;
+      before->next_ = region.next_;
+    }
+  }
+  region.open_ = false;
+  wait(region, [&] { return region.helpers_.load(std::memory_order_acquire) == 0; });
+}
+
+}  // namespace gloam

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <utility>
+
+#include "engine/scene/assets.h"
+#include "engine/scene/keys/registry.h"
+#include "engine/scene/resources.h"
+
+namespace gloam {
+namespace {
+
+SceneKey sky_key(std::string name, std::string meaning, vec3 SceneEnvironment::*member) {
+  SceneKey key;
+  key.module = "engine";
+  key.on = KeyElement::scene;
+  key.name = std::move(name);
+  key.type = KeyType::vec3;
+  key.min = 0.0;
+  key.unit = "cd/m²";
+  key.default_text = "[0, 0, 0]";
+  key.meaning = std::move(meaning);
+  key.set = [member](KeyTarget& target, const KeyValue& value) -> Status {
+    target.world.resource<SceneEnvironment>().*member = std::get<vec3>(value);
+    return {};
+  };
+  return key;
+}
+
+SceneKey exposure_key() {
+  SceneKey key;
+  key.module = "engine";
+  key.on = KeyElement::scene;
+  key.name = "gloam.exposure";
+  key.type = KeyType::number;
+  key.min = -100.0;
+  key.max = 100.0;
+  key.unit = "EV100";
+  key.default_text = "automatic";
+  key.meaning = "exposure; automatic: metered in each camera's first frame, then fixed";
+  key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
+    auto& environment = target.world.resource<SceneEnvironment>();
+    environment.has_exposure = true;
+    environment.exposure_ev100 = static_cast<float>(std::get<double>(value));
+    return {};
+  };
+  return key;
+}
+
+Material& material_of(KeyTarget& target) { return target.world.resource<SceneAssets>().materials[target.material]; }
+
+SceneKey reflectivity_key() {
+  SceneKey key;
+  key.module = "engine";
+  key.on = KeyElement::material;
+  key.name = "gloam.reflectivity";
+  key.type = KeyType::number;
+  key.min = 0.0;
+  key.max = 1.0;
+  key.default_text = "from metallic and roughness";
+  key.meaning = "share of mirror reflection, from 0 (none) to 1 (sharp mirror)";
+  key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
+    material_of(target).reflectivity = static_cast<float>(std::get<double>(value));
+    return {};
+  };
+  return key;
+}
+
+SceneKey subsurface_key() {
+  SceneKey key;
+  key.module = "engine";
+  key.on = KeyElement::material;
+  key.name = "gloam.subsurface";
+  key.type = KeyType::boolean;
+  key.default_text = "false";
+  key.meaning = "light passes through thin parts";
+  key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
+    material_of(target).subsurface = std::get<bool>(value);
+    return {};
+  };
+  return key;
+}
+
+}  // namespace
+
+void add_engine_keys(KeyRegistry& registry) {
+  registry.add(sky_key("gloam.sky.zenith", "radiance of the sky overhead", &SceneEnvironment::sky_zenith));
+  registry.add(sky_key("gloam.sky.horizon", "radiance of the sky at the horizon", &SceneEnvironment::sky_horizon));
+  registry.add(sky_key("gloam.sky.ground", "radiance from below the horizon", &SceneEnvironment::sky_ground));
+  registry.add(exposure_key());
+  registry.add(reflectivity_key());
+  registry.add(subsurface_key());
+}
+
+}  // namespace gloam

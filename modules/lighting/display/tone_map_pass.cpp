@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/declare/compute_pass.h"
+#include "engine/render/declare/draw_pass.h"
+#include "engine/scene/resources.h"
+#include "modules/lighting/antialiasing/smooth_edges_passes.h"
+#include "modules/lighting/display/exposure.h"
+#include "modules/lighting/knobs.h"
+#include "modules/lighting/lighting_passes.h"
+#include "shaders/lighting/lighting_shared.h"
+#include "shaders/lighting/shaders.h"
+
+namespace gloam {
+namespace {
+
+/// The metered exposure of the view's camera. It stays for as long as frames show the camera: History destroys it
+/// later.
+Result<HistoryBuffer> exposure_of(FrameBuilder& frame) {
+  gpu::BufferDesc desc;
+  desc.name = "exposure";
+  desc.module = "lighting";
+  desc.size = sizeof(float);
+  desc.usage = gpu::BufferUsage::storage;
+  const Entity camera = frame.view().camera_entity;
+  return frame.history_buffer(desc, {.scope = HistoryScope::view,
+                                     .final_access = gpu::Access::fragment_read,
+                                     .instance = std::uint64_t{camera.generation} << 32 | camera.index});
+}
+
+/// Meters the frame's light into an exposure.
+void add_meter_pass(FrameBuilder& frame, BufferRef& exposure) {
+  ComputePass pass(frame, "meter", shaders::lighting::meter_comp);
+  pass.read("lit_image", frame.get<LitOutput>().color);
+  exposure = pass.write("exposure", exposure);
+  pass.push(shaders::MeterConstants{{frame.view().width, frame.view().height}});
+  pass.dispatch(1);
+}
+
+/// The curve's number in tone_curve.glsl.
+std::uint32_t tone_curve_of(const FrameBuilder& frame) {
+  return static_cast<std::uint32_t>(frame.knobs().value(kToneMap));
+}
+
+/// The chosen tone curve as a table; none if lighting.tone_map_table = exact.
+ImageRef add_tone_table_pass(FrameBuilder& frame) {
+  const std::uint32_t size = frame.knobs().value(kToneMapTable);
+  if (size == 0) return {};
+  gpu::ImageDesc desc;
+  desc.name = "tone_table";
+  desc.module = "lighting";
+  desc.format = gpu::Format::rgba16_float;
+  desc.width = size;
+  ComputePass pass(frame, "tone_table", shaders::lighting::tone_table_comp);
+  const ImageRef table = pass.write("table_image", frame.graph().create_image(desc));
+  pass.push(shaders::ToneTableConstants{tone_curve_of(frame), size});
+  pass.dispatch_over(size);
+  return table;
+}
+
+}  // namespace
+
+void add_tone_map_passes(FrameBuilder& frame) {
+  const auto& environment = frame.world().resource<SceneEnvironment>();
+  auto metered = exposure_of(frame);  // bound even if the exposure is set
+  if (!frame.check(metered)) return;
+  TargetOutput& target = frame.get<TargetOutput>();
+
+  shaders::ToneMapConstants constants{};
+  constants.curve = tone_curve_of(frame);
+  constants.encode_srgb = gpu::encodes_srgb(target.format) ? 0 : 1;
+  if (environment.has_exposure) {
+    constants.exposure = exposure_from_ev100(environment.exposure_ev100);
+  } else {
+    constants.metered = 1;
+    if (!metered->filled()) add_meter_pass(frame, metered->buffer);
+  }
+
+  const ImageRef table = add_tone_table_pass(frame);
+  const bool smooth = antialiases(frame), dither = frame.knobs().value(kDither);
+  const std::uint32_t output = smooth ? 2u : (dither ? 1u : 0u);  // kOutput of tone_map.frag
+  ImageRef shown = smooth ? create_view_image(frame, "shown", kShownFormat) : target.color;
+  {
+    DrawPass pass(frame, "tone_map",
+                  {shaders::lighting::tone_map_frag, {{"kTable", table ? 1u : 0u}, {"kOutput", output}}});
+    pass.read("lit_image", frame.get<LitOutput>().color);
+    pass.read("metered_exposure", metered->buffer);
+    pass.read("table_image", table, Sampling::linear);
+    pass.push(constants);
+    shown = pass.target(shown);
+    pass.draw_triangle();
+  }
+  if (smooth) return add_antialiasing_passes(frame, shown, dither);
+  target.color = shown;
+}
+
+}  // namespace gloam

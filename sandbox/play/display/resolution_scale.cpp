@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/play/display/resolution_scale.h"
+
+#include <algorithm>
+
+#include "engine/core/assert.h"
+#include "sandbox/session/results/summary.h"
+
+namespace gloam {
+namespace {
+
+constexpr double kDownAim = 0.9;  // of the budget, for a change to fewer pixels
+constexpr double kUpAim = 0.85;   // and to more
+// Of the budget: a step that was too slow is tried again if its frames should be this fast. Then something else was
+// slow, such as the first frames of a scene, which draw all shadow maps.
+constexpr double kSurelyFast = 0.7;
+constexpr double kFixedShareDown = 0.25;  // geometry, shadow maps and lists hardly depend on the number of pixels
+
+}  // namespace
+
+ResolutionScale::ResolutionScale(double budget_ms, double setting) : budget_ms_(budget_ms), setting_(setting) {
+  GLOAM_ASSERT(budget_ms > 0.0, "the time of a frame is above 0");
+}
+
+void ResolutionScale::set(double setting) {
+  GLOAM_ASSERT(setting == 0.0 || (setting >= kSteps.front() && setting <= 1.0), "a fixed scale is 0.25 to 1");
+  setting_ = setting;
+  times_.clear();
+  unjudged_ = kUnjudged;
+}
+
+void ResolutionScale::start(std::uint32_t width, std::uint32_t height, double most_pixels) {
+  const double pixels = static_cast<double>(width) * static_cast<double>(height);
+  std::size_t step = kSteps.size() - 1;
+  while (step > 0 && kSteps[step] * kSteps[step] * pixels > most_pixels) --step;
+  change_to(step);
+  blocked_until_ = {};
+}
+
+bool ResolutionScale::add(double frame_ms) {
+  ++frame_;
+  if (unjudged_ > 0) {
+    --unjudged_;
+    return false;
+  }
+  if (times_.size() == kBeforeUp) times_.erase(times_.begin());
+  times_.push_back(frame_ms);
+  if (setting_ > 0.0) return false;
+  if (times_.size() < kBeforeDown) return false;
+  const std::vector<double> newest(times_.end() - kBeforeDown, times_.end());
+  const double now_ms = summarize(newest).median;
+  if (now_ms > budget_ms_ && step_ > 0) {
+    blocked_until_[step_] = frame_ + kBlockedFrames;
+    change_to(std::min(fitting_step(now_ms, kDownAim * budget_ms_, kFixedShareDown), step_ - 1));
+    return true;
+  }
+  if (times_.size() < kBeforeUp) return false;
+  const double steady_ms = summarize(times_).median;
+  std::size_t step = fitting_step(steady_ms, kUpAim * budget_ms_, 0.0);
+  for (std::size_t above = step_ + 1; above <= step; ++above)
+    if (blocked_until_[above] > frame_ && expected_ms(steady_ms, above, 0.0) > kSurelyFast * budget_ms_)
+      step = above - 1;
+  if (step <= step_) return false;
+  change_to(step);
+  return true;
+}
+
+double ResolutionScale::expected_ms(double frame_ms, std::size_t step, double fixed_share) const {
+  const double ratio = kSteps[step] / kSteps[step_];
+  return frame_ms * (fixed_share + (1.0 - fixed_share) * ratio * ratio);
+}
+
+std::size_t ResolutionScale::fitting_step(double frame_ms, double budget_ms, double fixed_share) const {
+  std::size_t step = kSteps.size() - 1;
+  while (step > 0 && expected_ms(frame_ms, step, fixed_share) > budget_ms) --step;
+  return step;
+}
+
+void ResolutionScale::change_to(std::size_t step) {
+  step_ = step;
+  times_.clear();
+  unjudged_ = kUnjudged;
+}
+
+}  // namespace gloam

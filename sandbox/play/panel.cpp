@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/play/panel.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/scene/resources.h"
+#include "modules/depth_of_field/components.h"
+#include "sandbox/output/file_io.h"
+#include "sandbox/play/input/orbit_controls.h"
+#include "sandbox/session/drawing/frame_tracing.h"
+#include "sandbox/session/loading/scene_loading.h"
+
+namespace gloam {
+
+PlayPanel::PlayPanel(Session& session, double scale, bool shown)
+    : session_(session),
+      scale_(scale),
+      shown_(shown),
+      lights_(session.world),
+      visualizers_(session.renderer->visualizers()) {
+  const auto& names = session.world.resource<SceneNames>();
+  for (const Entity camera : session.info.cameras) cameras_.emplace_back(names.name_of(camera));
+}
+
+Status PlayPanel::open() {
+  auto panel = std::make_unique<Panel>(scale_);
+  auto renderer = PanelRenderer::create(*session_.device, panel->font());
+  if (!renderer.ok()) return renderer.error();
+  panel_ = std::move(panel);
+  renderer_ = std::move(renderer).value();
+  return {};
+}
+
+Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettings& view, ResolutionScale& scale,
+                         const PlayControls& controls) {
+  // Tab does not hide the panel while the user types text.
+  if (input.toggle_panel && !(drawn_ && panel_->wants_keyboard())) shown_ = !shown_;
+  drawn_ = shown_ && frame.width > 0 && frame.height > 0;
+  if (!drawn_) return {};
+  if (panel_ == nullptr) GLOAM_TRY(open());
+
+  Renderer& renderer = *session_.renderer;
+  const FrameReport report = renderer.report();
+  times_.add(frame.dt_s * 1e3, report);
+  // Escape ends text input; only the next Escape leaves the program.
+  const bool typing = panel_->wants_keyboard();
+  const auto show = [&](const std::string& visualizer) -> Status {
+    GLOAM_TRY(renderer.check_visualizer(session_.world, visualizer));
+    GLOAM_TRY(check_shown_live(renderer, visualizer));
+    view.visualizer = visualizer;
+    return {};
+  };
+  const PanelScene scene = scene_of(controls, view);
+  panel_->update(input.panel, frame,
+                 {.knobs = renderer.knobs(),
+                  .times = times_,
+                  .modules = report.modules,
+                  .visualizers = visualizers_,
+                  .visualizer = view.visualizer,
+                  .show = show,
+                  .scale = scale.scale(),
+                  .scale_setting = scale.setting(),
+                  .scale_steps = ResolutionScale::kSteps,
+                  .set_scale = [&](double setting) { scale.set(setting); },
+                  .scene = controls.pause ? &scene : nullptr,
+                  .notice = notice_,
+                  .heat_range = view.heat_range});
+  if (input.clicked && !panel_->wants_mouse() && !report.passes.empty()) pick(input, view, scale.scale());
+  if (panel_->wants_mouse()) {
+    input.drag_x = input.drag_y = input.orbit_x = input.orbit_y = input.wheel = 0.0;
+    input.clicked = input.grabbed = input.look_at = false;
+  }
+  if (typing || panel_->wants_keyboard()) {
+    input.forward = input.right = input.up = 0.0;
+    input.fast = input.leave = input.look_at = false;
+    input.pause = input.step = false;
+    input.camera = 0;
+  }
+  return {};
+}
+
+PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings& view) {
+  constexpr const char* kKinds[] = {"point", "spot", "directional"};
+  shown_lights_.clear();
+  for (const ControlledLight& light : lights_.lights())
+    shown_lights_.push_back({.name = light.name,
+                             .kind = kKinds[static_cast<int>(light.kind)],
+                             .unit = light.kind == LightKind::directional ? "lx" : "cd",
+                             .intensity = light.intensity,
+                             .muted = light.muted,
+                             .solo = light.solo});
+  auto& environment = session_.world.resource<SceneEnvironment>();
+  const auto* lens = std::as_const(session_.world).try_get<DepthOfField>(session_.camera);
+  const auto& cameras = session_.info.cameras;
+  const auto shown = view.follow_camera ? std::ranges::find(cameras, session_.camera) : cameras.end();
+  return {.cameras = cameras_,
+          .camera = shown == cameras.end() ? 0 : static_cast<std::uint32_t>(shown - cameras.begin()) + 1,
+          .show_camera = controls.show_camera,
+          .time_s = controls.time_s,
+          .paused = controls.paused,
+          .pause = controls.pause,
+          .automatic_exposure = !environment.has_exposure,
+          .ev100 = environment.exposure_ev100,
+          .set_exposure =
+              [&environment](bool automatic, float ev100) {
+                environment.has_exposure = !automatic;
+                environment.exposure_ev100 = ev100;
+              },
+          .has_camera = session_.world.alive(session_.camera),
+          .focus_m = lens != nullptr ? lens->focus_m : 0.0f,
+          .f_number = lens != nullptr ? lens->f_number : DepthOfField{}.f_number,
+          .picked_m = picked_m_,
+          .set_lens = [this](float focus_m, float f_number) { set_lens(focus_m, f_number); },
+          .lights = shown_lights_,
+          .set_intensity = [this](std::size_t light, float value) { lights_.set_intensity(light, value); },
+          .mute = [this](std::size_t light, bool muted) { lights_.mute(light, muted); },
+          .solo = [this](std::size_t light, bool solo) { lights_.solo(light, solo); },
+          .picked = picked_,
+          .save_config = [this, scene = controls.scene] { save_config(scene); },
+          .copy_command =
+              [this, &controls, &view] {
+                controls.copy(command_line(controls, view));
+                said_ = "the command line is on the clipboard";
+              },
+          .said = said_};
+}
+
+void PlayPanel::set_lens(float focus_m, float f_number) {
+  World& world = session_.world;
+  DepthOfField lens;
+  if (const auto* old = std::as_const(world).try_get<DepthOfField>(session_.camera)) lens = *old;
+  lens.focus_m = focus_m;
+  lens.f_number = f_number;
+  world.add<DepthOfField>(session_.camera, lens);
+}
+
+/// A pixel of the drawn picture, which may be smaller than the window.
+void PlayPanel::pick(const WindowInput& input, const ViewSettings& view, double scale) {
+  const auto pixel = pixel_at(view, {input.pointer_x, input.pointer_y, scale});
+  if (!pixel) return;
+  const auto lines = session_.renderer->pick(session_.world, view.id, pixel->x, pixel->y);
+  picked_ = lines.ok() ? *lines : std::vector<std::string>{lines.error().message};
+  const auto position = session_.renderer->pick_position(session_.world, view.id, pixel->x, pixel->y);
+  picked_m_ = 0.0f;
+  if (!position.ok() || !*position) return;
+  ViewSettings camera = view;
+  if (camera.follow_camera) follow_camera(session_.world, camera);
+  const dvec4 seen = glm::inverse(camera.world_from_camera) * dvec4(**position, 1.0);
+  picked_m_ = static_cast<float>(-seen.z);
+}
+
+void PlayPanel::tell(std::string message, bool urgent) {
+  notice_ = {std::move(message), urgent};
+  shown_ |= urgent;
+}
+
+void PlayPanel::save_config(const std::string& scene) {
+  const std::string path = "out/" + scene_stem(scene) + ".config.json";
+  Status written = make_folder_of(path);
+  if (written.ok()) written = write_file(path, config_text(session_.renderer->knobs()));
+  said_ = written.ok() ? "wrote " + path : written.error().message;
+}
+
+std::string PlayPanel::command_line(const PlayControls& controls, const ViewSettings& view) const {
+  const std::string camera(session_.world.resource<SceneNames>().name_of(session_.camera));
+  std::string line = "gloam render '" + controls.scene + "' --size " + std::to_string(view.width) + "x" +
+                     std::to_string(view.height) + " --time " + std::to_string(controls.time_s);
+  if (!camera.empty()) line += " --camera '" + camera + "'";
+  if (view.visualizer != "none") line += " --view '" + view.visualizer + "'";
+  return line + assignments_text(session_.renderer->knobs());
+}
+
+void PlayPanel::set_scale(double scale) {
+  if (scale == scale_) return;
+  scale_ = scale;
+  drawn_ = false;
+  renderer_.reset();
+  panel_.reset();
+}
+
+std::optional<vec2> PlayPanel::widget(std::string_view name) const {
+  if (!drawn_) return std::nullopt;
+  for (const PanelWidget& widget : panel_->widgets())
+    if (widget.name == name) return 0.5f * vec2(widget.left + widget.right, widget.top + widget.bottom);
+  return std::nullopt;
+}
+
+std::function<Status(FrameGraph&, ImageRef&)> PlayPanel::overlay() {
+  if (!drawn_) return {};
+  return
+      [this](FrameGraph& graph, ImageRef& picture) { return renderer_->add_pass(graph, picture, panel_->draw_data()); };
+}
+
+}  // namespace gloam

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/math/types.h"
+#include "engine/render/renderer.h"
+#include "sandbox/play/display/resolution_scale.h"
+#include "sandbox/play/input/light_controls.h"
+#include "sandbox/session/session.h"
+#include "sandbox/window/panel.h"
+#include "sandbox/window/panel_renderer.h"
+#include "sandbox/window/window.h"
+
+namespace gloam {
+
+/// Facts about the run that the panel shows, and functions that change it. Functions that are not set are not offered:
+/// then the panel has no section for the scene.
+struct PlayControls {
+  std::string scene;    ///< path or "builtin:NAME"
+  double time_s = 0.0;  ///< of the next frame
+  bool paused = false;
+  std::function<void(bool paused)> pause = {};
+  std::function<void(std::uint32_t number)> show_camera = {};  ///< from 1 on
+  std::function<void(const std::string& text)> copy = {};      ///< to the clipboard
+};
+
+/// The panel of `play`: shows and hides it, and connects it with the session. Panel and renderer are created when it is
+/// first shown.
+class PlayPanel {
+ public:
+  /// The session must outlive it. scale: factor on the size of text; 1 for a standard display.
+  PlayPanel(Session& session, double scale, bool shown);
+
+  /// Call it before each frame. frame: the window's size in pixels and the time step. Updates the panel, applies the
+  /// user's changes to knobs, view and scale, and removes the input that the panel used from `input`.
+  [[nodiscard]] Status update(WindowInput& input, const PanelFrame& frame, ViewSettings& view, ResolutionScale& scale,
+                              const PlayControls& controls = {});
+  /// The zones of a frame, for its systems' times.
+  void add_systems(std::span<const Zone> zones) { times_.add_systems(zones); }
+
+  /// Shows a message at the top of the panel until the next one. urgent: also shows the panel if it is hidden.
+  void tell(std::string message, bool urgent);
+
+  [[nodiscard]] bool shown() const { return shown_; }
+  /// Changes the factor on the size of text.
+  void set_scale(double scale);
+  /// The middle of a widget in the last update, in pixels (Panel::widgets); none if it was not shown.
+  [[nodiscard]] std::optional<vec2> widget(std::string_view name) const;
+
+  /// The function for ViewTarget::overlay in the frame after an update; empty while the panel is hidden.
+  [[nodiscard]] std::function<Status(FrameGraph&, ImageRef&)> overlay();
+
+ private:
+  [[nodiscard]] Status open();
+  [[nodiscard]] PanelScene scene_of(const PlayControls& controls, const ViewSettings& view);
+  void pick(const WindowInput& input, const ViewSettings& view, double scale);
+  void set_lens(float focus_m, float f_number);
+  void save_config(const std::string& scene);
+  [[nodiscard]] std::string command_line(const PlayControls& controls, const ViewSettings& view) const;
+
+  Session& session_;
+  double scale_;
+  bool shown_;
+  bool drawn_ = false;  ///< shown by the last update
+  FrameTimes times_;
+  LightControls lights_;
+  std::vector<PanelLight> shown_lights_;
+  std::vector<std::string> cameras_;
+  std::vector<std::string> picked_;
+  float picked_m_ = 0.0f;  ///< PanelScene::picked_m
+  std::string said_;
+  PanelNotice notice_;
+  std::vector<VisualizerInfo> visualizers_;
+  std::unique_ptr<Panel> panel_;
+  std::unique_ptr<PanelRenderer> renderer_;
+};
+
+}  // namespace gloam

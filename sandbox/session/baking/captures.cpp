@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/session/baking/captures.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "engine/core/hash.h"
+#include "engine/scene/resources.h"
+#include "modules/module_list/module_list.h"
+#include "sandbox/output/progress_bar.h"
+#include "sandbox/session/baking/particle_light.h"
+#include "sandbox/session/loading/scene_loading.h"
+
+namespace gloam {
+namespace {
+
+bool wants_captures(const Session& session) {
+  return std::ranges::any_of(session.renderer->modules(), [&](const auto& module) {
+    return module->name() == "reflections" && module->demand(session.world, nullptr).needed;
+  });
+}
+
+std::optional<ReflectionCaptures> load_kept(const Session& session, const Options& options, std::uint64_t content,
+                                            LogSink& log) {
+  for (const std::string& path : {captures_beside(options.scene), cached_captures(session, options, content)}) {
+    if (path.empty()) continue;
+    if (auto captures = load_captures(path, session.world, content, log)) return captures;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string captures_beside(const std::string& scene) {
+  if (is_builtin(scene)) return {};
+  return std::filesystem::path(scene).replace_extension(".captures").string();
+}
+
+std::string cached_captures(const Session& session, const Options& options, std::uint64_t content) {
+  if (options.cache_dir.empty()) return {};
+  // Devices round differently, and a picture must not depend on the device of an earlier run.
+  const std::uint64_t key = Hasher().value(content).text(session.device->info().name).digest();
+  char name[48];
+  std::snprintf(name, sizeof(name), "/captures/%016llx.captures", static_cast<unsigned long long>(key));
+  return options.cache_dir + name;
+}
+
+Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, LogSink& log,
+                                      const BakeProgress& progress) {
+  auto renderer = Renderer::create(
+      {.device = session.device.get(), .executor = session.executor.get(), .log = &log, .modules = make_all_modules()});
+  if (!renderer) return renderer.error();
+  World world;
+  (*renderer)->prepare_world(world);
+  // The session's own load has logged the warnings.
+  const auto info = load_scene(scene_request(options, session.renderer->knobs()), (*renderer)->modules(), world,
+                               *session.executor, null_log());
+  if (!info) return info.error();
+  world.resource<SceneClock>() = {.time_s = 0.0};
+  const auto captures = bake_reflections(**renderer, world, {.executor = session.executor.get(), .progress = progress});
+  const Status idle = (*renderer)->wait();
+  (*renderer)->release_world(world);
+  if (!captures) return captures.error();
+  GLOAM_TRY(idle);
+  auto moved = decode_captures(session.world, encode_captures(world, *captures));
+  if (!moved) return Error{ErrorKind::failed, options.scene + ": has changed while its reflections were captured"};
+  return std::move(*moved);
+}
+
+Status ensure_captures(Session& session, const Options& options, LogSink& log, const BakeProgress& progress) {
+  if (!wants_captures(session)) return {};
+  const std::uint64_t content = capture_content(session.world);
+  if (auto kept = load_kept(session, options, content, log)) {
+    attach_captures(session.world, std::move(*kept));
+    return {};
+  }
+  auto captures = bake_scene(session, options, log, progress);
+  if (!captures) return captures.error();
+  if (const std::string path = cached_captures(session, options, content); !path.empty())
+    if (const Status saved = save_captures(path, session.world, *captures); !saved.ok())
+      log.warning(saved.error().message);
+  attach_captures(session.world, std::move(captures).value());
+  return {};
+}
+
+Status ensure_baked(Session& session, const Options& options, LogSink& log, Console* console) {
+  const auto progress = [&](const char* what) {
+    return console == nullptr ? BakeProgress() : show_bake_progress(*console, options.quiet, what);
+  };
+  GLOAM_TRY(ensure_captures(session, options, log, progress("reflection captures")));
+  return ensure_particle_light(session, options, log, progress("particle light"));
+}
+
+BakeProgress show_bake_progress(Console& console, bool quiet, std::string what) {
+  if (quiet) return {};
+  using Clock = std::chrono::steady_clock;
+  return [&console, begin = Clock::now(), what = std::move(what)](std::size_t done, std::size_t total) {
+    const double elapsed_s = std::chrono::duration<double>(Clock::now() - begin).count();
+    console.show_progress(done == total ? "" : progress_line(done, total, what, done, elapsed_s));
+  };
+}
+
+}  // namespace gloam

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/session/drawing/session_costs.h"
+
+#include <utility>
+
+#include "sandbox/session/drawing/frame_tracing.h"
+
+namespace gloam {
+namespace {
+
+ModuleCost& share_of(std::vector<ModuleCost>& modules, const std::string& name) {
+  for (ModuleCost& cost : modules)
+    if (cost.module == name) return cost;
+  return modules.emplace_back(ModuleCost{.module = name});
+}
+
+std::vector<ModuleCost> module_costs(const FrameSample& sample) {
+  std::vector<ModuleCost> modules;
+  for (const Zone& zone : sample.zones)
+    share_of(modules, zone.module).cpu_ms += static_cast<double>(zone.end_ns - zone.begin_ns) * 1e-6;
+  for (const PassTime& pass : sample.report.passes) share_of(modules, pass.module).gpu_ms += pass.ms;
+  return modules;
+}
+
+}  // namespace
+
+SessionCosts::SessionCosts(Session& session, const Options& options)
+    : session_(session),
+      options_(options),
+      request_{.settings = session.view_settings(options.width, options.height, options.view), .target = {}},
+      store_(options.out.empty() ? nullptr : make_reference_store(options.out + "/references")) {}
+
+std::vector<ReferenceInfo> SessionCosts::references() const {
+  std::vector<ReferenceInfo> all;
+  for (const auto& module : session_.renderer->modules()) {
+    for (ReferenceInfo& reference : module->references()) all.push_back(std::move(reference));
+  }
+  return all;
+}
+
+std::vector<MeasureInfo> SessionCosts::measures() const {
+  std::vector<MeasureInfo> all;
+  for (const auto& module : session_.renderer->modules()) {
+    for (MeasureInfo& measure : module->measures()) all.push_back(std::move(measure));
+  }
+  return all;
+}
+
+Result<FrameCost> SessionCosts::draw(std::int32_t index) {
+  session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
+  const auto sample = session_.render_frame(request_);
+  if (!sample) return sample.error();
+  index_ = index;
+  return FrameCost{.cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms, .modules = module_costs(*sample)};
+}
+
+Result<std::uint64_t> SessionCosts::gpu_bytes() {
+  session_.renderer->free_idle_memory();
+  // The device frees memory only after the frames that may still use it have completed.
+  for (int frame = 0; frame < 3; ++frame) GLOAM_TRY(draw(index_));
+  std::uint64_t bytes = 0;
+  for (const ModuleState& module : session_.renderer->report().modules) bytes += module.gpu_bytes;
+  return bytes;
+}
+
+Result<FramePictures> SessionCosts::read() {
+  auto linear = session_.renderer->read_linear(request_.settings.id);
+  if (!linear) return linear.error();
+  auto picture = session_.renderer->read_picture(request_.settings.id);
+  if (!picture) return picture.error();
+  return FramePictures{.linear = std::move(linear).value(), .picture = std::move(picture).value()};
+}
+
+Result<FramePictures> SessionCosts::redraw(const std::function<void(World&)>& change,
+                                           const std::function<void(World&)>& restore) {
+  change(session_.world);
+  // Draw twice: the data that a frame takes from its predecessor is settled in the second frame.
+  Status drawn;
+  for (int frame = 0; frame < 2 && drawn.ok(); ++frame)
+    if (const auto cost = draw(index_); !cost) drawn = cost.error();
+  Result<FramePictures> pictures = drawn.ok() ? read() : Result<FramePictures>(drawn.error());
+  restore(session_.world);
+  return pictures;
+}
+
+Result<FramePictures> SessionCosts::draw_reference(const ReferenceInfo& reference, const FramePictures& frame,
+                                                   std::uint32_t samples) {
+  FrameToTrace traced;
+  const bool needs_rays = reference.kind == "traced";
+  if (needs_rays) {
+    auto read = read_frame_to_trace(session_, request_.settings.id);
+    if (!read) return read.error();
+    traced = std::move(read).value();
+  }
+  return reference.draw({.world = session_.world,
+                         .view = session_.world.view_resource<RenderView>(request_.settings.id),
+                         .knobs = knobs(),
+                         .frame = frame,
+                         .samples = samples,
+                         .executor = *session_.executor,
+                         .tracer = traced.tracer.get(),
+                         .geometry = needs_rays ? &traced.geometry : nullptr,
+                         .redraw = [this](const auto& change, const auto& restore) { return redraw(change, restore); },
+                         .store = store_.get()});
+}
+
+}  // namespace gloam

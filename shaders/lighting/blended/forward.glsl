@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_LIGHTING_BLENDED_FORWARD_GLSL
+#define GLOAM_SHADERS_LIGHTING_BLENDED_FORWARD_GLSL
+
+#include "shaders/render/surface_api.glsl"
+#include "shaders/render/view_api.glsl"
+
+// Lights blended surfaces while they are drawn. Shared by forward.frag, forward_tiled.frag and their variants with
+// shadows or cookies, which define macros of forward_lights_api.glsl. Early lists cannot be used: they hold only lights
+// at opaque depths.
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+
+#define GLOAM_FORWARD_BINDING 1
+#include "shaders/lighting/forward_lights_api.glsl"
+
+layout(location = 0) out vec4 out_light;
+
+void main() {
+  vec3 to_eye = normalize(to_viewer(view, in_relative));
+  Surface s = fetch_surface(to_eye);
+  ShadingPoint p = shading_point(in_relative, to_eye, s.normal, s.base_color.rgb, s.metallic, s.roughness);
+  set_receiver(in_relative, s.face_normal, s.subsurface);
+  vec3 light = s.emissive + ambient(environment, p, s.roughness, s.occlusion);
+  add_forward_lights(light, p, uvec2(gl_FragCoord.xy));
+  out_light = vec4(min(light, vec3(65504.0)), s.base_color.a);
+  if ((kSurface & GLOAM_SURFACE_CLIPPED) != 0u && is_clipped(view, in_relative)) discard;
+}
+
+#endif

@@ -1,9 +1,0 @@
-// SPDX-FileCopyrightText: The gloam authors
-// SPDX-License-Identifier: MIT
-#version 460
-#extension GL_GOOGLE_include_directive : require
-
-// Deferred lighting without light lists, with shadows and cookies.
-
-#define GLOAM_SHADOWS_BINDING 13
-#include "shaders/lighting/deferred_all_lights.glsl"

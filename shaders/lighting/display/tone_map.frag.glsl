@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/lighting/lighting_shared.h"
+#include "shaders/lighting/target.glsl"
+#include "shaders/lighting/display/tone_curve.glsl"
+
+// Maps linear light to the picture: exposure, then the curve, computed (kTable = 0) or looked up in a table (1). The
+// output is rounded to 8 bits by the target (kOutput = 0) or here (1), or is displayed linear light for antialiasing,
+// with the brightness to the eye in alpha (2).
+
+layout(constant_id = 0) const uint kTable = 0u;
+layout(constant_id = 1) const uint kOutput = 0u;
+
+layout(push_constant, scalar) uniform ToneMap { ToneMapConstants c; };
+layout(set = 0, binding = 0) uniform sampler2D lit_image;
+layout(set = 0, binding = 1, scalar) readonly buffer Exposure { float metered_exposure; };
+layout(set = 0, binding = 2) uniform sampler2D table_image;
+
+layout(location = 0) out vec4 out_color;
+
+float looked_up(float x) {
+  float size = float(textureSize(table_image, 0).x);
+  float at = clamp((log2(max(x, 1e-9)) - kTableFirstStop) / kTableStops, 0.0, 1.0);
+  return textureLod(table_image, vec2((at * (size - 1.0) + 0.5) / size, 0.5), 0.0).r;
+}
+
+void main() {
+  float exposure = c.metered != 0u ? metered_exposure : c.exposure;
+  vec3 x = clamp(texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb * exposure, vec3(0.0), vec3(1e6));
+  x = before_curve(c.curve, x);
+  vec3 shown;
+  if (kTable != 0u)
+    shown = vec3(looked_up(x.r), looked_up(x.g), looked_up(x.b));
+  else
+    shown = tone_curve(c.curve, x);
+  shown = after_curve(c.curve, shown);
+  if (kOutput == 2u)
+    out_color = vec4(shown, sqrt(dot(shown, vec3(0.2126, 0.7152, 0.0722))));
+  else
+    out_color = vec4(value_for_target(shown, uvec2(gl_FragCoord.xy), c.encode_srgb != 0u, kOutput == 1u), 1.0);
+}

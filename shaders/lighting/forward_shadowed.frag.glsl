@@ -1,9 +1,0 @@
-// SPDX-FileCopyrightText: The gloam authors
-// SPDX-License-Identifier: MIT
-#version 460
-#extension GL_GOOGLE_include_directive : require
-
-// Forward lighting without light lists, with shadows and cookies.
-
-#define GLOAM_FORWARD_SHADOWS
-#include "shaders/lighting/forward.glsl"

@@ -1,0 +1,8 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Deferred lighting without light lists, unshadowed, without cookies.
+
+#include "shaders/lighting/opaque/deferred_all_lights.glsl"

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_LIGHTING_OPAQUE_DEFERRED_GLSL
+#define GLOAM_SHADERS_LIGHTING_OPAQUE_DEFERRED_GLSL
+
+#include "shaders/lighting/environment_api.glsl"
+#include "shaders/lights/lights_api.glsl"
+#include "shaders/render/gbuffer_api.glsl"
+#include "shaders/render/view_api.glsl"
+
+// Lights the surfaces of the geometry buffer. Shared by deferred.frag, deferred_tiled.frag and their variants with
+// shadows or cookies, which define local_lights.
+
+layout(constant_id = 1) const uint kDirectionalLights = 0u;  // a constant of the pipeline, so that the loop is unrolled
+layout(constant_id = 3) const uint kSpecularAmbient = 1u;    // 0: without the specular ambient term
+layout(constant_id = 4) const uint kDiffuseLight = 0u;       // 1: with the second target
+
+layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
+layout(set = 0, binding = 2, scalar) uniform Environment { EnvironmentConstants environment; };
+layout(set = 0, binding = 3) uniform sampler2D base_color_image;
+layout(set = 0, binding = 4) uniform usampler2D normal_image;
+layout(set = 0, binding = 5) uniform sampler2D material_image;
+layout(set = 0, binding = 6) uniform sampler2D emissive_image;
+layout(set = 0, binding = 7) uniform sampler2D depth_image;
+layout(set = 0, binding = 8) uniform sampler2D light_texels;
+
+layout(location = 0) out vec4 out_light;
+layout(location = 1) out vec4 out_diffuse_light;  // lux
+
+#ifdef GLOAM_SHADOWS_BINDING
+#define GLOAM_SMOOTH_SURFACE_BINDING 20
+#endif
+#include "shaders/lighting/arriving_light.glsl"
+
+vec3 diffuse_light = vec3(0.0);  // illuminance of the surface, summed only with kDiffuseLight
+
+vec3 add_reflected(ShadingPoint p, vec3 to_light, vec3 illuminance) {
+  if (kDiffuseLight != 0u) diffuse_light += illuminance * clamp(dot(p.normal, to_light), 0.0, 1.0);
+  return reflected(p, to_light, illuminance);
+}
+
+// `share`: visibility of the light, multiplied with the shadows and cookies that arriving_local applies.
+vec3 add_local(ShadingPoint p, uint index, float share) {
+  vec3 to_light;
+  LocalLight light = fetch_light(light_texels, index);
+  vec3 illuminance = local_illuminance(light, p.position, to_light);
+  illuminance = arriving_local(illuminance, index, light.position, p.normal, to_light) * share;
+  return add_reflected(p, to_light, illuminance);
+}
+
+// Radiance from directional lights at the surface under a pixel.
+vec3 directional_lights(ShadingPoint p, uvec2 pixel);
+
+// Radiance from local lights at the surface under a pixel. Lights are summed in ascending order: versions that leave
+// out only lights that do not reach the surface get bit-identical sums.
+vec3 local_lights(ShadingPoint p, uvec2 pixel);
+
+#ifndef GLOAM_FINAL_LISTS_BINDING
+vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
+#ifdef GLOAM_SHADOWS_BINDING
+  uint count = lights.directional_count;  // not a constant: loops with shadows must not be unrolled
+#else
+  const uint count = kDirectionalLights;
+#endif
+  vec3 sum = vec3(0.0);
+  for (uint i = 0u; i < count; ++i) {
+    DirectionalLight d = lights.directional[i];
+    sum += add_reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal));
+  }
+  return sum;
+}
+#endif
+
+vec3 ambient_light(ShadingPoint p, float roughness, float occlusion) {
+  if (kDiffuseLight != 0u) diffuse_light += (kPi * occlusion) * hemisphere_radiance(environment, p.normal);
+  if (kSpecularAmbient == 0u) return occlusion * diffuse_ambient(environment, p);
+  return ambient(environment, p, roughness, occlusion);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = texelFetch(depth_image, pixel, 0).r;
+  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  GBufferTexel g = decode_gbuffer(texelFetch(base_color_image, pixel, 0), texelFetch(normal_image, pixel, 0).xy,
+                                  texelFetch(material_image, pixel, 0));
+  vec3 to_eye = normalize(to_viewer(view, position));
+  ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
+  vec3 light = texelFetch(emissive_image, pixel, 0).rgb + ambient_light(p, g.roughness, g.occlusion);
+  set_receiver(position, g.face_normal, g.subsurface);
+#ifdef GLOAM_SHADOWS_BINDING
+  receiver = pixel_receiver(position, g.face_normal, g.subsurface, pixel);
+#endif
+  light += directional_lights(p, uvec2(pixel));
+  light += local_lights(p, uvec2(pixel));
+  out_light = vec4(min(light, vec3(65504.0)), 1.0);
+  if (kDiffuseLight != 0u) out_diffuse_light = vec4(min(diffuse_light, vec3(65504.0)), 1.0);
+}
+
+#endif

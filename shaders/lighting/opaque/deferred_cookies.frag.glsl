@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Deferred lighting without light lists, unshadowed, with cookies.
+
+#define GLOAM_COOKIES_BINDING 13
+#include "shaders/lighting/opaque/deferred_all_lights.glsl"

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/core/storage/sealed_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/support/expect_assert.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gloam {
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+TEST(SealedFile, keeps_any_bytes) {
+  const test::TestFolder folder;
+  const std::string path = folder.path() + "/sealed";
+  for (const std::string& payload : {std::string(), std::string("\n\0\r\n\xff", 5), std::string(100000, 'x')}) {
+    ASSERT_TRUE(write_sealed(path, "id", payload).ok());
+    EXPECT_EQ(read_sealed(path, "id"), payload);
+  }
+  EXPECT_ASSERT((void)write_sealed(path, "two\nlines", ""), "one line");
+}
+
+TEST(SealedFile, of_another_identity_cut_short_or_altered_is_not_read) {
+  const test::TestFolder folder;
+  const std::string path = folder.path() + "/new folder/sealed";
+  ASSERT_TRUE(write_sealed(path, "id", "payload").ok());
+  EXPECT_FALSE(read_sealed(path, "other"));
+  EXPECT_FALSE(read_sealed(path + "-absent", "id"));
+  const std::string good = bytes_of(path);
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    std::string altered = good;
+    altered[i] = static_cast<char>(altered[i] ^ 1);
+    ASSERT_TRUE(write_whole_file(path, altered).ok());
+    EXPECT_FALSE(read_sealed(path, "id")) << "byte " << i;
+    ASSERT_TRUE(write_whole_file(path, good.substr(0, i)).ok());
+    EXPECT_FALSE(read_sealed(path, "id")) << i << " bytes";
+  }
+}
+
+}  // namespace
+}  // namespace gloam
