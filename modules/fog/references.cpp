@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/ecs/view.h"
-#include "engine/render/passes/passes.h"
+#include "engine/render/passes/renderer_passes.h"
 #include "modules/fog/components.h"
 #include "modules/fog/model.h"
 
