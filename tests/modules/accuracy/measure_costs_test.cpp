@@ -59,9 +59,7 @@ class FakeSubject final : public CostSubject {
     const double gpu_ms = knobs_.value(kSamples);
     return FrameCost{.cpu_ms = 1.0, .gpu_ms = gpu_ms, .modules = {{"other", 7.0, 7.0}, {"fake", 0.5, gpu_ms / 2.0}}};
   }
-  [[nodiscard]] Result<std::uint64_t> gpu_bytes() override {
-    return std::uint64_t{knobs_.value(kSamples)} * 100;
-  }
+  [[nodiscard]] Result<std::uint64_t> gpu_bytes() override { return std::uint64_t{knobs_.value(kSamples)} * 100; }
   [[nodiscard]] Result<FramePictures> read() override { return pictures(brightness()); }
   [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo&, const FramePictures& frame,
                                                      std::uint32_t samples) override {

@@ -22,17 +22,18 @@ using ::testing::ElementsAre;
 enum class Filter : std::uint8_t { none, box, tent };
 constexpr std::string_view name_of(Filter filter) {
   switch (filter) {
-    case Filter::none: return "none";
-    case Filter::box: return "box";
-    case Filter::tent: return "tent-shaped";
+    case Filter::none:
+      return "none";
+    case Filter::box:
+      return "box";
+    case Filter::tent:
+      return "tent-shaped";
   }
   return {};
 }
 
-constexpr EnumKnob<Filter> kFilter{.name = "lamp.filter",
-                                   .meaning = "how shadows are filtered",
-                                   .default_value = Filter::box,
-                                   .exact = Filter::tent};
+constexpr EnumKnob<Filter> kFilter{
+    .name = "lamp.filter", .meaning = "how shadows are filtered", .default_value = Filter::box, .exact = Filter::tent};
 constexpr ChoiceKnob<std::uint32_t> kTable{.name = "lamp.table",
                                            .meaning = "entries of the table",
                                            .choices = {{"exact", 0}, {"1024", 1024}, {"64", 64}},
@@ -50,12 +51,8 @@ constexpr IntegerKnob<std::uint32_t> kSamples{.name = "lamp.samples",
                                               .exact = 4294967295u,
                                               .ledger_values = {1, 16}};
 constexpr IntegerKnob<std::int32_t> kOffset{.name = "lamp.offset", .meaning = "steps", .min = -8, .max = 8};
-constexpr NumberKnob kShare{.name = "lamp.share",
-                            .meaning = "light that is kept",
-                            .min = 0.25,
-                            .max = 50,
-                            .default_value = 12.5,
-                            .unit = "%"};
+constexpr NumberKnob kShare{
+    .name = "lamp.share", .meaning = "light that is kept", .min = 0.25, .max = 50, .default_value = 12.5, .unit = "%"};
 
 void add_lamp_knobs(KnobRegistry& registry) {
   add_knobs(registry, "lamp", kFilter, kTable, kLit, kFull, kSamples, kOffset, kShare);
@@ -217,33 +214,42 @@ TEST_F(KnobTable, a_default_that_is_none_of_the_choices_asserts) {
 enum class Gap : std::uint8_t { first = 0, third = 2 };
 constexpr std::string_view name_of(Gap gap) {
   switch (gap) {
-    case Gap::first: return "first";
-    case Gap::third: return "third";
+    case Gap::first:
+      return "first";
+    case Gap::third:
+      return "third";
   }
   return {};
 }
 enum class FromOne : std::uint8_t { one = 1, two };
 constexpr std::string_view name_of(FromOne value) {
   switch (value) {
-    case FromOne::one: return "one";
-    case FromOne::two: return "two";
+    case FromOne::one:
+      return "one";
+    case FromOne::two:
+      return "two";
   }
   return {};
 }
 enum class Negative : std::int8_t { minus_one = -1, zero, one };
 constexpr std::string_view name_of(Negative value) {
   switch (value) {
-    case Negative::minus_one: return "-1";
-    case Negative::zero: return "0";
-    case Negative::one: return "1";
+    case Negative::minus_one:
+      return "-1";
+    case Negative::zero:
+      return "0";
+    case Negative::one:
+      return "1";
   }
   return {};
 }
 enum class SameName : std::uint8_t { on, yes };
 constexpr std::string_view name_of(SameName value) {
   switch (value) {
-    case SameName::on: return "on";
-    case SameName::yes: return "on";
+    case SameName::on:
+      return "on";
+    case SameName::yes:
+      return "on";
   }
   return {};
 }
@@ -272,11 +278,17 @@ TEST(KnobEnum, gives_its_choices_in_its_order) {
 
 /// Whether a registry reads a knob by such an argument. Knobs are read by typed references, or by the Knob of a list.
 template <class Name>
-concept ReadsAsText = requires(const KnobRegistry& knobs, const Name& name) { knobs.text(name); };
+concept ReadsAsText = requires(const KnobRegistry& knobs, const Name& name) {
+  knobs.text(name);
+};
 template <class Name>
-concept ReadsAsNumber = requires(const KnobRegistry& knobs, const Name& name) { knobs.number(name); };
+concept ReadsAsNumber = requires(const KnobRegistry& knobs, const Name& name) {
+  knobs.number(name);
+};
 template <class Name>
-concept ReadsAsValue = requires(const KnobRegistry& knobs, const Name& name) { knobs.value(name); };
+concept ReadsAsValue = requires(const KnobRegistry& knobs, const Name& name) {
+  knobs.value(name);
+};
 
 TEST(KnobRegistry, has_no_reader_that_takes_a_name) {
   EXPECT_TRUE(ReadsAsText<Knob> && ReadsAsNumber<Knob> && ReadsAsValue<NumberKnob>);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/render/reference/reference.h"
 #include "modules/shadows/module.h"
 
 namespace gloam {
