@@ -8,8 +8,7 @@
 #include "shaders/common/math.glsl"
 #include "shaders/lights/lights_shared.h"
 
-layout(constant_id = 0) const uint kEncode =
-    0u;  // 1: the picture's format does not encode sRGB, so the shader does
+layout(constant_id = 0) const uint kEncode = 0u;  // 1: the picture's format does not encode sRGB, so the shader does
 
 layout(location = 0) out vec4 out_color;  // over the picture
 layout(

@@ -30,7 +30,8 @@ const int kKernel = 8;
 #else
 // 0 hard, 1 pcf, 2 pcss, 3 chs, 4 traced visibility (references), 5 no shadows, only cookies
 layout(constant_id = 8) const uint kFilter = 3u;
-layout(constant_id = 9) const int kKernel = 8;  // texels of the kernel's side: 4, 8, 12, 16
+// texels of the kernel's side: 4, 8, 12, 16
+layout(constant_id = 9) const int kKernel = 8;
 #endif
 layout(constant_id = 10) const uint kMips = 1u;           // 0 off, 1 on
 layout(constant_id = 11) const uint kReceiverPlane = 1u;  // 0, 1
@@ -40,7 +41,8 @@ layout(constant_id = 14) const uint kLevels = 255u;       // 255 or 15 steps of 
 layout(constant_id = 15) const uint kFullPenumbra = 0u;   // 1: no early-outs, to measure the filter alone
 // 1: the atlas holds coverage mips, whose depths hold counts in their 6 lowest bits (GLOAM_SHADOW_MIPS_COVERAGE)
 layout(constant_id = 17) const uint kCoverage = 0u;
-layout(constant_id = 21) const uint kNear = 1u;  // near_blockers.glsl: 0 off, 1 for wide blockers, 2 always where it may matter
+// near_blockers.glsl: 0 off, 1 for wide blockers, 2 always where it may matter
+layout(constant_id = 21) const uint kNear = 1u;
 // 1: receivers under pixels are judged at their smooth surface (pixel_receiver()); 0: GeometryOutputs::smooth_surfaces
 // is not read
 layout(constant_id = 22) const uint kTerminator = 0u;
