@@ -122,7 +122,9 @@ function(gloam_add_second_device_entry name)
 endfunction()
 
 # gloam_add_entries(<suite> COMMAND program [arguments…] [LABELS …] [WIDTHS …] [ENVIRONMENT …])
-# Adds one CTest entry, or one per subgroup width if WIDTHS are given (in bits of a lavapipe vector).
+# Adds one CTest entry, or one per subgroup width if WIDTHS are given (in bits of a lavapipe vector). If there are other
+# widths, the entry of width 8 has the label width8, and the preset `release` leaves it out: suites that draw run the same
+# kernels at width 8, and widths 4 and 16 are the extremes.
 function(gloam_add_entries suite)
   cmake_parse_arguments(ARG "" "" "COMMAND;LABELS;WIDTHS;ENVIRONMENT" ${ARGN})
   set(entries "")
@@ -141,6 +143,10 @@ function(gloam_add_entries suite)
   # Without this, a filter that matches no test would pass.
   set_tests_properties(${entries} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${GLOAM_TEST_TIMEOUT}
     FAIL_REGULAR_EXPRESSION "Running 0 tests")
+  list(LENGTH ARG_WIDTHS count)
+  if(count GREATER 1 AND 256 IN_LIST ARG_WIDTHS)
+    set_property(TEST ${suite}.width8 APPEND PROPERTY LABELS width8)
+  endif()
 endfunction()
 
 # gloam_add_test(<suite> SOURCES … [ALONE …] [LIBRARIES …] [LABELS …] [WIDTHS 128 256 512])

@@ -56,12 +56,21 @@ class Build:
             sys.exit(f"{database} is absent: configure with CMAKE_EXPORT_COMPILE_COMMANDS=ON")
         for entry in json.loads(database.read_text(encoding="utf-8")):
             arguments = entry.get("arguments") or shlex.split(entry["command"])
-            path = Path(entry["directory"], entry["file"]).resolve()
-            if path.suffix == ".cpp" and path.is_relative_to(self.root) and not path.is_relative_to(self.build):
-                name = path.relative_to(self.root).as_posix()
-                self.commands[name] = self.flags_of(arguments, entry["file"])
-                output = arguments[arguments.index("-o") + 1] if "-o" in arguments else entry.get("output", "")
-                self.outputs[name] = Path(entry["directory"], output)
+            flags = self.flags_of(arguments, entry["file"])
+            output = arguments[arguments.index("-o") + 1] if "-o" in arguments else entry.get("output", "")
+            for name in self.sources_of(Path(entry["directory"], entry["file"]).resolve()):
+                self.commands[name] = flags
+                # In a group of sources that are compiled together, only the first shows that its first header stands alone.
+                self.outputs.setdefault(output, (name, Path(entry["directory"], output)))
+
+    def sources_of(self, path):
+        """The project's sources that a compiler run for this path compiles: the path itself, or the group that CMake's file
+        of a unity build includes."""
+        paths = [path]
+        if path.parent.name == "Unity" and path.is_file():
+            paths = [Path(i) for i in re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), re.MULTILINE)]
+        return [p.relative_to(self.root).as_posix() for p in paths
+                if p.suffix == ".cpp" and p.is_relative_to(self.root) and not p.is_relative_to(self.build)]
 
     @staticmethod
     def flags_of(arguments, source):
@@ -89,7 +98,7 @@ class Build:
     def first_includes(self):
         """Headers that are the first include of an up-to-date compiled source."""
         found = set()
-        for name, output in self.outputs.items():
+        for name, output in self.outputs.values():
             if output.is_file():
                 included = include_arrows.includes(source_text.read(self.root, name))
                 if included and output.stat().st_mtime >= self.newest(included[0][1]):
@@ -166,29 +175,34 @@ def in_share(header, share):
     return not share or fnmatch.fnmatchcase(header, share + "/*")
 
 
-def check(root, build, share=""):
-    build = Build(Path(root).resolve(), Path(build).resolve())
-    memory = build.build / "hygiene" / f"headers_alone{re.sub('[^a-z]', '_', share)}.json"
+def check_once(build, memory, names, proven, faults_of):
+    """The faults of those names that are not in proven and did not pass before with the same text, includes and flags.
+    faults_of: compiles the names it is given and returns a fault or None for each. memory: the file that lists what passed."""
+    memory = build.build / "hygiene" / memory
     known = json.loads(memory.read_text(encoding="utf-8")) if memory.is_file() else {}
-    headers = [header for header in source_text.files(build.root, (".h",)) if in_share(header, share)]
-    proven = build.first_includes()
-    passed, todo = {}, []
-    for header in headers:
-        fingerprint = build.fingerprint(header)
-        if header in proven or known.get(header) == fingerprint:
-            passed[header] = fingerprint
-        else:
-            todo.append((header, fingerprint))
-    precompiled = build.precompile(headers) if len(todo) > 4 else ()
-    with concurrent.futures.ThreadPoolExecutor(PARALLEL) as pool:
-        results = list(pool.map(lambda item: build.fault_of(item[0], precompiled), todo))
-    for (header, fingerprint), fault in zip(todo, results):
-        if fault is None:
-            passed[header] = fingerprint
+    passed, todo = {}, {}
+    for name in names:
+        fingerprint = build.fingerprint(name)
+        (passed if name in proven or known.get(name) == fingerprint else todo)[name] = fingerprint
+    results = faults_of(list(todo))
+    passed |= {name: todo[name] for name, fault in zip(todo, results) if fault is None}
     memory.parent.mkdir(exist_ok=True)
     memory.write_text(json.dumps(passed, indent=0), encoding="utf-8")
-    print(f"compiled {len(todo)} of {len(headers)} headers")
-    return [fault for fault in results if fault], len(headers)
+    print(f"compiled {len(todo)} of {len(names)} files")
+    return [fault for fault in results if fault]
+
+
+def check(root, build, share=""):
+    build = Build(Path(root).resolve(), Path(build).resolve())
+    headers = [header for header in source_text.files(build.root, (".h",)) if in_share(header, share)]
+
+    def faults_of(todo):
+        precompiled = build.precompile(headers) if len(todo) > 4 else ()
+        with concurrent.futures.ThreadPoolExecutor(PARALLEL) as pool:
+            return list(pool.map(lambda header: build.fault_of(header, precompiled), todo))
+
+    memory = f"headers_alone{re.sub('[^a-z]', '_', share)}.json"
+    return check_once(build, memory, headers, build.first_includes(), faults_of), len(headers)
 
 
 if __name__ == "__main__":

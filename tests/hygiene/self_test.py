@@ -20,6 +20,7 @@ import one_definition
 import packages
 import sizes
 import source_text
+import sources_alone
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
 import test_report  # noqa: E402
@@ -433,6 +434,49 @@ class HeadersAlone(Tree):
         self.write("engine/core/a.h", "Unknown y;\n")
         os.utime(self.root / "engine/core/a.h", (later, later))
         self.assert_faults(self.check(), "a.h")
+
+    def test_only_the_first_source_of_a_group_proves_its_header(self):
+        compiler = os.environ.get("CXX", "c++")
+        group = self.root / "build/CMakeFiles/a.dir/Unity/unity_a_0_cxx.cxx"
+        for name in "ab":
+            self.write(f"engine/core/{name}.cpp", f'#include "engine/core/{name}.h"\n')
+            self.write(f"engine/core/{name}.h", "Unknown x;\n")
+        self.write(group.relative_to(self.root), f'#include "{self.root}/engine/core/a.cpp"\n#include "{self.root}/engine/core/b.cpp"\n')
+        entry = {"directory": str(self.root / "build"), "file": str(group),
+                 "command": f"{compiler} -std=c++20 -I{self.root} -o a.o -c {group}"}
+        self.write("build/compile_commands.json", json.dumps([entry]))
+        self.write("build/a.o")
+        self.assert_faults(headers_alone.check(self.root, self.root / "build")[0], "b.h")
+
+
+@unittest.skipUnless(os.name == "posix", "drives a compiler as the build here does")
+class SourcesAlone(Tree):
+    def check(self):
+        compiler = os.environ.get("CXX", "c++")
+        group = self.root / "build/CMakeFiles/a.dir/Unity/unity_a_0_cxx.cxx"
+        self.write(group.relative_to(self.root), f'#include "{self.root}/engine/a.cpp"\n#include "{self.root}/engine/b.cpp"\n')
+        entry = {"directory": str(self.root / "build"), "file": str(group),
+                 "command": f"{compiler} -DFLAG=1 -std=c++20 -I{self.root} -o a.o -c {group}"}
+        self.write("build/compile_commands.json", json.dumps([entry]))
+        return sources_alone.check(self.root, self.root / "build")
+
+    def test_a_source_that_leans_on_another_of_its_group_fails(self):
+        self.write("engine/a.cpp", "#include <vector>\nstatic_assert(FLAG == 1);\n")
+        self.write("engine/b.cpp", "std::vector<int> v;\n")
+        faults, checked = self.check()
+        self.assert_faults(faults, "b.cpp: does not")
+        self.assertEqual(checked, 2)
+        self.assert_faults(self.check()[0], "b.cpp: does not")  # failures are not remembered
+        self.write("engine/b.cpp", "#include <vector>\nstd::vector<int> v;\n")
+        self.assertEqual(self.check()[0], [])
+
+    def test_a_change_of_an_include_is_seen(self):
+        self.write("engine/a.cpp", '#include "engine/a.h"\nLow low;\n')
+        self.write("engine/b.cpp")
+        self.write("engine/a.h", "#pragma once\nstruct Low {};\n")
+        self.assertEqual(self.check()[0], [])
+        self.write("engine/a.h", "#pragma once\n")
+        self.assert_faults(self.check()[0], "a.cpp: does not")
 
 
 if __name__ == "__main__":
