@@ -27,8 +27,8 @@ std::vector<VisualizerInfo> reflection_visualizers(const ExtrasOf& extras) {
       {"reflection_tier", "reflections", "",
        "the tier that each reflection comes from: green screen space, orange proxies, blue probes with a box, violet "
        "the global probe and the sky; dark: no reflection",
-       true, mode, tiers},
-      {"reflection_confidence", "reflections", "", "confidence of screen space at each pixel", true, mode, tiers},
+       mode, tiers},
+      {"reflection_confidence", "reflections", "", "confidence of screen space at each pixel", mode, tiers},
       {"ibr_tiles", "reflections", "", "number of proxies in the list of each vertical screen tile"},
       {"ibr_layers", "reflections", "", "layers along each mirrored ray, proxies and the hit of screen space"},
       {"probes", "reflections", "", "radiance of the probes in the mirror direction of each pixel, as x / (1 + x)"},

@@ -19,11 +19,11 @@ constexpr double kArcadeX = 3.6;  // of the column axes
 constexpr double kWallX = 6.4;    // inner faces of the outer walls
 constexpr double kColumnHeight = 3.0;
 constexpr double kStepsZ = -(kBays * kBayLength) - 1.2;
-constexpr int kSteps = 5;
+constexpr int kTerraceSteps = 5;
 constexpr double kStepRise = 0.18;
 constexpr double kStepDepth = 0.5;
-constexpr double kTerraceZ = kStepsZ - kSteps * kStepDepth;
-constexpr double kTerraceY = kSteps * kStepRise;
+constexpr double kTerraceZ = kStepsZ - kTerraceSteps * kStepDepth;
+constexpr double kTerraceY = kTerraceSteps * kStepRise;
 constexpr double kTerraceDepth = 6.0;
 constexpr double kGateZ = kTerraceZ - kTerraceDepth + 0.4;
 
@@ -111,8 +111,8 @@ void add_grounds(SceneBuilder& builder, const LanternMaterials& materials) {
   for (const double side : {-1.0, 1.0}) builder.add_instance("wall", wall, {side * (kWallX + 0.2), 0.0, -21.0});
 
   const auto width = static_cast<float>(2.0 * kWallX);
-  for (int i = 0; i < kSteps; ++i) {
-    const auto depth = static_cast<float>(kTerraceDepth + (kSteps - i) * kStepDepth);
+  for (int i = 0; i < kTerraceSteps; ++i) {
+    const auto depth = static_cast<float>(kTerraceDepth + (kTerraceSteps - i) * kStepDepth);
     const std::uint32_t step =
         builder.add_mesh("step", box_shape({width, static_cast<float>(kStepRise), depth}), materials.stone);
     const double front = kStepsZ - i * kStepDepth;
@@ -207,7 +207,7 @@ void add_wall_washers(SceneBuilder& builder, int& count) {
 /// A lamp at both ends of every step (10 point lights) and a ring of 8 spot lights on the urn.
 void add_terrace_lights(SceneBuilder& builder, int& count) {
   const GlowMeshes meshes = add_glow_meshes(builder, "step lamp", sphere_shape(0.07f, 12), 1.8f);
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < kTerraceSteps; ++i) {
     for (const double side : {-1.0, 1.0}) {
       const auto color = static_cast<std::size_t>(i) % 3;
       const dvec3 position(side * 2.9, (i + 1) * kStepRise + 0.07, kStepsZ - (i + 0.5) * kStepDepth);

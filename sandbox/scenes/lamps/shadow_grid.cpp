@@ -26,7 +26,7 @@ constexpr double kLightsAPoint = 3.0;
 constexpr int kPillars = 9;  // along a side
 constexpr int kBeams = 17;
 constexpr int kWalls = 40;
-constexpr int kCrates = 90;
+constexpr int kCrateCount = 90;
 constexpr int kBoards = 8;
 constexpr double kBoardTurn = 0.9;  // radians per second
 
@@ -85,7 +85,7 @@ void add_things(SceneBuilder& builder, const GridMaterials& m) {
     builder.add_instance("wall", wall, beside_pillars(spread_place(i, kSide - 6.0, 0.31), 1.8),
                          i % 2 == 0 ? 0.0 : 1.571);
   const std::uint32_t crate = builder.add_mesh("crate", box_shape({0.7f, 0.6f, 0.7f}), m.wood);
-  for (int i = 0; i < kCrates; ++i) {
+  for (int i = 0; i < kCrateCount; ++i) {
     const dvec3 place = beside_pillars(spread_place(i, kSide - 4.0, 0.77), 1.0);
     builder.add_instance("crate", crate, place, 0.7 * i);
     if (i % 3 == 0) builder.add_instance("crate", crate, place + dvec3(0.06, 0.6, -0.05), 0.7 * i + 0.4, dvec3(0.8));
