@@ -21,7 +21,7 @@ DrawProgram reduce_program(std::uint32_t divisor) {
 DrawProgram blur_program() { return {shaders::fog::blur_frag}; }
 DrawProgram apply_program(bool orthographic, std::uint32_t divisor) {
   return {shaders::fog::apply_frag,
-          {{"kOrthographic", orthographic ? 1u : 0u}, {"kDivisor", divisor}},
+          {{"kOrthographic", orthographic ? 1u : 0u}, {"kDivisor", static_cast<std::int32_t>(divisor)}},
           gpu::BlendMode::premultiplied};
 }
 

@@ -105,21 +105,21 @@ TEST_F(Tracing, segments_end_where_they_say) {
 
 TEST_F(Tracing, no_ray_slips_through_the_seams_of_a_fine_mesh) {
   Primitive grid;
-  constexpr int kSide = 64;
-  for (int y = 0; y <= kSide; ++y)
-    for (int x = 0; x <= kSide; ++x)
+  constexpr int kTexels = 64;
+  for (int y = 0; y <= kTexels; ++y)
+    for (int x = 0; x <= kTexels; ++x)
       grid.positions.push_back(
           {static_cast<float>(x) / 7.0f, static_cast<float>(y) / 7.0f, std::sin(static_cast<float>(x * y))});
-  for (std::uint32_t y = 0; y < kSide; ++y)
-    for (std::uint32_t x = 0; x < kSide; ++x) {
-      const std::uint32_t a = y * (kSide + 1) + x, b = a + kSide + 1;
+  for (std::uint32_t y = 0; y < kTexels; ++y)
+    for (std::uint32_t x = 0; x < kTexels; ++x) {
+      const std::uint32_t a = y * (kTexels + 1) + x, b = a + kTexels + 1;
       grid.indices.insert(grid.indices.end(), {a, a + 1, b, b, a + 1, b + 1});
     }
   maker_.draw(maker_.mesh(test::finished(std::move(grid))));
   trace();
   // Rays through every vertex and along the edges: a tracer that is not watertight fails here.
-  for (int y = 1; y < kSide; ++y)
-    for (int x = 1; x < kSide; ++x)
+  for (int y = 1; y < kTexels; ++y)
+    for (int x = 1; x < kTexels; ++x)
       for (const double shift : {0.0, 0.5}) {
         const dvec3 at((x + shift) / 7.0, y / 7.0, 0.0);
         ASSERT_TRUE(blocked(at + dvec3(0, 0, 5), at - dvec3(0, 0, 5))) << x << " " << y;

@@ -177,7 +177,7 @@ TEST_F(Pipelines, compile_on_several_threads_at_once) {
   std::vector<std::thread> threads;
   for (std::uint32_t i = 0; i < pipelines.size(); ++i) {
     threads.emplace_back([&, i] {
-      const auto made = device().create_pipeline(doubling({{.id = 0, .value = i + 3}}));
+      const auto made = device().create_pipeline(doubling({{"kScale", i + 3}}));
       if (made) pipelines[i] = *made;
     });
   }
