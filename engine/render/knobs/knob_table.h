@@ -18,8 +18,6 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "engine/core/assert.h"
 #include "engine/render/knobs/knobs.h"
