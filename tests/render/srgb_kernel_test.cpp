@@ -24,10 +24,10 @@ std::vector<vec3> srgb_values() {
   return values;
 }
 
-class SrgbKernel : public ::testing::Test {
+class SrgbKernel : public test::KernelTest {
  protected:
   void run(const std::vector<vec3>& values) {
-    test::Kernel kernel(*test::gpu_device(), shaders::gpu_test::srgb_comp);
+    test::Kernel kernel(device(), shaders::gpu_test::srgb_comp);
     kernel.input(0, values);
     for (const std::uint32_t binding : {1u, 2u, 3u}) kernel.output(binding, values.size() * sizeof(vec3));
     kernel.run(static_cast<std::uint32_t>((values.size() + 63) / 64));
