@@ -13,7 +13,7 @@
 namespace gloam {
 namespace {
 
-constexpr vec3 kWarm(1.0f, 0.40f, 0.10f), kCold(0.12f, 0.38f, 1.0f);
+constexpr vec3 kFirelight(1.0f, 0.40f, 0.10f), kCold(0.12f, 0.38f, 1.0f);
 constexpr dvec3 kVent(0.0, 0.0, 0.0);    // the smoke comes from here
 constexpr dvec3 kBowl(3.4, 0.0, 1.6);    // the fire burns here
 constexpr dvec3 kSpot(-4.6, 3.4, -1.5);  // the dust is in its beam
@@ -40,7 +40,7 @@ SmokeMaterials add_smoke_materials(SceneBuilder& builder) {
   m.wall = material("wall", vec3(0.26f, 0.22f, 0.19f), 0.95f);
   m.iron = material("iron", vec3(0.05f, 0.05f, 0.055f), 0.6f);
   m.water = material("water", vec3(0.02f, 0.02f, 0.022f), 0.04f);
-  m.warm = glow("warm bulb", kWarm * 30.0f);
+  m.warm = glow("warm bulb", kFirelight * 30.0f);
   m.cold = glow("cold bulb", kCold * 30.0f);
   m.ember = glow("embers", vec3(2.2f, 0.5f, 0.08f));
   return m;
@@ -176,7 +176,7 @@ void build_smoke_scene(World& world, SceneInfo& info) {
   SceneBuilder builder(world, info);
   const SmokeMaterials m = add_smoke_materials(builder);
   add_courtyard(builder, m);
-  add_lamp(builder, m, "warm lamp", -kLampX, kWarm, m.warm);
+  add_lamp(builder, m, "warm lamp", -kLampX, kFirelight, m.warm);
   add_lamp(builder, m, "cold lamp", kLampX, kCold, m.cold);
   add_smoke(world, builder);
   add_smoke_fire(world, builder, m);
