@@ -131,7 +131,7 @@ TEST_F(ReadinessFrames, a_knob_waits_for_its_pipelines_and_the_old_variant_stays
   frames_until_nothing_is_pending();
   const auto reduces_to = [&](const char* divisor) {
     return std::ranges::any_of(last_commands(), [&](const std::string& line) {
-      return line.find("fog/reduce.frag 0=" + std::string(divisor)) != std::string::npos;
+      return line.find("fog/reduce.frag kDivisor=" + std::string(divisor)) != std::string::npos;
     });
   };
   EXPECT_TRUE(reduces_to("4"));
@@ -231,7 +231,7 @@ class ShadowReadiness : public BackgroundRenderer {
   /// Whether the last frame's surfaces were shaded with shadows.
   [[nodiscard]] bool shadowed() const {
     return std::ranges::any_of(last_commands(), [](const std::string& line) {
-      return line.find("lighting/deferred") != std::string::npos &&
+      return line.find("lighting/opaque/deferred") != std::string::npos &&
              (line.find("shadowed") != std::string::npos || line.find("final") != std::string::npos);
     });
   }

@@ -117,8 +117,8 @@ void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states, OnceL
   const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
   if (shadows == nullptr) return;
   if (stem == "shadow_atlas") {
-    const ViewMapState* kept = states.find(world_id(frame.world()),
-                                           frame.world().view_resource<ViewFaces>(frame.view().id).owner);
+    const ViewMapState* kept =
+        states.find(world_id(frame.world()), frame.world().view_resource<ViewFaces>(frame.view().id).owner);
     const bool has_maps = shadows->atlas && shadows->atlas.resource != shadows->rows.resource;
     if (kept != nullptr && has_maps) add_atlas_view(frame, *shadows, *kept);
   } else if (const auto light = shown_light_or_warn(frame, once_log)) {

@@ -27,8 +27,8 @@ class ShadowStates {
   /// Call once per view and frame, before the other functions. Forgets views, and destroys scratch images, that no
   /// frame has used for 120 frames.
   void begin(gpu::Device& device);
-  /// The view's state, empty at the first call. world: its world_id. owner: ViewFaces::owner, under which several views share one state.
-  /// user: the view.
+  /// The view's state, empty at the first call. world: its world_id. owner: ViewFaces::owner, under which several views
+  /// share one state. user: the view.
   [[nodiscard]] ViewMapState& view(std::uint64_t world, ViewId owner, ViewId user);
   /// The view's state; null if view() was never called for it, or if it has been forgotten since.
   [[nodiscard]] const ViewMapState* find(std::uint64_t world, ViewId owner) const;
