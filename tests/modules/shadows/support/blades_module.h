@@ -10,7 +10,7 @@
 
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
-#include "tests/shaders/gpu_test/blades_shared.h"
+#include "tests/shaders/gpu_test/casters/blades_shared.h"
 
 namespace gloam::test {
 

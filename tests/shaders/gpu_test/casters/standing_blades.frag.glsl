@@ -2,4 +2,4 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "tests/shaders/gpu_test/standing_blades.glsl"
+#include "tests/shaders/gpu_test/casters/standing_blades.glsl"

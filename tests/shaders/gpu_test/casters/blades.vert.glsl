@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "tests/shaders/gpu_test/blades_shared.h"
+#include "tests/shaders/gpu_test/casters/blades_shared.h"
 #include "shaders/render/caster_api.glsl"
 
 // Draws blades into shadow maps without vertex streams, for the tests of caster sources.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "tests/shaders/gpu_test/blades_shared.h"
+#include "tests/shaders/gpu_test/casters/blades_shared.h"
 
 // Moves the tips of blades, for the tests of caster sources.
 layout(local_size_x = 64) in;

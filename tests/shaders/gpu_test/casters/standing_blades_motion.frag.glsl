@@ -4,4 +4,4 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define GLOAM_MOTION
-#include "tests/shaders/gpu_test/standing_blades.glsl"
+#include "tests/shaders/gpu_test/casters/standing_blades.glsl"
