@@ -6,9 +6,9 @@
 
 #include "engine/scene/keys/table.h"
 #include "modules/fog/components.h"
+#include "modules/fog/fog_passes.h"
 #include "modules/fog/knobs.h"
 #include "modules/fog/model.h"
-#include "modules/fog/passes.h"
 #include "modules/fog/references.h"
 #include "modules/lighting/outputs.h"
 

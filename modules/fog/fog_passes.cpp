@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/fog/passes.h"
+#include "modules/fog/fog_passes.h"
 
 #include "engine/render/declare/draw_pass.h"
 #include "modules/fog/knobs.h"
