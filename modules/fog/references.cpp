@@ -3,10 +3,13 @@
 #include "modules/fog/references.h"
 
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "engine/ecs/view.h"
 #include "engine/render/passes/renderer_passes.h"
 #include "modules/fog/components.h"
+#include "modules/fog/knobs.h"
 #include "modules/fog/model.h"
 
 namespace gloam {
@@ -60,9 +63,11 @@ Result<FramePictures> draw_fog_reference(const ReferenceInput& input) {
 
 std::vector<ReferenceInfo> fog_references() {
   std::vector<ReferenceInfo> references;
-  for (const char* knob : {"fog.resolution", "fog.radius"})
-    references.push_back(
-        {.knob = knob, .kind = "traced", .name = "fog along each ray, in double", .draw = &draw_fog_reference});
+  for (const std::string_view knob : {kFogDivisor.name, kFogRadius.name})
+    references.push_back({.knob = std::string(knob),
+                          .kind = "traced",
+                          .name = "fog along each ray, in double",
+                          .draw = &draw_fog_reference});
   return references;
 }
 
