@@ -195,7 +195,7 @@ TEST_F(PanelTest, a_picture_smaller_than_the_panel_is_no_fault) {
 }
 
 TEST_F(PanelTest, keeps_two_settings_and_shows_them_in_turn) {
-  const Knob knob = knobs_.knobs().front();
+  const Knob& knob = knobs_.knobs().front();
   const std::string before = test::knob_text(knobs_, knob.name);
   click("keep A");
   set_knob_value(knobs_, knob, knob_value(knobs_, knob) == 0.0 ? 1.0 : 0.0);
