@@ -20,6 +20,7 @@
 #include "modules/module_list/module_list.h"
 #include "tests/support/gpu_device.h"
 #include "tests/support/render_scene.h"
+#include "tests/support/stage_test.h"
 
 namespace gloam::test {
 
@@ -83,22 +84,6 @@ class DofStage {
   std::unique_ptr<JobExecutor> executor_;
 };
 
-/// Every test must end without validation messages.
-class DofStageTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    GLOAM_REQUIRE_GPU(DofStage::device());
-    GLOAM_REQUIRE_DEPTH_TESTS(DofStage::device());
-    messages_ = DofStage::device()->validation_messages();
-  }
-  void TearDown() override {
-    if (DofStage::device() != nullptr) {
-      EXPECT_EQ(DofStage::device()->validation_messages(), messages_);
-    }
-  }
-
- private:
-  std::uint64_t messages_ = 0;
-};
+using DofStageTest = StageTest<DofStage>;
 
 }  // namespace gloam::test

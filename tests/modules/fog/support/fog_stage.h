@@ -22,6 +22,7 @@
 #include "tests/modules/fog/support/fog_oracle.h"
 #include "tests/support/gpu_device.h"
 #include "tests/support/render_scene.h"
+#include "tests/support/stage_test.h"
 
 namespace gloam::test {
 
@@ -117,23 +118,7 @@ class FogStage {
   Entity fog_ = kNoEntity;
 };
 
-/// Every test must end without validation messages.
-class FogStageTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    GLOAM_REQUIRE_GPU(FogStage::device());
-    GLOAM_REQUIRE_DEPTH_TESTS(FogStage::device());
-    messages_ = FogStage::device()->validation_messages();
-  }
-  void TearDown() override {
-    if (FogStage::device() != nullptr) {
-      EXPECT_EQ(FogStage::device()->validation_messages(), messages_);
-    }
-  }
-
- private:
-  std::uint64_t messages_ = 0;
-};
+using FogStageTest = StageTest<FogStage>;
 
 /// Half floats have steps of 2⁻¹¹ of their value. The drawn light has gone through four: reduced, blurred twice,
 /// blended. A fifth is for the device's exponential function.
