@@ -11,7 +11,7 @@ set_property(GLOBAL PROPERTY GLOAM_SHADER_ROOT "${GLOAM_SHADER_ROOT}")
 set(GLOAM_SHADER_TOOLS "${CMAKE_CURRENT_LIST_DIR}" CACHE INTERNAL "folder of EmbedSpirv.cmake")
 # Passes of spirv-opt that inline functions and turn variables into values, so that drivers make pipelines faster even
 # when their cache is warm (docs/experiments.md). No pass changes arithmetic or moves code between branches.
-set(GLOAM_SPIRV_PASSES --preserve-bindings --preserve-spec-constants --inline-entry-points-exhaustive
+set(GLOAM_SPIRV_PASSES --skip-validation --preserve-bindings --preserve-spec-constants --inline-entry-points-exhaustive
   --eliminate-dead-functions --eliminate-dead-code-aggressive --private-to-local --scalar-replacement=100
   --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
   --eliminate-dead-code-aggressive --ssa-rewrite --eliminate-dead-code-aggressive

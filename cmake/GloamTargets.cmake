@@ -14,11 +14,15 @@ target_compile_definitions(gloam_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE)
 # No contraction to fused multiply-add: a CPU clone of a shader and the same code in another translation unit must agree
 # bit for bit.
 target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
-# A section for each function and object, so that a host that links with -Wl,--gc-sections drops what it does not use.
-target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffunction-sections;-fdata-sections>)
 if(GLOAM_SANITIZE)
   target_compile_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE} -fno-omit-frame-pointer)
+  if(GLOAM_SANITIZE_WITHOUT)
+    target_compile_options(gloam_options INTERFACE -fno-sanitize=${GLOAM_SANITIZE_WITHOUT})
+  endif()
   target_link_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE})
+else()
+  # A section for each function and object, so that a host that links with -Wl,--gc-sections drops what it does not use.
+  target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffunction-sections;-fdata-sections>)
 endif()
 
 # gloam_list_folders(<variable>): the names of the folders directly below the current source folder. An added or removed

@@ -44,6 +44,13 @@ _DROPPED = re.compile(r"-c|-MD|-MMD|-f(no-)?(pic|PIC|pie|PIE)|-O.|-O|-g.?")
 _DROPPED_WITH_VALUE = ("-o", "-MF", "-MT", "-MQ")
 
 
+def absent_standard(text, includes):
+    """A standard header that the text uses a name of and that is not among the includes; None if there is none."""
+    given = set(includes).union(*(IMPLIED.get(name, ()) for name in includes))
+    return next((standard for standard, names in STANDARD.items()
+                 if standard not in given and re.search(rf"\bstd::(?:ranges::)?(?:{names})\b(?!::)", text)), None)
+
+
 class Build:
     """The sources of a build tree and their compile flags."""
 
@@ -129,13 +136,8 @@ class Build:
     def lacks_standard(self, header):
         """Whether the header uses a name of the table without including its standard header, directly or through project files."""
         includes = {i[1] for path in self.closure(header) for i in include_arrows.includes(path.read_text(encoding="utf-8"))}
-        for name in list(includes):
-            includes |= IMPLIED.get(name, set())
         text = source_text.without_comments(source_text.read(self.root, header), blank_strings=True)
-        for standard, names in STANDARD.items():
-            if standard not in includes and re.search(rf"\bstd::(?:ranges::)?(?:{names})\b(?!::)", text):
-                return True
-        return False
+        return absent_standard(text, includes) is not None
 
     def precompile(self, headers):
         """Precompiles BUILD/hygiene/system.h(.gch) from GLM and the standard headers that many of these headers include. Loading

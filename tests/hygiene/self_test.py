@@ -12,6 +12,7 @@ import unittest
 from pathlib import Path
 
 import formatting
+import header_names
 import headers_alone
 import include_arrows
 import licences
@@ -385,6 +386,34 @@ class Packages(unittest.TestCase):
         self.assertEqual(packages.faults_of("p", "g++\nlibfoo1.2-dev\n"), [])
         for bad in ("g++\n\nlib\n", "# words\nlib\n", "lib \n", "two names\n", "lib", "lib\nlib\n", "Lib\n", "lib=1.0\n", ""):
             self.assertNotEqual(packages.faults_of("p", bad), [], bad)
+
+
+class HeaderNames(Tree):
+    def check(self):
+        return header_names.check(self.root)[0]
+
+    def test_a_name_without_an_include_that_declares_it_fails(self):
+        self.write("engine/core/low.h", "#pragma once\nstruct Low {};\nenum class Side { kLeft };\ninline constexpr int kMost = 1;\n")
+        self.write("engine/core/middle.h", '#pragma once\n#include "engine/core/low.h"\n')
+        self.write("engine/core/high.h", '#pragma once\n#include "engine/core/middle.h"\nLow low; Side side; int n = kMost;\n')
+        self.assertEqual(self.check(), [])
+        for text, word in (("Low low;", "Low"), ("Side side;", "Side"), ("int n = kMost;", "kMost"), ("core::Low low;", "Low")):
+            self.write("engine/core/high.h", f"#pragma once\n{text}\n")
+            self.assert_faults(self.check(), f"high.h: uses {word} ")
+        self.write("engine/core/high.h", "#pragma once\nstruct Low; Low* low; // Side\n")
+        self.assertEqual(self.check(), [])
+
+    def test_members_and_template_parameters_are_no_uses(self):
+        self.write("engine/core/low.h", "#pragma once\nstruct Value {};\ninline constexpr bool kFlag = true;\nstruct T {};\n")
+        self.write("engine/core/high.h", "#pragma once\ntemplate <typename T>\ntypename T::Value f(T t) { return Box<T>::kFlag ? t.Value : 1; }\n")
+        self.assertEqual(self.check(), [])
+
+    def test_names_of_libraries(self):
+        for text, include in (("glm::vec3 v;", "glm/vec3.hpp"), ("VkDevice d;", "vulkan/vulkan.h"), ("std::vector<int> v;", "vector")):
+            self.write("engine/core/a.h", f"#pragma once\n{text}\n")
+            self.assert_faults(self.check(), "a.h: uses ")
+            self.write("engine/core/a.h", f"#pragma once\n#include <{include}>\n{text}\n")
+            self.assertEqual(self.check(), [])
 
 
 @unittest.skipUnless(os.name == "posix", "drives a compiler as the build here does")
