@@ -74,7 +74,7 @@ function(gloam_add_shaders folder)
     list(APPEND outputs ${output})
     string(APPEND declarations "extern const gpu::ShaderCode ${symbol};\n")
     string(APPEND includes "#include \"shaders/${folder}/${stem}.spv.h\"\n")
-    string(APPEND definitions "const gpu::ShaderCode ${symbol}{\"${folder}/${stem}\", ${symbol}_words};\n")
+    string(APPEND definitions "const gpu::ShaderCode ${symbol}{\"${folder}/${stem}\", words_of(${symbol}_words)};\n")
     string(APPEND addresses "&${symbol}, ")
   endforeach()
   file(CONFIGURE OUTPUT ${out_dir}/shaders.h CONTENT
@@ -86,9 +86,17 @@ ${declarations}extern const std::span<const gpu::ShaderCode* const> every_shader
 ")
   file(CONFIGURE OUTPUT ${out_dir}/shaders.cpp CONTENT
 "#include \"shaders/${folder}/shaders.h\"
+#include <cstddef>
 #include <cstdint>
 namespace {
-${includes}}
+${includes}
+// char32_t has the size, alignment and values of a 32-bit word. Nothing ever writes these words.
+template <std::size_t count>
+std::span<const std::uint32_t> words_of(const char32_t (&literal)[count]) {
+  static_assert(sizeof(char32_t) == sizeof(std::uint32_t) && alignof(char32_t) == alignof(std::uint32_t));
+  return {reinterpret_cast<const std::uint32_t*>(literal), count - 1};
+}
+}
 namespace gloam::shaders::${folder} {
 ${definitions}constexpr const gpu::ShaderCode* kEveryShader[] = {${addresses}};
 const std::span<const gpu::ShaderCode* const> every_shader = kEveryShader;
