@@ -10,6 +10,9 @@
 
 namespace gloam::gpu::spirv {
 
+constexpr std::size_t kModuleHeaderWords = 5;
+constexpr std::size_t kBoundWord = 3;  ///< word of the header: ids are below its value
+
 /// One instruction: its opcode and all its words, the first one included.
 struct Instruction {
   std::uint32_t op = 0;

@@ -19,9 +19,6 @@
 namespace gloam::gpu::spirv {
 namespace {
 
-constexpr std::size_t kModuleHeaderWords = 5;
-constexpr std::size_t kBoundWord = 3;
-
 /// Whether an instruction has a type and a result, which are then its first two operands.
 bool has_typed_result(std::uint32_t op) {
   bool result = false, type = false;

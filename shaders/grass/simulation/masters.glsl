@@ -5,7 +5,6 @@
 
 // Bindings of the shaders that simulate the listed masters.
 
-#include "shaders/common/runtime_value.glsl"
 #include "shaders/grass/simulation/solver.glsl"
 #include "shaders/grass/way_api.glsl"
 

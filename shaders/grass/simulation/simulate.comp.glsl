@@ -110,7 +110,7 @@ void main() {
     precise vec3 next = at + way;
     knot_at[0][lane] = next;
     uint odd = 0u;
-    uint left = runtime_value(2u * iterations);
+    uint left = 2u * iterations;
     do {
       barrier();
       next = stage(rest, lane, k, next, odd);
@@ -126,7 +126,7 @@ void main() {
     bool runs = turn < own_steps;
     before = runs ? at : before;
     at = runs && k != 0u ? knot_at[1][lane] : at;
-  } while (++turn < runtime_value(steps.frame_steps));
+  } while (++turn < steps.frame_steps);
   if (!real) return;
   store_knot(place, stem.root, at, before, master.steps == GLOAM_GRASS_NO_STEP);
 }

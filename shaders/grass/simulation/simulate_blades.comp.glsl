@@ -72,7 +72,7 @@ void advance(GrassPatchRow patch_row, GrassStem stem, uint step, bool runs) {
     way[k] = moved;
     next[k] = at[k];
   }
-  uint left = runtime_value(iterations);
+  uint left = iterations;
   do {
     [[unroll]] for (int k = 0; k < kKnots; ++k) {
       precise vec3 sum = next[k] + way[k];
@@ -106,7 +106,7 @@ void main() {
   uint own_steps = min(master.steps, steps.frame_steps), turn = 0u;
   do {
     advance(patch_row, stem, turn + steps.frame_steps - own_steps, turn < own_steps);
-  } while (++turn < runtime_value(steps.frame_steps));
+  } while (++turn < steps.frame_steps);
 
   bool fresh = master.steps == GLOAM_GRASS_NO_STEP;
   [[unroll]] for (int k = 0; k < kKnots; ++k) store_knot(place + uint(k), stem.root, at[k], before[k], fresh);

@@ -3,7 +3,6 @@
 #ifndef GLOAM_SHADERS_REFLECTIONS_GLOSSY_WIDTH_GLSL
 #define GLOAM_SHADERS_REFLECTIONS_GLOSSY_WIDTH_GLSL
 
-#include "shaders/common/runtime_value.glsl"
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_api.glsl"
 
@@ -24,7 +23,7 @@ bool is_inside(ivec2 texel) {
 // Standard deviation of the blur at a texel, in texels, for spread 1 and a width factor of 1.
 float blur_unit(ivec2 texel) {
   if (kColumns != 0u) return reflection.blur_scale;
-  if (runtime_value(reflection.pixel_roughness) == 0u) return reflection.blur_scale * reflection.blur_across;
+  if (reflection.pixel_roughness == 0u) return reflection.blur_scale * reflection.blur_across;
   // The lobe of a rough floor keeps its angle along the vertical plane of the ray; across, it narrows with the sine of
   // the angle between ray and floor.
   vec3 ray = view_ray(view, (vec2(texel) + 0.5) * float(reflection.scale) - 0.5);
@@ -33,7 +32,7 @@ float blur_unit(ivec2 texel) {
 
 // Width factor of a surface.
 float blur_factor(float roughness) {
-  return runtime_value(reflection.pixel_roughness) == 0u ? 1.0 : roughness * roughness;
+  return reflection.pixel_roughness == 0u ? 1.0 : roughness * roughness;
 }
 
 // Standard deviation of the blur at a texel, in texels. spread, roughness: 0…1.

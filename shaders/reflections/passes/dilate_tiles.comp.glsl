@@ -35,7 +35,7 @@ int farthest_reach(ivec2 texel) {
   ivec2 tiles = (ivec2(reflection.size) + GLOAM_REFLECTION_GROUP - 1) / GLOAM_REFLECTION_GROUP;
   ivec2 own = texel / GLOAM_REFLECTION_GROUP;
   int aside = (int(reflection.blur_radius) + GLOAM_REFLECTION_GROUP - 1) / GLOAM_REFLECTION_GROUP, most = 0;
-  for (int i = -aside; i <= int(runtime_value(uint(aside))); ++i) {
+  for (int i = -aside; i <= aside; ++i) {
     ivec2 tile = own + i * kAlong, there = clamp(tile, ivec2(0), tiles - 1);
     float roughness = float(tile_roughness[there.y * tiles.x + there.x]) / 255.0;
     int reach = tile == there ? blur_reach(unit * blur_factor(roughness)) : 0;

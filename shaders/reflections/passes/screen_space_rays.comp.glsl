@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/common/runtime_value.glsl"
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_shared.h"
 #include "shaders/reflections/hit_distance_api.glsl"
@@ -52,7 +51,7 @@ Hit trace(MirrorSurface s) {
   vec2 bounds = kHierarchical != 0u ? march_hierarchical(ray) : march_constant(ray, depth_m);
   bool met = ray.length_m > 0.0 && bounds.x < bounds.y;
   // Binary search for the place where the ray passes behind the surface.
-  for (uint i = 0u; i < runtime_value(reflection.refine); ++i) {
+  for (uint i = 0u; i < reflection.refine; ++i) {
     float middle = 0.5 * (bounds.x + bounds.y);
     bool is_behind = behind_m(ray, middle) > 0.0;
     bounds = is_behind ? vec2(bounds.x, middle) : vec2(middle, bounds.y);

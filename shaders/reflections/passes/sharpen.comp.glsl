@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/common/runtime_value.glsl"
 #include "shaders/reflections/hit_distance_api.glsl"
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_shared.h"
@@ -87,7 +86,7 @@ vec4 reflection_of(ivec2 pixel, ivec2 texel) {
 void main() {
   ivec2 texel;
   if (!mirror_texel(texel)) return;
-  for (uint i = 0u; i < runtime_value(reflection.scale * reflection.scale); ++i) {
+  for (uint i = 0u; i < reflection.scale * reflection.scale; ++i) {
     ivec2 pixel = texel * int(reflection.scale) + block_offset(i);
     bool inside = all(lessThan(uvec2(pixel), view.size));
     vec4 light = reflection_of(min(pixel, ivec2(view.size) - 1), texel);

@@ -3,7 +3,6 @@
 #ifndef GLOAM_SHADERS_REFLECTIONS_COMPOSITE_UPSCALE_GLSL
 #define GLOAM_SHADERS_REFLECTIONS_COMPOSITE_UPSCALE_GLSL
 
-#include "shaders/common/runtime_value.glsl"
 #include "shaders/reflections/hit_distance_api.glsl"
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_api.glsl"
@@ -22,8 +21,8 @@ const float kOneSurface = 1.25;  // ratio of distances up to which texels show o
 // Bilinear over the texels that reflect. at: pixels of the view, centres at whole numbers.
 Mirrored fetch_mirrored(vec2 at) {
   vec2 candidate = vec2(reflection.first_candidate & 1u, reflection.first_candidate >> 1);
-  vec2 shown = runtime_value(reflection.scale) == 1u      ? vec2(0.0)
-               : runtime_value(reflection.centered) != 0u ? vec2(0.5)
+  vec2 shown = reflection.scale == 1u      ? vec2(0.0)
+               : reflection.centered != 0u ? vec2(0.5)
                                                           : candidate;
   vec2 texel = clamp((at - shown) / float(reflection.scale), vec2(0.0), vec2(reflection.size - 1u));
   ivec2 base = ivec2(texel), last = ivec2(reflection.size) - 1;
@@ -58,7 +57,7 @@ vec2 bent_pixel(vec2 pixel, vec3 position, vec3 normal, float distance_m) {
   vec3 image = position + vec3(ray.x, -ray.y, ray.z) * distance_m;
   vec4 clip = view.clip_from_relative * vec4(image, 1.0);
   vec2 at = (0.5 + clip.xy / max(clip.w, 1e-6) * vec2(0.5, -0.5)) * vec2(view.size) - 0.5;
-  return clip.w > view.near_m || runtime_value(view.orthographic) != 0u ? at : pixel;
+  return clip.w > view.near_m || view.orthographic != 0u ? at : pixel;
 }
 
 const float kMuchCloser = 0.5;  // share of the old fetch's distance below which the bent one has met something else

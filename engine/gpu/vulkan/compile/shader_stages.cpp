@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/gpu/spirv/runtime_conditions.h"
 #include "engine/gpu/spirv/specialize.h"
 #include "engine/gpu/vulkan/errors.h"
 
@@ -35,7 +36,10 @@ ShaderStages::~ShaderStages() {
 Status ShaderStages::add(const ShaderCode& code, ShaderStage stage, std::span<const NumberedConstant> constants) {
   // Disabled code is left out before the driver sees it: drivers translate all code first.
   const std::vector<std::uint32_t> specialized = spirv::specialize(code.words, constants);
-  const std::span<const std::uint32_t> words = specialized.empty() ? code.words : std::span(specialized);
+  std::span<const std::uint32_t> words = specialized.empty() ? code.words : std::span(specialized);
+  std::vector<std::uint32_t> hidden;
+  if (context_->physical.compiles_for_uniforms) hidden = spirv::hide_uniform_conditions(words);
+  if (!hidden.empty()) words = hidden;
   const VkShaderModuleCreateInfo info = {
       .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = words.size_bytes(), .pCode = words.data()};
   VkShaderModule module = VK_NULL_HANDLE;

@@ -101,6 +101,7 @@ void read_properties(const InstanceFunctions& f, PhysicalDevice& device) {
   device.crashes_at_depth_tests =
       v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE &&
       std::find(std::begin(kLlvmpipeLanes), std::end(kLlvmpipeLanes), v11.subgroupSize) == std::end(kLlvmpipeLanes);
+  device.compiles_for_uniforms = v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
   if (v12.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER) device.max_selections = kSwiftShaderSelections;
   device.info.max_storage_range = core.limits.maxStorageBufferRange;
   f.vkGetPhysicalDeviceMemoryProperties(device.handle, &device.memory);

@@ -35,6 +35,8 @@ struct PhysicalDevice {
   bool can_present = false;
   /// llvmpipe compiles depth tests for vectors of 128 and 256 bits only; its compiler crashes at other widths.
   bool crashes_at_depth_tests = false;
+  /// The driver compiles shaders anew when uniforms change that decide branches: see hide_uniform_conditions.
+  bool compiles_for_uniforms = false;
   /// The most branches of a shader that the driver compiles. SwiftShader follows every path through the body of a loop,
   /// so each branch may double the time and memory of its compiler.
   std::uint32_t max_selections = ~0u;
