@@ -8,6 +8,7 @@
 #include "modules/depth_of_field/blur/blur_layers_passes.h"
 #include "modules/depth_of_field/compose/compose_layers_pass.h"
 #include "modules/depth_of_field/tiles/list_tiles_passes.h"
+#include "modules/lighting/outputs.h"
 
 namespace gloam {
 namespace {
@@ -52,7 +53,7 @@ void add_dof_passes(FrameBuilder& frame, const DepthOfField& values, const Lens&
   inputs.bokeh = values.bokeh;
   inputs.constants = constants_of(frame.view(), inputs.knobs, lens, inputs.bokeh);
   inputs.block = frame.upload_uniform(inputs.constants);
-  inputs.depth = frame.get<GeometryOutputs>().depth;
+  inputs.depth = front_depth(frame);
   const DofFrame dof{inputs, add_dof_tile_passes(frame, inputs)};
   const DofLayers layers = add_dof_prefilter_pass(frame, dof);
   const DofLayers blurred = add_dof_blur_passes(frame, dof, layers);

@@ -16,6 +16,7 @@
 #include "modules/depth_of_field/lens/lens.h"
 #include "modules/depth_of_field/reference/lens_picture.h"
 #include "modules/depth_of_field/reference/lens_reference.h"
+#include "modules/lighting/outputs.h"
 
 namespace gloam {
 namespace {
@@ -74,6 +75,8 @@ class DepthOfFieldModule final : public Module {
     list_dof_pipelines(dof_knobs(knobs), device.threads_in_turn, list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::announce && find_depth_of_field(frame.world(), frame.view()) != nullptr)
+      frame.put(FrontDepthWanted{});
     if (phase == PassPhase::post) add_post_passes(frame);
     const DofFrame* dof = frame.find<DofFrame>();
     if (dof == nullptr || !frame.status().ok()) return;

@@ -5,6 +5,7 @@
 #include "engine/render/declare/draw_pass.h"
 #include "modules/fog/knobs.h"
 #include "modules/fog/model.h"
+#include "modules/lighting/outputs.h"
 #include "shaders/fog/fog_shared.h"
 #include "shaders/fog/shaders.h"
 
@@ -63,7 +64,7 @@ void add_fog_passes(FrameBuilder& frame, const Fog& fog) {
   LitOutput& lit = frame.get<LitOutput>();
   DrawPass pass(frame, "fog_apply", apply_program(frame.view().camera.orthographic, divisor));
   pass.uniform("fog", shaders::FogConstants{vec4(fog.color, 0.0f), fog.density, kFogForwardShare, kFogSkyDistance});
-  pass.read("depth_image", frame.get<GeometryOutputs>().depth);
+  pass.read("depth_image", front_depth(frame));
   pass.read("glow_image", glow, Sampling::linear);
   lit.color = pass.target(lit.color, gpu::LoadOp::load);  // the fog is blended over the light
   pass.draw_triangle();

@@ -60,7 +60,10 @@ class FogModule final : public Module {
 
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     const Fog fog = find_fog(frame.world());
-    if (phase == PassPhase::announce) frame.put(homogeneous(fog));
+    if (phase == PassPhase::announce) {
+      frame.put(homogeneous(fog));
+      frame.put(FrontDepthWanted{});
+    }
     const bool bare = frame.world().try_resource<BareLight>() != nullptr;
     if (phase == PassPhase::post) {
       if (bare) return add_bare_light_pass(frame);

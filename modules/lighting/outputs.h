@@ -53,6 +53,21 @@ struct DiffuseLightOutput {
 /// Decodes one texel: the two words of four half floats.
 [[nodiscard]] vec3 decode_diffuse_light(uvec2 texel);
 
+/// Another module needs FrontDepth. It puts this on the board in PassPhase::announce.
+struct FrontDepthWanted {};
+
+/// Depth of what is seen at each pixel, for effects that act on the finished light by its distance, such as fog and a
+/// lens: that of the opaque surface, and over it those of the blended surfaces before it, each weighted by its opacity as
+/// its light is. Device depth is linear in the reciprocal of the distance, and so is a lens's circle of confusion.
+/// r32f of the view's size.
+///
+/// On the board from PassPhase::translucent on, in views with FrontDepthWanted that show blended surfaces.
+struct FrontDepth {
+  ImageRef depth;
+};
+/// FrontDepth, or the depth of opaque surfaces where there is none.
+[[nodiscard]] ImageRef front_depth(FrameBuilder& frame);
+
 /// Homogeneous fog of the view. The module that draws it puts it on the board in PassPhase::announce, for modules that
 /// add light which has passed through it on other ways than straight to the camera, and keeps it as a world resource
 /// for references.

@@ -1,9 +1,13 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""Shaders are compiled once, not in every frame. Mesa's lavapipe compiles a compute shader anew whenever a branch or a
-number of turns depends on a uniform block alone (shaders/common/runtime_value.glsl). The times of passes then contain
-the time to read code from the driver's cache. Needs lavapipe and Linux's inotify."""
+"""Shaders are compiled once, not in every frame, at any size and for any knob. Mesa's lavapipe would compile a shader anew
+whenever uniforms that decide its branches make it half as long (engine/gpu/spirv/runtime_conditions.h). The times of passes
+then contain the time to read code from the driver's cache. Needs lavapipe and Linux's inotify.
+
+In the short form each built-in scene has one of twelve sizes, and the choices of a module's knobs are tried together in one
+scene. With GLOAM_LONG_TESTS each scene has all sizes, and each value of each knob, also the bounds of numbers, is tried alone."""
 import ctypes
+import json
 import os
 import struct
 from collections import Counter
@@ -11,7 +15,10 @@ from pathlib import Path
 
 from program_case import CACHE, ProgramCase, main
 
-FRAMES = 12
+FRAMES = 16  # more than pipelines that share a shader: each opens its file once
+SIZES = ("1x1", "7x5", "33x31", "96x54", "127x71", "200x112", "320x180", "400x225", "480x270", "512x288", "853x480", "1280x720")
+SHORT_SIZES = ("1x1", "7x5", "33x31", "96x54", "127x71", "200x112", "213x120", "240x135", "267x150", "320x180", "400x225", "160x90")
+LONG = bool(os.environ.get("GLOAM_LONG_TESTS"))
 IN_OPEN = 0x20
 
 
@@ -53,41 +60,56 @@ class ShaderCache(ProgramCase):
         if not self.cache.is_dir():
             self.skipTest("the device is not Mesa's, or its shader cache is off")
 
-    def render(self, frames, scene, *options):
-        self.expect(0, "render", scene, "--size", "160x90", "--frames", frames, *options, "--out", "p.png")
-
-    def check(self, scene, *options):
-        self.render(2, scene, *options)
+    def repeated(self, scene, *options):
+        """Files of the driver's cache that about every frame of a run opens."""
         opened = OpenCounts(self.cache)
         try:
-            self.render(FRAMES, scene, *options)
+            self.expect(0, "render", scene, "--frames", FRAMES, *options, "--out", "p.png", "--quiet")
             counts = opened.read()
         finally:
             opened.close()
-        self.assertGreater(len(counts), 3, "no shader was read from the cache: the check sees nothing")
-        repeated = {name: count for name, count in counts.items() if count >= FRAMES // 2}
-        self.assertEqual(repeated, {}, f"{scene} {options}: shaders are compiled again in every frame")
+        self.seen += len(counts)
+        return {name: count for name, count in counts.items() if count >= FRAMES - 2}
 
-    def test_reflections_and_fog(self):
-        self.check("builtin:wet_street")
+    def check(self, cases):
+        self.seen = 0
+        for scene, *options in cases:
+            with self.subTest(scene=scene, options=options):
+                self.assertEqual(self.repeated(scene, *options), {}, "shaders are compiled again in every frame")
+        self.assertGreater(self.seen, 3, "no shader was read from the cache: the check sees nothing")
 
-    def test_reflections_over_time(self):
-        self.check("builtin:wet_street", "--set", "reflections.temporal=on")
+    def scenes(self):
+        return [line.split()[0] for line in self.expect(0, "scenes").stdout.splitlines()
+                if line.startswith("builtin:")]
 
-    def test_mirrored_view(self):
-        self.check("builtin:wet_street", "--set", "reflections.mode=planar")
+    def test_every_scene_and_size(self):
+        scenes = self.scenes()
+        self.assertGreater(len(scenes), 8)
+        pairs = [(scene, size) for scene in scenes for size in SIZES] if LONG else \
+            [(scene, SHORT_SIZES[i % len(SHORT_SIZES)]) for i, scene in enumerate(scenes)]
+        self.check([(scene, "--size", size) for scene, size in pairs])
 
-    def test_grass_by_day(self):
-        self.check("builtin:meadow_day")
-
-    def test_lights_and_shadows(self):
-        self.check("builtin:lanterns")
-
-    def test_closeups(self):
-        self.check("builtin:closeups")
-
-    def test_many_lights(self):
-        self.check("builtin:many_lights")
+    def test_every_value_of_every_knob(self):
+        shows = {"lights": "many_lights", "closeups": "closeups", "reflections": "wet_street", "grass": "meadow_day",
+                 "particles": "smoke"}
+        knobs = json.loads(self.expect(0, "knobs", "--json").stdout)["knobs"]
+        choices = {k["name"]: [v for v in k["values"] if v != k["default"]] for k in knobs if "values" in k and "check" not in k["name"]}
+        bounds = {k["name"]: [k["min"], k["max"]] for k in knobs if "min" in k}
+        module_of = {k["name"]: k["module"] for k in knobs}
+        cases = []
+        if LONG:
+            for name, values in (choices | bounds).items():
+                scene = "builtin:" + shows.get(module_of[name], "shadows")
+                cases += [(scene, "--size", "96x54", "--set", f"{name}={value}") for value in values]
+        else:
+            for module in sorted(set(module_of.values())):
+                own = {name: values for name, values in choices.items() if module_of[name] == module}
+                for turn in range(max(map(len, own.values()), default=0)):
+                    # Without "off": the other values would have nothing to act on.
+                    chosen = [f"{n}={v[turn]}" for n, v in own.items() if turn < len(v) and v[turn] != "off"]
+                    sets = [word for choice in chosen for word in ("--set", choice)]
+                    cases.append(("builtin:" + shows.get(module, "shadows"), "--size", "64x36", *sets))
+        self.check(cases)
 
 
 if __name__ == "__main__":

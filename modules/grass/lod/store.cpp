@@ -6,16 +6,19 @@
 #include <array>
 #include <vector>
 
+#include "shaders/grass/drawing/pose_shared.h"
+
 namespace gloam {
 namespace {
 
 constexpr std::uint64_t kMostBinding = 128ull << 20;  // bytes of a storage buffer that every device can bind
 constexpr std::uint64_t kKnotBytes = GLOAM_GRASS_KNOTS * sizeof(vec4);
 constexpr std::uint64_t kRowBytes = GLOAM_GRASS_PATCH_BLADES * sizeof(shaders::GrassBladeRow);
+constexpr std::uint64_t kPoseBytes = GLOAM_GRASS_PATCH_BLADES * sizeof(shaders::GrassPose);
 
-/// The slots that all buffers have room for within a binding.
+/// The slots that all buffers have room for within a binding, those of a frame included.
 std::uint32_t most_slots(std::uint32_t slot_masters) {
-  return static_cast<std::uint32_t>(kMostBinding / std::max<std::uint64_t>(slot_masters * kKnotBytes, kRowBytes));
+  return static_cast<std::uint32_t>(kMostBinding / std::max({slot_masters * kKnotBytes, kRowBytes, kPoseBytes}));
 }
 
 HistoryBuffer kept_buffer(FrameBuilder& frame, const char* name, std::uint64_t bytes, std::uint32_t generation) {

@@ -146,6 +146,55 @@ TEST_F(Pipelines, kernels_choose_vectors_by_specialisation_constants) {
   }
 }
 
+std::uint32_t halvings(std::uint32_t v) {
+  std::uint32_t count = 0;
+  for (; v > 1; v /= 2) ++count;
+  return count;
+}
+
+/// What uniform_branches.comp.glsl computes, by kind of branch.
+std::uint32_t after_branches(std::uint32_t kind, std::uint32_t v, std::uint32_t number) {
+  const std::array<std::uint32_t, 4> elements = {2, 4, 8, 1};
+  std::uint32_t sum = v;
+  if ((kind == 0 || kind == 1) && number > 3) sum += halvings(v);
+  for (std::uint32_t k = 0; kind == 2 && k < number; ++k) sum = sum * 3 + k + v % 5;
+  if (kind == 3) sum += halvings(number);
+  if (kind == 4) sum += number > 3 ? (v > 7 ? 6 : 7) + halvings(v) : 5;
+  if (kind == 5 && v > 3) sum += halvings(v);
+  for (std::uint32_t k = 0; kind == 6 && k < 4; ++k) sum = sum * 3 + elements[k];
+  if (kind == 7 && elements[v % 4] > 3) sum += halvings(v);
+  return sum;
+}
+
+// On lavapipe these branches are changed: see engine/gpu/spirv/runtime_conditions.h.
+TEST_F(Pipelines, branches_that_uniforms_decide_compute_the_same_for_all_values) {
+  std::vector<std::uint32_t> numbers(64);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  const BufferHandle source = test::make_upload(device(), numbers);
+  for (std::uint32_t kind = 0; kind < 8; ++kind) {
+    const auto pipeline =
+        test::value_of(device().create_pipeline(ComputePipelineDesc{.name = "uniform branches",
+                                                                    .module = "test",
+                                                                    .shader = shaders::gpu_test::uniform_branches_comp,
+                                                                    .constants = {{"kKind", kind}}}));
+    for (const std::uint32_t number : {0u, 3u, 4u, 9u}) {
+      const BufferHandle uniform = test::make_upload(device(), std::vector<std::uint32_t>{number, 2, 4, 8, 1});
+      const BufferHandle target = test::make_readback(device(), 256);
+      test::run_frame(device(), [&](CommandList& commands) {
+        commands.bind_pipeline(pipeline);
+        commands.bind(std::array{Binding{0, Binding::BufferRange{uniform}}, Binding{1, Binding::BufferRange{source}},
+                                 Binding{2, Binding::BufferRange{target}}});
+        commands.push(number);
+        commands.dispatch(1, 1, 1);
+        to(commands, target, Access::compute_write, Access::host_read);
+      });
+      std::vector<std::uint32_t> expected(64);
+      for (std::uint32_t v = 0; v < 64; ++v) expected[v] = after_branches(kind, v, number);
+      EXPECT_EQ(test::items_of<std::uint32_t>(device(), target), expected) << "kind " << kind << ", number " << number;
+    }
+  }
+}
+
 TEST_F(Pipelines, dispatches_read_their_size_from_a_buffer) {
   const auto pipeline = test::value_of(device().create_pipeline(doubling()));
   const BufferHandle source = test::make_upload(device(), std::vector<std::uint32_t>(64, 21));
