@@ -38,6 +38,7 @@ void GpuScene::find_changes(const SceneAssets& assets) {
   GLOAM_ASSERT(fault.empty(), fault);
   waiting_ = false;
   left_ = 0;
+  cancel_gone_uploads(assets);
   find_changed_materials(assets);
   find_changed_images(assets);
   find_changed_meshes(assets);
@@ -134,7 +135,7 @@ Status GpuScene::begin_upload(const SceneAssets& assets, PackedAsset&& asset) {
     return Error{ErrorKind::failed,
                  std::string(asset.is_image ? "image " : "mesh ") + std::to_string(asset.index) + ": " + asset.fault};
   if (is_gone(assets, asset)) {
-    end_progress(asset);
+    forget(assets, asset);
     return {};
   }
   Staged staged;
@@ -158,26 +159,42 @@ Status GpuScene::begin_upload(const SceneAssets& assets, PackedAsset&& asset) {
   return {};
 }
 
-void GpuScene::end_progress(const PackedAsset& asset) {
-  progress_of(asset).in_flight = false;
-  waiting_ = true;  // it may have changed since
+void GpuScene::forget(const SceneAssets& assets, const PackedAsset& asset) {
+  Progress& progress = progress_of(asset);
+  progress.in_flight = false;
+  progress.requested = kNever;  // it did not arrive: its next use requests it again
+  waiting_ = true;
+  const ImageKey key{asset.index, asset.srgb};
+  if (!asset.is_image || shows(assets, key)) return;
+  materials_.show_image(assets, key, {});
+  image_progress_.erase(key);
+}
+
+void GpuScene::cancel_gone_uploads(const SceneAssets& assets) {
+  for (auto it = staged_.begin(); it != staged_.end();) {
+    const Staged& staged = it->second;
+    if (!is_gone(assets, staged.asset)) {
+      ++it;
+      continue;
+    }
+    uploads_.cancel(it->first);
+    if (staged.image) device_.destroy(staged.image);
+    for (const PackedPrimitive& packed : staged.asset.primitives) streams_.remove(packed.primitive);
+    forget(assets, staged.asset);
+    it = staged_.erase(it);
+  }
 }
 
 void GpuScene::finish_upload(const SceneAssets& assets, Staged&& staged) {
   const PackedAsset& asset = staged.asset;
-  const bool gone = is_gone(assets, asset);
-  end_progress(asset);
-  if (!gone) progress_of(asset).shown = asset.revision;
-  if (asset.is_image) {
-    if (gone)
-      device_.destroy(staged.image);
-    else
-      materials_.show_image(assets, {asset.index, asset.srgb}, staged.image);
-  } else if (gone) {
-    for (const PackedPrimitive& packed : asset.primitives) streams_.remove(packed.primitive);
-  } else {
+  Progress& progress = progress_of(asset);
+  progress.in_flight = false;
+  progress.shown = asset.revision;
+  waiting_ = true;  // it may have changed since
+  if (asset.is_image)
+    materials_.show_image(assets, {asset.index, asset.srgb}, staged.image);
+  else
     show_mesh(asset.index, std::move(staged.asset.primitives));
-  }
 }
 
 Status GpuScene::stage(const SceneAssets& assets) {

@@ -115,10 +115,14 @@ class GpuScene {
   void remove_mesh(std::uint32_t mesh);
   [[nodiscard]] Status begin_upload(const SceneAssets& assets, PackedAsset&& asset);
   void finish_upload(const SceneAssets& assets, Staged&& staged);
-  void end_progress(const PackedAsset& asset);
+  /// Notes that a requested asset does not arrive.
+  void forget(const SceneAssets& assets, const PackedAsset& asset);
+  /// Ends the uploads of assets that are gone, before a frame chooses its copies: a frame must not copy to an image that
+  /// was destroyed.
+  void cancel_gone_uploads(const SceneAssets& assets);
   [[nodiscard]] Status stage_changes(const SceneAssets& assets);
   void record(gpu::CommandList& commands);
-  /// Whether the asset was destroyed after the state that was packed.
+  /// Whether the asset was destroyed after the state that was packed, or no texture shows the image.
   [[nodiscard]] static bool is_gone(const SceneAssets& assets, const PackedAsset& asset);
 
   gpu::Device& device_;

@@ -23,6 +23,10 @@ void AssetUploads::add(Job job) {
   jobs_.push_back({std::move(job)});
 }
 
+void AssetUploads::cancel(std::uint64_t number) {
+  std::erase_if(jobs_, [number](const Pending& pending) { return pending.job.number == number; });
+}
+
 Result<UploadSlice> AssetUploads::staged_slice(std::span<const std::byte> bytes) {
   Result<UploadSlice> slice = staging_.ring(device_).allocate(bytes.size());
   if (slice.ok()) std::ranges::copy(bytes, slice->bytes.begin());

@@ -36,6 +36,8 @@ class AssetUploads {
   explicit AssetUploads(gpu::Device& device) : device_(device) {}
 
   void add(Job job);
+  /// Drops what is left of a job. Between record() and stage().
+  void cancel(std::uint64_t number);
   /// Stages at most `budget` bytes of the jobs, but at least one row of texels if any are left, and all urgent jobs.
   /// Call it once a frame, after Device::begin_frame. Returns the numbers of the jobs whose last bytes are staged now.
   [[nodiscard]] Result<std::vector<std::uint64_t>> stage(std::uint64_t budget);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/ecs/world.h"
+#include "engine/gpu/image_size.h"
 #include "engine/gpu/recording/device.h"
 #include "engine/scene/gltf/import.h"
 #include "tests/support/expect_assert.h"
@@ -390,6 +391,65 @@ TEST_F(SceneChanges, in_the_background_the_last_of_many_changes_wins) {
   }
   settle();
   expect_as_new();
+}
+
+TEST_F(SceneChanges, what_is_destroyed_in_any_frame_of_its_upload_is_not_copied_further) {
+  for (const std::uint64_t budget : {256u, 1024u, 1u << 20}) {
+    for (int frames = 0; frames < 9; ++frames) {
+      SCOPED_TRACE(std::to_string(frames) + " frames with a budget of " + std::to_string(budget));
+      start({.background = true, .budget = budget});
+      const std::uint32_t image = assets().add(Image{"late", 16, 16, std::vector<std::uint8_t>(1024, 9)});
+      const std::uint32_t texture = assets().add(Texture{.name = "late", .image = image});
+      Primitive ball = test::round_ball(1.0f, 8, 4, materials_[0]);
+      Mesh mesh{.name = "late", .primitives = {ball}, .morph_weights = {}, .bounds = ball.bounds};
+      const std::uint32_t late = assets().add(std::move(mesh));
+      for (int i = 0; i < frames; ++i) {
+        frame();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      assets().destroy(AssetKind::texture, texture);
+      assets().destroy(AssetKind::image, image);
+      assets().destroy(AssetKind::mesh, late);
+      settle();
+      ASSERT_FALSE(HasFatalFailure());
+      EXPECT_TRUE(device_->faults().empty());
+      expect_as_new();
+    }
+  }
+}
+
+TEST_F(SceneChanges, an_image_that_lost_its_texture_during_its_upload_is_uploaded_for_the_next_texture) {
+  const auto bytes = [&] {
+    std::uint64_t sum = 0;
+    for (const gpu::ModuleMemory& memory : device_->memory()) sum += memory.bytes;
+    return sum;
+  };
+  for (int frames = 1; frames < 8; ++frames) {
+    SCOPED_TRACE(frames);
+    start({.background = true, .budget = 4096});
+    settle();
+    for (int i = 0; i < 4; ++i) frame();
+    const std::uint64_t before = bytes();
+    const std::uint32_t image = assets().add(Image{"late", 64, 64, std::vector<std::uint8_t>(64 * 64 * 4, 9)});
+    std::uint32_t texture = assets().add(Texture{.name = "first", .image = image});
+    for (int i = 0; i < frames; ++i) {
+      frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    assets().destroy(AssetKind::texture, texture);
+    settle();
+    for (int i = 0; i < 4; ++i) frame();
+    EXPECT_EQ(bytes(), before) << "an image that no texture shows takes no memory";
+    texture = assets().add(Texture{.name = "second", .image = image});
+    std::uint64_t rows = 0;
+    do {
+      frame();
+      rows += copied_rows_bytes(*device_);
+    } while (scene_->pending() > 0 && !HasFatalFailure());
+    EXPECT_EQ(rows, gpu::image_bytes(texture_image_desc("late", 64, 64, false)));
+    assets().destroy(AssetKind::texture, texture);
+    assets().destroy(AssetKind::image, image);
+  }
 }
 
 TEST_F(SceneChanges, a_scene_that_ends_while_assets_are_packed_waits_for_nothing_and_leaks_nothing) {
