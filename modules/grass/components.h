@@ -38,7 +38,7 @@ struct Wind {
 };
 
 /// One blade. Growth makes blades; a host may change or destroy them and then calls mark_changed or destroys the
-/// entity. Positions are relative to the blade's patch (GrassPatch::origin).
+/// entity. Positions are relative to the blade's patch (GrassPatch::origin) and along its axes.
 struct GrassBlade {
   vec3 root_m = vec3(0.0f);
   vec3 ground_normal = vec3(0.0f, 1.0f, 0.0f);  ///< unit; no knot goes below the plane through the root
@@ -60,8 +60,10 @@ struct GrassSlaveTag {};
 struct GrassPatch {
   Entity surface = kNoEntity;  ///< entity with the GrassSurface
   dvec3 origin = dvec3(0.0);   ///< world position of the middle of `roots`
-  Aabb roots;                  ///< of the blades' roots, relative to the origin
-  float reach_m = 0.0f;        ///< length of the longest blade
+  dquat turn =
+      dquat(1.0, 0.0, 0.0, 0.0);  ///< from the patch's axes to the world's: the ground has turned since it grew
+  Aabb roots;                     ///< of the blades' roots, relative to the origin, along the patch's axes
+  float reach_m = 0.0f;           ///< length of the longest blade
   float max_distance_m = 40.0f;
   std::uint32_t index = 0;  ///< among the field's patches
   std::uint32_t blades = 0;

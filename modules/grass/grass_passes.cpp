@@ -38,6 +38,8 @@ shaders::GrassSteps steps_of(const World& world, std::uint32_t iterations) {
   return steps;
 }
 
+vec4 shader_quaternion(const dquat& q) { return vec4(dvec4(q.x, q.y, q.z, q.w)); }
+
 /// Uploads the rows of the view's patches and of the colliders near them.
 GrassInputs upload_patches(FrameBuilder& frame, const GrassField& field, const StoredPatches& stored) {
   std::vector<shaders::GrassPatchRow> rows;
@@ -46,7 +48,12 @@ GrassInputs upload_patches(FrameBuilder& frame, const GrassField& field, const S
   for (const ResidentPatch& resident : stored.patches) {
     const GrassPatch& patch = field.patches[resident.patch];
     shaders::GrassPatchRow row{};
+    const GrassPatchMotion& motion = field.motions[resident.patch];
     row.origin = frame.view().relative(patch.origin);
+    row.turn = shader_quaternion(patch.turn);
+    row.previous_turn = shader_quaternion(motion.previous_turn);
+    row.carried = vec3(motion.carried);
+    row.push = motion.push;
     row.box_from = patch.roots.min;
     row.box_size = patch.roots.max - patch.roots.min;
     row.wind_at = vec3(wind_position(patch.origin));
@@ -129,6 +136,7 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
     for (const std::string& note : field.notes) worlds.notes_log.warning(frame.services().log, note);
 
   const GrassStoreInput input{.patches = field.patches,
+                              .plantings = field.plantings,
                               .rows = rows.rows,
                               .field = field.version,
                               .row_version = rows.version,

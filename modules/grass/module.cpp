@@ -84,6 +84,7 @@ class GrassModule final : public Module {
   void prepare_view(World& world, ViewId view, const KnobRegistry& registry) const override {
     const GrassField& field = world.resource<GrassField>();
     if (world.resource<GrassEntities>().field_version != field.version) make_blade_entities(world, field);
+    if (world.resource<GrassEntities>().field_moves != field.moves) move_patch_entities(world, field);
     if (world.try_view_resource<VisiblePatches>(view) == nullptr) world.set_view_resource(view, VisiblePatches{});
     world.set_view_resource(view, GrassViewSettings{{.cast_distance_m = grass_knobs(registry).cast_distance_m}});
   }

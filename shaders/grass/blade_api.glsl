@@ -44,6 +44,13 @@ GrassStem grass_stem(GrassPatchRow patch_row, GrassBladeRow row) {
   return s;
 }
 
+// A vector along the patch's axes, turned to the world's axes; grass_unturned() is the inverse. Exact without a turn.
+vec3 grass_turned(vec4 turn, vec3 v) {
+  precise vec3 turned = v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v);
+  return turned;
+}
+vec3 grass_unturned(vec4 turn, vec3 v) { return grass_turned(vec4(-turn.xyz, turn.w), v); }
+
 uint grass_type(GrassBladeRow row) { return row.kind >> 8 & 0xFu; }
 uint grass_layer(GrassBladeRow row) { return row.kind >> 12 & 0xFu; }
 uint grass_master(GrassBladeRow row) { return row.kind >> 16 & 0xFFu; }

@@ -6,7 +6,8 @@
 #include "shaders/common/prelude.h"
 
 // Blades of grass: a stem of 16 knots on each. Knots of masters are simulated; slaves copy their master's. Positions of
-// a patch are relative to its origin, so that they are exact far from the world's origin.
+// a patch are relative to its origin, so that they are exact far from the world's origin, and along its axes, which
+// turn with the ground.
 
 #define GLOAM_GRASS_KNOTS 16
 #define GLOAM_GRASS_PATCH_BLADES 256     // slots of a patch; the last ones may be empty
@@ -33,8 +34,12 @@ struct GrassTypeRow {
 
 /// One patch that is drawn or simulated in this frame.
 struct GrassPatchRow {
-  vec3 origin;    // camera-relative position of the patch's origin, metres
-  vec3 box_from;  // box of the roots, relative to the origin
+  vec3 origin;         // camera-relative position of the patch's origin, metres
+  vec4 turn;           // quaternion (x, y, z, w) from the patch's axes to the world's; 0: none
+  vec4 previous_turn;  // in the frame before
+  vec3 carried;        // way of the origin since the frame before
+  vec3 push;           // acceleration of the blades against that of the ground, m/s², in the world
+  vec3 box_from;       // box of the roots, relative to the origin, along the patch's axes
   vec3 box_size;
   vec3 wind_at;         // position of the origin in the wind's field, metres, 0…GLOAM_GRASS_WIND_PERIOD
   uint first_blade;     // in the blade rows
@@ -45,8 +50,8 @@ struct GrassPatchRow {
   float max_distance_m;  // range of the 8-bit keys
 };
 
-/// One collider near one patch. Positions are relative to the patch's origin, at the begin and the end of the frame's
-/// steps. A sphere is a capsule whose ends coincide.
+/// One collider near one patch. Positions are relative to the patch's origin and along its axes, at the begin and the
+/// end of the frame's steps. A sphere is a capsule whose ends coincide.
 struct GrassCollider {
   vec3 from;  // capsule: one end of its axis; box: its centre
   vec3 from_previous;

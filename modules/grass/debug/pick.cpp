@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <glm/ext/quaternion_common.hpp>
 #include <limits>
 
 #include "engine/render/readback/geometry_picture.h"
@@ -44,7 +45,7 @@ class BladeSearch {
       const std::uint32_t index = sorted % GLOAM_GRASS_PATCH_BLADES;
       const GrassPatch& patch = field_.patches[resident.patch];
       const GrassBlade& blade = field_.blades[resident.patch * GLOAM_GRASS_PATCH_BLADES + index];
-      const dvec3 at = point_ - patch.origin - dvec3(blade.root_m);
+      const dvec3 at = glm::conjugate(patch.turn) * (point_ - patch.origin) - dvec3(blade.root_m);
       if (glm::length(at) > 1.1 * static_cast<double>(blade.length_m)) continue;
       const double distance_m = distance_to_stem(at, resident, blade, index);
       if (distance_m < best.distance_m) best = {distance_m, blade.slot};

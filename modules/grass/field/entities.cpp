@@ -49,6 +49,7 @@ void make_blade_entities(World& world, const GrassField& field) {
   destroy_all(world, entities.blades);
   destroy_all(world, entities.patches);
   entities.field_version = field.version;
+  entities.field_moves = field.moves;
   entities.blades.resize(field.statistics.blades);
   std::size_t next = 0;
   for (const GrassPatch& patch : field.patches) {
@@ -59,6 +60,20 @@ void make_blade_entities(World& world, const GrassField& field) {
     create_blades<GrassMasterTag>(world, blades.first(patch.masters), out.first(patch.masters));
     create_blades<GrassSlaveTag>(world, blades.subspan(patch.masters), out.subspan(patch.masters));
     next += patch.blades;
+  }
+}
+
+void move_patch_entities(World& world, const GrassField& field) {
+  GrassEntities& entities = world.resource<GrassEntities>();
+  entities.field_moves = field.moves;
+  for (std::size_t i = 0; i < entities.patches.size(); ++i) {
+    const Entity entity = entities.patches[i];
+    GrassPatch* patch = world.alive(entity) ? world.try_get<GrassPatch>(entity) : nullptr;
+    if (patch == nullptr || (patch->origin == field.patches[i].origin && patch->turn == field.patches[i].turn))
+      continue;
+    patch->origin = field.patches[i].origin;
+    patch->turn = field.patches[i].turn;
+    world.mark_changed<GrassPatch>(entity);
   }
 }
 

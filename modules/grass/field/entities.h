@@ -18,6 +18,7 @@ struct GrassEntities {
   std::vector<Entity> patches;      ///< by GrassPatch::index
   std::vector<Entity> blades;       ///< patch by patch, masters first
   std::uint64_t field_version = 0;  ///< GrassField::version they were made from
+  std::uint64_t field_moves = 0;    ///< GrassField::moves of the patches
 };
 
 /// Registers GrassBlade, GrassPatch and the two tags.
@@ -26,6 +27,9 @@ void register_grass_components(World& world);
 /// Destroys the entities of the earlier growth and creates those of the field: an entity a patch and an entity a blade.
 /// A structural change.
 void make_blade_entities(World& world, const GrassField& field);
+
+/// Brings the patches' entities to the places of the field's patches, and marks them as changed.
+void move_patch_entities(World& world, const GrassField& field);
 
 /// Rows of all blades for the GPU, by slot.
 struct GrassBladeRows {

@@ -37,6 +37,19 @@ class GrassResidency {
   void clear() { *this = GrassResidency(); }
   /// Forgets the patches; the slots stay.
   void clear_patches();
+  /// Gives every patch that has a slot its index in another field: number_of(patch), or ~0u to forget the patch.
+  template <class NumberOf>
+  void renumber(const NumberOf& number_of) {
+    slot_of_.clear();
+    for (std::uint32_t i = 0; i < slots_.size(); ++i) {
+      if (slots_[i].patch == ~0u) continue;
+      const std::uint32_t patch = number_of(slots_[i].patch);
+      if (patch == ~0u)
+        slots_[i] = {};
+      else
+        slot_of_[slots_[i].patch = patch] = i;
+    }
+  }
 
   [[nodiscard]] std::uint32_t capacity() const { return static_cast<std::uint32_t>(slots_.size()); }
   [[nodiscard]] std::uint32_t left_out() const { return left_out_; }  ///< of the last call

@@ -49,12 +49,24 @@ std::array<BufferRef*, 4> buffers_of(GrassStore& store) {
   return {&store.rows, &store.stamps, &store.knots, &store.previous_knots};
 }
 
-/// Copies all of a smaller store to the begin of the other, which it returns.
-GrassStore add_growth_pass(FrameBuilder& frame, GrassStore from, GrassStore to) {
+/// Slots of a store and the masters for which each has room.
+struct StoreSize {
+  std::uint32_t slots = 0;
+  std::uint32_t slot_masters = 0;
+
+  [[nodiscard]] std::uint64_t stride(std::size_t buffer) const {
+    const std::uint64_t masters = slot_masters;
+    return std::array<std::uint64_t, 4>{kRowBytes, masters * sizeof(std::uint32_t), masters * kKnotBytes,
+                                        masters * kKnotBytes}[buffer];
+  }
+};
+
+/// Copies all slots of a smaller store to the same slots of the other, which it returns.
+GrassStore add_growth_pass(FrameBuilder& frame, GrassStore from, StoreSize size, GrassStore to, StoreSize to_size) {
   PassBuilder pass = frame.graph().add_pass("grass_growth", frame.module());
   struct Copy {
     BufferRef from, to;
-    std::uint64_t bytes;
+    std::uint64_t from_stride, to_stride;
   };
   std::vector<Copy> copies;
   const auto sources = buffers_of(from);
@@ -62,13 +74,38 @@ GrassStore add_growth_pass(FrameBuilder& frame, GrassStore from, GrassStore to) 
   for (std::size_t i = 0; i < sources.size(); ++i) {
     pass.read(*sources[i], gpu::Access::transfer_read);
     *targets[i] = pass.write(*targets[i], gpu::Access::transfer_write);
-    copies.push_back({*sources[i], *targets[i], frame.graph().desc(*sources[i]).size});
+    copies.push_back({*sources[i], *targets[i], size.stride(i), to_size.stride(i)});
   }
-  pass.execute([copies](PassContext& context) {
-    for (const Copy& copy : copies)
-      context.commands().copy_buffer(context.buffer(copy.from), 0, context.buffer(copy.to), 0, copy.bytes);
+  pass.execute([copies, slots = size.slots](PassContext& context) {
+    for (const Copy& copy : copies) {
+      const auto source = context.buffer(copy.from);
+      const auto target = context.buffer(copy.to);
+      if (copy.from_stride == copy.to_stride) {
+        context.commands().copy_buffer(source, 0, target, 0, slots * copy.from_stride);
+        continue;
+      }
+      for (std::uint64_t slot = 0; slot < slots; ++slot)
+        context.commands().copy_buffer(source, slot * copy.from_stride, target, slot * copy.to_stride,
+                                       copy.from_stride);
+    }
   });
   return to;
+}
+
+/// Lets the patches of surfaces that both fields have keep their slots.
+void renumber_patches(const GrassStoreInput& input, GrassStoreState& state) {
+  state.residency.renumber([&](std::uint32_t patch) {
+    for (const PlantedPatches& before : state.plantings) {
+      if (patch < before.first || patch - before.first >= before.count) continue;
+      for (const GrassPlanting& now : input.plantings)
+        if (now.number == before.number) return now.first_patch + (patch - before.first);
+    }
+    return ~0u;
+  });
+  state.plantings.clear();
+  for (const GrassPlanting& now : input.plantings)
+    if (!now.origins.empty())
+      state.plantings.push_back({now.number, now.first_patch, static_cast<std::uint32_t>(now.origins.size())});
 }
 
 /// Uploads stale rows, and clears the stamps of fresh slots.
@@ -121,28 +158,30 @@ std::uint32_t GrassStoreStates::left_out(std::uint64_t world) const {
 
 StoredPatches add_store_passes(FrameBuilder& frame, const GrassStoreInput& input, std::span<const VisiblePatch> visible,
                                GrassStoreState& state) {
-  const bool same_field = state.field == input.field && state.slot_masters == input.slot_masters;
-  if (!same_field) state.residency.clear();
+  if (state.field != input.field) renumber_patches(input, state);
+  const std::uint32_t old_masters = state.slot_masters;
+  if (state.residency.capacity() > most_slots(input.slot_masters)) state.residency.clear();
+  const bool kept = state.residency.capacity() > 0 && old_masters >= input.slot_masters;
+  if (!kept) state.slot_masters = input.slot_masters;
   if (state.restarts != input.restarts) state.residency.clear_patches();
   const std::uint32_t old_capacity = state.residency.capacity();
   // The buffers of a world that was released, or not drawn for a while, are new and hold nothing.
   if (old_capacity > 0 && !kept_rows(frame, old_capacity, state.generation).filled()) state.residency.clear_patches();
   StoredPatches stored;
   stored.patches =
-      state.residency.place(visible, frame.view().frame, input.row_version, most_slots(input.slot_masters));
-  stored.slot_masters = input.slot_masters;
+      state.residency.place(visible, frame.view().frame, input.row_version, most_slots(state.slot_masters));
+  stored.slot_masters = state.slot_masters;
   const std::uint32_t capacity = state.residency.capacity();
-  const bool grows = capacity != old_capacity;
+  const bool grows = capacity != old_capacity || state.slot_masters != old_masters;
   if (grows) ++state.generation;
-  stored.store = store_of(frame, capacity, input.slot_masters, state.generation);
+  stored.store = store_of(frame, capacity, state.slot_masters, state.generation);
   if (!frame.status().ok()) return stored;
   if (grows && old_capacity > 0)
-    stored.store =
-        add_growth_pass(frame, store_of(frame, old_capacity, input.slot_masters, state.generation - 1), stored.store);
+    stored.store = add_growth_pass(frame, store_of(frame, old_capacity, old_masters, state.generation - 1),
+                                   {old_capacity, old_masters}, stored.store, {capacity, state.slot_masters});
   stored.store = add_upload_pass(frame, input, stored);
   state.restarts = input.restarts;
   state.field = input.field;
-  state.slot_masters = input.slot_masters;
   return stored;
 }
 

@@ -3,6 +3,7 @@
 #include "modules/grass/lod/visible_patches.h"
 
 #include <algorithm>
+#include <glm/ext/quaternion_common.hpp>
 
 #include "engine/math/frustum.h"
 
@@ -21,7 +22,7 @@ void cull_range(std::span<const GrassPatch> patches, JobRange range, const Rende
     const GrassPatch& patch = patches[i];
     if (patch.blades == 0) continue;
     const dvec3 origin = patch.origin - view.position;
-    const double nearest_m = distance_to(patch.roots, -origin);
+    const double nearest_m = distance_to(patch.roots, glm::conjugate(patch.turn) * -origin);
     if (!(nearest_m < static_cast<double>(patch.max_distance_m))) continue;
     Aabb box = reach_box(patch);
     box.min = vec3(dvec3(box.min) + origin);
@@ -31,10 +32,23 @@ void cull_range(std::span<const GrassPatch> patches, JobRange range, const Rende
   }
 }
 
+/// Box of the roots, relative to the origin, along the world's axes. A patch without roots keeps its empty box.
+Aabb root_box(const GrassPatch& patch) {
+  if (patch.turn == dquat(1.0, 0.0, 0.0, 0.0) || patch.roots.empty()) return patch.roots;
+  Aabb box;
+  for (int i = 0; i < 8; ++i) {
+    const dvec3 corner((i & 1) != 0 ? patch.roots.max.x : patch.roots.min.x,
+                       (i & 2) != 0 ? patch.roots.max.y : patch.roots.min.y,
+                       (i & 4) != 0 ? patch.roots.max.z : patch.roots.min.z);
+    box.grow(vec3(patch.turn * corner));
+  }
+  return box;
+}
+
 }  // namespace
 
 Aabb reach_box(const GrassPatch& patch) {
-  Aabb box = patch.roots;
+  Aabb box = root_box(patch);
   box.min -= vec3(patch.reach_m);
   box.max += vec3(patch.reach_m);
   return box;

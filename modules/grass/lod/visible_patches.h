@@ -32,8 +32,8 @@ struct VisiblePatches {
   float range_m = 0.0f;  ///< greatest GrassPatch::max_distance_m among them
 };
 
-/// Box of everything that the patch's blades may touch, relative to its origin: every knot lies within its blade's
-/// length of the root.
+/// Box of everything that the patch's blades may touch, relative to its origin, along the world's axes: every knot lies
+/// within its blade's length of the root.
 [[nodiscard]] Aabb reach_box(const GrassPatch& patch);
 
 /// The patches that may show a blade in the view, or have one within the cast distance. Never drops another one.

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/ext/quaternion_common.hpp>
 
 #include "engine/math/finite.h"
+#include "modules/grass/lod/visible_patches.h"
 
 namespace gloam {
 namespace {
@@ -42,15 +44,16 @@ dvec3 half_bounds(const PlacedCollider& c) {
   return half;
 }
 
-shaders::GrassCollider row_of(const PlacedCollider& c, dvec3 origin) {
+shaders::GrassCollider row_of(const PlacedCollider& c, const GrassPatch& patch) {
+  const dquat turn = glm::conjugate(patch.turn);
   shaders::GrassCollider row{};
-  row.from = vec3(c.from - origin);
-  row.from_previous = vec3(c.from_previous - origin);
-  row.to = vec3(c.to - origin);
-  row.to_previous = vec3(c.to_previous - origin);
-  row.axis_x = vec3(c.axes[0]);
-  row.axis_y = vec3(c.axes[1]);
-  row.axis_z = vec3(c.axes[2]);
+  row.from = vec3(turn * (c.from - patch.origin));
+  row.from_previous = vec3(turn * (c.from_previous - patch.origin));
+  row.to = vec3(turn * (c.to - patch.origin));
+  row.to_previous = vec3(turn * (c.to_previous - patch.origin));
+  row.axis_x = vec3(turn * c.axes[0]);
+  row.axis_y = vec3(turn * c.axes[1]);
+  row.axis_z = vec3(turn * c.axes[2]);
   row.half_size = vec3(c.half_size);
   row.radius_m = static_cast<float>(c.radius_m);
   row.box = c.box ? 1 : 0;
@@ -126,13 +129,13 @@ void grass_colliders_system(View<const Collider, const WorldTransform> colliders
 std::uint32_t colliders_near(const GrassPatch& patch, std::span<const PlacedCollider> colliders,
                              std::vector<shaders::GrassCollider>& rows) {
   if (patch.roots.empty()) return 0;
-  const auto reach = static_cast<double>(patch.reach_m);
-  const dvec3 low = patch.origin + dvec3(patch.roots.min) - reach;
-  const dvec3 high = patch.origin + dvec3(patch.roots.max) + reach;
+  const Aabb box = reach_box(patch);
+  const dvec3 low = patch.origin + dvec3(box.min);
+  const dvec3 high = patch.origin + dvec3(box.max);
   std::uint32_t count = 0;
   for (const PlacedCollider& c : colliders) {
     if (!glm::all(glm::lessThanEqual(c.low, high)) || !glm::all(glm::lessThanEqual(low, c.high))) continue;
-    rows.push_back(row_of(c, patch.origin));
+    rows.push_back(row_of(c, patch));
     ++count;
   }
   return count;

@@ -42,14 +42,17 @@ void main() {
   mat3 turn = turn_of(master, blade, slot, first_knot, grass_type(packed_master));
   turn = slot == master_slot ? mat3(1.0) : turn;
 
-  float distance_m = length(row.origin + blade.root);
+  vec3 root = grass_turned(row.turn, blade.root);
+  float distance_m = length(row.origin + root);
   float share = grass_share(lod, blade.width_m, distance_m);
   float factor = grass_width_factor(lod, share, grass_rank(packed_blade), distance_m, row.max_distance_m);
   // Knots that no step has written yet are not drawn.
   factor = stamps[row.first_place + master_slot] == GLOAM_GRASS_NO_STEP ? 0.0 : factor;
-  vec3 moved = row.origin + blade.root - turn * master.root;
+  for (int i = 0; i < 3; ++i) turn[i] = grass_turned(row.turn, turn[i]);
+  vec3 moved = row.origin + root - turn * master.root;
   vec3 side = normalize(turn * cross(master.normal, master.forward));
   GrassPose pose;
+  pose.carried = row.carried + (root - grass_turned(row.previous_turn, blade.root));
   pose.row0 = vec4(turn[0].x, turn[1].x, turn[2].x, moved.x);
   pose.row1 = vec4(turn[0].y, turn[1].y, turn[2].y, moved.y);
   pose.row2 = vec4(turn[0].z, turn[1].z, turn[2].z, moved.z);

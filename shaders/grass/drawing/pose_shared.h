@@ -17,6 +17,7 @@ struct GrassPose {
   uint side;        // octahedral, snorm16: across the blade at the root
   uint width;       // packHalf2x16(width at the root in metres, after the LOD; taper)
   uint layer;
+  vec3 carried;  // way of the root since the frame before, because the ground has moved
 };
 
 GLOAM_SHARED_END

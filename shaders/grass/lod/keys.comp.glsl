@@ -25,7 +25,7 @@ bool in_view(vec3 root, float length_m) {
 uint key_of(GrassPatchRow row, uint index) {
   GrassBladeRow packed_blade = blade_rows[row.first_blade + min(index, row.blades - 1u)];
   GrassStem blade = grass_stem(row, packed_blade);
-  vec3 root = row.origin + blade.root;
+  vec3 root = row.origin + grass_turned(row.turn, blade.root);
   float distance_m = length(root);
   float share = grass_share(lod, blade.width_m, distance_m);
   bool drawn = index < row.blades && blade.length_m > 0.0 && distance_m < row.max_distance_m &&

@@ -99,13 +99,14 @@ void main() {
   uint own_steps = min(master.steps, steps.frame_steps);
   uint iterations = max(steps.iterations, 1u);
   precise GrassWind wind = steps.wind;
-  precise vec3 wind_at = patch_row.wind_at + stem.root;
+  precise vec3 wind_at = patch_row.wind_at + grass_turned(patch_row.turn, stem.root);
+  vec3 pull = external_acceleration(patch_row);
   uint turn = 0u;
   do {
     uint step = turn + steps.frame_steps - own_steps;
     wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * float(step));
-    vec3 air = wind_velocity(wind, wind_at);
-    precise vec3 way = predicted(rest, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, steps.step_s);
+    vec3 air = grass_unturned(patch_row.turn, wind_velocity(wind, wind_at));
+    precise vec3 way = predicted(rest, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, pull, steps.step_s);
     way /= float(iterations);
     precise vec3 next = at + way;
     knot_at[0][lane] = next;

@@ -63,11 +63,12 @@ void load_knots(GrassPatchRow patch_row, GrassStem stem, uint type, uint place, 
 void advance(GrassPatchRow patch_row, GrassStem stem, uint step, bool runs) {
   uint iterations = max(steps.iterations, 1u);
   precise GrassWind wind = steps.wind;
-  precise vec3 wind_at = patch_row.wind_at + stem.root;
+  precise vec3 wind_at = patch_row.wind_at + grass_turned(patch_row.turn, stem.root);
+  vec3 pull = external_acceleration(patch_row);
   wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * float(step));
-  vec3 air = wind_velocity(wind, wind_at);
+  vec3 air = grass_unturned(patch_row.turn, wind_velocity(wind, wind_at));
   [[unroll]] for (int k = 0; k < kKnots; ++k) {
-    precise vec3 moved = predicted(rest[k], at[k], before[k], at[max(k, 1) - 1], air, steps.step_s);
+    precise vec3 moved = predicted(rest[k], at[k], before[k], at[max(k, 1) - 1], air, pull, steps.step_s);
     moved /= float(iterations);
     way[k] = moved;
     next[k] = at[k];

@@ -74,16 +74,21 @@ vec3 bounded(vec3 v, float most) {
   return len > most ? shorter : v;
 }
 
-// Verlet: the way of a knot in one step by its velocity and the external accelerations. knot_below: position of the
-// knot below.
-vec3 predicted(KnotRest r, vec3 at, vec3 before, vec3 knot_below, vec3 wind, float step_s) {
+// Gravity, and the push of an accelerating ground, along the patch's axes.
+vec3 external_acceleration(GrassPatchRow patch_row) {
+  return grass_unturned(patch_row.turn, kGravity + patch_row.push);
+}
+
+// Verlet: the way of a knot in one step by its velocity, the wind and the external acceleration `pull`. knot_below:
+// position of the knot below.
+vec3 predicted(KnotRest r, vec3 at, vec3 before, vec3 knot_below, vec3 wind, vec3 pull, float step_s) {
   precise vec3 last_way = at - before;
   precise vec3 segment = at - knot_below;
   precise vec3 moved = bounded(last_way, r.reach_m);
   precise vec3 along = direction_or(segment, vec3(0.0));
   precise vec3 air = wind - moved / step_s;
   air -= along * product(along, air);
-  precise vec3 acceleration = kGravity + air * (kDragAcceleration / (length_of(air) + kDragSpeed));
+  precise vec3 acceleration = pull + air * (kDragAcceleration / (length_of(air) + kDragSpeed));
   precise vec3 way = moved * r.retained + acceleration * r.gain;
   return way;
 }

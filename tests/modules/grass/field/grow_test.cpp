@@ -118,7 +118,10 @@ TEST(Grow, the_field_is_regrown_only_when_an_input_changes) {
   w.world.get<GrassSurface>(entity).max_distance_m = 10.0f;
   expect_regrown("max_distance");
   w.world.get<WorldTransform>(entity).matrix[3].x = 1.0;
-  expect_regrown("transform");
+  EXPECT_EQ(w.run().version, version) << "blades follow their ground";
+  w.world.get<WorldTransform>(entity).matrix[0] *= 2.0;
+  w.world.get<WorldTransform>(entity).matrix[2] *= 2.0;
+  EXPECT_EQ(w.run().version, ++version) << "four times the area";
   w.world.get<MeshInstance>(entity).mesh = 1;
   expect_regrown("mesh");
   ++w.assets().version;
