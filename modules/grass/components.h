@@ -31,7 +31,7 @@ struct Collider {
   vec3 size_m = vec3(1.0f);
 };
 
-/// Wind; at most one per scene.
+/// Wind; at most one per scene. Its gusts are a field that begins at the node of the wind.
 struct Wind {
   vec3 velocity = vec3(0.0f);  ///< m/s
   float gust = 0.3f;           ///< 0…1

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/math/finite.h"
 #include "engine/render/sort/radix_sort.h"
 #include "engine/render/worlds/world_id.h"
 #include "modules/grass/drawing/draw_blades_passes.h"
@@ -38,6 +39,16 @@ shaders::GrassSteps steps_of(const World& world, std::uint32_t iterations) {
   return steps;
 }
 
+/// Where the wind's field begins: at the wind's node, so that a scene at another place has the same gusts.
+dvec3 wind_origin(const World& world) {
+  dvec3 origin(0.0);
+  world.view<const Wind, const WorldTransform>().each([&](const Wind&, const WorldTransform& transform) {
+    const dvec3 at(transform.matrix[3]);
+    origin = is_finite(at) ? at : dvec3(0.0);
+  });
+  return origin;
+}
+
 vec4 shader_quaternion(const dquat& q) { return vec4(dvec4(q.x, q.y, q.z, q.w)); }
 
 /// Uploads the rows of the view's patches and of the colliders near them.
@@ -45,6 +56,7 @@ GrassInputs upload_patches(FrameBuilder& frame, const GrassField& field, const S
   std::vector<shaders::GrassPatchRow> rows;
   std::vector<shaders::GrassCollider> colliders;
   const std::span<const PlacedCollider> placed = frame.world().resource<GrassColliders>().colliders;
+  const dvec3 wind_at = wind_origin(frame.world());
   for (const ResidentPatch& resident : stored.patches) {
     const GrassPatch& patch = field.patches[resident.patch];
     shaders::GrassPatchRow row{};
@@ -56,7 +68,7 @@ GrassInputs upload_patches(FrameBuilder& frame, const GrassField& field, const S
     row.push = motion.push;
     row.box_from = patch.roots.min;
     row.box_size = patch.roots.max - patch.roots.min;
-    row.wind_at = vec3(wind_position(patch.origin));
+    row.wind_at = vec3(wind_position(patch.origin - wind_at));
     row.first_blade = resident.slot * GLOAM_GRASS_PATCH_BLADES;
     row.blades = patch.blades;
     row.first_place = resident.slot * stored.slot_masters;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/math/finite.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/worlds/world_id.h"
 #include "modules/grass/components.h"
@@ -17,12 +18,26 @@
 #include "modules/grass/keys.h"
 #include "modules/grass/simulation/colliders.h"
 #include "modules/grass/simulation/simulate_blades_pass.h"
+#include "modules/shadows/components.h"
 
 namespace gloam {
 namespace {
 
 constexpr const char* kDrawsResult = "draws";
 constexpr const char* kDispatchResult = "dispatch";
+
+/// Blades are about as thin as a texel of the sun's maps: the texels begin at a place of the field, where it was
+/// planted.
+void set_texel_grid(World& world, const GrassField& field) {
+  auto* grid = world.try_resource<ShadowTexelGrid>();
+  if (grid == nullptr) return;
+  grid->anchor = dvec3(0.0);
+  for (const GrassPlanting& planting : field.plantings) {
+    if (planting.origins.empty() || !is_finite(planting.origins.front())) continue;
+    grid->anchor = planting.origins.front();
+    return;
+  }
+}
 
 /// Culling of the view's patches, from the knobs. A view resource.
 struct GrassViewSettings {
@@ -83,6 +98,7 @@ class GrassModule final : public Module {
   /// Growth has run: makes the entities of a field that was regrown.
   void prepare_view(World& world, ViewId view, const KnobRegistry& registry) const override {
     const GrassField& field = world.resource<GrassField>();
+    set_texel_grid(world, field);
     if (world.resource<GrassEntities>().field_version != field.version) make_blade_entities(world, field);
     if (world.resource<GrassEntities>().field_moves != field.moves) move_patch_entities(world, field);
     if (world.try_view_resource<VisiblePatches>(view) == nullptr) world.set_view_resource(view, VisiblePatches{});

@@ -22,6 +22,14 @@ struct CasterVolume {
   dvec3 max = dvec3(0.0);
 };
 
+/// A point of the world that texels of directional lights' maps lie at multiples of their size from; a world resource.
+/// Shadows of casters about as thin as a texel depend on where texels begin. A module with such casters sets a point
+/// that belongs to its scene, so that the same scene at another place has the same shadows. The point must rest: the
+/// shadows shimmer in the frame in which it moves. Set it before the systems of the view stage run.
+struct ShadowTexelGrid {
+  dvec3 anchor = dvec3(0.0);
+};
+
 /// Whether an emissive mesh is part of a lamp: the glass or the flame that shines, not something in its way. A bulb
 /// does not cast into the maps of its light. It touches the emitter's ball, or almost, and is not much larger. min,
 /// max: bounds of the mesh, in the space of `light`. half_diagonal_m: half the diagonal of the mesh's own box; 0 for a

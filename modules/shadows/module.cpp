@@ -43,6 +43,7 @@ class ShadowsModule final : public Module {
     world.register_component<ShadowCaster>("shadow_caster");
     world.register_component<CasterVolume>("caster_volume");
     world.set_resource(CapturePlaces{});
+    world.set_resource(ShadowTexelGrid{});
     world.set_resource(Cookies{});
   }
   void scene_keys(KeyRegistry& registry) const override { add_shadow_keys(registry); }

@@ -78,7 +78,7 @@ std::vector<ShadowLight> gather(std::span<const Entity> entities, const ShadowLi
 void shadow_bounds_system(ViewResource<const VisibleLights> visible,
                           View<const MeshInstance, const WorldTransform> meshes, View<const CasterVolume> volumes,
                           Resource<const SceneAssets> assets, Resource<const JointMatrices> joints,
-                          ViewResource<CasterBounds> casters, JobExecutor& jobs) {
+                          Resource<const ShadowTexelGrid> grid, ViewResource<CasterBounds> casters, JobExecutor& jobs) {
   if (directional_lights(*visible).empty()) return;
   std::vector<CasterBounds> found(meshes.chunk_count(kMeshGrain));
   meshes.parallel_chunks(
@@ -96,6 +96,7 @@ void shadow_bounds_system(ViewResource<const VisibleLights> visible,
   volumes.each([&](const CasterVolume& volume) {
     if (const CasterBounds box{volume.min, volume.max}; box.known()) all.grow(box.min, box.max);
   });
+  all.grid_anchor = grid->anchor;
   *casters = all;
 }
 

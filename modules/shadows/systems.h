@@ -24,7 +24,7 @@ using ShadowLights = View<const Light, const WorldTransform, Maybe<const LightBo
 void shadow_bounds_system(ViewResource<const VisibleLights> visible,
                           View<const MeshInstance, const WorldTransform> meshes, View<const CasterVolume> volumes,
                           Resource<const SceneAssets> assets, Resource<const JointMatrices> joints,
-                          ViewResource<CasterBounds> casters, JobExecutor& jobs);
+                          Resource<const ShadowTexelGrid> grid, ViewResource<CasterBounds> casters, JobExecutor& jobs);
 
 /// Finds the faces of the view's lights and their places in the atlas.
 void shadow_views_system(ViewResource<const VisibleLights> visible, ViewResource<const RenderView> view,

@@ -76,8 +76,9 @@ Range depth_range(const CasterBounds& casters, const dvec3& forward, const Casca
     if (both.low <= both.high) range = both;
   }
   const double step = power_above(std::max(range.high - range.low, kLeastSize)) / kStepsOfRange;
-  const double low = std::floor(range.low / step) * step;
-  return {low, std::max(std::ceil(range.high / step) * step, low + step)};
+  const double anchor = glm::dot(forward, casters.grid_anchor);
+  const double low = std::floor((range.low - anchor) / step) * step + anchor;
+  return {low, std::max(std::ceil((range.high - anchor) / step) * step + anchor, low + step)};
 }
 
 /// The position with these dot products with the three axes. Axes rounded to floats are only nearly orthogonal: a
@@ -186,14 +187,16 @@ ShadowFace cascade_face(Entity light, const FaceAxes& axes, const CascadeSphere&
   ShadowFace face;
   face.half_extent_m = static_cast<float>(sphere.radius_m * rim / (1.0 - 2.0 * rim / square.size));
   const double texel = 2.0 * static_cast<double>(face.half_extent_m) / square.size;
-  const auto snapped = [&](double position) { return std::round(position / texel) * texel; };
+  const auto snapped = [&](const dvec3& axis) {
+    const double from_anchor = glm::dot(axis, sphere.center - casters.grid_anchor);
+    return std::round(from_anchor / texel) * texel + glm::dot(axis, casters.grid_anchor);
+  };
   const Range depths = depth_range(casters, forward, sphere);
 
   face.light = light;
   face.kind = LightKind::directional;
   face.index = sphere.slice;
-  face.origin = solve(right, up, forward,
-                      dvec3(snapped(glm::dot(right, sphere.center)), snapped(glm::dot(up, sphere.center)), depths.low));
+  face.origin = solve(right, up, forward, dvec3(snapped(right), snapped(up), depths.low));
   face.right = axes.right;
   face.up = axes.up;
   face.forward = axes.forward;

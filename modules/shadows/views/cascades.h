@@ -14,6 +14,7 @@ namespace gloam {
 
 /// World-space box around all casters; a view resource, written by system shadow_bounds.
 struct CasterBounds {
+  dvec3 grid_anchor = dvec3(0.0);  ///< ShadowTexelGrid::anchor
   dvec3 min = dvec3(std::numeric_limits<double>::infinity());
   dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
 
@@ -60,9 +61,10 @@ inline constexpr double kMostShadowDistance = 1000.0;
                                                          std::uint32_t count);
 
 /// The box of a cascade that holds the sphere. square: place in the atlas; its size (> 2) is the resolution. The
-/// corners lie on a texel grid fixed to the world, and near and far side lie at steps of a depth grid, so that the map
-/// of a moving camera shifts by whole texels. The box reaches from the nearest caster to the farthest along the light;
-/// 1000 m to both sides of the sphere when the casters' bounds are unknown, and never more than 20 km to either side.
+/// corners lie on a texel grid fixed to the world (at CasterBounds::grid_anchor), and near and far side lie at steps of
+/// a depth grid, so that the map of a moving camera shifts by whole texels. The box reaches from the nearest caster to
+/// the farthest along the light; 1000 m to both sides of the sphere when the casters' bounds are unknown, and never
+/// more than 20 km to either side.
 [[nodiscard]] ShadowFace cascade_face(Entity light, const FaceAxes& axes, const CascadeSphere& sphere,
                                       const CasterBounds& casters, const AtlasSquare& square, float kernel_rim);
 

@@ -397,6 +397,7 @@ TEST(ShadowSystems, find_skinned_meshes_where_their_joints_are) {
                        View<const CasterVolume>(std::as_const(world)),
                        Resource<const SceneAssets>(std::as_const(world).resource<SceneAssets>()),
                        Resource<const JointMatrices>(joints),
+                       Resource<const ShadowTexelGrid>(std::as_const(world).resource<ShadowTexelGrid>()),
                        ViewResource<CasterBounds>(world.view_resource<CasterBounds>(id)), *make_serial_executor());
   const CasterBounds& bounds = world.view_resource<CasterBounds>(id);
   EXPECT_EQ(bounds.min, dvec3(-1, -1, -11));

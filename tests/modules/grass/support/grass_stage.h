@@ -114,7 +114,9 @@ class GrassStage {
     matrix[2] = dvec4(z, 0.0);
     return world.create(light, WorldTransform{matrix});
   }
-  void wind(const vec3& velocity, float gust) { world.create(Wind{velocity, gust}, WorldTransform{}); }
+  void wind(const vec3& velocity, float gust, const dvec3& at = dvec3(0.0)) {
+    world.create(Wind{velocity, gust}, WorldTransform{glm::translate(dmat4(1.0), at)});
+  }
   void set(std::string_view knob, std::string_view value) {
     ASSERT_TRUE(renderer->knobs().set(knob, value).ok()) << knob << "=" << value;
   }

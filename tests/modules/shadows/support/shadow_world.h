@@ -21,6 +21,7 @@ struct ShadowWorld : ModuleWorld {
     world.register_component<ShadowCaster>("shadow_caster");
     world.register_component<CasterVolume>("caster_volume");
     world.set_resource(CapturePlaces{});
+    world.set_resource(ShadowTexelGrid{});
     add_shadow_systems(schedule);
   }
 

@@ -186,6 +186,37 @@ TEST(CascadeFaces, shift_by_whole_texels_and_never_change_a_texels_size) {
   }
 }
 
+TEST(CascadeFaces, of_a_scene_at_another_place_have_the_same_texels_if_the_anchor_has_moved_with_it) {
+  const FaceAxes axes = sun();
+  const auto face_at = [&](const dvec3& at, const dvec3& anchor) {
+    CasterBounds casters = box(at + dvec3(0.3, 0.2, -1.7), dvec3(4.0, 1.0, 3.0));
+    casters.grid_anchor = anchor;
+    const CascadeSphere sphere{0, at + dvec3(0.123, 0.456, 0.789), 2.7};
+    return cascade_face(Entity{}, axes, sphere, casters, kSquare, kRim);
+  };
+  const dvec3 anchor(0.7, 0.1, -0.2);
+  const ShadowFace here = face_at(dvec3(0.0), anchor);
+  double unanchored = 0.0;
+  for (const dvec3 move : {dvec3(10.0, 0.0, 0.0), dvec3(-3.37, 55.5, 123.4), dvec3(1e6, -2e3, 7e5)}) {
+    const ShadowFace there = face_at(move, anchor + move);
+    const double texel = 2.0 * static_cast<double>(there.half_extent_m) / kSquare.size;
+    EXPECT_LT(glm::length(there.origin - here.origin - move), 1e-5 * texel);
+    EXPECT_EQ(there.far_m, here.far_m);
+    unanchored = std::max(unanchored, glm::length(face_at(move, anchor).origin - here.origin - move) / texel);
+    // A camera that moves among the same casters shifts by whole texels, whatever the anchor.
+    CasterBounds casters = box(move, dvec3(4.0));
+    casters.grid_anchor = anchor + move;
+    const ShadowFace before = cascade_face(Entity{}, axes, {0, move, 2.7}, casters, kSquare, kRim);
+    const ShadowFace after =
+        cascade_face(Entity{}, axes, {0, move + dvec3(0.61, 0.2, -0.4), 2.7}, casters, kSquare, kRim);
+    for (const vec3& axis : {axes.right, axes.up}) {
+      const double steps = glm::dot(dvec3(axis), after.origin - before.origin) / texel;
+      EXPECT_NEAR(steps, std::round(steps), 1e-3);
+    }
+  }
+  EXPECT_GT(unanchored, 0.1) << "the moves are no multiples of a texel";
+}
+
 TEST(CascadeFaces, hold_their_sphere_inside_the_rim_and_all_casters_between_their_ends) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
