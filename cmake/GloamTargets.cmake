@@ -7,9 +7,6 @@ include(GloamShaders)
 add_library(gloam_options INTERFACE)
 add_library(gloam::options ALIAS gloam_options)
 target_compile_features(gloam_options INTERFACE cxx_std_20)
-target_compile_options(gloam_options INTERFACE
-  $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wno-missing-field-initializers>
-  $<BUILD_INTERFACE:$<$<BOOL:${GLOAM_WARNINGS_AS_ERRORS}>:-Werror>>)
 target_compile_definitions(gloam_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE)
 # No contraction to fused multiply-add: a CPU clone of a shader and the same code in another translation unit must agree
 # bit for bit.
@@ -18,13 +15,16 @@ target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffp-contract=o
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:--param=ggc-min-heapsize=2000000>)
 endif()
-if(GLOAM_SANITIZE)
+if(GLOAM_SANITIZE)  # without warnings, which the other builds give
   target_compile_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE} -fno-omit-frame-pointer)
   if(GLOAM_SANITIZE_WITHOUT)
     target_compile_options(gloam_options INTERFACE -fno-sanitize=${GLOAM_SANITIZE_WITHOUT})
   endif()
   target_link_options(gloam_options INTERFACE -fsanitize=${GLOAM_SANITIZE})
 else()
+  target_compile_options(gloam_options INTERFACE
+    $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wno-missing-field-initializers>
+    $<BUILD_INTERFACE:$<$<BOOL:${GLOAM_WARNINGS_AS_ERRORS}>:-Werror>>)
   # A section for each function and object, so that a host that links with -Wl,--gc-sections drops what it does not use.
   target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffunction-sections;-fdata-sections>)
 endif()
