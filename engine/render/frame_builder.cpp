@@ -15,6 +15,8 @@ std::string FrameBuilder::absent_output(std::string_view type) const {
 void FrameBuilder::upload_view_constants(std::uint32_t visualizer_code) {
   shaders::ViewConstants constants = view_constants(view_);
   constants.visualizer = visualizer_code;
+  const auto* filter = world_.try_view_resource<HighlightFilter>(view_.id);
+  constants.normal_variance = filter != nullptr ? filter->variance : 0.0f;
   if (const auto range = services_.uniforms.write_value(constants); check(range)) view_range_ = *range;
 }
 

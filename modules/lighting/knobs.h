@@ -33,6 +33,10 @@ inline constexpr ChoiceKnob<std::uint32_t> kToneMapTable{
     .name = "lighting.tone_map_table",
     .meaning = "entries of the tone curve's lookup table; exact: no table, computed for every pixel",
     .choices = {{"exact", 0}, {"1024", 1024}, {"256", 256}, {"64", 64}}};
+inline constexpr OnOffKnob kSpecularAntialiasing{
+    .name = "lighting.specular_antialiasing",
+    .meaning = "surfaces whose normal changes within a pixel have wider highlights, which do not flicker",
+    .choices = {{"on", true}, {"off", false}}};
 inline constexpr OnOffKnob kDither{
     .name = "lighting.dither",
     .meaning = "rounding of the picture to 8 bits with a fixed pattern, so that gradients show no bands",

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/render/view_constants.h"
 #include "modules/lighting/antialiasing/reference.h"
 #include "modules/lighting/components.h"
 #include "modules/lighting/display/tone_reference.h"
@@ -26,7 +27,7 @@ class LightingModule final : public Module {
   void scene_keys(KeyRegistry&) const override {}
 
   void knobs(KnobRegistry& registry) const override {
-    add_knobs(registry, name(), kToneMap, kToneMapTable, kDither, kAntialiasing);
+    add_knobs(registry, name(), kToneMap, kToneMapTable, kDither, kSpecularAntialiasing, kAntialiasing);
   }
 
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
@@ -34,8 +35,17 @@ class LightingModule final : public Module {
     for (const std::string_view knob : {kToneMap.name, kToneMapTable.name})
       list.push_back(
           {std::string(knob), "double precision", "tone curve on the CPU", true, false, &draw_tone_reference});
-    list.push_back(antialiasing_reference());
+    list.push_back(supersampled_reference(std::string(kAntialiasing.name)));
+    list.push_back(supersampled_reference(std::string(kSpecularAntialiasing.name)));
     return list;
+  }
+
+  void prepare_view(World& world, ViewId view, const KnobRegistry& registry) const override {
+    // Twice the variance of a Gaussian of half a pixel's area, which is near a pixel's own filter.
+    constexpr float kPixelVariance = 0.32f;
+    const bool filters = registry.value(kSpecularAntialiasing) && world.try_resource<PointSampledFrame>() == nullptr;
+    const float variance = filters ? kPixelVariance : 0.0f;
+    world.set_view_resource(view, HighlightFilter{variance});
   }
 
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "every picture is lit"}; }

@@ -57,8 +57,8 @@ struct DiffuseLightOutput {
 struct FrontDepthWanted {};
 
 /// Depth of what is seen at each pixel, for effects that act on the finished light by its distance, such as fog and a
-/// lens: that of the opaque surface, and over it those of the blended surfaces before it, each weighted by its opacity as
-/// its light is. Device depth is linear in the reciprocal of the distance, and so is a lens's circle of confusion.
+/// lens: that of the opaque surface, and over it those of the blended surfaces before it, each weighted by its opacity
+/// as its light is. Device depth is linear in the reciprocal of the distance, and so is a lens's circle of confusion.
 /// r32f of the view's size.
 ///
 /// On the board from PassPhase::translucent on, in views with FrontDepthWanted that show blended surfaces.

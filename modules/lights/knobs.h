@@ -28,6 +28,10 @@ inline constexpr IntegerKnob<std::uint32_t> kFixedLightSlots{
     .meaning =
         "list entries reserved for every shadow tile, which gives lists fixed addresses; 0: as many as a tile needs",
     .max = GLOAM_MAX_LOCAL_LIGHTS};
+inline constexpr OnOffKnob kEmitterHighlights{
+    .name = "lights.emitter_highlights",
+    .meaning = "highlights as wide as the light that makes them (on), or as of a point (off)",
+    .choices = {{"on", true}, {"off", false}}};
 inline constexpr OnOffKnob kLightCheck{
     .name = "lights.check",
     .meaning =

@@ -32,7 +32,7 @@ class LightsModule final : public Module {
   void scene_keys(KeyRegistry& registry) const override { add_light_keys(registry); }
 
   void knobs(KnobRegistry& registry) const override {
-    add_knobs(registry, name(), kLightCulling, kLightTileBound, kLightZBins, kFixedLightSlots, kLightCheck);
+    add_knobs(registry, name(), kLightCulling, kLightTileBound, kLightZBins, kFixedLightSlots, kEmitterHighlights, kLightCheck);
   }
 
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return light_measures(); }
@@ -59,6 +59,7 @@ class LightsModule final : public Module {
 
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
     prepare_light_view(world, view);
+    world.view_resource<VisibleLights>(view).wide_highlights = knobs.value(kEmitterHighlights);
     world.view_resource<TileBound>(view) = knobs.value(kLightTileBound);
     world.view_resource<ZBinSettings>(view).count = knobs.value(kLightZBins);
   }

@@ -201,9 +201,11 @@ void light_bounds_system(KeptLights kept, FreshLights fresh, Resource<LightSet> 
 
 void light_sort_system(Resource<const LightSet> set, ViewResource<const RenderView> view,
                        ViewResource<VisibleLights> visible, JobExecutor& jobs) {
-  if (visible->set_version == set->version && same_view(visible->view, *view)) return;
+  const bool same_knobs = visible->built_wide_highlights == visible->wide_highlights;
+  if (visible->set_version == set->version && same_view(visible->view, *view) && same_knobs) return;
   select_lights(set->lights, set->table, *view, jobs, *visible);
   visible->set_version = set->version;
+  visible->built_wide_highlights = visible->wide_highlights;
   visible->view = *view;
   ++visible->version;
 }

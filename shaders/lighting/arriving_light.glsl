@@ -7,6 +7,12 @@
 // bindings, see shadows_api.glsl), or GLOAM_COOKIES_BINDING for cookies only (the first of three, see
 // cookies_api.glsl); without either, light arrives unchanged. Include this after `lights`, the view's LightBlock.
 
+// Apparent radius of a local light, in radians, at a point from which it lies at `offset`.
+float half_angle_of(uint light, vec3 offset) {
+  float radius = lights.emitter_radius[light >> 2u][light & 3u];
+  return radius > 0.0 ? min(radius * inversesqrt(max(dot(offset, offset), 1e-12)), 1.0) : 0.0;
+}
+
 #ifdef GLOAM_SHADOWS_BINDING
 #include "shaders/shadows/shadows_api.glsl"
 #elif defined(GLOAM_COOKIES_BINDING)

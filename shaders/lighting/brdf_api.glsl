@@ -35,9 +35,26 @@ ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_co
   return p;
 }
 
+// Factor on the GGX distribution of a light whose directions fill a disc of this apparent radius. The slopes of its
+// half vectors then fill a disc of radius r = half_angle / (2 sqrt(v·h)), of the same solid angle. Each slope gets the
+// distribution at the slope that is nearer to the normal by a shift s, over the integral of that over all slopes, so
+// that it adds no light: with a = alpha, the integral is (a² + π/2 a s + s²) / a². The s for which it is (a² + r²) / a²
+// also makes the middle of the highlight as bright as the mean of the distribution over the disc. A mirror then shows
+// the disc with its luminance, and a rough surface hardly changes.
+float disc_highlight(ShadingPoint p, float n_dot_h, float v_dot_h, float half_angle) {
+  float radius2 = 0.25 * half_angle * half_angle / max(v_dot_h, 1e-3);
+  float part = 0.25 * kPi * sqrt(p.alpha2);
+  float shift = radius2 / (sqrt(part * part + radius2) + part);
+  float slope = sqrt(max(1.0 - n_dot_h * n_dot_h, 0.0)) / max(n_dot_h, 1e-3);
+  float nearest = max(slope - shift, 0.0);
+  float fall = (p.alpha2 + slope * slope) / (p.alpha2 + nearest * nearest);
+  return fall * fall * p.alpha2 / (p.alpha2 + radius2);
+}
+
 // Radiance toward the eye for an illuminance (on a plane that faces the light) from the unit direction `to_light`. For
 // unit l and v: h = (l + v) / |l + v| and |l + v|² = 2 + 2 l·v. Dot products with h therefore do not need the vector h.
-vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance) {
+// half_angle: apparent radius of the light in radians; 0: a point.
+vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle) {
   float n_dot_l_raw = dot(p.normal, to_light);
   float n_dot_l = clamp(n_dot_l_raw, 0.0, 1.0);
   float sum2 = max(2.0 + 2.0 * dot(to_light, p.to_eye), 1e-6);  // no NaN if to_light = -to_eye
@@ -47,6 +64,7 @@ vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance) {
   float f = (n_dot_h * p.alpha2 - n_dot_h) * n_dot_h + 1.0;
   float smith = n_dot_l * p.smith_v + p.n_dot_v * sqrt(n_dot_l * (n_dot_l - n_dot_l * p.alpha2) + p.alpha2);
   float specular = 0.5 * p.alpha2 / (kPi * f * f * smith);  // distribution · visibility
+  if (half_angle > 0.0) specular *= disc_highlight(p, n_dot_h, v_dot_h, half_angle);
   float one = 1.0 - v_dot_h;
   float one2 = one * one;
   vec3 fresnel = p.f0 + (1.0 - p.f0) * (one2 * one2 * one);

@@ -31,7 +31,7 @@ struct DirectionalLight {
   vec3 color;            // lux, linear
   float apparent_angle;  // radians
   vec3 direction;        // direction in which it shines, unit length
-  float reserved;
+  float half_angle;      // apparent radius in highlights, radians; 0: that of a point
 };
 
 /// Lights that may touch the view. Local lights are sorted by the nearest view depth of their bounds.
@@ -42,6 +42,7 @@ struct LightBlock {
   uint reserved1;
   DirectionalLight directional[GLOAM_MAX_DIRECTIONAL_LIGHTS];
   LocalLight local[GLOAM_MAX_LOCAL_LIGHTS];
+  vec4 emitter_radius[GLOAM_MAX_LOCAL_LIGHTS / 4];  // of highlights, metres, four lights an item; 0: a point
 };
 
 /// Layout of the view's light lists in their buffers. zBins: words [0, z_bin_count) are the standard set, the next

@@ -50,9 +50,21 @@ vec2 texture_uv(int slot) {
 
 float size_of(vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
+// Roughness of a pixel in which the normal changes: each normal sends a highlight elsewhere, so the pixel's lobe is
+// that of the surface and the spread of its normals together. GGX slopes have the width alpha = roughness²; widths add
+// as squares. The spread is limited, because a large one is an edge, not a curve (Tokuyoshi and Kaplanyan 2019).
+// variance: 0: off.
+float filtered_roughness(float roughness, vec3 normal, float variance) {
+  vec3 n = normalize(normal);
+  vec3 dx = dFdx(n), dy = dFdy(n);
+  float spread = min(variance * (dot(dx, dx) + dot(dy, dy)), 0.18);
+  float alpha2 = roughness * roughness * roughness * roughness;
+  return spread > 1e-3 * max(alpha2, 1e-6) ? sqrt(sqrt(min(alpha2 + spread, 1.0))) : roughness;
+}
+
 // Fetches the surface at a fragment; discards masked fragments. Its normals have any length above 0, which is enough
-// for packing. `to_viewer`: direction to the camera, any length (view_api.glsl).
-Surface fetch_surface_unscaled(vec3 to_viewer) {
+// for packing. `to_viewer`: direction to the camera, any length (view_api.glsl). normal_variance: of ViewConstants.
+Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance) {
   Surface s;
   s.base_color = material.base_color;
   if ((kSurface & GLOAM_SURFACE_VERTEX_COLOR) != 0u) s.base_color *= in_color;
@@ -91,14 +103,15 @@ Surface fetch_surface_unscaled(vec3 to_viewer) {
   s.subsurface = material.extras.x > 0.5;
   float smoothness = 1.0 - s.roughness;
   s.reflectivity = material.extras.y >= 0.0 ? material.extras.y : smoothness * mix(0.5, 1.0, s.metallic);
+  if (normal_variance > 0.0) s.roughness = filtered_roughness(s.roughness, s.normal, normal_variance);
   // Last, because derivatives and texture lookups above need whole quads.
   if ((kSurface & GLOAM_SURFACE_MASK) != 0u && s.base_color.a < material.emissive_cutoff.a) discard;
   return s;
 }
 
 // Like fetch_surface_unscaled, but with unit normals.
-Surface fetch_surface(vec3 to_viewer) {
-  Surface s = fetch_surface_unscaled(to_viewer);
+Surface fetch_surface(vec3 to_viewer, float normal_variance) {
+  Surface s = fetch_surface_unscaled(to_viewer, normal_variance);
   s.normal = normalize(s.normal);
   s.face_normal = normalize(s.face_normal);
   return s;

@@ -25,6 +25,7 @@ struct ViewConstants {
   uint visualizer;    // code in debug_view.frag; 0: none of its visualizers
   // dot(xyz, p) + w >= 0: the visible side; p is relative to the camera. Of views that are clipped.
   vec4 clip_plane;
+  float normal_variance;  // HighlightFilter
 };
 
 GLOAM_SHARED_END

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/math/low_discrepancy.h"
@@ -45,8 +46,15 @@ Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
     linear[value] = srgb_to_linear(static_cast<double>(value) / 255.0);
   std::vector<double> sums(mean.picture.rgba.size(), 0.0);
   for (std::uint32_t i = 0; i < samples; ++i) {
-    const auto frame = input.redraw([&](World& world) { world.set_resource(shifted(input.view, sample_point(i))); },
-                                    [](World& world) { world.remove_resource<LensPoint>(); });
+    const auto frame = input.redraw(
+        [&](World& world) {
+          world.set_resource(shifted(input.view, sample_point(i)));
+          world.set_resource(PointSampledFrame{});
+        },
+        [](World& world) {
+          world.remove_resource<LensPoint>();
+          world.remove_resource<PointSampledFrame>();
+        });
     if (!frame) return frame.error();
     if (frame->picture.rgba.size() != sums.size()) return Error{ErrorKind::usage, "a frame was drawn in another size"};
     for (std::size_t at = 0; at < sums.size(); ++at) sums[at] += linear[frame->picture.rgba[at]];
@@ -58,8 +66,8 @@ Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
   return mean;
 }
 
-ReferenceInfo antialiasing_reference() {
-  return {.knob = std::string(kAntialiasing.name),
+ReferenceInfo supersampled_reference(std::string knob) {
+  return {.knob = std::move(knob),
           .kind = "accumulated",
           .name = "pictures sampled at points of each pixel",
           .samples = true,

@@ -2,14 +2,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 #include "engine/render/reference/reference.h"
 
 namespace gloam {
 
+/// A world resource while a frame is one of many whose mean is the picture: its pixels are points, without filters over
+/// a pixel's area.
+struct PointSampledFrame {};
+
 /// The mean of pictures whose pixels were sampled at different points, in linear light. Draws up to 64 frames.
 [[nodiscard]] Result<FramePictures> draw_supersampled(const ReferenceInput& input);
 
-/// Of lighting.antialiasing.
-[[nodiscard]] ReferenceInfo antialiasing_reference();
+/// draw_supersampled as the reference of a knob.
+[[nodiscard]] ReferenceInfo supersampled_reference(std::string knob);
 
 }  // namespace gloam

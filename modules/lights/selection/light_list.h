@@ -32,6 +32,8 @@ struct LightSelection {
 /// The lights of one view, packed for the GPU; a view resource.
 struct VisibleLights {
   shaders::LightBlock block{};
+  bool wide_highlights = false;        ///< input: fills emitter_radius and half_angle of the block
+  bool built_wide_highlights = false;  ///< the lists were built with wide_highlights
   std::vector<Entity> local_entities;  ///< in the order of block.local
   std::vector<Entity> directional_entities;
   std::vector<LightDepth> depths;      ///< in the order of block.local: view depths of what the light may light (its

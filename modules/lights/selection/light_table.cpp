@@ -76,6 +76,8 @@ void LightTable::set_light(std::size_t i, const PlacedLight& placed) {
   record.brightness = std::min(brightest_channel(light), kMostColor);
   // Removes negative channels and values too large for shading.
   record.color = glm::clamp(light.color * light.intensity, vec3(0.0f), vec3(kMostColor));
+  const float width = light.kind == LightKind::directional ? light.apparent_angle : light.width_m;
+  record.emitter_radius_m = width > 0.0f && std::isfinite(width) ? 0.5f * width : 0.0f;
   if (light.kind == LightKind::directional) {
     radius[i] = kDirectionalLight;
     return;

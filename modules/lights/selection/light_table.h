@@ -28,6 +28,7 @@ struct alignas(64) LightRecord {
   float outer_angle = 0.0f;
   float center_per_range = 0.0f;  ///< distance along the axis to the centre of the bound, per metre of range
   float radius_per_range = 1.0f;  ///< radius of the bound per metre of range
+  float emitter_radius_m = 0.0f;  ///< half of Light::width_m; directional: half of Light::apparent_angle, in radians
   Entity entity;
 };
 

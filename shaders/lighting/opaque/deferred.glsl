@@ -35,9 +35,9 @@ layout(location = 1) out vec4 out_diffuse_light;  // lux
 
 vec3 diffuse_light = vec3(0.0);  // illuminance of the surface, summed only with kDiffuseLight
 
-vec3 add_reflected(ShadingPoint p, vec3 to_light, vec3 illuminance) {
+vec3 add_reflected(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle) {
   if (kDiffuseLight != 0u) diffuse_light += illuminance * clamp(dot(p.normal, to_light), 0.0, 1.0);
-  return reflected(p, to_light, illuminance);
+  return reflected(p, to_light, illuminance, half_angle);
 }
 
 // `share`: visibility of the light, multiplied with the shadows and cookies that arriving_local applies.
@@ -46,7 +46,7 @@ vec3 add_local(ShadingPoint p, uint index, float share) {
   LocalLight light = fetch_light(light_texels, index);
   vec3 illuminance = local_illuminance(light, p.position, to_light);
   illuminance = arriving_local(illuminance, index, light.position, p.normal, to_light) * share;
-  return add_reflected(p, to_light, illuminance);
+  return add_reflected(p, to_light, illuminance, half_angle_of(index, light.position - p.position));
 }
 
 // Radiance from directional lights at the surface under a pixel.
@@ -66,7 +66,7 @@ vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < count; ++i) {
     DirectionalLight d = lights.directional[i];
-    sum += add_reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal));
+    sum += add_reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal), d.half_angle);
   }
   return sum;
 }

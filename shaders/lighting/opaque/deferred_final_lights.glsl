@@ -20,7 +20,8 @@ vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
     at += uint(has_entry);
     DirectionalLight d = lights.directional[i];
     float share = has_entry ? entry_visibility(entry, slot_pixel(pixel)) : 0.0;
-    sum += add_reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal) * share);
+    sum +=
+        add_reflected(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal) * share, d.half_angle);
   }
   return sum;
 }

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/ext/matrix_transform.hpp>
+#include <utility>
+#include <vector>
+
+#include "tests/modules/lighting/lit_scene.h"
+
+namespace gloam {
+namespace {
+
+/// Highlights of lamps with a width, against the mean over points of the lamp, and highlights on curved surfaces whose
+/// camera moves by parts of a pixel.
+/// A sphere with the normals of a sphere, as `sides` by 2·`sides` quads.
+Primitive ball(float radius, std::uint32_t sides, std::uint32_t material) {
+  Primitive primitive;
+  primitive.material = material;
+  for (std::uint32_t row = 0; row <= sides; ++row)
+    for (std::uint32_t column = 0; column <= 2 * sides; ++column) {
+      const float polar = kPi * static_cast<float>(row) / static_cast<float>(sides);
+      const float around = kPi * static_cast<float>(column) / static_cast<float>(sides);
+      const vec3 n(std::sin(polar) * std::cos(around), std::cos(polar), -std::sin(polar) * std::sin(around));
+      primitive.positions.push_back(radius * n);
+      primitive.normals.push_back(n);
+    }
+  for (std::uint32_t row = 0; row < sides; ++row)
+    for (std::uint32_t column = 0; column < 2 * sides; ++column) {
+      const std::uint32_t a = row * (2 * sides + 1) + column, b = a + 2 * sides + 1;
+      for (const std::uint32_t corner : {a, b, b + 1, a, b + 1, a + 1}) primitive.indices.push_back(corner);
+    }
+  return test::finished(std::move(primitive));
+}
+
+struct Highlights : test::LitSceneTest {
+  static constexpr double kWidth = 0.4;
+
+  void SetUp() override {
+    LitSceneTest::SetUp();
+    if (IsSkipped()) return;
+    settings.width = 96;
+    settings.height = 64;
+    set("lights.emitter_highlights", "on");
+    set("lighting.specular_antialiasing", "on");
+  }
+  void set(const char* knob, const char* value) { ASSERT_TRUE(renderer->knobs().set(knob, value).ok()) << knob; }
+  /// A black metal-like wall at z = 0: white metal, seen from the camera of LitSceneTest.
+  Material metal(std::uint8_t roughness) { return exact_material(255, 255, 255, roughness, 255); }
+  Entity lamp(float width_m, const dvec3& at) {
+    Light what;
+    what.intensity = 10.0f;
+    what.width_m = width_m;
+    return light(what, at);
+  }
+  /// Red light of each pixel.
+  std::vector<double> reds() {
+    draw();
+    const LinearPicture drawn = linear();
+    std::vector<double> list;
+    for (std::size_t i = 0; i < drawn.rgba.size(); i += 4) list.push_back(drawn.rgba[i]);
+    return list;
+  }
+  static double sum(const std::vector<double>& list) {
+    double total = 0.0;
+    for (const double value : list) total += value;
+    return total;
+  }
+  static double most(const std::vector<double>& list) { return *std::max_element(list.begin(), list.end()); }
+
+  /// What a wall shows of a sphere: the oracle's mean over lamps at points of its disc as seen from each pixel.
+  std::vector<double> wall_under_disc(const Material& material, const dvec3& at) {
+    std::vector<double> expected;
+    for (std::uint32_t y = 0; y < settings.height; ++y)
+      for (std::uint32_t x = 0; x < settings.width; ++x) {
+        const test::OracleSurface surface = plane_surface(ray(x, y), 0.0, material);
+        const dvec3 to_lamp = glm::normalize(at - surface.position);
+        const dvec3 side = glm::normalize(glm::cross(to_lamp, dvec3(0.3, 0.8, 0.1)));
+        const dvec3 up = glm::cross(side, to_lamp);
+        double mean = 0.0;
+        constexpr int kRings = 24, kSpokes = 32;
+        for (int ring = 0; ring < kRings; ++ring)
+          for (int spoke = 0; spoke < kSpokes; ++spoke) {
+            const double r = 0.5 * kWidth * std::sqrt((ring + 0.5) / kRings);
+            const double angle = 2.0 * test::kPiOracle * (spoke + 0.5 * (ring % 2)) / kSpokes;
+            std::vector<test::OracleLight> point = {oracle_lights.front()};
+            point.front().position = at + r * (std::cos(angle) * side + std::sin(angle) * up);
+            mean += test::oracle_shade(surface, point, environment()).r / (kRings * kSpokes);
+          }
+        expected.push_back(mean);
+      }
+    return expected;
+  }
+};
+
+TEST_F(Highlights, of_wide_lamps_have_the_light_and_the_brightness_of_the_lamp_at_every_roughness) {
+  const dvec3 at(0.1, 0.05, 1.2);
+  for (const std::uint8_t roughness : {64, 90, 128, 180, 255}) {
+    World fresh;
+    SCOPED_TRACE(static_cast<int>(roughness));
+    oracle_lights.clear();
+    test::SceneMaker maker(fresh);
+    renderer->prepare_world(fresh);
+    const Material material = metal(roughness);
+    maker.draw(maker.mesh(test::quad(50.0f, maker.material(material))));
+    Light what;
+    what.intensity = 10.0f;
+    what.width_m = static_cast<float>(kWidth);
+    oracle_lights.push_back({what, at, dvec3(0.0, 0.0, -1.0)});
+    fresh.create(what, WorldTransform{glm::translate(dmat4(1.0), at)});
+    fresh.resource<SceneEnvironment>() = environment();
+    draw(fresh, settings);
+    const LinearPicture drawn = linear();
+    std::vector<double> shown;
+    for (std::size_t i = 0; i < drawn.rgba.size(); i += 4) shown.push_back(drawn.rgba[i]);
+    const std::vector<double> expected = wall_under_disc(material, at);
+    EXPECT_NEAR(sum(shown) / sum(expected), 1.0, 0.05);
+    EXPECT_NEAR(most(shown) / most(expected), 1.0, 0.08);
+    double difference = 0.0;
+    for (std::size_t i = 0; i < shown.size(); ++i) difference += std::abs(shown[i] - expected[i]);
+    EXPECT_LT(difference / sum(expected), 0.2);
+    renderer->release_world(fresh);
+  }
+}
+
+TEST_F(Highlights, of_lamps_without_a_width_do_not_depend_on_the_knob) {
+  scene.draw(scene.mesh(test::quad(50.0f, scene.material(metal(64)))));
+  lamp(0.0f, dvec3(0.1, 0.05, 1.2));
+  const std::vector<double> on = reds();
+  set("lights.emitter_highlights", "off");
+  EXPECT_EQ(on, reds());
+}
+
+TEST_F(Highlights, on_curved_metal_stay_as_bright_when_the_camera_moves_by_parts_of_a_pixel) {
+  for (const std::uint8_t roughness : {0, 26, 51, 90}) {
+    SCOPED_TRACE(static_cast<int>(roughness));
+    World fresh;
+    test::SceneMaker maker(fresh);
+    renderer->prepare_world(fresh);
+    maker.draw(maker.mesh(ball(0.8f, 48, maker.material(metal(roughness)))));
+    Light what;
+    what.intensity = 500.0f;
+    what.width_m = 1.0f;
+    fresh.create(what, WorldTransform{glm::translate(dmat4(1.0), dvec3(2.0, 6.0, 9.0))});
+    fresh.resource<SceneEnvironment>() = environment();
+    double least = 1e30, greatest = 0.0;
+    for (int step = 0; step < 5; ++step) {
+      ViewSettings moved = settings;
+      const double pixel_m = 0.15 * step * 2.0 * 3.0 * std::tan(0.5 * settings.camera.fov_y) / settings.height;
+      moved.world_from_camera = glm::translate(dmat4(1.0), dvec3(pixel_m, 0.0, 3.0));
+      draw(fresh, moved);
+      const LinearPicture drawn = linear();
+      double total = 0.0;
+      for (std::size_t i = 0; i < drawn.rgba.size(); i += 4) total += drawn.rgba[i];
+      least = std::min(least, total);
+      greatest = std::max(greatest, total);
+    }
+    EXPECT_GT(least, 0.0);
+    EXPECT_LT(greatest / least, 1.06);
+    renderer->release_world(fresh);
+  }
+}
+
+}  // namespace
+}  // namespace gloam
