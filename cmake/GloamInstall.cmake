@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# Defines the umbrella target gloam::gloam, and the package that find_package(gloam) finds. Everything is in the install
-# component "gloam", so that `cmake --install <build> --component gloam` needs only the libraries to be built.
+# Defines the umbrella target gloam::gloam and, with GLOAM_INSTALL, the package that find_package(gloam) finds. Everything
+# is in the install component "gloam", so that `cmake --install <build> --component gloam` needs only the libraries to be
+# built.
 include(CMakePackageConfigHelpers)
 
 get_property(gloam_layers GLOBAL PROPERTY GLOAM_LAYERS)
@@ -12,6 +13,9 @@ add_library(gloam::gloam ALIAS gloam_gloam)
 set_target_properties(gloam_gloam PROPERTIES EXPORT_NAME gloam)
 target_link_libraries(gloam_gloam INTERFACE ${gloam_layers})
 set_target_properties(gloam_options PROPERTIES EXPORT_NAME options)
+if(NOT GLOAM_INSTALL)
+  return()
+endif()
 
 # Pairs: a pattern of target names that layers link, and the package of those targets.
 set(gloam_package_patterns

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/console.h"
 
+#include <fcntl.h>
 #include <unistd.h>
+
+#include <cerrno>
 
 namespace gloam {
 namespace {
@@ -14,11 +17,15 @@ constexpr bool kCapture = false;
 constexpr bool kCapture = true;
 #endif
 
-/// A separate stream to the current target of file descriptor `number`; null if the descriptor is closed.
+/// A separate stream to the current target of file descriptor `number`; null if the descriptor is closed. It does not
+/// take the number of another standard stream that is closed.
 std::FILE* duplicate(int number) {
-  const int copy = dup(number);
+  const int copy = fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   return copy < 0 ? nullptr : fdopen(copy, "w");
 }
+
+/// The Console that exists.
+Console* taken_by = nullptr;
 
 void write_line(std::FILE* stream, std::string_view start, std::string_view message) {
   if (stream == nullptr) return;
@@ -30,6 +37,7 @@ void write_line(std::FILE* stream, std::string_view start, std::string_view mess
 }  // namespace
 
 Console::Console() : results_(duplicate(STDOUT_FILENO)), errors_(duplicate(STDERR_FILENO)) {
+  taken_by = this;
   if (!kCapture) return;
   capture_ = std::tmpfile();
   if (capture_ == nullptr) return;
@@ -38,6 +46,7 @@ Console::Console() : results_(duplicate(STDOUT_FILENO)), errors_(duplicate(STDER
 }
 
 Console::~Console() {
+  taken_by = nullptr;
   if (results_ != nullptr) std::fflush(results_);
   if (capture_ != nullptr) {
     std::fflush(stdout);
@@ -63,6 +72,17 @@ void Console::show_progress(std::string_view line) {
 void Console::print(std::string_view text) {
   show_progress({});
   if (results_ == nullptr || std::fwrite(text.data(), 1, text.size(), results_) != text.size()) failed_ = true;
+}
+
+bool Console::write_stream(int number, std::string_view bytes) {
+  std::FILE* stream = number == STDOUT_FILENO ? stdout : stderr;
+  if (taken_by != nullptr) {
+    taken_by->show_progress({});
+    stream = number == STDOUT_FILENO ? taken_by->results_ : taken_by->errors_;
+  }
+  errno = EBADF;
+  return stream != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size() &&
+         std::fflush(stream) == 0;
 }
 
 void Console::print_error(std::string_view message) {

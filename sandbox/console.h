@@ -25,6 +25,9 @@ class Console {
 
   /// Writes a result to standard output, unchanged. `flush` reports a failure to write.
   void print(std::string_view text);
+  /// Writes bytes to standard output (1) or standard error (2), at once, also while a Console has taken the stream.
+  /// Returns false, with errno, if not all could be written.
+  [[nodiscard]] static bool write_stream(int number, std::string_view bytes);
   /// Writes the line "gloam: error: MESSAGE" to standard error.
   void print_error(std::string_view message);
   /// Writes the line "gloam: warning: MESSAGE" to standard error.

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <variant>
@@ -89,8 +91,9 @@ Status run(std::span<const std::string> arguments, gloam::Console& console) {
 Status run_guarded(std::span<const std::string> arguments, gloam::Console& console) {
   try {
     return run(arguments, console);
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::failed, "out of memory"};
+  } catch (const std::bad_alloc& fault) {
+    const std::string reason = fault.what();
+    return Error{ErrorKind::failed, reason == std::bad_alloc().what() ? "out of memory" : reason};
   } catch (const std::exception& fault) {
     return Error{ErrorKind::failed, std::string("internal: ") + fault.what()};
   }
@@ -100,6 +103,9 @@ Status run_guarded(std::span<const std::string> arguments, gloam::Console& conso
 
 int main(int argc, char** argv) {
   gloam::gpu::separate_driver_caches();
+#ifdef SIGXFSZ
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large (ulimit -f) is an error like a full disk
+#endif
   gloam::Console console;
   assert_console = &console;
   gloam::set_assert_handler(&tell_assertion);

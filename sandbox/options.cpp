@@ -29,6 +29,8 @@ struct RawTexts {
   std::string pick;
   std::optional<std::string> in_flight;
   std::optional<std::string> scale;
+  std::optional<std::string> time;
+  std::optional<std::string> dt;
   std::optional<std::string> budget;
   std::optional<std::string> ledger;
   bool version = false;
@@ -40,8 +42,8 @@ void add_frame_options(CLI::App& app, Options& options, RawTexts& raw) {
       ->type_name("NAME");
   app.add_option("--frames", options.frames, "Number of frames (default 1; play: until the window is closed)")
       ->type_name("N");
-  app.add_option("--time", options.time_s, "Simulated time of the first frame (default 0)")->type_name("SECONDS");
-  app.add_option("--dt", options.dt_s, "Simulated time from frame to frame (default 1/60)")->type_name("SECONDS");
+  app.add_option("--time", raw.time, "Simulated time of the first frame (default 0)")->type_name("SECONDS");
+  app.add_option("--dt", raw.dt, "Simulated time from frame to frame (default 1/60)")->type_name("SECONDS");
   app.add_option("--seed", options.seed,
                  "Seed of random effects (default 1); this version has none, and pictures do not depend on it")
       ->type_name("N");
@@ -154,6 +156,15 @@ Status read_scale(const std::string& text, double& scale) {
   return usage("--scale wants auto or a number in 0.25…1, not '" + text + "'");
 }
 
+/// A decimal point is a point in every locale.
+Status read_seconds(const char* option, std::string_view text, double& seconds) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, seconds);
+  if (read.ec == std::errc() && read.ptr == end) return {};
+  return usage(std::string(option) + " wants a finite number of seconds, not '" + std::string(text) + "'");
+}
+
 Status check_texts(Options& options, const RawTexts& raw) {
   for (const auto& [name, text] : {std::pair("--budget", &raw.budget), std::pair("--ledger", &raw.ledger)})
     if (text->has_value()) return usage(std::string(name) + " is not built yet; set knobs with --set or --config");
@@ -164,6 +175,8 @@ Status check_texts(Options& options, const RawTexts& raw) {
   }
   options.size_given = !raw.size.empty();
   options.scale_given = raw.scale.has_value();
+  if (raw.time) GLOAM_TRY(read_seconds("--time", *raw.time, options.time_s));
+  if (raw.dt) GLOAM_TRY(read_seconds("--dt", *raw.dt, options.dt_s));
   if (raw.scale) GLOAM_TRY(read_scale(*raw.scale, options.scale));
   if (raw.in_flight) {
     if (raw.in_flight != "1" && raw.in_flight != "2")
@@ -182,7 +195,10 @@ Status check_texts(Options& options, const RawTexts& raw) {
   return {};
 }
 
-bool ends_with_picture_suffix(const std::string& path) { return path.ends_with(".png") || path.ends_with(".exr"); }
+/// A standard stream receives a PNG.
+bool names_a_picture(const std::string& path) {
+  return path.ends_with(".png") || path.ends_with(".exr") || path == "/dev/stdout" || path == "/dev/stderr";
+}
 
 Status check_values(const Options& options) {
   if (options.frames < 1 && options.command != Command::play) return usage("--frames wants a number of at least 1");
@@ -194,7 +210,7 @@ Status check_values(const Options& options) {
     if (assignment.find('=') == std::string::npos) return usage("--set wants KNOB=VALUE, not '" + assignment + "'");
   }
   const bool writes_picture = options.command == Command::render || options.command == Command::play;
-  if (writes_picture && !options.out.empty() && !ends_with_picture_suffix(options.out))
+  if (writes_picture && !options.out.empty() && !names_a_picture(options.out))
     return usage("--out wants a name that ends in .png or .exr, not '" + options.out + "'");
   if (options.command == Command::cost && options.out.empty()) return usage("cost needs --out DIR");
   if (options.command == Command::bench && options.names.empty() && !options.list)

@@ -7,6 +7,8 @@
 #include <string>
 #include <type_traits>
 
+#include "engine/ecs/type_key.h"
+
 namespace gloam {
 
 /// Id of a component type within one world; ids follow the order of registration.
@@ -29,7 +31,7 @@ inline constexpr std::size_t kColumnAlignment = 64;
 
 struct ComponentInfo {
   std::string name;
-  const void* key = nullptr;
+  TypeKey key = TypeKey::none;
   std::uint32_t size = 0;  ///< bytes per row; 0 for a tag (an empty struct)
 };
 

@@ -60,7 +60,7 @@ class ResourceStore {
  private:
   using Slot = std::unique_ptr<void, void (*)(void*)>;
 
-  void put(const void* key, Slot value) {
+  void put(TypeKey key, Slot value) {
     const std::uint32_t slot = table_.find(key);
     if (slot != TypeTable::kAbsent) {
       slots_[slot] = std::move(value);

@@ -19,25 +19,25 @@ class TypeTable {
 
   TypeTable();
 
-  [[nodiscard]] std::uint32_t find(const void* key) const {
+  [[nodiscard]] std::uint32_t find(TypeKey key) const {
     const Slot& first = slots_[home(key)];
     return first.key == key ? first.value : find_further(key);
   }
 
   /// `key` must not be in the table yet.
-  void insert(const void* key, std::uint32_t value);
+  void insert(TypeKey key, std::uint32_t value);
 
  private:
   struct Slot {
-    const void* key = nullptr;
+    TypeKey key = TypeKey::none;
     std::uint32_t value = kAbsent;
   };
 
-  [[nodiscard]] std::size_t home(const void* key) const {
-    return static_cast<std::size_t>((reinterpret_cast<std::uintptr_t>(key) * 0x9e3779b97f4a7c15ull) >> shift_);
+  [[nodiscard]] std::size_t home(TypeKey key) const {
+    return static_cast<std::size_t>((static_cast<std::uint64_t>(key) * 0x9e3779b97f4a7c15ull) >> shift_);
   }
 
-  [[nodiscard]] std::uint32_t find_further(const void* key) const;
+  [[nodiscard]] std::uint32_t find_further(TypeKey key) const;
 
   std::vector<Slot> slots_;
   std::size_t used_ = 0;
@@ -57,14 +57,14 @@ class TypeCache {
     return otherwise();
   }
   /// `name_hash`: detail::kTypeNameHash of the type.
-  void insert(const void* key, std::uint32_t name_hash, std::uint32_t value);
+  void insert(TypeKey key, std::uint32_t name_hash, std::uint32_t value);
   /// A cache that is off keeps its entries, but finds none.
   void set_on(bool on);
 
  private:
   static constexpr std::size_t kPlaces = 256;
   struct Slot {
-    const void* key = nullptr;
+    TypeKey key = TypeKey::none;
     std::uint32_t value = TypeTable::kAbsent;
   };
   std::array<Slot, kPlaces> slots_;  ///< all empty while the cache is off

@@ -33,9 +33,15 @@ std::size_t World::ComponentsHash::operator()(const std::vector<ComponentId>& id
   return static_cast<std::size_t>(hasher.digest());
 }
 
-ComponentId World::register_type(const void* key, std::uint32_t name_hash, std::string_view name, std::uint32_t size) {
+ComponentId World::register_type(TypeKey key, std::uint32_t name_hash, std::string_view name, std::uint32_t size) {
   const std::uint32_t known = types_.find(key);
-  if (known != TypeTable::kAbsent) return static_cast<ComponentId>(known);
+  if (known != TypeTable::kAbsent) {
+    GLOAM_ASSERT(infos_[known].size == size, "component " + infos_[known].name + " has " +
+                                                 std::to_string(infos_[known].size) +
+                                                 " bytes where it was registered first, and " + std::to_string(size) +
+                                                 " here: program and library were compiled with different definitions");
+    return static_cast<ComponentId>(known);
+  }
   GLOAM_ASSERT(iterations_.load(std::memory_order_relaxed) == 0, "components are registered while no view iterates");
   GLOAM_ASSERT(infos_.size() < kNoComponent, "a world has at most 65,535 component types");
   GLOAM_ASSERT(std::ranges::find(infos_, name, &ComponentInfo::name) == infos_.end(),
@@ -52,13 +58,13 @@ ComponentId World::register_type(const void* key, std::uint32_t name_hash, std::
   return id;
 }
 
-ComponentId World::find_id(const void* key, std::string_view type) const {
+ComponentId World::find_id(TypeKey key, std::string_view type) const {
   const std::uint32_t id = types_.find(key);
   GLOAM_ASSERT(id != TypeTable::kAbsent, unregistered_sentence(type));
   return static_cast<ComponentId>(id);
 }
 
-ComponentId World::find_accessed_id(const void* key, std::string_view type, bool write) const {
+ComponentId World::find_accessed_id(TypeKey key, std::string_view type, bool write) const {
   const ComponentId id = find_id(key, type);
   check_component(id, write);
   return id;
@@ -87,7 +93,7 @@ const Archetype::Edge& World::add_edge(Archetype& from, ComponentId id) {
   return from.set_edge(id, to);
 }
 
-const World::Bundle& World::add_bundle(const void* key, std::span<const ComponentId> ids) {
+const World::Bundle& World::add_bundle(TypeKey key, std::span<const ComponentId> ids) {
   std::vector<ComponentId> sorted(ids.begin(), ids.end());
   std::ranges::sort(sorted);
   GLOAM_ASSERT(std::ranges::adjacent_find(sorted) == sorted.end(), "an entity has each component once");
@@ -185,13 +191,13 @@ bool World::remove_component(Entity e, ComponentId id) {
   return true;
 }
 
-Query* World::find_query(const void* key) const {
+Query* World::find_query(TypeKey key) const {
   const std::lock_guard lock(query_mutex_);
   const std::uint32_t known = query_table_.find(key);
   return known == TypeTable::kAbsent ? nullptr : queries_[known].get();
 }
 
-Query* World::add_query(const void* key, QueryTerms terms) const {
+Query* World::add_query(TypeKey key, QueryTerms terms) const {
   std::vector<ComponentId> sorted = terms.columns;
   std::ranges::sort(sorted);
   GLOAM_ASSERT(std::ranges::adjacent_find(sorted) == sorted.end(), "a view names each column once");

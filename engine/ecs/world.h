@@ -161,6 +161,13 @@ class World {
     check_resource<R>(true);
     return resources_.set<R>(std::move(value));
   }
+  /// The R of the world; a new one, by default or equal to `value`, if it has none.
+  template <class R>
+  R& ensure_resource(R value = R{}) {
+    check_resource<R>(true);
+    R* const known = resources_.find<R>();
+    return known != nullptr ? *known : resources_.set<R>(std::move(value));
+  }
   /// The resource must exist.
   template <class R>
   [[nodiscard]] R& resource() {
@@ -270,16 +277,16 @@ class World {
   static std::string absent_sentence(std::string_view type, std::string_view where);
   static std::string dead_sentence(Entity e);
 
-  ComponentId register_type(const void* key, std::uint32_t name_hash, std::string_view name, std::uint32_t size);
-  [[nodiscard]] ComponentId find_id(const void* key, std::string_view type) const;
-  [[nodiscard]] ComponentId find_accessed_id(const void* key, std::string_view type, bool write) const;
+  ComponentId register_type(TypeKey key, std::uint32_t name_hash, std::string_view name, std::uint32_t size);
+  [[nodiscard]] ComponentId find_id(TypeKey key, std::string_view type) const;
+  [[nodiscard]] ComponentId find_accessed_id(TypeKey key, std::string_view type, bool write) const;
   Archetype& archetype_of(std::vector<ComponentId> sorted);
   const Archetype::Edge& edge_of(Archetype& from, ComponentId id) {
     const Archetype::Edge* known = from.edge(id);
     return known != nullptr ? *known : add_edge(from, id);
   }
   const Archetype::Edge& add_edge(Archetype& from, ComponentId id);
-  const Bundle& add_bundle(const void* key, std::span<const ComponentId> ids);
+  const Bundle& add_bundle(TypeKey key, std::span<const ComponentId> ids);
 
   void begin_structural_change() {
     if (checker_ != nullptr) checker_->structure();
@@ -332,7 +339,7 @@ class World {
 
   template <class... Ts>
   const Bundle& bundle_of() {
-    const void* key = type_key<TypeList<Ts...>>();
+    TypeKey key = type_key<TypeList<Ts...>>();
     const std::uint32_t found = bundle_table_.find(key);
     if (found != TypeTable::kAbsent) return bundles_[found];
     const ComponentId ids[] = {component_id<Ts>()..., kNoComponent};
@@ -372,8 +379,8 @@ class World {
   }
 
   /// Used by views. Safe from many threads between structural changes.
-  [[nodiscard]] Query* find_query(const void* key) const;
-  [[nodiscard]] Query* add_query(const void* key, QueryTerms terms) const;
+  [[nodiscard]] Query* find_query(TypeKey key) const;
+  [[nodiscard]] Query* add_query(TypeKey key, QueryTerms terms) const;
   void refresh(Query& query) const;
 
   WorldLimits limits_;

@@ -85,7 +85,8 @@ class JobExecutor {
 /// Runs everything on the calling thread, in a random legal order drawn from `seed`: for tests.
 [[nodiscard]] std::unique_ptr<JobExecutor> make_shuffled_executor(std::uint64_t seed);
 
-/// Runs jobs on oneTBB's threads. `threads` includes the caller's; 0: one per core; 1: no other thread is used.
+/// Runs jobs on oneTBB's threads. `threads` includes the caller's; 0: one per core; 1: no other thread is used. Where
+/// the system does not give the process as many threads, worker_count() is smaller.
 [[nodiscard]] std::unique_ptr<JobExecutor> make_pool_executor(std::uint32_t threads = 0);
 
 }  // namespace gloam

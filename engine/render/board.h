@@ -32,7 +32,7 @@ class Board {
   void clear() { values_.clear(); }
 
  private:
-  std::unordered_map<const void*, std::any> values_;
+  std::unordered_map<TypeKey, std::any> values_;
 };
 
 }  // namespace gloam

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/pipelines.h"
 
+#include <system_error>
 #include <type_traits>
 
 #include "engine/core/hash.h"
@@ -100,7 +101,7 @@ gpu::PipelineHandle Pipelines::find(const gpu::ComputePipelineDesc& desc) const 
 gpu::PipelineHandle Pipelines::find(const gpu::GraphicsPipelineDesc& desc) const { return find_existing(desc); }
 
 bool Pipelines::request(const PipelineList& list, LogSink& log) {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   bool ready = true;
   for (const AnyDesc& desc : list) {
     const std::uint64_t key = key_of_any(desc);
@@ -108,8 +109,12 @@ bool Pipelines::request(const PipelineList& list, LogSink& log) {
     ready = false;
     if (begun_.insert(key).second) queue_.push_back(desc);
   }
-  if (!ready && !worker_.joinable())
-    worker_ = std::jthread([this, &log](const std::stop_token& stop) { run_worker(stop, log); });
+  try {
+    if (!ready && !worker_.joinable())
+      worker_ = std::jthread([this, &log](const std::stop_token& stop) { run_worker(stop, log); });
+  } catch (const std::system_error&) {  // the system gives no thread: this one makes a pipeline a frame
+    if (!queue_.empty()) make_first(lock, log);
+  }
   wake_.notify_one();
   return ready;
 }
@@ -121,17 +126,19 @@ std::size_t Pipelines::pending() const {
 
 void Pipelines::run_worker(const std::stop_token& stop, LogSink& log) {
   std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, stop, [&] { return !queue_.empty(); }) && !stop.stop_requested()) {
-    const AnyDesc desc = std::move(queue_.front());
-    queue_.erase(queue_.begin());
-    lock.unlock();
-    const auto made = std::visit([&](const auto& d) { return get(d); }, desc);
-    const std::string name = std::visit([](const auto& d) { return name_of(d); }, desc);
-    if (!made.ok()) log.warning("pipeline " + name + " failed in the background: " + made.error().message);
-    lock.lock();
-    begun_.erase(key_of_any(desc));
-    if (!made.ok()) failed_.insert_or_assign(key_of_any(desc), module_of(desc));
-  }
+  while (wake_.wait(lock, stop, [&] { return !queue_.empty(); }) && !stop.stop_requested()) make_first(lock, log);
+}
+
+void Pipelines::make_first(std::unique_lock<std::mutex>& lock, LogSink& log) {
+  const AnyDesc desc = std::move(queue_.front());
+  queue_.erase(queue_.begin());
+  lock.unlock();
+  const auto made = std::visit([&](const auto& d) { return get(d); }, desc);
+  const std::string name = std::visit([](const auto& d) { return name_of(d); }, desc);
+  if (!made.ok()) log.warning("pipeline " + name + " failed in the background: " + made.error().message);
+  lock.lock();
+  begun_.erase(key_of_any(desc));
+  if (!made.ok()) failed_.insert_or_assign(key_of_any(desc), module_of(desc));
 }
 
 gpu::ShaderCode Pipelines::current(const gpu::ShaderCode& shader) const {

@@ -71,6 +71,8 @@ class Pipelines {
   /// The words that replace those of a shader; without words, the shader itself.
   [[nodiscard]] gpu::ShaderCode current(const gpu::ShaderCode& shader) const;
   void run_worker(const std::stop_token& stop, LogSink& log);
+  /// Makes the first pipeline of the queue, without the lock meanwhile.
+  void make_first(std::unique_lock<std::mutex>& lock, LogSink& log);
 
   gpu::Device& device_;
   mutable std::mutex mutex_;

@@ -40,9 +40,9 @@ class Renderer {
   /// unknown name it lists the valid ones.
   [[nodiscard]] Status check_visualizer(const World& world, std::string_view name) const;
 
-  /// Registers the components and resources of the scene and of every module. Call it before the world is filled. A
-  /// world that is prepared again is released. One renderer at a time draws a world: the one that has prepared it, and
-  /// after its end one with the same modules.
+  /// Registers the components and resources of the scene and of every module. What the world already holds stays as it
+  /// is. A world that is prepared again is released. One renderer at a time draws a world: the one that has prepared
+  /// it, and after its end one with the same modules.
   void prepare_world(World& world) const;
   /// Frees the GPU data of a world, its history, the images of the views that it drew last, and the memory of modules
   /// that no view of another world has needed. Call it before the world is destroyed; a world that is destroyed without
@@ -74,8 +74,9 @@ class Renderer {
   /// and of all objects that were destroyed before. Without this call, memory of unused plans is kept for a while, in
   /// case frames with the same passes return.
   void free_idle_memory();
-  /// Reads the picture of a view's last frame. The view must have had no target image. Waits for the GPU. Fails if all
-  /// frames that drew the view since its images were made were given up.
+  /// Reads the picture of a view's last frame. Waits for the GPU. Usage error if the view has no picture: it was not
+  /// drawn, or into a target image, or its images were released; that holds for the images of all functions below.
+  /// Fails if all frames that drew the view since its images were made were given up.
   [[nodiscard]] Result<Picture> read_picture(ViewId view);
   /// Reads the linear light of the view's last frame, after all passes. Asserts that the frame has kept it
   /// (ViewRequest::keep_linear). Waits for the GPU.

@@ -55,6 +55,25 @@ bool leaves_folder(std::string_view path) {
   return false;
 }
 
+/// Whether one letter and a colon name a drive, also if they were encoded.
+#ifdef _WIN32
+constexpr bool kDrives = true;
+#else
+constexpr bool kDrives = false;
+#endif
+
+/// Whether the URI begins with a scheme ("file:…", "https://…") or the name of a drive ("C:…"): letters, digits and
+/// signs before the first colon. An encoded colon ("%3A") and one after other characters are parts of a name.
+bool has_scheme(std::string_view uri) {
+  constexpr std::string_view kSigns = "+-.";
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const std::string_view before = uri.substr(0, uri.find(':'));
+  return before.size() < uri.size() && !before.empty() && letter(before.front()) &&
+         std::ranges::all_of(before, [&](char c) {
+           return letter(c) || (c >= '0' && c <= '9') || kSigns.find(c) != std::string_view::npos;
+         });
+}
+
 Error path_fault(std::string sentence) { return {ErrorKind::input, std::move(sentence)}; }
 
 }  // namespace
@@ -64,9 +83,8 @@ Result<std::string> resolve_scene_path(const std::string& directory, std::string
   if (path.empty()) return path_fault("the path of a file is empty");
   if (path.find('\0') != std::string::npos) return path_fault("the path " + in_quotes(path) + " holds a zero byte");
   const bool absolute = path.front() == '/' || path.front() == '\\';
-  // A colon before the first separator marks a scheme ("file:…", "https://…") or a drive ("C:…").
-  const bool scheme = path.find(':') < path.find_first_of("/\\");
-  if (absolute || scheme || leaves_folder(path))
+  const bool drive = kDrives && path.size() > 1 && path[1] == ':';
+  if (absolute || has_scheme(uri) || drive || leaves_folder(path))
     return path_fault("the path " + in_quotes(path) + " leaves the scene's folder");
   const std::string normal = std::filesystem::path(path).lexically_normal().string();
   return directory.empty() ? normal : directory + "/" + normal;

@@ -17,14 +17,14 @@ void prepare_scene_world(World& world) {
   world.register_component<MorphInstance>("morph_instance");
   world.register_component<Camera>("camera");
   world.register_component<SourceNode>("source_node");
-  world.set_resource(SceneAssets{});
-  world.set_resource(SceneNames{});
-  world.set_resource(SceneStrings{});
-  world.set_resource(SceneEnvironment{});
-  world.set_resource(SceneClock{});
-  world.set_resource(JointMatrices{});
-  world.set_resource(MorphWeights{});
-  world.set_resource(Teleports{});
+  world.ensure_resource<SceneAssets>();
+  world.ensure_resource<SceneNames>();
+  world.ensure_resource<SceneStrings>();
+  world.ensure_resource<SceneEnvironment>();
+  world.ensure_resource<SceneClock>();
+  world.ensure_resource<JointMatrices>();
+  world.ensure_resource<MorphWeights>();
+  world.ensure_resource<Teleports>();
   prepare_scene_systems(world);
 }
 

@@ -7,9 +7,9 @@
 namespace gloam {
 
 void prepare_scene_systems(World& world) {
-  world.set_resource(SceneNodes{});
-  world.set_resource(AnimationBindings{});
-  world.set_resource(TransformTree{});
+  world.ensure_resource<SceneNodes>();
+  world.ensure_resource<AnimationBindings>();
+  world.ensure_resource<TransformTree>();
 }
 
 }  // namespace gloam

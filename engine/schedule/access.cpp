@@ -15,7 +15,7 @@ void SystemAccess::declare(const Access& access) {
   accesses.push_back(access);
 }
 
-const Access* SystemAccess::find(AccessKind kind, const void* key) const {
+const Access* SystemAccess::find(AccessKind kind, TypeKey key) const {
   const auto found = std::ranges::find_if(accesses, [&](const Access& a) { return a.kind == kind && a.key == key; });
   return found == accesses.end() ? nullptr : &*found;
 }

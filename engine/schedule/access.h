@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/ecs/type_key.h"
+
 namespace gloam {
 
 enum class AccessKind : std::uint8_t { component, resource, view_resource };
@@ -13,8 +15,8 @@ enum class AccessKind : std::uint8_t { component, resource, view_resource };
 /// One component or resource that a system accesses.
 struct Access {
   AccessKind kind = AccessKind::component;
-  const void* key = nullptr;  ///< type_key of the component or resource
-  std::string_view name;      ///< its type_name
+  TypeKey key = TypeKey::none;  ///< type_key of the component or resource
+  std::string_view name;        ///< its type_name
   bool write = false;
 };
 
@@ -27,7 +29,7 @@ struct SystemAccess {
   /// Adds an access. A second access to the same kind and key is merged: the result writes if either writes.
   void declare(const Access& access);
   /// The declared access to this kind and key; null if there is none.
-  [[nodiscard]] const Access* find(AccessKind kind, const void* key) const;
+  [[nodiscard]] const Access* find(AccessKind kind, TypeKey key) const;
 };
 
 /// Whether the two systems must not run at the same time: both access the same component or resource and at least one

@@ -131,10 +131,10 @@ void add_closeup_systems(Schedule& schedule) {
 }
 
 void register_closeup_resources(World& world) {
-  world.set_resource(CloseupSubjects{});
-  world.set_resource(CloseupReceivers{});
-  world.set_resource(CloseupMeshes{});
-  world.set_resource(CloseupLightNames{});
+  world.ensure_resource<CloseupSubjects>();
+  world.ensure_resource<CloseupReceivers>();
+  world.ensure_resource<CloseupMeshes>();
+  world.ensure_resource<CloseupLightNames>();
 }
 
 void prepare_closeup_view(World& world, ViewId view) {

@@ -62,10 +62,10 @@ class GrassModule final : public Module {
     world.register_component<Wind>("wind");
     register_grass_components(world);
     register_grass_world_resources(world);
-    world.set_resource(GrassGrowthSettings{});
-    world.set_resource(GrassField{});
-    world.set_resource(GrassEntities{});
-    world.set_resource(GrassWorld{});
+    world.ensure_resource<GrassGrowthSettings>();
+    world.ensure_resource<GrassField>();
+    world.ensure_resource<GrassEntities>();
+    world.ensure_resource<GrassWorld>();
   }
   void knobs(KnobRegistry& registry) const override { add_grass_knobs(registry); }
   void scene_keys(KeyRegistry& registry) const override { add_grass_keys(registry); }

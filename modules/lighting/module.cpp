@@ -23,7 +23,7 @@ class LightingModule final : public Module {
   [[nodiscard]] std::string_view name() const override { return "lighting"; }
   [[nodiscard]] std::vector<std::string_view> follows() const override { return {"lights", "shadows", "closeups"}; }
 
-  void register_components(World& world) const override { world.set_resource(FlameSource{}); }
+  void register_components(World& world) const override { world.ensure_resource<FlameSource>(); }
   void scene_keys(KeyRegistry&) const override {}
 
   void knobs(KnobRegistry& registry) const override {

@@ -27,7 +27,7 @@ class LightsModule final : public Module {
   void register_components(World& world) const override {
     world.register_component<Light>("light");
     world.register_component<LightBounds>("light_bounds");
-    world.set_resource(LightSet{});
+    world.ensure_resource<LightSet>();
   }
   void scene_keys(KeyRegistry& registry) const override { add_light_keys(registry); }
 

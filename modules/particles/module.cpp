@@ -35,9 +35,9 @@ class ParticlesModule final : public Module {
   void register_components(World& world) const override {
     world.register_component<ParticleEmitter>("particle_emitter");
     world.set_resource(particle_flames());
-    world.set_resource(EmitterSet{});
-    world.set_resource(EmitterLights{});
-    world.set_resource(ParticleLightMaps{});
+    world.ensure_resource<EmitterSet>();
+    world.ensure_resource<EmitterLights>();
+    world.ensure_resource<ParticleLightMaps>();
   }
   void scene_keys(KeyRegistry& registry) const override { add_particle_keys(registry); }
   void knobs(KnobRegistry& registry) const override { add_particle_knobs(registry); }

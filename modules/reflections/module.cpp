@@ -69,9 +69,9 @@ class ReflectionsModule final : public Module {
     world.register_component<IbrRoom>("ibr_room");
     world.register_component<CubeProbe>("cube_probe");
     world.register_component<ReflectingHeights>("reflecting_heights");
-    world.set_resource(ProxySet{});
-    world.set_resource(ReflectionCaptures{});
-    world.set_resource(MirrorPatches{});
+    world.ensure_resource<ProxySet>();
+    world.ensure_resource<ReflectionCaptures>();
+    world.ensure_resource<MirrorPatches>();
   }
   void scene_keys(KeyRegistry& registry) const override {
     const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {

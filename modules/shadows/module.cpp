@@ -42,9 +42,9 @@ class ShadowsModule final : public Module {
   void register_components(World& world) const override {
     world.register_component<ShadowCaster>("shadow_caster");
     world.register_component<CasterVolume>("caster_volume");
-    world.set_resource(CapturePlaces{});
-    world.set_resource(ShadowTexelGrid{});
-    world.set_resource(Cookies{});
+    world.ensure_resource<CapturePlaces>();
+    world.ensure_resource<ShadowTexelGrid>();
+    world.ensure_resource<Cookies>();
   }
   void scene_keys(KeyRegistry& registry) const override { add_shadow_keys(registry); }
   void knobs(KnobRegistry& registry) const override { add_shadow_knobs(registry); }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/core/text/formatted.h"
 #include "engine/math/packing.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/bake.h"
@@ -60,9 +60,8 @@ std::string summary_of(const ReflectionCaptures& captures, double seconds) {
     const std::string side = std::to_string(layers.side);
     return count_of(layers.count, one, many) + (layers.count == 0 ? "" : " of " + side + "x" + side + " texels");
   };
-  char time[32];
-  std::snprintf(time, sizeof(time), " captured in %.1f s\n", seconds);
-  return kind(captures.proxies, "proxy", "proxies") + ", " + kind(captures.probes, "probe", "probes") + time;
+  return kind(captures.proxies, "proxy", "proxies") + ", " + kind(captures.probes, "probe", "probes") +
+         formatted(" captured in %.1f s\n", seconds);
 }
 
 Status check_bake_options(const Options& options) {

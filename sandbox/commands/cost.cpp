@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <chrono>
-#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "engine/core/text/formatted.h"
 #include "modules/accuracy/module.h"
 #include "modules/accuracy/outputs.h"
 #include "modules/module_list/module_list.h"
@@ -34,8 +34,7 @@ class ConsoleProgress final : public CostProgress {
   void finished(const LedgerRow& row, bool resumed) override {
     ++(resumed ? resumed_ : measured_);
     if (quiet_ || console_.shows_progress()) return;
-    char times[64];
-    std::snprintf(times, sizeof(times), ": %.3f ms, %.2f of the default", row.ms.median_ms, row.ratio);
+    const std::string times = formatted(": %.3f ms, %.2f of the default", row.ms.median_ms, row.ratio);
     console_.print(row.knob + "=" + row.value + times + (resumed ? " (measured before)" : "") + "\n");
     // Flush, so that the reader of a pipe gets the line at once. A failure to write is reported at the end.
     static_cast<void>(console_.flush());
@@ -78,7 +77,7 @@ LedgerHeader header_of(const Session& session, const Options& options) {
 }
 
 std::string conditions_of(const Options& options) {
-  return "seed " + std::to_string(options.seed) + " dt " + std::to_string(options.dt_s) + " view '" + options.view +
+  return "seed " + std::to_string(options.seed) + " dt " + formatted("%f", options.dt_s) + " view '" + options.view +
          "' animation '" + options.animation + "'";
 }
 

@@ -3,11 +3,11 @@
 #include "sandbox/commands/fit_proxies.h"
 
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
+#include "engine/core/text/formatted.h"
 #include "engine/scene/assets.h"
 #include "modules/accuracy/module.h"
 #include "modules/reflections/module.h"
@@ -21,17 +21,13 @@ namespace {
 
 std::string percent(std::uint64_t part, std::uint64_t all) {
   if (all == 0) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", 100.0 * static_cast<double>(part) / static_cast<double>(all));
-  return text;
+  return formatted("%.1f %%", 100.0 * static_cast<double>(part) / static_cast<double>(all));
 }
 
 std::string row(const CaughtShares& shares) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%-24s %10s %10s %10s %10s\n", shares.viewers.c_str(),
-                std::to_string(shares.rays).c_str(), percent(shares.in_rooms, shares.rays).c_str(),
-                percent(shares.by_proposed, shares.rays).c_str(), percent(shares.by_existing, shares.rays).c_str());
-  return text;
+  return formatted("%-24s %10s %10s %10s %10s\n", shares.viewers.c_str(), std::to_string(shares.rays).c_str(),
+                   percent(shares.in_rooms, shares.rays).c_str(), percent(shares.by_proposed, shares.rays).c_str(),
+                   percent(shares.by_existing, shares.rays).c_str());
 }
 
 /// Shares of reflected rays to surfaces, by viewer. "in rooms": the surface is in a room of the eye, so that a proxy
@@ -41,10 +37,7 @@ std::string report(const ProxyProposal& proposal) {
                      std::to_string(proposal.candidates) + " quads; the scene has " +
                      std::to_string(proposal.existing) + "\n";
   CaughtShares all = {.viewers = "all"};
-  char head[160];
-  std::snprintf(head, sizeof head, "%-24s %10s %10s %10s %10s\n", "rays caught, seen by", "rays", "in rooms", "fitted",
-                "existing");
-  text += head;
+  text += formatted("%-24s %10s %10s %10s %10s\n", "rays caught, seen by", "rays", "in rooms", "fitted", "existing");
   for (const CaughtShares& shares : proposal.shares) {
     text += row(shares);
     all.rays += shares.rays;

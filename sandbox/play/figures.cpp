@@ -4,18 +4,15 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
+
+#include "engine/core/text/formatted.h"
 
 namespace gloam {
 namespace {
 
 double seconds(PlayFigures::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-std::string number(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
+std::string number(const char* format, double value) { return formatted(format, value); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/text/formatted.h"
 #include "engine/scene/resources.h"
 #include "modules/depth_of_field/components.h"
 #include "sandbox/output/file_io.h"
@@ -166,7 +167,7 @@ void PlayPanel::save_config(const std::string& scene) {
 std::string PlayPanel::command_line(const PlayControls& controls, const ViewSettings& view) const {
   const std::string camera(session_.world.resource<SceneNames>().name_of(session_.camera));
   std::string line = "gloam render '" + controls.scene + "' --size " + std::to_string(view.width) + "x" +
-                     std::to_string(view.height) + " --time " + std::to_string(controls.time_s);
+                     std::to_string(view.height) + " --time " + formatted("%f", controls.time_s);
   if (!camera.empty()) line += " --camera '" + camera + "'";
   if (view.visualizer != "none") line += " --view '" + view.visualizer + "'";
   return line + assignments_text(session_.renderer->knobs());

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "engine/core/text/formatted.h"
 #include "engine/render/passes/visualizer_pass.h"
 #include "sandbox/session/program_knobs.h"
 #include "shaders/common/heat_shared.h"
@@ -161,12 +161,11 @@ void Panel::show_times(const FrameTimes& times) {
   const double longest = *std::ranges::max_element(history);
   const double top = std::min(1.8 * longest, kMostMedians * times.frame_ms());  // the text is above steady lines
   ImGui::SetNextItemWidth(-1.0f);
-  char text[96];
-  std::snprintf(text, sizeof(text), "%.1f frames/s, longest %.0f ms", 1e3 / std::max(times.frame_ms(), 1e-3), longest);
-  ImGui::PlotLines("##history", value, const_cast<double*>(history.data()), static_cast<int>(history.size()), 0, text,
-                   0.0f, static_cast<float>(top), ImVec2(0.0f, 36.0f * gui_.scale()));
-  std::snprintf(text, sizeof(text), "times of the last %zu frames, from 0 to %.0f ms", history.size(), top);
-  show_tooltip(text);
+  std::string text = formatted("%.1f frames/s, longest %.0f ms", 1e3 / std::max(times.frame_ms(), 1e-3), longest);
+  ImGui::PlotLines("##history", value, const_cast<double*>(history.data()), static_cast<int>(history.size()), 0,
+                   text.c_str(), 0.0f, static_cast<float>(top), ImVec2(0.0f, 36.0f * gui_.scale()));
+  text = formatted("times of the last %zu frames, from 0 to %.0f ms", history.size(), top);
+  show_tooltip(text.c_str());
 }
 
 void Panel::show_scale(const PanelContent& content, const PanelFrame& frame) {

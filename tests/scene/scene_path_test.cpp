@@ -20,10 +20,19 @@ TEST(ScenePath, stays_below_the_scenes_folder) {
   EXPECT_EQ(*resolve_scene_path("dir", "100%.bin"), "dir/100%.bin");
 }
 
+TEST(ScenePath, may_hold_colons_that_mark_no_scheme) {
+  EXPECT_EQ(*resolve_scene_path("dir", "wall%3A1.png"), "dir/wall:1.png");
+  EXPECT_EQ(*resolve_scene_path("dir", "file%3a//x.png"), "dir/file:/x.png");
+  EXPECT_EQ(*resolve_scene_path("dir", "a/b:c.png"), "dir/a/b:c.png");
+  EXPECT_EQ(*resolve_scene_path("dir", "a%2Fb:c.png"), "dir/a/b:c.png");
+  EXPECT_EQ(*resolve_scene_path("dir", "./b:c.png"), "dir/b:c.png");
+  EXPECT_EQ(*resolve_scene_path("dir", "12:30.png"), "dir/12:30.png");
+}
+
 TEST(ScenePath, refuses_whatever_leaves_the_folder) {
-  for (const char* uri :
-       {"../a.bin", "a/../../b.bin", "/etc/passwd", "%2e%2e/a.bin", "%2E%2e%2fa.bin", "..\\a.bin", "\\\\host\\a",
-        "C:/a.bin", "file:///etc/passwd", "https://example.org/a.bin", "a/..%2f../b", "..", "%2Fetc/passwd"}) {
+  for (const char* uri : {"../a.bin", "a/../../b.bin", "/etc/passwd", "%2e%2e/a.bin", "%2E%2e%2fa.bin", "..\\a.bin",
+                          "\\\\host\\a", "C:/a.bin", "c:a.bin", "data:x", "file:///etc/passwd",
+                          "https://example.org/a.bin", "a/..%2f../b", "..", "%2Fetc/passwd"}) {
     const Result<std::string> path = resolve_scene_path("dir", uri);
     ASSERT_FALSE(path.ok()) << uri;
     EXPECT_EQ(path.error().kind, ErrorKind::input);

@@ -2,12 +2,20 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/storage/sealed_file.h"
 
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <system_error>
+#include <thread>
+#include <utility>
 
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
@@ -24,6 +32,59 @@ std::string checksum_of(std::string_view identity, std::string_view payload) {
   return digits;
 }
 
+/// A file of a name that no other one has, in the folder of the file that it will replace. Unless it is renamed, it is
+/// removed in the end.
+class NewFile {
+ public:
+  explicit NewFile(const std::filesystem::path& folder) {
+    for (int attempt = 0; attempt < 100 && file_ == nullptr; ++attempt) {
+      const std::uint64_t unique = Hasher()
+                                       .value(std::chrono::steady_clock::now().time_since_epoch().count())
+                                       .value(std::hash<std::thread::id>()(std::this_thread::get_id()))
+                                       .value(attempt)
+                                       .digest();
+      char name[40];
+      std::snprintf(name, sizeof(name), ".gloam-%016llx.partial", static_cast<unsigned long long>(unique));
+      path_ = folder / name;
+      file_ = std::fopen(path_.string().c_str(), "wbx");  // x: fails if another process has made the file
+      if (file_ == nullptr && errno != EEXIST) break;
+    }
+    made_ = file_ != nullptr;
+  }
+  ~NewFile() {
+    const int reason = errno;
+    if (file_ != nullptr) std::fclose(file_);
+    std::error_code ignored;
+    if (made_) std::filesystem::remove(path_, ignored);
+    errno = reason;
+  }
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  [[nodiscard]] bool is_open() const { return file_ != nullptr; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  /// Writes all bytes and closes the file. `replaces`: they must be on the disk before they take an old file's place.
+  [[nodiscard]] bool write(std::string_view bytes, [[maybe_unused]] bool replaces) {
+    bool written = std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size() && std::fflush(file_) == 0;
+#if defined(__unix__) || defined(__APPLE__)
+    written = written && (!replaces || fsync(fileno(file_)) == 0);
+#endif
+    const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+    return written && closed;
+  }
+  [[nodiscard]] bool rename_to(const std::filesystem::path& target, std::error_code& fault) {
+    std::filesystem::rename(path_, target, fault);
+    made_ = static_cast<bool>(fault);
+    return !fault;
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::FILE* file_ = nullptr;
+  bool made_ = false;  ///< there is a file at path_
+};
+
 }  // namespace
 
 Status write_whole_file(const std::string& path, std::string_view bytes) {
@@ -31,17 +92,21 @@ Status write_whole_file(const std::string& path, std::string_view bytes) {
     return Error{ErrorKind::failed, path + ": cannot be written: " + reason};
   };
   std::error_code fault;
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  // A link stays: the file that it names is replaced.
+  const std::filesystem::path given(path);
+  const std::filesystem::path target = std::filesystem::is_symlink(given, fault) ? canonical(given, fault) : given;
+  if (fault && fault != std::errc::no_such_file_or_directory) return failed(fault.message());
+  const std::filesystem::path folder = target.parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder, fault);
-  if (fault) return failed(fault.message());
-  const std::string partial = path + ".partial";
+  if (!folder.empty() && fault) return failed(fault.message());
+  NewFile file(folder);
+  if (!file.is_open()) return failed(std::generic_category().message(errno));
+  const std::filesystem::file_status old = std::filesystem::status(target, fault);
+  if (std::filesystem::is_regular_file(old)) std::filesystem::permissions(file.path(), old.permissions(), fault);
   errno = 0;
-  std::ofstream file(partial, std::ios::binary | std::ios::trunc);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) return failed(std::generic_category().message(errno == 0 ? EIO : errno));
-  std::filesystem::rename(partial, path, fault);
-  if (fault) return failed(fault.message());
+  if (!file.write(bytes, std::filesystem::exists(old)))
+    return failed(std::generic_category().message(errno == 0 ? EIO : errno));
+  if (!file.rename_to(target, fault)) return failed(fault.message());
   return {};
 }
 
@@ -53,12 +118,11 @@ Status write_sealed(const std::string& path, std::string_view identity, std::str
 }
 
 std::optional<std::string> read_sealed(const std::string& path, std::string_view identity) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::error_code fault;
-  const std::uintmax_t size = std::filesystem::file_size(path, fault);
-  if (fault) return std::nullopt;
-  std::string text(size, '\0');
+  // The size is that of the open file: another process may replace the file at any time.
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  if (!file || size < 0 || !file.seekg(0)) return std::nullopt;
+  std::string text(static_cast<std::size_t>(size), '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(size))) return std::nullopt;
   const std::size_t head_size = kMagic.size() + 16 + 1 + identity.size() + 1;
   if (text.size() < head_size) return std::nullopt;

@@ -10,8 +10,29 @@
 
 // POSIX: mmap, mprotect and munmap. Their equivalents on Windows are VirtualAlloc with MEM_RESERVE, VirtualAlloc with
 // MEM_COMMIT, and VirtualFree.
+//
+// A process has a limited number of mappings (vm.max_map_count on Linux, 65,530 by default), and pages of different
+// protection are different mappings. So a reservation is writable as a whole: it takes memory only where it is written
+// to, and neighbouring reservations are one mapping. Where the system counts writable pages that were never written to
+// against a limit (vm.overcommit_memory=2, RLIMIT_DATA), pages become writable when they are committed.
 
 namespace gloam {
+namespace {
+
+/// The system refused address space or memory.
+class OutOfMemory : public std::bad_alloc {
+ public:
+  [[nodiscard]] const char* what() const noexcept override {
+    return "the system gives no more memory for components: its address space, its number of mappings "
+           "(vm.max_map_count) or its memory is used up";
+  }
+};
+
+void* map_pages(std::size_t bytes, int protection) {
+  return mmap(nullptr, bytes, protection, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+}
+
+}  // namespace
 
 std::size_t ReservedMemory::page_size() {
   static const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
@@ -20,8 +41,10 @@ std::size_t ReservedMemory::page_size() {
 
 ReservedMemory::ReservedMemory(std::size_t bytes) : bytes_(round_up(bytes, page_size())) {
   const std::size_t slack = bytes_ >= kLargePage ? kLargePage : 0;
-  void* address = mmap(nullptr, bytes_ + slack, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (address == MAP_FAILED) throw std::bad_alloc();
+  void* address = map_pages(bytes_ + slack, PROT_READ | PROT_WRITE);
+  writable_ = address != MAP_FAILED;
+  if (!writable_) address = map_pages(bytes_ + slack, PROT_NONE);
+  if (address == MAP_FAILED) throw OutOfMemory();
   data_ = static_cast<std::byte*>(address);
   if (slack > 0) {
     const auto begin = reinterpret_cast<std::uintptr_t>(address);
@@ -30,9 +53,9 @@ ReservedMemory::ReservedMemory(std::size_t bytes) : bytes_(round_up(bytes, page_
     data_ += before;
     if (before < slack) munmap(data_ + bytes_, slack - before);
   }
-#ifdef MADV_HUGEPAGE
-  // Advice only; it has no effect where less than a large page is committed.
-  madvise(data_, bytes_, MADV_HUGEPAGE);
+#ifdef MADV_NOHUGEPAGE
+  // Otherwise the first byte of a column may take a large page. extend() asks for them where they are used.
+  madvise(data_, bytes_, MADV_NOHUGEPAGE);
 #endif
 }
 
@@ -43,8 +66,8 @@ ReservedMemory::~ReservedMemory() {
 void ReservedMemory::commit(std::size_t begin, std::size_t end) {
   GLOAM_ASSERT(begin <= end && end <= bytes_, "pages are committed within their reservation");
   GLOAM_ASSERT(begin % page_size() == 0 && end % page_size() == 0, "memory is committed by whole pages");
-  if (begin == end) return;
-  if (mprotect(data_ + begin, end - begin, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
+  if (begin == end || writable_) return;
+  if (mprotect(data_ + begin, end - begin, PROT_READ | PROT_WRITE) != 0) throw OutOfMemory();
 }
 
 void ReservedMemory::extend(Stretch& stretch, std::size_t end) {
@@ -56,6 +79,9 @@ void ReservedMemory::extend(Stretch& stretch, std::size_t end) {
       std::min(stretch.begin + round_up(end - stretch.begin, by_large_pages ? kLargePage : page_size()), stretch.limit);
   commit(old_end, new_end);
   stretch.committed = new_end;
+#ifdef MADV_HUGEPAGE
+  if (by_large_pages) madvise(data_ + stretch.begin, new_end - stretch.begin, MADV_HUGEPAGE);
+#endif
 #ifdef MADV_COLLAPSE
   // Bytes after the first large page get large pages on their first touch. The first one was touched page by page.
   if (old_end < large && large <= new_end) madvise(data_ + stretch.begin, kLargePage, MADV_COLLAPSE);

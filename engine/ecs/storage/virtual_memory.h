@@ -12,19 +12,24 @@
 
 namespace gloam {
 
-/// A range of reserved address space. It has no memory until pages of it are committed, and it never moves. Move-only.
+/// A range of reserved address space. It has no memory until pages of it are committed and written to, and it never
+/// moves. Move-only.
 /// The only file that calls the operating system's memory functions is virtual_memory.cpp.
 class ReservedMemory {
  public:
   ReservedMemory() = default;
-  /// Reserves at least `bytes`, starting on a page boundary. Throws std::bad_alloc when the address space is used up.
+  /// Reserves at least `bytes`, starting on a page boundary. Throws std::bad_alloc when the address space or the number
+  /// of mappings is used up.
   explicit ReservedMemory(std::size_t bytes);
   ~ReservedMemory();
   ReservedMemory(ReservedMemory&& other) noexcept
-      : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
+      : data_(std::exchange(other.data_, nullptr)),
+        bytes_(std::exchange(other.bytes_, 0)),
+        writable_(other.writable_) {}
   ReservedMemory& operator=(ReservedMemory&& other) noexcept {
     std::swap(data_, other.data_);
     std::swap(bytes_, other.bytes_);
+    std::swap(writable_, other.writable_);
     return *this;
   }
 
@@ -55,6 +60,7 @@ class ReservedMemory {
  private:
   std::byte* data_ = nullptr;
   std::size_t bytes_ = 0;
+  bool writable_ = false;  ///< all pages are, also those that are not committed
 };
 
 [[nodiscard]] constexpr std::size_t round_up(std::size_t value, std::size_t multiple) {

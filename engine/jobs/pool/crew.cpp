@@ -61,7 +61,7 @@ class ThreadLimit {
     std::optional<tbb::global_control> control;
   };
   static Shared& shared() {
-    static Shared shared;
+    static Shared& shared = *new Shared;  // never destroyed: executors in static variables end after main
     return shared;
   }
   const std::uint32_t threads_;
@@ -152,6 +152,7 @@ struct Visit {
 
 }  // namespace
 
+/// oneTBB's workers. It ends the process where one of its workers cannot start another one.
 struct Crew::Workers {
   explicit Workers(std::uint32_t threads) : limit(threads), arena(static_cast<int>(threads), 1) {}
   ThreadLimit limit;
@@ -161,10 +162,22 @@ struct Crew::Workers {
 
 std::uint32_t Crew::core_count() { return static_cast<std::uint32_t>(tbb::info::default_concurrency()); }
 
+std::unique_ptr<OwnThreads> Crew::scarce_threads(std::uint32_t helpers) {
+  if (helpers == 0) return nullptr;
+  // oneTBB may start more threads than it needs: where a thread is to work and has not gone to sleep yet, it starts
+  // one.
+  const std::uint32_t plenty = 2 * helpers + 8;
+  auto started = std::make_unique<OwnThreads>(plenty);
+  const bool scarce = started->count() < plenty;
+  started->keep(scarce ? helpers : 0);
+  return scarce ? std::move(started) : nullptr;
+}
+
 Crew::Crew(std::uint32_t threads)
-    : threads_(threads),
-      state_(new CrewState(threads)),
-      workers_(threads > 1 ? std::make_unique<Workers>(threads) : nullptr) {}
+    : own_threads_(scarce_threads(threads - 1)),
+      threads_(own_threads_ == nullptr ? threads : own_threads_->count() + 1),
+      state_(new CrewState(threads_)),
+      workers_(threads_ > 1 && own_threads_ == nullptr ? std::make_unique<Workers>(threads_) : nullptr) {}
 
 Crew::~Crew() {
   state_->closing.store(true, std::memory_order_relaxed);
@@ -173,6 +186,7 @@ Crew::~Crew() {
   // forever.
   if (workers_ != nullptr) workers_->arena.execute([this] { workers_->visits.wait(); });
   workers_.reset();
+  own_threads_.reset();
   state_->release();
 }
 
@@ -186,7 +200,10 @@ void Crew::call_helpers(std::uint32_t wanted) {
     }
     ++holders;
     state_->idle.fetch_add(1, std::memory_order_relaxed);
-    workers_->arena.enqueue(workers_->visits.defer(Visit{state_}));
+    if (own_threads_ != nullptr)
+      own_threads_->enqueue(Visit{state_});
+    else
+      workers_->arena.enqueue(workers_->visits.defer(Visit{state_}));
   }
 }
 

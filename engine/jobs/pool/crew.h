@@ -9,6 +9,8 @@
 #include <memory>
 #include <mutex>
 
+#include "engine/jobs/pool/own_threads.h"
+
 namespace gloam {
 
 /// Time until a sleeping helper has woken up. Shorter work is finished before the helper arrives.
@@ -79,10 +81,11 @@ struct CrewState {
   std::atomic<bool> closing = false;
 };
 
-/// Calls oneTBB's workers as helpers and keeps the list of open regions.
+/// Calls oneTBB's workers as helpers, or threads of its own where threads are scarce, and keeps the list of open
+/// regions.
 class Crew {
  public:
-  /// threads ≥ 1, including the caller's.
+  /// threads ≥ 1, including the caller's. The crew has fewer if the system does not give the process as many.
   explicit Crew(std::uint32_t threads);
   ~Crew();
   Crew(const Crew&) = delete;
@@ -108,8 +111,12 @@ class Crew {
 
  private:
   struct Workers;
+  /// Threads of the crew itself, at most `helpers`, if the system does not give the process as many as oneTBB may
+  /// start; null if it does.
+  [[nodiscard]] static std::unique_ptr<OwnThreads> scarce_threads(std::uint32_t helpers);
   void call_helpers(std::uint32_t wanted);
 
+  std::unique_ptr<OwnThreads> own_threads_;  ///< in place of workers_
   const std::uint32_t threads_;
   CrewState* state_;
   std::unique_ptr<Workers> workers_;

@@ -3,9 +3,9 @@
 #include "engine/render/passes/visualizer_pass.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
+#include "engine/core/text/formatted.h"
 #include "shaders/common/heat_shared.h"
 
 namespace gloam {
@@ -28,11 +28,7 @@ double heat_value(const HeatScale& scale, float heat_range, int stop) {
   return scale.most * static_cast<double>(heat_range) * stop / (GLOAM_HEAT_STOPS - 1);
 }
 
-std::string heat_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
-}
+std::string heat_number(double value) { return formatted("%.3g", value); }
 
 std::string heat_text(const HeatScale& scale, float heat_range) {
   constexpr const char* kNames[GLOAM_HEAT_STOPS] = {"black", "blue", "cyan", "green", "yellow", "red"};

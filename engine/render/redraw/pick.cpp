@@ -1,19 +1,16 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <cstdio>
 #include <iterator>
 #include <utility>
 
+#include "engine/core/text/formatted.h"
 #include "engine/render/redraw/redraw.h"
 
 namespace gloam {
 namespace {
 
 std::string vector_text(const vec3& v) {
-  char line[96];
-  std::snprintf(line, sizeof(line), "%.4f %.4f %.4f", static_cast<double>(v.x), static_cast<double>(v.y),
-                static_cast<double>(v.z));
-  return line;
+  return formatted("%.4f %.4f %.4f", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
 }
 
 GeometryTexel geometry_at(const Captures& copies, std::size_t at) {
@@ -23,17 +20,18 @@ GeometryTexel geometry_at(const Captures& copies, std::size_t at) {
 }
 
 void add_surface_lines(const GeometryTexel& g, float view_depth_m, std::vector<std::string>& lines) {
-  lines.push_back("view depth " + std::to_string(view_depth_m) + " m");
+  lines.push_back(formatted("view depth %f m", static_cast<double>(view_depth_m)));
   lines.push_back("base colour " + vector_text(g.base_color) + (g.subsurface ? ", subsurface" : ""));
   lines.push_back("normal " + vector_text(g.normal) + ", face normal " + vector_text(g.face_normal));
   lines.push_back("roughness, metallic, occlusion " + vector_text({g.roughness, g.metallic, g.occlusion}));
 }
 
-/// Usage error if the pixel lies outside the picture. Asserts that the view has images. call: for the sentence.
+/// Usage error if the view has no images, or if the pixel lies outside the picture. call: for the sentence.
 Status check_pixel(const ViewStore& views, ViewId view, const char* call, std::uint32_t x, std::uint32_t y) {
   const ViewImages* images = views.find(view);
-  GLOAM_ASSERT(images != nullptr,
-               "view " + std::to_string(view.value) + ": " + call + " needs a view of the last frame");
+  if (images == nullptr)
+    return Error{ErrorKind::usage,
+                 "view " + std::to_string(view.value) + ": " + call + " needs a view of the last frame"};
   if (x < images->width && y < images->height) return {};
   return Error{ErrorKind::usage, "the picked pixel lies outside the picture"};
 }

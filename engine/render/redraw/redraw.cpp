@@ -11,13 +11,16 @@
 namespace gloam {
 namespace {
 
-/// The last frame's request for this view, with the renderer's own picture as target.
-ViewRequest request_of_last_frame(const RendererParts& parts, const World& world, ViewId view) {
+/// The last frame's request for this view, with the renderer's own picture as target. Usage error if the last frame did
+/// not draw the view, or if its images were released since.
+Result<ViewRequest> request_of_last_frame(const RendererParts& parts, const World& world, ViewId view) {
   const std::vector<ViewRequest>& all = parts.views.last_requests();
   const auto last = std::ranges::find(all, view, [](const ViewRequest& request) { return request.settings.id; });
-  GLOAM_ASSERT(last != all.end(),
-               "view " + std::to_string(view.value) + ": what is read back must be of a view of the last frame");
-  const ViewImages& images = parts.views.at(view);
+  const ViewImages* const found = parts.views.find(view);
+  if (last == all.end() || found == nullptr)
+    return Error{ErrorKind::usage,
+                 "view " + std::to_string(view.value) + ": what is read back must be of a view of the last frame"};
+  const ViewImages& images = *found;
   GLOAM_ASSERT(images.world == parts.worlds.slot_of(world).id,
                "view " + std::to_string(view.value) + " was drawn of another world");
   ViewRequest again = *last;
@@ -44,11 +47,12 @@ class KeptRequests {
 
 Result<Redrawn> redraw(RendererParts& parts, World& world, ViewId view,
                        const std::function<Status(FrameBuilder&, Captures&)>& add_copies) {
-  const ViewRequest again = request_of_last_frame(parts, world, view);
+  const Result<ViewRequest> again = request_of_last_frame(parts, world, view);
+  if (!again.ok()) return again.error();
   const KeptRequests kept(parts.views);
   Redrawn redrawn{nullptr, std::make_unique<Captures>(*parts.options.device)};
   const Redraw request{view, [&](FrameBuilder& builder) { return add_copies(builder, *redrawn.copies); }};
-  auto frame = draw_frame(parts, world, std::span(&again, 1), &request);
+  auto frame = draw_frame(parts, world, std::span(&*again, 1), &request);
   if (!frame.ok()) return frame.error();
   redrawn.frame = std::move(*frame);
   redrawn.frame->redraw = nullptr;  // `request` ends here

@@ -117,8 +117,8 @@ class GpuScene {
   void finish_upload(const SceneAssets& assets, Staged&& staged);
   /// Notes that a requested asset does not arrive.
   void forget(const SceneAssets& assets, const PackedAsset& asset);
-  /// Ends the uploads of assets that are gone, before a frame chooses its copies: a frame must not copy to an image that
-  /// was destroyed.
+  /// Ends the uploads of assets that are gone, before a frame chooses its copies: a frame must not copy to an image
+  /// that was destroyed.
   void cancel_gone_uploads(const SceneAssets& assets);
   [[nodiscard]] Status stage_changes(const SceneAssets& assets);
   void record(gpu::CommandList& commands);

@@ -3,6 +3,7 @@
 #include "engine/render/uploads/asset_packer.h"
 
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include "engine/render/packing/mip_chain.h"
@@ -67,10 +68,14 @@ void AssetPacker::request(PackRequest request, const SceneAssets& assets) {
     copied.image = assets.images[copied.request.index];
   else
     copied.mesh = assets.meshes[copied.request.index];
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   bytes_ += bytes_of(copied);
   requests_.push_back(std::move(copied));
-  if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+  try {
+    if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+  } catch (const std::system_error&) {  // the system gives no thread
+    while (!requests_.empty()) pack_first(lock);
+  }
   wake_.notify_one();
 }
 
@@ -93,28 +98,29 @@ std::uint64_t AssetPacker::bytes() const {
   return bytes_;
 }
 
+void AssetPacker::pack_first(std::unique_lock<std::mutex>& lock) {
+  const Copied copied = std::move(requests_.front());
+  const PackRequest& request = copied.request;
+  requests_.pop_front();
+  const std::uint64_t generation = generation_;
+  lock.unlock();
+  PackedAsset packed;
+  try {
+    packed = request.is_image ? pack(request, copied.image) : pack(request, copied.mesh);
+  } catch (const std::exception& failure) {
+    packed = {.index = request.index, .revision = request.revision, .is_image = request.is_image};
+    packed.fault = failure.what();
+  }
+  lock.lock();
+  if (generation != generation_) return;
+  bytes_ += bytes_in(packed);
+  bytes_ -= bytes_of(copied);
+  results_.push_back(std::move(packed));
+}
+
 void AssetPacker::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, stop, [&] { return !requests_.empty(); }) && !stop.stop_requested()) {
-    const Copied copied = std::move(requests_.front());
-    const PackRequest& request = copied.request;
-    requests_.pop_front();
-    const std::uint64_t generation = generation_;
-    lock.unlock();
-    PackedAsset packed;
-    try {
-      packed = request.is_image ? pack(request, copied.image) : pack(request, copied.mesh);
-    } catch (const std::exception& failure) {
-      packed = {.index = request.index, .revision = request.revision, .is_image = request.is_image};
-      packed.fault = failure.what();
-    }
-    lock.lock();
-    if (generation == generation_) {
-      bytes_ += bytes_in(packed);
-      bytes_ -= bytes_of(copied);
-      results_.push_back(std::move(packed));
-    }
-  }
+  while (wake_.wait(lock, stop, [&] { return !requests_.empty(); }) && !stop.stop_requested()) pack_first(lock);
 }
 
 }  // namespace gloam

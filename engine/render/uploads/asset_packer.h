@@ -42,7 +42,7 @@ struct PackedAsset {
 
 [[nodiscard]] PackedAsset pack_asset(const PackRequest& request, const SceneAssets& assets);
 
-/// Packs assets on a thread, in the order of the requests.
+/// Packs assets on a thread, in the order of the requests; on the calling thread if the system gives no other one.
 class AssetPacker {
  public:
   AssetPacker() = default;
@@ -65,6 +65,8 @@ class AssetPacker {
     Image image;
   };
   void run(const std::stop_token& stop);
+  /// Packs the first request, without the lock meanwhile.
+  void pack_first(std::unique_lock<std::mutex>& lock);
   [[nodiscard]] static std::uint64_t bytes_of(const Copied& copied);
 
   mutable std::mutex mutex_;

@@ -11,6 +11,11 @@
 namespace gloam {
 namespace {
 
+Error without_images(ViewId view, const char* needed) {
+  return {ErrorKind::usage,
+          "view " + std::to_string(view.value) + ": " + needed + "; its images may have been released"};
+}
+
 /// An error unless a frame that was not given up has drawn the view's images.
 Status check_drawn(const ViewImages& images) {
   if (images.drawn) return {};
@@ -26,8 +31,8 @@ Result<std::vector<std::byte>> read_after_all_frames(gpu::Device& device, gpu::I
 
 Result<Picture> read_picture(const ViewStore& views, ViewId view, gpu::Device& device) {
   const ViewImages* images = views.find(view);
-  GLOAM_ASSERT(images != nullptr && images->picture,
-               "view " + std::to_string(view.value) + ": read_picture needs a view that was rendered without a target");
+  if (images == nullptr || !images->picture)
+    return without_images(view, "read_picture needs a view that was rendered without a target");
   GLOAM_TRY(check_drawn(*images));
   const auto bytes = read_after_all_frames(device, images->picture);
   if (!bytes.ok()) return bytes.error();
@@ -39,10 +44,10 @@ Result<Picture> read_picture(const ViewStore& views, ViewId view, gpu::Device& d
 
 Result<LinearPicture> read_linear(const ViewStore& views, ViewId view, gpu::Device& device) {
   const ViewImages* images = views.find(view);
-  const std::string name = "view " + std::to_string(view.value);
-  GLOAM_ASSERT(images != nullptr && images->lit, name + ": read_linear needs a view that was rendered");
+  if (images == nullptr || !images->lit) return without_images(view, "read_linear needs a view that was rendered");
   GLOAM_TRY(check_drawn(*images));
-  GLOAM_ASSERT(images->lit_is_last, name + ": read_linear needs a frame drawn with ViewRequest::keep_linear");
+  GLOAM_ASSERT(images->lit_is_last, "view " + std::to_string(view.value) +
+                                        ": read_linear needs a frame drawn with ViewRequest::keep_linear");
   const auto bytes = read_after_all_frames(device, images->lit);
   if (!bytes.ok()) return bytes.error();
   LinearPicture picture{images->width, images->height, {}};

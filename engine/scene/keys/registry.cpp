@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <span>
 
 #include "engine/core/assert.h"
+#include "engine/core/text/formatted.h"
 #include "engine/core/text/nearest_name.h"
 #include "engine/core/text/plain_text.h"
 
@@ -20,11 +20,7 @@ constexpr double kNoMin = -std::numeric_limits<double>::max();
 constexpr double kNoMax = std::numeric_limits<double>::max();
 constexpr double kLargestInteger = 9007199254740992.0;  // 2^53: beyond it a double no longer tells integers apart
 
-std::string number_text(double value) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
-}
+std::string number_text(double value) { return formatted("%.9g", value); }
 
 /// Text of the key's range: " ≥ 0 m", " in 0…1", "" (any value).
 std::string range_text(const SceneKey& key) {

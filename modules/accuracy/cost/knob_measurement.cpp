@@ -3,12 +3,12 @@
 #include "modules/accuracy/cost/knob_measurement.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <span>
 #include <utility>
 
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
+#include "engine/core/text/formatted.h"
 #include "engine/math/srgb.h"
 #include "modules/accuracy/cost/knob_overrides.h"
 #include "modules/accuracy/cost/timing.h"
@@ -23,11 +23,7 @@ constexpr std::int32_t kSettlingFrames = 3;
 /// Version of metrics and protocol: rows stored under another version are measured again.
 constexpr int kMethod = 4;
 
-std::string exact_text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof(buffer), "%.17g", value);
-  return buffer;
-}
+std::string exact_text(double value) { return formatted("%.17g", value); }
 
 std::string hash_of(const FramePictures& frame) {
   Hasher hasher;

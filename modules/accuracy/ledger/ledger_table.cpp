@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "engine/core/text/formatted.h"
 #include "modules/accuracy/outputs.h"
 
 namespace gloam {
@@ -18,30 +18,21 @@ constexpr std::size_t kCountedColumn = 3;   // shown only if a row has a counted
 constexpr std::size_t kTemporalColumn = 7;  // shown only if a row has a temporal error
 constexpr std::size_t kTextColumns = 3;     // left-aligned
 
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  char buffer[96];
-  std::snprintf(buffer, sizeof(buffer), format, values...);
-  return buffer;
-}
-
-std::string error_text(const LedgerRow& row, const std::optional<double>& value) {
-  if (!value) return "-";
+std::string error_text(const LedgerRow& row, const double* value) {
+  if (value == nullptr) return "-";
   return row.below_noise ? "< noise" : formatted("%.6f", *value);
 }
 
 Line line_of(const LedgerRow& row) {
-  const auto mean = row.flip ? std::optional(row.flip->mean) : std::nullopt;
-  const auto p99 = row.flip ? std::optional(row.flip->p99) : std::nullopt;
   return {!row.wrong.empty() ? "!"
           : row.on_front     ? "*"
                              : "",
           row.knob,
           row.value + (row.is_default ? " (default)" : ""),
           row.counted ? formatted("%.3f", row.counted->value) : "",
-          error_text(row, mean),
-          error_text(row, p99),
-          error_text(row, row.rmse),
+          error_text(row, row.flip ? &row.flip->mean : nullptr),
+          error_text(row, row.flip ? &row.flip->p99 : nullptr),
+          error_text(row, row.rmse ? &*row.rmse : nullptr),
           row.temporal ? formatted("%.6f", row.temporal->mean) : "",
           formatted("%.3f", row.ms.median_ms),
           formatted("%.3f-%.3f", row.ms.p10_ms, row.ms.p90_ms),

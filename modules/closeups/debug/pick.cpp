@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "modules/closeups/debug/pick.h"
 
-#include <cstdio>
 #include <optional>
 
+#include "engine/core/text/formatted.h"
 #include "engine/render/outputs.h"
 #include "engine/scene/resources.h"
 #include "modules/closeups/debug/visualizers.h"
@@ -32,9 +32,7 @@ PixelFootprint footprint_of(const RenderView& view, const PickedPixel& pixel, co
 
 std::string density_text(std::optional<double> texels) {
   if (!texels) return "outside its frustum";
-  char text[64];
-  std::snprintf(text, sizeof(text), "in its frustum, %.4g texels a pixel's side", *texels);
-  return text;
+  return formatted("in its frustum, %.4g texels a pixel's side", *texels);
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <glm/ext/quaternion_common.hpp>
 #include <limits>
 
+#include "engine/core/text/formatted.h"
 #include "engine/render/readback/geometry_picture.h"
 #include "modules/grass/reference/slave_pose.h"
 
@@ -111,9 +111,9 @@ std::vector<std::string> grass_pick_lines(const FrameBuilder& frame, const Grass
   if (!(found.distance_m < 0.01 + pixel_m)) return {};
   const GrassField& field = frame.world().resource<GrassField>();
   const GrassBlade& blade = field.blades[found.slot];
-  char text[200];
-  std::snprintf(text, sizeof(text), "grass: blade %u (patch %u), length %.3f m, width %.4f m, type %u, rank %.2f",
-                blade.slot, blade.slot / GLOAM_GRASS_PATCH_BLADES, static_cast<double>(blade.length_m),
+  const std::string text =
+      formatted("grass: blade %u (patch %u), length %.3f m, width %.4f m, type %u, rank %.2f", blade.slot,
+                blade.slot / GLOAM_GRASS_PATCH_BLADES, static_cast<double>(blade.length_m),
                 static_cast<double>(blade.width_m), static_cast<unsigned>(blade.type), static_cast<double>(blade.rank));
   std::string master = "grass: a master, simulated itself";
   if (blade.master != blade.slot)

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <sstream>
 
+#include "engine/core/text/formatted.h"
 #include "engine/core/text/plain_text.h"
 
 namespace gloam {
@@ -19,11 +19,7 @@ constexpr std::size_t kMaxPoints = 32;
 constexpr float kFarthestPoint = 100.0f;
 constexpr std::size_t kMaxFileBytes = 1u << 20;
 
-std::string number_text(float value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
+std::string number_text(float value) { return formatted("%g", static_cast<double>(value)); }
 
 /// A finite number that fills the whole text.
 std::optional<float> number_of(std::string_view text) {

@@ -147,8 +147,8 @@ void add_grass_world_systems(Schedule& schedule) {
 }
 
 void register_grass_world_resources(World& world) {
-  world.set_resource(StepClock{});
-  world.set_resource(GrassColliders{});
+  world.ensure_resource<StepClock>();
+  world.ensure_resource<GrassColliders>();
 }
 
 }  // namespace gloam

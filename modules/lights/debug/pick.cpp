@@ -3,11 +3,11 @@
 #include "modules/lights/debug/pick.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <optional>
 
+#include "engine/core/text/formatted.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/bins/z_bins.h"
 #include "modules/lights/masks/tile_light_masks.h"
@@ -113,10 +113,8 @@ class PickLines {
     }
     const float nearest = view_.view_depth(bounds.y), farthest = view_.view_depth(bounds.x);
     const std::uint32_t first = z_bin_of(nearest, bins_->params), last = z_bin_of(farthest, bins_->params);
-    char depths[96];
-    std::snprintf(depths, sizeof(depths), "view depths of the tile %.4f to %.4f m", static_cast<double>(nearest),
-                  static_cast<double>(farthest));
-    say(depths);
+    say(formatted("view depths of the tile %.4f to %.4f m", static_cast<double>(nearest),
+                  static_cast<double>(farthest)));
     range_ = z_bin_range(*bins_, nearest, farthest);
     say("zBins " + std::to_string(first) + " to " + std::to_string(last) +
         " of the tile: " + (last - first > 1 ? "ranged " : "standard ") + range_text(*range_));
@@ -178,12 +176,10 @@ class PickLines {
       add(local_illuminance_at(visible_, i, pixel_.position, pixel_.normal), visible_.local_entities[i],
           "local " + std::to_string(i));
     std::ranges::stable_sort(lights, std::ranges::greater(), &Contribution::lux);
-    char text[64];
-    std::snprintf(text, sizeof(text), "illuminance before shadows %.4g lx", sum);
-    std::string line = text;
+    std::string line = formatted("illuminance before shadows %.4g lx", sum);
     for (std::size_t i = 0; i < std::min(lights.size(), kMostContributions); ++i) {
-      std::snprintf(text, sizeof(text), " %.4g lx (%.1f %%)", lights[i].lux, 100.0 * lights[i].lux / sum);
-      line += (i == 0 ? ": " : ", ") + lights[i].light + text;
+      line += (i == 0 ? ": " : ", ") + lights[i].light;
+      line += formatted(" %.4g lx (%.1f %%)", lights[i].lux, 100.0 * lights[i].lux / sum);
     }
     if (lights.size() > kMostContributions)
       line += " and " + std::to_string(lights.size() - kMostContributions) + " more";

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <map>
 
+#include "engine/core/text/formatted.h"
 #include "engine/scene/resources.h"
 #include "modules/particles/emitters/strongest_lights.h"
 #include "modules/particles/emitters/visible.h"
@@ -42,13 +42,11 @@ std::string line_of(const World& world, const VisibleEmitter& seen, std::size_t 
   constexpr const char* kNames[] = {"nothing", "fog", "dust", "smoke", "fire"};
   const PlacedEmitter& emitter = world.resource<EmitterSet>().emitters[seen.emitter];
   const std::string name(world.resource<SceneNames>().name_of(emitter.entity));
-  char text[240];
-  std::snprintf(text, sizeof(text), "particles: %u sprites of %s \"%s\" (%u alive, %u lights), %.2f to %.2f m away",
-                layers.sprites, kNames[static_cast<std::size_t>(emitter.values.kind)],
-                name.empty() ? std::to_string(index).c_str() : name.c_str(), seen.live.count,
-                world.resource<EmitterLights>().emitters[seen.emitter].count, static_cast<double>(layers.near_m),
-                static_cast<double>(layers.far_m));
-  return text;
+  return formatted("particles: %u sprites of %s \"%s\" (%u alive, %u lights), %.2f to %.2f m away", layers.sprites,
+                   kNames[static_cast<std::size_t>(emitter.values.kind)],
+                   name.empty() ? std::to_string(index).c_str() : name.c_str(), seen.live.count,
+                   world.resource<EmitterLights>().emitters[seen.emitter].count, static_cast<double>(layers.near_m),
+                   static_cast<double>(layers.far_m));
 }
 
 }  // namespace

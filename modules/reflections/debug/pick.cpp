@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include "engine/core/text/formatted.h"
 #include "engine/math/packing.h"
 #include "engine/render/outputs.h"
 #include "engine/render/readback/geometry_picture.h"
@@ -61,9 +61,8 @@ std::string proxy_line(const FrameBuilder& frame, const PickedPixel& pixel) {
   if (!met) return "proxy: none is met";
   const Entity entity = set.proxies[met->index].entity;
   const std::string_view name = frame.world().resource<SceneNames>().name_of(entity);
-  char text[64];
-  std::snprintf(text, sizeof(text), ", met after %.2f m", met->distance_m);
-  return "proxy: " + (name.empty() ? "entity " + std::to_string(entity.index) : std::string(name)) + text;
+  return "proxy: " + (name.empty() ? "entity " + std::to_string(entity.index) : std::string(name)) +
+         formatted(", met after %.2f m", met->distance_m);
 }
 
 }  // namespace
@@ -89,20 +88,17 @@ std::vector<std::string> reflection_pick_lines(const FrameBuilder& frame, const 
   const auto surface = copies.item<std::uint32_t>(kSurfaceCopy, at);
   if ((surface >> 8 & 0xFFu) == 0) return {std::string("reflection: ") + beyond + " (rough, tilted or not reflective)"};
   const double distance_m = static_cast<double>((surface >> 16 & 0xFFu) + 256 * (surface >> 24)) / 100.0;
-  char text[160];
-  if (plan->planar) {
-    std::snprintf(text, sizeof(text), "reflection: mirrored at the height %.3f m, hit after %.2f m",
-                  plan->planar->height_m, distance_m);
-    return {text};
-  }
+  if (plan->planar)
+    return {
+        formatted("reflection: mirrored at the height %.3f m, hit after %.2f m", plan->planar->height_m, distance_m)};
   const float screen = drawn->hits.color ? alpha_of(copies, kScreenCopy, at) : 0.0f;
   const float covered = alpha_of(copies, kColorCopy, at);
   const float proxies = std::max(covered - screen, 0.0f);
   const char* tier = screen >= proxies && screen >= 1.0f - covered ? "screen space"
                      : proxies >= 1.0f - covered                   ? "proxies"
                                                                    : beyond;
-  std::snprintf(text, sizeof(text),
-                "reflection: %s, confidence of screen space %.2f, of screen space and proxies %.2f, hit after %.2f m",
+  std::string text =
+      formatted("reflection: %s, confidence of screen space %.2f, of screen space and proxies %.2f, hit after %.2f m",
                 tier, static_cast<double>(screen), static_cast<double>(covered), distance_m);
   return {text, proxy_line(frame, pixel)};
 }

@@ -3,11 +3,11 @@
 #include "modules/shadows/debug/pick.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <span>
 #include <utility>
 
+#include "engine/core/text/formatted.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
@@ -82,15 +82,10 @@ class PickLines {
 
   /// `lux`: before shadows.
   [[nodiscard]] std::string state_text(FinalEntry entry, double lux) const {
-    char text[96];
-    if (entry.slot == GLOAM_ALL_LIT) {
-      std::snprintf(text, sizeof(text), "lit as a whole, %.4g lx", lux);
-      return text;
-    }
+    if (entry.slot == GLOAM_ALL_LIT) return formatted("lit as a whole, %.4g lx", lux);
     const auto visibility =
         static_cast<double>(decode_visibility(entry, pixel_, visibilities_, lists_.visibility_bits));
-    std::snprintf(text, sizeof(text), "slot %u, visibility %.4f, %.4g lx", entry.slot, visibility, visibility * lux);
-    return text;
+    return formatted("slot %u, visibility %.4f, %.4g lx", entry.slot, visibility, visibility * lux);
   }
 
   [[nodiscard]] double illuminance(const LightRun& run, std::uint32_t light) const {

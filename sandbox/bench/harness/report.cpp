@@ -3,19 +3,15 @@
 #include "sandbox/bench/harness/report.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/text/formatted.h"
 #include "sandbox/output/json_text.h"
 
 namespace gloam {
 namespace {
 
-std::string short_number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.4g", value);
-  return text;
-}
+std::string short_number(double value) { return formatted("%.4g", value); }
 
 /// scene: the scene of the run. The row names its scene only if it is a different one.
 Json bench_row_json(const MeasuredRow& measured, const std::string& scene) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/session/results/stats.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -169,7 +170,7 @@ std::uint64_t count_nan_pixels(std::span<const float> rgba) {
   std::uint64_t count = 0;
   for (std::size_t pixel = 0; pixel + 4 <= rgba.size(); pixel += 4) {
     const float* const c = rgba.data() + pixel;
-    if (std::isnan(c[0]) || std::isnan(c[1]) || std::isnan(c[2]) || std::isnan(c[3])) ++count;
+    if (!std::ranges::all_of(c, c + 4, [](float channel) { return std::isfinite(channel); })) ++count;
   }
   return count;
 }

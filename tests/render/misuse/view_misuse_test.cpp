@@ -24,6 +24,22 @@ class ViewMisuse : public ::testing::Test {
     EXPECT_ASSERT((void)stage_.render(view), std::string(sentence));
     ASSERT_TRUE(stage_.render(CarelessHost::request()).ok()) << "the next frame is right";
   }
+  /// Expects that nothing of the view can be read, with a usage error that names it.
+  void expect_no_view(ViewId view) {
+    const auto refused = [&](const auto& result, const char* call) {
+      ASSERT_FALSE(result.ok()) << call;
+      EXPECT_EQ(result.error().kind, ErrorKind::usage) << call;
+      EXPECT_EQ(result.error().message.find("view " + std::to_string(view.value) + ":"), 0u) << result.error().message;
+    };
+    Renderer& renderer = *stage_.renderer;
+    refused(renderer.read_picture(view), "read_picture");
+    refused(renderer.read_linear(view), "read_linear");
+    refused(renderer.read_image(stage_.world, view, "depth"), "read_image");
+    refused(renderer.read_geometry(stage_.world, view), "read_geometry");
+    refused(renderer.pick(stage_.world, view, 0, 0), "pick");
+    refused(renderer.pick_position(stage_.world, view, 0, 0), "pick_position");
+  }
+
   CarelessHost stage_;
 };
 
@@ -167,11 +183,18 @@ TEST_F(ViewMisuse, a_light_target_beside_a_picture) {
 
 TEST_F(ViewMisuse, reading_an_unknown_view) {
   ASSERT_TRUE(stage_.render(CarelessHost::request(1)).ok());
-  EXPECT_ASSERT((void)stage_.renderer->read_picture(ViewId{9}), "view 9");
-  EXPECT_ASSERT((void)stage_.renderer->read_linear(ViewId{9}), "view 9");
-  EXPECT_ASSERT((void)stage_.renderer->read_image(stage_.world, ViewId{9}, "depth"), "view 9");
-  EXPECT_ASSERT((void)stage_.renderer->read_geometry(stage_.world, ViewId{9}), "view 9");
-  EXPECT_ASSERT((void)stage_.renderer->pick(stage_.world, ViewId{9}, 0, 0), "view 9");
+  expect_no_view(ViewId{9});
+}
+
+TEST_F(ViewMisuse, reading_a_released_view) {
+  const ViewRequest views[] = {CarelessHost::request(1), CarelessHost::request(2)};
+  ASSERT_TRUE(stage_.renderer->render(stage_.world, views).ok());
+  ASSERT_TRUE(stage_.renderer->read_picture(ViewId{1}).ok());
+  stage_.renderer->release_view(ViewId{1});
+  expect_no_view(ViewId{1});
+  EXPECT_TRUE(stage_.renderer->read_picture(ViewId{2}).ok());
+  stage_.renderer->release_world(stage_.world);
+  expect_no_view(ViewId{2});
 }
 
 TEST_F(ViewMisuse, reading_with_another_world_than_drew_the_view) {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/vulkan/compile/pipeline_cache.h"
 
-#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <vector>
 
 #include "engine/core/hash.h"
+#include "engine/core/storage/sealed_file.h"
 #include "engine/gpu/vulkan/errors.h"
 
 namespace gloam::gpu::vulkan {
@@ -102,25 +102,10 @@ void PipelineCache::save() const {
   FileHeader header;
   header.bytes = size;
   header.hash = hash_bytes(std::as_bytes(std::span(data)));
-  // Written to a temporary file and renamed, so that another process never reads a partial file.
-  const auto unique = Hasher()
-                          .value(std::chrono::steady_clock::now().time_since_epoch().count())
-                          .value(reinterpret_cast<std::uintptr_t>(this))
-                          .digest();
-  const fs::path temporary = fs::path(file_).concat("." + std::to_string(unique));
-  std::error_code error;
-  fs::create_directories(file_.parent_path(), error);
-  bool written = false;
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(&header), sizeof header);
-    file.write(data.data(), static_cast<std::streamsize>(data.size()));
-    written = static_cast<bool>(file.flush());
-  }
-  if (written) fs::rename(temporary, file_, error);
-  if (written && !error) return;
-  context_.log().warning("The pipeline cache could not be written to " + file_.string());
-  fs::remove(temporary, error);
+  std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
+  bytes.append(data.data(), data.size());
+  if (const Status written = write_whole_file(file_.string(), bytes); !written.ok())
+    context_.log().warning("The pipeline cache could not be written: " + written.error().message);
 }
 
 }  // namespace gloam::gpu::vulkan
