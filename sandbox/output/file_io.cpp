@@ -62,6 +62,9 @@ Status write_file(const std::string& path, std::string_view bytes) {
     return Error{ErrorKind::failed, path + ": cannot be written: " + reason()};
   }
   std::error_code fault;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, fault))
+    return Error{ErrorKind::failed, path + ": cannot be written: " + std::generic_category().message(ENOENT)};
   const std::filesystem::file_status old = std::filesystem::status(path, fault);
   if (!std::filesystem::exists(old) || std::filesystem::is_regular_file(old)) return write_whole_file(path, bytes);
   File file(std::fopen(path.c_str(), "wb"));  // a device or a pipe

@@ -39,7 +39,8 @@ std::size_t ReservedMemory::page_size() {
   return size;
 }
 
-ReservedMemory::ReservedMemory(std::size_t bytes) : bytes_(round_up(bytes, page_size())) {
+ReservedMemory::ReservedMemory(std::size_t bytes)
+    : bytes_(round_up(bytes, bytes >= kLargePage ? kLargePage : page_size())) {
   const std::size_t slack = bytes_ >= kLargePage ? kLargePage : 0;
   void* address = map_pages(bytes_ + slack, PROT_READ | PROT_WRITE);
   writable_ = address != MAP_FAILED;
@@ -47,11 +48,12 @@ ReservedMemory::ReservedMemory(std::size_t bytes) : bytes_(round_up(bytes, page_
   if (address == MAP_FAILED) throw OutOfMemory();
   data_ = static_cast<std::byte*>(address);
   if (slack > 0) {
-    const auto begin = reinterpret_cast<std::uintptr_t>(address);
-    const std::size_t before = round_up(begin, kLargePage) - begin;
+    // As far back as it can be: Linux maps downwards, so the reservation then touches the one before, as one mapping.
+    const std::size_t after = (reinterpret_cast<std::uintptr_t>(address) + bytes_ + slack) % kLargePage;
+    const std::size_t before = slack - after;
     if (before > 0) munmap(data_, before);
     data_ += before;
-    if (before < slack) munmap(data_ + bytes_, slack - before);
+    if (after > 0) munmap(data_ + bytes_, after);
   }
 #ifdef MADV_NOHUGEPAGE
   // Otherwise the first byte of a column may take a large page. extend() asks for them where they are used.

@@ -19,8 +19,8 @@ constexpr ComponentId kTag = kSizes.size();
 
 std::vector<ComponentInfo> infos() {
   std::vector<ComponentInfo> result;
-  for (const std::uint32_t size : kSizes) result.push_back({"", nullptr, size});
-  result.push_back({"tag", nullptr, 0});
+  for (const std::uint32_t size : kSizes) result.push_back({"", TypeKey::none, size});
+  result.push_back({"tag", TypeKey::none, 0});
   return result;
 }
 
@@ -94,7 +94,7 @@ TEST_F(ArchetypeTest, small_ones_share_pages) {
 }
 
 TEST_F(ArchetypeTest, a_front_takes_a_few_pages_at_most) {
-  const std::vector<ComponentInfo> large = {{"", nullptr, 1000}, {"", nullptr, 100'000}};
+  const std::vector<ComponentInfo> large = {{"", TypeKey::none, 1000}, {"", TypeKey::none, 100'000}};
   Archetype some(0, {0}, large, 1u << 20, fronts);
   some.push_rows(1, 1);
   EXPECT_EQ(some.front_rows(), kFrontBytes / 1008);
@@ -198,7 +198,7 @@ TEST_F(ArchetypeTest, the_last_row_fills_the_gap_of_one_that_moves) {
 
 TEST_F(ArchetypeTest, rows_of_any_size_move_whole) {
   for (std::uint32_t size = 1; size <= 80; ++size) {
-    const std::vector<ComponentInfo> sized = {{"", nullptr, size}};
+    const std::vector<ComponentInfo> sized = {{"", TypeKey::none, size}};
     Archetype from(0, {0}, sized, 10, fronts);
     Archetype to(1, {0}, sized, 10, fronts);
     from.push_rows(2, 1);
